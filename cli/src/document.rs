@@ -1,8 +1,8 @@
 //! A document on its way in: bytes to text, text to the syntax tree.
 
 use motet_syntax::ast::File;
-use motet_syntax::errors::TooLarge;
-use motet_syntax::{Diagnostic, FileId, Form, Parsed, Source, Span};
+use motet_syntax::errors::too_large;
+use motet_syntax::{Diagnostic, FileId, Parsed, Source, Span, Syntax};
 
 use crate::input::{Bytes, Document};
 use crate::workbench::DOCUMENT;
@@ -27,8 +27,8 @@ pub(crate) fn read(document: &Document) -> (Source, Parsed) {
             (source, parsed)
         }
         Bytes::TooMany(bytes) => {
-            let mistake = TooLarge { span: Span::new(DOCUMENT, 0, 0), bytes: *bytes };
-            (in_its_file(Source::new(document.name.as_str(), ""), document), nothing(vec![mistake.into()]))
+            let mistake = too_large(Span::new(DOCUMENT, 0, 0), *bytes);
+            (in_its_file(Source::new(document.name.as_str(), ""), document), nothing(vec![mistake]))
         }
     }
 }
@@ -48,5 +48,5 @@ pub(crate) fn is_reply(parsed: &Parsed) -> bool {
 
 /// What is read of a document that is no text.
 fn nothing(diagnostics: Vec<Diagnostic>) -> Parsed {
-    Parsed { file: File::default(), form: Form::Text, text: Default::default(), diagnostics }
+    Parsed { file: File::default(), syntax: Syntax::Text, text: Default::default(), diagnostics }
 }

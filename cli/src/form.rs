@@ -2,7 +2,7 @@
 
 use motet_compiler::{Library, settle};
 use motet_syntax::ast::{Item, Policy};
-use motet_syntax::{Form, Parsed, print};
+use motet_syntax::{Parsed, Syntax, print};
 
 /// Writes a document in a form.
 ///
@@ -13,7 +13,7 @@ pub(crate) fn write(
     parsed: &Parsed,
     policy: Option<&str>,
     library: &Library,
-    form: Form,
+    form: Syntax,
 ) -> Result<String, String> {
     let mut file = parsed.file.clone();
     if let Some(name) = policy {
@@ -28,8 +28,8 @@ pub(crate) fn write(
         }
     }
     match form {
-        Form::Text => Ok(print::text(&file)),
-        Form::Json => Ok(print::policy_json(only(&file.items)?)),
+        Syntax::Text => Ok(print::text(&file)),
+        Syntax::Json => Ok(print::policy_json(only(&file.items)?)),
     }
 }
 

@@ -86,7 +86,7 @@ impl Report {
         let is_colored = if is_apart { self.colors.stderr } else { self.colors.stdout };
         match self.format {
             Format::Human => {
-                let color = if is_colored { render::Color::On } else { render::Color::Off };
+                let color = if is_colored { render::ColorChoice::On } else { render::ColorChoice::Off };
                 render::human(diagnostics, sources, color, width())
             }
             Format::Github => render::github(diagnostics, sources),
@@ -168,9 +168,9 @@ pub(crate) fn close(out: &mut Out, result: Result<Exit, Trouble>) -> Result<Exit
 }
 
 /// The title and the text of a code's page.
-fn help(code: &str) -> Option<render::Help<'static>> {
+fn help(code: &str) -> Option<render::CodePage<'static>> {
     let page = motet_compiler::codes::page(code)?;
     let title =
         page.text.lines().next().and_then(|line| line.split_once(": ")).map_or("", |(_, title)| title);
-    Some(render::Help { title, markdown: page.text })
+    Some(render::CodePage { title, markdown: page.text })
 }

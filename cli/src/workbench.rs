@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use motet_compiler::{Geometry, Options, Session, State};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_robots::card::Robot;
 use motet_robots::scene::{self, Scene};
 use motet_syntax::ast::File;
@@ -38,7 +38,7 @@ pub(crate) struct Workbench {
     state: Option<State>,
     options: Options,
     /// How long motions are looked for; not at all where there is none.
-    effort: Option<Budget>,
+    effort: Option<SearchBudget>,
     /// An empty place for the document, then the files that were given.
     sources: Sources,
     settings: BTreeMap<String, Setting>,
@@ -101,7 +101,7 @@ impl Workbench {
             None => None,
         };
         let options = Options { max_duration_secs: args.max_duration };
-        let effort = (!args.no_geometry).then(|| Budget::default().times(args.effort.into()));
+        let effort = (!args.no_geometry).then(|| SearchBudget::default().times(args.effort.into()));
         let settings = BTreeMap::new();
         Ok(Self { robot, domains, scene, scene_text, state, options, effort, sources, settings })
     }

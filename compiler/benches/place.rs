@@ -16,7 +16,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use motet_compiler::{Geometry, Options, Session};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_graph::{NodeKind, Verdict};
 use motet_robots::card::{self, Robot};
 use motet_robots::scene::{self, Scene};
@@ -27,7 +27,7 @@ fn session(robot: &Robot, urdf: &Urdf, scene: &Scene) -> Session {
     let mut sources = Sources::default();
     let options = Options::default();
     let (session, _) = Session::new(Some(robot), &[], Some(scene), None, options, &mut sources);
-    session.with_geometry(Arc::new(Geometry::new(robot, urdf, scene, None, Budget::default())))
+    session.with_geometry(Arc::new(Geometry::new(robot, urdf, scene, None, SearchBudget::default())))
 }
 
 fn examples() -> Vec<(String, Parsed)> {

@@ -43,7 +43,6 @@ pub fn page(code: &str) -> Option<&'static Page> {
 #[must_use]
 pub fn all() -> Vec<Code> {
     let stages = [
-        motet_syntax::errors::CODES,
         motet_pddl::CODES,
         crate::resolve::errors::CODES,
         crate::world::CODES,
@@ -57,7 +56,8 @@ pub fn all() -> Vec<Code> {
         crate::prove::errors::CODES,
         crate::place::errors::CODES,
     ];
-    let mut codes: Vec<_> = stages.into_iter().flatten().copied().collect();
+    let front_end = motet_syntax::errors::CODES;
+    let mut codes: Vec<_> = front_end.into_iter().chain(stages).flatten().copied().collect();
     codes.sort_unstable();
     codes
 }

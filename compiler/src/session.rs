@@ -205,7 +205,7 @@ impl Session {
         let mut diagnostics = parsed.diagnostics.clone();
         for policy in parsed.file.policies() {
             let (mut program, said) =
-                crate::resolve::resolve(policy, parsed.form, &self.library, &self.world);
+                crate::resolve::resolve(policy, parsed.syntax, &self.library, &self.world);
             diagnostics.extend(said);
             let limit = self.options.max_duration_secs;
             diagnostics.extend(crate::check::check(&mut program, &self.library, &self.world, limit));
@@ -290,7 +290,7 @@ impl Session {
         world: &World,
         geometry: Option<&Geometry>,
     ) -> Analysed {
-        let (mut program, mut diagnostics) = crate::resolve::resolve(policy, parsed.form, library, world);
+        let (mut program, mut diagnostics) = crate::resolve::resolve(policy, parsed.syntax, library, world);
         diagnostics.extend(other_robot(policy, library));
         diagnostics.extend(crate::check::check(&mut program, library, world, self.options.max_duration_secs));
         let (proof, said, offers) = crate::prove::prove(&program, library, world);
@@ -365,7 +365,7 @@ fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program, libra
         diagnostic.fix = None;
     }
     let parameter = |callee: &str, position: usize| library.parameter(callee, position);
-    let pointer = |span| motet_syntax::path::pointer(policy, span, &parameter);
+    let pointer = |span| motet_syntax::pointer::pointer_to(policy, span, &parameter);
     diagnostic.path = pointer(diagnostic.span);
     for related in &mut diagnostic.related {
         if let Some(span) = related.span.filter(|span| span.file == policy.span.file) {

@@ -4,7 +4,7 @@
 //! the SI unit; arguments are named for JSON, and put in place for text. Where a name is not declared, or a value does
 //! not fit, the document stays as it is.
 
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::ast::{Arg, Block, Call, End, Expr, ExprKind, Name, Policy, Reaction, StepKind};
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
@@ -14,7 +14,7 @@ use crate::library::Library;
 use crate::resolve::expr::parse_quantity;
 
 /// Settles a policy for printing it in a form.
-pub fn settle(policy: &mut Policy, library: &Library, form: Form) {
+pub fn settle(policy: &mut Policy, library: &Library, form: Syntax) {
     let settler = Settler { library, form };
     if let Some(goal) = &mut policy.achieves {
         settler.condition(goal);
@@ -24,7 +24,7 @@ pub fn settle(policy: &mut Policy, library: &Library, form: Form) {
 
 struct Settler<'a> {
     library: &'a Library,
-    form: Form,
+    form: Syntax,
 }
 
 impl Settler<'_> {
@@ -141,11 +141,11 @@ impl Settler<'_> {
                 None => params.get(position),
             };
             self.term(&mut arg.value, param.map(|(_, ty)| *ty));
-            if let (Form::Json, None, Some((param, _))) = (self.form, &arg.name, param) {
+            if let (Syntax::Json, None, Some((param, _))) = (self.form, &arg.name, param) {
                 arg.name = Some(Name { text: param.clone(), span: arg.span });
             }
         }
-        if self.form == Form::Text {
+        if self.form == Syntax::Text {
             // As long as the names only say what the places say, the places are enough.
             for (arg, (param, _)) in args.iter_mut().zip(params) {
                 if arg.name.as_ref().is_some_and(|name| name.text != *param) {

@@ -2,8 +2,8 @@
 //! of a world, with their types. What is generated for language models is generated from this, so it offers exactly what
 //! the stages take. Made once from a library and a world, then only read.
 
-use motet_syntax::Form;
 use motet_syntax::Severity;
+use motet_syntax::Syntax;
 use motet_syntax::ast::{Expr, Policy};
 use motet_syntax::unit::Dimension;
 use rustc_hash::FxHashMap;
@@ -322,7 +322,7 @@ fn of_policy(policy: &Policy, library: &Library) -> Option<Callable> {
 
 /// Whether nothing is wrong with a policy beside what its state decides.
 fn can_be_carried_out(policy: &Policy, library: &Library, world: &World) -> bool {
-    let (mut program, mut said) = crate::resolve::resolve(policy, Form::Text, library, world);
+    let (mut program, mut said) = crate::resolve::resolve(policy, Syntax::Text, library, world);
     said.extend(crate::check::check(&mut program, library, world, None));
     said.iter().all(|said| said.severity != Severity::Error)
 }

@@ -240,9 +240,9 @@ impl Case {
             let input = |of: &(Source, FileId)| (of.0.clone(), of.1);
             let ((domain, first), (problem, second)) = (input(domain), input(problem));
             let plan = plan.first().map(input);
-            let plan = plan.as_ref().map(|(source, file)| motet_pddl::Input { source, file: *file });
-            let domain = motet_pddl::Input { source: &domain, file: first };
-            let problem = motet_pddl::Input { source: &problem, file: second };
+            let plan = plan.as_ref().map(|(source, file)| motet_pddl::PddlSource { source, file: *file });
+            let domain = motet_pddl::PddlSource { source: &domain, file: first };
+            let problem = motet_pddl::PddlSource { source: &problem, file: second };
             self.said.extend(motet_pddl::import(domain, problem, plan).1);
         }
         if let Some((source, file)) = self.card.as_ref().filter(|_| !self.has_srdf) {
@@ -260,7 +260,7 @@ impl Case {
             (Some(robot), Some(text), Some(scene)) => {
                 let urdf =
                     urdf::read(&Source::new("robot.urdf", text), FileId(0)).0.ok_or("a broken URDF")?;
-                let budget = motet_geometry::query::Budget::default();
+                let budget = motet_geometry::planning::SearchBudget::default();
                 session.with_geometry(Geometry::new(robot, &urdf, scene, state, budget).into())
             }
             _ => session,

@@ -14,7 +14,7 @@
 use std::sync::{Arc, LazyLock};
 
 use motet_compiler::{Geometry, Options, Session};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_graph::{CallNode, Graph, NodeKind, Verdict};
 use motet_robots::card::{self, Robot};
 use motet_robots::scene::{self, Placement, Scene};
@@ -39,7 +39,7 @@ fn session(scene: &Scene) -> Session {
     let (session, said) =
         Session::new(Some(&robot), &[], Some(scene), None, Options::default(), &mut sources);
     assert!(said.is_empty(), "{said:?}");
-    let geometry = Geometry::new(&robot, &urdf, scene, None, Budget::default());
+    let geometry = Geometry::new(&robot, &urdf, scene, None, SearchBudget::default());
     session.with_geometry(Arc::new(geometry))
 }
 

@@ -3,12 +3,12 @@
 
 use libfuzzer_sys::fuzz_target;
 use motet_syntax::ast::Item;
-use motet_syntax::{FileId, Form, Severity, Source, print, read};
+use motet_syntax::{FileId, Syntax, Severity, Source, print, read};
 
 fuzz_target!(|text: &str| {
     let parsed = read(&Source::new("fuzz", text), FileId(0));
     let is_broken = parsed.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error);
-    if is_broken || parsed.form == Form::Text {
+    if is_broken || parsed.syntax == Syntax::Text {
         return;
     }
     for item in &parsed.file.items {

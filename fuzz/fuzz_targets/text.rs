@@ -2,18 +2,18 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use motet_syntax::{FileId, Form, Severity, Source, ast, print, read};
+use motet_syntax::{FileId, Syntax, Severity, Source, print, read};
 
 fuzz_target!(|text: &str| {
     let parsed = read(&Source::new("fuzz", text), FileId(0));
     let is_broken = parsed.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error);
-    if is_broken || parsed.form == Form::Json {
+    if is_broken || parsed.syntax == Syntax::Json {
         return;
     }
     let printed = print::text(&parsed.file);
     let again = read(&Source::new("printed", printed.as_str()), FileId(0));
     assert!(again.diagnostics.is_empty(), "{printed}");
-    assert!(ast::same(&parsed.file, &again.file), "{printed}");
+    assert!(parsed.file == again.file, "{printed}");
     let formatted = print::format(&Source::new("fuzz", text)).unwrap_or_default();
     assert_eq!(print::format(&Source::new("fuzz", formatted.as_str())).as_ref(), Ok(&formatted));
 });

@@ -98,7 +98,7 @@ fn built_in_declarations_can_be_read() {
             assert_eq!(file.diagnostics, [], "{name}");
         }
         for fact in &robot.initially {
-            assert!(motet_syntax::text::condition(fact).is_ok(), "{name}: {fact}");
+            assert!(motet_syntax::text::parse_condition(fact).is_ok(), "{name}: {fact}");
         }
     }
 }

@@ -138,7 +138,7 @@ fn numbers_are_checked() {
     "#);
     assert_eq!(robot(r#""base": [0, 0, 1000]"#), "");
     assert_snapshot!(more(r#""pose": {"xyz": [0, 0, 1e999]}"#), @r#"
-    M0107 1e999: the number `1e999` is out of range (numbers lie between -1.8e308 and 1.8e308)
+    M0107 1e999: the number `1e999` is out of range (numbers range from -1.8e308 to 1.8e308)
     "#);
     assert_snapshot!(more(r#""fields": {"mass": 1, "fullness": 0.5}"#), @r#"
     M0440 1: the field `mass` has a key of its own (write `"mass": …` beside `fields`, not in it)

@@ -1,7 +1,7 @@
 //! The standard library: kinds, fluents, measures, failures, primitives and policies, as Motet text.
 //!
-//! The texts are the whole of it: no crate knows a primitive by name. They are compiled once, before the robot's own
-//! declarations and those of a domain, which replace declarations of the same name.
+//! The texts are the whole of it: no crate knows a primitive by name. They are compiled once, before the
+//! robot's own declarations and those of a domain, which replace declarations of the same name.
 
 /// The files, in the order in which they are read: name and text.
 pub const FILES: &[(&str, &str)] = &[

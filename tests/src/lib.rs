@@ -2,11 +2,10 @@
 //! through every stage, and an interpreter that the prover is held against. No verdict of the compiler is made here.
 
 pub mod depot;
-pub mod eval;
 pub mod examples;
 pub mod generate;
 pub mod misses;
 pub mod notation;
 pub mod oracle;
-pub mod saycan;
-pub mod setup;
+
+pub use motet_eval::setup;

@@ -32,7 +32,7 @@ pub(crate) struct GrammarArgs {
     #[arg(long)]
     pub(crate) modifiers: bool,
     /// How many blocks may stand in one another below the policy's own
-    #[arg(long, default_value_t = motet_decode::surface::DEFAULT_DEPTH, value_name = "N",
+    #[arg(long, default_value_t = motet_decode::subset::DEFAULT_DEPTH, value_name = "N",
           value_parser = depth)]
     pub(crate) depth: usize,
     /// Begin Lark with the line by which llguidance knows its dialect

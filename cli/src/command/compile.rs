@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use motet_graph::draw;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use crate::args::{CompileArgs, Emit};
 use crate::document;
@@ -44,8 +44,8 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, Trouble> {
         Emit::Tree => Ok(draw::text(&graph)),
         Emit::Mermaid => Ok(draw::mermaid(&graph)),
         Emit::Dot => Ok(draw::dot(&graph)),
-        Emit::Json => form::write(&parsed, policy, library, Form::Json),
-        Emit::Text => form::write(&parsed, policy, library, Form::Text),
+        Emit::Json => form::write(&parsed, policy, library, Syntax::Json),
+        Emit::Text => form::write(&parsed, policy, library, Syntax::Text),
     };
     let mut text = match written {
         Ok(text) => text,

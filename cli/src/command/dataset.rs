@@ -5,7 +5,7 @@ mod lint;
 mod make;
 
 use motet_dataset::Body;
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_syntax::Sources;
 
 use crate::args::{DatasetArgs, DatasetCommand, Format, MotionArgs};
@@ -38,6 +38,6 @@ fn body(name: &str, report: &mut Report) -> Result<Body, Trouble> {
     Ok(Body { robot, urdf })
 }
 
-fn effort(args: &MotionArgs) -> Option<Budget> {
-    (!args.no_geometry).then(|| Budget::default().times(args.effort.into()))
+fn effort(args: &MotionArgs) -> Option<SearchBudget> {
+    (!args.no_geometry).then(|| SearchBudget::default().times(args.effort.into()))
 }

@@ -9,9 +9,9 @@ use std::io;
 use std::path::Path;
 
 use motet_compiler::Session;
-use motet_decode::{Acceptor, Modifiers, Prepared, Surface};
+use motet_decode::{Acceptor, AcceptorFactory, Modifiers, Subset};
 use motet_syntax::ast::{File, MAX_BYTES};
-use motet_syntax::{Form, Sources, render};
+use motet_syntax::{Sources, Syntax, render};
 
 use crate::args::{DecodeArgs, DecodeForm, Format, WorldArgs};
 use crate::exit::{Exit, Trouble};
@@ -38,11 +38,11 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let session = bench.setting(&File::default(), report)?.session.clone();
     let mut begun = read(&args.path)?;
     let form = match args.surface {
-        DecodeForm::Json => Form::Json,
-        DecodeForm::Text => Form::Text,
+        DecodeForm::Json => Syntax::Json,
+        DecodeForm::Text => Syntax::Text,
     };
     let modifiers = if args.modifiers { Modifiers::Written } else { Modifiers::Default };
-    let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
+    let prepared = AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
     let mut acceptor = prepared
         .acceptor(args.budget)
         .ok_or_else(|| Trouble::Other(format!("no policy has at most {} bytes", args.budget)))?;
@@ -67,7 +67,7 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
 }
 
 /// What may follow.
-fn told(acceptor: &mut Acceptor, (session, form): (&Session, Form), explain: bool) -> String {
+fn told(acceptor: &mut Acceptor, (session, form): (&Session, Syntax), explain: bool) -> String {
     let mut text = format!("taken: {}\n", crate::out::count(acceptor.bytes().len(), "byte"));
     let forced = acceptor.forced();
     if !forced.is_empty() {
@@ -80,7 +80,7 @@ fn told(acceptor: &mut Acceptor, (session, form): (&Session, Form), explain: boo
         let next = next::next(acceptor, form);
         text.push_str(&next.told(&session.signatures(), acceptor));
         // Which words of the text form names and types alone would allow is not told.
-        if form == Form::Json {
+        if form == Syntax::Json {
             text.push_str(&refused::refused(acceptor, &session.signatures(), &next));
         }
     } else {
@@ -90,7 +90,7 @@ fn told(acceptor: &mut Acceptor, (session, form): (&Session, Form), explain: boo
 }
 
 /// Where what was begun is refused, and why.
-fn refusal(acceptor: &mut Acceptor, (session, form): (&Session, Form), rest: &[u8]) -> String {
+fn refusal(acceptor: &mut Acceptor, (session, form): (&Session, Syntax), rest: &[u8]) -> String {
     let before = acceptor.bytes();
     let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
     let from = before.len().saturating_sub(40);

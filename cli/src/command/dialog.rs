@@ -11,7 +11,7 @@ use motet_planner::prompt;
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::File;
-use motet_syntax::{Form, Severity, Source};
+use motet_syntax::{Severity, Source, Syntax};
 
 use crate::args::{DialogArgs, DialogForm, Format};
 use crate::exit::{Exit, Trouble};
@@ -95,8 +95,8 @@ fn plan(
     let is_wrong = said.iter().any(|said| said.severity == Severity::Error);
     report.say(&said, &setting.sources(source));
     let form = match to {
-        DialogForm::Text => Form::Text,
-        DialogForm::Json => Form::Json,
+        DialogForm::Text => Syntax::Text,
+        DialogForm::Json => Syntax::Json,
     };
     match form::write(&parsed, None, setting.session.library(), form) {
         // Of several JSON documents each is a line.

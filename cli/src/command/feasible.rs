@@ -4,7 +4,10 @@ mod drawing;
 mod wire;
 
 use motet_compiler::{Options, Session};
-use motet_geometry::query::{Answer, Budget, Machine, Query, Reason, Room, Unknown, World};
+use motet_geometry::planning::{
+    InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
+    UnknownReason,
+};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{Diagnostic, FileId, Source, Sources, Span, suggest};
 use smol_str::SmolStr;
@@ -39,7 +42,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
     };
     let scene = read_scene(&args.scene, &mut sources, report)?;
     report.usable("scene", &scene::fit(&scene, &urdf), &sources)?;
-    let machine = Machine::new(&robot, &urdf);
+    let machine = RobotModel::new(&robot, &urdf);
     let queries = if args.all { all(&machine, &scene) } else { asked(&args.motions, &machine, &scene)? };
     let (session, said) =
         Session::new(Some(&robot), &[], Some(&scene), None, Options::default(), &mut sources);
@@ -47,21 +50,21 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let said: Vec<Diagnostic> =
         args.motions.iter().flat_map(|motion| kinds(motion, &session, &mut sources)).collect();
     report.usable("motion", &said, &sources)?;
-    let world = World::new(&machine, &scene);
-    let room = Room::new(&machine, &scene, &world);
+    let world = SceneState::new(&machine, &scene);
+    let room = QueryContext::new(&machine, &scene, &world);
     let mut answers = Vec::new();
     let mut exit = Exit::Clean;
     for query in queries {
-        let budget = Budget::default().times(usize::from(args.effort));
+        let budget = SearchBudget::default().times(usize::from(args.effort));
         let mut answer = room.answer(&query, budget);
-        if let Answer::Infeasible(why) = &mut answer {
-            *why = room.explained(&query, why, budget);
+        if let MotionAnswer::Infeasible(why) = &mut answer {
+            *why = room.explain(&query, why, budget);
         }
         match args.format {
             FeasibleFormat::Human => report.out.text(&told(&query, &answer)),
             FeasibleFormat::Json => report.out.line(&wire::line(&machine, &query, &answer)),
         }
-        if !args.all && !matches!(answer, Answer::Feasible(_)) {
+        if !args.all && !matches!(answer, MotionAnswer::Feasible(_)) {
             exit = Exit::Findings;
         }
         answers.push((query, answer));
@@ -73,9 +76,9 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
     Ok(exit)
 }
 
-fn asked(motions: &[String], machine: &Machine, scene: &Scene) -> Result<Vec<Query>, Trouble> {
+fn asked(motions: &[String], machine: &RobotModel, scene: &Scene) -> Result<Vec<MotionQuery>, Trouble> {
     let parsed = motions.iter().map(|motion| {
-        let query = Query::parse(motion).ok_or_else(|| Trouble::Unknown {
+        let query = MotionQuery::parse(motion).ok_or_else(|| Trouble::Unknown {
             what: "motion",
             name: motion.clone(),
             help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME)"
@@ -83,17 +86,17 @@ fn asked(motions: &[String], machine: &Machine, scene: &Scene) -> Result<Vec<Que
         })?;
         let entities = || scene.entities.keys().map(SmolStr::as_str);
         match &query {
-            Query::Put(object, other) | Query::Offer(object, other) => {
+            MotionQuery::Put(object, other) | MotionQuery::Offer(object, other) => {
                 known("entity", object, entities)?;
                 known("entity", other, entities)?;
             }
-            Query::GoTo(id) | Query::Reach(id, _) | Query::Look(id) | Query::Pull(id) | Query::Push(id) => {
+            MotionQuery::GoTo(id) | MotionQuery::Reach(id, _) | MotionQuery::Look(id) | MotionQuery::Pull(id) | MotionQuery::Push(id) => {
                 known("entity", id, entities)?;
             }
-            Query::Posture(name) => {
+            MotionQuery::Posture(name) => {
                 known("posture", name, || machine.card().postures.keys().map(SmolStr::as_str))?;
             }
-            Query::Other(_) => {}
+            MotionQuery::Other(_) => {}
         }
         Ok(query)
     });
@@ -138,21 +141,21 @@ fn known<'a, I: Iterator<Item = &'a str>>(
 }
 
 /// Every motion that can be asked for in a scene.
-fn all(machine: &Machine, scene: &Scene) -> Vec<Query> {
-    let drives = scene.entities.keys().filter(|_| machine.drives()).cloned().map(Query::GoTo);
+fn all(machine: &RobotModel, scene: &Scene) -> Vec<MotionQuery> {
+    let drives = scene.entities.keys().filter(|_| machine.drives()).cloned().map(MotionQuery::GoTo);
     let objects = scene.entities.iter().filter(|(_, entity)| entity.kind == "Object");
-    let reaches = objects.map(|(id, _)| Query::Reach(id.clone(), None));
-    let world = World::new(machine, scene);
+    let reaches = objects.map(|(id, _)| MotionQuery::Reach(id.clone(), None));
+    let world = SceneState::new(machine, scene);
     let doors = scene.entities.iter().filter(|(_, entity)| entity.travel.is_some()).map(|(id, entity)| {
-        if world.is_open(entity) { Query::Push(id.clone()) } else { Query::Pull(id.clone()) }
+        if world.is_open(entity) { MotionQuery::Push(id.clone()) } else { MotionQuery::Pull(id.clone()) }
     });
-    let postures = machine.card().postures.keys().cloned().map(Query::Posture);
+    let postures = machine.card().postures.keys().cloned().map(MotionQuery::Posture);
     drives.chain(reaches).chain(doors).chain(postures).collect()
 }
 
-fn told(query: &Query, answer: &Answer) -> String {
+fn told(query: &MotionQuery, answer: &MotionAnswer) -> String {
     match answer {
-        Answer::Feasible(witness) => {
+        MotionAnswer::Feasible(witness) => {
             let [x, y, yaw] = witness.path.last().map_or([0.0; 3], |state| state.base);
             let mut line = format!(
                 "{query}: feasible, base at ({x:.2}, {y:.2}) m, {:.0}°, {}, {:.3} m clear",
@@ -168,15 +171,15 @@ fn told(query: &Query, answer: &Answer) -> String {
             }
             line + "\n"
         }
-        Answer::Infeasible(why) => {
+        MotionAnswer::Infeasible(why) => {
             let proof = if why.certified { "proven" } else { "the search ended" };
             let help = why.change.as_ref().map_or_else(String::new, |change| format!("  help: {change}\n"));
             format!("{query}: {}, {} ({proof})\n{help}", why.reason.name(), why.reason)
         }
-        Answer::Unknown(Unknown::Budget) => format!(
+        MotionAnswer::Unknown(UnknownReason::Budget) => format!(
             "{query}: unknown, the search was cut short\n  help: `--effort 4` searches four times as long\n"
         ),
-        Answer::Unknown(Unknown::Because(why)) => format!("{query}: unknown, {why}\n"),
+        MotionAnswer::Unknown(UnknownReason::Because(why)) => format!("{query}: unknown, {why}\n"),
     }
 }
 
@@ -188,16 +191,18 @@ fn degrees(angle: f64) -> f64 {
 }
 
 /// The numbers of a reason, by name.
-fn numbers(reason: &Reason) -> Vec<(&'static str, f64)> {
+fn numbers(reason: &InfeasibleReason) -> Vec<(&'static str, f64)> {
     match reason {
-        Reason::OutOfReach { needs, reach, .. } => vec![("needs", *needs), ("reach", *reach)],
-        Reason::TooHeavy { needs, limit } | Reason::TooWide { needs, limit } => {
+        InfeasibleReason::OutOfReach { needs, reach, .. } => vec![("needs", *needs), ("reach", *reach)],
+        InfeasibleReason::TooHeavy { needs, limit } | InfeasibleReason::TooWide { needs, limit } => {
             vec![("needs", *needs), ("limit", *limit)]
         }
-        Reason::NotInView { aside: Some(aside), .. } => {
+        InfeasibleReason::NotInView { aside: Some(aside), .. } => {
             vec![("needs", aside.needs.abs()), ("limit", aside.limit)]
         }
-        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } | Reason::NotInView { aside: None, .. } => {
+        InfeasibleReason::NoFreePose { .. }
+        | InfeasibleReason::BlockedPath { .. }
+        | InfeasibleReason::NotInView { aside: None, .. } => {
             vec![]
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use motet_syntax::{Form, Parsed, Severity, print};
+use motet_syntax::{Parsed, Severity, Syntax, print};
 
 use crate::args::{FmtArgs, Form as To, KnownArgs, WorldArgs};
 use crate::document;
@@ -86,8 +86,8 @@ impl Tally {
             return Ok(());
         }
         let form = match to {
-            To::Text => Form::Text,
-            To::Json => Form::Json,
+            To::Text => Syntax::Text,
+            To::Json => Syntax::Json,
         };
         match form::write(&parsed, None, setting.session.library(), form) {
             Ok(text) => {

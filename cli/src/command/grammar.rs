@@ -5,7 +5,7 @@ mod probe;
 pub(super) use probe::key;
 
 use motet_decode::export::{self, Dialect, Format as Notation, Header, Offer, Prompt, request_body};
-use motet_decode::{Modifiers, Surface};
+use motet_decode::{Modifiers, Subset};
 use motet_syntax::ast::File;
 
 use crate::args::{Form, Format, GrammarArgs, GrammarCommand, GrammarFormat, Server, WorldArgs};
@@ -36,10 +36,10 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let world = WorldArgs::from(args.known.clone());
     let mut bench = Workbench::open(&world, report)?;
     let signatures = bench.setting(&File::default(), report)?.session.signatures();
-    let surface = Surface {
-        form: match args.surface {
-            Form::Text => motet_syntax::Form::Text,
-            Form::Json => motet_syntax::Form::Json,
+    let surface = Subset {
+        syntax: match args.surface {
+            Form::Text => motet_syntax::Syntax::Text,
+            Form::Json => motet_syntax::Syntax::Json,
         },
         modifiers: if args.modifiers { Modifiers::Written } else { Modifiers::Default },
         depth: args.depth,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use motet_pddl::Input;
+use motet_pddl::PddlSource;
 use motet_syntax::{Diagnostic, FileId, Source, Sources};
 
 use crate::args::{ImportArgs, ImportCommand, PddlArgs};
@@ -34,9 +34,9 @@ fn pddl(args: &PddlArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let plan = args.plan.as_ref().map(|path| read(path, &mut sources, &mut said)).transpose()?;
     let mut imported = None;
     if said.is_empty() {
-        let domain = Input { source: &domain, file: first };
-        let problem = Input { source: &problem, file: second };
-        let plan = plan.as_ref().map(|(source, file)| Input { source, file: *file });
+        let domain = PddlSource { source: &domain, file: first };
+        let problem = PddlSource { source: &problem, file: second };
+        let plan = plan.as_ref().map(|(source, file)| PddlSource { source, file: *file });
         (imported, said) = motet_pddl::import(domain, problem, plan);
     }
     report.say(&said, &sources);

@@ -5,7 +5,7 @@ use motet_planner::builtin::{self, Unplanned};
 use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
 use motet_syntax::ast::File;
-use motet_syntax::{Form, Source};
+use motet_syntax::{Source, Syntax};
 
 use crate::args::{Format, PlanArgs, PlanForm};
 use crate::exit::{Exit, Trouble};
@@ -48,8 +48,8 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, Trouble> {
             let sources = setting.sources(Source::new("plan.motet", planned.text.as_str()));
             report.say(&planned.compiled.diagnostics, &sources);
             let form = match args.to {
-                PlanForm::Text => Form::Text,
-                PlanForm::Json => Form::Json,
+                PlanForm::Text => Syntax::Text,
+                PlanForm::Json => Syntax::Json,
             };
             match form::write(&planned.parsed, None, setting.session.library(), form) {
                 Ok(text) => report.out.line(text.trim_end()),

@@ -12,10 +12,10 @@ use crate::report;
 /// Standard output cannot be written.
 pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, Trouble> {
     let schema = match args.of {
-        SchemaOf::Policy => schemars::schema_for!(motet_syntax::json::wire::Document),
+        SchemaOf::Policy => motet_syntax::json::policy_schema(),
         SchemaOf::Scene => motet_robots::scene::schema(),
         SchemaOf::Robot => motet_robots::card::schema(),
-        SchemaOf::Diagnostic => schemars::schema_for!(motet_syntax::render::Record),
+        SchemaOf::Diagnostic => schemars::schema_for!(motet_syntax::render::DiagnosticRecord),
         SchemaOf::Driver => motet_host::remote::protocol::schema(),
         SchemaOf::Journal => schemars::schema_for!(motet_runtime::journal::JournalEntry),
         SchemaOf::Faults => schemars::schema_for!(motet_sim::Faults),

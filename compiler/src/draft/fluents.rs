@@ -1,7 +1,7 @@
 //! Which fluents a step speaks of: what it needs, asks or changes. What speaks of none that another step speaks of can
 //! neither refute that step nor be refuted by it.
 
-use motet_syntax::ast::PrimitiveForm;
+use motet_syntax::ast::PrimitiveKind;
 
 use super::Template;
 use crate::ir::{Base, Condition, Fluent, StepKind};
@@ -57,7 +57,7 @@ pub(super) fn of_effects(def: &PrimitiveDef, library: &Library) -> u64 {
     let effects = effects.map(|effect| bit(effect.fact.fluent) | when(effect.when.as_ref()));
     let mut all = effects.fold(0, |all, more| all | more);
     // What was perceived is stale once its resource is used or its object moved.
-    let moves = def.form == PrimitiveForm::Action && !(def.makes.is_empty() && def.unsettles.is_empty());
+    let moves = def.form == PrimitiveKind::Action && !(def.makes.is_empty() && def.unsettles.is_empty());
     let lasts = library.primitives.iter().filter_map(|def| def.lasts.as_ref());
     if moves || lasts.into_iter().any(|lasts| lasts.resources & def.uses != 0) {
         all |= library.perceived.iter().fold(FRESH, |all, fluent| all | bit(*fluent));

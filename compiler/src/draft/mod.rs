@@ -11,7 +11,7 @@ mod template;
 use std::hash::Hasher;
 
 use motet_syntax::ast::{self, Policy, Step};
-use motet_syntax::{Diagnostic, FileId, Form, Severity, Span};
+use motet_syntax::{Diagnostic, FileId, Severity, Span, Syntax};
 use rustc_hash::FxHasher;
 use smallvec::SmallVec;
 use smol_str::SmolStr;
@@ -85,7 +85,7 @@ pub enum Test {
 /// A policy that is being written.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    form: Form,
+    form: Syntax,
     program: Program,
     scope: Scope,
     proof: Parts,
@@ -110,7 +110,7 @@ impl Draft {
     /// The draft of a policy of which name, robot and goal are given; steps that it has are left out. The findings are
     /// about goal and robot; the draft can be used all the same.
     #[must_use]
-    pub fn new(session: &Session, policy: &Policy, form: Form) -> (Self, Vec<Diagnostic>) {
+    pub fn new(session: &Session, policy: &Policy, form: Syntax) -> (Self, Vec<Diagnostic>) {
         let (library, world) = session.parts();
         let head = Policy { body: ast::Block::default(), ..policy.clone() };
         let (mut program, mut said) = crate::resolve::resolve(&head, form, library, world);

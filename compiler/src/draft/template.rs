@@ -1,6 +1,6 @@
 //! A policy that steps call, resolved once and written out for each call that is tried.
 
-use motet_syntax::ast::PrimitiveForm;
+use motet_syntax::ast::PrimitiveKind;
 use motet_syntax::{Diagnostic, Mistake, Severity};
 use smol_str::SmolStr;
 
@@ -75,7 +75,7 @@ impl Template {
                 });
                 let perceives = library
                     .primitive(call.primitive)
-                    .is_some_and(|def| def.form == PrimitiveForm::Perception);
+                    .is_some_and(|def| def.form == PrimitiveKind::Perception);
                 let binding = made.binds.and_then(|id| program.bindings.get_mut(id.index()));
                 if let Some(binding) = binding.filter(|binding| matches!(binding.ty.base, Base::Entity(_))) {
                     binding.description = text.filter(|_| perceives).cloned();

@@ -1,7 +1,7 @@
 //! What the prover proposes, as edits of a document in its own form and layout.
 
 use motet_syntax::ast::{Arg, Call, Do, Expr, ExprKind, Name};
-use motet_syntax::{Code, Diagnostic, Edit, Fix, Form, Parsed, Span, print};
+use motet_syntax::{Code, Diagnostic, Edit, Fix, Parsed, Span, Syntax, print};
 use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -62,9 +62,11 @@ impl Writer<'_> {
         }
         let name = &self.library.fluent(fluent)?.name;
         let place = step.span;
-        let (before, after) = match self.parsed.form {
-            Form::Text => (format!("monitor when {}() then pause during {{ ", print::identifier(name)), " }"),
-            Form::Json => (
+        let (before, after) = match self.parsed.syntax {
+            Syntax::Text => {
+                (format!("monitor when {}() then pause during {{ ", print::identifier(name)), " }")
+            }
+            Syntax::Json => (
                 format!(
                     "{{\"monitor\": [{{\"when\": {{\"is\": \"{name}\"}}, \"then\": {{\"react\": \"pause\"}}}}], \"during\": ["
                 ),
@@ -91,9 +93,9 @@ impl Writer<'_> {
 
     /// A binding as the form writes it.
     fn binding(&self, name: &str) -> String {
-        match self.parsed.form {
-            Form::Text => print::identifier(name),
-            Form::Json => format!("\"${name}\""),
+        match self.parsed.syntax {
+            Syntax::Text => print::identifier(name),
+            Syntax::Json => format!("\"${name}\""),
         }
     }
 
@@ -123,9 +125,9 @@ impl Writer<'_> {
         let kind = param.ty.kind().filter(|_| param.ty.lists == 0)?;
         let mut fitting = self.world.entities().iter().filter(|row| self.library.is_kind(row.2, kind));
         let (Some((_, name, _)), None) = (fitting.next(), fitting.next()) else { return None };
-        let written = match self.parsed.form {
-            Form::Text => print::identifier(name),
-            Form::Json => format!("\"{name}\""),
+        let written = match self.parsed.syntax {
+            Syntax::Text => print::identifier(name),
+            Syntax::Json => format!("\"{name}\""),
         };
         let edit = if is_missing {
             self.argument(said.span, &param.name, &written)?
@@ -141,9 +143,9 @@ impl Writer<'_> {
         let inside = text.strip_suffix([')', '}'])?;
         let end = call.start + u32::try_from(inside.trim_end().len()).ok()?;
         let comma = if inside.trim_end().ends_with(['(', '{', ',']) { "" } else { ", " };
-        let text = match self.parsed.form {
-            Form::Text => format!("{comma}{}: {written}", print::identifier(param)),
-            Form::Json => format!("{comma}\"{param}\": {written}"),
+        let text = match self.parsed.syntax {
+            Syntax::Text => format!("{comma}{}: {written}", print::identifier(param)),
+            Syntax::Json => format!("{comma}\"{param}\": {written}"),
         };
         Some(Edit { span: Span { start: end, end, ..call }, text })
     }
@@ -219,7 +221,7 @@ impl Writer<'_> {
     }
 
     fn texts(&self, calls: &[Do]) -> Vec<String> {
-        calls.iter().map(|call| print::call(call, self.parsed.form)).collect()
+        calls.iter().map(|call| print::call(call, self.parsed.syntax)).collect()
     }
 
     /// Calls as the document would write them, and the new names of what they perceive once more.
@@ -243,7 +245,7 @@ impl Writer<'_> {
         let def = self.library.primitive(proposed.primitive)?;
         let span = Span::default();
         let mut args = Vec::new();
-        let mut is_plain = self.parsed.form == Form::Text;
+        let mut is_plain = self.parsed.syntax == Syntax::Text;
         for (term, param) in proposed.args.iter().zip(&def.params) {
             if param.default.as_ref() == Some(term) {
                 is_plain = false;
@@ -284,9 +286,9 @@ impl Writer<'_> {
     }
 
     fn comma(&self) -> &'static str {
-        match self.parsed.form {
-            Form::Text => "",
-            Form::Json => ",",
+        match self.parsed.syntax {
+            Syntax::Text => "",
+            Syntax::Json => ",",
         }
     }
 
@@ -305,7 +307,7 @@ impl Writer<'_> {
         let after = text.get(place.end as usize..)?;
         let kept = before.trim_end();
         let mut span = Span { start: u32::try_from(kept.len()).ok()?, ..place };
-        if self.parsed.form == Form::Json {
+        if self.parsed.syntax == Syntax::Json {
             if let Some(kept) = kept.strip_suffix(',') {
                 span.start = u32::try_from(kept.len()).ok()?;
             } else if let Some(rest) = after.trim_start().strip_prefix(',') {
@@ -342,6 +344,6 @@ pub(crate) fn spelled(term: &Term, library: &Library, world: &World) -> Option<E
 
 /// "insert `go(table)` before"
 fn title(verb: &str, calls: &[Do], place: &str) -> String {
-    let calls: Vec<_> = calls.iter().map(|call| format!("`{}`", print::call(call, Form::Text))).collect();
+    let calls: Vec<_> = calls.iter().map(|call| format!("`{}`", print::call(call, Syntax::Text))).collect();
     format!("{verb} {} {place}", calls.join(", "))
 }

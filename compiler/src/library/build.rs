@@ -3,7 +3,7 @@
 
 use motet_robots::card::Robot;
 use motet_syntax::ast::{File, Param, TypeExpr};
-use motet_syntax::{Diagnostic, Form, Source, Sources};
+use motet_syntax::{Diagnostic, Source, Sources, Syntax};
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
@@ -96,7 +96,7 @@ impl LibraryBuilder {
 
 /// A resolver for declarations: no bindings, no scene.
 pub(super) fn resolver<'a>(library: &'a Library, entities: &'a Entities) -> Resolver<'a> {
-    Resolver::new(library, entities, true, Form::Text)
+    Resolver::new(library, entities, true, Syntax::Text)
 }
 
 fn index<T>(table: &[T]) -> u16 {

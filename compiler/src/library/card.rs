@@ -100,7 +100,7 @@ pub(super) fn facts<'r>(robot: &'r Robot, diagnostics: &mut Vec<Diagnostic>) -> 
     let spans = robot.places.initially.iter().copied().chain(std::iter::repeat(Span::default()));
     let mut facts = Vec::new();
     for (text, span) in robot.initially.iter().zip(spans) {
-        match motet_syntax::text::condition(text) {
+        match motet_syntax::text::parse_condition(text) {
             Ok(fact) => facts.push((text.as_str(), fact, span)),
             Err(why) => diagnostics.push(not_at_first(text, (why, None), span)),
         }

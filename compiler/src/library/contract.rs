@@ -5,6 +5,7 @@ use std::sync::Arc;
 use motet_robots::card::Robot;
 use motet_syntax::ast::{Clause, Expr, ExprKind, Name, PrimitiveDecl, Quantified, TypeExpr};
 use motet_syntax::unit::Dimension;
+use motet_syntax::words::is_json_key;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
@@ -30,14 +31,6 @@ pub(crate) const MOTIONS: &[(&str, usize)] = &[
     ("offer", 2),
     ("look", 1),
     ("posture", 1),
-];
-
-/// Keys of the JSON form that no parameter may bear. `on` is not among them: it names the failures of a `catch`, which
-/// takes no arguments, and is the natural name for a support.
-const RESERVED: &[&str] = &[
-    "do", "as", "within", "retry", "if", "then", "else", "wait", "monitor", "during", "try", "catch",
-    "repeat", "until", "steps", "each", "in", "at_most", "parallel", "end", "why", "sequence", "when", "for",
-    "react", "is", "get", "field", "of",
 ];
 
 /// Seconds that a primitive takes at most where its contract does not say.
@@ -144,7 +137,7 @@ fn primitive(resolver: &mut Resolver<'_>, decl: &Arc<PrimitiveDecl>, robot: Opti
     for (index, param) in decl.params.iter().enumerate() {
         let ty = resolve_type(resolver, &param.ty);
         let param_name = &param.name.text;
-        if RESERVED.contains(&param_name.as_str()) {
+        if is_json_key(&param_name) {
             resolver.say(ReservedName { span: param.name.span, name: param_name.clone() });
         }
         if let Some(first) = resolver.scope.find(param_name).map(|entry| entry.span) {
@@ -166,7 +159,7 @@ fn primitive(resolver: &mut Resolver<'_>, decl: &Arc<PrimitiveDecl>, robot: Opti
     let mut def = PrimitiveDef {
         provided: robot.is_none_or(|robot| robot.primitives.contains_key(&name)),
         name,
-        form: decl.form,
+        form: decl.kind,
         params,
         result,
         needs: Vec::new(),

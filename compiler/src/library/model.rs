@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use indexmap::IndexMap;
 use motet_syntax::Span;
-use motet_syntax::ast::{self, PrimitiveForm};
+use motet_syntax::ast::{self, PrimitiveKind};
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
@@ -129,7 +129,7 @@ pub(crate) struct ResourceDef {
 #[derive(Clone, Debug)]
 pub(crate) struct PrimitiveDef {
     pub(crate) name: SmolStr,
-    pub(crate) form: PrimitiveForm,
+    pub(crate) form: PrimitiveKind,
     pub(crate) params: Vec<ParamDef>,
     pub(crate) result: Option<Ty>,
     pub(crate) needs: Vec<NeedDef>,

@@ -169,7 +169,7 @@ impl<'a> Tables<'a> {
                 name: def.name.clone(),
                 params,
                 result: def.result.map(|ty| self.ty(ty)),
-                perceives: def.form == motet_syntax::ast::PrimitiveForm::Perception,
+                perceives: def.form == motet_syntax::ast::PrimitiveKind::Perception,
                 uses: def.uses_named.iter().map(|index| graph::ResourceId(u32::from(*index))).collect(),
                 fails,
             });

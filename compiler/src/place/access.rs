@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_geometry::query::{Answer, Query, Unknown};
+use motet_geometry::planning::{MotionAnswer, MotionQuery, UnknownReason};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::Geometry;
@@ -46,32 +46,34 @@ impl Geometry {
         }
         let (mut at, id) = (start, entity.id.clone());
         if self.machine().drives() {
-            let query = Query::GoTo(id.clone());
+            let query = MotionQuery::GoTo(id.clone());
             let answer = self.answer(&at, &query);
-            let Answer::Feasible(way) = &*answer else { return said(&answer) };
+            let MotionAnswer::Feasible(way) = &*answer else { return said(&answer) };
             match self.after(&at, &query, Change::Gone, way) {
                 Some(there) => at = Arc::clone(&there),
                 None => return Access::Unknown(SmolStr::new_static("where the way ends is not known")),
             }
         }
         let query = match self.is_open(&at.world, &id) {
-            Some(true) => Query::Push(id),
-            Some(false) => Query::Pull(id),
-            None if entity.kind == "Object" => Query::Reach(id, None),
+            Some(true) => MotionQuery::Push(id),
+            Some(false) => MotionQuery::Pull(id),
+            None if entity.kind == "Object" => MotionQuery::Reach(id, None),
             None => return Access::Feasible,
         };
         said(&self.answer(&at, &query))
     }
 }
 
-fn said(answer: &Answer) -> Access {
+fn said(answer: &MotionAnswer) -> Access {
     match answer {
-        Answer::Feasible(_) => Access::Feasible,
-        Answer::Infeasible(why) => {
+        MotionAnswer::Feasible(_) => Access::Feasible,
+        MotionAnswer::Infeasible(why) => {
             let is_certified = why.certified;
             Access::Infeasible { why: format_smolstr!("{}", why.reason), is_certified }
         }
-        Answer::Unknown(Unknown::Budget) => Access::Unknown(SmolStr::new_static("the search was cut short")),
-        Answer::Unknown(Unknown::Because(why)) => Access::Unknown(why.as_str().into()),
+        MotionAnswer::Unknown(UnknownReason::Budget) => {
+            Access::Unknown(SmolStr::new_static("the search was cut short"))
+        }
+        MotionAnswer::Unknown(UnknownReason::Because(why)) => Access::Unknown(why.as_str().into()),
     }
 }

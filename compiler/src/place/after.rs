@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_geometry::query::{Answer, Query, Unknown};
+use motet_geometry::planning::{MotionAnswer, MotionQuery, UnknownReason};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::Verdict;
@@ -47,21 +47,21 @@ impl Walk<'_> {
         for situation in before.known {
             let answer = self.geometry.answer(&situation.at, &query);
             match &*answer {
-                Answer::Feasible(way) => {
+                MotionAnswer::Feasible(way) => {
                     is_refused = false;
                     if witness.is_none() {
                         witness = Some(Box::new(kept(self.geometry.machine(), way)));
                     }
                     after.join(self.following(id, call, def, &query, &situation, &answer));
                 }
-                Answer::Unknown(why) => {
+                MotionAnswer::Unknown(why) => {
                     is_refused = false;
                     unknown = unknown.or(Some(in_words(why)));
                     let why = format_smolstr!("how `{}` ends is not known", def.name);
                     after.join(if moves { Ways::lost(why) } else { only(situation) });
                 }
                 // The search found nothing and proves nothing: the run will see.
-                Answer::Infeasible(why) if !why.certified => {
+                MotionAnswer::Infeasible(why) if !why.certified => {
                     is_refused = false;
                     warned = warned.or_else(|| self.refusal(id, &def.name, &query, why, &situation));
                     unknown = unknown
@@ -69,7 +69,7 @@ impl Walk<'_> {
                     let why = format_smolstr!("how `{}` ends is not known", def.name);
                     after.join(if moves { Ways::lost(why) } else { only(situation) });
                 }
-                Answer::Infeasible(why) => {
+                MotionAnswer::Infeasible(why) => {
                     let told = self.refusal(id, &def.name, &query, why, &situation);
                     // After a failure it is not certain that this world is met at all.
                     match (&refused, situation.is_certain) {
@@ -106,12 +106,12 @@ impl Walk<'_> {
         id: StepId,
         call: &Call,
         def: &PrimitiveDef,
-        query: &Query,
+        query: &MotionQuery,
         from: &Situation,
-        answer: &Answer,
+        answer: &MotionAnswer,
     ) -> Ways {
         let lost = || Ways::lost(format_smolstr!("how `{}` ends is not known", def.name));
-        let Answer::Feasible(way) = answer else { return lost() };
+        let MotionAnswer::Feasible(way) = answer else { return lost() };
         let change = match leaves(self.library, def, query) {
             Leaves::Changed(change) => change,
             Leaves::Nothing => return only(from.clone()),
@@ -120,7 +120,7 @@ impl Walk<'_> {
         let Some(at) = self.geometry.after(&from.at, query, change, way) else { return lost() };
         let mut next = Situation { at, ..from.clone() };
         match (change, query) {
-            (Change::Gone, Query::GoTo(target)) => {
+            (Change::Gone, MotionQuery::GoTo(target)) => {
                 if from.at.key != next.at.key {
                     next.stands_since = Some(id);
                 }
@@ -131,11 +131,11 @@ impl Walk<'_> {
                 }
             }
             (Change::Taken, _) => next.held_since = Some(id),
-            (Change::Put | Change::Given, Query::Put(object, _) | Query::Offer(object, _)) => {
+            (Change::Put | Change::Given, MotionQuery::Put(object, _) | MotionQuery::Offer(object, _)) => {
                 next.held_since = None;
                 next.changed.push((object.clone(), id));
             }
-            (Change::Travelled, Query::Pull(what) | Query::Push(what)) => {
+            (Change::Travelled, MotionQuery::Pull(what) | MotionQuery::Push(what)) => {
                 if from.at.world.robot != next.at.world.robot {
                     next.stands_since = Some(id);
                 }
@@ -148,11 +148,11 @@ impl Walk<'_> {
 
     /// A motion of the base that goes on to where the robot serves what it found.
     fn going_on(&self, id: StepId, place: &SmolStr, from: Situation) -> Ways {
-        let query = Query::GoTo(place.clone());
+        let query = MotionQuery::GoTo(place.clone());
         let answer = self.geometry.answer(&from.at, &query);
         let after = match &*answer {
-            Answer::Feasible(way) => self.geometry.after(&from.at, &query, Change::Gone, way),
-            Answer::Infeasible(_) | Answer::Unknown(_) => None,
+            MotionAnswer::Feasible(way) => self.geometry.after(&from.at, &query, Change::Gone, way),
+            MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
         };
         match after {
             Some(at) => only(Situation { at, stands_since: Some(id), ..from }),
@@ -165,10 +165,10 @@ fn only(situation: Situation) -> Ways {
     Ways { known: vec![situation], lost: None }
 }
 
-fn in_words(why: &Unknown) -> SmolStr {
+fn in_words(why: &UnknownReason) -> SmolStr {
     match why {
-        Unknown::Budget => SmolStr::new_static("the search was cut short"),
-        Unknown::Because(why) => why.as_str().into(),
+        UnknownReason::Budget => SmolStr::new_static("the search was cut short"),
+        UnknownReason::Because(why) => why.as_str().into(),
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use motet_geometry::query::{Answer, Infeasible, Query, Reason, Unknown};
+use motet_geometry::planning::{Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, UnknownReason};
 use motet_graph::Value;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -75,11 +75,11 @@ impl Course {
             return unknown("an argument has no place in the scene");
         };
         match &*self.geometry.answer(at, &asked(motion, names, side(args))) {
-            Answer::Feasible(_) => Prospect::Feasible,
-            Answer::Infeasible(why) if why.certified => self.infeasible(def, why),
-            Answer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),
-            Answer::Unknown(Unknown::Budget) => unknown("the search was cut short"),
-            Answer::Unknown(Unknown::Because(why)) => unknown(why),
+            MotionAnswer::Feasible(_) => Prospect::Feasible,
+            MotionAnswer::Infeasible(why) if why.certified => self.infeasible(def, why),
+            MotionAnswer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),
+            MotionAnswer::Unknown(UnknownReason::Budget) => unknown("the search was cut short"),
+            MotionAnswer::Unknown(UnknownReason::Because(why)) => unknown(why),
         }
     }
 
@@ -186,7 +186,7 @@ fn after(
     };
     let next = step(geometry, at, &query, change).ok_or_else(lost)?;
     // A motion of the base may go on to where the robot serves what it found.
-    let Query::GoTo(target) = &query else { return Ok(next) };
+    let MotionQuery::GoTo(target) = &query else { return Ok(next) };
     let Some(effect) = makes(library, def, "at", true) else { return Ok(next) };
     let [Some(robot), Some(place)] = effect.fact.args.as_slice() else { return Ok(next) };
     if *robot != Term::Entity(ROBOT) {
@@ -196,23 +196,25 @@ fn after(
     if place == *target {
         return Ok(next);
     }
-    step(geometry, &next, &Query::GoTo(place), Change::Gone).ok_or_else(lost)
+    step(geometry, &next, &MotionQuery::GoTo(place), Change::Gone).ok_or_else(lost)
 }
 
-fn step(geometry: &Geometry, at: &Arc<Keyed>, query: &Query, change: Change) -> Option<Arc<Keyed>> {
+fn step(geometry: &Geometry, at: &Arc<Keyed>, query: &MotionQuery, change: Change) -> Option<Arc<Keyed>> {
     match &*geometry.answer(at, query) {
-        Answer::Feasible(way) => geometry.after(at, query, change, way),
-        Answer::Infeasible(_) | Answer::Unknown(_) => None,
+        MotionAnswer::Feasible(way) => geometry.after(at, query, change, way),
+        MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
     }
 }
 
 /// The failures that say what a reason says, the closest first.
-const fn kinds(reason: &Reason) -> &'static [&'static str] {
+const fn kinds(reason: &InfeasibleReason) -> &'static [&'static str] {
     match reason {
-        Reason::OutOfReach { .. } | Reason::TooWide { .. } => &["unreachable"],
-        Reason::TooHeavy { .. } => &["too_heavy", "unreachable"],
-        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } => &["unreachable", "blocked"],
-        Reason::NotInView { .. } => &["unreachable", "blocked", "not_found"],
+        InfeasibleReason::OutOfReach { .. } | InfeasibleReason::TooWide { .. } => &["unreachable"],
+        InfeasibleReason::TooHeavy { .. } => &["too_heavy", "unreachable"],
+        InfeasibleReason::NoFreePose { .. } | InfeasibleReason::BlockedPath { .. } => {
+            &["unreachable", "blocked"]
+        }
+        InfeasibleReason::NotInView { .. } => &["unreachable", "blocked", "not_found"],
     }
 }
 
@@ -251,6 +253,6 @@ fn name(value: &Value) -> Option<SmolStr> {
 }
 
 /// The side from which a thing is to be grasped, where an argument says so.
-fn side(args: &[(SmolStr, Value)]) -> Option<motet_geometry::query::Side> {
+fn side(args: &[(SmolStr, Value)]) -> Option<motet_geometry::planning::GraspSide> {
     args.iter().find_map(|(_, value)| if let Value::Case(case) = value { side_of(case) } else { None })
 }

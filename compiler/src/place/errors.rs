@@ -89,17 +89,17 @@ motet_syntax::mistakes! {
 
 /// The diagnostic of a reason.
 pub(crate) fn refused(
-    reason: &motet_geometry::query::Reason,
+    reason: &motet_geometry::planning::InfeasibleReason,
     span: Span,
     told: Told,
 ) -> motet_syntax::Diagnostic {
-    use motet_geometry::query::Reason;
+    use motet_geometry::planning::InfeasibleReason;
     match reason {
-        Reason::OutOfReach { .. } => OutOfReach { span, told }.into(),
-        Reason::NoFreePose { .. } => NoFreePose { span, told }.into(),
-        Reason::BlockedPath { .. } => BlockedPath { span, told }.into(),
-        Reason::NotInView { .. } => NotInView { span, told }.into(),
-        Reason::TooHeavy { .. } => TooHeavy { span, told }.into(),
-        Reason::TooWide { .. } => TooWide { span, told }.into(),
+        InfeasibleReason::OutOfReach { .. } => OutOfReach { span, told }.into(),
+        InfeasibleReason::NoFreePose { .. } => NoFreePose { span, told }.into(),
+        InfeasibleReason::BlockedPath { .. } => BlockedPath { span, told }.into(),
+        InfeasibleReason::NotInView { .. } => NotInView { span, told }.into(),
+        InfeasibleReason::TooHeavy { .. } => TooHeavy { span, told }.into(),
+        InfeasibleReason::TooWide { .. } => TooWide { span, told }.into(),
     }
 }

@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, Mutex};
 
-use motet_geometry::query::{
-    Answer, Budget, Infeasible, Machine, Maps, Query, Room, State as Placed, Witness, World,
+use motet_geometry::planning::{
+    BaseMapCache, Configuration as Placed, Infeasible, MotionAnswer, MotionQuery, MotionWitness,
+    QueryContext, RobotModel, SceneState, SearchBudget,
 };
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
@@ -20,19 +21,19 @@ const MOST_ANSWERS: usize = 20_000;
 /// A robot's body in a scene, of which motions are asked.
 #[derive(Debug)]
 pub struct Geometry {
-    machine: Machine,
+    machine: RobotModel,
     scene: Scene,
     start: Result<Arc<Keyed>, SmolStr>,
-    budget: Budget,
+    budget: SearchBudget,
     memo: Mutex<Memo>,
-    maps: Maps,
+    maps: BaseMapCache,
 }
 
 #[derive(Debug, Default)]
 struct Memo {
-    answers: FxHashMap<(Box<[u8]>, Query), Arc<Answer>>,
-    after: FxHashMap<(Box<[u8]>, Query, Change), Next>,
-    told: FxHashMap<(Box<[u8]>, Query), Infeasible>,
+    answers: FxHashMap<(Box<[u8]>, MotionQuery), Arc<MotionAnswer>>,
+    after: FxHashMap<(Box<[u8]>, MotionQuery, Change), Next>,
+    told: FxHashMap<(Box<[u8]>, MotionQuery), Infeasible>,
 }
 
 /// The world after a motion, where it is known.
@@ -56,11 +57,17 @@ pub(super) enum Change {
 impl Geometry {
     /// A robot in a scene, in a state where one is given. O(parts² of the robot).
     #[must_use]
-    pub fn new(robot: &Robot, urdf: &Urdf, scene: &Scene, state: Option<&State>, budget: Budget) -> Self {
-        let machine = Machine::new(robot, urdf);
+    pub fn new(
+        robot: &Robot,
+        urdf: &Urdf,
+        scene: &Scene,
+        state: Option<&State>,
+        budget: SearchBudget,
+    ) -> Self {
+        let machine = RobotModel::new(robot, urdf);
         let mut scene = scene.clone();
         let start = begin(&machine, &mut scene, state);
-        Self { machine, scene, start, budget, memo: Mutex::default(), maps: Maps::default() }
+        Self { machine, scene, start, budget, memo: Mutex::default(), maps: BaseMapCache::default() }
     }
 
     /// The same robot in another scene, in no further state.
@@ -74,7 +81,7 @@ impl Geometry {
             start,
             budget: self.budget,
             memo: Mutex::default(),
-            maps: Maps::default(),
+            maps: BaseMapCache::default(),
         }
     }
 
@@ -95,7 +102,7 @@ impl Geometry {
         self.start.clone()
     }
 
-    pub(super) fn machine(&self) -> &Machine {
+    pub(super) fn machine(&self) -> &RobotModel {
         &self.machine
     }
 
@@ -104,14 +111,14 @@ impl Geometry {
     }
 
     /// Whether a container with a door is open in a world; none of what has no door.
-    pub(super) fn is_open(&self, world: &World, id: &str) -> Option<bool> {
+    pub(super) fn is_open(&self, world: &SceneState, id: &str) -> Option<bool> {
         let entity = self.scene.entities.get(id)?;
         entity.travel.as_ref()?;
         Some(world.is_open(entity))
     }
 
     /// Answers a query in a world.
-    pub(super) fn answer(&self, at: &Keyed, query: &Query) -> Arc<Answer> {
+    pub(super) fn answer(&self, at: &Keyed, query: &MotionQuery) -> Arc<MotionAnswer> {
         let key = (at.key.clone(), query.clone());
         if let Some(known) = self.memo().as_ref().and_then(|memo| memo.answers.get(&key).cloned()) {
             return known;
@@ -127,12 +134,12 @@ impl Geometry {
     }
 
     /// Why a motion is infeasible in a world, as it is told: with what would help.
-    pub(super) fn explained(&self, at: &Keyed, query: &Query, why: &Infeasible) -> Infeasible {
+    pub(super) fn explained(&self, at: &Keyed, query: &MotionQuery, why: &Infeasible) -> Infeasible {
         let key = (at.key.clone(), query.clone());
         if let Some(known) = self.memo().and_then(|memo| memo.told.get(&key).cloned()) {
             return known;
         }
-        let told = self.room(&at.world).explained(query, why, self.budget);
+        let told = self.room(&at.world).explain(query, why, self.budget);
         if let Some(mut memo) = self.memo() {
             memo.told.insert(key, told.clone());
         }
@@ -141,10 +148,10 @@ impl Geometry {
 
     /// Whether a thing can be grasped from where the robot is; none where neither was proven.
     pub(super) fn reaches(&self, at: &Keyed, object: &str) -> Option<bool> {
-        match &*self.answer(at, &Query::Reach(object.into(), None)) {
-            Answer::Feasible(_) => Some(true),
-            Answer::Infeasible(why) => why.certified.then_some(false),
-            Answer::Unknown(_) => None,
+        match &*self.answer(at, &MotionQuery::Reach(object.into(), None)) {
+            MotionAnswer::Feasible(_) => Some(true),
+            MotionAnswer::Infeasible(why) => why.certified.then_some(false),
+            MotionAnswer::Unknown(_) => None,
         }
     }
 
@@ -152,9 +159,9 @@ impl Geometry {
     pub(super) fn after(
         &self,
         at: &Keyed,
-        query: &Query,
+        query: &MotionQuery,
         change: Change,
-        way: &Witness,
+        way: &MotionWitness,
     ) -> Option<Arc<Keyed>> {
         let key = (at.key.clone(), query.clone(), change);
         if let Some(known) = self.memo().and_then(|memo| memo.after.get(&key).cloned()) {
@@ -162,12 +169,12 @@ impl Geometry {
         }
         let room = self.room(&at.world);
         let world = match change {
-            Change::Gone => Some(room.gone_along(way)),
-            Change::Taken => room.taken(way),
-            Change::Put => room.put_there(way),
-            Change::Travelled => room.travelled(way),
+            Change::Gone => Some(room.after_move(way)),
+            Change::Taken => room.after_reach(way),
+            Change::Put => room.after_put(way),
+            Change::Travelled => room.after_pull(way),
             Change::Given => match query {
-                Query::Offer(_, to) => room.given(to),
+                MotionQuery::Offer(_, to) => room.after_offer(to),
                 _ => None,
             },
         };
@@ -178,8 +185,8 @@ impl Geometry {
         world
     }
 
-    fn room<'w>(&'w self, world: &'w World) -> Room<'w> {
-        Room::new(&self.machine, &self.scene, world).sharing(&self.maps)
+    fn room<'w>(&'w self, world: &'w SceneState) -> QueryContext<'w> {
+        QueryContext::new(&self.machine, &self.scene, world).with_base_maps(&self.maps)
     }
 
     /// A lock that was poisoned by a panic elsewhere only loses what was kept.
@@ -189,7 +196,7 @@ impl Geometry {
 }
 
 /// The world of a scene and a state. `start` becomes a place of the scene.
-fn begin(machine: &Machine, scene: &mut Scene, state: Option<&State>) -> Result<Arc<Keyed>, SmolStr> {
+fn begin(machine: &RobotModel, scene: &mut Scene, state: Option<&State>) -> Result<Arc<Keyed>, SmolStr> {
     for (fact, (holds, _)) in state.into_iter().flat_map(|state| &state.facts) {
         let Some((fluent, args)) = fact.split_once('(') else { continue };
         let arg = args.trim_end_matches(')').trim().trim_matches('`');
@@ -220,10 +227,10 @@ fn begin(machine: &Machine, scene: &mut Scene, state: Option<&State>) -> Result<
     let [x, y, yaw] = scene.robot.base;
     let pose = Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, yaw] };
     scene.entities.entry("start".into()).or_insert_with(|| Entity::place("start".into(), pose));
-    Ok(Arc::new(keyed(World::new(machine, scene))))
+    Ok(Arc::new(keyed(SceneState::new(machine, scene))))
 }
 
-fn keyed(world: World) -> Keyed {
+fn keyed(world: SceneState) -> Keyed {
     let key = world.fingerprint().into_boxed_slice();
     Keyed { world, key }
 }

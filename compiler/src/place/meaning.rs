@@ -1,6 +1,6 @@
 //! What a call means to geometry: which motion it asks for, and what its contract changes.
 
-use motet_geometry::query::{Query, Side};
+use motet_geometry::planning::{GraspSide, MotionQuery};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::geometry::Change;
@@ -14,7 +14,7 @@ impl Walk<'_> {
     /// # Errors
     ///
     /// Why it is not known which.
-    pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<Query, SmolStr> {
+    pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<MotionQuery, SmolStr> {
         let Some((name, args)) = &def.motion else { return Err(SmolStr::new_static("it has no motion")) };
         let mut names = Vec::with_capacity(args.len());
         for arg in args {
@@ -24,7 +24,7 @@ impl Walk<'_> {
     }
 
     /// The side from which a thing is to be grasped, where an argument of the call says so.
-    fn side(&self, call: &Call) -> Option<Side> {
+    fn side(&self, call: &Call) -> Option<GraspSide> {
         let approach = self.library.names.enums.get("Approach").copied()?;
         call.args.iter().find_map(|arg| match arg {
             Term::Case(of, case) if *of == approach => side_of(self.library.case_name(approach, *case)),
@@ -86,39 +86,43 @@ impl Walk<'_> {
 }
 
 /// A motion by its name and its arguments.
-pub(super) fn asked(name: &str, args: Vec<SmolStr>, side: Option<Side>) -> Query {
+pub(super) fn asked(name: &str, args: Vec<SmolStr>, side: Option<GraspSide>) -> MotionQuery {
     let mut args = args.into_iter();
     let (first, second) = (args.next().unwrap_or_default(), args.next());
     match (name, second) {
-        ("go_to", None) => Query::GoTo(first),
-        ("reach", None) => Query::Reach(first, side),
-        ("put", Some(on)) => Query::Put(first, on),
-        ("offer", Some(to)) => Query::Offer(first, to),
-        ("look", None) => Query::Look(first),
-        ("pull", None) => Query::Pull(first),
-        ("push", None) => Query::Push(first),
-        ("posture", None) => Query::Posture(first),
-        (name, _) => Query::Other(name.into()),
+        ("go_to", None) => MotionQuery::GoTo(first),
+        ("reach", None) => MotionQuery::Reach(first, side),
+        ("put", Some(on)) => MotionQuery::Put(first, on),
+        ("offer", Some(to)) => MotionQuery::Offer(first, to),
+        ("look", None) => MotionQuery::Look(first),
+        ("pull", None) => MotionQuery::Pull(first),
+        ("push", None) => MotionQuery::Push(first),
+        ("posture", None) => MotionQuery::Posture(first),
+        (name, _) => MotionQuery::Other(name.into()),
     }
 }
 
 /// The side of a case of `Approach`; none where any will do.
-pub(super) fn side_of(case: &str) -> Option<Side> {
+pub(super) fn side_of(case: &str) -> Option<GraspSide> {
     match case {
-        "top" => Some(Side::Top),
-        "side" => Some(Side::Side),
-        "front" => Some(Side::Front),
+        "top" => Some(GraspSide::Top),
+        "side" => Some(GraspSide::Side),
+        "front" => Some(GraspSide::Front),
         _ => None,
     }
 }
 
 /// Whether a motion leaves the robot or a thing elsewhere.
-pub(super) const fn moves(query: &Query) -> bool {
+pub(super) const fn moves(query: &MotionQuery) -> bool {
     match query {
-        Query::GoTo(_) | Query::Reach(..) | Query::Posture(_) => true,
-        Query::Put(..) | Query::Offer(..) | Query::Pull(_) | Query::Push(_) | Query::Other(_) => true,
+        MotionQuery::GoTo(_) | MotionQuery::Reach(..) | MotionQuery::Posture(_) => true,
+        MotionQuery::Put(..)
+        | MotionQuery::Offer(..)
+        | MotionQuery::Pull(_)
+        | MotionQuery::Push(_)
+        | MotionQuery::Other(_) => true,
         // The head may look elsewhere afterwards, which changes nothing that is kept.
-        Query::Look(_) => false,
+        MotionQuery::Look(_) => false,
     }
 }
 
@@ -134,18 +138,18 @@ pub(super) enum Leaves {
 }
 
 /// What the contract of a primitive says of a motion that succeeded.
-pub(super) fn leaves(library: &Library, def: &PrimitiveDef, query: &Query) -> Leaves {
+pub(super) fn leaves(library: &Library, def: &PrimitiveDef, query: &MotionQuery) -> Leaves {
     let makes = |fluent: &str, value: bool| makes(library, def, fluent, value).is_some();
     match query {
-        Query::GoTo(_) | Query::Posture(_) => Leaves::Changed(Change::Gone),
-        Query::Reach(..) if makes("holding", true) => Leaves::Changed(Change::Taken),
-        Query::Reach(..) | Query::Look(_) => Leaves::Nothing,
-        Query::Put(..) if makes("holding", false) => Leaves::Changed(Change::Put),
-        Query::Offer(..) if makes("holding", false) => Leaves::Changed(Change::Given),
-        Query::Pull(_) if makes("open", true) => Leaves::Changed(Change::Travelled),
-        Query::Push(_) if makes("open", false) => Leaves::Changed(Change::Travelled),
-        Query::Put(..) | Query::Offer(..) => Leaves::Unknown,
-        Query::Pull(_) | Query::Push(_) | Query::Other(_) => Leaves::Unknown,
+        MotionQuery::GoTo(_) | MotionQuery::Posture(_) => Leaves::Changed(Change::Gone),
+        MotionQuery::Reach(..) if makes("holding", true) => Leaves::Changed(Change::Taken),
+        MotionQuery::Reach(..) | MotionQuery::Look(_) => Leaves::Nothing,
+        MotionQuery::Put(..) if makes("holding", false) => Leaves::Changed(Change::Put),
+        MotionQuery::Offer(..) if makes("holding", false) => Leaves::Changed(Change::Given),
+        MotionQuery::Pull(_) if makes("open", true) => Leaves::Changed(Change::Travelled),
+        MotionQuery::Push(_) if makes("open", false) => Leaves::Changed(Change::Travelled),
+        MotionQuery::Put(..) | MotionQuery::Offer(..) => Leaves::Unknown,
+        MotionQuery::Pull(_) | MotionQuery::Push(_) | MotionQuery::Other(_) => Leaves::Unknown,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The story of a motion that cannot be done: which steps made the world in which it cannot.
 
-use motet_geometry::query::{Infeasible, Query, Reason};
+use motet_geometry::planning::{Infeasible, InfeasibleReason, MotionQuery};
 use motet_syntax::{Diagnostic, Related, Severity};
 use smol_str::SmolStr;
 
@@ -16,17 +16,19 @@ impl Walk<'_> {
         &self,
         id: StepId,
         callee: &SmolStr,
-        query: &Query,
+        query: &MotionQuery,
         why: &Infeasible,
         situation: &Situation,
     ) -> Option<Diagnostic> {
         let span = self.program.steps.get(id.index())?.span;
         let why = self.geometry.explained(&situation.at, query, why);
         let culprit = match &why.reason {
-            Reason::NoFreePose { by, .. } | Reason::BlockedPath { by } | Reason::NotInView { by, .. } => {
-                by.as_ref()
-            }
-            Reason::OutOfReach { .. } | Reason::TooHeavy { .. } | Reason::TooWide { .. } => None,
+            InfeasibleReason::NoFreePose { by, .. }
+            | InfeasibleReason::BlockedPath { by }
+            | InfeasibleReason::NotInView { by, .. } => by.as_ref(),
+            InfeasibleReason::OutOfReach { .. }
+            | InfeasibleReason::TooHeavy { .. }
+            | InfeasibleReason::TooWide { .. } => None,
         };
         let changed = culprit.and_then(|by| Some((by, situation.changer(by)?)));
         let mut story = Vec::new();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use motet_geometry::query::World as Room;
+use motet_geometry::planning::SceneState as Room;
 use motet_syntax::Diagnostic;
 use motet_syntax::ast::EndKind;
 use smol_str::SmolStr;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_geometry::query::World;
+use motet_geometry::planning::SceneState;
 use smol_str::SmolStr;
 
 use crate::ir::StepId;
@@ -13,7 +13,7 @@ pub(super) const MOST_WORLDS: usize = 8;
 /// A world with its fingerprint: two are the same where their fingerprints are.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Keyed {
-    pub(super) world: World,
+    pub(super) world: SceneState,
     pub(super) key: Box<[u8]>,
 }
 

@@ -1,10 +1,10 @@
 //! A motion that was found, as the graph keeps it.
 
-use motet_geometry::query::{Machine, Witness, components};
+use motet_geometry::planning::{MotionWitness, RobotModel, components};
 use motet_graph as graph;
 
 /// The witness of a motion. Of the joints only those that move.
-pub(super) fn kept(machine: &Machine, witness: &Witness) -> graph::Witness {
+pub(super) fn kept(machine: &RobotModel, witness: &MotionWitness) -> graph::Witness {
     let first = witness.path.first();
     let moves = |at: &usize| {
         let value = |joints: &[f64]| joints.get(*at).copied();

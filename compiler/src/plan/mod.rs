@@ -11,7 +11,7 @@ mod search;
 mod write;
 
 use motet_syntax::ast::{Do, Expr, ExprKind};
-use motet_syntax::{Diagnostic, Form, Span};
+use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::SmolStr;
 
 pub use failure::NoPlan;
@@ -56,7 +56,7 @@ impl Goal {
     ///
     /// What is wrong with it.
     pub fn read(text: &str, lasts: Lasts) -> Result<Self, NoPlan> {
-        match motet_syntax::text::condition(text) {
+        match motet_syntax::text::parse_condition(text) {
             Ok(condition) => Ok(Self { condition, lasts }),
             Err(why) => Err(NoPlan::NoCondition { text: text.to_owned(), why }),
         }
@@ -212,7 +212,7 @@ fn approaches(prover: &Prover<'_>, def: &PrimitiveDef, call: &Proposed) -> Optio
 }
 
 fn resolve(goal: &Expr, library: &Library, world: &World) -> Result<Condition, NoPlan> {
-    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Form::Text);
+    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Syntax::Text);
     let condition = resolver.condition(goal);
     let wrong: Vec<Diagnostic> = resolver.diagnostics;
     if wrong.is_empty() { Ok(condition) } else { Err(NoPlan::Wrong { diagnostics: wrong }) }

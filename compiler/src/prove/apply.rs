@@ -1,6 +1,6 @@
 //! What a step does to the facts: effects, what it unsettles, and what it makes stale.
 
-use motet_syntax::ast::{CompareOp, PrimitiveForm};
+use motet_syntax::ast::{CompareOp, PrimitiveKind};
 
 use super::Prover;
 use super::eval::{Frame, MAX_ALIASES};
@@ -335,7 +335,7 @@ impl Prover<'_> {
 
     /// Entities whose place a step changes: those that an action's effects name first.
     fn moved(&self, def: &PrimitiveDef, frame: Frame<'_>) -> Entities {
-        if def.form == PrimitiveForm::Perception {
+        if def.form == PrimitiveKind::Perception {
             return Entities::new();
         }
         let named = |effect: &&EffectDef| effect.fact.args.first().is_some_and(Option::is_some);

@@ -1,6 +1,6 @@
 //! Lints of intent: what is allowed and yet hardly meant. All are warnings; what they rest on is what the prover knows.
 
-use motet_syntax::ast::PrimitiveForm;
+use motet_syntax::ast::PrimitiveKind;
 use motet_syntax::{Diagnostic, Span};
 
 use super::apply::Change;
@@ -92,7 +92,7 @@ impl Prover<'_> {
         span: Span,
     ) {
         let plain = |base: Base| matches!(base, Base::Entity(_) | Base::Enum(_));
-        let says_all = def.form == PrimitiveForm::Action
+        let says_all = def.form == PrimitiveKind::Action
             && def.params.iter().all(|param| plain(param.ty.base))
             && !verdicts.contains(&Verdict::Refuted);
         if !says_all || !self.is_own(span) || self.may_have_changed(frame) {

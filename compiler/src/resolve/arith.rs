@@ -3,7 +3,6 @@
 use motet_syntax::Span;
 use motet_syntax::ast::{ArithOp, Expr, ExprKind};
 use motet_syntax::suggest::one_of;
-use motet_syntax::text::errors::UnknownUnit;
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
 
@@ -84,7 +83,7 @@ impl Resolver<'_> {
                 let number = text.trim().trim_end_matches(|c: char| !c.is_ascii_digit());
                 number.parse::<f64>().ok()?;
                 let unit = text.trim().get(number.len()..)?.trim();
-                let unit = match UnknownUnit::meant(unit).filter(|meant| meant.dimension() == dimension) {
+                let unit = match Unit::from_spelling(unit).filter(|meant| meant.dimension() == dimension) {
                     Some(meant) => meant,
                     None if unit.is_empty() && dimension == Dimension::ANGLE => Unit::Degree,
                     None if unit.is_empty() => Unit::si(dimension)?,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use motet_syntax::Span;
-use motet_syntax::ast::{Do, Expr, Policy, PrimitiveForm};
+use motet_syntax::ast::{Do, Expr, Policy, PrimitiveKind};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
@@ -105,7 +105,7 @@ impl Steps<'_> {
                 }
                 None => (param.default.clone().unwrap_or(Term::Unknown), call.call.span),
             };
-            if let (Term::Text(text), None, PrimitiveForm::Perception) = (&term, &description, def.form) {
+            if let (Term::Text(text), None, PrimitiveKind::Perception) = (&term, &description, def.form) {
                 description = Some(text.clone());
             }
             args.push(term);
@@ -209,7 +209,7 @@ impl Steps<'_> {
 
     /// Sub-policies are always text, whatever form the calling document has.
     fn in_text<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
-        let form = std::mem::replace(&mut self.resolver.form, motet_syntax::Form::Text);
+        let form = std::mem::replace(&mut self.resolver.form, motet_syntax::Syntax::Text);
         let result = run(self);
         self.resolver.form = form;
         result

@@ -3,7 +3,7 @@
 
 use motet_syntax::ast::{Expr, ExprKind, Name};
 use motet_syntax::unit::{Dimension, Unit};
-use motet_syntax::{About, Diagnostic, Form, Span};
+use motet_syntax::{About, Diagnostic, Span, Syntax};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::errors::{
@@ -22,7 +22,7 @@ pub(crate) struct Resolver<'a> {
     /// Whether a scene is given: without one an unknown name may be an entity of it.
     pub(crate) has_scene: bool,
     /// In text a quantity needs its unit.
-    pub(crate) form: Form,
+    pub(crate) form: Syntax,
     pub(crate) scope: Scope,
     pub(crate) bindings: Vec<Binding>,
     pub(crate) diagnostics: Vec<Diagnostic>,
@@ -65,7 +65,7 @@ impl std::fmt::Display for Place<'_> {
 
 impl<'a> Resolver<'a> {
     /// A resolver of what stands outside of any policy: nothing is bound.
-    pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Form) -> Self {
+    pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Syntax) -> Self {
         let (scope, bindings, diagnostics) = (Scope::default(), Vec::new(), Vec::new());
         Self { library, entities, has_scene, form, scope, bindings, diagnostics }
     }
@@ -149,7 +149,7 @@ impl<'a> Resolver<'a> {
 
     fn number(&mut self, value: f64, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
         if let Some(Wanted { ty: Ty { base: Base::Quantity(dimension), lists: 0 }, .. }) = wanted {
-            if self.form == Form::Text {
+            if self.form == Syntax::Text {
                 // A number beyond a full turn is meant in degrees.
                 let unit = match dimension {
                     Dimension::NONE => "%",

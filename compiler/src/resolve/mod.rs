@@ -15,7 +15,7 @@ mod step;
 
 use motet_syntax::ast::{Expr, ExprKind, Policy};
 use motet_syntax::unit::Unit;
-use motet_syntax::{Diagnostic, Form};
+use motet_syntax::{Diagnostic, Syntax};
 
 use self::expr::{Place, Resolver, Wanted};
 use self::step::Steps;
@@ -33,7 +33,7 @@ pub const MAX_SECONDS: f64 = 604_800.0;
 /// Resolves one policy.
 pub(crate) fn resolve(
     policy: &Policy,
-    form: Form,
+    form: Syntax,
     library: &Library,
     world: &World,
 ) -> (Program, Vec<Diagnostic>) {
@@ -47,7 +47,7 @@ pub(crate) fn resolve(
 /// in `scope` what it binds.
 pub(crate) fn resolve_step(
     step: &motet_syntax::ast::Step,
-    (form, name): (Form, &smol_str::SmolStr),
+    (form, name): (Syntax, &smol_str::SmolStr),
     (library, world): (&Library, &World),
     program: &mut Program,
     scope: &mut scope::Scope,
@@ -78,7 +78,7 @@ pub(crate) fn resolve_inlined(
 ) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
     let resolver = Resolver {
         bindings: std::mem::take(&mut program.bindings),
-        ..Resolver::new(library, world.entities(), world.has_scene(), Form::Text)
+        ..Resolver::new(library, world.entities(), world.has_scene(), Syntax::Text)
     };
     let mut steps = Steps::new(resolver);
     steps.program = std::mem::take(program);

@@ -1,7 +1,7 @@
 //! A motion that is asked for by itself, without a policy: whether the things it names are of kinds that it may be about.
 
 use motet_syntax::ast::{Expr, ExprKind};
-use motet_syntax::{Diagnostic, Form, Span};
+use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::SmolStr;
 
 use super::expr::{Place, Resolver, Wanted};
@@ -39,7 +39,7 @@ fn taken(
     library: &Library,
     world: &World,
 ) -> Vec<Diagnostic> {
-    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Form::Text);
+    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Syntax::Text);
     for (term, (name, span)) in terms.iter().zip(args) {
         let Term::Param(index) = term else { continue };
         let Some(param) = def.params.get(usize::from(*index)) else { continue };

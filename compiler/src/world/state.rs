@@ -1,7 +1,7 @@
 //! A state given from outside: facts known at the start, beside the scene.
 
 use indexmap::IndexMap;
-use motet_syntax::{Diagnostic, Form, Span};
+use motet_syntax::{Diagnostic, Span, Syntax};
 
 use super::errors::NotAFact;
 use super::{World, hands};
@@ -24,7 +24,7 @@ impl State {
         let mut said = Vec::new();
         let says_free = self.facts.keys().any(|text| text.trim_start().starts_with("free"));
         for (text, (value, span)) in &self.facts {
-            let parsed = match motet_syntax::text::condition(text) {
+            let parsed = match motet_syntax::text::parse_condition(text) {
                 Ok(expr) => expr,
                 Err(mistake) => {
                     diagnostics
@@ -32,7 +32,7 @@ impl State {
                     continue;
                 }
             };
-            let mut resolver = Resolver::new(library, &entities, world.has_scene(), Form::Text);
+            let mut resolver = Resolver::new(library, &entities, world.has_scene(), Syntax::Text);
             let fact = match &parsed.kind {
                 motet_syntax::ast::ExprKind::Call(call) => resolver.fact(call),
                 _ => None,

@@ -9,7 +9,7 @@ use crate::formula::{Literal, Scope, literal, literals};
 use crate::tree::Tree;
 use crate::typed::{self, Typed, Wanted};
 
-/// An action.
+/// An action of a domain.
 #[derive(Clone, Debug)]
 pub(crate) struct Action {
     pub(crate) name: SmolStr,
@@ -27,7 +27,7 @@ pub(crate) struct Effect {
     pub(crate) when: Vec<Literal>,
 }
 
-/// Reads an action; what stands behind `(:action`.
+/// Reads the parts of an action after `(:action`.
 pub(crate) fn read(
     tree: &Tree,
     parts: &[Tree],

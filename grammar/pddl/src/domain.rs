@@ -1,4 +1,4 @@
-//! What a domain says.
+//! PDDL domains: types, constants, predicates and actions.
 
 use indexmap::IndexMap;
 use motet_syntax::Diagnostic;
@@ -10,11 +10,11 @@ use crate::errors::{Unsupported, WrongName};
 use crate::tree::Tree;
 use crate::typed::{self, Typed, Types, Wanted};
 
-/// The requirements that are taken.
+/// Requirements that the import supports.
 const REQUIREMENTS: [&str; 5] =
     [":strips", ":typing", ":negative-preconditions", ":equality", ":conditional-effects"];
 
-/// What formulas of a domain and its problems speak of.
+/// Declarations that the formulas of a domain and its problems refer to.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Vocabulary {
     pub(crate) types: Types,
@@ -22,7 +22,7 @@ pub(crate) struct Vocabulary {
     pub(crate) constants: Vec<Typed>,
 }
 
-/// A domain.
+/// A domain after reading.
 #[derive(Clone, Debug)]
 pub(crate) struct Domain {
     pub(crate) name: SmolStr,
@@ -30,7 +30,7 @@ pub(crate) struct Domain {
     pub(crate) actions: IndexMap<SmolStr, Action>,
 }
 
-/// Reads `(define (domain NAME) …)`.
+/// Reads a definition `(define (domain NAME) …)`.
 pub(crate) fn read(tree: &Tree, said: &mut Vec<Diagnostic>) -> Option<Domain> {
     let (name, sections) = define(tree, "domain", said)?;
     let mut domain = Domain { name, words: Vocabulary::default(), actions: IndexMap::new() };
@@ -62,7 +62,7 @@ pub(crate) fn read(tree: &Tree, said: &mut Vec<Diagnostic>) -> Option<Domain> {
     Some(domain)
 }
 
-/// The name of a definition and its sections.
+/// Splits a definition into its name and its sections.
 pub(crate) fn define<'t>(
     tree: &'t Tree,
     what: &str,
@@ -80,7 +80,7 @@ pub(crate) fn define<'t>(
     name.cloned().zip(sections)
 }
 
-/// A section that is not taken, by the name that people know it by.
+/// Reports an unsupported section by the name that PDDL authors know.
 pub(crate) fn refused_section(section: &Tree, head: &str) -> Diagnostic {
     let name = match head {
         ":durative-action" => "a durative action",

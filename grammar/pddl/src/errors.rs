@@ -1,4 +1,4 @@
-//! What is wrong with PDDL, and what of it is not taken (M013x).
+//! Mistakes in PDDL documents, and parts of PDDL that are not supported (M013x).
 
 use smol_str::SmolStr;
 
@@ -8,22 +8,28 @@ motet_syntax::mistakes! {
     /// A file that is not PDDL as its grammar has it.
     Malformed("M0131", Error) { wanted: String, found: String }
     message(m) { format!("{} is asked for, and this is {}", m.wanted, m.found) }
-    help(_m) { Some("a domain is `(define (domain …) …)`, a problem `(define (problem …) …)`, a plan an `(action …)` a line".to_owned()) }
+    help(_m) {
+        let help = "a domain is `(define (domain …) …)`, a problem `(define (problem …) …)`, \
+                    a plan an `(action …)` a line";
+        Some(help.to_owned())
+    }
 
     /// A part of PDDL that is not imported.
     Unsupported("M0132", Error) { what: String }
     message(m) { format!("{} cannot be imported", m.what) }
     help(_m) {
-        Some("what is taken is `:strips`, `:typing`, `:negative-preconditions`, `:equality` and `:conditional-effects`".to_owned())
+        let help = "the import supports `:strips`, `:typing`, `:negative-preconditions`, `:equality` and \
+                    `:conditional-effects`";
+        Some(help.to_owned())
     }
 
-    /// A name that is not declared, or is used for what it is not.
+    /// A name that is not declared, or has another kind than its place asks for.
     WrongName("M0133", Error) { what: String, help: Option<String> }
     message(m) { m.what.clone() }
     help(m) { m.help.clone() }
 }
 
-/// "there is no predicate `x`", with the name that is near.
+/// Reports an unknown name, "there is no predicate `x`", with the closest known one.
 pub(crate) fn unknown<'k>(
     span: motet_syntax::Span,
     kind: &str,

@@ -1,4 +1,4 @@
-//! Conditions: conjunctions of literals and of equalities. What else PDDL has is refused by name.
+//! Conditions: conjunctions of literals and of equalities. All other formulas of PDDL are refused by name.
 
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
@@ -8,7 +8,7 @@ use crate::errors::{Unsupported, WrongName, unknown};
 use crate::tree::Tree;
 use crate::typed::{Typed, is_type};
 
-/// An argument.
+/// An argument of a predicate.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Arg {
     /// Without its `?`.
@@ -41,7 +41,7 @@ pub(crate) struct Scope<'a> {
     pub(crate) objects: &'a [Typed],
 }
 
-/// The literals of a conjunction. `place` says of what: "a precondition".
+/// Collects the literals of a conjunction. `place` names it in messages: "a precondition".
 pub(crate) fn literals(
     tree: &Tree,
     scope: Scope<'_>,
@@ -67,7 +67,7 @@ fn collect(tree: &Tree, scope: Scope<'_>, place: &str, found: &mut Vec<Literal>,
     }
 }
 
-/// Words that PDDL knows in conditions and that are not taken.
+/// Checks for an operator of PDDL conditions that the import does not support.
 fn is_refused(head: &str) -> bool {
     matches!(
         head,
@@ -151,7 +151,8 @@ fn atom(tree: &Tree, scope: Scope<'_>, place: &str, said: &mut Vec<Diagnostic>) 
         return None;
     }
     for ((_, ty), param) in args.iter().zip(params) {
-        // A variable of a wider type may be of the right one where it counts: the effect then says nothing of others.
+        // A variable of a wider type may be of the right one where it counts: the effect then says nothing of
+        // others.
         if !is_type(&scope.words.types, ty, &param.ty) {
             let what =
                 format!("`{head}` takes {} `{}`, and this is {} `{ty}`", a(&param.ty), param.ty, a(ty));

@@ -1,9 +1,9 @@
 //! PDDL in, Motet out: a STRIPS domain and a problem become declarations, a plan becomes a policy.
 //!
-//! What is taken is `:strips`, `:typing`, `:negative-preconditions`, `:equality` and `:conditional-effects` of PDDL 2.1
-//! (Fox and Long 2003, <https://doi.org/10.1613/jair.1129>); the rest is refused by name, at its place. The stages are
-//! `tree` (brackets), `domain` and `problem` (what they say), `write` (the AST, which the canonical printer prints).
-//! Nothing here reads a file, and no text panics.
+//! What is taken is `:strips`, `:typing`, `:negative-preconditions`, `:equality` and `:conditional-effects`
+//! of PDDL 2.1 (Fox and Long 2003, <https://doi.org/10.1613/jair.1129>); the rest is refused by name, at its
+//! place. The stages are `tree` (brackets), `domain` and `problem` (what they say), `write` (the AST, which
+//! the canonical printer prints). Nothing here reads a file, and no text panics.
 
 mod actions;
 mod domain;
@@ -26,14 +26,15 @@ pub const MAX_ARITY: usize = 4;
 
 /// A domain and a problem, as Motet says them.
 #[derive(Clone, Debug)]
-pub struct Imported {
+pub struct Translation {
     /// Kinds, fluents, actions, entities, `initially` and `closed world`.
     pub declarations: File,
-    /// One policy without parameters that states the problem's goal: with the steps of the plan, where one is given.
+    /// One policy without parameters that states the problem's goal: with the steps of the plan, where one is
+    /// given.
     pub policy: File,
 }
 
-impl Imported {
+impl Translation {
     /// The declarations in the text form, with the goal in a comment above them.
     #[must_use]
     pub fn declarations_text(&self) -> String {
@@ -52,21 +53,21 @@ impl Imported {
 
 /// A source with its place among the files of a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Input<'s> {
+pub struct PddlSource<'s> {
     /// The text.
     pub source: &'s Source,
     /// Its id in the diagnostics.
     pub file: FileId,
 }
 
-/// Imports a domain with a problem, and a plan where one is given. `None` where there is an error among the diagnostics,
-/// which are in the order of the files. O(n log n) in the length of the files.
+/// Imports a domain with a problem, and a plan where one is given. `None` where there is an error among the
+/// diagnostics, which are in the order of the files. O(n log n) in the length of the files.
 #[must_use]
 pub fn import(
-    domain: Input<'_>,
-    problem: Input<'_>,
-    plan: Option<Input<'_>>,
-) -> (Option<Imported>, Vec<Diagnostic>) {
+    domain: PddlSource<'_>,
+    problem: PddlSource<'_>,
+    plan: Option<PddlSource<'_>>,
+) -> (Option<Translation>, Vec<Diagnostic>) {
     let mut said = Vec::new();
     let domain = tree::read(domain, &mut said).and_then(|tree| domain::read(&tree, &mut said));
     let problem = tree::read(problem, &mut said)

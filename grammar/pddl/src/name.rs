@@ -1,46 +1,42 @@
-//! Names of PDDL as names of Motet. Any name may stand in back-quotes, so most stay as they are; those that would mean
-//! something else get a `_` at their end.
+//! Names of PDDL as names of Motet. Any name may stand in back-quotes, so most stay as they are; those that
+//! would mean something else get a `_` at their end.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use motet_syntax::ast::{Item, Name};
+use motet_syntax::words::is_json_key;
 use motet_syntax::{FileId, Source, Span};
 use smol_str::{SmolStr, format_smolstr};
 
 use crate::typed::Typed;
 
-/// Keys of a JSON step or condition, which name no parameter, and `result`, which in a contract is what it gives.
-const PARAMETER_TAKEN: [&str; 30] = [
-    "do", "as", "within", "retry", "if", "then", "else", "wait", "monitor", "during", "try", "catch",
-    "repeat", "until", "steps", "each", "in", "at_most", "parallel", "end", "why", "sequence", "on", "when",
-    "for", "react", "is", "get", "field", "of",
-];
 /// Entities that always exist, and the word for all of them.
 const ENTITY_TAKEN: [&str; 6] = ["robot", "user", "start", "any", "true", "false"];
 
-/// A parameter. `on` is free in Motet, yet `result` is not.
+/// Name of a parameter. `on` is free in Motet, yet `result` is not.
 pub(crate) fn param(text: &str, span: Span, constants: &[Typed]) -> Name {
     if constants.iter().any(|constant| constant.name == text) {
         // In PDDL `?depot` and `depot` are two names.
         return Name { text: format_smolstr!("{text}__"), span };
     }
-    let is_taken =
-        text != "on" && PARAMETER_TAKEN.contains(&text) || text == "result" || ENTITY_TAKEN.contains(&text);
+    let is_taken = is_json_key(text) || text == "result" || ENTITY_TAKEN.contains(&text);
     suffixed(text, is_taken, span)
 }
 
-/// An object.
+/// Name of an object.
 pub(crate) fn entity(text: &str, span: Span) -> Name {
     suffixed(text, ENTITY_TAKEN.contains(&text), span)
 }
 
-/// A predicate. One of the standard library's cannot be declared anew with other parameters: its primitives use it.
+/// Name of a predicate. One of the standard library cannot be declared anew with other parameters: its
+/// primitives use it.
 pub(crate) fn fluent(text: &str, span: Span) -> Name {
     suffixed(text, standard_fluents().contains(text) || text == "monitored", span)
 }
 
-/// A type. Kinds of the standard library begin with a capital letter, and types of PDDL with a small one.
+/// Name of a type. Kinds of the standard library begin with a capital letter, and types of PDDL with a small
+/// one.
 pub(crate) fn kind(text: &str, span: Span) -> Name {
     Name { text: text.into(), span }
 }
@@ -51,7 +47,8 @@ fn suffixed(text: &str, is_taken: bool, span: Span) -> Name {
         let bare = text.trim_end_matches('_');
         bare != text
             && (ENTITY_TAKEN.contains(&bare)
-                || PARAMETER_TAKEN.contains(&bare)
+                || is_json_key(bare)
+                || bare == "on"
                 || standard_fluents().contains(bare))
     };
     let text = if is_taken { SmolStr::from(format!("{text}_")) } else { text.into() };

@@ -1,9 +1,10 @@
-//! Plans: an `(action argument …)` a line, perhaps behind a time `0:` or `0.000:` and before a duration `[1]`.
+//! Plans: an `(action argument …)` a line, perhaps behind a time `0:` or `0.000:` and before a duration
+//! `[1]`.
 
 use motet_syntax::{Diagnostic, Source, Span};
 use smol_str::SmolStr;
 
-use crate::Input;
+use crate::PddlSource;
 use crate::domain::Domain;
 use crate::errors::{WrongName, unknown};
 use crate::problem::Problem;
@@ -19,14 +20,14 @@ pub(crate) struct PlanStep {
 
 /// Reads a plan. Whether its steps can be done is the prover's affair; that they exist is said here.
 pub(crate) fn read(
-    input: Input<'_>,
+    input: PddlSource<'_>,
     domain: Option<&Domain>,
     problem: Option<&Problem>,
     said: &mut Vec<Diagnostic>,
 ) -> Vec<PlanStep> {
     let text = without_times(&input.source.text);
     let bare = Source::new(input.source.name.clone(), text);
-    let trees = tree::read_all(Input { source: &bare, ..input }, said).unwrap_or_default();
+    let trees = tree::read_all(PddlSource { source: &bare, ..input }, said).unwrap_or_default();
     let (Some(domain), Some(problem)) = (domain, problem) else { return Vec::new() };
     trees.iter().filter_map(|tree| step(tree, domain, problem, said)).collect()
 }

@@ -1,4 +1,4 @@
-//! What a problem says: its objects, how it begins, and its goal.
+//! PDDL problems: objects, initial facts and goal.
 
 use motet_syntax::Diagnostic;
 use smol_str::SmolStr;
@@ -9,7 +9,7 @@ use crate::formula::{Literal, Scope, literal, literals};
 use crate::tree::Tree;
 use crate::typed::{self, Typed, Wanted};
 
-/// A problem.
+/// A problem after reading.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem {
     pub(crate) name: SmolStr,

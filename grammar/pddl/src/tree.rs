@@ -1,11 +1,12 @@
-//! Brackets: PDDL text to a tree of words and lists. Letter case does not matter, so words are lower case from here on.
+//! Brackets: PDDL text to a tree of words and lists. Letter case does not matter, so words are lower case
+//! from here on.
 
 use motet_syntax::ast::MAX_NESTING;
-use motet_syntax::errors::TooDeep;
+use motet_syntax::errors::too_deep;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use crate::Input;
+use crate::PddlSource;
 use crate::errors::Malformed;
 
 /// A word or a list.
@@ -17,7 +18,7 @@ pub(crate) struct Tree {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Kind {
-    /// Lower case.
+    /// A word in lower case: PDDL ignores case.
     Word(SmolStr),
     List(Vec<Tree>),
 }
@@ -43,7 +44,7 @@ impl Tree {
         Some((head.word()?, rest))
     }
 
-    /// How a message calls it.
+    /// Text of the tree in a message.
     pub(crate) fn shown(&self) -> String {
         match &self.kind {
             Kind::Word(word) => format!("`{word}`"),
@@ -55,14 +56,14 @@ impl Tree {
         }
     }
 
-    /// That something else is asked for here.
+    /// Reports that another part of PDDL is expected here.
     pub(crate) fn not(&self, wanted: impl Into<String>) -> Malformed {
         Malformed { span: self.span, wanted: wanted.into(), found: self.shown() }
     }
 }
 
 /// The one tree of a file.
-pub(crate) fn read(input: Input<'_>, said: &mut Vec<Diagnostic>) -> Option<Tree> {
+pub(crate) fn read(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Option<Tree> {
     let mut trees = read_all(input, said)?.into_iter();
     let Some(first) = trees.next() else {
         let span = Span::new(input.file, 0, 0);
@@ -77,7 +78,7 @@ pub(crate) fn read(input: Input<'_>, said: &mut Vec<Diagnostic>) -> Option<Tree>
 }
 
 /// All trees of a file; none after an error, which is said. O(bytes), without recursion.
-pub(crate) fn read_all(input: Input<'_>, said: &mut Vec<Diagnostic>) -> Option<Vec<Tree>> {
+pub(crate) fn read_all(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Option<Vec<Tree>> {
     let text: &str = &input.source.text;
     let span = |start, end| Span::new(input.file, start, end);
     // The lists that are open: where each began, and what is in it.
@@ -92,7 +93,7 @@ pub(crate) fn read_all(input: Input<'_>, said: &mut Vec<Diagnostic>) -> Option<V
             }
             _ if char.is_whitespace() => continue,
             '(' if open.len() >= MAX_NESTING => {
-                said.push(TooDeep { span: span(at, at + 1), limit: MAX_NESTING }.into());
+                said.push(too_deep(span(at, at + 1), MAX_NESTING));
                 return None;
             }
             '(' => {
@@ -134,7 +135,7 @@ pub(crate) fn read_all(input: Input<'_>, said: &mut Vec<Diagnostic>) -> Option<V
     Some(top)
 }
 
-/// What a name, a variable, a keyword or a number is made of.
+/// Checks for a character of a name, a variable, a keyword or a number.
 fn is_of_word(char: char) -> bool {
     char.is_alphanumeric()
         || matches!(char, '_' | '-' | '?' | ':' | '=' | '.' | '+' | '*' | '/' | '<' | '>' | '@' | '#' | '!')

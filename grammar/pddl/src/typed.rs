@@ -58,7 +58,7 @@ pub(crate) fn read(items: &[Tree], wanted: Wanted, said: &mut Vec<Diagnostic>) -
     found
 }
 
-/// What a list is of.
+/// Kind of the items of a typed list.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Wanted {
     Variables,
@@ -86,7 +86,8 @@ fn type_name(tree: &Tree, said: &mut Vec<Diagnostic>) -> SmolStr {
     OBJECT
 }
 
-/// The tree of types that a `:types` section declares. A parent that is not declared itself lies below `object`.
+/// The tree of types that a `:types` section declares. A parent that is not declared itself lies below
+/// `object`.
 pub(crate) fn hierarchy(declared: &[Typed], said: &mut Vec<Diagnostic>) -> Types {
     let mut types = Types::new();
     for Typed { name, ty, span } in declared.iter().filter(|one| one.name != OBJECT) {
@@ -124,7 +125,7 @@ pub(crate) fn check(list: &[Typed], types: &Types, said: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Whether `ty` is `ancestor` or below it; the tree has no circle.
+/// Checks if `ty` is `ancestor` or a subtype of it. The hierarchy has no cycle.
 pub(crate) fn is_type(types: &Types, ty: &SmolStr, ancestor: &SmolStr) -> bool {
     *ancestor == OBJECT
         || std::iter::successors(Some(ty), |ty| types.get(*ty)).take(types.len() + 1).any(|ty| ty == ancestor)

@@ -3,12 +3,12 @@
 use motet_syntax::Span;
 use motet_syntax::ast::{
     Arg as AstArg, Block, Call, Clause, CompareOp, Do, EntitiesDecl, Expr, ExprKind, File, FluentDecl,
-    InitiallyDecl, Item, KindDecl, Name, Param, Policy, PrimitiveDecl, PrimitiveForm, Quantified, Step,
+    InitiallyDecl, Item, KindDecl, Name, Param, Policy, PrimitiveDecl, PrimitiveKind, Quantified, Step,
     StepKind, TypeExpr,
 };
 use smol_str::{SmolStr, format_smolstr};
 
-use crate::Imported;
+use crate::Translation;
 use crate::actions::{Action, Effect};
 use crate::domain::{Domain, Vocabulary};
 use crate::formula::{Arg, Literal};
@@ -18,7 +18,7 @@ use crate::problem::Problem;
 use crate::typed::{OBJECT, Typed};
 
 /// All of it.
-pub(crate) fn imported(domain: &Domain, problem: &Problem, plan: Vec<PlanStep>) -> Imported {
+pub(crate) fn imported(domain: &Domain, problem: &Problem, plan: Vec<PlanStep>) -> Translation {
     let mut items = kinds(domain);
     items.extend(domain.words.predicates.iter().map(|(name, params)| fluent(name, params)));
     items.extend(domain.actions.values().map(|action| primitive(action, &domain.words)));
@@ -29,7 +29,7 @@ pub(crate) fn imported(domain: &Domain, problem: &Problem, plan: Vec<PlanStep>) 
     }
     items.push(Item::ClosedWorld(Span::default()));
     let policy = File { items: vec![Item::Policy(policy(problem, plan))] };
-    Imported { declarations: File { items }, policy }
+    Translation { declarations: File { items }, policy }
 }
 
 /// Parents before children, `object` first: PDDL's root, which the standard library's entities are not of.
@@ -83,7 +83,7 @@ fn primitive(action: &Action, words: &Vocabulary) -> Item {
     let clauses = [(needs.is_empty(), Clause::Needs(needs)), (makes.is_empty(), Clause::Makes(makes))];
     Item::Primitive(PrimitiveDecl {
         doc: SmolStr::default(),
-        form: PrimitiveForm::Action,
+        kind: PrimitiveKind::Action,
         name: Name { text: action.name.clone(), span },
         params: action.params.iter().map(|param| typed(param, &words.constants)).collect(),
         result: None,

@@ -1,23 +1,23 @@
-//! What every stage says about a document: one struct a mistake (in the stage's `errors.rs`), one code each, turned
-//! into this flat form. Rendering is [`crate::render`]'s.
+//! Diagnostics of all stages: one struct and one code for each mistake (in the stage's `errors.rs`), turned
+//! into one flat [`Diagnostic`]. Rendering is in [`crate::render`].
 
 use smol_str::SmolStr;
 
 use crate::source::Span;
 
-/// How bad a finding is. `check` fails on errors and on nothing else.
+/// Severity of a diagnostic. `check` fails on errors and on nothing else.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Severity {
-    /// Something worth knowing.
+    /// A remark without a problem.
     Note,
-    /// Probably not what was meant; the policy can run.
+    /// A probable mistake; the policy can run.
     Warning,
-    /// The policy cannot be run.
+    /// A mistake; the policy cannot run.
     Error,
 }
 
 impl Severity {
-    /// `error`, `warning` or `note`.
+    /// Name of the severity: `error`, `warning` or `note`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -38,113 +38,105 @@ impl std::fmt::Display for Code {
     }
 }
 
-/// A user's mistake: a struct with the facts, which knows how to tell them.
+/// A user's mistake: a struct with the facts, and the words for them.
 pub trait Mistake {
-    /// Its code; no other mistake has it.
+    /// Code of the mistake; no other has it.
     const CODE: Code;
-    /// Its severity.
     const SEVERITY: Severity = Severity::Error;
 
-    /// Where it is.
+    /// Range that the message is about.
     fn span(&self) -> Span;
     /// One clause, lower case, no full stop, user text in back-quotes, no Rust names.
     fn message(&self) -> String;
-    /// What to write instead, where that is known.
+    /// Text to write instead, where that is known.
     fn help(&self) -> Option<String> {
         None
     }
-    /// The other places of the story.
+    /// Other ranges that explain the mistake.
     fn related(&self) -> Vec<Related> {
         Vec::new()
     }
-    /// The one right edit, where there is one.
+    /// The edit that repairs the mistake, where only one is right.
     fn fix(&self) -> Option<Fix> {
         None
     }
-    /// What it is about, in names, for programs that act on it.
+    /// Names that the mistake is about, for programs that act on it.
     fn about(&self) -> Option<About> {
         None
     }
 }
 
-/// One finding.
+/// One message for the author of a document.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Diagnostic {
-    /// Its code.
     pub code: Code,
-    /// Its severity.
     pub severity: Severity,
-    /// What is wrong.
     pub message: String,
-    /// What to write instead.
     pub help: Option<String>,
-    /// Where.
     pub span: Span,
-    /// JSON Pointer into the JSON form, such as `/steps/2/try/0`; empty for the whole document or a declaration.
+    /// JSON Pointer into the JSON form, such as `/steps/2/try/0`; empty for the whole document or a
+    /// declaration.
     pub path: String,
-    /// Other places that belong to the story.
+    /// Other ranges that explain the message.
     pub related: Vec<Related>,
-    /// A machine-applicable edit.
+    /// Edit that a program may apply.
     pub fix: Option<Fix>,
-    /// What it is about, in names, so that no program has to read the message.
+    /// Names that the message is about, so that no program has to read it.
     pub about: Option<About>,
 }
 
-/// The names that a finding is about; those that play no part in it are missing.
+/// Names that a diagnostic is about; those without a part in it are `None`.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct About {
     /// The primitive or policy that is called.
     pub primitive: Option<SmolStr>,
-    /// Its parameter.
     pub parameter: Option<SmolStr>,
-    /// The fluent, measure or field on which a condition depends: of several the one that fails.
+    /// The fluent, measure or field of a condition; of several the one that fails.
     pub subject: Option<SmolStr>,
-    /// Whether the condition asks for the subject to hold, or not to.
+    /// Truth value of the subject that the condition asks for.
     pub wanted: Option<bool>,
 }
 
 impl About {
-    /// A parameter of something called.
+    /// Names a parameter of a primitive or policy.
     #[must_use]
     pub fn parameter(primitive: &str, parameter: &str) -> Self {
         Self { primitive: Some(primitive.into()), parameter: Some(parameter.into()), ..Self::default() }
     }
 }
 
-/// Another place that belongs to a finding.
+/// Another range that explains a diagnostic.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Related {
-    /// What is there.
     pub message: String,
-    /// Where; `None` for something outside any file, such as the state given at the start.
+    /// `None` for a fact outside any file, such as the state given at the start.
     pub span: Option<Span>,
     /// JSON Pointer, as in [`Diagnostic::path`].
     pub path: String,
 }
 
 impl Related {
-    /// A remark on a place.
+    /// Remark on a range.
     #[must_use]
     pub fn new(message: impl Into<String>, span: Span) -> Self {
         Self { message: message.into(), span: Some(span), path: String::new() }
     }
 }
 
-/// Edits that mend a finding, all to be applied together.
+/// Edits that repair a mistake, all to be applied together.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Fix {
-    /// What they do: "write `pick`".
+    /// Title of the fix: "write `pick`".
     pub title: String,
     /// Replacements that do not overlap.
     pub edits: Vec<Edit>,
 }
 
-/// The replacement of a range of bytes.
+/// Replacement of a range of bytes.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Edit {
-    /// What is replaced; empty for an insertion.
+    /// Replaced range; empty for an insertion.
     pub span: Span,
-    /// The new text.
     pub text: String,
 }
 
@@ -162,4 +154,73 @@ impl<M: Mistake> From<M> for Diagnostic {
             about: mistake.about(),
         }
     }
+}
+
+/// Declares structs that implement [`crate::Mistake`], and `CODES`, the list of their codes.
+///
+/// Each has a `span`; `help`, `related`, `fix` and `about` may be left out.
+///
+/// ```
+/// motet_syntax::mistakes! {
+///     pub(crate) const CODES;
+///
+///     /// A step that is too long.
+///     TooLong("M9999", Error) { secs: f64 }
+///     message(m) { format!("this takes {} s", m.secs) }
+///     help(_m) { Some("take less".to_owned()) }
+/// }
+///
+/// let said: motet_syntax::Diagnostic = TooLong { span: motet_syntax::Span::default(), secs: 3.0 }.into();
+/// assert_eq!(said.message, "this takes 3 s");
+/// assert_eq!(CODES.len(), 1);
+/// ```
+#[macro_export]
+macro_rules! mistakes {
+    ($vis:vis const CODES; $(
+        $(#[$doc:meta])+
+        $name:ident($code:literal, $severity:ident) { $($field:ident: $ty:ty),* $(,)? }
+        message($m:ident) $message:block
+        $(help($h:ident) $help:block)?
+        $(related($r:ident) $related:block)?
+        $(fix($f:ident) $fix:block)?
+        $(about($a:ident) $about:block)?
+    )*) => {
+        /// Every code that is raised here, in order.
+        $vis const CODES: &[$crate::Code] = &[$($crate::Code($code)),*];
+        $(
+            $(#[$doc])+
+            #[derive(Clone, Debug)]
+            pub(crate) struct $name {
+                pub(crate) span: $crate::Span,
+                $(pub(crate) $field: $ty,)*
+            }
+            impl $crate::Mistake for $name {
+                const CODE: $crate::Code = $crate::Code($code);
+                const SEVERITY: $crate::Severity = $crate::Severity::$severity;
+                fn span(&self) -> $crate::Span {
+                    self.span
+                }
+                fn message(&self) -> String {
+                    let $m = self;
+                    $message
+                }
+                $(fn help(&self) -> Option<String> {
+                    let $h = self;
+                    $help
+                })?
+                $(fn related(&self) -> Vec<$crate::Related> {
+                    let $r = self;
+                    $related
+                })?
+                $(fn fix(&self) -> Option<$crate::Fix> {
+                    let $f = self;
+                    $fix
+                })?
+                $(fn about(&self) -> Option<$crate::About> {
+                    let $a = self;
+                    $about
+                })?
+            }
+        )*
+    };
 }

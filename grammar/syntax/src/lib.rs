@@ -1,7 +1,7 @@
 //! The front end of Motet: source text in, a spanned AST and diagnostics out.
 //!
-//! Two surfaces, text and JSON ([`json`]), give one AST ([`ast`]). This crate knows no declaration: what a name means is
-//! decided by the compiler's resolve stage, which is fed from here.
+//! Two surfaces, text and JSON ([`json`]), give one AST ([`ast`]). This crate knows no declaration: what a
+//! name means is decided by the compiler's resolve stage, which is fed from here.
 
 #[cfg(feature = "arbitrary")]
 #[doc(hidden)]
@@ -10,8 +10,8 @@ pub mod ast;
 pub mod diagnostic;
 pub mod errors;
 pub mod json;
-mod mistake;
-pub mod path;
+pub mod located;
+pub mod pointer;
 pub mod print;
 mod read;
 pub mod render;
@@ -20,7 +20,8 @@ pub mod source;
 pub mod suggest;
 pub mod text;
 pub mod unit;
+pub mod words;
 
 pub use diagnostic::{About, Code, Diagnostic, Edit, Fix, Mistake, Related, Severity};
 pub use read::{Parsed, decode, read};
-pub use source::{FileId, Form, Source, Sources, Span};
+pub use source::{FileId, Source, Sources, Span, Syntax};

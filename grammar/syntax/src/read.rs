@@ -1,37 +1,37 @@
-//! The entry point: bytes to text, and a document of either form, or a model's reply with one in it, to the AST.
+//! Entry point of the front end: bytes to text, and a document in either syntax, or a reply that holds one,
+//! to the tree.
 
 use std::sync::Arc;
 
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{Ignored, IgnoredProse, NoDocument, NotUtf8, TooLarge};
+use crate::errors::{IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
 use crate::reply::{self, Reply};
-use crate::source::{FileId, Form, Source, Span};
+use crate::source::{FileId, Source, Span, Syntax};
 use crate::{json, text};
 
-/// What a document says, and what is wrong with it.
+/// A document after reading, with its diagnostics.
 #[derive(Clone, Debug)]
 pub struct Parsed {
-    /// The declarations; of a JSON document one policy. After an error whatever could be read.
+    /// Declarations; of a JSON document one policy. After an error all that could be read.
     pub file: File,
-    /// The form that the document is in.
-    pub form: Form,
-    /// The text that was read, to which the spans belong.
+    pub syntax: Syntax,
+    /// Text that the spans refer to.
     pub text: Arc<str>,
     /// Errors and warnings in the order of the document.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Reads a document. Its first character says which form it is in: JSON begins with `{` or `[`. A document in a
-/// Markdown fence or between prose is found, and what is ignored is a warning. O(bytes), no recursion deeper than
-/// [`crate::ast::MAX_NESTING`] allows, and no panic on any text.
+/// Reads a document. Its first character says which form it is in: JSON begins with `{` or `[`. A document in
+/// a Markdown fence or between prose is found, and what is ignored is a warning. O(bytes), no recursion
+/// deeper than [`crate::ast::MAX_NESTING`] allows, and no panic on any text.
 #[must_use]
 pub fn read(source: &Source, file: FileId) -> Parsed {
     let document: &str = &source.text;
     if document.len() > MAX_BYTES {
         let mistake = TooLarge { span: Span::new(file, 0, 0), bytes: document.len() };
-        let (form, text) = (form(document), Arc::clone(&source.text));
-        return Parsed { file: File::default(), form, text, diagnostics: vec![mistake.into()] };
+        let (syntax, text) = (syntax_of(document), Arc::clone(&source.text));
+        return Parsed { file: File::default(), syntax, text, diagnostics: vec![mistake.into()] };
     }
     let parsed = match document.strip_prefix(BOM) {
         Some(rest) => located(&format!("{BLANK_BOM}{rest}"), file),
@@ -40,7 +40,7 @@ pub fn read(source: &Source, file: FileId) -> Parsed {
     Parsed { text: Arc::clone(&source.text), ..parsed }
 }
 
-/// The text of a file: a byte order mark is blanked out, so that offsets stay those of the bytes.
+/// Decodes a file to text. A byte order mark is blanked out, so that offsets stay those of the bytes.
 ///
 /// # Errors
 /// Bytes that are not UTF-8, with the offset of the first, and more than [`MAX_BYTES`] of them.
@@ -70,10 +70,10 @@ fn located(document: &str, file: FileId) -> Parsed {
         Reply::Whole => whole(document, file),
         Reply::Part(found) => {
             let mut parsed = whole(&reply::blanked(document, &found), file);
-            let prose = found.ignored.iter().map(|place| (place, Ignored::Prose));
-            let ignored = prose.chain(found.others.iter().map(|place| (place, Ignored::Policy)));
-            parsed.diagnostics.extend(ignored.map(|((start, end), what)| {
-                Diagnostic::from(IgnoredProse { span: Span::new(file, *start, *end), what })
+            let prose = found.ignored.iter().map(|place| (place, IgnoredPart::Prose));
+            let ignored = prose.chain(found.others.iter().map(|place| (place, IgnoredPart::Policy)));
+            parsed.diagnostics.extend(ignored.map(|((start, end), part)| {
+                Diagnostic::from(IgnoredProse { span: Span::new(file, *start, *end), part })
             }));
             parsed.diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
             parsed
@@ -83,24 +83,24 @@ fn located(document: &str, file: FileId) -> Parsed {
             let line = document.trim_start().lines().next().unwrap_or("").trim_end();
             let mistake = NoDocument { span: Span::new(file, start, start + line.len()) };
             let text = Arc::default();
-            Parsed { file: File::default(), form: Form::Text, text, diagnostics: vec![mistake.into()] }
+            Parsed { file: File::default(), syntax: Syntax::Text, text, diagnostics: vec![mistake.into()] }
         }
     }
 }
 
 fn whole(document: &str, file: FileId) -> Parsed {
-    let form = form(document);
-    let (file, diagnostics) = match form {
-        Form::Text => text::parse(document, file),
-        Form::Json => json::read_policy(document, file),
+    let syntax = syntax_of(document);
+    let (file, diagnostics) = match syntax {
+        Syntax::Text => text::parse(document, file),
+        Syntax::Json => json::read_policy(document, file),
     };
-    Parsed { file, form, text: Arc::default(), diagnostics }
+    Parsed { file, syntax, text: Arc::default(), diagnostics }
 }
 
-/// The form of a document by its first character.
-fn form(document: &str) -> Form {
+/// Syntax of a document, by its first character.
+fn syntax_of(document: &str) -> Syntax {
     match document.trim_start().bytes().next() {
-        Some(b'{' | b'[') => Form::Json,
-        Some(_) | None => Form::Text,
+        Some(b'{' | b'[') => Syntax::Json,
+        Some(_) | None => Syntax::Text,
     }
 }

@@ -1,14 +1,14 @@
-//! A language model's reply as it comes: finds the one document in a Markdown fence or between prose. What is around it
-//! is blanked out rather than cut off before it, so that every place stays right. Feeds [`crate::read()`].
+//! A language model's reply as it comes: finds the one document in a Markdown fence or between prose. What is
+//! around it is blanked out rather than cut off before it, so that every place stays right. Feeds
+//! [`crate::read()`].
 
-use crate::text::token::{Token, TokenKind, Tokens, tokens};
+use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
+use crate::words::DECLARATIONS;
 
 /// The document of a reply.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Found {
-    /// Its bytes.
     pub(crate) start: usize,
-    /// One past its bytes.
     pub(crate) end: usize,
     /// First lines of what is ignored around it, trimmed.
     pub(crate) ignored: Vec<(usize, usize)>,
@@ -16,31 +16,16 @@ pub(crate) struct Found {
     pub(crate) others: Vec<(usize, usize)>,
 }
 
-/// What a text is.
+/// Classification of a text.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Reply {
     /// A document and nothing else, right or wrong.
     Whole,
     /// A document among other text.
     Part(Found),
-    /// Prose.
+    /// Prose without a document.
     Prose,
 }
-
-/// Words with which a declaration begins.
-const DECLARATIONS: &[&str] = &[
-    "policy",
-    "action",
-    "perception",
-    "kind",
-    "fluent",
-    "measure",
-    "failure",
-    "enum",
-    "entity",
-    "initially",
-    "closed",
-];
 
 /// Finds the document of a text. O(bytes).
 pub(crate) fn locate(text: &str) -> Reply {
@@ -102,8 +87,8 @@ fn after_policy(text: &str, start: usize) -> Reply {
     }
 }
 
-/// One past the brace that closes the last of the declarations that begin at `start`, and whether prose follows it; `None`
-/// where no brace closes any.
+/// One past the brace that closes the last of the declarations that begin at `start`, and whether prose
+/// follows it; `None` where no brace closes any.
 fn declarations_end(text: &str, start: usize) -> Option<(usize, bool)> {
     let mut rest = tokens(text, start);
     let (mut depth, mut end) = (0_usize, None);
@@ -127,7 +112,7 @@ fn declarations_end(text: &str, start: usize) -> Option<(usize, bool)> {
     end.map(|end| (end, false))
 }
 
-/// Whether what follows a declaration is prose or the end of a fence, and not a declaration that is misspelt.
+/// Checks if prose or the end of a fence follows a declaration, and not a misspelt declaration.
 fn is_prose(text: &str, mut rest: Tokens<'_>) -> bool {
     let (first, second, third) = (rest.next(), rest.next(), rest.next());
     let Some(first) = first else { return false };
@@ -174,18 +159,17 @@ fn first_line(text: &str, from: usize, to: usize) -> Option<(usize, usize)> {
 
 /// A fenced block of Markdown.
 struct Fence {
-    /// Its content.
     start: usize,
     end: usize,
     /// With the lines of the fence.
     outer_start: usize,
     outer_end: usize,
-    /// Whether its language is `json` or `motet`.
+    /// True if its language is `json` or `motet`.
     is_marked: bool,
 }
 
 impl Fence {
-    /// Whether it looks like a policy and not, say, like a piece of a scene.
+    /// Checks if the block looks like a policy and not, say, like a part of a scene.
     fn is_policy(&self, text: &str) -> bool {
         looks_like_policy(text.get(self.start..self.end).unwrap_or(""))
     }
@@ -230,8 +214,8 @@ fn fences(text: &str) -> Vec<Fence> {
     fences
 }
 
-/// Where on a line a fence opens, its mark, and whether its language is one of ours: at the end of the line, perhaps behind
-/// prose.
+/// Finds the opening of a fence on a line: its offset, its mark, and true for a language of ours. It may
+/// stand after prose.
 fn opening(line: &str) -> Option<(usize, &'static str, bool)> {
     let (offset, mark) =
         ["```", "~~~"].into_iter().filter_map(|mark| Some((line.find(mark)?, mark))).min()?;

@@ -1,4 +1,4 @@
-//! Source files and places in them. Nothing here reads a file: the host hands the text over.
+//! Source files and byte ranges in them. Nothing here reads a file: the host hands the text over.
 
 use std::sync::{Arc, OnceLock};
 
@@ -9,11 +9,10 @@ pub struct FileId(pub u16);
 /// A half-open range of bytes, `start..end`, in one file.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
 pub struct Span {
-    /// The file.
     pub file: FileId,
-    /// First byte.
+    /// Offset of the first byte.
     pub start: u32,
-    /// One past the last byte.
+    /// Offset one past the last byte.
     pub end: u32,
 }
 
@@ -25,7 +24,7 @@ impl Span {
         Self { file, start: clamp(start), end: clamp(end) }
     }
 
-    /// The range as `usize`, for slicing.
+    /// Range as `usize`, for slicing.
     #[must_use]
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
@@ -40,19 +39,19 @@ impl Span {
         Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
-    /// Whether `other` lies within this span.
+    /// Checks if `other` lies within this span.
     #[must_use]
     pub fn contains(self, other: Self) -> bool {
         self.file == other.file && self.start <= other.start && other.end <= self.end
     }
 }
 
-/// The surface form of a document.
+/// Notation of a document.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Form {
-    /// `.motet`
+pub enum Syntax {
+    /// The text syntax, in `.motet` files.
     Text,
-    /// `.json`
+    /// The JSON syntax, in `.json` files.
     Json,
 }
 
@@ -63,7 +62,7 @@ pub struct Source {
     pub name: Arc<str>,
     /// The whole text.
     pub text: Arc<str>,
-    /// Where it is one line of a larger file: that file's name, and which line, from 1.
+    /// For one line of a larger file: that file's name, and the line's number from 1.
     line_of: Option<(Arc<str>, usize)>,
     /// Byte offset of the first byte of each line, once a place is asked for: most documents have no mistake.
     lines: OnceLock<Arc<[u32]>>,
@@ -76,7 +75,7 @@ impl Source {
         Self { name: name.into(), text: text.into(), line_of: None, lines: OnceLock::new() }
     }
 
-    /// The same source as line `line`, from 1, of the file `file`: what tools are told of is that file.
+    /// Marks the source as line `line`, from 1, of the file `file`: diagnostics for tools name that file.
     #[must_use]
     pub fn as_line(mut self, file: impl Into<Arc<str>>, line: usize) -> Self {
         self.line_of = Some((file.into(), line));
@@ -92,7 +91,7 @@ impl Source {
         }
     }
 
-    /// Whether it is a line of a larger file.
+    /// Checks if the source is one line of a larger file.
     #[must_use]
     pub fn is_line(&self) -> bool {
         self.line_of.is_some()
@@ -135,19 +134,19 @@ impl Sources {
         id
     }
 
-    /// The file with this id.
+    /// Looks a file up by its id.
     #[must_use]
     pub fn get(&self, id: FileId) -> Option<&Source> {
         self.files.get(id.0 as usize)
     }
 
-    /// How many files there are.
+    /// Number of files in the compilation.
     #[must_use]
     pub fn len(&self) -> usize {
         self.files.len()
     }
 
-    /// Whether there is none.
+    /// Checks if there is no file.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.files.is_empty()

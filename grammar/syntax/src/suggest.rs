@@ -1,9 +1,10 @@
 //! "Did you mean": the known name that a misspelt one is closest to.
 
-/// The candidate closest to `name`, where one is close enough to be worth naming.
+/// Candidate closest to `name`, where one is close enough to suggest.
 ///
-/// Case, `_`, `-` and spaces do not count, and a candidate that is a whole word of `name` (`pick` in `pick_up`) or with which it
-/// begins (`holding` and `hold`), or the other way round, is close. Ties go to the earlier candidate. O(candidates × length²).
+/// Case, `_`, `-` and spaces do not count, and a candidate that is a whole word of `name` (`pick` in
+/// `pick_up`) or with which it begins (`holding` and `hold`), or the other way round, is close. Ties go to
+/// the earlier candidate. O(candidates × length²).
 #[must_use]
 pub fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let folded = fold(name);
@@ -17,7 +18,7 @@ pub fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
-/// How far a candidate is, in hundredths of a misspelling; `None` where it is too far.
+/// Distance of a candidate, in hundredths of a misspelling; `None` where it is too far.
 fn distance(name: &str, folded: &str, candidate: &str) -> Option<usize> {
     let known = fold(candidate);
     if known == folded {
@@ -43,11 +44,17 @@ fn fold(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, '_' | '-' | ' ')).flat_map(char::to_lowercase).collect()
 }
 
-/// Names in back-quotes with commas and a final "or": "`a`, `b` or `c`".
+/// Lists names in back-quotes with commas and a final "or": "`a`, `b` or `c`".
 #[must_use]
 pub fn one_of<'c>(names: impl IntoIterator<Item = &'c str>) -> String {
     let quoted: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
-    match quoted.split_last() {
+    listed(&quoted)
+}
+
+/// Lists parts of a sentence with commas and a final "or".
+#[must_use]
+pub fn listed(parts: &[String]) -> String {
+    match parts.split_last() {
         None => String::new(),
         Some((last, [])) => last.clone(),
         Some((last, rest)) => format!("{} or {last}", rest.join(", ")),

@@ -1,6 +1,7 @@
-//! Dimensions and units. Inside, everything is SI and radians; a unit exists only where a document is read or written.
+//! Dimensions and units. Inside, everything is SI and radians; a unit exists only where a document is read or
+//! written.
 
-/// What a quantity measures, as exponents of the base units metre, second, kilogram and radian.
+/// Physical dimension of a quantity, as exponents of the base units metre, second, kilogram and radian.
 ///
 /// `Ratio` and plain numbers have all exponents zero.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, PartialOrd, Ord)]
@@ -16,19 +17,19 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    /// No dimension: `Number` and `Ratio`.
+    /// No dimension, as of `Number` and `Ratio`.
     pub const NONE: Self = Self { metre: 0, second: 0, kilogram: 0, radian: 0 };
-    /// `Length`, metres.
+    /// Dimension of `Length`, in metres.
     pub const LENGTH: Self = Self { metre: 1, ..Self::NONE };
-    /// `Angle`, radians.
+    /// Dimension of `Angle`, in radians.
     pub const ANGLE: Self = Self { radian: 1, ..Self::NONE };
-    /// `Duration`, seconds.
+    /// Dimension of `Duration`, in seconds.
     pub const DURATION: Self = Self { second: 1, ..Self::NONE };
-    /// `Mass`, kilograms.
+    /// Dimension of `Mass`, in kilograms.
     pub const MASS: Self = Self { kilogram: 1, ..Self::NONE };
-    /// `Force`, newtons.
+    /// Dimension of `Force`, in newtons.
     pub const FORCE: Self = Self { metre: 1, second: -2, kilogram: 1, radian: 0 };
-    /// `Speed`, metres a second.
+    /// Dimension of `Speed`, in metres a second.
     pub const SPEED: Self = Self { metre: 1, second: -1, ..Self::NONE };
 
     /// The dimension of a product.
@@ -65,7 +66,8 @@ impl Dimension {
         DIMENSIONS.iter().find(|(known, _)| *known == name).map(|(_, dimension)| *dimension)
     }
 
-    /// The symbol of its SI unit; empty for [`Dimension::NONE`] and for dimensions without a unit of their own.
+    /// The symbol of its SI unit; empty for [`Dimension::NONE`] and for dimensions without a unit of their
+    /// own.
     #[must_use]
     pub fn si_symbol(self) -> &'static str {
         Unit::si(self).map_or("", Unit::symbol)
@@ -85,37 +87,21 @@ const DIMENSIONS: &[(&str, Dimension)] = &[
 /// A unit as written in a document.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, PartialOrd, Ord)]
 pub enum Unit {
-    /// `m`
     Metre,
-    /// `cm`
     Centimetre,
-    /// `mm`
     Millimetre,
-    /// `km`
     Kilometre,
-    /// `rad`
     Radian,
-    /// `deg`
     Degree,
-    /// `s`
     Second,
-    /// `ms`
     Millisecond,
-    /// `min`
     Minute,
-    /// `h`
     Hour,
-    /// `kg`
     Kilogram,
-    /// `g`
     Gram,
-    /// `N`
     Newton,
-    /// `m/s`
     MetrePerSecond,
-    /// `km/h`
     KilometrePerHour,
-    /// `%`
     Percent,
 }
 
@@ -137,6 +123,44 @@ const UNITS: &[(Unit, &str, Dimension, f64, f64)] = &[
     (Unit::MetrePerSecond, "m/s", Dimension::SPEED, 1.0, 1.0),
     (Unit::KilometrePerHour, "km/h", Dimension::SPEED, 1.0, 3.6),
     (Unit::Percent, "%", Dimension::NONE, 1.0, 100.0),
+];
+
+/// Other spellings of units, in lower case.
+const SPELLINGS: &[(&str, Unit)] = &[
+    ("sec", Unit::Second),
+    ("secs", Unit::Second),
+    ("second", Unit::Second),
+    ("seconds", Unit::Second),
+    ("msec", Unit::Millisecond),
+    ("millisecond", Unit::Millisecond),
+    ("milliseconds", Unit::Millisecond),
+    ("mins", Unit::Minute),
+    ("minute", Unit::Minute),
+    ("minutes", Unit::Minute),
+    ("hour", Unit::Hour),
+    ("hours", Unit::Hour),
+    ("meter", Unit::Metre),
+    ("meters", Unit::Metre),
+    ("metre", Unit::Metre),
+    ("metres", Unit::Metre),
+    ("centimeter", Unit::Centimetre),
+    ("centimeters", Unit::Centimetre),
+    ("centimetre", Unit::Centimetre),
+    ("centimetres", Unit::Centimetre),
+    ("millimeters", Unit::Millimetre),
+    ("millimetres", Unit::Millimetre),
+    ("degree", Unit::Degree),
+    ("degrees", Unit::Degree),
+    ("radian", Unit::Radian),
+    ("radians", Unit::Radian),
+    ("gram", Unit::Gram),
+    ("grams", Unit::Gram),
+    ("kilo", Unit::Kilogram),
+    ("kilogram", Unit::Kilogram),
+    ("kilograms", Unit::Kilogram),
+    ("newton", Unit::Newton),
+    ("newtons", Unit::Newton),
+    ("percent", Unit::Percent),
 ];
 
 impl Unit {
@@ -166,6 +190,14 @@ impl Unit {
         UNITS.iter().find(|row| row.1 == symbol).map(|row| row.0)
     }
 
+    /// The unit that a word means where it is not a symbol: `sec`, `Metres`, `KG`. `None` for any other word.
+    #[must_use]
+    pub fn from_spelling(word: &str) -> Option<Self> {
+        let lower = word.to_ascii_lowercase();
+        let spelling = SPELLINGS.iter().find(|(known, _)| *known == lower).map(|(_, unit)| *unit);
+        spelling.or_else(|| Self::parse(&lower)).or_else(|| Self::parse(&word.to_ascii_uppercase()))
+    }
+
     fn row(self) -> (&'static str, Dimension, f64, f64) {
         UNITS
             .iter()
@@ -173,13 +205,13 @@ impl Unit {
             .map_or(("", Dimension::NONE, 1.0, 1.0), |row| (row.1, row.2, row.3, row.4))
     }
 
-    /// Its symbol.
+    /// Symbol as written in a document.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         self.row().0
     }
 
-    /// What it measures.
+    /// Dimension of the unit.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         self.row().1
@@ -212,4 +244,48 @@ impl Unit {
     pub fn symbols_of(dimension: Dimension) -> impl Iterator<Item = &'static str> {
         UNITS.iter().filter(move |row| row.2 == dimension).map(|row| row.1)
     }
+}
+
+/// Reads a quantity such as `"20 cm"`: a number, perhaps spaces, and the symbol of a unit. `None` for any
+/// other text.
+///
+/// ```
+/// use motet_syntax::unit::{Unit, parse_quantity};
+///
+/// assert_eq!(parse_quantity("20 cm"), Some((20.0, Unit::Centimetre)));
+/// assert_eq!(parse_quantity("20 cubits"), None);
+/// ```
+#[must_use]
+pub fn parse_quantity(text: &str) -> Option<(f64, Unit)> {
+    let text = text.trim();
+    let sign = usize::from(text.starts_with('-'));
+    let digits = text.get(sign..).map_or(0, number_length);
+    let (number, unit) = text.split_at_checked(sign + digits).filter(|_| digits > 0)?;
+    let unit = Unit::parse(unit.trim_start())?;
+    let value: f64 = number.parse().ok()?;
+    value.is_finite().then_some((value, unit))
+}
+
+/// Length in bytes of the unsigned number at the start of a text: digits, one fraction, one exponent. 0
+/// without digits.
+pub(crate) fn number_length(text: &str) -> usize {
+    let digits = |from: usize| {
+        text.get(from..).map_or(0, |rest| rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len()))
+    };
+    let mut length = digits(0);
+    if length == 0 {
+        return 0;
+    }
+    let mark = |at: usize| text.as_bytes().get(at).copied();
+    if mark(length) == Some(b'.') && digits(length + 1) > 0 {
+        length += 1 + digits(length + 1);
+    }
+    if let Some(b'e' | b'E') = mark(length) {
+        let sign = usize::from(matches!(mark(length + 1), Some(b'+' | b'-')));
+        let exponent = digits(length + 1 + sign);
+        if exponent > 0 {
+            length += 1 + sign + exponent;
+        }
+    }
+    length
 }

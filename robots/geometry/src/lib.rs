@@ -12,7 +12,7 @@ pub mod collision;
 pub mod inverse;
 pub mod kinematics;
 mod lanes;
-pub mod query;
+pub mod planning;
 mod trigonometry;
 
 pub use kinematics::{Tree, Variable};

@@ -5,22 +5,24 @@
 
 use std::sync::LazyLock;
 
-use motet_geometry::query::{Answer, Budget, Machine, Query, Room, World};
+use motet_geometry::planning::{
+    MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
+};
 use motet_robots::card;
 use motet_robots::scene::{Entity, Placement, Scene, Shape};
 use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
 use proptest::prelude::*;
 
-const BUDGET: Budget = Budget { candidates: 48, paths: 12, cells: 3_072 };
+const BUDGET: SearchBudget = SearchBudget { candidates: 48, paths: 12, cells: 3_072 };
 
-static ROBOTS: LazyLock<[Machine; 3]> = LazyLock::new(|| ["hsr", "anymal_z1", "panda"].map(machine));
+static ROBOTS: LazyLock<[RobotModel; 3]> = LazyLock::new(|| ["hsr", "anymal_z1", "panda"].map(machine));
 
-fn machine(name: &str) -> Machine {
+fn machine(name: &str) -> RobotModel {
     let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
     let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
     let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
-    Machine::new(&card, &urdf)
+    RobotModel::new(&card, &urdf)
 }
 
 fn entity(id: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: Shape) -> Entity {
@@ -68,21 +70,21 @@ fn furnished(drives: bool) -> impl Strategy<Value = Scene> {
     )
 }
 
-fn ask(machine: &Machine, scene: &Scene, budget: Budget) -> Answer {
-    let world = World::new(machine, scene);
-    Room::new(machine, scene, &world).answer(&Query::Reach("can".into(), None), budget)
+fn ask(machine: &RobotModel, scene: &Scene, budget: SearchBudget) -> MotionAnswer {
+    let world = SceneState::new(machine, scene);
+    QueryContext::new(machine, scene, &world).answer(&MotionQuery::Reach("can".into(), None), budget)
 }
 
 /// `Some` of whether it is feasible where that is certain.
-fn certain(answer: &Answer) -> Option<bool> {
+fn certain(answer: &MotionAnswer) -> Option<bool> {
     match answer {
-        Answer::Feasible(_) => Some(true),
-        Answer::Infeasible(why) => why.certified.then_some(false),
-        Answer::Unknown(_) => None,
+        MotionAnswer::Feasible(_) => Some(true),
+        MotionAnswer::Infeasible(why) => why.certified.then_some(false),
+        MotionAnswer::Unknown(_) => None,
     }
 }
 
-fn contradict(one: &Answer, other: &Answer) -> bool {
+fn contradict(one: &MotionAnswer, other: &MotionAnswer) -> bool {
     certain(one).zip(certain(other)).is_some_and(|(one, other)| one != other)
 }
 
@@ -114,8 +116,8 @@ proptest! {
         if let Some(id) = less.get(gone % less.len().max(1)) {
             open.entities.shift_remove(*id);
         }
-        if let Answer::Feasible(_) = ask(&ROBOTS[which], &scene, BUDGET) {
-            prop_assert!(!matches!(ask(&ROBOTS[which], &open, BUDGET), Answer::Infeasible(_)));
+        if let MotionAnswer::Feasible(_) = ask(&ROBOTS[which], &scene, BUDGET) {
+            prop_assert!(!matches!(ask(&ROBOTS[which], &open, BUDGET), MotionAnswer::Infeasible(_)));
         }
     }
 
@@ -123,8 +125,8 @@ proptest! {
     fn a_larger_budget_contradicts_nothing((scene, which) in rooms()) {
         let answers = [1, 4].map(|factor| ask(&ROBOTS[which], &scene, BUDGET.times(factor)));
         prop_assert!(!contradict(&answers[0], &answers[1]));
-        if let Answer::Feasible(_) = answers[0] {
-            prop_assert!(matches!(answers[1], Answer::Feasible(_)));
+        if let MotionAnswer::Feasible(_) = answers[0] {
+            prop_assert!(matches!(answers[1], MotionAnswer::Feasible(_)));
         }
     }
 }

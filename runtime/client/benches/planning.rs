@@ -19,7 +19,7 @@ use common::world::{Heard, brisk, geometry, right, setting};
 use motet_client::{Client, ClientSettings};
 use motet_compiler::{Session, State};
 use motet_decode::export::{Dialect, Offer, request_constraint};
-use motet_decode::{Prepared as Acceptors, Surface};
+use motet_decode::{AcceptorFactory as Acceptors, Subset};
 use motet_planner::conversation::{Conversation, Nobody, Setting, Watcher};
 use motet_planner::model::{self, Judged, ModelPlanner, Reading, Start, judge};
 use motet_planner::prompt::{Lasting, Prompt, TIME, TOKENS};
@@ -103,11 +103,11 @@ struct Kept {
 impl Kept {
     fn new(setting: &Setting) -> Self {
         let session = session(setting);
-        let offer = Offer::new(&session.signatures(), Surface::default());
+        let offer = Offer::new(&session.signatures(), Subset::default());
         let constraint = request_constraint(Dialect::Vllm, &offer).unwrap().to_string();
         Self {
             lasting: Lasting::new(&session, &setting.robot, &setting.scene),
-            acceptors: Acceptors::new(&session, Surface::default()),
+            acceptors: Acceptors::new(&session, Subset::default()),
             session,
             offer,
             constraint,

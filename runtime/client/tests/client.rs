@@ -8,7 +8,7 @@ use std::time::Duration;
 use common::server::{Act, Server};
 use common::world::{brisk, session, setting};
 use motet_client::{Client, ClientSettings, EncodedImage, ImageError, Notation, ServerUrl};
-use motet_decode::Surface;
+use motet_decode::Subset;
 use motet_decode::export::{Dialect, Offer};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, News, Role};
 
@@ -20,7 +20,7 @@ fn chat() -> Vec<Message> {
 /// Asks, and gives the text, how often it was tried again, and the ending.
 fn ask(settings: ClientSettings) -> (String, usize, Result<Finish, ModelError>) {
     let setting = setting();
-    let offer = Offer::new(&session(&setting).signatures(), Surface::default());
+    let offer = Offer::new(&session(&setting).signatures(), Subset::default());
     let mut client = Client::new(settings).unwrap();
     let mut reply = match client.ask(&chat(), &offer) {
         Ok(reply) => reply,
@@ -181,7 +181,7 @@ fn addresses_with_a_password_are_refused() {
 fn who_drops_a_reply_hangs_up() {
     let server = Server::new(vec![Act::Endless { text: "on and on ".to_owned() }]);
     let setting = setting();
-    let offer = Offer::new(&session(&setting).signatures(), Surface::default());
+    let offer = Offer::new(&session(&setting).signatures(), Subset::default());
     let mut client = Client::new(ClientSettings { max_bytes: usize::MAX, ..brisk(&server) }).unwrap();
     let mut reply = client.ask(&chat(), &offer).unwrap();
     while !matches!(reply.next(Duration::from_millis(20)), News::Piece(_)) {}

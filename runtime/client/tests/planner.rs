@@ -10,7 +10,7 @@ use common::server::{Act, Server};
 use common::world::{Heard, brisk, carry_out, carry_out_with, planner, right, session, setting};
 use motet_client::Client;
 use motet_decode::export::Offer;
-use motet_decode::{Prepared, Surface};
+use motet_decode::{AcceptorFactory, Subset};
 use motet_planner::builtin::{self, Answered};
 use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Problem, Watcher};
 use motet_planner::model::{
@@ -146,7 +146,7 @@ fn a_reply_that_never_ends_is_read_to_the_end_of_its_policy_and_no_further() {
 fn a_reply_that_is_wrong_is_read_no_further_than_the_value_that_is() {
     let setting = setting();
     let session = session(&setting);
-    let prepared = Prepared::new(&session, Surface::default());
+    let prepared = AcceptorFactory::new(&session, Subset::default());
     let right = right(&setting, COKE);
     // In the goal, and in a step.
     for (key, name) in [("what", "umbrella_stand"), ("object", "umbrella_stand"), ("object", "user")] {
@@ -164,7 +164,7 @@ fn a_reply_that_is_wrong_is_read_no_further_than_the_value_that_is() {
 fn a_right_reply_is_never_stopped_however_it_is_cut() {
     let setting = setting();
     let session = session(&setting);
-    let prepared = Prepared::new(&session, Surface::default());
+    let prepared = AcceptorFactory::new(&session, Subset::default());
     for request in
         [COKE, "put the red mug in the cupboard", "open the fridge", "bring me the coke and the apple"]
     {

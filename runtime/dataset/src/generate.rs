@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use indexmap::IndexMap;
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_robots::scene::Scene;
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
@@ -40,7 +40,7 @@ pub struct Order {
     /// Which share of the varied rooms is kept for tests, between 0 and 1.
     pub test: f64,
     /// How long motions are looked for; not at all where there is none.
-    pub effort: Option<Budget>,
+    pub effort: Option<SearchBudget>,
     /// In which form the rows will be written: what that cannot say is left out.
     pub form: Form,
     /// Whether rows have pictures; in InteLiPlan's form none has.

@@ -2,7 +2,7 @@
 //! same input, the same row twice, rooms that are in more than one file, and pictures that are not there.
 
 use indexmap::IndexMap;
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_planner::dialect::actions;
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
@@ -81,7 +81,7 @@ pub struct Worlds {
     /// The room of rows that name none.
     pub scene: Option<SmolStr>,
     /// How long motions are looked for; not at all where there is none.
-    pub effort: Option<Budget>,
+    pub effort: Option<SearchBudget>,
 }
 
 /// Looks after the pictures that rows refer to.

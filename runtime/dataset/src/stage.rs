@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use motet_compiler::{Geometry, Options as CheckOptions, Session};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_graph::NodeKind;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -41,7 +41,7 @@ impl Stage {
     /// # Errors
     ///
     /// What keeps the robot from being in that room.
-    pub fn new(body: &Body, scene: &Scene, effort: Option<Budget>) -> Result<Self, String> {
+    pub fn new(body: &Body, scene: &Scene, effort: Option<SearchBudget>) -> Result<Self, String> {
         let robot = &body.robot;
         let (mut session, said) = Session::new(
             Some(robot),

@@ -14,7 +14,7 @@ use motet_dataset::generate::{self, Dataset, Order};
 use motet_dataset::lint::{Fault, Finding, Linter, Shelf, Worlds, family};
 use motet_dataset::picture::{self, Pictures};
 use motet_dataset::{Body, Row, scenery, wordings};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_robots::{card, scene, urdf};
 use motet_syntax::{FileId, Source};
 use serde_json::{Value, json};
@@ -53,7 +53,7 @@ fn made(order: &Order) -> Dataset {
     generate::gather(order, (0..order.scenes).map(|number| generate::part(order, number)).collect())
 }
 
-fn worlds(dataset: &Dataset, effort: Option<Budget>) -> Worlds {
+fn worlds(dataset: &Dataset, effort: Option<SearchBudget>) -> Worlds {
     Worlds {
         bodies: ["hsr", "anymal_z1"].map(|name| (name.into(), body(name))).into_iter().collect(),
         scenes: dataset.scenes.clone(),
@@ -98,7 +98,7 @@ fn motions_are_verified_too() {
         bodies: vec![body("hsr")],
         scenes: 2,
         cases: 3,
-        effort: Some(Budget::default()),
+        effort: Some(SearchBudget::default()),
         ..order(Form::Trl)
     };
     let dataset = made(&order);

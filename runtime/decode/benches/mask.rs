@@ -19,8 +19,8 @@ use std::time::{Duration, Instant};
 
 use common::peer::Peer;
 use motet_compiler::{Options, Session};
-use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
-use motet_syntax::{FileId, Form, Source, Sources};
+use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary, canonical};
+use motet_syntax::{FileId, Source, Sources, Syntax};
 
 /// The tokens with bytes; those above are special.
 const TOKENS: u32 = 199_998;
@@ -36,18 +36,18 @@ fn main() {
     tokens.resize(END as usize + 1, Vec::new());
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = common::peer::environment(&tokens, END);
-    for form in [Form::Json, Form::Text] {
+    for form in [Syntax::Json, Syntax::Text] {
         println!("{form:?}");
-        let surface = Surface { modifiers: Modifiers::Written, form, ..Surface::default() };
+        let surface = Subset { modifiers: Modifiers::Written, syntax: form, ..Subset::default() };
         let (mut examples, mut written) = (Times::default(), Times::default());
         let (mut forced, mut all) = (0, 0);
         for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
             let session = common::session(robot, scene);
             let mut taken: Vec<Duration> =
-                (0..21).map(|_| time(|| Prepared::new(&session, surface)).1).collect();
+                (0..21).map(|_| time(|| AcceptorFactory::new(&session, surface)).1).collect();
             taken.sort_unstable();
             println!("{robot} in {scene}: prepared in {:?} at the median of 21", taken[10]);
-            let prepared = Prepared::new(&session, surface);
+            let prepared = AcceptorFactory::new(&session, surface);
             let (peer, taken) = time(|| Peer::new(&environment, &session, surface));
             println!("{robot} in {scene}: llguidance prepared in {taken:?}");
             for policy in canonical_examples(&session, surface) {
@@ -124,7 +124,12 @@ impl Times {
     }
 }
 
-fn follow((prepared, peer): (&Prepared, &Peer), vocabulary: &Vocabulary, tokens: &[u32], times: &mut Times) {
+fn follow(
+    (prepared, peer): (&AcceptorFactory, &Peer),
+    vocabulary: &Vocabulary,
+    tokens: &[u32],
+    times: &mut Times,
+) {
     let mut decoder = prepared.decoder(vocabulary, 20_000).unwrap();
     let mut matcher = Some(peer.start());
     for token in tokens {
@@ -159,7 +164,7 @@ fn follow((prepared, peer): (&Prepared, &Peer), vocabulary: &Vocabulary, tokens:
 }
 
 /// The examples that check for a session, as the surface spells them.
-fn canonical_examples(session: &Session, surface: Surface) -> Vec<String> {
+fn canonical_examples(session: &Session, surface: Subset) -> Vec<String> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()).collect();
     files.sort();
@@ -175,7 +180,7 @@ fn canonical_examples(session: &Session, surface: Surface) -> Vec<String> {
     found
 }
 
-fn forced_bytes(prepared: &Prepared, policy: &str) -> usize {
+fn forced_bytes(prepared: &AcceptorFactory, policy: &str) -> usize {
     let mut acceptor = prepared.acceptor(20_000).unwrap();
     let mut forced = 0;
     while !acceptor.is_accepting() {
@@ -188,7 +193,7 @@ fn forced_bytes(prepared: &Prepared, policy: &str) -> usize {
     forced
 }
 
-fn many_entities(surface: Surface) {
+fn many_entities(surface: Subset) {
     let names: Vec<String> = (0..5000).map(|index| format!("thing_{index}")).collect();
     let domain = format!("entity {}: Object\n", names.join(", "));
     let mut sources = Sources::default();
@@ -197,7 +202,8 @@ fn many_entities(surface: Surface) {
     let domain = motet_syntax::read(&source, id).file;
     let (session, said) = Session::new(None, &[domain], None, None, Options::default(), &mut sources);
     assert!(said.is_empty(), "{said:?}");
-    let mut taken: Vec<Duration> = (0..21).map(|_| time(|| Prepared::new(&session, surface)).1).collect();
+    let mut taken: Vec<Duration> =
+        (0..21).map(|_| time(|| AcceptorFactory::new(&session, surface)).1).collect();
     taken.sort_unstable();
     println!("5,000 entities: prepared in {:?} at the median of 21", taken[10]);
 }

@@ -17,11 +17,11 @@ use common::dice::Dice;
 use common::tokens::{END, tokens};
 use common::walks::{Ended, KINDS, of_kind, steps, walk, written};
 use common::{errors, session};
-use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
-use motet_syntax::{FileId, Form, Source};
+use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary, canonical};
+use motet_syntax::{FileId, Source, Syntax};
 
-fn surface(modifiers: Modifiers) -> Surface {
-    Surface { modifiers, ..Surface::default() }
+fn surface(modifiers: Modifiers) -> Subset {
+    Subset { modifiers, ..Subset::default() }
 }
 
 /// How many walks each pair of robot and scene gets; `MOTET_WALKS` says otherwise.
@@ -31,15 +31,15 @@ fn walks() -> usize {
 
 #[test]
 fn what_is_written_at_random_checks() {
-    write_at_random(Form::Json);
+    write_at_random(Syntax::Json);
 }
 
 #[test]
 fn what_is_written_at_random_in_text_checks() {
-    write_at_random(Form::Text);
+    write_at_random(Syntax::Text);
 }
 
-fn write_at_random(form: Form) {
+fn write_at_random(form: Syntax) {
     let (mut lengths, mut done, mut all) = (Vec::new(), 0, 0);
     let mut kinds = [0usize; KINDS.len()];
     for (index, (robot, scene)) in
@@ -47,7 +47,7 @@ fn write_at_random(form: Form) {
     {
         let session = session(robot, scene);
         for (kind, modifiers) in [Modifiers::Default, Modifiers::Written].into_iter().enumerate() {
-            let prepared = Prepared::new(&session, Surface { form, ..surface(modifiers) });
+            let prepared = AcceptorFactory::new(&session, Subset { syntax: form, ..surface(modifiers) });
             for round in 0..walks() {
                 let seed = (index * 2 + kind) * 1_000_000 + round;
                 let mut dice = Dice::new(u64::try_from(seed).unwrap());
@@ -80,7 +80,7 @@ fn write_at_random(form: Form) {
 #[test]
 fn what_may_stand_beside_something_is_what_checks_there() {
     let session = session("hsr", "kitchen");
-    let prepared = Prepared::new(&session, surface(Modifiers::Default));
+    let prepared = AcceptorFactory::new(&session, surface(Modifiers::Default));
     let near = r#"{"get":"distance","to":"user","is":"less","than":0.5}"#;
     let restart = format!(
         r#"{{"monitor":[{{"when":{near},"for":null,"then":{{"react":"restart","at_most":3}}}}],"during":["#
@@ -128,20 +128,20 @@ fn last_fails(text: &str) -> bool {
 
 #[test]
 fn examples_are_accepted_byte_by_byte() {
-    accept_examples(Form::Json);
+    accept_examples(Syntax::Json);
 }
 
 #[test]
 fn examples_in_text_are_accepted_byte_by_byte() {
-    accept_examples(Form::Text);
+    accept_examples(Syntax::Text);
 }
 
-fn accept_examples(form: Form) {
-    let surface = Surface { form, ..surface(Modifiers::Written) };
+fn accept_examples(form: Syntax) {
+    let surface = Subset { syntax: form, ..surface(Modifiers::Written) };
     let mut count = 0;
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
-        let prepared = Prepared::new(&session, surface);
+        let prepared = AcceptorFactory::new(&session, surface);
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
         let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()).collect();
         files.sort();
@@ -167,7 +167,7 @@ fn accept_examples(form: Form) {
 }
 
 /// That a policy is accepted byte by byte, to its end.
-fn takes_whole(prepared: &Prepared, spelled: &str, whose: &str) {
+fn takes_whole(prepared: &AcceptorFactory, spelled: &str, whose: &str) {
     let mut acceptor = prepared.acceptor(100_000).unwrap();
     let taken = acceptor.accept(spelled.as_bytes());
     assert!(
@@ -184,9 +184,9 @@ fn what_is_written_is_accepted_byte_by_byte_in_both_surfaces() {
     let (mut count, mut outside) = (0, 0);
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
-        for (from, to) in [(Form::Json, Form::Text), (Form::Text, Form::Json)] {
-            let [from, to] = [from, to].map(|form| Surface { form, ..surface(Modifiers::Written) });
-            let prepared = Prepared::new(&session, to);
+        for (from, to) in [(Syntax::Json, Syntax::Text), (Syntax::Text, Syntax::Json)] {
+            let [from, to] = [from, to].map(|form| Subset { syntax: form, ..surface(Modifiers::Written) });
+            let prepared = AcceptorFactory::new(&session, to);
             // The acceptor of the text form writes no comparison of a field.
             let fits = |text: &str| (600..3000).contains(&text.len()) && !text.contains("\"field\":");
             for text in written(&session, from, 4, fits) {
@@ -207,17 +207,17 @@ fn what_is_written_is_accepted_byte_by_byte_in_both_surfaces() {
 
 #[test]
 fn a_mask_has_the_tokens_that_are_accepted() {
-    compare_masks(Form::Json);
+    compare_masks(Syntax::Json);
 }
 
 #[test]
 fn a_mask_of_text_has_the_tokens_that_are_accepted() {
-    compare_masks(Form::Text);
+    compare_masks(Syntax::Text);
 }
 
-fn compare_masks(form: Form) {
+fn compare_masks(form: Syntax) {
     let session = session("hsr", "kitchen");
-    let prepared = Prepared::new(&session, Surface { form, ..surface(Modifiers::Default) });
+    let prepared = AcceptorFactory::new(&session, Subset { syntax: form, ..surface(Modifiers::Default) });
     let tokens = tokens();
     let vocabulary = Vocabulary::new(&tokens, END);
     let count = u32::try_from(vocabulary.len()).unwrap();
@@ -252,7 +252,7 @@ fn compare_masks(form: Form) {
 #[test]
 fn what_must_come_next_comes() {
     let session = session("hsr", "kitchen");
-    let prepared = Prepared::new(&session, surface(Modifiers::Default));
+    let prepared = AcceptorFactory::new(&session, surface(Modifiers::Default));
     let mut acceptor = prepared.acceptor(1000).unwrap();
     assert_eq!(acceptor.forced(), b"{\"motet\":1,\"policy\":\"");
     let start = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1","from":"auto"}"#;
@@ -269,9 +269,10 @@ fn what_a_query_ruled_out_is_no_argument() {
     let session = session("hsr", "kitchen");
     let start =
         br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1""#;
-    let open = Prepared::new(&session, surface(Modifiers::Default)).acceptor(1000).unwrap().accept(start);
+    let open =
+        AcceptorFactory::new(&session, surface(Modifiers::Default)).acceptor(1000).unwrap().accept(start);
     assert_eq!(open, start.len());
     let verdicts = [("pick", "mug_1")];
-    let prepared = Prepared::with_verdicts(&session, surface(Modifiers::Default), &verdicts);
+    let prepared = AcceptorFactory::with_verdicts(&session, surface(Modifiers::Default), &verdicts);
     assert!(prepared.acceptor(1000).unwrap().accept(start) < start.len());
 }

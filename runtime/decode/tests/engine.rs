@@ -13,8 +13,8 @@ use common::dice::Dice;
 use common::peer::{Peer, environment};
 use common::session;
 use common::tokens::{END, tokens};
-use motet_decode::{Modifiers, Prepared, Surface, Vocabulary};
-use motet_syntax::Form;
+use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary};
+use motet_syntax::Syntax;
 
 /// How many walks each pair of robot and scene gets with each surface.
 const WALKS: u64 = 3;
@@ -23,12 +23,12 @@ const LENGTH: usize = 120;
 
 #[test]
 fn a_mask_is_within_that_of_the_grammar() {
-    compare(Form::Json);
+    compare(Syntax::Json);
 }
 
 #[test]
 fn a_mask_of_text_is_within_that_of_the_grammar() {
-    compare(Form::Text);
+    compare(Syntax::Text);
 }
 
 /// What a loop goes through is bound for its body: a container here, of which no step gives one.
@@ -38,23 +38,23 @@ fn an_item_may_be_an_argument() {
     let environment = environment(&tokens, END);
     let session = session("hsr", "living_room");
     for (form, policy) in [
-        (Form::Text, "policy p for hsr { each J in [drawer_1] at most 1 { open(J) done } done }"),
+        (Syntax::Text, "policy p for hsr { each J in [drawer_1] at most 1 { open(J) done } done }"),
         (
-            Form::Json,
+            Syntax::Json,
             r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"each":"J","in":["drawer_1"],"at_most":1,"steps":[{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
         ),
     ] {
-        let surface = Surface { form, ..Surface::default() };
+        let surface = Subset { syntax: form, ..Subset::default() };
         let mut matcher = Peer::new(&environment, &session, surface).start();
         for byte in policy.bytes() {
             assert!(matcher.consume_token(u32::from(byte)).is_ok(), "`{}` in {policy}", char::from(byte));
         }
-        let mut acceptor = Prepared::new(&session, surface).acceptor(2000).unwrap();
+        let mut acceptor = AcceptorFactory::new(&session, surface).acceptor(2000).unwrap();
         assert_eq!(acceptor.accept(policy.as_bytes()), policy.len(), "{policy}");
     }
 }
 
-fn compare(form: Form) {
+fn compare(form: Syntax) {
     let tokens = tokens();
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = environment(&tokens, END);
@@ -62,8 +62,8 @@ fn compare(form: Form) {
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
         for modifiers in [Modifiers::Default, Modifiers::Written] {
-            let surface = Surface { form, modifiers, ..Surface::default() };
-            let prepared = Prepared::new(&session, surface);
+            let surface = Subset { syntax: form, modifiers, ..Subset::default() };
+            let prepared = AcceptorFactory::new(&session, surface);
             let peer = Peer::new(&environment, &session, surface);
             for seed in 0..WALKS {
                 let mut dice = Dice::new(seed);

@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 use motet_decode::vocabulary::{MAX_TOKEN_BYTES, MAX_TOKENS};
-use motet_decode::{End, Prepared, Surface, Vocabulary, World};
+use motet_decode::{AcceptorFactory, EndToken, Environment, Subset, Vocabulary};
 use serde_json::{Value, json};
 
-fn read(file: &Value, end: End<'_>) -> Result<Vocabulary, String> {
+fn read(file: &Value, end: EndToken<'_>) -> Result<Vocabulary, String> {
     Vocabulary::from_file(file.to_string().as_bytes(), end).map_err(|error| error.to_string())
 }
 
@@ -21,7 +21,7 @@ fn byte_level_tokens_stand_for_bytes() {
         "pre_tokenizer": {"type": "Sequence", "pretokenizers": [{"type": "Split"}, {"type": "ByteLevel"}]},
         "added_tokens": [{"id": 5, "content": "<|end|>", "special": true}, {"id": 7, "content": "{\"é", "special": false}],
     });
-    let vocabulary = read(&file, End::Known).unwrap();
+    let vocabulary = read(&file, EndToken::Known).unwrap();
     let expected: [&[u8]; 8] = [b"!", b" go", b"\n", "é".as_bytes(), b"?", b"", b"", "{\"é".as_bytes()];
     assert_eq!(bytes(&vocabulary)[..4], expected[..4]);
     assert_eq!(bytes(&vocabulary)[5..], expected[5..]);
@@ -44,7 +44,7 @@ fn all_bytes_have_a_character() {
         "model": {"vocab": vocab}, "decoder": {"type": "ByteLevel"},
         "added_tokens": [{"id": 256, "content": "<|endoftext|>", "special": true}],
     });
-    let vocabulary = read(&file, End::Known).unwrap();
+    let vocabulary = read(&file, EndToken::Known).unwrap();
     for byte in 0..=255u8 {
         assert_eq!(vocabulary.bytes(byte.into()), [byte]);
     }
@@ -69,7 +69,7 @@ fn pieces_have_spaces_and_bytes_to_fall_back_to() {
             {"id": 2, "content": "</s>", "special": true},
         ],
     });
-    let vocabulary = read(&file, End::Known).unwrap();
+    let vocabulary = read(&file, EndToken::Known).unwrap();
     let expected: [&[u8]; 7] = [b"", b"", b"", b"\n", b" pick", b"\n", "é".as_bytes()];
     assert_eq!(bytes(&vocabulary), expected);
     assert_eq!(vocabulary.end(), 2);
@@ -78,8 +78,8 @@ fn pieces_have_spaces_and_bytes_to_fall_back_to() {
         "decoder": {"type": "Sequence", "decoders": [
             {"type": "Replace", "pattern": {"String": "▁"}, "content": " "}, {"type": "ByteFallback"}, {"type": "Fuse"}]},
     });
-    assert_eq!(read(&map, End::Known).unwrap_err(), "nothing says which token ends a sequence: name it");
-    let vocabulary = read(&map, End::Named("<end>")).unwrap();
+    assert_eq!(read(&map, EndToken::Known).unwrap_err(), "nothing says which token ends a sequence: name it");
+    let vocabulary = read(&map, EndToken::Named("<end>")).unwrap();
     let expected: [&[u8]; 3] = [b"", b" a", b""];
     assert_eq!(bytes(&vocabulary), expected);
 }
@@ -87,13 +87,13 @@ fn pieces_have_spaces_and_bytes_to_fall_back_to() {
 #[test]
 fn lists_are_read() {
     let list = json!(["{\"", [255, 0], null, "é"]);
-    let vocabulary = read(&list, End::Number(2)).unwrap();
+    let vocabulary = read(&list, EndToken::Number(2)).unwrap();
     let expected: [&[u8]; 4] = [b"{\"", &[255, 0], b"", "é".as_bytes()];
     assert_eq!(bytes(&vocabulary), expected);
-    let ranks = Vocabulary::from_file(b"eyI= 0\ngA== 2\n", End::Number(3)).unwrap();
+    let ranks = Vocabulary::from_file(b"eyI= 0\ngA== 2\n", EndToken::Number(3)).unwrap();
     let expected: [&[u8]; 4] = [b"{\"", b"", &[128], b""];
     assert_eq!(bytes(&ranks), expected);
-    let lines = Vocabulary::from_file(b"eyI=\ngA==\n\n", End::Number(2)).unwrap();
+    let lines = Vocabulary::from_file(b"eyI=\ngA==\n\n", EndToken::Number(2)).unwrap();
     let expected: [&[u8]; 3] = [b"{\"", &[128], b""];
     assert_eq!(bytes(&lines), expected);
 }
@@ -103,26 +103,30 @@ fn what_is_no_vocabulary_is_refused_with_the_reason() {
     let level = json!({"type": "ByteLevel"});
     let model = |vocab: Value| json!({"model": {"type": "BPE", "vocab": vocab}, "decoder": level});
     for (file, end, says) in [
-        (json!({}), End::Known, "`model` is not an object"),
-        (json!({"model": []}), End::Known, "`model` is not an object"),
+        (json!({}), EndToken::Known, "`model` is not an object"),
+        (json!({"model": []}), EndToken::Known, "`model` is not an object"),
         (
             json!({"model": {"type": "WordPiece", "vocab": {}}}),
-            End::Known,
+            EndToken::Known,
             "`WordPiece`, whose tokens are not joined",
         ),
-        (json!({"model": {"vocab": {"a": 0}}}), End::Known, "BPE without ByteLevel or Metaspace"),
-        (model(json!(3)), End::Known, "`model.vocab` is not an object or a list"),
-        (model(json!({"a": -1})), End::Known, "`model.vocab.a` is not the number of a token"),
-        (model(json!({"a": 4_294_967_295_u32})), End::Known, "4294967296 tokens, at most 1048576"),
-        (model(json!({"a": 1, "b": 1})), End::Known, "token 1 is there twice"),
-        (model(json!({"a b": 1})), End::Known, "token 1 has the character ' ', which stands for no byte"),
-        (model(json!({"a": 0})), End::Named("</s>"), "no token `</s>` to end"),
-        (model(json!({"a": 0})), End::Number(1), "no token 1 to end"),
-        (model(json!({"a": 0})), End::Number(0), "no token with bytes"),
-        (model(json!({})), End::Number(0), "no token 0 to end"),
-        (json!(["a", 3]), End::Number(0), "`1` is not a text, a list of bytes or null"),
-        (json!(["a", [256]]), End::Number(0), "`1` is not a text, a list of bytes or null"),
-        (json!([]), End::Number(0), "no token 0 to end"),
+        (json!({"model": {"vocab": {"a": 0}}}), EndToken::Known, "BPE without ByteLevel or Metaspace"),
+        (model(json!(3)), EndToken::Known, "`model.vocab` is not an object or a list"),
+        (model(json!({"a": -1})), EndToken::Known, "`model.vocab.a` is not the number of a token"),
+        (model(json!({"a": 4_294_967_295_u32})), EndToken::Known, "4294967296 tokens, at most 1048576"),
+        (model(json!({"a": 1, "b": 1})), EndToken::Known, "token 1 is there twice"),
+        (
+            model(json!({"a b": 1})),
+            EndToken::Known,
+            "token 1 has the character ' ', which stands for no byte",
+        ),
+        (model(json!({"a": 0})), EndToken::Named("</s>"), "no token `</s>` to end"),
+        (model(json!({"a": 0})), EndToken::Number(1), "no token 1 to end"),
+        (model(json!({"a": 0})), EndToken::Number(0), "no token with bytes"),
+        (model(json!({})), EndToken::Number(0), "no token 0 to end"),
+        (json!(["a", 3]), EndToken::Number(0), "`1` is not a text, a list of bytes or null"),
+        (json!(["a", [256]]), EndToken::Number(0), "`1` is not a text, a list of bytes or null"),
+        (json!([]), EndToken::Number(0), "no token 0 to end"),
     ] {
         let said = read(&file, end).unwrap_err();
         assert!(said.contains(says), "{file}: {said}");
@@ -135,11 +139,11 @@ fn what_is_no_vocabulary_is_refused_with_the_reason() {
         (b"YQ== 0\n\xff\n", "line 2 is not a token in base64"),
         (b"YQ== 4000000000\n", "at most 1048576"),
     ] {
-        let said = Vocabulary::from_file(file, End::Number(0)).unwrap_err().to_string();
+        let said = Vocabulary::from_file(file, EndToken::Number(0)).unwrap_err().to_string();
         assert!(said.contains(says), "{}: {said}", String::from_utf8_lossy(file));
     }
     let deep = "[".repeat(100_000);
-    assert!(Vocabulary::from_file(deep.as_bytes(), End::Number(0)).is_err());
+    assert!(Vocabulary::from_file(deep.as_bytes(), EndToken::Number(0)).is_err());
     let many = vec![b"a".to_vec(); MAX_TOKENS + 1];
     assert!(Vocabulary::from_tokens(many, 0).is_err());
     let long = vec![vec![b'a'; 200]; MAX_TOKEN_BYTES / 200 + 2];
@@ -151,8 +155,10 @@ fn special_and_overlong_tokens_are_never_allowed_and_twins_always_together() {
     let mut tokens: Vec<Vec<u8>> = (0..=u8::MAX).map(|byte| vec![byte]).collect();
     tokens.extend([b"{".to_vec(), vec![b'a'; 2000], Vec::new(), b"ends".to_vec()]);
     let vocabulary = Vocabulary::from_tokens(tokens, 259).unwrap();
-    let session = World { robot: Some("hsr"), scene: Some("kitchen"), ..World::default() }.session().unwrap();
-    let mut decoder = Prepared::new(&session, Surface::default()).decoder(&vocabulary, 2000).unwrap();
+    let session = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() }
+        .session()
+        .unwrap();
+    let mut decoder = AcceptorFactory::new(&session, Subset::default()).decoder(&vocabulary, 2000).unwrap();
     let set = |mask: &[u32], token: usize| mask[token / 32] >> (token % 32) & 1 == 1;
     let mask = decoder.mask().to_vec();
     assert!(set(&mask, usize::from(b'{')) && set(&mask, 256));
@@ -176,25 +182,35 @@ fn special_and_overlong_tokens_are_never_allowed_and_twins_always_together() {
 
 #[test]
 fn worlds_are_opened_by_name_and_by_text() {
-    let error = |world: World<'_>| world.session().unwrap_err().to_string();
+    let error = |world: Environment<'_>| world.session().unwrap_err().to_string();
     assert!(
-        error(World { robot: Some("hal"), ..World::default() })
+        error(Environment { robot: Some("hal"), ..Environment::default() })
             .contains("there is no robot `hal`; built in: ")
     );
     assert!(
-        error(World { scene: Some("moon"), ..World::default() })
+        error(Environment { scene: Some("moon"), ..Environment::default() })
             .contains("there is no scene `moon`; built in: ")
     );
-    assert!(error(World { scene: Some("{"), ..World::default() }).contains("the scene cannot be used: "));
-    assert!(error(World { robot: Some("a = "), ..World::default() }).contains("the robot cannot be used: "));
-    assert!(error(World { state: Some("[]"), ..World::default() }).contains("the state cannot be used: "));
     assert!(
-        error(World { domain: Some("kind"), ..World::default() }).contains("the domain cannot be used: ")
+        error(Environment { scene: Some("{"), ..Environment::default() })
+            .contains("the scene cannot be used: ")
+    );
+    assert!(
+        error(Environment { robot: Some("a = "), ..Environment::default() })
+            .contains("the robot cannot be used: ")
+    );
+    assert!(
+        error(Environment { state: Some("[]"), ..Environment::default() })
+            .contains("the state cannot be used: ")
+    );
+    assert!(
+        error(Environment { domain: Some("kind"), ..Environment::default() })
+            .contains("the domain cannot be used: ")
     );
     let (_, scene) = motet_robots::scene::embedded().iter().find(|(name, _)| *name == "kitchen").unwrap();
     let state = Some(r#"{"holding(mug_1)": true, "free(hand)": false}"#);
-    let world = World { robot: Some("hsr"), scene: Some(scene), state, ..World::default() };
-    let prepared = Prepared::new(&world.session().unwrap(), Surface::default());
+    let world = Environment { robot: Some("hsr"), scene: Some(scene), state, ..Environment::default() };
+    let prepared = AcceptorFactory::new(&world.session().unwrap(), Subset::default());
     let pick = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick""#;
     assert!(prepared.acceptor(2000).unwrap().accept(pick) < pick.len());
 }

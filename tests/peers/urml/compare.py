@@ -3,7 +3,7 @@
 
 usage: compare.py SCENARIOS.jsonl EVAL
 
-EVAL is the release build of `eval` (cargo build --release -p motet-tests --bin eval). A scenario counts where every step
+EVAL is the release build of `eval` (cargo build --release -p motet-eval). A scenario counts where every step
 of its plan has a word in URML or is no word in either language. Prints one JSON object a tool.
 """
 

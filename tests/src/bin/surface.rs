@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use motet_decode::export::{Format, Header, export};
-use motet_decode::{Modifiers, Surface, canonical};
-use motet_syntax::{FileId, Form, Source, Sources};
+use motet_decode::{Modifiers, Subset, canonical};
+use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
 use serde_json::{Value, json};
@@ -23,10 +23,10 @@ fn main() {
         let (card, room) = (setup::robot(&robot), setup::scene(&scene));
         let (session, _) = setup::session(Some(&card), Some(&room), &mut Sources::default());
         let signatures = session.signatures();
-        let surface = |form| Surface { form, modifiers: Modifiers::Written, ..Surface::default() };
+        let surface = |form| Subset { syntax: form, modifiers: Modifiers::Written, ..Subset::default() };
         let parsed = motet_syntax::read(&Source::new(name.as_str(), read(&path)), FileId(0));
         let lines = parsed.file.runnable().next().map(|policy| {
-            [Form::Json, Form::Text]
+            [Syntax::Json, Syntax::Text]
                 .map(|form| canonical(policy, &signatures, surface(form)).unwrap_or_default())
         });
         let key = (robot, scene);
@@ -34,11 +34,11 @@ fn main() {
         grammars.entry(key).or_insert_with(|| {
             let of = |form, format| export(&signatures, surface(form), format, Header::None);
             json!({
-                "schema": of(Form::Json, Format::JsonSchema),
-                "json_gbnf": of(Form::Json, Format::Gbnf),
-                "text_gbnf": of(Form::Text, Format::Gbnf),
-                "json_lark": of(Form::Json, Format::Lark),
-                "text_lark": of(Form::Text, Format::Lark),
+                "schema": of(Syntax::Json, Format::JsonSchema),
+                "json_gbnf": of(Syntax::Json, Format::Gbnf),
+                "text_gbnf": of(Syntax::Text, Format::Gbnf),
+                "json_lark": of(Syntax::Json, Format::Lark),
+                "text_lark": of(Syntax::Text, Format::Lark),
             })
         });
     }

@@ -2,8 +2,8 @@
 //! `cargo run --release -p motet-tests --bin tokens`.
 
 use motet_decode::vocabulary::Encoding;
-use motet_decode::{Modifiers, Surface, canonical};
-use motet_syntax::{FileId, Form, Source, Sources};
+use motet_decode::{Modifiers, Subset, canonical};
+use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::setup;
 
@@ -17,9 +17,10 @@ fn main() {
         let parsed = motet_syntax::read(&Source::new(name.as_str(), read(&path)), FileId(0));
         let Some(policy) = parsed.file.runnable().next() else { continue };
         let mut row = Vec::new();
-        for form in [Form::Json, Form::Text] {
-            let of =
-                |modifiers| canonical(policy, &signatures, Surface { form, modifiers, ..Surface::default() });
+        for form in [Syntax::Json, Syntax::Text] {
+            let of = |modifiers| {
+                canonical(policy, &signatures, Subset { syntax: form, modifiers, ..Subset::default() })
+            };
             // Deadlines and retries have a place only where the policy has some.
             let Ok(line) = of(Modifiers::Default).or_else(|_| of(Modifiers::Written)) else { continue };
             let count = |encoding: Encoding| encoding.tokenizer().encode_ordinary(&line).len();

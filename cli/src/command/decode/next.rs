@@ -2,7 +2,7 @@
 
 use motet_compiler::Signatures;
 use motet_decode::Acceptor;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use super::place::{Place, describe, describe_text};
 use super::quoted;
@@ -21,17 +21,17 @@ pub(super) struct Next {
     free: Vec<&'static str>,
     /// Whether some words were left out.
     is_cut: bool,
-    form: Form,
+    form: Syntax,
 }
 
 /// What may come next after the bytes of an acceptor, which are left as they are.
-pub(super) fn next(acceptor: &mut Acceptor, form: Form) -> Next {
+pub(super) fn next(acceptor: &mut Acceptor, form: Syntax) -> Next {
     let first = acceptor.next_bytes();
     let mut next = Next { words: Vec::new(), free: Vec::new(), is_cut: false, form };
     if first.len() > FREE {
         let is_text =
-            acceptor.bytes().iter().filter(|byte| **byte == b'"').count() % 2 == 1 && form == Form::Text;
-        let is_text = is_text || (form == Form::Json && first.contains(&b' '));
+            acceptor.bytes().iter().filter(|byte| **byte == b'"').count() % 2 == 1 && form == Syntax::Text;
+        let is_text = is_text || (form == Syntax::Json && first.contains(&b' '));
         next.free.push(if is_text { "a text" } else { "a name" });
         next.words.extend(first.contains(&b'"').then(|| "\"".to_owned()));
         return next;
@@ -91,10 +91,10 @@ fn grow(acceptor: &mut Acceptor, byte: u8, word: &mut Vec<u8>, next: &mut Next, 
 }
 
 /// What stands between words.
-fn is_mark(byte: u8, form: Form) -> bool {
+fn is_mark(byte: u8, form: Syntax) -> bool {
     match form {
-        Form::Json => b"{}[],:\"".contains(&byte),
-        Form::Text => b"{}[](), \"".contains(&byte),
+        Syntax::Json => b"{}[],:\"".contains(&byte),
+        Syntax::Text => b"{}[](), \"".contains(&byte),
     }
 }
 
@@ -113,8 +113,8 @@ impl Next {
         let width = self.words.iter().map(|word| word.chars().count()).max().unwrap_or_default().min(24);
         for word in &self.words {
             let said = match self.form {
-                Form::Json => describe(signatures, &place, word),
-                Form::Text => describe_text(signatures, word),
+                Syntax::Json => describe(signatures, &place, word),
+                Syntax::Text => describe_text(signatures, word),
             };
             let line = format!("  {word:width$}  {said}");
             text.push_str(line.trim_end());

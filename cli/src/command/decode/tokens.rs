@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use motet_decode::vocabulary::{Encoding, MAX_FILE_BYTES};
-use motet_decode::{End, Prepared, Vocabulary};
+use motet_decode::{AcceptorFactory, EndToken, Vocabulary};
 
 use super::quoted;
 use crate::exit::Trouble;
@@ -26,8 +26,8 @@ pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, Tr
         return Vocabulary::of_encoding(encoding).map_err(wrong);
     }
     let end = match end {
-        None => End::Known,
-        Some(end) => end.parse().map_or(End::Named(end), End::Number),
+        None => EndToken::Known,
+        Some(end) => end.parse().map_or(EndToken::Named(end), EndToken::Number),
     };
     let path = Path::new(name);
     let unread = |source| Trouble::Read { path: path.to_owned(), source };
@@ -44,7 +44,7 @@ pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, Tr
 ///
 /// No policy fits the budget.
 pub(super) fn told(
-    prepared: &Prepared,
+    prepared: &AcceptorFactory,
     vocabulary: &Vocabulary,
     begun: &[u8],
     budget: usize,

@@ -4,7 +4,9 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use motet_geometry::query::{Answer, Opening, Query, Room, State, Unknown, World};
+use motet_geometry::planning::{
+    Articulation, Configuration, MotionAnswer, MotionQuery, QueryContext, SceneState, UnknownReason,
+};
 use motet_robots::scene::Scene;
 
 /// Pixels a metre.
@@ -50,7 +52,12 @@ impl Ink {
 }
 
 /// The drawing as SVG: 120 pixels a metre, x to the right, y up; answers are numbered from 1 in their order.
-pub(super) fn top_view(room: &Room<'_>, scene: &Scene, world: &World, answers: &[(Query, Answer)]) -> String {
+pub(super) fn top_view(
+    room: &QueryContext<'_>,
+    scene: &Scene,
+    world: &SceneState,
+    answers: &[(MotionQuery, MotionAnswer)],
+) -> String {
     let inks = inks(answers);
     let patches = patches(room, scene, world, answers, &inks);
     let marks = marks(room, scene, world);
@@ -96,7 +103,7 @@ pub(super) fn top_view(room: &Room<'_>, scene: &Scene, world: &World, answers: &
         );
     }
     for (((query, answer), ink), number) in answers.iter().zip(&inks).zip(1..) {
-        if let (Answer::Feasible(witness), Some(ink)) = (answer, ink) {
+        if let (MotionAnswer::Feasible(witness), Some(ink)) = (answer, ink) {
             path(&mut svg, &frame, (number, query), &witness.path, *ink);
         }
     }
@@ -105,17 +112,18 @@ pub(super) fn top_view(room: &Room<'_>, scene: &Scene, world: &World, answers: &
 }
 
 /// How each answer is drawn, where it has a path.
-fn inks(answers: &[(Query, Answer)]) -> Vec<Option<Ink>> {
+fn inks(answers: &[(MotionQuery, MotionAnswer)]) -> Vec<Option<Ink>> {
     let mut next = 0..;
-    let ink = |answer: &Answer| matches!(answer, Answer::Feasible(_)).then(|| next.next().map(Ink::of));
+    let ink =
+        |answer: &MotionAnswer| matches!(answer, MotionAnswer::Feasible(_)).then(|| next.next().map(Ink::of));
     answers.iter().map(|(_, answer)| answer).map(ink).map(Option::flatten).collect()
 }
 
 fn patches(
-    room: &Room<'_>,
+    room: &QueryContext<'_>,
     scene: &Scene,
-    world: &World,
-    answers: &[(Query, Answer)],
+    world: &SceneState,
+    answers: &[(MotionQuery, MotionAnswer)],
     inks: &[Option<Ink>],
 ) -> Vec<Patch> {
     let plain = |class| move |points| Patch { class, ink: None, points };
@@ -123,12 +131,12 @@ fn patches(
         room.obstacles().map(|(_, solid)| solid.outline()).map(plain("thing")).collect();
     patches.extend(room.robot_at(room.start()).iter().map(|solid| solid.outline()).map(plain("start")));
     for ((query, answer), ink) in answers.iter().zip(inks) {
-        let Answer::Feasible(witness) = answer else { continue };
+        let MotionAnswer::Feasible(witness) = answer else { continue };
         let drawn = |class| move |points| Patch { class, ink: *ink, points };
         // A door or a drawer as it is afterwards.
-        if let Query::Pull(id) | Query::Push(id) = query
+        if let MotionQuery::Pull(id) | MotionQuery::Push(id) = query
             && let Some(entity) = scene.entities.get(id)
-            && let Some(opening) = Opening::new(entity, world)
+            && let Some(opening) = Articulation::new(entity, world)
         {
             let part = if world.is_open(entity) { 0.0 } else { 1.0 };
             patches.extend(opening.moving(part).iter().map(|solid| solid.outline()).map(drawn("moved")));
@@ -141,7 +149,7 @@ fn patches(
 }
 
 /// Where the entities without a shape are.
-fn marks(room: &Room<'_>, scene: &Scene, world: &World) -> Vec<(String, [f64; 2])> {
+fn marks(room: &QueryContext<'_>, scene: &Scene, world: &SceneState) -> Vec<(String, [f64; 2])> {
     let solid: BTreeSet<_> = room.obstacles().map(|(id, _)| id).collect();
     let others = scene.entities.values().filter(|it| !solid.contains(&it.id) && !world.holds(&it.id));
     let place = |it: &motet_robots::scene::Entity| {
@@ -152,7 +160,13 @@ fn marks(room: &Room<'_>, scene: &Scene, world: &World) -> Vec<(String, [f64; 2]
 }
 
 /// The way of the base, with its number where it ends.
-fn path(svg: &mut String, frame: &Frame, (number, query): (usize, &Query), states: &[State], ink: Ink) {
+fn path(
+    svg: &mut String,
+    frame: &Frame,
+    (number, query): (usize, &MotionQuery),
+    states: &[Configuration],
+    ink: Ink,
+) {
     let points: Vec<[f64; 2]> = states.iter().map(|state| [state.base[0], state.base[1]]).collect();
     let _ = writeln!(
         svg,
@@ -173,7 +187,7 @@ fn path(svg: &mut String, frame: &Frame, (number, query): (usize, &Query), state
 }
 
 /// The legend: of each answer its number, a piece of its line, the motion and the verdict.
-fn listed(svg: &mut String, left: f64, answers: &[(Query, Answer)], inks: &[Option<Ink>]) {
+fn listed(svg: &mut String, left: f64, answers: &[(MotionQuery, MotionAnswer)], inks: &[Option<Ink>]) {
     let [_, row] = LEGEND;
     for (((query, answer), ink), number) in answers.iter().zip(inks).zip(1..) {
         let y = row * (f64::from(number) + 0.5);
@@ -187,10 +201,10 @@ fn listed(svg: &mut String, left: f64, answers: &[(Query, Answer)], inks: &[Opti
             );
         }
         let verdict = match answer {
-            Answer::Feasible(_) => "feasible",
-            Answer::Infeasible(why) => why.reason.name(),
-            Answer::Unknown(Unknown::Budget) => "unknown, cut short",
-            Answer::Unknown(Unknown::Because(_)) => "unknown",
+            MotionAnswer::Feasible(_) => "feasible",
+            MotionAnswer::Infeasible(why) => why.reason.name(),
+            MotionAnswer::Unknown(UnknownReason::Budget) => "unknown, cut short",
+            MotionAnswer::Unknown(UnknownReason::Because(_)) => "unknown",
         };
         let class = if ink.is_some() { "" } else { " class=\"none\"" };
         let _ = writeln!(

@@ -1,18 +1,20 @@
 //! An answer as a line of JSON. Lengths in m, angles in rad, masses in kg; keys in a fixed order.
 
-use motet_geometry::query::{Answer, Machine, Query, Side, State, Unknown, Witness, components};
+use motet_geometry::planning::{
+    Configuration, GraspSide, MotionAnswer, MotionQuery, MotionWitness, RobotModel, UnknownReason, components,
+};
 use serde_json::{Map, Value, json};
 
 /// One answer.
-pub(super) fn line(machine: &Machine, query: &Query, answer: &Answer) -> String {
+pub(super) fn line(machine: &RobotModel, query: &MotionQuery, answer: &MotionAnswer) -> String {
     let mut object = Map::new();
     object.insert("query".into(), query.to_string().into());
     match answer {
-        Answer::Feasible(witness) => {
+        MotionAnswer::Feasible(witness) => {
             object.insert("answer".into(), "feasible".into());
             object.insert("witness".into(), of(machine, witness));
         }
-        Answer::Infeasible(why) => {
+        MotionAnswer::Infeasible(why) => {
             object.insert("answer".into(), "infeasible".into());
             object.insert("reason".into(), why.reason.name().into());
             object.insert("says".into(), why.reason.to_string().into());
@@ -22,11 +24,11 @@ pub(super) fn line(machine: &Machine, query: &Query, answer: &Answer) -> String 
             object.insert("change".into(), why.change.clone().into());
             object.insert("certified".into(), why.certified.into());
         }
-        Answer::Unknown(unknown) => {
+        MotionAnswer::Unknown(unknown) => {
             object.insert("answer".into(), "unknown".into());
             let why = match unknown {
-                Unknown::Budget => "the search was cut short",
-                Unknown::Because(why) => why.as_str(),
+                UnknownReason::Budget => "the search was cut short",
+                UnknownReason::Because(why) => why.as_str(),
             };
             object.insert("says".into(), why.into());
         }
@@ -34,12 +36,12 @@ pub(super) fn line(machine: &Machine, query: &Query, answer: &Answer) -> String 
     Value::Object(object).to_string()
 }
 
-fn of(machine: &Machine, witness: &Witness) -> Value {
+fn of(machine: &RobotModel, witness: &MotionWitness) -> Value {
     let grasp = witness.grasp.as_ref().map(|grasp| {
         let side = match grasp.side {
-            Side::Top => "top",
-            Side::Side => "side",
-            Side::Front => "front",
+            GraspSide::Top => "top",
+            GraspSide::Side => "side",
+            GraspSide::Front => "front",
         };
         let pose = |(xyz, quaternion): ([f64; 3], [f64; 4])| json!({"xyz": xyz, "quaternion_xyzw": quaternion});
         json!({
@@ -58,7 +60,7 @@ fn of(machine: &Machine, witness: &Witness) -> Value {
     })
 }
 
-fn state(machine: &Machine, state: &State) -> Value {
+fn state(machine: &RobotModel, state: &Configuration) -> Value {
     let names = machine.tree().variables().iter().map(|variable| variable.name.to_string());
     let joints: Map<String, Value> = names.zip(state.joints.iter().map(|value| json!(value))).collect();
     json!({"base": state.base, "joints": joints})

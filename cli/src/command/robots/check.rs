@@ -2,7 +2,7 @@
 
 use motet_compiler::{Options, Session};
 use motet_geometry::kinematics::Chain;
-use motet_geometry::query::{Allowed, Machine, Room, Solver, Touch, World};
+use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
@@ -66,7 +66,7 @@ impl Told {
 }
 
 fn told(robot: &Robot, urdf: &Urdf) -> Told {
-    let machine = Machine::new(robot, urdf);
+    let machine = RobotModel::new(robot, urdf);
     let tree = machine.tree();
     let solids: usize = urdf.links.iter().map(|link| link.collisions.len()).sum();
     let mut lines = vec![format!(
@@ -88,7 +88,7 @@ fn told(robot: &Robot, urdf: &Urdf) -> Told {
             continue;
         };
         // How high the base's link is does not tell which solver it is.
-        let found = Solver::of(&chain, robot.base.drive, 0.0);
+        let found = IkSolver::of(&chain, robot.base.drive, 0.0);
         lines.push(format!("{name:8}  {}: {}", count(chain.variables.len(), "joint"), solver(&found)));
     }
     lines.extend(machine.body().unseen().iter().filter_map(|link| {
@@ -106,20 +106,20 @@ fn told(robot: &Robot, urdf: &Urdf) -> Told {
 const SUNK: f64 = 0.01;
 
 /// What the robot touches in its postures, and what of it is below the floor.
-fn postures(machine: &Machine, told: &mut Told) {
+fn postures(machine: &RobotModel, told: &mut Told) {
     let scene = Scene::default();
-    let mut world = World::new(machine, &scene);
+    let mut world = SceneState::new(machine, &scene);
     for posture in machine.card().postures.keys() {
         let Some(joints) = machine.posture(posture, machine.rest()) else { continue };
         world.robot.joints = joints;
-        let room = Room::new(machine, &scene, &world);
+        let room = QueryContext::new(machine, &scene, &world);
         let name = posture.escape_debug().to_string();
-        let touch = room.touch(&world.robot, Allowed::default());
+        let touch = room.contact(&world.robot, AllowedCollisions::default());
         let sunk = machine.lowest(&world.robot, |_| true).filter(|(_, height)| *height < -SUNK);
         if touch.is_none() && sunk.is_none() {
             told.lines.push(format!("{name:8}  touches neither itself nor the floor"));
         }
-        if let Some(Touch { link, other, is_own }) = touch {
+        if let Some(Contact { link, other, is_own }) = touch {
             let (link, other) = (link.escape_debug(), other.escape_debug());
             let instead = format!("give joints other positions under `[postures.{name}]`");
             let help = if is_own {
@@ -144,11 +144,11 @@ fn postures(machine: &Machine, told: &mut Told) {
 }
 
 /// How joint positions for a pose of a hand are found.
-fn solver(solver: &Solver) -> &'static str {
+fn solver(solver: &IkSolver) -> &'static str {
     match solver {
-        Solver::Lift(_) => "closed form, a lift and a wrist whose axes meet",
-        Solver::Parallel(_) => "closed form, six joints of which three are parallel",
-        Solver::Seven(_) => "closed form, seven joints with a shoulder, an elbow and a wrist",
-        Solver::Steps(_) => "solved in steps",
+        IkSolver::Lift(_) => "closed form, a lift and a wrist whose axes meet",
+        IkSolver::Parallel(_) => "closed form, six joints of which three are parallel",
+        IkSolver::Seven(_) => "closed form, seven joints with a shoulder, an elbow and a wrist",
+        IkSolver::Steps(_) => "solved in steps",
     }
 }

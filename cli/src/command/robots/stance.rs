@@ -2,7 +2,9 @@
 //! nothing.
 
 use motet_geometry::kinematics::{Variable, spread};
-use motet_geometry::query::{Allowed, GAP, Hand, Machine, Room, State, World};
+use motet_geometry::planning::{
+    AllowedCollisions, Configuration, HandModel, MIN_CLEARANCE, QueryContext, RobotModel, SceneState,
+};
 use motet_robots::card::{Robot, Stance};
 use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
@@ -12,8 +14,8 @@ const POSTURES: usize = 256;
 
 /// How the robot of a first card stands.
 pub(super) fn find(robot: &Robot, urdf: &Urdf) -> Stance {
-    let machine = Machine::new(robot, urdf);
-    let is_arm = |hand: &Hand, link: usize| hand.carried.get(link) == Some(&true);
+    let machine = RobotModel::new(robot, urdf);
+    let is_arm = |hand: &HandModel, link: usize| hand.carried.get(link) == Some(&true);
     if machine.drives() {
         let stands = |link: usize| !machine.hand().is_some_and(|hand| is_arm(hand, link));
         let height = above(&machine, stands, 0.0);
@@ -22,18 +24,19 @@ pub(super) fn find(robot: &Robot, urdf: &Urdf) -> Stance {
     }
     let (stance, against) = posture(&machine, 0.0);
     // What is bolted down is on the floor, unless a shape of the arm then is below it wherever its joints are.
-    let height = if against == Some(Against::Floor) { above(&machine, |_| true, GAP + 1e-3) } else { 0.0 };
+    let height =
+        if against == Some(Against::Floor) { above(&machine, |_| true, MIN_CLEARANCE + 1e-3) } else { 0.0 };
     let above = (height > 0.0).then(|| posture(&raised(robot, urdf, height), height).0);
     above.filter(|above| above.touch.is_none()).unwrap_or(stance)
 }
 
 /// The robot with its base's link so high above the floor, in m.
-fn raised(robot: &Robot, urdf: &Urdf, height_m: f64) -> Machine {
+fn raised(robot: &Robot, urdf: &Urdf, height_m: f64) -> RobotModel {
     let mut robot = robot.clone();
     if let Some(model) = &mut robot.model {
         model.height_m = height_m;
     }
-    Machine::new(&robot, urdf)
+    RobotModel::new(&robot, urdf)
 }
 
 /// What the robot touches.
@@ -45,13 +48,13 @@ enum Against {
 
 /// The first posture of the arm in which nothing touches, at a height; where there is none, what the robot touches in the first
 /// that was tried.
-fn posture(machine: &Machine, height_m: f64) -> (Stance, Option<Against>) {
+fn posture(machine: &RobotModel, height_m: f64) -> (Stance, Option<Against>) {
     let scene = Scene::default();
-    let world = World::new(machine, &scene);
-    let room = Room::new(machine, &scene, &world);
+    let world = SceneState::new(machine, &scene);
+    let room = QueryContext::new(machine, &scene, &world);
     let touch = |joints: &[f64]| {
-        let state = State { base: [0.0; 3], joints: joints.to_vec() };
-        room.touch(&state, Allowed::default())
+        let state = Configuration { base: [0.0; 3], joints: joints.to_vec() };
+        room.contact(&state, AllowedCollisions::default())
     };
     let Some(first) = touch(machine.rest()) else {
         return (Stance { height_m, ..Stance::default() }, None);
@@ -79,8 +82,8 @@ fn posture(machine: &Machine, height_m: f64) -> (Stance, Option<Against>) {
 
 /// How high the base's link has to be for these links to be so far above the floor, in m, to the next millimetre; 0 where it
 /// may be on the floor itself.
-fn above(machine: &Machine, counts: impl Fn(usize) -> bool, gap: f64) -> f64 {
-    let state = State { base: [0.0; 3], joints: machine.rest().to_vec() };
+fn above(machine: &RobotModel, counts: impl Fn(usize) -> bool, gap: f64) -> f64 {
+    let state = Configuration { base: [0.0; 3], joints: machine.rest().to_vec() };
     let below = machine.lowest(&state, counts).map_or(0.0, |(_, height)| gap - height);
     // Less than a hundredth of a millimetre is rounding.
     if below > 1e-5 { ((below - 1e-5) * 1e3).ceil() / 1e3 } else { 0.0 }

@@ -4,21 +4,21 @@
 use motet_compiler::signature::Signatures;
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{FileId, Source, suggest};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 use smol_str::SmolStr;
 
 /// The names of a file of faults with their places; what else stands there was read before.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 struct File {
     calls: Vec<Call>,
     world: Vec<Happens>,
     #[serde(rename = "answers")]
-    _answers: Option<IgnoredAny>,
+    _answers: Option<serde_json::Value>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 struct Call {
     primitive: Spanned<SmolStr>,
     #[serde(default, rename = "nth")]
@@ -26,7 +26,7 @@ struct Call {
     then: Then,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[allow(dead_code, reason = "numbers are read with the faults themselves")]
 enum Then {
@@ -36,14 +36,14 @@ enum Then {
     Hangs,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 struct Happens {
     #[serde(rename = "at")]
     _at: f64,
     what: What,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[allow(dead_code, reason = "numbers are read with the faults themselves")]
 enum What {
@@ -68,7 +68,7 @@ enum What {
     Battery(f64),
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[allow(dead_code, reason = "numbers are read with the faults themselves")]
 enum To {

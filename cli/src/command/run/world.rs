@@ -8,6 +8,7 @@ use motet_sim::{Faults, PersonScript, SimOptions};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::json;
 use motet_syntax::{FileId, Source, Sources};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use smol_str::SmolStr;
 
@@ -108,7 +109,7 @@ fn fit(source: &Source, known: &Signatures) -> Result<(), Trouble> {
 }
 
 /// Reads a JSON file that is not about a policy; its diagnostics go to the report.
-fn read<T: DeserializeOwned>(
+fn read<T: DeserializeOwned + JsonSchema>(
     path: &Path,
     what: &'static str,
     report: &mut Report,

@@ -1,6 +1,6 @@
 //! Which calls make a fact.
 
-use motet_syntax::ast::{CompareOp, PrimitiveForm};
+use motet_syntax::ast::{CompareOp, PrimitiveKind};
 
 use super::{MAX_PROPOSALS, Maker, Proposed, Want};
 use crate::ir::{Base, BindingId, Condition, Entity, Primitive, ROBOT, StepKind, Term, Ty};
@@ -73,7 +73,7 @@ impl<'a> Prover<'a> {
         args: Vec<Option<Term>>,
         result: Option<Entity>,
     ) -> Vec<Proposed> {
-        let Some(found) = result.filter(|_| def.form == PrimitiveForm::Perception) else { return Vec::new() };
+        let Some(found) = result.filter(|_| def.form == PrimitiveKind::Perception) else { return Vec::new() };
         if let Some(binding) = self.symbols.binding_of(found) {
             return self.as_before(primitive, found, binding).into_iter().collect();
         }

@@ -1,4 +1,4 @@
-//! Decisions out of bytes. When the bytes have run out, every decision is the first alternative.
+//! Source of decisions made from bytes. After the last byte every decision is the first alternative.
 
 use smol_str::SmolStr;
 
@@ -9,7 +9,8 @@ pub(super) struct Choice<'b> {
     bytes: std::slice::Iter<'b, u8>,
 }
 
-/// Names that the generator uses; the bound ones are apart, so that a plain string is never taken for a binding.
+/// Names that the generator uses; the bound ones are apart, so that a plain string is never taken for a
+/// binding.
 const NAMES: &[&str] = &[
     "a",
     "mug_1",

@@ -1,11 +1,11 @@
-//! Made declarations.
+//! Generators of declarations.
 
 use smol_str::SmolStr;
 
 use super::Maker;
 use crate::ast::{
     Clause, EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl,
-    MeasureDecl, Param, PrimitiveDecl, PrimitiveForm, Quantified, TypeExpr,
+    MeasureDecl, Param, PrimitiveDecl, PrimitiveKind, Quantified, TypeExpr,
 };
 
 impl Maker<'_> {
@@ -88,7 +88,7 @@ impl Maker<'_> {
         let is_action = self.choice.is_heads();
         PrimitiveDecl {
             doc: self.doc(),
-            form: if is_action { PrimitiveForm::Action } else { PrimitiveForm::Perception },
+            kind: if is_action { PrimitiveKind::Action } else { PrimitiveKind::Perception },
             name: self.choice.name(),
             params: self.params(),
             result: self.maybe(|maker| maker.type_expr(1)),

@@ -1,4 +1,4 @@
-//! Made conditions and terms.
+//! Generators of conditions and terms.
 
 use smol_str::{SmolStr, format_smolstr};
 
@@ -6,7 +6,7 @@ use super::{Flavor, Maker};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind};
 use crate::unit::{Dimension, Unit};
 
-/// Which strings a JSON term may hold.
+/// Position of a term, which decides if it may be `any`.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     Term,

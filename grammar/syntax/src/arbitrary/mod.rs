@@ -1,6 +1,6 @@
-//! Trees made from bytes, for property tests and fuzzing: every sequence of bytes is a tree, shorter sequences are
-//! smaller trees, so what shrinks bytes shrinks trees. Every node kind comes up. The trees mean nothing: names are not
-//! declared and types do not fit. Only with the feature `arbitrary`.
+//! Trees made from bytes, for property tests and fuzzing: every sequence of bytes is a tree, shorter
+//! sequences are smaller trees, so what shrinks bytes shrinks trees. Every node kind comes up. The trees mean
+//! nothing: names are not declared and types do not fit. Only with the feature `arbitrary`.
 
 mod choice;
 mod declaration;
@@ -12,7 +12,7 @@ use choice::Choice;
 use crate::ast::{File, Policy};
 use crate::source::Span;
 
-/// What a tree looks as if it was read from.
+/// Syntax that a tree looks as if it was read from.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Flavor {
     /// Names are names.
@@ -33,20 +33,20 @@ pub fn text_policy(bytes: &[u8]) -> Policy {
     Maker::new(bytes, Flavor::Text).policy()
 }
 
-/// A policy as the JSON front end makes it: without parameters, every argument named, every binding in scope. The
-/// printed JSON reads back as the same tree, also by way of the text form.
+/// A policy as the JSON front end makes it: without parameters, every argument named, every binding in scope.
+/// The printed JSON reads back as the same tree, also by way of the text form.
 #[must_use]
 pub fn json_policy(bytes: &[u8]) -> Policy {
     Maker::new(bytes, Flavor::Json).policy()
 }
 
-/// How deep blocks and expressions of a made tree nest.
+/// Depth of blocks and expressions in a generated tree.
 const DEPTH: usize = 5;
 
 struct Maker<'b> {
     choice: Choice<'b>,
     flavor: Flavor,
-    /// What is bound where the maker is.
+    /// Names bound at the current point.
     scope: Vec<smol_str::SmolStr>,
 }
 

@@ -1,31 +1,33 @@
 //! Expressions: conditions, terms and calls.
 
+use derive_where::derive_where;
 use smol_str::SmolStr;
 
 use super::Name;
 use crate::source::Span;
 use crate::unit::Unit;
 
-/// A condition or a term. One grammar serves both, so that `(a + b) < c` and `(a and b)` need no look-ahead; the
-/// check stage tells them apart by their types.
+/// A condition or a term. One grammar serves both, so that `(a + b) < c` and `(a and b)` need no look-ahead;
+/// the check stage tells them apart by their types.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Expr {
-    /// What it is.
     pub kind: ExprKind,
-    /// Where it stands, without surrounding parentheses.
+    /// Range without surrounding parentheses.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
-/// What an expression is.
-#[derive(Clone, Debug)]
+/// Kind of an expression, with its parts.
+#[derive(Clone, Debug, PartialEq)]
 pub enum ExprKind {
-    /// `true`, `false`
+    /// A truth value: `true`, `false`.
     Bool(bool),
     /// `3`, `0.5`: a number without a unit.
     Number(f64),
     /// `20 cm`: a number and its unit as written.
     Quantity(f64, Unit),
-    /// `"red mug"`
+    /// A text: `"red mug"`.
     Text(SmolStr),
     /// `mug`: a binding, parameter, entity, enumeration case or resource.
     Name(SmolStr),
@@ -33,35 +35,35 @@ pub enum ExprKind {
     Binding(SmolStr),
     /// A plain string in JSON: an entity, a case, a quantity or a text, as the type where it stands says.
     Plain(SmolStr),
-    /// What was refused where it was read, as written: that is said already, and nothing more is said of it.
+    /// A text that the front end refused and reported. Later stages skip it without a second report.
     Wrong(SmolStr),
-    /// `any` in an argument position.
+    /// The word `any` as an argument: every entity.
     Any,
-    /// `[a, b]`
+    /// A list: `[a, b]`.
     List(Vec<Expr>),
-    /// `holding(mug)`, `distance(user)`
+    /// A fluent or a measure: `holding(mug)`, `distance(user)`.
     Call(Call),
-    /// `mug.mass`
+    /// Field of an entity: `mug.mass`.
     Field(Box<Expr>, Name),
-    /// `not c`
+    /// A negation: `not c`.
     Not(Box<Expr>),
     /// `a and b and c`; two or more, or any number in JSON.
     All(Vec<Expr>),
     /// `a or b or c`; two or more, or any number in JSON.
     AnyOf(Vec<Expr>),
-    /// `a < b`
+    /// A comparison: `a < b`.
     Compare(CompareOp, Box<Expr>, Box<Expr>),
-    /// `a + b`
+    /// An arithmetic expression: `a + b`.
     Arith(ArithOp, Box<Expr>, Box<Expr>),
 }
 
 impl Expr {
-    /// The unit in which it is written, where it is a quantity.
+    /// Unit of a quantity as written; `None` for any other expression.
     #[must_use]
     pub fn unit(&self) -> Option<Unit> {
         match &self.kind {
             ExprKind::Quantity(_, unit) => Some(*unit),
-            ExprKind::Plain(text) => crate::json::quantity(text).map(|(_, unit)| unit),
+            ExprKind::Plain(text) => crate::unit::parse_quantity(text).map(|(_, unit)| unit),
             _ => None,
         }
     }
@@ -69,27 +71,26 @@ impl Expr {
 
 /// A name applied to arguments: a primitive, a sub-policy, a fluent, a measure or a motion.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Call {
-    /// What is called.
     pub name: Name,
-    /// The arguments.
     pub args: Vec<Arg>,
-    /// The whole call.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
-/// One argument.
+/// One argument of a call.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Arg {
-    /// Its parameter, where it is named.
+    /// Name of the parameter, where the argument has one.
     pub name: Option<Name>,
-    /// Its value.
     pub value: Expr,
-    /// Name and value.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
-/// A comparison.
+/// Operator of a comparison.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum CompareOp {
     /// `==`, JSON `equal`
@@ -107,7 +108,7 @@ pub enum CompareOp {
 }
 
 impl CompareOp {
-    /// As the text form writes it.
+    /// Symbol of the operator in the text syntax.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
@@ -121,7 +122,7 @@ impl CompareOp {
     }
 }
 
-/// An arithmetic operation.
+/// Operator of an arithmetic expression.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum ArithOp {
     /// `+`, JSON `add`
@@ -135,7 +136,7 @@ pub enum ArithOp {
 }
 
 impl ArithOp {
-    /// As the text form writes it.
+    /// Symbol of the operator in the text syntax.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {

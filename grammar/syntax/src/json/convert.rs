@@ -1,7 +1,7 @@
-//! The wire types of a policy to the AST, step by step. What the types cannot say is checked here: names, nesting, the
-//! number of steps, which keys a reaction has. Conditions and terms are in [`super::convert_term`].
+//! The wire types of a policy to the AST, step by step. What the types cannot say is checked here: names,
+//! nesting, the number of steps, which keys a reaction has. Conditions and terms are in
+//! [`super::convert_term`].
 
-use super::errors::{BadName, BadValue, MissingKey, RESERVED, ReservedKey, UnknownKey};
 use super::wire::{self, ReactKind};
 use super::{Lenient, Spanned};
 use crate::ast::{
@@ -9,9 +9,9 @@ use crate::ast::{
     When,
 };
 use crate::diagnostic::Diagnostic;
-use crate::errors::{TooDeep, TooManySteps};
+use crate::errors::{BadName, BadValue, MissingKey, ReservedKey, TooDeep, TooManySteps, UnknownKey};
 use crate::source::{FileId, Span};
-use crate::text;
+use crate::words;
 
 /// The policy of a document, and what is wrong with it.
 pub(super) fn policy(document: Spanned<wire::Document>, file: FileId) -> (Policy, Vec<Diagnostic>) {
@@ -115,7 +115,7 @@ impl Converter {
     fn call_step(&mut self, mut step: wire::Do, span: Span, depth: usize) -> Do {
         // A key of another step is no argument, not even one that does not exist.
         step.args.0.retain(|(key, _)| {
-            let is_reserved = RESERVED.iter().any(|(reserved, _)| *reserved == key.value);
+            let is_reserved = words::json_key_owner(&key.value).is_some();
             if is_reserved {
                 self.found.push(ReservedKey { span: key.span, key: key.value.clone() }.into());
             }
@@ -146,8 +146,9 @@ impl Converter {
         let kind = react.react.value;
         let place = react.react.span;
         let mut surplus = |key: &'static str, at: Option<Span>, expected: &'static [&'static str]| {
-            self.found
-                .extend(at.map(|span| Diagnostic::from(UnknownKey { key: key.into(), span, expected })));
+            self.found.extend(at.map(|span| {
+                Diagnostic::from(UnknownKey { key: key.into(), span, expected: smol(expected) })
+            }));
         };
         if kind != ReactKind::Pause {
             surplus(
@@ -169,7 +170,7 @@ impl Converter {
             });
         }
         let Some(at_most) = react.at_most else {
-            self.found.push(MissingKey { key: "at_most", span: place }.into());
+            self.found.push(MissingKey { key: "at_most".into(), span: place }.into());
             return None;
         };
         let at_most = self.count(at_most, depth);
@@ -177,7 +178,7 @@ impl Converter {
             return Some(Reaction::Restart { at_most, span });
         }
         let Some(steps) = react.steps else {
-            self.found.push(MissingKey { key: "steps", span: place }.into());
+            self.found.push(MissingKey { key: "steps".into(), span: place }.into());
             return None;
         };
         Some(Reaction::Resume { at_most, body: self.block(steps, depth + 2), span })
@@ -210,7 +211,7 @@ impl Converter {
 
     #[inline]
     pub(super) fn name(&mut self, name: Spanned<smol_str::SmolStr>) -> Name {
-        if !text::is_name(&name.value) {
+        if !words::is_name(&name.value) {
             self.bad_name(&name);
         }
         Name { text: name.value, span: name.span }
@@ -228,8 +229,10 @@ impl Converter {
     }
 
     pub(super) fn bad_value(&mut self, span: Span, message: String, expected: &'static [&'static str]) {
-        self.found.push(
-            BadValue { span, message, expected, found: smol_str::SmolStr::default(), help: None }.into(),
-        );
+        self.found.push(BadValue { expected: smol(expected), ..BadValue::new(span, message) }.into());
     }
+}
+
+fn smol(words: &[&'static str]) -> Vec<smol_str::SmolStr> {
+    words.iter().copied().map(smol_str::SmolStr::new_static).collect()
 }

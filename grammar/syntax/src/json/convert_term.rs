@@ -1,18 +1,18 @@
-//! The wire types of conditions and terms to the AST. A string means something else in each place: the text form of a
-//! condition, seconds with a unit, or a name whose meaning the compiler settles by the type of its place.
+//! The wire types of conditions and terms to the AST. A string means something else in each place: the text
+//! form of a condition, seconds with a unit, or a name whose meaning the compiler settles by the type of its
+//! place.
 
 use smol_str::{SmolStr, format_smolstr};
 
 use super::Spanned;
 use super::convert::Converter;
-use super::errors::{BadValue, MissingKey, WrongType};
 use super::term::{Args, Condition, Count, Duration, Form, Pair, Relation, Term};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
-use crate::errors::TooDeep;
+use crate::errors::{BadValue, MissingKey, TooDeep, WrongType};
 use crate::source::Span;
-use crate::text::errors::UnknownUnit;
 use crate::text::{self, Origin};
-use crate::unit::{Dimension, Unit};
+use crate::unit::{Dimension, Unit, parse_quantity};
+use crate::words::is_name;
 
 impl Converter {
     /// A condition of a step in `depth` blocks.
@@ -24,7 +24,7 @@ impl Converter {
     fn condition_at(&mut self, condition: Condition, level: usize) -> Expr {
         let Spanned { value, span } = condition.0;
         let Term::Text(text) = value else { return self.term(Spanned { value, span }, level) };
-        if text.strip_prefix('$').is_some_and(text::is_name) {
+        if text.strip_prefix('$').is_some_and(is_name) {
             return self.term(Spanned { value: Term::Text(text), span }, level);
         }
         // A string without escapes is as long as it looks.
@@ -41,15 +41,12 @@ impl Converter {
         let kind = match value {
             Term::Number(seconds) => ExprKind::Quantity(seconds, Unit::Second),
             Term::Text(text) if !text.starts_with('$') => {
-                match quantity(&text).filter(|(_, unit)| unit.dimension() == Dimension::DURATION) {
+                match parse_quantity(&text).filter(|(_, unit)| unit.dimension() == Dimension::DURATION) {
                     Some((value, unit)) => ExprKind::Quantity(value, unit),
                     None => {
                         let mistake = BadValue {
-                            span,
-                            message: format!("`{text}` is not a duration"),
-                            expected: &[],
-                            found: SmolStr::default(),
-                            help: Some(duration_help(&text)),
+                            otherwise: Some(duration_help(&text)),
+                            ..BadValue::new(span, format!("`{text}` is not a duration"))
                         };
                         self.found.push(mistake.into());
                         ExprKind::Wrong(text)
@@ -157,11 +154,11 @@ impl Converter {
             (Some(relation), Some(than)) => (relation, than),
             (None, None) => return value,
             (Some(_), None) => {
-                self.found.push(MissingKey { key: "than", span }.into());
+                self.found.push(MissingKey { key: "than".into(), span }.into());
                 return value;
             }
             (None, Some(_)) => {
-                self.found.push(MissingKey { key: "is", span }.into());
+                self.found.push(MissingKey { key: "is".into(), span }.into());
                 return value;
             }
         };
@@ -213,7 +210,7 @@ impl Converter {
     }
 }
 
-/// What to write for a duration that is none.
+/// Help for a string that is not a duration.
 fn duration_help(text: &str) -> String {
     let unit = text.trim().trim_start_matches(|c: char| matches!(c, '0'..='9' | '.' | '-' | ' '));
     let number = text.trim().strip_suffix(unit).unwrap_or("").trim_end();
@@ -221,22 +218,10 @@ fn duration_help(text: &str) -> String {
         "" => Some(Unit::Second),
         // Of time, what begins so are minutes.
         "m" | "M" => Some(Unit::Minute),
-        unit => UnknownUnit::meant(unit).filter(|meant| meant.dimension() == Dimension::DURATION),
+        unit => Unit::from_spelling(unit).filter(|meant| meant.dimension() == Dimension::DURATION),
     };
     match meant {
         Some(meant) if !number.is_empty() => format!("did you mean `\"{number} {}\"`?", meant.symbol()),
         Some(_) | None => "write seconds, or a number and a unit such as `\"200 ms\"`".into(),
     }
-}
-
-/// `"20 cm"`: a number, perhaps spaces, and a unit; none where the text is anything else.
-#[must_use]
-pub fn quantity(text: &str) -> Option<(f64, Unit)> {
-    let text = text.trim();
-    let sign = usize::from(text.starts_with('-'));
-    let digits = text.get(sign..).map_or(0, text::token::number);
-    let (number, unit) = text.split_at_checked(sign + digits).filter(|_| digits > 0)?;
-    let unit = Unit::parse(unit.trim_start())?;
-    let value: f64 = number.parse().ok()?;
-    value.is_finite().then_some((value, unit))
 }

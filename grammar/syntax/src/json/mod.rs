@@ -1,10 +1,11 @@
-//! JSON documents: read with their places into ordinary serde types. What a policy looks like in JSON is in `wire`.
+//! JSON documents: read with their ranges into ordinary serde types. The wire types of a policy are in `wire`
+//! and `term`.
 //!
 //! ```
 //! use motet_syntax::json::{self, Spanned};
 //! use motet_syntax::{FileId, Source};
 //!
-//! #[derive(serde::Deserialize)]
+//! #[derive(serde::Deserialize, schemars::JsonSchema)]
 //! #[serde(deny_unknown_fields)]
 //! struct Mug {
 //!     name: Spanned<String>,
@@ -21,99 +22,172 @@
 //! assert_eq!(diagnostics[0].path, "/mas");
 //! ```
 
-mod access;
 mod convert;
 mod convert_term;
-mod de;
-pub mod errors;
-mod fault;
-mod lenient;
-mod parse;
-mod scan;
 mod schema;
-mod spanned;
-pub mod term;
-mod tree;
-pub mod wire;
+pub(crate) mod term;
+pub(crate) mod wire;
 
-use std::cell::RefCell;
-
+use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
+use smol_str::{SmolStr, format_smolstr};
 
-pub use convert_term::quantity;
-pub use lenient::Lenient;
-pub use spanned::Spanned;
-pub(crate) use tree::push_escaped;
+pub use crate::located::{Lenient, Spanned};
 
 use crate::ast::{File, Item, MAX_BYTES, MAX_NESTING};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{Empty, TooLarge, Wanted};
+use crate::errors::{
+    BadValue, DocumentKind, Empty, MissingKey, NoForm, NumberRange, TooLarge, TwoForms, UnknownKey, WrongType,
+};
+use crate::located::{self, Fault, Located, LocatedValue, Mismatch, Problem};
 use crate::source::{FileId, Source, Span};
+use crate::suggest;
 
-/// How deep brackets may nest in a JSON document. One block of a policy takes up to four: the handlers of a `try` are an
-/// object in an array in an object in an array.
+/// Greatest depth of brackets in a JSON document. One block of a policy takes up to four: the handlers of a
+/// `try` are an object in an array in an object in an array.
 pub const MAX_BRACKETS: usize = 4 * MAX_NESTING + 8;
 
-/// Reads a document as a `T`, with everything that is wrong with it.
+/// Reads a document as a `T`, with all its mistakes.
 ///
-/// A value comes with errors where the reading could go on: a duplicate key (the first counts), an unknown key (it is
-/// skipped), a fault in a [`Lenient`]. No value comes without an error. Structs are closed even without
-/// `deny_unknown_fields`. Paths are JSON Pointers. O(bytes).
+/// A value comes with errors where the reading could go on: a duplicate key (the first counts), an unknown
+/// key (it is skipped), a mistake in a [`Lenient`]. No value comes without an error. Structs are closed even
+/// without `deny_unknown_fields`. Paths are JSON Pointers. O(bytes).
 #[must_use]
-pub fn read<'s, T: Deserialize<'s>>(source: &'s Source, file: FileId) -> (Option<T>, Vec<Diagnostic>) {
-    read_str(&source.text, file)
-}
-
-/// [`read`] of a text that is no source of its own.
-pub(crate) fn read_str<'s, T: Deserialize<'s>>(text: &'s str, file: FileId) -> (Option<T>, Vec<Diagnostic>) {
-    let (value, _, found) = read_tree(text, file);
+pub fn read<'s, T: Deserialize<'s> + JsonSchema>(
+    source: &'s Source,
+    file: FileId,
+) -> (Option<T>, Vec<Diagnostic>) {
+    let (value, _, found) = read_tree(&source.text, file);
     (value, found)
 }
 
-/// [`read_str`], with the tree where the syntax is right, so that a later stage can find its pointers.
-fn read_tree<'s, T: Deserialize<'s>>(
+/// JSON Schema of a policy: the format that [`crate::read()`] accepts.
+#[must_use]
+pub fn policy_schema() -> Schema {
+    schema_for!(wire::Document)
+}
+
+/// Reads a policy into a file with one item; an empty file where it could not be read.
+pub(crate) fn read_policy(text: &str, file: FileId) -> (File, Vec<Diagnostic>) {
+    let (document, tree, mut found) = read_tree::<Spanned<wire::Document>>(text, file);
+    let (Some(document), Some(tree)) = (document, tree) else { return (File::default(), found) };
+    let (policy, mistakes) = convert::policy(document, file);
+    // The conversion knows more than the schema: of two reports of one mistake its own stays.
+    found.retain(|one| !mistakes.iter().any(|other| (other.code, other.span) == (one.code, one.span)));
+    found.extend(mistakes);
+    for diagnostic in found.iter_mut().filter(|diagnostic| diagnostic.path.is_empty()) {
+        diagnostic.path = tree.pointer_at(diagnostic.span);
+    }
+    found.sort_by_key(|diagnostic| diagnostic.span.start);
+    (File { items: vec![Item::Policy(policy)] }, found)
+}
+
+/// Reads a document; returns its tree too where the syntax is right, so that a later stage can find its
+/// pointers.
+fn read_tree<'s, T: Deserialize<'s> + JsonSchema>(
     text: &'s str,
     file: FileId,
-) -> (Option<T>, Option<tree::Tree<'s>>, Vec<Diagnostic>) {
+) -> (Option<T>, Option<Located<'s>>, Vec<Diagnostic>) {
     let start = Span::new(file, 0, 0);
     if text.len() > MAX_BYTES {
         return (None, None, vec![TooLarge { span: start, bytes: text.len() }.into()]);
     }
     if text.trim_ascii().is_empty() {
-        return (None, None, vec![Empty { span: start, wanted: Wanted::Json }.into()]);
+        return (None, None, vec![Empty { span: start, wanted: DocumentKind::Json }.into()]);
     }
-    let (tree, mut found) = parse::parse(text, file);
+    let (tree, mut found) = located::parse_json(text, file);
     let Some(tree) = tree else { return (None, None, found) };
-    // So far only duplicate keys, which are not in the tree: the first of the two tells where.
-    for duplicate in &mut found {
-        let first = duplicate.related.first().and_then(|related| related.span);
-        duplicate.path = first.map(|span| tree.pointer_at(span)).unwrap_or_default();
+    let (value, faults) = located::deserialize(&tree);
+    if !faults.is_empty() {
+        found.extend(explain::<T>(&tree, faults));
+        found.sort_by_key(|diagnostic| diagnostic.span.start);
     }
-    let context = de::Context { tree, sink: RefCell::default() };
-    let value = match T::deserialize(de::Value { context: &context, at: 0 }) {
-        Ok(value) => Some(value),
-        Err(fault) => {
-            context.sink.borrow_mut().push(fault);
-            None
-        }
-    };
-    let de::Context { tree, sink } = context;
-    found.extend(sink.into_inner().into_iter().map(|fault| fault.diagnostic(&tree)));
-    found.sort_by_key(|diagnostic| diagnostic.span.start);
     (value, Some(tree), found)
 }
 
-/// Reads a policy into a file with one item; none where it could not be read.
-pub(crate) fn read_policy(text: &str, file: FileId) -> (File, Vec<Diagnostic>) {
-    let (document, tree, mut found) = read_tree::<Spanned<wire::Document>>(text, file);
-    let Some(document) = document else { return (File::default(), found) };
-    let (policy, mistakes) = convert::policy(document, file);
-    found.extend(mistakes);
-    for diagnostic in &mut found {
-        if let Some(tree) = tree.as_ref().filter(|_| diagnostic.path.is_empty()) {
-            diagnostic.path = tree.pointer_at(diagnostic.span);
-        }
+/// Reports what serde refused: by the schema of the type, and in serde's words where no schema shows it.
+#[cold]
+fn explain<T: JsonSchema>(tree: &Located<'_>, faults: Vec<Fault>) -> Vec<Diagnostic> {
+    let schema = schema_for!(T).to_value();
+    let mismatches = located::check_schema(tree, &schema);
+    let is_shown = !mismatches.is_empty();
+    let mut found: Vec<Diagnostic> = mismatches.into_iter().map(diagnostic).collect();
+    for fault in faults.into_iter().filter(|fault| fault.is_custom || !is_shown) {
+        let span = fault.span.unwrap_or(tree.span);
+        let mut refused: Diagnostic = BadValue::new(span, fault.message).into();
+        refused.path = tree.pointer_at(span);
+        found.push(refused);
     }
-    found.sort_by_key(|diagnostic| diagnostic.span.start);
-    (File { items: vec![Item::Policy(policy)] }, found)
+    found
+}
+
+fn diagnostic(mismatch: Mismatch<'_>) -> Diagnostic {
+    let Mismatch { node, pointer, problem } = mismatch;
+    let span = node.span;
+    let text = || SmolStr::new(node.text().unwrap_or(""));
+    let owned = |words: Vec<&str>| -> Vec<SmolStr> { words.into_iter().map(SmolStr::new).collect() };
+    let mut diagnostic: Diagnostic = match problem {
+        Problem::UnknownKey { known, .. } => UnknownKey { key: text(), span, expected: owned(known) }.into(),
+        Problem::MissingKey { key } => MissingKey { key: key.into(), span: node.head() }.into(),
+        Problem::WrongType { types, words, name } => {
+            let expected = match name {
+                Some(name) => format!("an object that is a {}", name.to_lowercase()),
+                None => located::phrase(&types, &words),
+            };
+            WrongType { span, expected: expected.into(), found: phrase(node) }.into()
+        }
+        Problem::WrongLength { expected, found } => {
+            let found = if found == 1 { "one".into() } else { format_smolstr!("{found}") };
+            WrongType { span, expected: format_smolstr!("an array of {expected} elements"), found }.into()
+        }
+        Problem::OutOfRange { least, greatest } => {
+            let expected = match greatest {
+                Some(greatest) => format_smolstr!("a whole number from {least} to {greatest}"),
+                None => format_smolstr!("a whole number from {least}"),
+            };
+            NumberRange { span, found: number(node), expected: Some(expected) }.into()
+        }
+        Problem::UnknownWord { known } => {
+            let message = format!("`{}` is not known here", text());
+            BadValue { expected: owned(known), found: text(), ..BadValue::new(span, message) }.into()
+        }
+        Problem::NoForm { forms } => {
+            let meant = node.members().iter().find_map(|(key, _)| {
+                let meant = suggest::closest(key.text()?, forms.iter().copied())?;
+                Some((key.span, (SmolStr::new(key.text()?), SmolStr::new(meant))))
+            });
+            let span = meant.as_ref().map_or(node.head(), |(span, _)| *span);
+            NoForm { span, forms: owned(forms), meant: meant.map(|(_, meant)| meant) }.into()
+        }
+        Problem::TwoForms { first } => TwoForms {
+            span,
+            first: first.text().unwrap_or("").into(),
+            first_span: first.span,
+            second: text(),
+        }
+        .into(),
+    };
+    diagnostic.path = pointer;
+    diagnostic
+}
+
+/// A value as a message calls it, with its article.
+fn phrase(node: &Located<'_>) -> SmolStr {
+    match &node.value {
+        LocatedValue::Null => "`null`".into(),
+        LocatedValue::Bool(value) => format_smolstr!("`{value}`"),
+        LocatedValue::Number(_) => format_smolstr!("the number `{}`", number(node)),
+        LocatedValue::Text(text) if text.chars().count() <= 40 => format_smolstr!("the string `{text}`"),
+        LocatedValue::Text(_) => "a string".into(),
+        LocatedValue::Date => "a date".into(),
+        LocatedValue::Array(_) => "an array".into(),
+        LocatedValue::Object(_) => "an object".into(),
+    }
+}
+
+fn number(node: &Located<'_>) -> SmolStr {
+    match &node.value {
+        LocatedValue::Number(number) => format_smolstr!("{number}"),
+        _ => SmolStr::default(),
+    }
 }

@@ -1,4 +1,5 @@
-//! The schemas of terms and conditions, which derive no schema because a string means something else in each place.
+//! The schemas of terms and conditions, which derive no schema because a string means something else in each
+//! place.
 
 use std::borrow::Cow;
 

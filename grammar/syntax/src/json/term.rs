@@ -12,59 +12,56 @@ use smol_str::SmolStr;
 
 use super::Spanned;
 use super::wire::Do;
-
-/// The name by which [`super::de`] knows a type that is an enum as an object and a literal otherwise.
-pub(crate) const MIXED: &str = "$mixed";
+use crate::located::{MIXED, Number};
 
 /// A literal, a binding, or a form.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Term {
-    /// `true`
+pub(crate) enum Term {
     Bool(bool),
     /// `0.5`: a number, in SI units where a quantity is meant.
     Number(f64),
     /// `"$mug"`, `"mug_1"`, `"20 cm"`, `"red mug"`
     Text(SmolStr),
-    /// `["$a", "$b"]`
+    /// A list: `["$a", "$b"]`.
     List(Vec<Spanned<Term>>),
-    /// `{"get": "distance", "to": "user"}`
+    /// An object: `{"get": "distance", "to": "user"}`.
     Form(Box<Form>),
 }
 
 /// An object that is a condition or a term; its key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Form {
+pub(crate) enum Form {
     /// The condition does not hold.
     Not(Condition),
     /// All conditions hold.
     All(Vec<Condition>),
     /// One condition at least holds.
     Any(Vec<Condition>),
-    /// `<`
+    /// The left side is less: `<`.
     Less(Pair),
-    /// `<=`
+    /// The left side is at most the right: `<=`.
     AtMost(Pair),
-    /// `==`
+    /// Both sides are equal: `==`.
     Equal(Pair),
-    /// `>`
+    /// The left side is more: `>`.
     More(Pair),
-    /// `>=`
+    /// The left side is at least the right: `>=`.
     AtLeast(Pair),
-    /// `!=`
+    /// The sides are not equal: `!=`.
     Unequal(Pair),
-    /// `+`
+    /// The sum: `+`.
     Add(Pair),
-    /// `-`
+    /// The difference: `-`.
     Subtract(Pair),
-    /// `*`
+    /// The product: `*`.
     Multiply(Pair),
-    /// `/`
+    /// The quotient: `/`.
     Divide(Pair),
-    /// A fluent.
+    /// A fluent that holds.
     #[schemars(untagged)]
     Is(Is),
-    /// A measure.
+    /// Value of a measure.
     #[schemars(untagged)]
     Get(Get),
     /// A field of an entity.
@@ -73,87 +70,88 @@ pub enum Form {
 }
 
 /// The two sides of a comparison or a calculation.
-pub type Pair = [Spanned<Term>; 2];
+pub(crate) type Pair = [Spanned<Term>; 2];
 
 /// A fluent holds. Every other key is an argument; `"any"` stands for some entity.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
-pub struct Is {
-    /// The fluent.
-    pub is: Spanned<SmolStr>,
-    /// The arguments.
+pub(crate) struct Is {
+    /// Name of the fluent.
+    pub(crate) is: Spanned<SmolStr>,
+    /// Arguments by parameter.
     #[serde(flatten)]
-    pub args: Args,
+    pub(crate) args: Args,
 }
 
-/// The value of a measure. Every other key is an argument. With `is` and `than` it is a condition: a comparison.
+/// The value of a measure. Every other key is an argument. With `is` and `than` it is a condition: a
+/// comparison.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
-pub struct Get {
-    /// The measure.
-    pub get: Spanned<SmolStr>,
-    /// The arguments.
+pub(crate) struct Get {
+    /// Name of the measure.
+    pub(crate) get: Spanned<SmolStr>,
+    /// Arguments by parameter.
     #[serde(flatten)]
-    pub args: Args,
-    /// How the value is compared.
+    pub(crate) args: Args,
+    /// Operator of the comparison.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub is: Option<Box<Spanned<Relation>>>,
-    /// With what.
+    pub(crate) is: Option<Box<Spanned<Relation>>>,
+    /// Right side of the comparison.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub than: Option<Box<Spanned<Term>>>,
+    pub(crate) than: Option<Box<Spanned<Term>>>,
 }
 
 /// The value of a field of an entity. With `is` and `than` it is a condition: a comparison.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Field {
-    /// The field.
-    pub field: Spanned<SmolStr>,
-    /// The entity.
-    pub of: Spanned<Term>,
-    /// How the value is compared.
+pub(crate) struct Field {
+    /// Name of the field.
+    pub(crate) field: Spanned<SmolStr>,
+    /// Entity that has the field.
+    pub(crate) of: Spanned<Term>,
+    /// Operator of the comparison.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub is: Option<Box<Spanned<Relation>>>,
-    /// With what.
+    pub(crate) is: Option<Box<Spanned<Relation>>>,
+    /// Right side of the comparison.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub than: Option<Box<Spanned<Term>>>,
+    pub(crate) than: Option<Box<Spanned<Term>>>,
 }
 
-/// How two values are compared, where the comparison is written in one object: `{"get": "distance", "to": "user", "is":
+/// Operator of a comparison that is written in one object: `{"get": "distance", "to": "user", "is":
 /// "less", "than": 0.5}`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Relation {
-    /// `<`
+pub(crate) enum Relation {
+    /// The left side is less: `<`.
     Less,
-    /// `<=`
+    /// The left side is at most the right: `<=`.
     AtMost,
-    /// `==`
+    /// Both sides are equal: `==`.
     Equal,
-    /// `>`
+    /// The left side is more: `>`.
     More,
-    /// `>=`
+    /// The left side is at least the right: `>=`.
     AtLeast,
-    /// `!=`
+    /// The sides are not equal: `!=`.
     Unequal,
 }
 
 /// Arguments by the names of their parameters, in the order written.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Args(pub Vec<(Spanned<SmolStr>, Spanned<Term>)>);
+pub(crate) struct Args(pub(crate) Vec<(Spanned<SmolStr>, Spanned<Term>)>);
 
 /// A condition; a string is read as the text form.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Condition(pub Spanned<Term>);
+pub(crate) struct Condition(pub(crate) Spanned<Term>);
 
 /// A duration: a number of seconds, or a string with a unit such as `"200 ms"`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Duration(pub Spanned<Term>);
+pub(crate) struct Duration(pub(crate) Spanned<Term>);
 
 /// A whole number.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Count(pub Spanned<Term>);
+pub(crate) struct Count(pub(crate) Spanned<Term>);
 
 impl<'de> Deserialize<'de> for Term {
     #[inline]
@@ -203,10 +201,10 @@ impl Serialize for Term {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Bool(value) => serializer.serialize_bool(*value),
-            Self::Number(value) => match super::tree::Number::of(*value) {
-                super::tree::Number::Unsigned(whole) => serializer.serialize_u64(whole),
-                super::tree::Number::Signed(whole) => serializer.serialize_i64(whole),
-                super::tree::Number::Float(value) => serializer.serialize_f64(value),
+            Self::Number(value) => match Number::new(*value) {
+                Number::Unsigned(whole) => serializer.serialize_u64(whole),
+                Number::Signed(whole) => serializer.serialize_i64(whole),
+                Number::Float(value) => serializer.serialize_f64(value),
             },
             Self::Text(text) => serializer.serialize_str(text),
             Self::List(members) => members.serialize(serializer),
@@ -249,9 +247,9 @@ impl Serialize for Args {
     }
 }
 
-/// What an object with arguments among its keys is made into.
+/// Target type of an object with arguments among its keys.
 trait Applied: Sized {
-    /// The keys that are no arguments, the one that names what is called first, and [`super::de::OPEN`].
+    /// The keys that are no arguments, the one that names what is called first, and [`crate::located::OPEN`].
     const KEYS: &'static [&'static str];
     /// One key that is no argument.
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error>;
@@ -308,7 +306,7 @@ impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
 }
 
 impl Applied for Do {
-    const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", crate::located::OPEN];
 
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
         match key {
@@ -327,7 +325,7 @@ impl Applied for Do {
 }
 
 impl Applied for Is {
-    const KEYS: &'static [&'static str] = &["is", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["is", crate::located::OPEN];
     fn take<'de, A: MapAccess<'de>>(_: &mut Parts, _: &str, _: &mut A) -> Result<bool, A::Error> {
         Ok(false)
     }
@@ -337,7 +335,7 @@ impl Applied for Is {
 }
 
 impl Applied for Get {
-    const KEYS: &'static [&'static str] = &["get", "is", "than", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["get", "is", "than", crate::located::OPEN];
 
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
         match key {

@@ -1,12 +1,12 @@
-//! What a policy looks like in JSON. From these types it is read, written, and described (`motet schema policy`: their
+//! Wire types of a policy in JSON. From them it is read, written, and described (`motet schema policy`: their
 //! doc comments are its descriptions). They are not the AST: [`super::convert`] turns one into the other.
 //!
-//! A step is an object that has one of the keys `do sequence if wait monitor try repeat each parallel end`; a condition
-//! or a term is a literal or an object that has one of the keys of [`Form`].
+//! A step is an object that has one of the keys `do sequence if wait monitor try repeat each parallel end`; a
+//! condition or a term is a literal or an object that has one of the keys of [`Form`].
 //!
-//! Beyond the forms of the language page: `more`, `at_least`, `unequal` compare; `add`, `subtract`, `multiply`, `divide`
-//! calculate; `true` and `false` are conditions; an array is a list; the plain string `"any"` as an argument of `is` or
-//! `get` is `any`; `"on": ["any"]` is `catch any`.
+//! Beyond the forms of the language page: `more`, `at_least`, `unequal` compare; `add`, `subtract`,
+//! `multiply`, `divide` calculate; `true` and `false` are conditions; an array is a list; the plain string
+//! `"any"` as an argument of `is` or `get` is `any`; `"on": ["any"]` is `catch any`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,36 +19,37 @@ use super::{Lenient, Spanned};
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Motet policy", rename = "Policy")]
-pub struct Document {
+pub(crate) struct Document {
     /// Version of the format: 1.
     #[schemars(extend("const" = 1))]
-    pub motet: Spanned<u32>,
+    pub(crate) motet: Spanned<u32>,
     /// The policy's name.
-    pub policy: Spanned<SmolStr>,
+    pub(crate) policy: Spanned<SmolStr>,
     /// The robot that it is written for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub robot: Option<Spanned<SmolStr>>,
-    /// What holds where the policy is done.
+    pub(crate) robot: Option<Spanned<SmolStr>>,
+    /// Condition that holds when the policy is done.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub achieves: Option<Condition>,
-    /// What it does, step by step.
-    pub steps: Steps,
+    pub(crate) achieves: Option<Condition>,
+    /// Steps of the policy, in order.
+    pub(crate) steps: Steps,
 }
 
 /// Steps that run one after the other.
-pub type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
+pub(crate) type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
 
-// What is large and rare is boxed, here and in `Do`: on its way out of the deserializer a step is moved often.
-/// One step; its first key says which.
+// What is large and rare is boxed, here and in `Do`: on its way out of the deserializer a step is moved
+// often.
+/// One step; its first key names the form.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-#[serde(rename = "an object that is a step", rename_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 #[schemars(rename = "Step", untagged)]
-pub enum Step {
-    /// A call.
+pub(crate) enum Step {
+    /// A call of a primitive or sub-policy.
     Do(Do),
     /// A named group.
     Sequence(Sequence),
-    /// A choice.
+    /// A choice between steps.
     If(Box<If>),
     /// Waiting for a condition.
     Wait(Wait),
@@ -62,120 +63,120 @@ pub enum Step {
     Each(Box<Each>),
     /// Steps at the same time.
     Parallel(Parallel),
-    /// An ending.
+    /// An ending of the policy.
     End(End),
 }
 
 /// Runs one primitive or sub-policy. Every other key is an argument, under the name of its parameter.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
-pub struct Do {
+pub(crate) struct Do {
     /// The primitive or sub-policy.
-    pub r#do: Spanned<SmolStr>,
-    /// The arguments.
+    pub(crate) r#do: Spanned<SmolStr>,
+    /// Arguments by parameter.
     #[serde(flatten)]
-    pub args: Args,
-    /// The deadline.
+    pub(crate) args: Args,
+    /// Deadline of the call.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub within: Option<Box<Duration>>,
-    /// How often it is tried again after a failure.
+    pub(crate) within: Option<Box<Duration>>,
+    /// Number of retries after a failure.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub retry: Option<Box<Count>>,
+    pub(crate) retry: Option<Box<Count>>,
     /// The name that its result is bound to; `"$name"` stands for it afterwards.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub r#as: Option<Box<Spanned<SmolStr>>>,
+    pub(crate) r#as: Option<Box<Spanned<SmolStr>>>,
 }
 
 /// A named group of steps.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Sequence {
-    /// Its name.
-    pub sequence: Spanned<SmolStr>,
-    /// Its steps.
-    pub steps: Steps,
+pub(crate) struct Sequence {
+    /// Name of the group.
+    pub(crate) sequence: Spanned<SmolStr>,
+    /// Steps of the group.
+    pub(crate) steps: Steps,
 }
 
 /// Runs `then` if the condition holds and `else` otherwise.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct If {
-    /// The condition.
-    pub r#if: Condition,
+pub(crate) struct If {
+    /// The condition to test.
+    pub(crate) r#if: Condition,
     /// Steps where it holds.
-    pub then: Steps,
+    pub(crate) then: Steps,
     /// Steps where it does not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub r#else: Option<Steps>,
+    pub(crate) r#else: Option<Steps>,
 }
 
 /// Blocks until the condition holds, else fails with `timeout`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wait {
-    /// The condition.
-    pub wait: Condition,
+pub(crate) struct Wait {
+    /// The condition to test.
+    pub(crate) wait: Condition,
     /// The deadline; 60 s where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub within: Option<Box<Duration>>,
+    pub(crate) within: Option<Box<Duration>>,
 }
 
 /// Runs `during` while watching every condition.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Monitor {
-    /// What is watched.
+pub(crate) struct Monitor {
+    /// Watched conditions with their reactions.
     #[schemars(length(min = 1))]
-    pub monitor: Spanned<Vec<Lenient<Spanned<When>>>>,
-    /// What runs meanwhile.
-    pub during: Steps,
+    pub(crate) monitor: Spanned<Vec<Lenient<Spanned<When>>>>,
+    /// Steps that run meanwhile.
+    pub(crate) during: Steps,
 }
 
 /// A watched condition and what happens when it holds.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct When {
-    /// The condition.
-    pub when: Condition,
-    /// How long it must hold before anything happens.
+pub(crate) struct When {
+    /// The condition to test.
+    pub(crate) when: Condition,
+    /// Duration for which the condition must hold before the reaction starts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub r#for: Option<Duration>,
-    /// What then happens.
-    pub then: Spanned<Reaction>,
+    pub(crate) r#for: Option<Duration>,
+    /// Reaction to the condition.
+    pub(crate) then: Spanned<Reaction>,
 }
 
-/// What a monitor does; its first key says which.
+/// Reaction of a monitor; its first key names the form.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-#[serde(rename = "an object that is a reaction", rename_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 #[schemars(rename = "Reaction", untagged)]
-pub enum Reaction {
+pub(crate) enum Reaction {
     /// The policy goes on.
     React(React),
     /// The policy ends.
     End(End),
 }
 
-/// `pause` holds until the condition is false again; `restart` runs the body again from its start; `resume` runs
-/// `steps` and goes on.
+/// `pause` holds until the condition is false again; `restart` runs the body again from its start; `resume`
+/// runs `steps` and goes on.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct React {
-    /// The reaction.
-    pub react: Spanned<ReactKind>,
+pub(crate) struct React {
+    /// Kind of the reaction.
+    pub(crate) react: Spanned<ReactKind>,
     /// Of `pause`: the longest pause; 60 s where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub within: Option<Duration>,
+    pub(crate) within: Option<Duration>,
     /// Of `restart` and `resume`: how often.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub at_most: Option<Count>,
+    pub(crate) at_most: Option<Count>,
     /// Of `resume`: what runs in between.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub steps: Option<Steps>,
+    pub(crate) steps: Option<Steps>,
 }
 
 /// A reaction after which the policy goes on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum ReactKind {
+pub(crate) enum ReactKind {
     /// Hold, and go on when the condition is false again.
     Pause,
     /// Run the body again from its start.
@@ -187,76 +188,76 @@ pub enum ReactKind {
 /// Runs steps and handles their failures by kind; the first handler that fits.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Try {
-    /// What may fail.
-    pub r#try: Steps,
-    /// The handlers.
+pub(crate) struct Try {
+    /// Steps that may fail.
+    pub(crate) r#try: Steps,
+    /// Handlers, tried in order.
     #[schemars(length(min = 1))]
-    pub catch: Spanned<Vec<Lenient<Spanned<Catch>>>>,
+    pub(crate) catch: Spanned<Vec<Lenient<Spanned<Catch>>>>,
 }
 
 /// A handler of failures.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Catch {
+pub(crate) struct Catch {
     /// The kinds of failure, or `["any"]`.
     #[schemars(length(min = 1))]
-    pub on: Spanned<Vec<Spanned<SmolStr>>>,
-    /// What then runs.
-    pub steps: Steps,
+    pub(crate) on: Spanned<Vec<Spanned<SmolStr>>>,
+    /// Steps that handle the failure.
+    pub(crate) steps: Steps,
 }
 
 /// Runs the steps, then tests; with `until`, not true after the last run is the failure `exhausted`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Repeat {
-    /// How often at most.
-    pub repeat: Count,
-    /// The steps.
-    pub steps: Steps,
+pub(crate) struct Repeat {
+    /// Greatest number of runs.
+    pub(crate) repeat: Count,
+    /// Steps of the loop.
+    pub(crate) steps: Steps,
     /// The test after each run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub until: Option<Condition>,
+    pub(crate) until: Option<Condition>,
 }
 
 /// Runs the steps for each element of a list; a longer list is the failure `exhausted`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Each {
+pub(crate) struct Each {
     /// The name that each element is bound to.
-    pub each: Spanned<SmolStr>,
-    /// The list.
-    pub r#in: Spanned<Term>,
+    pub(crate) each: Spanned<SmolStr>,
+    /// List of the elements.
+    pub(crate) r#in: Spanned<Term>,
     /// The longest list that is taken.
-    pub at_most: Count,
-    /// The steps.
-    pub steps: Steps,
+    pub(crate) at_most: Count,
+    /// Steps of the loop.
+    pub(crate) steps: Steps,
 }
 
 /// Runs all branches at the same time.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Parallel {
+pub(crate) struct Parallel {
     /// The branches, each a list of steps.
     #[schemars(length(min = 1))]
-    pub parallel: Spanned<Vec<Steps>>,
+    pub(crate) parallel: Spanned<Vec<Steps>>,
 }
 
 /// Ends the policy.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct End {
-    /// The ending.
-    pub end: Spanned<EndKind>,
+pub(crate) struct End {
+    /// Kind of the ending.
+    pub(crate) end: Spanned<EndKind>,
     /// The reason, of `fail` and `replan`: a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub why: Option<Spanned<Term>>,
+    pub(crate) why: Option<Spanned<Term>>,
 }
 
 /// The ways a policy can end by its own word.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum EndKind {
+pub(crate) enum EndKind {
     /// It reached what it was for.
     Done,
     /// It gives up.

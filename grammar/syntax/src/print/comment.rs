@@ -3,13 +3,13 @@
 use std::iter::Peekable;
 use std::vec::IntoIter;
 
-use crate::text::token::{TokenKind, tokens};
+use crate::text::lexer::{TokenKind, tokens};
 
 /// The comments that are still to be printed, in order.
 pub(super) struct Comments<'s> {
     text: &'s str,
     rest: Peekable<IntoIter<(usize, &'s str)>>,
-    /// Where the last thing that was printed ends in the text.
+    /// Offset of the end of the last printed node in the text.
     at: usize,
 }
 
@@ -45,17 +45,17 @@ impl<'s> Comments<'s> {
         Some(comment)
     }
 
-    /// Whether a blank line stands in the text between the last printed thing and an offset. The offset is printed now.
+    /// Checks for a blank line between the last printed node and an offset.
     pub(super) fn passes_blank(&mut self, offset: u32) -> bool {
         self.blank_before(offset as usize)
     }
 
-    /// Whether a comment is still to be printed that begins before an offset.
+    /// Checks for a comment before an offset that is still to be printed.
     pub(super) fn is_next_before(&mut self, offset: u32) -> bool {
         self.rest.peek().is_some_and(|(start, _)| *start < offset as usize)
     }
 
-    /// Where the documentation of what begins at an offset begins: so many `///` lines before it.
+    /// Offset of the documentation, of so many `///` lines, above the declaration at an offset.
     pub(super) fn doc_start(&self, offset: u32, lines: usize) -> u32 {
         let before = self.text.get(..offset as usize).unwrap_or("");
         let mut lines_before = before.rsplit('\n');
@@ -70,7 +70,7 @@ impl<'s> Comments<'s> {
         u32::try_from(start).unwrap_or(offset)
     }
 
-    /// The printer has passed an offset.
+    /// Notes that the printer has passed an offset.
     pub(super) fn pass(&mut self, offset: u32) {
         self.at = self.at.max(offset as usize);
     }

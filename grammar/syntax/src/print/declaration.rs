@@ -3,11 +3,11 @@
 use super::expr;
 use super::writer::{Blank, Writer};
 use crate::ast::{
-    Clause, Expr, File, Item, Name, Param, Policy, PrimitiveDecl, PrimitiveForm, Quantified, TypeExpr,
+    Clause, Expr, File, Item, Name, Param, Policy, PrimitiveDecl, PrimitiveKind, Quantified, TypeExpr,
 };
 use crate::source::Span;
 
-/// Where the entries of a clause begin, behind its keyword.
+/// Column of the entries of a clause, after its keyword.
 const CLAUSE_WIDTH: usize = 10;
 /// Lists of entries are broken before this column.
 const LINE_WIDTH: usize = 100;
@@ -105,9 +105,9 @@ impl Writer<'_> {
     }
 
     fn primitive(&mut self, decl: &PrimitiveDecl) {
-        let keyword = match decl.form {
-            PrimitiveForm::Action => "action",
-            PrimitiveForm::Perception => "perception",
+        let keyword = match decl.kind {
+            PrimitiveKind::Action => "action",
+            PrimitiveKind::Perception => "perception",
         };
         self.keyword(keyword, &decl.name);
         self.in_parentheses(&decl.params);
@@ -217,7 +217,7 @@ fn head(item: &Item) -> (&str, Span) {
     }
 }
 
-/// Whether a declaration takes more than a line.
+/// Checks if a declaration takes more than one line.
 fn stands_apart(item: &Item) -> bool {
     let has_body = match item {
         Item::Primitive(decl) => !decl.clauses.is_empty(),

@@ -1,13 +1,14 @@
-//! Conditions and terms in the text form, with as few parentheses as the grammar needs, and those that help a reader.
+//! Conditions and terms in the text form, with as few parentheses as the grammar needs, and those that help a
+//! reader.
 
 use smol_str::SmolStr;
 
 use crate::ast::{ArithOp, Call, Expr, ExprKind, Name};
-use crate::json::quantity;
-use crate::text::is_bare_name;
 use crate::unit::Unit;
+use crate::unit::parse_quantity;
+use crate::words::is_bare_name;
 
-/// How tightly an expression holds together; the order is that of the grammar.
+/// Precedence of an expression, in the order of the grammar.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
     Or,
@@ -79,7 +80,7 @@ fn bare(text: &mut String, expr: &Expr) {
         ExprKind::Field(inner, field) => {
             let is_number = match &inner.kind {
                 ExprKind::Number(_) | ExprKind::Quantity(..) => true,
-                ExprKind::Plain(value) => quantity(value).is_some(),
+                ExprKind::Plain(value) => parse_quantity(value).is_some(),
                 ExprKind::Bool(_)
                 | ExprKind::Text(_)
                 | ExprKind::Name(_)
@@ -148,7 +149,7 @@ fn spaced(text: &mut String, symbol: &str) {
     text.push(' ');
 }
 
-/// Appends `pick(mug, from: top)`.
+/// Appends a call: `pick(mug, from: top)`.
 pub(super) fn call(text: &mut String, call: &Call) {
     name(text, &call.name.text);
     text.push('(');
@@ -186,10 +187,11 @@ pub(super) fn names(text: &mut String, values: &[Name]) {
     }
 }
 
-/// A string of JSON whose meaning no one has settled: a quantity or an id if it looks like one, a text otherwise.
+/// A string of JSON whose meaning no one has settled: a quantity or an id if it looks like one, a text
+/// otherwise.
 fn plain(text: &mut String, value: &SmolStr) {
     let is_id = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
-    if let Some((number, unit)) = quantity(value) {
+    if let Some((number, unit)) = parse_quantity(value) {
         measure(text, number, unit);
     } else if !value.is_empty() && value.chars().all(is_id) {
         name(text, value);

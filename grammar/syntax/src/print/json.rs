@@ -1,8 +1,8 @@
-//! The JSON form of a policy: the tree to the wire types, and those to text.
+//! Printer of policies in the JSON syntax: syntax tree to wire types, and those to text.
 //!
-//! A name that a `let`, an `each` or a parameter binds is written `"$name"`, any other as it is. A quantity in an SI unit
-//! is written as a number, any other as a string with its unit. An argument without a name is written under `arg1`,
-//! `arg2`, … by its position: the compiler names arguments before it prints.
+//! A name that a `let`, an `each` or a parameter binds is written `"$name"`, any other as it is. A quantity
+//! in an SI unit is written as a number, any other as a string with its unit. An argument without a name is
+//! written under `arg1`, `arg2`, … by its position: the compiler names arguments before it prints.
 
 use smol_str::{SmolStr, format_smolstr};
 
@@ -31,7 +31,7 @@ pub(super) fn call(step: &Do) -> String {
 
 /// A policy as the wire types of the JSON form. Spans are left empty.
 #[must_use]
-pub fn policy_wire(policy: &Policy) -> wire::Document {
+fn policy_wire(policy: &Policy) -> wire::Document {
     let mut lowering =
         Lowering { scope: policy.params.iter().map(|param| param.name.text.clone()).collect() };
     wire::Document {
@@ -47,13 +47,13 @@ fn name(name: &Name) -> Spanned<SmolStr> {
     name.text.clone().into()
 }
 
-/// What is bound where the lowering is.
+/// Translation to the wire types, with the names bound at the current point.
 struct Lowering {
     scope: Vec<SmolStr>,
 }
 
 impl Lowering {
-    /// What is bound in a block ends with it.
+    /// Translates a block. Its bindings end with it.
     fn block(&mut self, block: &Block) -> wire::Steps {
         let outer = self.scope.len();
         let steps: Vec<_> =
@@ -294,7 +294,7 @@ impl Lowering {
     }
 }
 
-/// Where an expression stands: a call is a fluent in one place and a measure in the other.
+/// Position of an expression: a call is a fluent in a condition and a measure in a term.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Condition,

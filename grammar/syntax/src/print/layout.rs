@@ -20,8 +20,8 @@ pub(super) fn one_line(value: &Value) -> String {
     text
 }
 
-/// Appends a value; `used` columns of the line are taken, and `after` are needed behind it. The outermost is always
-/// broken.
+/// Appends a value; `used` columns of the line are taken, and `after` are needed behind it. The outermost is
+/// always broken.
 fn fitting(text: &mut String, value: &Value, indent: usize, used: usize, after: usize) {
     let before = text.len();
     let room = WIDTH.saturating_sub(used + after);

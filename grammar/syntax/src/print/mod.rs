@@ -1,5 +1,5 @@
-//! The canonical printers: AST to either form. Reading what they print gives the same tree back, and printing that gives
-//! the same text.
+//! The canonical printers: AST to either form. Reading what they print gives the same tree back, and printing
+//! that gives the same text.
 
 mod comment;
 mod declaration;
@@ -11,10 +11,10 @@ mod step;
 mod writer;
 
 pub use format::format;
-pub use json::{policy_json, policy_wire};
+pub use json::policy_json;
 
 use crate::ast::{Do, Expr, ExprKind, File};
-use crate::source::Form;
+use crate::source::Syntax;
 
 /// A file in the text form. Documentation is kept; comments are not part of a tree (see [`format()`]).
 #[must_use]
@@ -34,10 +34,10 @@ pub fn expression(expr: &Expr) -> String {
 
 /// A call as a step on one line, in either form. Arguments of the JSON form are written under their names.
 #[must_use]
-pub fn call(step: &Do, form: Form) -> String {
+pub fn call(step: &Do, form: Syntax) -> String {
     match form {
-        Form::Json => json::call(step),
-        Form::Text => {
+        Syntax::Json => json::call(step),
+        Syntax::Text => {
             let mut text = String::new();
             if let Some(bind) = &step.bind {
                 text.push_str("let ");

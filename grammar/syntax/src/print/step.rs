@@ -152,7 +152,7 @@ impl Writer<'_> {
             // A call here would be read as the next step.
             let begins_with_call = text.split_once('(').is_some_and(|(name, _)| {
                 !name.is_empty()
-                    && (crate::text::is_bare_name(name) || name.starts_with('`') && name.ends_with('`'))
+                    && (crate::words::is_bare_name(name) || name.starts_with('`') && name.ends_with('`'))
             });
             self.text.push(' ');
             self.text.push_str(&if begins_with_call { format!("({text})") } else { text });

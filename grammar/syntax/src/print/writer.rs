@@ -1,5 +1,5 @@
-//! Lines of the text form: indentation, comments, blank lines. What stands on them is in [`super::declaration`],
-//! [`super::step`] and [`super::expr`].
+//! Lines of the text form: indentation, comments, blank lines. What stands on them is in
+//! [`super::declaration`], [`super::step`] and [`super::expr`].
 
 use super::comment::Comments;
 
@@ -8,7 +8,7 @@ pub(super) struct Writer<'s> {
     pub(super) text: String,
     indent: usize,
     comments: Comments<'s>,
-    /// Whether the line to come is the first of its block.
+    /// True if the next line is the first of its block.
     is_first: bool,
 }
 
@@ -25,8 +25,8 @@ impl<'s> Writer<'s> {
         self.text
     }
 
-    /// Begins the line of something that stands at `offset`: the comments before it, each on its line, and a blank line
-    /// where there was one.
+    /// Begins the line of something that stands at `offset`: the comments before it, each on its line, and a
+    /// blank line where there was one.
     pub(super) fn begin(&mut self, offset: u32, blank: Blank) {
         self.leading(offset, offset, blank);
         self.is_first = false;
@@ -70,7 +70,7 @@ impl<'s> Writer<'s> {
         self.text.push('}');
     }
 
-    /// Whether a comment stands before `offset`.
+    /// Checks for a comment before `offset`.
     pub(super) fn has_comment_before(&mut self, offset: u32) -> bool {
         self.comments.is_next_before(offset)
     }
@@ -95,7 +95,8 @@ impl<'s> Writer<'s> {
         self.indent = self.indent.saturating_sub(1);
     }
 
-    /// The comments before `offset`, and the blank line before `head`, which is where the thing itself begins.
+    /// The comments before `offset`, and the blank line before `head`, which is where the thing itself
+    /// begins.
     fn leading(&mut self, offset: u32, head: u32, blank: Blank) {
         let mut is_forced = blank == Blank::Always;
         while let Some((comment, is_apart)) = self.comments.before(offset) {
@@ -125,11 +126,11 @@ impl<'s> Writer<'s> {
     }
 }
 
-/// Whether something stands apart from what is before it.
+/// Rule for the blank line above a node.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Blank {
-    /// As it does in the text.
+    /// As in the source text.
     AsWritten,
-    /// In any case.
+    /// Always a blank line.
     Always,
 }

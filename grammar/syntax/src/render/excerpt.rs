@@ -1,5 +1,5 @@
-//! The lines that are shown around a place. A document on one line, as models write JSON, is cut to what is near the
-//! place: no terminal has room for more.
+//! The lines that are shown around a place. A document on one line, as models write JSON, is cut to what is
+//! near the place: no terminal has room for more.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 
 /// Lines that are longer than this, in bytes, are cut.
 const LONG_LINE: usize = 240;
-/// How much of a long line is shown on either side.
+/// Bytes of a long line that are shown on either side.
 const AROUND: usize = 60;
 /// Places that cover more lines than this are shown by their first line.
 const MANY_LINES: usize = 6;
@@ -17,7 +17,7 @@ const MANY_LINES: usize = 6;
 pub(super) struct Excerpt(pub(super) Arc<str>);
 
 impl Excerpt {
-    /// What is underlined of a place: all of it, or its beginning.
+    /// Underlined part of a range: all of it, or its beginning.
     pub(super) fn clipped(text: &str, start: usize, end: usize) -> (usize, usize) {
         let length = text.len();
         let start = boundary(text, start.min(length));
@@ -32,7 +32,7 @@ impl Excerpt {
         (start, boundary(text, start + first.min(LONG_LINE / 2)))
     }
 
-    /// Whether a place is on a line that is cut.
+    /// Checks if a range is on a line that is cut.
     pub(super) fn is_cut(text: &str, at: usize) -> bool {
         let (start, end) = line_about(text, boundary(text, at.min(text.len())));
         end - start > LONG_LINE

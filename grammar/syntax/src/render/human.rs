@@ -1,4 +1,5 @@
-//! Diagnostics as a person reads them in a terminal: the code, the message, the lines with the place underlined, help.
+//! Diagnostics as a person reads them in a terminal: the code, the message, the lines with the place
+//! underlined, help.
 
 use std::fmt::{self, Display};
 use std::sync::Arc;
@@ -10,21 +11,19 @@ use super::source;
 use crate::diagnostic::{Diagnostic, Related, Severity};
 use crate::source::{Sources, Span};
 
-/// Whether escape sequences for colours are written.
+/// Choice to write escape sequences for colours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Color {
-    /// They are.
+pub enum ColorChoice {
     On,
-    /// They are not.
     Off,
 }
 
 /// All diagnostics, one below the other, wrapped at `width` columns. Empty where there is none.
 #[must_use]
-pub fn human(diagnostics: &[Diagnostic], sources: &Sources, color: Color, width: usize) -> String {
+pub fn human(diagnostics: &[Diagnostic], sources: &Sources, color: ColorChoice, width: usize) -> String {
     let theme = match color {
-        Color::On => GraphicalTheme::unicode(),
-        Color::Off => GraphicalTheme::unicode_nocolor(),
+        ColorChoice::On => GraphicalTheme::unicode(),
+        ColorChoice::Off => GraphicalTheme::unicode_nocolor(),
     };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(width.max(40)).with_links(false);
     let mut text = String::new();
@@ -34,7 +33,8 @@ pub fn human(diagnostics: &[Diagnostic], sources: &Sources, color: Color, width:
         }
         let report = Report::new(diagnostic, sources);
         if handler.render_report(&mut text, &report).is_err() {
-            // Nothing in a report can fail to be formatted; if it did, the message alone is still worth having.
+            // Nothing in a report can fail to be formatted; if it did, the message alone is still worth
+            // having.
             text.push_str(&format!("{}: {}\n", diagnostic.code, diagnostic.message));
         }
     }

@@ -7,31 +7,31 @@ use super::{file_name, line_column};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Sources, Span};
 
-/// One finding.
+/// One message for the author of a document.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Motet diagnostic", rename = "Diagnostic")]
-pub struct Record {
-    /// Its code, `M0501`: `motet explain M0501` tells more.
+pub struct DiagnosticRecord {
+    /// Code such as `M0501`, which `motet explain M0501` explains.
     pub code: String,
     /// `error`, `warning` or `note`.
     #[schemars(extend("enum" = ["error", "warning", "note"]))]
     pub severity: String,
-    /// What is wrong.
+    /// The mistake, in one clause.
     pub message: String,
-    /// What to write instead, where it is known.
+    /// The text to write instead, where it is known.
     pub help: Option<String>,
-    /// The file.
+    /// Name of the file.
     pub file: String,
     /// JSON Pointer into the JSON form of the policy, whichever form was read; empty for the whole of it.
     pub path: String,
-    /// Where in the file.
+    /// Range in the file.
     pub span: SpanRecord,
-    /// Other places that belong to the story.
+    /// Other ranges that explain the message.
     pub related: Vec<RelatedRecord>,
-    /// Edits that mend it, where they are sure.
+    /// Edits that repair the mistake, where they are sure.
     pub fix: Option<FixRecord>,
-    /// What it is about, in names, for programs that act on it.
+    /// Names that the message is about, for programs that act on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<AboutRecord>,
 }
@@ -43,13 +43,13 @@ pub struct AboutRecord {
     /// The primitive or policy that is called.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub primitive: Option<String>,
-    /// Its parameter.
+    /// Parameter of the primitive or policy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
     /// The fluent, measure or field on which a condition depends: of several the one that fails.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
-    /// Whether the condition asks for the subject to hold, or not to.
+    /// Truth value of the subject that the condition asks for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wanted: Option<bool>,
 }
@@ -68,18 +68,18 @@ pub struct SpanRecord {
     pub column: usize,
 }
 
-/// Another place.
+/// Another range that explains the message.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RelatedRecord {
-    /// What is there.
+    /// Remark on the range.
     pub message: String,
     /// The file, where it is another one than the diagnostic's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// JSON Pointer, as in the diagnostic.
     pub path: String,
-    /// Where in the file; `null` for something outside any file.
+    /// Range in the file; `null` for a fact outside any file.
     pub span: Option<SpanRecord>,
 }
 
@@ -87,7 +87,7 @@ pub struct RelatedRecord {
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FixRecord {
-    /// What they do.
+    /// Title of the fix.
     pub title: String,
     /// Replacements that do not overlap.
     pub edits: Vec<EditRecord>,
@@ -107,7 +107,7 @@ pub struct EditRecord {
 
 /// A diagnostic as it is written out.
 #[must_use]
-pub fn record(diagnostic: &Diagnostic, sources: &Sources) -> Record {
+pub fn record(diagnostic: &Diagnostic, sources: &Sources) -> DiagnosticRecord {
     let span = |span: Span| {
         let (line, column) = line_column(sources, span);
         SpanRecord { start: span.start, end: span.end, line, column }
@@ -129,7 +129,7 @@ pub fn record(diagnostic: &Diagnostic, sources: &Sources) -> Record {
             .map(|edit| EditRecord { start: edit.span.start, end: edit.span.end, text: edit.text.clone() })
             .collect(),
     });
-    Record {
+    DiagnosticRecord {
         code: diagnostic.code.0.into(),
         severity: diagnostic.severity.name().into(),
         message: diagnostic.message.clone(),

@@ -1,16 +1,17 @@
-//! Diagnostics as plain sentences for the next prompt of a language model: no source, the most useful first, each short.
+//! Diagnostics as plain sentences for the next prompt of a language model: no source, the most useful first,
+//! each short.
 
 use std::fmt::Write as _;
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::Sources;
 
-/// The most characters of one finding: at four characters a token, the rule of thumb for English with byte-pair
-/// encodings, these are 80 tokens.
+/// The most characters of one finding: at four characters a token, the rule of thumb for English with
+/// byte-pair encodings, these are 80 tokens.
 pub const MAX_CHARS: usize = 320;
 
-/// One line a finding: errors in the order in which the steps run, the goal after them, then warnings and notes. Of several
-/// errors of one step only the first is told, since the others mostly follow from it.
+/// One line a finding: errors in the order in which the steps run, the goal after them, then warnings and
+/// notes. Of several errors of one step only the first is told, since the others mostly follow from it.
 #[must_use]
 pub fn llm(diagnostics: &[Diagnostic], _sources: &Sources) -> String {
     let mut order: Vec<&Diagnostic> = diagnostics.iter().collect();
@@ -30,7 +31,7 @@ pub fn llm(diagnostics: &[Diagnostic], _sources: &Sources) -> String {
     text
 }
 
-/// What is wrong with the document as a whole, then its steps, then its goal.
+/// Rank of a diagnostic: the document as a whole first, then its steps, then its goal.
 fn rank(said: &Diagnostic) -> u8 {
     match said.path.as_str() {
         path if path.starts_with("/steps") => 1,

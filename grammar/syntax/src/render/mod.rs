@@ -1,4 +1,5 @@
-//! Diagnostics for people and for tools, one format a file. Nothing here prints: the host writes the text out.
+//! Diagnostics for people and for tools, one format a file. Nothing here prints: the host writes the text
+//! out.
 
 mod excerpt;
 mod github;
@@ -8,10 +9,10 @@ mod llm;
 mod sarif;
 
 pub use github::github;
-pub use human::{Color, human};
-pub use json::{EditRecord, FixRecord, Record, RelatedRecord, SpanRecord, json, record};
+pub use human::{ColorChoice, human};
+pub use json::{DiagnosticRecord, EditRecord, FixRecord, RelatedRecord, SpanRecord, json, record};
 pub use llm::{MAX_CHARS, capital, llm};
-pub use sarif::{Help, sarif};
+pub use sarif::{CodePage, sarif};
 
 use crate::source::{Source, Sources, Span};
 
@@ -30,8 +31,8 @@ fn line_column(sources: &Sources, span: Span) -> (usize, usize) {
     source(sources, span).map_or((1, 1), |source| source.line_column(span.start))
 }
 
-/// Line and column of the first byte of a span and of one past its last, from 1, in the file that tools open: of a document
-/// that is a line of a file that is the whole file.
+/// Line and column of the first byte of a span and of one past its last, from 1, in the file that tools open:
+/// of a document that is a line of a file that is the whole file.
 fn region(sources: &Sources, span: Span) -> [(usize, usize); 2] {
     let Some(source) = source(sources, span) else { return [(1, 1); 2] };
     let (_, before) = source.file();

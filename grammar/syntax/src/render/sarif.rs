@@ -8,21 +8,20 @@ use super::tool_file;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{Source, Sources, Span};
 
-/// What there is to read about a code.
+/// Documentation of one diagnostic code.
 #[derive(Clone, Copy, Debug)]
-pub struct Help<'h> {
-    /// Its title, a few words.
+pub struct CodePage<'h> {
+    /// Title of a few words.
     pub title: &'h str,
-    /// Its page.
     pub markdown: &'h str,
 }
 
-/// One log with one run of the tool `motet`. `help` gives what there is to read about a code, where there is something.
+/// One log with one run of the tool `motet`. `help` returns the page of a code, where there is one.
 #[must_use]
 pub fn sarif<'h>(
     diagnostics: &[Diagnostic],
     sources: &Sources,
-    help: &dyn Fn(&str) -> Option<Help<'h>>,
+    help: &dyn Fn(&str) -> Option<CodePage<'h>>,
 ) -> String {
     let codes: BTreeMap<&str, usize> = diagnostics.iter().map(|diagnostic| (diagnostic.code.0, 0)).collect();
     let codes: BTreeMap<&str, usize> =
@@ -50,7 +49,7 @@ pub fn sarif<'h>(
     text
 }
 
-fn rule(code: &str, help: Option<Help<'_>>) -> Value {
+fn rule(code: &str, help: Option<CodePage<'_>>) -> Value {
     let text = format!("motet explain {code}");
     match help {
         None => json!({"id": code, "help": {"text": text}}),
@@ -92,9 +91,13 @@ fn result(diagnostic: &Diagnostic, rule: Option<usize>, sources: &Sources) -> Va
         let replacements: Vec<Value> = fix
             .edits
             .iter()
-            .map(|edit| json!({"deletedRegion": region(edit.span, sources), "insertedContent": {"text": edit.text}}))
+            .map(|edit| {
+                let deleted = region(edit.span, sources);
+                json!({"deletedRegion": deleted, "insertedContent": {"text": edit.text}})
+            })
             .collect();
-        let changes = json!([{"artifactLocation": artifact(diagnostic.span, sources), "replacements": replacements}]);
+        let file = artifact(diagnostic.span, sources);
+        let changes = json!([{"artifactLocation": file, "replacements": replacements}]);
         json!([{"description": {"text": fix.title}, "artifactChanges": changes}])
     });
     if let Some(result) = result.as_object_mut() {

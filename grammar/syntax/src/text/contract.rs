@@ -1,6 +1,6 @@
 //! Pairs to the clauses of a contract.
 
-use super::build::{Builder, Parts};
+use super::builder::{Builder, Parts};
 use super::{Pair, Rule};
 use crate::ast::{Clause, Quantified};
 

@@ -1,15 +1,14 @@
-//! Pairs to expressions: the grammar gives a flat list of operands and operators, which is put together by precedence
-//! here. Recursion follows brackets, which [`super::scan`] has bounded; chains without brackets are built in loops and
-//! bounded by their height.
+//! Pairs to expressions: the grammar gives a flat list of operands and operators, which is put together by
+//! precedence here. Recursion follows brackets, which [`super::brackets`] has bounded; chains without
+//! brackets are built in loops and bounded by their height.
 
 use smol_str::SmolStr;
 
-use super::build::{Builder, Parts};
-use super::errors::TextSyntax;
+use super::builder::{Builder, Parts};
+
 use super::{Pair, Rule};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
-use crate::errors::TooDeep;
-use crate::json::errors::NumberRange;
+use crate::errors::{NumberRange, TextSyntax, TooDeep};
 use crate::source::Span;
 use crate::unit::Unit;
 
@@ -22,7 +21,7 @@ struct Built {
     height: usize,
 }
 
-/// What a flat list is made of.
+/// Element of the flat list that the grammar gives.
 enum Part {
     Not(Span),
     Infix(Rule),
@@ -136,15 +135,9 @@ impl Builder {
         });
         if next_infix(parts, |rule| compare_op(rule).is_some()).is_some() {
             let next = self.right_side(parts, Self::sum)?;
-            self.found.push(
-                TextSyntax {
-                    span: built.outer.to(next.outer),
-                    message: "comparisons do not chain".into(),
-                    help: Some("write two of them with `and`: `a < b and b < c`".into()),
-                    ..TextSyntax::default()
-                }
-                .into(),
-            );
+            let help = "write two of them with `and`: `a < b and b < c`";
+            let span = built.outer.to(next.outer);
+            self.found.push(TextSyntax::new(span, "comparisons do not chain".into(), help).into());
             // The rest of a longer chain is in the same mistake.
             while next_infix(parts, |rule| compare_op(rule).is_some()).is_some() {
                 self.right_side(parts, Self::sum)?;
@@ -180,7 +173,8 @@ impl Builder {
         join(left, right, |left, right| ExprKind::Arith(op, left, right))
     }
 
-    /// What follows an operator that binds tighter than `not`: an operand, or a `not` and all that is in its reach.
+    /// Right side of an operator that binds tighter than `not`: an operand, or a `not` with all that is in
+    /// its reach.
     fn right_side(
         &mut self,
         parts: &mut Flat,
@@ -188,15 +182,8 @@ impl Builder {
     ) -> Option<Built> {
         let Some(Part::Not(span)) = parts.peek() else { return operand(self, parts) };
         let span = *span;
-        self.found.push(
-            TextSyntax {
-                span,
-                message: "`not` stands after an operator that binds tighter".into(),
-                help: Some("write it in parentheses: `(not a)`".into()),
-                ..TextSyntax::default()
-            }
-            .into(),
-        );
+        let message = "`not` stands after an operator that binds tighter".into();
+        self.found.push(TextSyntax::new(span, message, "write it in parentheses: `(not a)`").into());
         while parts.next_if(|part| matches!(part, Part::Not(_))).is_some() {}
         operand(self, parts)
     }
@@ -311,18 +298,9 @@ impl Builder {
                     let digits: String = rest.by_ref().skip(1).take_while(|c| *c != '}').collect();
                     let code = u32::from_str_radix(&digits, 16).ok().and_then(char::from_u32);
                     if code.is_none() {
-                        self.found.push(
-                            TextSyntax {
-                                span,
-                                message: format!("`\\u{{{digits}}}` is no character"),
-                                help: Some(
-                                    "write the character itself, or its number in hex, at most `10ffff`"
-                                        .into(),
-                                ),
-                                ..TextSyntax::default()
-                            }
-                            .into(),
-                        );
+                        let message = format!("`\\u{{{digits}}}` is not a character");
+                        let help = "write the character itself, or its number in hex, at most `10ffff`";
+                        self.found.push(TextSyntax::new(span, message, help).into());
                     }
                     text.extend(code);
                 }

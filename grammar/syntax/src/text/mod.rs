@@ -1,15 +1,14 @@
 //! The text front end: `motet.pest` parses, the builders in this folder make the AST with exact spans, and
-//! [`explain`] puts what the grammar refuses into words.
+//! [`syntax_error`] puts what the grammar refuses into words.
 
-mod build;
+mod brackets;
+mod builder;
 mod contract;
-pub mod errors;
-mod explain;
 mod expr;
-mod label;
-mod scan;
+pub(crate) mod lexer;
+mod rule_names;
 mod step;
-pub(crate) mod token;
+mod syntax_error;
 
 use pest::Parser as _;
 
@@ -17,7 +16,7 @@ use crate::ast;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
-/// What pest makes of the grammar.
+/// Parser that pest generates from the grammar.
 mod grammar {
     #![allow(missing_docs, unreachable_pub, reason = "generated, and private to the front end")]
 
@@ -33,16 +32,16 @@ type Pair<'s> = pest::iterators::Pair<'s, Rule>;
 
 /// Parses a text of declarations and policies. A syntax error is one diagnostic and an empty file. O(bytes).
 pub(crate) fn parse(text: &str, file: FileId) -> (ast::File, Vec<Diagnostic>) {
-    if let Err(diagnostic) = scan::scan(text, file) {
+    if let Err(diagnostic) = brackets::check(text, file) {
         return (ast::File::default(), vec![*diagnostic]);
     }
     match MotetParser::parse(Rule::file, text) {
         Ok(mut pairs) => {
-            let mut builder = build::Builder::new(file);
+            let mut builder = builder::Builder::new(file);
             let tree = pairs.next().map(|pair| builder.items(pair)).unwrap_or_default();
             (tree, builder.found)
         }
-        Err(error) => (ast::File::default(), vec![explain::explain(text, &error, file)]),
+        Err(error) => (ast::File::default(), vec![syntax_error::diagnostic(text, &error, file)]),
     }
 }
 
@@ -50,18 +49,18 @@ pub(crate) fn parse(text: &str, file: FileId) -> (ast::File, Vec<Diagnostic>) {
 pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<ast::Expr>, Vec<Diagnostic>) {
     let file = FileId::default();
     let moved = |diagnostic| (None, vec![origin.moved(diagnostic)]);
-    if let Err(diagnostic) = scan::scan(text, file) {
+    if let Err(diagnostic) = brackets::check(text, file) {
         return moved(*diagnostic);
     }
     match MotetParser::parse(Rule::lone_expr, text) {
         Ok(mut pairs) => {
-            let mut builder = build::Builder::new(file);
+            let mut builder = builder::Builder::new(file);
             builder.origin = origin;
             let inner = pairs.next().and_then(|pair| pair.into_inner().next());
             let expr = inner.map(|pair| builder.expr(pair, depth));
             (expr, builder.found)
         }
-        Err(error) => moved(explain::explain(text, &error, file)),
+        Err(error) => moved(syntax_error::diagnostic(text, &error, file)),
     }
 }
 
@@ -70,7 +69,7 @@ pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<as
 /// # Errors
 ///
 /// What is wrong, in words, where the text is no condition.
-pub fn condition(text: &str) -> Result<ast::Expr, String> {
+pub fn parse_condition(text: &str) -> Result<ast::Expr, String> {
     let (expr, found) = parse_expr(text, Origin::At(FileId::default(), 0), 0);
     match (expr, found.into_iter().next()) {
         (Some(expr), None) => Ok(expr),
@@ -79,7 +78,7 @@ pub fn condition(text: &str) -> Result<ast::Expr, String> {
     }
 }
 
-/// Where a text stands in its document.
+/// Position of a text in its document.
 #[derive(Clone, Copy)]
 pub(crate) enum Origin {
     /// As it is, from this offset of this file on.
@@ -110,21 +109,4 @@ impl Origin {
         }
         diagnostic
     }
-}
-
-/// Whether a word is never a bare name, because the grammar says so.
-pub(crate) fn is_reserved(word: &str) -> bool {
-    !is_bare_name(word)
-}
-
-/// Whether a text can stand as a name without back-quotes.
-pub(crate) fn is_bare_name(text: &str) -> bool {
-    let parsed = MotetParser::parse(Rule::name, text);
-    !text.starts_with('`') && parsed.is_ok_and(|pairs| pairs.as_str().len() == text.len())
-}
-
-/// Whether a text can stand as a name, in back-quotes if need be.
-pub(crate) fn is_name(text: &str) -> bool {
-    let is_barred = |byte: &u8| matches!(byte, b'`' | 0..=8 | 10..=0x1f | 0x7f);
-    text.as_bytes().first().is_some_and(|first| *first != b'$') && !text.as_bytes().iter().any(is_barred)
 }

@@ -1,7 +1,7 @@
-//! Pairs to steps. `depth` is how many blocks a step is in, counted as braces: a branch of `parallel` and the block of a
-//! `resume` are in two.
+//! Pairs to steps. `depth` is how many blocks a step is in, counted as braces: a branch of `parallel` and the
+//! block of a `resume` are in two.
 
-use super::build::{Builder, Parts};
+use super::builder::{Builder, Parts};
 use super::{Pair, Rule};
 use crate::ast::{
     Block, Catch, CatchOn, Do, End, EndKind, Expr, MAX_NESTING, MAX_STEPS, Reaction, Step, StepKind, When,
@@ -83,8 +83,8 @@ impl Builder {
         Some(StepKind::Do(step))
     }
 
-    /// `if a { } else if b { } else { }`: each `else if` is an `if` alone in a block of its own. The braces of that
-    /// block are not written; its span is that of the inner `if`.
+    /// `if a { } else if b { } else { }`: each `else if` is an `if` alone in a block of its own. The braces
+    /// of that block are not written; its span is that of the inner `if`.
     fn if_else(&mut self, parts: Parts<'_>, depth: usize, whole: Span) -> Option<StepKind> {
         let mut arms: Vec<(Expr, Block, Span)> = Vec::with_capacity(1);
         let mut otherwise = None;

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::{Geometry, Options as CheckOptions, Session};
-use motet_decode::{Surface, canonical};
-use motet_geometry::query::Budget;
+use motet_decode::{Subset, canonical};
+use motet_geometry::planning::SearchBudget;
 use motet_planner::builtin;
 use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Planner, Setting};
 use motet_planner::model::{self, Happening, Listener, ModelPlanner};
@@ -47,7 +47,7 @@ pub(crate) fn geometry(setting: &Setting) -> Arc<Geometry> {
     let source = Source::new("hsr.urdf", text);
     let id = sources.add(source.clone());
     let urdf = motet_robots::urdf::read(&source, id).0.unwrap();
-    Arc::new(Geometry::new(&setting.robot, &urdf, &setting.scene, None, Budget::default()))
+    Arc::new(Geometry::new(&setting.robot, &urdf, &setting.scene, None, SearchBudget::default()))
 }
 
 /// What a model that knows the right policy would write for a request.
@@ -56,7 +56,7 @@ pub(crate) fn right(setting: &Setting, request: &str) -> String {
     let situation = RequestContext::new(&setting.scene);
     let answered = builtin::answer(&session, Some(&setting.robot), request, &situation).unwrap();
     let policy = answered.planned.parsed.file.policies().next().unwrap();
-    canonical(policy, &session.signatures(), Surface::default()).unwrap()
+    canonical(policy, &session.signatures(), Subset::default()).unwrap()
 }
 
 /// Settings with short times.

@@ -1,6 +1,6 @@
 //! Vocabularies: the tokens of a language model as bytes.
 
-use motet_decode::{End, Vocabulary};
+use motet_decode::{EndToken, Vocabulary};
 
 use crate::border::{free, guarded, handle, shared, slice};
 
@@ -59,8 +59,8 @@ pub unsafe extern "C" fn motet_vocabulary_read(
         // SAFETY: as the function's.
         let file = unsafe { slice(file, len, "file")? };
         let end = match u32::try_from(end) {
-            Ok(end) => End::Number(end),
-            Err(_) if end == MOTET_END_KNOWN => End::Known,
+            Ok(end) => EndToken::Number(end),
+            Err(_) if end == MOTET_END_KNOWN => EndToken::Known,
             Err(_) => return Err(format!("{end} is no token")),
         };
         let vocabulary = Vocabulary::from_file(file, end).map_err(|error| error.to_string())?;

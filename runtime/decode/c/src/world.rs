@@ -2,8 +2,8 @@
 
 use std::ffi::c_char;
 
-use motet_decode::{Modifiers, Prepared, Surface, World};
-use motet_syntax::{FileId, Form, Source, Sources, render};
+use motet_decode::{AcceptorFactory, Environment, Modifiers, Subset};
+use motet_syntax::{FileId, Source, Sources, Syntax, render};
 
 use crate::border::{free, guarded, handle, shared, slice, string, string_out};
 
@@ -30,7 +30,7 @@ pub struct MotetWorldTexts {
 
 /// A world that is prepared.
 pub struct MotetWorld {
-    pub(crate) prepared: Prepared,
+    pub(crate) prepared: AcceptorFactory,
     session: motet_decode::Session,
 }
 
@@ -46,7 +46,7 @@ pub unsafe extern "C" fn motet_world_new(texts: *const MotetWorldTexts) -> *mut 
         let texts = unsafe { shared(texts, "world")? };
         // SAFETY: as the function's.
         let text = |at, what| unsafe { string(at, what) };
-        let world = World {
+        let world = Environment {
             robot: text(texts.robot, "robot")?,
             declarations: text(texts.declarations, "declarations")?,
             scene: text(texts.scene, "scene")?,
@@ -55,8 +55,9 @@ pub unsafe extern "C" fn motet_world_new(texts: *const MotetWorldTexts) -> *mut 
         };
         let session = world.session().map_err(|error| error.to_string())?;
         let modifiers = if texts.modifiers { Modifiers::Written } else { Modifiers::Default };
-        let form = if texts.text { Form::Text } else { Form::Json };
-        let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
+        let form = if texts.text { Syntax::Text } else { Syntax::Json };
+        let prepared =
+            AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
         Ok(handle(MotetWorld { prepared, session }))
     })
 }

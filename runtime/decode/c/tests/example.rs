@@ -10,7 +10,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use motet_decode::World;
+use motet_decode::Environment;
 use motet_syntax::{FileId, Severity, Source};
 
 #[test]
@@ -44,7 +44,9 @@ fn the_example_writes_policies_that_check() {
     assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
     let text = String::from_utf8(ran.stdout).unwrap();
     assert_eq!(text.lines().count(), 10);
-    let session = World { robot: Some("hsr"), scene: Some("kitchen"), ..World::default() }.session().unwrap();
+    let session = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() }
+        .session()
+        .unwrap();
     for policy in text.lines() {
         let said = session.check(&motet_syntax::read(&Source::new("policy.json", policy), FileId(0)));
         let wrong: Vec<_> = said.iter().filter(|said| said.severity == Severity::Error).collect();

@@ -2,8 +2,8 @@
 //! Python, names of files and tokenizers of other libraries, is in `motet/*.py`.
 
 use motet_decode::vocabulary::Encoding;
-use motet_decode::{End, Modifiers, Prepared, Session, Surface, World as Texts};
-use motet_syntax::{FileId, Form, Source, Sources, render};
+use motet_decode::{EndToken, Modifiers, AcceptorFactory, Session, Subset, Environment as Texts};
+use motet_syntax::{FileId, Syntax, Source, Sources, render};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -67,11 +67,11 @@ enum EndOfSequence {
 }
 
 impl EndOfSequence {
-    fn as_end(end: Option<&Self>) -> End<'_> {
+    fn as_end(end: Option<&Self>) -> EndToken<'_> {
         match end {
-            None => End::Known,
-            Some(Self::Number(number)) => End::Number(*number),
-            Some(Self::Name(name)) => End::Named(name),
+            None => EndToken::Known,
+            Some(Self::Number(number)) => EndToken::Number(*number),
+            Some(Self::Name(name)) => EndToken::Named(name),
         }
     }
 }
@@ -80,7 +80,7 @@ impl EndOfSequence {
 #[pyclass(frozen, module = "motet._motet")]
 struct World {
     session: Session,
-    prepared: Prepared,
+    prepared: AcceptorFactory,
 }
 
 #[pymethods]
@@ -99,8 +99,8 @@ impl World {
     ) -> PyResult<Self> {
         let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
         let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
-        let form = if text { Form::Text } else { Form::Json };
-        let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
+        let form = if text { Syntax::Text } else { Syntax::Json };
+        let prepared = AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
         Ok(Self { session, prepared })
     }
 

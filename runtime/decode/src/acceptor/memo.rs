@@ -1,4 +1,4 @@
-//! What was asked before: the answers of the checker, by everything that they depend on. All walks of a session share them,
+//! What was asked before: the answers of the checker, by everything that they depend on. All machines of a session share them,
 //! so a question that comes again, behind a token that crosses a choice or after a way back, costs a look-up.
 
 use std::hash::{Hash, Hasher};
@@ -6,8 +6,8 @@ use std::sync::{Mutex, PoisonError};
 
 use rustc_hash::{FxHashMap, FxHasher};
 
-use super::arena::{Event, Id, mix};
-use super::walk::Walk;
+use super::event_log::{Event, Id, mix};
+use super::machine::Machine;
 
 /// Answers beyond this many are forgotten, all at once.
 const MOST: usize = 1 << 18;
@@ -34,7 +34,7 @@ pub(crate) enum Question {
     /// Whether a loop may come round where its body ends.
     Round,
     /// Whether what can be called was asked of all that runs at once.
-    Foreseen,
+    Probed,
     /// Whether all is well beside a loop where some test leaves certain facts.
     Beside,
 }
@@ -53,22 +53,22 @@ impl Memo {
     }
 }
 
-impl Walk {
+impl Machine {
     /// Says something: puts it behind what was said.
-    pub(crate) fn say(&mut self, below: Id, event: Event) -> Id {
+    pub(crate) fn record(&mut self, below: Id, event: Event) -> Id {
         // What a policy is called tells nothing, unless it is called like one that its steps could call.
         let is_title =
             matches!(event, Event::Name(start, len) if below == 0 && !self.is_callable(start, len));
         let content = if is_title { 0 } else { self.content(event) };
-        self.arenas.say(below, event, content)
+        self.arenas.record(below, event, content)
     }
 
     fn is_callable(&self, start: u32, len: u32) -> bool {
         let name = self.bytes.get(start as usize..(start.saturating_add(len)) as usize).unwrap_or_default();
-        self.machine.program.signatures.callables.iter().any(|callable| callable.name.as_bytes() == name)
+        self.context.automaton.signatures.callables.iter().any(|callable| callable.name.as_bytes() == name)
     }
 
-    /// A hash of what an event says, wherever in the walk its bytes stand.
+    /// A hash of what an event says, wherever in the machine its bytes stand.
     fn content(&self, event: Event) -> u64 {
         let mut hasher = FxHasher::default();
         let mut spelled = |sort: u8, start: u32, len: u32| {
@@ -87,7 +87,7 @@ impl Walk {
             | Event::Close
             | Event::Word(..)
             | Event::Number(..)
-            | Event::Plain(_)
+            | Event::Constant(_)
             | Event::AnyText
             | Event::Joined(_)
             | Event::Hole => event.hash(&mut hasher),
@@ -104,16 +104,16 @@ impl Walk {
 
     /// The answer to a question that was asked before.
     pub(crate) fn known(&self, key: u64) -> Option<bool> {
-        self.machine.memo.get(key)
+        self.context.memo.get(key)
     }
 
     /// The answer to a question, asked only where it is not known.
     pub(crate) fn answer(&mut self, key: u64, ask: impl FnOnce(&mut Self) -> bool) -> bool {
-        if let Some(answer) = self.machine.memo.get(key) {
+        if let Some(answer) = self.context.memo.get(key) {
             return answer;
         }
         let answer = ask(self);
-        self.machine.memo.put(key, answer);
+        self.context.memo.put(key, answer);
         answer
     }
 }

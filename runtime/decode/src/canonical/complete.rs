@@ -1,4 +1,4 @@
-//! From a policy of either form to the tree of the model surface.
+//! From a policy of either form to the tree of the model subset.
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::Type;
@@ -9,23 +9,23 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::Outside;
 use super::value::outside;
-use crate::surface::{
+use crate::subset::{
     self, Call, Catch, Document, End, MAX_CONDITION_DEPTH, MAX_COUNT, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS,
-    Modifiers, Reaction, Step, Surface, When,
+    Modifiers, Reaction, Step, Subset, When,
 };
 
-/// A policy as a tree of the model surface.
+/// A policy as a tree of the model subset.
 ///
 /// # Errors
 ///
-/// The first thing in the policy that the surface cannot say.
-pub fn complete(policy: &Policy, signatures: &Signatures, surface: Surface) -> Result<Document, Outside> {
+/// The first thing in the policy that the subset cannot say.
+pub fn complete(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<Document, Outside> {
     let mut completer =
-        Completer { signatures, surface, bound: Vec::new(), names: FxHashSet::default(), fresh: 0 };
+        Completer { signatures, subset, bound: Vec::new(), names: FxHashSet::default(), fresh: 0 };
     if !policy.params.is_empty() {
         return Err(Outside {
             span: policy.name.span,
-            why: "a policy has no parameters on the model surface".into(),
+            why: "a policy has no parameters on the model subset".into(),
         });
     }
     names(&policy.body, &mut completer.names);
@@ -36,13 +36,13 @@ pub fn complete(policy: &Policy, signatures: &Signatures, surface: Surface) -> R
     let name = completer.new_name(&policy.name.text, policy.name.span)?;
     let goal = policy.achieves.as_ref();
     let achieves = goal.map(|goal| completer.condition(goal, MAX_CONDITION_DEPTH)).transpose()?;
-    let steps = completer.block(&policy.body, surface.depth, 1)?;
+    let steps = completer.block(&policy.body, subset.depth, 1)?;
     Ok(Document { name, robot, achieves, steps })
 }
 
 pub(super) struct Completer<'a> {
     pub(super) signatures: &'a Signatures,
-    pub(super) surface: Surface,
+    pub(super) subset: Subset,
     /// What is bound here, in the order of binding.
     bound: Vec<SmolStr>,
     /// What is bound anywhere.
@@ -60,7 +60,7 @@ impl Completer<'_> {
         if !(least..=MAX_STEPS).contains(&block.steps.len()) {
             return Err(Outside {
                 span: block.span,
-                why: format!("a block has {least} to {MAX_STEPS} steps on the model surface"),
+                why: format!("a block has {least} to {MAX_STEPS} steps on the model subset"),
             });
         }
         let outer = self.bound.len();
@@ -238,27 +238,26 @@ impl Completer<'_> {
             (EndKind::Fail | EndKind::Replan, None) => {
                 return Err(Outside {
                     span: end.span,
-                    why: "an ending has a reason on the model surface".into(),
+                    why: "an ending has a reason on the model subset".into(),
                 });
             }
         };
         Ok(End { kind: end.kind, why })
     }
 
-    fn within(&self, within: Option<&Expr>) -> Result<Option<surface::Decimal>, Outside> {
+    fn within(&self, within: Option<&Expr>) -> Result<Option<subset::Decimal>, Outside> {
         let Some(within) = within else { return Ok(None) };
         self.modifier(within)?;
         self.seconds(within).map(Some)
     }
 
-    /// A place that only a surface with modifiers has.
+    /// A place that only a subset with modifiers has.
     fn modifier(&self, expr: &Expr) -> Result<(), Outside> {
-        match self.surface.modifiers {
+        match self.subset.modifiers {
             Modifiers::Written => Ok(()),
-            Modifiers::Default => Err(outside(
-                expr,
-                "deadlines and retries are only written on a surface with modifiers".into(),
-            )),
+            Modifiers::Default => {
+                Err(outside(expr, "deadlines and retries are only written on a subset with modifiers".into()))
+            }
         }
     }
 }
@@ -274,7 +273,7 @@ fn count(actual: usize, least: usize, whose: &str, of: &str, span: Span) -> Resu
     if (least..=MAX_MEMBERS).contains(&actual) {
         return Ok(());
     }
-    Err(Outside { span, why: format!("{whose} has {least} to {MAX_MEMBERS} {of} on the model surface") })
+    Err(Outside { span, why: format!("{whose} has {least} to {MAX_MEMBERS} {of} on the model subset") })
 }
 
 /// Every name that the steps of a block bind.

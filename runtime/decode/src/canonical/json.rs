@@ -1,14 +1,14 @@
-//! The JSON form of the model surface: compact, the key that tells a thing first, all keys in one order.
+//! The JSON form of the model subset: compact, the key that tells a thing first, all keys in one order.
 
 use motet_syntax::ast::EndKind;
 use smol_str::SmolStr;
 
-use crate::surface::{
-    Call, Catch, Condition, Decimal, Document, End, Modifiers, Reaction, Step, Subject, Surface, Value, When,
+use crate::subset::{
+    Call, Catch, Condition, Decimal, Document, End, Modifiers, Reaction, Step, Subject, Subset, Value, When,
 };
 
-pub(super) fn print(document: &Document, surface: Surface) -> String {
-    let mut printer = Printer { out: String::new(), modifiers: surface.modifiers };
+pub(super) fn print(document: &Document, subset: Subset) -> String {
+    let mut printer = Printer { out: String::new(), modifiers: subset.modifiers };
     printer.put("{\"motet\":1,\"policy\":");
     printer.string(&document.name);
     if let Some(robot) = &document.robot {
@@ -36,7 +36,7 @@ impl Printer {
         self.out.push_str(text);
     }
 
-    /// What needs no escape: the surface has no other strings, but a name of an entity may be any.
+    /// What needs no escape: the subset has no other strings, but a name of an entity may be any.
     fn string(&mut self, text: &str) {
         // A string always has a JSON form.
         self.out.push_str(&serde_json::to_string(text).unwrap_or_default());

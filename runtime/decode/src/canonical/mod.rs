@@ -1,7 +1,7 @@
-//! A policy in its one spelling of the model surface.
+//! A policy in its one spelling of the model subset.
 //!
 //! What the language leaves open is filled in: the robot, arguments with defaults, names of results that nothing uses
-//! (`_1`, `_2`, …), an empty `else`. Units become SI, numbers get the decimals of the surface, comparisons their measure on
+//! (`_1`, `_2`, …), an empty `else`. Units become SI, numbers get the decimals of the subset, comparisons their measure on
 //! the left. So the canonical text means what the policy means, and it is a fixed point.
 
 mod complete;
@@ -13,11 +13,11 @@ pub use complete::complete;
 
 use motet_compiler::Signatures;
 use motet_syntax::ast::Policy;
-use motet_syntax::{Form, Span};
+use motet_syntax::{Span, Syntax};
 
-use crate::surface::Surface;
+use crate::subset::Subset;
 
-/// Why a policy has no spelling on the model surface.
+/// Why a policy has no spelling on the model subset.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Outside {
     /// What is outside of it.
@@ -39,11 +39,11 @@ impl std::error::Error for Outside {}
 ///
 /// # Errors
 ///
-/// The first thing in the policy that the surface cannot say.
-pub fn canonical(policy: &Policy, signatures: &Signatures, surface: Surface) -> Result<String, Outside> {
-    let document = complete(policy, signatures, surface)?;
-    Ok(match surface.form {
-        Form::Json => json::print(&document, surface),
-        Form::Text => text::print(&document),
+/// The first thing in the policy that the subset cannot say.
+pub fn canonical(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<String, Outside> {
+    let document = complete(policy, signatures, subset)?;
+    Ok(match subset.syntax {
+        Syntax::Json => json::print(&document, subset),
+        Syntax::Text => text::print(&document),
     })
 }

@@ -1,4 +1,4 @@
-//! The text form of the model surface: one line, one space between words and around braces, `when` always in braces, no
+//! The text form of the model subset: one line, one space between words and around braces, `when` always in braces, no
 //! `else if`, groups of conditions in parentheses.
 
 use motet_syntax::ast::EndKind;
@@ -6,7 +6,7 @@ use motet_syntax::print::identifier;
 use motet_syntax::unit::Unit;
 use smol_str::SmolStr;
 
-use crate::surface::{Call, Condition, Decimal, Document, End, Reaction, Step, Subject, Value, When};
+use crate::subset::{Call, Condition, Decimal, Document, End, Reaction, Step, Subject, Value, When};
 
 pub(super) fn print(document: &Document) -> String {
     let mut out = String::new();
@@ -224,7 +224,7 @@ fn value(out: &mut String, value: &Value) {
         Value::Number(number, None) => out.push_str(&number.to_string()),
         Value::Number(number, Some(Unit::Percent)) => put(out, &[&number.percent().to_string(), " %"]),
         Value::Number(number, Some(unit)) => put(out, &[&number.to_string(), " ", unit.symbol()]),
-        // The surface has no text that needs an escape.
+        // The subset has no text that needs an escape.
         Value::Text(text) => put(out, &["\"", text, "\""]),
         Value::Bool(value) => out.push_str(if *value { "true" } else { "false" }),
         Value::Any => out.push_str("any"),

@@ -1,14 +1,14 @@
 //! Values by the types that are asked for, and conditions.
 
 use motet_compiler::signature::Type;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::ast::{Call, Expr, ExprKind};
 use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
 use super::Outside;
 use super::complete::Completer;
-use crate::surface::{self, Condition, Decimal, NumberRange, Relation, Subject, Value};
+use crate::subset::{self, Condition, Decimal, NumberRange, Relation, Subject, Value};
 
 impl Completer<'_> {
     /// A value of a type; `card` bounds a number.
@@ -24,7 +24,7 @@ impl Completer<'_> {
                 })
             }
             (ExprKind::Plain(text), Type::Quantity(dimension)) => {
-                let quantity = motet_syntax::json::quantity(text);
+                let quantity = motet_syntax::unit::parse_quantity(text);
                 let quantity = quantity.filter(|(_, unit)| unit.dimension() == *dimension);
                 let (value, unit) =
                     quantity.ok_or_else(|| outside(expr, format!("`{text}` is no quantity of that type")))?;
@@ -40,8 +40,8 @@ impl Completer<'_> {
             }
             (ExprKind::Bool(value), Type::Bool) => Ok(Value::Bool(*value)),
             (ExprKind::List(items), Type::List(element)) => {
-                if items.is_empty() || items.len() > surface::MAX_ITEMS {
-                    return Err(outside(expr, format!("a list has 1 to {} values", surface::MAX_ITEMS)));
+                if items.is_empty() || items.len() > subset::MAX_ITEMS {
+                    return Err(outside(expr, format!("a list has 1 to {} values", subset::MAX_ITEMS)));
                 }
                 items
                     .iter()
@@ -50,11 +50,11 @@ impl Completer<'_> {
                     .map(Value::List)
             }
             (ExprKind::Call(_) | ExprKind::Field(..) | ExprKind::Arith(..), _) => {
-                Err(outside(expr, "a value that is calculated has no place on the model surface".into()))
+                Err(outside(expr, "a value that is calculated has no place on the model subset".into()))
             }
             _ => {
                 let ty = self.signatures.type_name(ty);
-                Err(outside(expr, format!("this is no value of the type `{ty}` on the model surface")))
+                Err(outside(expr, format!("this is no value of the type `{ty}` on the model subset")))
             }
         }
     }
@@ -62,14 +62,14 @@ impl Completer<'_> {
     fn number(&self, value: f64, expr: &Expr, ty: &Type, card: Option<(f64, f64)>) -> Result<Value, Outside> {
         let range = NumberRange::of(ty, card);
         let number = range.and_then(|range| Some(Value::Number(range.nearest(value)?, range.unit)));
-        number.ok_or_else(|| outside(expr, format!("{value} is beyond the numbers of the model surface")))
+        number.ok_or_else(|| outside(expr, format!("{value} is beyond the numbers of the model subset")))
     }
 
     fn text(&self, text: &SmolStr, expr: &Expr) -> Result<Value, Outside> {
-        if surface::is_text(text) {
+        if subset::is_text(text) {
             return Ok(Value::Text(text.clone()));
         }
-        let most = surface::MAX_TEXT_CHARS;
+        let most = subset::MAX_TEXT_CHARS;
         Err(outside(
             expr,
             format!("a text has 1 to {most} characters of ASCII, no `\"` and no `\\`, no `$` first"),
@@ -124,7 +124,7 @@ impl Completer<'_> {
             Value::Binding(_) => true,
             Value::Name(_) | Value::Number(..) | Value::Text(_) | Value::Bool(_) | Value::Any => false,
         };
-        let why = "the list of an `each` is a name, or entities of one kind, on the model surface";
+        let why = "the list of an `each` is a name, or entities of one kind, on the model subset";
         if is_alike { Ok(list) } else { Err(outside(expr, why.into())) }
     }
 
@@ -132,7 +132,7 @@ impl Completer<'_> {
     pub(super) fn seconds(&self, expr: &Expr) -> Result<Decimal, Outside> {
         match self.value(expr, &Type::Quantity(Dimension::DURATION), None)? {
             Value::Number(number, _) if NumberRange::DURATION.contains(number) => Ok(number),
-            _ => Err(outside(expr, "a time is a number of seconds on the model surface".into())),
+            _ => Err(outside(expr, "a time is a number of seconds on the model subset".into())),
         }
     }
 
@@ -144,7 +144,7 @@ impl Completer<'_> {
         };
         let exact = whole.and_then(|whole| u32::try_from(whole.units).ok());
         exact.ok_or_else(|| {
-            outside(expr, format!("a count is from {least} to {greatest} on the model surface"))
+            outside(expr, format!("a count is from {least} to {greatest} on the model subset"))
         })
     }
 
@@ -152,10 +152,10 @@ impl Completer<'_> {
     pub(super) fn condition(&self, expr: &Expr, depth: usize) -> Result<Condition, Outside> {
         let within = || {
             depth.checked_sub(1).ok_or_else(|| {
-                let most = surface::MAX_CONDITION_DEPTH;
+                let most = subset::MAX_CONDITION_DEPTH;
                 outside(
                     expr,
-                    format!("conditions stand at most {most} deep in one another on the model surface"),
+                    format!("conditions stand at most {most} deep in one another on the model subset"),
                 )
             })
         };
@@ -172,8 +172,8 @@ impl Completer<'_> {
                 if let [only] = parts.as_slice() {
                     return self.condition(only, depth);
                 }
-                if parts.is_empty() || parts.len() > surface::MAX_MEMBERS {
-                    let most = surface::MAX_MEMBERS;
+                if parts.is_empty() || parts.len() > subset::MAX_MEMBERS {
+                    let most = subset::MAX_MEMBERS;
                     return Err(outside(expr, format!("2 to {most} conditions stand beside one another")));
                 }
                 let depth = within()?;
@@ -193,7 +193,7 @@ impl Completer<'_> {
                     _ => Err(outside(expr, "a comparison is of a measure or a field with a value".into())),
                 }
             }
-            _ => Err(outside(expr, "a condition is a fluent or a comparison on the model surface".into())),
+            _ => Err(outside(expr, "a condition is a fluent or a comparison on the model subset".into())),
         }
     }
 
@@ -257,8 +257,8 @@ impl Completer<'_> {
 
     /// A name that the policy gives to something, or uses.
     pub(super) fn new_name(&self, name: &SmolStr, span: motet_syntax::Span) -> Result<SmolStr, Outside> {
-        if !surface::is_name(name) {
-            let most = surface::MAX_NAME_CHARS;
+        if !subset::is_name(name) {
+            let most = subset::MAX_NAME_CHARS;
             return Err(Outside {
                 span,
                 why: format!("`{name}` is no name of at most {most} ASCII letters, digits and `_`"),
@@ -267,7 +267,7 @@ impl Completer<'_> {
         if self.signatures.entities.iter().any(|(entity, _)| entity == name) {
             return Err(Outside { span, why: format!("`{name}` is an entity, which no name may hide") });
         }
-        if self.surface.form == Form::Text && self.is_taken(name) {
+        if self.subset.syntax == Syntax::Text && self.is_taken(name) {
             return Err(Outside { span, why: format!("`{name}` means something else in the text form") });
         }
         Ok(name.clone())

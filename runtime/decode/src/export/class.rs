@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::grammar::Expr;
-use crate::surface::{MAX_NAME_CHARS, MAX_TEXT_CHARS};
+use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS};
 
 /// The characters of a text, and those with which one begins.
 pub(super) const TEXT: &[(char, char)] = &[(' ', '!'), ('#', '['), (']', '~')];
@@ -33,7 +33,7 @@ pub(super) fn name() -> Expr {
 /// A name that is none of these words.
 pub(super) fn name_but<'w>(words: impl Iterator<Item = &'w str>) -> Expr {
     let mut root = Tree::default();
-    for word in words.filter(|word| crate::surface::is_name(word)) {
+    for word in words.filter(|word| crate::subset::is_name(word)) {
         let end = word.chars().fold(&mut root, |tree, letter| tree.next.entry(letter).or_default());
         end.ends = true;
     }

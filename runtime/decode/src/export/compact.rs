@@ -30,7 +30,7 @@ struct Builder {
     /// The rule of each definition.
     rules: Vec<RuleId>,
     /// The numbers that have a rule.
-    numbers: Vec<(crate::surface::NumberRange, RuleId)>,
+    numbers: Vec<(crate::subset::NumberRange, RuleId)>,
 }
 
 impl Builder {
@@ -58,7 +58,7 @@ impl Builder {
             }
             Shape::Choice(shapes) => Expr::choice(shapes.iter().map(|shape| self.expr(shape)).collect()),
             Shape::Loose(_, exact) => self.expr(exact),
-            Shape::Words(words) => {
+            Shape::WordList(words) => {
                 Expr::choice(words.iter().map(|word| Expr::literal(string(word))).collect())
             }
             Shape::Name => quoted("\"", class::name()),

@@ -16,7 +16,7 @@ pub(super) fn print(grammar: &Grammar) -> String {
     out
 }
 
-/// Words of a rule's name are joined by spaces, as the standard has it.
+/// WordList of a rule's name are joined by spaces, as the standard has it.
 fn name(name: &str) -> String {
     name.replace('_', " ")
 }

@@ -17,7 +17,7 @@ pub(super) fn print(grammar: &Grammar) -> String {
 
 struct Gbnf<'g>(&'g Grammar);
 
-/// Words of a rule's name are joined by a minus sign, the only mark that llama.cpp has in one.
+/// WordList of a rule's name are joined by a minus sign, the only mark that llama.cpp has in one.
 fn name(name: &str) -> String {
     name.replace('_', "-")
 }

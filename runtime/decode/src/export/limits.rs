@@ -58,7 +58,7 @@ pub fn warnings(offer: &Offer) -> Vec<Warning> {
         warn(Some(Dialect::LlamaCpp), text);
     }
     let names: usize = offer.lists.iter().map(Vec::len).sum();
-    if offer.surface.form == motet_syntax::Form::Text && names > super::offer::MAX_EXCLUDED {
+    if offer.subset.syntax == motet_syntax::Syntax::Text && names > super::offer::MAX_EXCLUDED {
         warn(None, format!("there are {names} entities: a name that the policy gives may be one of theirs"));
     }
     found

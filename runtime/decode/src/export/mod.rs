@@ -1,9 +1,9 @@
-//! Grammars of the model surface, for servers that hold a model to one.
+//! Grammars of the model subset, for servers that hold a model to one.
 //!
 //! All are generated from one [`Offer`]: what the signatures and the world allow at each place. The JSON form becomes a
 //! tree of [`Shape`]s, of which the JSON Schema is printed; shapes and the text form become one [`Grammar`] of literals,
 //! character classes and bounded repetition, of which GBNF, Lark and EBNF are printed. Nothing recurses: blocks and
-//! conditions are written out to the depth of the surface, so whatever a model writes comes to an end.
+//! conditions are written out to the depth of the subset, so whatever a model writes comes to an end.
 //!
 //! A grammar cannot know what is in scope: a binding is any name. What it generates is read without a mistake, and is right
 //! in names and types but for that.
@@ -21,9 +21,8 @@ mod offer;
 mod request;
 mod schema;
 mod shape;
-mod slot;
 mod text;
-mod word;
+mod value_set;
 
 pub use grammar::{Expr, Grammar, Rule, RuleId};
 pub use lark::Header;
@@ -33,12 +32,11 @@ pub use request::{
     Dialect, Prompt, lark_constraint, probe_body, request_body, request_constraint, schema_of,
 };
 pub use shape::{Shape, Shapes};
-pub use word::RESERVED;
 
 use motet_compiler::Signatures;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
-use crate::surface::Surface;
+use crate::subset::Subset;
 
 /// A notation of a grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -53,11 +51,11 @@ pub enum Format {
     RegexFreeEbnf,
 }
 
-/// The grammar of a surface in a notation; none where the notation cannot say the form, which is a JSON Schema for text.
-/// The same input gives the same bytes. O(declarations + entities) for each level of the surface's depth.
+/// The grammar of a subset in a notation; none where the notation cannot say the form, which is a JSON Schema for text.
+/// The same input gives the same bytes. O(declarations + entities) for each level of the subset's depth.
 #[must_use]
-pub fn export(signatures: &Signatures, surface: Surface, format: Format, header: Header) -> Option<String> {
-    let offer = Offer::new(signatures, surface);
+pub fn export(signatures: &Signatures, subset: Subset, format: Format, header: Header) -> Option<String> {
+    let offer = Offer::new(signatures, subset);
     match format {
         Format::JsonSchema => {
             let schema = schema_of(&offer)?;
@@ -73,8 +71,8 @@ pub fn export(signatures: &Signatures, surface: Surface, format: Format, header:
 /// The grammar of an offer, character by character.
 #[must_use]
 pub fn grammar(offer: &Offer) -> Grammar {
-    match offer.surface.form {
-        Form::Json => compact::grammar(&Shapes::new(offer)),
-        Form::Text => text::grammar(offer),
+    match offer.subset.syntax {
+        Syntax::Json => compact::grammar(&Shapes::new(offer)),
+        Syntax::Text => text::grammar(offer),
     }
 }

@@ -1,7 +1,7 @@
 //! Ranges of decimal numbers as expressions: exactly the canonical digits of the numbers in the range.
 
 use super::grammar::Expr;
-use crate::surface::NumberRange;
+use crate::subset::NumberRange;
 
 /// The numbers of a range as JSON and, before the unit, the text form write them.
 pub(super) fn expr(range: &NumberRange) -> Expr {

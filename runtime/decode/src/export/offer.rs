@@ -2,12 +2,12 @@
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::Type;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
+use motet_syntax::words::RESERVED;
 use smol_str::SmolStr;
 
-use super::slot::{Place, Slot};
-use super::word::RESERVED;
-use crate::surface::{NumberRange, Surface};
+use super::value_set::{ValueContext, ValueSet};
+use crate::subset::{NumberRange, Subset};
 
 /// Above so many entities and cases a name of the text form may be one of theirs: a grammar that excludes them all would be
 /// larger than all the rest of it.
@@ -16,12 +16,12 @@ pub(super) const MAX_EXCLUDED: usize = 1_000;
 /// What a policy may be made of.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Offer {
-    /// Of which surface.
-    pub surface: Surface,
+    /// Of which subset.
+    pub subset: Subset,
     /// The robot; none where the library has none.
     pub robot: Option<SmolStr>,
     /// The places of values that what follows names.
-    pub slots: Vec<Slot>,
+    pub slots: Vec<ValueSet>,
     /// What a step may call.
     pub calls: Vec<CallOffer>,
     /// What a step may ask for: only what the robot observes.
@@ -47,7 +47,7 @@ pub struct CallOffer {
     pub name: SmolStr,
     /// Its parameters with their places.
     pub args: Vec<(SmolStr, usize)>,
-    /// Whether it has a deadline and retries on this surface.
+    /// Whether it has a deadline and retries on this subset.
     pub modifiers: bool,
     /// Whether it has a result.
     pub binds: bool,
@@ -65,11 +65,11 @@ pub enum Atom {
 }
 
 impl Offer {
-    /// The offer of signatures for a surface.
+    /// The offer of signatures for a subset.
     #[must_use]
-    pub fn new(signatures: &Signatures, surface: Surface) -> Self {
+    pub fn new(signatures: &Signatures, subset: Subset) -> Self {
         let mut builder = Builder { signatures, bindable: signatures.bindable(), slots: Vec::new() };
-        let written = surface.modifiers == crate::surface::Modifiers::Written;
+        let written = subset.modifiers == crate::subset::Modifiers::Written;
         let calls = signatures.callables.iter().filter_map(|callable| {
             let params = callable.params.iter().map(|param| (&param.name, &param.ty, param.range));
             Some(CallOffer {
@@ -89,7 +89,7 @@ impl Offer {
             signatures.entities.iter().filter(move |row| row.1 == kind).map(|row| row.0.clone())
         };
         Self {
-            surface,
+            subset,
             robot: Some(&signatures.robot).filter(|robot| !robot.is_empty()).cloned(),
             slots,
             calls,
@@ -102,30 +102,30 @@ impl Offer {
                 .collect(),
             binds_lists,
             failures: signatures.failures.clone(),
-            excluded: if surface.form == Form::Text { excluded(signatures) } else { Vec::new() },
+            excluded: if subset.syntax == Syntax::Text { excluded(signatures) } else { Vec::new() },
         }
     }
 
     /// A place of a value.
     #[must_use]
-    pub fn slot(&self, id: usize) -> Option<&Slot> {
+    pub fn slot(&self, id: usize) -> Option<&ValueSet> {
         self.slots.get(id)
     }
 }
 
-const STEP: Place = Place { binds: true, any: false };
-const GOAL: Place = Place { binds: false, any: false };
+const STEP: ValueContext = ValueContext { binds: true, any: false };
+const GOAL: ValueContext = ValueContext { binds: false, any: false };
 
 struct Builder<'a> {
     signatures: &'a Signatures,
     bindable: Vec<Type>,
-    slots: Vec<Slot>,
+    slots: Vec<ValueSet>,
 }
 
 impl Builder<'_> {
     /// The place of a value; none where nothing may stand there.
-    fn slot(&mut self, ty: &Type, range: Option<(f64, f64)>, place: Place) -> Option<usize> {
-        let mut slot = Slot::of(ty, range, place, self.signatures, &self.bindable);
+    fn slot(&mut self, ty: &Type, range: Option<(f64, f64)>, place: ValueContext) -> Option<usize> {
+        let mut slot = ValueSet::of(ty, range, place, self.signatures, &self.bindable);
         if let Type::List(element) = ty {
             slot.items = self.slot(element, None, place);
         }
@@ -143,18 +143,18 @@ impl Builder<'_> {
     fn args<'p>(
         &mut self,
         params: impl Iterator<Item = (&'p SmolStr, &'p Type, Option<(f64, f64)>)>,
-        place: Place,
+        place: ValueContext,
     ) -> Option<Vec<(SmolStr, usize)>> {
         params.map(|(name, ty, range)| Some((name.clone(), self.slot(ty, range, place)?))).collect()
     }
 
-    fn atoms(&mut self, place: Place) -> Vec<Atom> {
+    fn atoms(&mut self, place: ValueContext) -> Vec<Atom> {
         let signatures = self.signatures;
         let needs_observing = place.binds;
         let mut atoms = Vec::new();
         for fluent in signatures.fluents.iter().filter(|fluent| fluent.is_observable || !needs_observing) {
             let params = fluent.params.iter().map(|(name, ty)| (name, ty, None));
-            if let Some(args) = self.args(params, Place { any: true, ..place }) {
+            if let Some(args) = self.args(params, ValueContext { any: true, ..place }) {
                 atoms.push(Atom::Fluent(fluent.name.clone(), args));
             }
         }
@@ -198,7 +198,7 @@ fn excluded(signatures: &Signatures) -> Vec<SmolStr> {
 }
 
 /// With which range a comparison is not by equality alone.
-pub(super) fn is_ordered(slot: Option<&Slot>) -> bool {
+pub(super) fn is_ordered(slot: Option<&ValueSet>) -> bool {
     slot.is_some_and(|slot| slot.number.is_some())
 }
 

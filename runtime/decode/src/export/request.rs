@@ -1,6 +1,6 @@
 //! How servers are asked to hold a model to a grammar: the fields that each dialect adds to a chat request.
 
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use serde_json::{Map, Value, json};
 
 use super::lark::Header;
@@ -37,7 +37,7 @@ pub struct Prompt<'p> {
 /// The JSON Schema of an offer; none of the text form.
 #[must_use]
 pub fn schema_of(offer: &Offer) -> Option<Value> {
-    (offer.surface.form == Form::Json).then(|| schema::schema(&Shapes::new(offer)))
+    (offer.subset.syntax == Syntax::Json).then(|| schema::schema(&Shapes::new(offer)))
 }
 
 /// The fields that hold a model to the grammar of an offer, to be merged into the body of a chat request. None where a

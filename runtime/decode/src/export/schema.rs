@@ -56,19 +56,19 @@ fn of(shape: &Shape, names: &[String]) -> Value {
             json!({"anyOf": shapes})
         }
         Shape::Loose(loose, _) => of(loose, names),
-        Shape::Words(words) => match words.as_slice() {
+        Shape::WordList(words) => match words.as_slice() {
             [only] => json!({"type": "string", "const": only}),
             words => json!({"type": "string", "enum": words}),
         },
         Shape::Name => json!({"type": "string", "pattern": "^[a-zA-Z_][a-zA-Z0-9_]*$"}),
         Shape::Binding => json!({"type": "string", "pattern": "^\\$[a-zA-Z_][a-zA-Z0-9_]*$"}),
-        // Without a bound: one makes engines slow. The class is that of the surface, which needs no escape.
+        // Without a bound: one makes engines slow. The class is that of the subset, which needs no escape.
         Shape::Text => json!({"type": "string", "pattern": "^[ !#%-\\[\\]-~][ !#-\\[\\]-~]*$"}),
         Shape::Number(range) if range.decimals == 0 => {
             json!({"type": "integer", "minimum": range.least, "maximum": range.greatest})
         }
         Shape::Number(range) => {
-            let number = |units: i64| crate::surface::Decimal { units, decimals: range.decimals }.value();
+            let number = |units: i64| crate::subset::Decimal { units, decimals: range.decimals }.value();
             json!({"type": "number", "minimum": bound(number(range.least)), "maximum": bound(number(range.greatest))})
         }
         Shape::Bool => json!({"type": "boolean"}),

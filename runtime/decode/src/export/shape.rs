@@ -1,10 +1,10 @@
-//! The JSON form of the model surface as a tree of shapes, of which the JSON Schema and the grammars are printed.
+//! The JSON form of the model subset as a tree of shapes, of which the JSON Schema and the grammars are printed.
 
 use smol_str::SmolStr;
 
 use super::offer::{Atom, CallOffer, Offer, SECONDS, is_ordered};
-use super::slot::Slot;
-use crate::surface::{
+use super::value_set::ValueSet;
+use crate::subset::{
     MAX_CONDITION_DEPTH, MAX_COUNT, MAX_ITEMS, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS, Modifiers, NumberRange,
     Relation,
 };
@@ -23,7 +23,7 @@ pub enum Shape {
     /// What a JSON Schema can say of it, and what it is exactly.
     Loose(Box<Shape>, Box<Shape>),
     /// One of these strings.
-    Words(Vec<SmolStr>),
+    WordList(Vec<SmolStr>),
     /// A name that the policy gives.
     Name,
     /// A name that it uses, with its `$`.
@@ -65,7 +65,7 @@ struct Builder<'o> {
 }
 
 fn word(text: &str) -> Shape {
-    Shape::Words(vec![text.into()])
+    Shape::WordList(vec![text.into()])
 }
 
 fn object<const N: usize>(keys: [(&str, Shape); N]) -> Shape {
@@ -131,12 +131,12 @@ impl Builder<'_> {
         self.define("root".into(), Shape::Object(keys));
     }
 
-    fn value(&self, slot: &Slot, binding: &Shape, text: &Shape) -> Shape {
+    fn value(&self, slot: &ValueSet, binding: &Shape, text: &Shape) -> Shape {
         let mut words = slot.names.clone();
         words.extend(slot.any.then(|| SmolStr::new_static("any")));
         let mut shapes = Vec::new();
         if !words.is_empty() {
-            shapes.push(Shape::Words(words));
+            shapes.push(Shape::WordList(words));
         }
         shapes.extend(slot.number.map(Shape::Number));
         shapes.extend(slot.bool.then_some(Shape::Bool));
@@ -156,7 +156,7 @@ impl Builder<'_> {
         args.iter().map(|(name, slot)| (name.clone(), self.slot(*slot)))
     }
 
-    /// Conditions that stand in one another as deep as the surface allows; none where there is nothing to ask for.
+    /// Conditions that stand in one another as deep as the subset allows; none where there is nothing to ask for.
     fn conditions(&mut self, name: &str, atoms: &[Atom]) -> Option<Shape> {
         let mut shapes = Vec::new();
         for atom in atoms {
@@ -199,12 +199,12 @@ impl Builder<'_> {
         let relations: &[Relation] =
             if is_ordered(self.offer.slot(than)) { &Relation::ALL } else { &Relation::EQUALITY };
         let words = relations.iter().map(|relation| relation.word().into()).collect();
-        [("is".into(), Shape::Words(words)), ("than".into(), self.slot(than))]
+        [("is".into(), Shape::WordList(words)), ("than".into(), self.slot(than))]
     }
 
-    /// Steps with blocks that stand in one another as deep as the surface allows.
+    /// Steps with blocks that stand in one another as deep as the subset allows.
     fn steps(&mut self, name: &Shape, binding: &Shape, asked: Option<Shape>) -> Shape {
-        let written = self.offer.surface.modifiers == Modifiers::Written;
+        let written = self.offer.subset.modifiers == Modifiers::Written;
         let mut leaves = Vec::new();
         for call in &self.offer.calls {
             let shape = self.call(call, name);
@@ -226,7 +226,7 @@ impl Builder<'_> {
         ];
         reacts.extend(ends);
         let mut step = self.define("step_0".into(), Shape::Choice(leaves.clone()));
-        for depth in 1..=self.offer.surface.depth {
+        for depth in 1..=self.offer.subset.depth {
             let blocks = Blocks { step, name, kinds: &kinds, list: list.as_ref(), asked: asked.as_ref() };
             let mut all = leaves.clone();
             all.extend(self.composites(depth, &blocks, &reacts));
@@ -262,9 +262,9 @@ impl Builder<'_> {
     /// have others beside it, which says the same.
     fn kinds(&mut self) -> Shape {
         let any = SmolStr::new_static("any");
-        let several = |words: Vec<SmolStr>| Shape::Array(Box::new(Shape::Words(words)), 1, MAX_MEMBERS);
+        let several = |words: Vec<SmolStr>| Shape::Array(Box::new(Shape::WordList(words)), 1, MAX_MEMBERS);
         let failures = self.offer.failures.clone();
-        let alone = Shape::Array(Box::new(Shape::Words(vec![any.clone()])), 1, 1);
+        let alone = Shape::Array(Box::new(Shape::WordList(vec![any.clone()])), 1, 1);
         let exact = Shape::Choice(vec![alone, several(failures.clone())]);
         let loose = several(failures.into_iter().chain([any]).collect());
         self.define("kinds".into(), Shape::Loose(Box::new(loose), Box::new(exact)))
@@ -274,7 +274,7 @@ impl Builder<'_> {
         let mut lists: Vec<Shape> = self.offer.binds_lists.then(|| binding.clone()).into_iter().collect();
         for names in &self.offer.lists {
             let names: Vec<_> = names.iter().filter(|name| *name != "any").cloned().collect();
-            lists.push(Shape::Array(Box::new(Shape::Words(names)), 1, MAX_ITEMS));
+            lists.push(Shape::Array(Box::new(Shape::WordList(names)), 1, MAX_ITEMS));
         }
         if lists.is_empty() { None } else { Some(self.define("list".into(), one_of(lists))) }
     }

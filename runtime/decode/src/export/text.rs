@@ -1,4 +1,4 @@
-//! The text form of the model surface as a grammar. Words and the spaces between them are literals of their own, so that a
+//! The text form of the model subset as a grammar. WordList and the spaces between them are literals of their own, so that a
 //! reader that takes the longest word is never misled by two that begin alike.
 
 use motet_syntax::print::identifier;
@@ -9,8 +9,8 @@ use super::class;
 use super::grammar::{Expr, Grammar, RuleId};
 use super::number;
 use super::offer::{Atom, CallOffer, Offer, SECONDS, is_ordered};
-use super::slot::Slot;
-use crate::surface::{
+use super::value_set::ValueSet;
+use crate::subset::{
     MAX_CONDITION_DEPTH, MAX_COUNT, MAX_ITEMS, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS, Modifiers, NumberRange,
     Relation,
 };
@@ -44,7 +44,7 @@ pub(super) struct Builder<'o> {
     numbers: Vec<(NumberRange, RuleId)>,
 }
 
-/// Words with single spaces between them.
+/// WordList with single spaces between them.
 fn words(text: &str) -> Vec<Expr> {
     let mut parts = Vec::new();
     for (index, word) in text.split(' ').enumerate() {
@@ -96,7 +96,7 @@ impl Builder<'_> {
         line(parts)
     }
 
-    fn value(&mut self, slot: &Slot) -> Expr {
+    fn value(&mut self, slot: &ValueSet) -> Expr {
         let mut values: Vec<Expr> = slot.names.iter().map(|name| Expr::literal(identifier(name))).collect();
         values.extend(slot.any.then(|| Expr::literal("any")));
         values.extend(slot.number.map(|range| self.number(range)));
@@ -144,7 +144,7 @@ impl Builder<'_> {
         parts
     }
 
-    /// Conditions that stand in one another as deep as the surface allows; none where there is nothing to ask for.
+    /// Conditions that stand in one another as deep as the subset allows; none where there is nothing to ask for.
     fn conditions(&mut self, name: &str, atoms: &[Atom]) -> Option<Expr> {
         let (mut fluents, mut comparisons) = (Vec::new(), Vec::new());
         for atom in atoms {
@@ -201,7 +201,7 @@ impl Builder<'_> {
 
     /// The block of a policy.
     fn blocks(&mut self, asked: Option<Expr>) -> Expr {
-        let written = self.offer.surface.modifiers == Modifiers::Written;
+        let written = self.offer.subset.modifiers == Modifiers::Written;
         let seconds = self.number(SECONDS);
         let deadline = |word: &str| line(vec![words(word), vec![seconds.clone()]]);
         let within = written.then(|| deadline(" within ").optional());
@@ -227,7 +227,7 @@ impl Builder<'_> {
         let parts = Parts { asked, within, count, seconds: deadline(" for ").optional(), end, failure, list };
         let step = self.rule("step_0", Expr::choice(leaves.clone()));
         let mut block = self.block(0, step);
-        for depth in 1..=self.offer.surface.depth {
+        for depth in 1..=self.offer.subset.depth {
             let mut steps = leaves.clone();
             steps.extend(self.composites(depth, &block, &parts));
             let step = self.rule(&format!("step_{depth}"), Expr::choice(steps));

@@ -5,8 +5,8 @@
 
 use serde_json::{Map, Value};
 
-use super::token::{MAX_FILE_BYTES, Tokens};
-use super::{End, Vocabulary, VocabularyError};
+use super::token_list::{MAX_FILE_BYTES, Tokens};
+use super::{EndToken, Vocabulary, VocabularyError};
 
 /// How tokens say their bytes.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -25,7 +25,7 @@ impl Vocabulary {
     ///
     /// The file is no `tokenizer.json`, of a kind whose tokens are not joined byte by byte (`WordPiece`, `WordLevel`), over a
     /// limit of [`super`], or the end is not to be found.
-    pub fn from_tokenizer_json(file: &[u8], end: End<'_>) -> Result<Self, VocabularyError> {
+    pub fn from_tokenizer_json(file: &[u8], end: EndToken<'_>) -> Result<Self, VocabularyError> {
         let file = json(file)?;
         let model = object(file.get("model"), "model")?;
         let kind = model.get("type").and_then(Value::as_str).unwrap_or("BPE");

@@ -4,7 +4,7 @@ use llguidance::api::TopLevelGrammar;
 use llguidance::toktrie::{ApproximateTokEnv, TokEnv, TokRxInfo, TokTrie};
 use llguidance::{Matcher, ParserFactory};
 use motet_compiler::Session;
-use motet_decode::Surface;
+use motet_decode::Subset;
 use motet_decode::export::{Format, Header, export};
 
 /// The tokens of a model as llguidance takes them; special ones have no bytes.
@@ -18,7 +18,7 @@ pub struct Peer(Matcher);
 
 impl Peer {
     /// The engine on the grammar in Lark, the one notation with all bounds of the surface.
-    pub fn new(environment: &TokEnv, session: &Session, surface: Surface) -> Self {
+    pub fn new(environment: &TokEnv, session: &Session, surface: Subset) -> Self {
         let lark = export(&session.signatures(), surface, Format::Lark, Header::Llguidance).unwrap();
         let factory = ParserFactory::new_simple(environment).unwrap();
         let matcher = Matcher::new(factory.create_parser(TopLevelGrammar::from_lark(lark)));

@@ -1,8 +1,8 @@
 //! Random walks through the acceptor: what a model without any sense writes.
 
 use motet_compiler::Session;
-use motet_decode::{Acceptor, Prepared, Surface};
-use motet_syntax::Form;
+use motet_decode::{Acceptor, AcceptorFactory, Subset};
+use motet_syntax::Syntax;
 
 use super::dice::Dice;
 
@@ -17,7 +17,7 @@ pub enum Ended {
 
 /// Walks at random until the policy is whole. Long walks are likelier than short ones: after a step another one follows as
 /// a rule, until there are `steps`.
-pub fn walk(prepared: &Prepared, budget: usize, steps: usize, dice: &mut Dice) -> Option<Ended> {
+pub fn walk(prepared: &AcceptorFactory, budget: usize, steps: usize, dice: &mut Dice) -> Option<Ended> {
     let mut acceptor = prepared.acceptor(budget)?;
     loop {
         if acceptor.is_accepting() {
@@ -36,16 +36,11 @@ pub fn walk(prepared: &Prepared, budget: usize, steps: usize, dice: &mut Dice) -
 
 /// So many policies that are written at random and fit, by walks of a session of their own, so that no answer is known
 /// beforehand.
-pub fn written(
-    session: &Session,
-    surface: Surface,
-    count: usize,
-    fits: impl Fn(&str) -> bool,
-) -> Vec<String> {
-    let (prepared, mut dice) = (Prepared::new(session, surface), Dice::new(7));
+pub fn written(session: &Session, surface: Subset, count: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    let (prepared, mut dice) = (AcceptorFactory::new(session, surface), Dice::new(7));
     let mut found = Vec::new();
     // The text form takes fewer tokens a step.
-    let (least, spread) = if surface.form == Form::Json { (12, 8) } else { (24, 20) };
+    let (least, spread) = if surface.syntax == Syntax::Json { (12, 8) } else { (24, 20) };
     while found.len() < count {
         let steps = least + dice.below(spread);
         if let Some(Ended::Whole(policy)) = walk(&prepared, 6000, steps, &mut dice)
@@ -70,7 +65,7 @@ pub fn steps(policy: &str) -> usize {
 /// How many steps of a kind it has.
 #[must_use]
 pub fn of_kind(policy: &str, kind: &str) -> usize {
-    if form(policy) == Form::Json {
+    if form(policy) == Syntax::Json {
         return policy.matches(&format!("{{\"{kind}\":")).count();
     }
     let count = |words: &[&str]| words.iter().map(|word| policy.matches(word).count()).sum();
@@ -93,8 +88,8 @@ fn is_call(rest: &str) -> bool {
 
 /// The form of a policy.
 #[must_use]
-pub fn form(policy: &str) -> Form {
-    if policy.starts_with('{') { Form::Json } else { Form::Text }
+pub fn form(policy: &str) -> Syntax {
+    if policy.starts_with('{') { Syntax::Json } else { Syntax::Text }
 }
 
 /// The keys that tell what a step is.

@@ -4,7 +4,7 @@ use motet_compiler::plan::{Lasts, Plan, PlannedStep};
 use motet_requests::Aim;
 use motet_robots::card::Robot;
 use motet_syntax::ast::Expr;
-use motet_syntax::{Form, print};
+use motet_syntax::{Syntax, print};
 
 /// How near a person may be to a base that moves, in m. Closer than where a robot stands to hand something over: from
 /// there it has to be able to leave.
@@ -59,7 +59,7 @@ fn part(condition: &Expr) -> String {
 
 /// A step, watched where the base moves to a person or with something in the hand, and the robot can observe it.
 fn watched(step: &PlannedStep, robot: Option<&Robot>) -> String {
-    let call = print::call(&step.call, Form::Text);
+    let call = print::call(&step.call, Syntax::Text);
     let observes = |name: &str| robot.is_some_and(|robot| robot.observes.iter().any(|known| known == name));
     let mut whens = Vec::new();
     if let Some(person) = step.approaches.as_ref().filter(|_| observes("distance")) {

@@ -3,7 +3,7 @@
 use motet_compiler::fix::Applied;
 use motet_compiler::{Session, fix, settle};
 use motet_syntax::ast::{File, Item};
-use motet_syntax::{Diagnostic, FileId, Form, Parsed, Severity, Source};
+use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Syntax};
 
 use crate::builtin::Planned;
 
@@ -51,7 +51,7 @@ pub fn judge(session: &Session, reply: &str) -> Judged {
     let mut file = parsed.file.clone();
     for item in &mut file.items {
         if let Item::Policy(policy) = item {
-            settle(policy, session.library(), Form::Text);
+            settle(policy, session.library(), Syntax::Text);
         }
     }
     let text = motet_syntax::print::text(&file);

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use motet_compiler::{Session, Signatures};
 use motet_decode::export::Offer;
-use motet_decode::{Prepared, Surface};
+use motet_decode::{AcceptorFactory, Subset};
 use motet_syntax::ast::Expr;
 use motet_syntax::{Diagnostic, Sources, render};
 
@@ -45,14 +45,14 @@ pub struct Settings {
     /// The most tokens of a prompt, as far as bytes tell.
     pub tokens: usize,
     /// What the model is held to.
-    pub surface: Surface,
+    pub surface: Subset,
     /// When a policy begins to run.
     pub start: Start,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { repairs: 3, tokens: prompt::TOKENS, surface: Surface::default(), start: Start::Whole }
+        Self { repairs: 3, tokens: prompt::TOKENS, surface: Subset::default(), start: Start::Whole }
     }
 }
 
@@ -72,7 +72,7 @@ struct Ready {
     signatures: Arc<Signatures>,
     lasting: Arc<Lasting>,
     offer: Arc<Offer>,
-    prepared: Prepared,
+    acceptors: AcceptorFactory,
 }
 
 /// How far a reply was read.
@@ -104,11 +104,11 @@ impl<'m> ModelPlanner<'m> {
         let signatures = ask.session.signatures();
         let kept = self.ready.take().filter(|kept| Arc::ptr_eq(&kept.signatures, &signatures));
         let ready = match kept {
-            Some(kept) => Ready { prepared: kept.prepared.elsewhere(ask.session), ..kept },
+            Some(kept) => Ready { acceptors: kept.acceptors.elsewhere(ask.session), ..kept },
             None => Ready {
                 lasting: Arc::new(Lasting::new(ask.session, ask.robot, ask.situation.scene)),
                 offer: Arc::new(Offer::new(&signatures, self.settings.surface)),
-                prepared: Prepared::new(ask.session, self.settings.surface),
+                acceptors: AcceptorFactory::new(ask.session, self.settings.surface),
                 signatures,
             },
         };
@@ -159,7 +159,7 @@ impl<'m> ModelPlanner<'m> {
         (chat, goal): (&[Message], &mut Option<Expr>),
         round: u32,
     ) -> Round {
-        let mut reading = Reading::new(session, ready.prepared.acceptor(POLICY_BYTES));
+        let mut reading = Reading::new(session, ready.acceptors.acceptor(POLICY_BYTES));
         let mut reply = match self.model.ask(chat, &ready.offer) {
             Ok(reply) => reply,
             Err(why) => return self.failed(round, "", why),
@@ -273,7 +273,7 @@ impl Planner for ModelPlanner<'_> {
         let name = self.model.name();
         self.listener.hear(&Happening::Asked { round: 0, model: &name, chat: &chat });
         let Ok(reply) = self.model.ask(&chat, &ready.offer) else { return false };
-        let acceptor = ready.prepared.acceptor(POLICY_BYTES);
+        let acceptor = ready.acceptors.acceptor(POLICY_BYTES);
         let reading = Reading::new(ask.session, acceptor).into_owned();
         self.later = Some(Later { reply, reading, round: 0 });
         true

@@ -5,7 +5,7 @@ use motet_compiler::{Session, settle};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::{Clause, File, Item, PrimitiveDecl};
-use motet_syntax::{Form, print};
+use motet_syntax::{Syntax, print};
 
 use crate::builtin;
 use motet_requests::RequestContext;
@@ -76,7 +76,7 @@ fn examples(session: &Session, robot: &Robot, scene: &Scene) -> Vec<String> {
     let written = requests.iter().filter_map(|request| {
         let answered = builtin::answer(session, Some(robot), request, &start).ok()?;
         let mut policy = answered.planned.parsed.file.policies().next()?.clone();
-        settle(&mut policy, session.library(), Form::Json);
+        settle(&mut policy, session.library(), Syntax::Json);
         Some(format!("# Example: {request}\n{}\n", one_line(&print::policy_json(&policy))))
     });
     written.collect()

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 use motet_compiler::{Geometry, Options, Session};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_robots::card::{self, Robot};
 use motet_robots::scene::{self, Placement, Scene, Shape};
 use motet_robots::urdf;
@@ -39,5 +39,5 @@ pub(crate) fn session(scene: &Scene) -> Session {
     let (session, said) =
         Session::new(Some(&robot), &[], Some(scene), None, Options::default(), &mut Sources::default());
     assert!(said.is_empty(), "{said:?}");
-    session.with_geometry(Arc::new(Geometry::new(&robot, &urdf, scene, None, Budget::default())))
+    session.with_geometry(Arc::new(Geometry::new(&robot, &urdf, scene, None, SearchBudget::default())))
 }

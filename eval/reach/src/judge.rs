@@ -1,0 +1,379 @@
+//! Asks the query for every target of many rooms and holds its answers against the truth, which is kept in a file.
+
+use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use motet_geometry::planning::{MotionAnswer, MotionQuery, QueryContext, SceneState, SearchBudget};
+use motet_robots::scene::{self, Scene};
+use motet_syntax::{FileId, Source};
+use serde::Serialize;
+
+use crate::check::{faults, is_free_at};
+use crate::export;
+use crate::model::{Model, robot};
+use crate::report::Table;
+use crate::room::{furnished, targets};
+use crate::scenery::Scenery;
+use crate::truth::{Effort, Truth, searched};
+
+/// What to run over.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Names of robots.
+    pub robots: Vec<String>,
+    /// Rooms for each robot.
+    pub rooms: u64,
+    /// The first room's seed; each next has the next.
+    pub seed: u64,
+    /// The text of a scene instead of rooms.
+    pub scene: Option<String>,
+    /// How long a query may look.
+    pub budget: SearchBudget,
+    /// Search for the truth only shortly.
+    pub is_quick: bool,
+    /// Ask for no truth: only what is answered, and whether the witnesses hold.
+    pub is_unjudged: bool,
+    /// A folder for what the truth was found to be.
+    pub cache: Option<PathBuf>,
+    /// A file for the witnesses, a JSON object a line.
+    pub witnesses: Option<PathBuf>,
+    /// A file for all targets with grasps and answers, likewise.
+    pub targets: Option<PathBuf>,
+}
+
+/// One target with its answer.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Which robot, room and thing.
+    pub name: String,
+    /// What is true of it.
+    pub truth: Truth,
+    /// What was answered.
+    pub said: Said,
+    /// How long the answer took, the room made ready.
+    pub took: Duration,
+    /// How long making the room ready took.
+    pub set_up: Duration,
+    /// What the independent check has against the witness.
+    pub faults: Vec<String>,
+    /// The reason of a negative.
+    pub reason: Option<String>,
+}
+
+/// The kinds of answers.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Said {
+    /// With a witness.
+    Feasible,
+    /// Proven that there is none.
+    Certified,
+    /// None was found.
+    Exhausted,
+    /// Not known.
+    Unknown,
+}
+
+/// The tables, robot by robot, and a line for every case that is not as it should be.
+///
+/// # Errors
+///
+/// A robot that there is not, a scene that cannot be read, a file that cannot be written.
+pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
+    let (mut lines, mut tables) = (Vec::new(), Vec::new());
+    let mut out = Out { witnesses: file(&settings.witnesses)?, targets: file(&settings.targets)? };
+    for name in &settings.robots {
+        let model = robot(name).ok_or_else(|| format!("there is no robot `{name}` with a hand"))?;
+        let mut cache = Cache::read(settings, &model, name);
+        let (mut cases, mut answered) = (Vec::new(), Answered::default());
+        for seed in settings.seed..settings.seed + settings.rooms {
+            let scene = match &settings.scene {
+                Some(text) => scene::read(&Source::new("scene.json", text.as_str()), FileId(0))
+                    .0
+                    .ok_or("the scene cannot be read")?,
+                None => room_of(&model, seed),
+            };
+            let mut room = Judged { model: &model, scene: &scene, name, seed, cache: &mut cache };
+            if settings.is_unjudged {
+                room.answers(settings.budget, &mut out, &mut answered)?;
+                continue;
+            }
+            cases.extend(room.cases(settings, &mut out)?);
+            cache.write();
+            if settings.scene.is_some() {
+                break;
+            }
+        }
+        if settings.is_unjudged {
+            lines.extend(answered.lines(name));
+            continue;
+        }
+        lines.extend(cases.iter().filter_map(Case::line));
+        tables.push(Table::new(name, &cases));
+    }
+    Ok((lines, tables))
+}
+
+/// A room in which the robot stands free.
+fn room_of(model: &Model, seed: u64) -> Scene {
+    let rooms = (0..50).map(|next| furnished(&model.machine, seed + 1_000_000 * next));
+    let is_free = |scene: &Scene| {
+        let world = SceneState::new(&model.machine, scene);
+        Scenery::new(scene, &world)
+            .is_some_and(|scenery| scenery.touch(model, &world.robot, None, 0.003).is_none())
+    };
+    rooms.into_iter().find(is_free).unwrap_or_default()
+}
+
+/// The files that another program reads.
+struct Out {
+    witnesses: Option<std::fs::File>,
+    targets: Option<std::fs::File>,
+}
+
+fn file(path: &Option<PathBuf>) -> Result<Option<std::fs::File>, String> {
+    let create =
+        |path: &PathBuf| std::fs::File::create(path).map_err(|error| format!("{}: {error}", path.display()));
+    path.as_ref().map(create).transpose()
+}
+
+/// What was answered where the truth is not asked for.
+#[derive(Default)]
+struct Answered {
+    kinds: BTreeMap<Said, usize>,
+    faults: Vec<String>,
+    negative: Vec<Duration>,
+}
+
+impl Answered {
+    fn lines(mut self, name: &str) -> Vec<String> {
+        let faulty = self.faults.len();
+        let kinds: Vec<String> =
+            self.kinds.iter().map(|(said, count)| format!("{said:?} {count}").to_lowercase()).collect();
+        self.negative.sort_unstable();
+        let most = self.negative.last().copied().unwrap_or_default();
+        let middle = self.negative.get(self.negative.len() / 2).copied().unwrap_or_default();
+        let mut lines = std::mem::take(&mut self.faults);
+        lines.push(format!(
+            "{name}: {}; witnesses that do not hold {faulty}; of a negative {middle:?} at the median, {most:?} at most",
+            kinds.join(", ")
+        ));
+        lines
+    }
+}
+
+struct Judged<'a> {
+    model: &'a Model,
+    scene: &'a Scene,
+    name: &'a str,
+    seed: u64,
+    cache: &'a mut Cache,
+}
+
+impl Judged<'_> {
+    /// Answers and witnesses without the truth.
+    fn answers(
+        &mut self,
+        budget: SearchBudget,
+        out: &mut Out,
+        answered: &mut Answered,
+    ) -> Result<(), String> {
+        let world = SceneState::new(&self.model.machine, self.scene);
+        let room = QueryContext::new(&self.model.machine, self.scene, &world).ready();
+        let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
+        for target in targets(self.scene) {
+            let begin = clock();
+            let answer = room.answer(&MotionQuery::Reach(target.clone(), None), budget);
+            let took = clock().saturating_sub(begin);
+            let name = format!("{} {} {target}", self.name, self.seed);
+            *answered.kinds.entry(Said::of(&answer)).or_default() += 1;
+            let MotionAnswer::Feasible(witness) = &answer else {
+                answered.negative.push(took);
+                continue;
+            };
+            let found = faults(self.model, self.scene, &world, witness);
+            answered
+                .faults
+                .extend(found.first().map(|fault| format!("{name}: the witness does not hold: {fault}")));
+            if let Some(out) = &mut out.witnesses {
+                writeln!(out, "{}", subject.witness(&name, witness)).map_err(|error| error.to_string())?;
+            }
+        }
+        Ok(())
+    }
+
+    fn cases(&mut self, settings: &Settings, out: &mut Out) -> Result<Vec<Case>, String> {
+        let world = SceneState::new(&self.model.machine, self.scene);
+        let make = || QueryContext::new(&self.model.machine, self.scene, &world).ready();
+        let (room, set_up) = timed(make);
+        let mut cases = Vec::new();
+        for target in targets(self.scene) {
+            let query = MotionQuery::Reach(target.clone(), None);
+            let (answer, took) = timed(|| room.answer(&query, settings.budget));
+            let effort = if settings.is_quick { Effort::QUICK } else { Effort::FULL };
+            let name = format!("{} {} {target}", self.name, self.seed);
+            let mut truth = self
+                .cache
+                .truth(&name, self.scene, || searched(self.model, self.scene, &target, self.seed, effort));
+            // A search that ends finds none of the states that are few; one that was found is there.
+            if let (Truth::NoState, MotionAnswer::Infeasible(why)) = (truth, &answer)
+                && let Some(state) = &why.configuration
+                && is_free_at(self.model, self.scene, &world, state, &target)
+            {
+                truth = Truth::NoWay;
+            }
+            let (mut found, mut reason) = (Vec::new(), None);
+            match &answer {
+                MotionAnswer::Feasible(witness) => found = faults(self.model, self.scene, &world, witness),
+                MotionAnswer::Infeasible(why) => reason = Some(why.reason.to_string()),
+                MotionAnswer::Unknown(why) => reason = Some(format!("{why:?}")),
+            }
+            let said = Said::of(&answer);
+            let case = Case { name, truth, said, took, set_up, faults: found, reason };
+            let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
+            let write = |out: &mut Option<std::fs::File>, line: &dyn Fn() -> serde_json::Value| match out {
+                Some(out) => writeln!(out, "{}", line()).map_err(|error| error.to_string()),
+                None => Ok(()),
+            };
+            if let MotionAnswer::Feasible(witness) = &answer {
+                write(&mut out.witnesses, &|| subject.witness(&case.name, witness))?;
+            }
+            write(&mut out.targets, &|| subject.target(&case, &target, self.seed))?;
+            cases.push(case);
+        }
+        Ok(cases)
+    }
+}
+
+/// The median of some runs, or the one where it takes long: the time of the processor that this thread took, so that what else
+/// the machine does counts little.
+fn timed<T>(run: impl Fn() -> T) -> (T, Duration) {
+    let begin = clock();
+    let value = run();
+    let mut times = vec![clock().saturating_sub(begin)];
+    if times[0] < Duration::from_millis(20) {
+        for _ in 0..8 {
+            let begin = clock();
+            std::hint::black_box(run());
+            times.push(clock().saturating_sub(begin));
+        }
+    }
+    times.sort_unstable();
+    (value, times[times.len() / 2])
+}
+
+/// The time of the processor that this thread has taken.
+fn clock() -> Duration {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or_default())
+}
+
+impl Said {
+    fn of(answer: &MotionAnswer) -> Self {
+        match answer {
+            MotionAnswer::Feasible(_) => Self::Feasible,
+            MotionAnswer::Infeasible(why) if why.certified => Self::Certified,
+            MotionAnswer::Infeasible(_) => Self::Exhausted,
+            MotionAnswer::Unknown(_) => Self::Unknown,
+        }
+    }
+}
+
+impl Case {
+    /// Answered with a witness that holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.said == Said::Feasible && self.faults.is_empty()
+    }
+
+    /// The search found a way, or a witness that holds shows one.
+    #[must_use]
+    pub fn is_reachable(&self) -> bool {
+        self.truth == Truth::Reachable || self.holds()
+    }
+
+    /// Certified to have no state, and it has one.
+    #[must_use]
+    pub fn is_contradicted(&self) -> bool {
+        self.said == Said::Certified && (self.is_reachable() || self.truth == Truth::NoWay)
+    }
+
+    /// What is not as it should be, in a line.
+    #[must_use]
+    pub fn line(&self) -> Option<String> {
+        let reason = self.reason.as_deref().unwrap_or_default();
+        if let Some(fault) = self.faults.first() {
+            return Some(format!("{}: the witness does not hold: {fault}", self.name));
+        }
+        match (self.truth, self.said) {
+            (Truth::Reachable | Truth::NoWay, Said::Certified) => {
+                Some(format!("{}: certified to have no state, and it has one: {reason}", self.name))
+            }
+            (Truth::Reachable, Said::Exhausted | Said::Unknown) => {
+                Some(format!("{}: reachable, and missed: {reason}", self.name))
+            }
+            (Truth::NoState, Said::Exhausted | Said::Unknown) => {
+                Some(format!("{}: no state, not certified: {reason}", self.name))
+            }
+            (Truth::Reachable, Said::Feasible)
+            | (Truth::NoWay, Said::Feasible | Said::Exhausted | Said::Unknown)
+            | (Truth::NoState, Said::Feasible | Said::Certified) => None,
+        }
+    }
+}
+
+/// Of the search for the truth and of the rooms: what an older one found is searched for again.
+const VERSION: u32 = 2;
+
+/// What the truth was found to be, in a file.
+struct Cache {
+    path: Option<PathBuf>,
+    known: BTreeMap<String, Truth>,
+    robot: u64,
+}
+
+impl Cache {
+    fn read(settings: &Settings, model: &Model, name: &str) -> Self {
+        let quick = if settings.is_quick { "-quick" } else { "" };
+        let path = settings.cache.as_ref().map(|folder| folder.join(format!("{name}{quick}.json")));
+        let known = path.as_deref().map(kept).unwrap_or_default();
+        Self { path, known, robot: hash(&format!("{VERSION} {:?} {:?}", model.urdf, model.machine.card())) }
+    }
+
+    fn truth(&mut self, name: &str, scene: &Scene, find: impl FnOnce() -> Truth) -> Truth {
+        // The scene and the robot are part of the key: other ones are other questions.
+        let key = format!("{name} {:016x}", hash(&format!("{scene:?}")) ^ self.robot);
+        *self.known.entry(key).or_insert_with(find)
+    }
+
+    /// With what another run has written meanwhile, and at one stroke, so that a run that is ended leaves what was there. A file that
+    /// cannot be written costs only time.
+    fn write(&mut self) {
+        let Some(path) = &self.path else { return };
+        if let Some(folder) = path.parent() {
+            let _ = std::fs::create_dir_all(folder);
+        }
+        for (key, truth) in kept(path) {
+            self.known.entry(key).or_insert(truth);
+        }
+        let new = path.with_extension(format!("{}.new", std::process::id()));
+        if let Ok(text) = serde_json::to_string_pretty(&self.known) {
+            let _ = std::fs::write(&new, text).and_then(|()| std::fs::rename(&new, path));
+        }
+    }
+}
+
+/// What a file has; nothing where it cannot be read.
+fn kept(path: &Path) -> BTreeMap<String, Truth> {
+    let text = std::fs::read_to_string(path).ok();
+    text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+}
+
+/// FNV-1a.
+fn hash(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}

@@ -1,0 +1,121 @@
+//! A few rooms: every witness holds, no reachable target is certified not to be, and most are found.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    missing_docs,
+    reason = "a test fails by panicking"
+)]
+
+use std::path::PathBuf;
+
+use motet_geometry::planning::SearchBudget;
+use motet_reach::{Settings, Truth, furnished, robot, run, targets, truth};
+use motet_robots::scene;
+use motet_syntax::{FileId, Source};
+
+#[test]
+#[ignore = "searches for a minute or more: run it with --ignored"]
+fn witnesses_hold() {
+    let robots = vec!["hsr".into()];
+    let settings = Settings {
+        robots,
+        rooms: 1,
+        seed: 3,
+        scene: None,
+        is_quick: true,
+        budget: SearchBudget::default(),
+        is_unjudged: false,
+        cache: None,
+        witnesses: None,
+        targets: None,
+    };
+    let (lines, tables) = run(&settings).unwrap();
+    for table in tables {
+        assert_eq!(table.uncertified_positives, 0, "{lines:?}");
+        assert_eq!(table.contradicted, 0, "{lines:?}");
+        assert!(table.recall > 60.0, "{table}\n{lines:?}");
+    }
+}
+
+/// One can, in the open.
+fn can(xyz: [f64; 3]) -> String {
+    format!(
+        r#"{{"motet_scene": 1, "entities": [{{"id": "can", "kind": "Object", "pose": {{"xyz": {xyz:?}}}, "mass": 0.2,
+            "shape": {{"cylinder": {{"radius": 0.03, "height": 0.12}}}}}}]}}"#
+    )
+}
+
+/// Where the arm is folded there is no room for the open hand of the HSR: it opens on the way.
+#[test]
+fn the_search_finds_what_is_in_the_open() {
+    for (name, xyz) in [("hsr", [1.3, 0.2, 0.6]), ("anymal_z1", [1.5, 0.2, 0.5]), ("panda", [0.45, 0.1, 0.9])]
+    {
+        let model = robot(name).unwrap();
+        let text = can(xyz);
+        let scene = scene::read(&Source::new("can.json", text.as_str()), FileId(0)).0.unwrap();
+        assert_eq!(truth(&model, &scene, "can", 1), Truth::Reachable, "{name}");
+    }
+}
+
+#[test]
+fn what_was_found_is_kept() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("kept");
+    let _ = std::fs::remove_dir_all(&folder);
+    let settings = |xyz: [f64; 3]| Settings {
+        robots: vec!["panda".into()],
+        rooms: 1,
+        seed: 1,
+        scene: Some(can(xyz)),
+        is_quick: true,
+        budget: SearchBudget::default(),
+        is_unjudged: false,
+        cache: Some(folder.clone()),
+        witnesses: None,
+        targets: None,
+    };
+    let no_state = |xyz| run(&settings(xyz)).unwrap().1[0].no_state;
+    let far = [3.0, 0.0, 0.9];
+    assert_eq!(no_state(far), 1);
+    let file = folder.join("panda-quick.json");
+    let kept = std::fs::read_to_string(&file).unwrap();
+    assert_eq!(kept.matches("no_state").count(), 1);
+    // It is what the file says, and nothing is searched for again.
+    std::fs::write(&file, kept.replace("no_state", "no_way")).unwrap();
+    assert_eq!(no_state(far), 0);
+    // Another scene is another question.
+    assert_eq!(no_state([3.1, 0.0, 0.9]), 1);
+    assert_eq!(std::fs::read_to_string(&file).unwrap().matches("panda 1 can").count(), 2);
+}
+
+#[test]
+fn a_seed_gives_one_room() {
+    for name in ["hsr", "anymal_z1", "panda"] {
+        let model = robot(name).unwrap();
+        let scene = furnished(&model.machine, 7);
+        assert_eq!(scene, furnished(&model.machine, 7));
+        assert_ne!(scene, furnished(&model.machine, 8));
+        assert!(targets(&scene).len() > 3);
+    }
+}
+
+#[test]
+fn every_argument_is_told() {
+    let (told, is_good) = motet_reach::command(&["--help".into()]).unwrap();
+    assert!(is_good);
+    for argument in [
+        "--robot",
+        "--rooms",
+        "--seed",
+        "--cells",
+        "--quick",
+        "--unjudged",
+        "--witnesses",
+        "--targets",
+        "--json",
+    ] {
+        assert!(told.contains(argument), "{argument}");
+    }
+    assert!(motet_reach::command(&["--nothing".into()]).unwrap_err().contains("--help"));
+}

@@ -1,0 +1,166 @@
+//! Verdicts of the compiler beside verdicts that are not ours, row by row.
+
+pub mod dialogue;
+pub mod dynamic;
+pub mod planbench;
+pub mod repairs;
+pub mod saycan;
+pub mod scenarios;
+pub mod setup;
+
+use std::time::Duration;
+
+use indexmap::IndexMap;
+use motet_compiler::{Options, Session};
+use motet_syntax::{Diagnostic, Severity, Source, Sources};
+use serde::Serialize;
+
+/// What a row says, and what the compiler says of it.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// The row's name.
+    pub id: String,
+    /// Whether the row calls the plan wrong.
+    pub expected_error: bool,
+    /// Whether the compiler does.
+    pub found_error: bool,
+    /// The class that the row gives, and the compiler's.
+    pub class: Option<(String, String)>,
+    /// The step that the row gives, and the compiler's.
+    pub step: Option<(String, String)>,
+    /// How long reading, checking and proving took.
+    pub took: Duration,
+    /// Under which name the row is added up once more, with others of its kind.
+    pub group: Option<String>,
+    /// What the compiler says, in a few words.
+    pub note: Option<String>,
+}
+
+/// The sums over all rows.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Summary {
+    /// Rows judged.
+    pub total: usize,
+    /// Rows with the same verdict.
+    pub agree: usize,
+    /// Wrong plans that were accepted.
+    pub missed: usize,
+    /// Right plans that were refused.
+    pub false_alarms: usize,
+    /// Of the rows refused by both that give a class: the same class.
+    pub class_agree: usize,
+    /// Rows refused by both that give a class.
+    pub class_total: usize,
+    /// Of the rows refused by both that give a step: the same step.
+    pub step_agree: usize,
+    /// Rows refused by both that give a step.
+    pub step_total: usize,
+    /// Median time of a row in microseconds.
+    pub median_us: f64,
+    /// Of all these the sums of rows of one kind.
+    #[serde(skip_serializing_if = "IndexMap::is_empty")]
+    pub groups: IndexMap<String, Summary>,
+}
+
+impl Judged {
+    /// What is different, in a line; none where nothing is.
+    #[must_use]
+    pub fn disagreement(&self) -> Option<String> {
+        let word = |error: bool| if error { "error" } else { "ok" };
+        let note = self.note.as_ref().map(|note| format!(": {note}")).unwrap_or_default();
+        if self.expected_error != self.found_error {
+            let (expected, found) = (word(self.expected_error), word(self.found_error));
+            return Some(format!("{}: expected {expected}, found {found}{note}", self.id));
+        }
+        let differs = |name: &str, pair: &Option<(String, String)>| {
+            let (expected, found) = pair.as_ref().filter(|(expected, found)| expected != found)?;
+            Some(format!("{}: {name} expected {expected}, found {found}{note}", self.id))
+        };
+        differs("class", &self.class).or_else(|| differs("step", &self.step))
+    }
+}
+
+/// Adds up judged rows.
+#[must_use]
+pub fn summary(rows: &[Judged]) -> Summary {
+    let mut groups: IndexMap<String, Vec<&Judged>> = IndexMap::new();
+    for row in rows {
+        if let Some(name) = &row.group {
+            groups.entry(name.clone()).or_default().push(row);
+        }
+    }
+    let groups = groups.iter().map(|(name, rows)| (name.clone(), sums(rows))).collect();
+    Summary { groups, ..sums(&rows.iter().collect::<Vec<_>>()) }
+}
+
+fn sums(rows: &[&Judged]) -> Summary {
+    let both: Vec<_> = rows.iter().filter(|row| row.expected_error && row.found_error).collect();
+    let classes: Vec<_> = both.iter().filter_map(|row| row.class.as_ref()).collect();
+    let steps: Vec<_> = both.iter().filter_map(|row| row.step.as_ref()).collect();
+    let mut times: Vec<_> = rows.iter().map(|row| row.took).collect();
+    times.sort_unstable();
+    let median = times.get(times.len() / 2).copied().unwrap_or_default();
+    Summary {
+        total: rows.len(),
+        agree: rows.iter().filter(|row| row.expected_error == row.found_error).count(),
+        missed: rows.iter().filter(|row| row.expected_error && !row.found_error).count(),
+        false_alarms: rows.iter().filter(|row| !row.expected_error && row.found_error).count(),
+        class_agree: classes.iter().filter(|(expected, found)| expected == found).count(),
+        class_total: classes.len(),
+        step_agree: steps.iter().filter(|(expected, found)| expected == found).count(),
+        step_total: steps.len(),
+        median_us: median.as_secs_f64() * 1e6,
+        groups: IndexMap::new(),
+    }
+}
+
+/// Runs something on each item, on several threads; the results come in the order of the items.
+#[must_use]
+pub fn spread<T: Send, R: Send>(items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
+    const THREADS: usize = 4;
+    let mut shares: Vec<Vec<(usize, T)>> = (0..THREADS).map(|_| Vec::new()).collect();
+    for (index, item) in items.into_iter().enumerate() {
+        if let Some(share) = shares.get_mut(index % THREADS) {
+            share.push((index, item));
+        }
+    }
+    let mut done: Vec<(usize, R)> = std::thread::scope(|scope| {
+        let run = &run;
+        let work = |share: Vec<(usize, T)>| {
+            scope.spawn(move || share.into_iter().map(|(index, item)| (index, run(item))).collect::<Vec<_>>())
+        };
+        let threads: Vec<_> = shares.into_iter().map(work).collect();
+        let joined = threads.into_iter().map(|thread| match thread.join() {
+            Ok(done) => done,
+            // What goes wrong in a trial is not lost with its thread.
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        joined.flatten().collect()
+    });
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+/// Checks a policy document under a domain of declarations, without robot and scene.
+#[must_use]
+pub fn check_in_domain(domain: &str, policy: &str) -> (Vec<Diagnostic>, Duration) {
+    let mut sources = Sources::default();
+    let source = Source::new("domain.motet", domain);
+    let id = sources.add(source.clone());
+    let parsed = motet_syntax::read(&source, id);
+    let mut said = parsed.diagnostics;
+    let (session, wrong) = Session::new(None, &[parsed.file], None, None, Options::default(), &mut sources);
+    said.extend(wrong);
+    let source = Source::new("policy.json", policy);
+    let id = sources.add(source.clone());
+    let begin = std::time::Instant::now();
+    said.extend(session.check(&motet_syntax::read(&source, id)));
+    (said, begin.elapsed())
+}
+
+/// The first error in the order of the steps; that the goal is missed comes after all of them.
+#[must_use]
+pub fn first_error(said: &[Diagnostic]) -> Option<&Diagnostic> {
+    let errors = said.iter().filter(|said| said.severity == Severity::Error);
+    errors.min_by_key(|said| said.code.0 == "M0503")
+}

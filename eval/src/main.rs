@@ -1,0 +1,164 @@
+//! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json] [--planned]`.
+//!
+//! `saycan --planned` plans the instructions from their text instead, and exits 0 where at least 60 % are carried out.
+//! `dialogue` takes a file of wordings, `dynamic` the number of trials a task and robot.
+//! `reach [SCENE|--rooms N --seed S]` asks motion queries instead.
+//! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1. The suite
+//! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at least half
+//! of them are mended.
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use motet_eval::saycan::planned;
+use motet_eval::{Judged, dialogue, dynamic, planbench, repairs, saycan, scenarios, spread, summary};
+
+/// What a suite has to say of the lines of a file.
+type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
+
+const SUITES: &[(&str, Suite)] = &[
+    ("planbench", |lines| judged(lines, planbench::judge)),
+    ("scenarios", |lines| judged(lines, scenarios::judge)),
+    ("saycan", |lines| judged(lines, saycan::judge)),
+    ("repairs", repaired),
+    ("dialogue", spoken),
+];
+
+/// Lines for people, and the summary.
+struct Report {
+    lines: Vec<String>,
+    summary: serde_json::Value,
+    is_good: bool,
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(problem) => {
+            let _ = writeln!(std::io::stderr(), "eval: {problem}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run() -> Result<bool, String> {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    if let Some((_, rest)) = args.split_first().filter(|(suite, _)| *suite == "reach") {
+        let (text, is_good) = motet_reach::command(rest)?;
+        writeln!(std::io::stdout(), "{text}").map_err(|error| error.to_string())?;
+        return Ok(is_good);
+    }
+    let only_json = args.iter().any(|arg| arg == "--json");
+    let is_planned = args.iter().any(|arg| arg == "--planned");
+    let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| !arg.starts_with("--")).collect();
+    let usage = || {
+        let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
+        format!(
+            "usage: eval {} FILE [--json], eval dynamic TRIALS, or eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
+            names.join("|")
+        )
+    };
+    if let ["dynamic", count] = words.as_slice() {
+        let count = count.parse().map_err(|_| usage())?;
+        return shown(&changed(count)?, only_json);
+    }
+    let [name, file] = words.as_slice() else { return Err(usage()) };
+    let known = SUITES.iter().find(|(known, _)| known == name);
+    let suite = match (known, is_planned) {
+        (Some(("saycan", _)), true) => planned_from_text,
+        (Some((_, suite)), false) => *suite,
+        (Some(_), true) | (None, _) => return Err(usage()),
+    };
+    let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let lines: Vec<_> = lines.map(|(index, line)| (index + 1, line)).collect();
+    let report = suite(&lines).map_err(|problem| format!("{file}:{problem}"))?;
+    shown(&report, only_json)
+}
+
+/// Prints a report.
+fn shown(report: &Report, only_json: bool) -> Result<bool, String> {
+    let mut out = std::io::stdout().lock();
+    let summary = report.summary.to_string();
+    let shown = report.lines.iter().filter(|_| !only_json).chain([&summary]);
+    for line in shown {
+        writeln!(out, "{line}").map_err(|error| error.to_string())?;
+    }
+    Ok(report.is_good)
+}
+
+/// Runs over every line; a problem is named by its line.
+fn each<T>(lines: &[(usize, &str)], run: impl Fn(&str) -> Result<T, String>) -> Result<Vec<T>, String> {
+    lines.iter().map(|(number, line)| run(line).map_err(|problem| format!("{number}: {problem}"))).collect()
+}
+
+fn judged(lines: &[(usize, &str)], judge: fn(&str) -> Result<Judged, String>) -> Result<Report, String> {
+    let rows = each(lines, judge)?;
+    let sums = summary(&rows);
+    Ok(Report {
+        lines: rows.iter().filter_map(Judged::disagreement).collect(),
+        is_good: sums.agree == sums.total,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}
+
+fn spoken(lines: &[(usize, &str)]) -> Result<Report, String> {
+    let wordings: Vec<&str> = lines.iter().map(|(_, line)| *line).collect();
+    let trials = spread(dialogue::cases(&wordings.join("\n")), dialogue::run);
+    let notes = trials.iter().filter_map(|trial| {
+        let case = &trial.case;
+        let kinds: Vec<_> = case.failures.iter().map(|kind| kind.name()).collect();
+        let note = trial.note.as_ref()?;
+        Some(format!("{} {} [{}] {}: {note}", case.robot, case.scene, kinds.join(", "), case.request))
+    });
+    let (smooth, troubled): (Vec<_>, Vec<_>) =
+        trials.iter().partition(|trial| trial.case.failures.is_empty());
+    let (smooth, troubled) = (dialogue::sums(smooth.into_iter()), dialogue::sums(troubled.into_iter()));
+    Ok(Report {
+        lines: notes.chain(dialogue::table(&trials)).collect(),
+        is_good: smooth.success * 100 >= smooth.total * 95 && troubled.success * 100 >= troubled.total * 90,
+        summary: serde_json::json!({"without_failure": smooth, "with_failure": troubled}),
+    })
+}
+
+/// The seed of the trials whose world changes.
+const SEED: u64 = 7;
+
+fn changed(count: usize) -> Result<Report, String> {
+    let trials = dynamic::trials(SEED, count);
+    let good = trials.iter().filter(|trial| trial.is_good()).count();
+    let is_clean = trials
+        .iter()
+        .all(|trial| trial.dropped.is_empty() && trial.doubled.is_empty() && trial.orphaned.is_empty());
+    let notes = trials.iter().filter(|trial| !trial.is_good()).map(serde_json::to_string);
+    let notes = notes.collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+    Ok(Report {
+        lines: notes.into_iter().chain(dynamic::table(&trials)).collect(),
+        is_good: is_clean && good * 100 >= trials.len() * 95,
+        summary: serde_json::json!({"total": trials.len(), "good": good}),
+    })
+}
+
+fn planned_from_text(lines: &[(usize, &str)]) -> Result<Report, String> {
+    let rows = each(lines, planned::attempt)?;
+    let sums = planned::sums(rows.iter());
+    let notes = rows
+        .iter()
+        .filter_map(|row| Some(format!("{}: {}: {}", row.id, row.instruction, row.note.as_ref()?)));
+    Ok(Report {
+        lines: notes.chain(planned::table(&rows)).collect(),
+        is_good: sums.execution * 10 >= sums.total * 6,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}
+
+fn repaired(lines: &[(usize, &str)]) -> Result<Report, String> {
+    let rows: Vec<_> = each(lines, scenarios::repair)?.into_iter().flatten().collect();
+    let sums = repairs::summary(&rows);
+    Ok(Report {
+        lines: rows.iter().map(repairs::Repair::line).collect(),
+        is_good: sums.repaired * 2 >= sums.total,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}

@@ -1,0 +1,14 @@
+//! The evaluations themselves, and a few trials of each.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    clippy::print_stdout,
+    reason = "a test fails by panicking"
+)]
+
+mod dialogue;
+mod dynamic;
+mod planbench;
+mod saycan;
+mod scenarios;

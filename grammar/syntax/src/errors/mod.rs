@@ -1,0 +1,54 @@
+//! The mistakes of the syntax stage (M0101 to M0121): one struct and one code each. Raised by
+//! [`crate::read()`] and by the front ends for text and JSON; each becomes a [`Diagnostic`].
+
+mod document;
+mod json;
+mod json_syntax;
+mod text;
+
+pub(crate) use document::{
+    DocumentKind, Empty, IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooDeep, TooLarge, TooManySteps,
+    TooManyTokens,
+};
+pub(crate) use json::{
+    BadName, BadValue, DuplicateKey, MissingKey, NoForm, NumberRange, ReservedKey, TwoForms, UnknownKey,
+    WrongType,
+};
+pub(crate) use json_syntax::{JsonSyntax, SyntaxFault};
+pub(crate) use text::{TextSyntax, UnknownUnit};
+
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
+use crate::source::Span;
+
+/// Lists of all codes of the syntax stage, one for each kind of mistake.
+pub const CODES: [&[Code]; 4] = [text::CODES, json_syntax::CODES, json::CODES, document::CODES];
+
+/// Reports a document of more than [`MAX_BYTES`](crate::ast::MAX_BYTES) bytes (M0112).
+#[must_use]
+pub fn too_large(span: Span, bytes: usize) -> Diagnostic {
+    TooLarge { span, bytes }.into()
+}
+
+/// Reports brackets that nest deeper than `limit` levels (M0111).
+#[must_use]
+pub fn too_deep(span: Span, limit: usize) -> Diagnostic {
+    TooDeep { span, limit }.into()
+}
+
+/// Fix that replaces a span by one word: "write `pick`".
+fn replacement(span: Span, text: &str, word: &str) -> Fix {
+    Fix { title: format!("write `{word}`"), edits: vec![Edit { span, text: text.into() }] }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn codes_are_declared_once() {
+        let mut codes: Vec<&str> =
+            super::CODES.iter().flat_map(|codes| codes.iter()).map(|code| code.0).collect();
+        codes.sort_unstable();
+        let count = codes.len();
+        codes.dedup();
+        assert_eq!(codes.len(), count);
+    }
+}

@@ -1,0 +1,266 @@
+//! Pairs to declarations. Steps are in [`super::step`], expressions in [`super::expr`], contracts in
+//! [`super::contract`].
+
+use std::iter::Peekable;
+
+use smol_str::SmolStr;
+
+use super::{Origin, Pair, Rule};
+use crate::ast::{
+    EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl, MeasureDecl, Name,
+    Param, Policy, PrimitiveDecl, PrimitiveKind, TypeExpr,
+};
+use crate::diagnostic::Diagnostic;
+use crate::source::{FileId, Span};
+
+/// Builder of the tree of one file. Mistakes that the grammar cannot see collect in `found`.
+pub(super) struct Builder {
+    /// Position of the text in its document.
+    pub(super) origin: Origin,
+    pub(super) found: Vec<Diagnostic>,
+    /// Steps so far.
+    pub(super) steps: usize,
+}
+
+/// Children of a pair without marks and most keywords.
+pub(super) struct Parts<'s>(Peekable<pest::iterators::Pairs<'s, Rule>>);
+
+impl<'s> Parts<'s> {
+    pub(super) fn of(pair: Pair<'s>) -> Self {
+        Self(pair.into_inner().peekable())
+    }
+
+    /// The next part, if it is of this rule.
+    pub(super) fn next_of(&mut self, rule: Rule) -> Option<Pair<'s>> {
+        self.skip_marks();
+        self.0.next_if(|pair| pair.as_rule() == rule)
+    }
+
+    fn skip_marks(&mut self) {
+        while self.0.next_if(|pair| is_mark(pair.as_rule())).is_some() {}
+    }
+}
+
+impl<'s> Iterator for Parts<'s> {
+    type Item = Pair<'s>;
+
+    fn next(&mut self) -> Option<Pair<'s>> {
+        self.skip_marks();
+        self.0.next()
+    }
+}
+
+/// Checks for a token that only separates: its meaning is in its parent's rule.
+fn is_mark(rule: Rule) -> bool {
+    matches!(
+        rule,
+        Rule::lbrace
+            | Rule::rbrace
+            | Rule::lparen
+            | Rule::rparen
+            | Rule::lbracket
+            | Rule::rbracket
+            | Rule::comma
+            | Rule::colon
+            | Rule::arrow
+            | Rule::assign
+            | Rule::dots
+            | Rule::dot
+            | Rule::kw_kind
+            | Rule::kw_fluent
+            | Rule::kw_measure
+            | Rule::kw_failure
+            | Rule::kw_enum
+            | Rule::kw_entity
+            | Rule::kw_initially
+            | Rule::kw_closed
+            | Rule::kw_world
+            | Rule::kw_action
+            | Rule::kw_perception
+            | Rule::kw_policy
+            | Rule::kw_list
+            | Rule::kw_needs
+            | Rule::kw_makes
+            | Rule::kw_unsettles
+            | Rule::kw_motion
+            | Rule::kw_uses
+            | Rule::kw_takes
+            | Rule::kw_fails
+            | Rule::kw_lasts
+            | Rule::kw_for
+            | Rule::kw_achieves
+            | Rule::kw_let
+            | Rule::kw_within
+            | Rule::kw_retry
+            | Rule::kw_sequence
+            | Rule::kw_if
+            | Rule::kw_else
+            | Rule::kw_wait
+            | Rule::kw_until
+            | Rule::kw_monitor
+            | Rule::kw_when
+            | Rule::kw_then
+            | Rule::kw_during
+            | Rule::kw_pause
+            | Rule::kw_restart
+            | Rule::kw_resume
+            | Rule::kw_at
+            | Rule::kw_most
+            | Rule::kw_try
+            | Rule::kw_catch
+            | Rule::kw_repeat
+            | Rule::kw_each
+            | Rule::kw_in
+            | Rule::kw_parallel
+            | Rule::EOI
+    )
+}
+
+impl Builder {
+    pub(super) fn new(file: FileId) -> Self {
+        Self { origin: Origin::At(file, 0), found: Vec::new(), steps: 0 }
+    }
+
+    /// The declarations of a `file` pair.
+    pub(super) fn items(&mut self, file: Pair<'_>) -> File {
+        let items = Parts::of(file).filter_map(|pair| self.item(pair)).collect();
+        File { items }
+    }
+
+    fn item(&mut self, item: Pair<'_>) -> Option<Item> {
+        let mut parts = Parts::of(item);
+        let mut lines: Vec<&str> = Vec::new();
+        while let Some(line) = parts.next_of(Rule::doc) {
+            let line = line.as_str().trim_start_matches("///");
+            lines.push(line.strip_prefix(' ').unwrap_or(line).trim_end());
+        }
+        let doc = SmolStr::from(lines.join("\n"));
+        let pair = parts.next()?;
+        let span = self.span(&pair);
+        let rule = pair.as_rule();
+        let mut parts = Parts::of(pair);
+        Some(match rule {
+            Rule::kind => Item::Kind(KindDecl {
+                doc,
+                name: self.name(parts.next()?),
+                parent: parts.next_of(Rule::name).map(|name| self.name(name)),
+                fields: parts.next_of(Rule::fields).map(|fields| self.params(fields)).unwrap_or_default(),
+                span,
+            }),
+            Rule::fluent => Item::Fluent(FluentDecl {
+                doc,
+                name: self.name(parts.next()?),
+                params: self.params(parts.next()?),
+                span,
+            }),
+            Rule::measure => Item::Measure(MeasureDecl {
+                doc,
+                name: self.name(parts.next()?),
+                params: self.params(parts.next()?),
+                result: self.type_name(parts.next()?)?,
+                span,
+            }),
+            Rule::failure => Item::Failure(FailureDecl { doc, name: self.name(parts.next()?), span }),
+            Rule::enumeration => Item::Enum(EnumDecl {
+                doc,
+                name: self.name(parts.next()?),
+                cases: self.names(parts.next()?),
+                span,
+            }),
+            Rule::entities => Item::Entities(EntitiesDecl {
+                doc,
+                names: self.names(parts.next()?),
+                kind: self.name(parts.next()?),
+                span,
+            }),
+            Rule::initially => {
+                Item::Initially(InitiallyDecl { facts: parts.map(|fact| self.expr(fact, 1)).collect(), span })
+            }
+            Rule::closed_world => Item::ClosedWorld(span),
+            Rule::action => Item::Primitive(self.primitive(doc, PrimitiveKind::Action, parts, span)?),
+            Rule::perception => {
+                Item::Primitive(self.primitive(doc, PrimitiveKind::Perception, parts, span)?)
+            }
+            Rule::policy => Item::Policy(self.policy(doc, parts, span)?),
+            _ => return None,
+        })
+    }
+
+    fn primitive(
+        &mut self,
+        doc: SmolStr,
+        kind: PrimitiveKind,
+        mut parts: Parts<'_>,
+        span: Span,
+    ) -> Option<PrimitiveDecl> {
+        let name = self.name(parts.next()?);
+        let params = self.params(parts.next()?);
+        let result = match parts.next_of(Rule::result) {
+            Some(result) => self.type_name(Parts::of(result).next()?),
+            None => None,
+        };
+        let clauses = parts.filter_map(|clause| self.clause(clause)).collect();
+        Some(PrimitiveDecl { doc, kind, name, params, result, clauses, span })
+    }
+
+    fn policy(&mut self, doc: SmolStr, mut parts: Parts<'_>, span: Span) -> Option<Policy> {
+        let name = self.name(parts.next()?);
+        let params = parts.next_of(Rule::params).map(|params| self.params(params)).unwrap_or_default();
+        let robot = parts
+            .next_of(Rule::for_robot)
+            .and_then(|pair| Parts::of(pair).next())
+            .map(|name| self.name(name));
+        let achieves = self.expr_in(parts.next_of(Rule::achieves), 1);
+        let body = self.block(parts.next()?, 1);
+        Some(Policy { doc, name, params, robot, achieves, body, span })
+    }
+
+    /// The parameters or fields between brackets.
+    fn params(&mut self, pair: Pair<'_>) -> Vec<Param> {
+        Parts::of(pair).filter_map(|param| self.param(param)).collect()
+    }
+
+    fn param(&mut self, pair: Pair<'_>) -> Option<Param> {
+        let mut parts = Parts::of(pair);
+        Some(Param {
+            name: self.name(parts.next()?),
+            ty: self.type_name(parts.next()?)?,
+            default: parts.next().map(|value| self.expr(value, 1)),
+        })
+    }
+
+    /// A type; at most as deep as brackets may nest.
+    pub(super) fn type_name(&self, pair: Pair<'_>) -> Option<TypeExpr> {
+        let inner = Parts::of(pair).next()?;
+        if inner.as_rule() == Rule::name {
+            return Some(TypeExpr::Named(self.name(inner)));
+        }
+        let span = self.span(&inner);
+        let element = Parts::of(inner).find(|part| part.as_rule() == Rule::type_name)?;
+        Some(TypeExpr::List(Box::new(self.type_name(element)?), span))
+    }
+
+    /// Names between commas, in brackets or not.
+    pub(super) fn names(&self, pair: Pair<'_>) -> Vec<Name> {
+        Parts::of(pair).map(|name| self.name(name)).collect()
+    }
+
+    pub(super) fn name(&self, pair: Pair<'_>) -> Name {
+        Name { text: self.name_text(&pair), span: self.span(&pair) }
+    }
+
+    pub(super) fn name_text(&self, pair: &Pair<'_>) -> SmolStr {
+        SmolStr::new(pair.as_str().trim_matches('`'))
+    }
+
+    /// From the first token to the last: what a rule takes of the space behind it is left out.
+    pub(super) fn span(&self, pair: &Pair<'_>) -> Span {
+        let mut last = pair.clone();
+        // A text ends with a quote that is no token of its own.
+        while last.as_rule() != Rule::text {
+            let Some(inner) = last.clone().into_inner().next_back() else { break };
+            last = inner;
+        }
+        self.origin.place(pair.as_span().start(), last.as_span().end())
+    }
+}

@@ -1,0 +1,143 @@
+//! Lexer for the tasks that pest does not do: counting brackets before parsing, naming the word at an error,
+//! finding comments. It splits any text into tokens and knows nothing of how they fit together; the grammar
+//! alone says that.
+
+use crate::source::{FileId, Span};
+use crate::unit::number_length;
+
+/// Kind of a token.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum TokenKind {
+    /// A word: `pick`, `let`.
+    Word,
+    /// A back-quoted name: `` `7up` ``.
+    Quoted,
+    /// A number without sign and unit.
+    Number,
+    /// A text: `"red mug"`.
+    Text,
+    /// `// …` and `//// …`
+    Comment,
+    /// A documentation comment: `/// …`.
+    Doc,
+    /// Any other mark: `{`, `==`, `->`, a stray character.
+    Mark,
+    /// A text or a back-quoted name that does not end on its line.
+    Open,
+}
+
+/// One token of a text.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Token<'s> {
+    pub(crate) kind: TokenKind,
+    pub(crate) text: &'s str,
+    /// Offset of its first byte.
+    pub(crate) start: usize,
+}
+
+impl Token<'_> {
+    /// One past its last byte.
+    pub(crate) fn end(&self) -> usize {
+        self.start + self.text.len()
+    }
+
+    /// Range of the token.
+    pub(crate) fn span(&self, file: FileId) -> Span {
+        Span::new(file, self.start, self.end())
+    }
+}
+
+/// The tokens of a text from an offset on, white space left out. Linear, and total: every text has tokens.
+pub(crate) fn tokens(text: &str, from: usize) -> Tokens<'_> {
+    Tokens { text, at: from }
+}
+
+/// Iterator that [`tokens`] returns.
+#[derive(Clone)]
+pub(crate) struct Tokens<'s> {
+    text: &'s str,
+    at: usize,
+}
+
+impl<'s> Iterator for Tokens<'s> {
+    type Item = Token<'s>;
+
+    fn next(&mut self) -> Option<Token<'s>> {
+        let rest = self.text.get(self.at..)?;
+        let trimmed = rest.trim_start_matches([' ', '\t', '\r', '\n']);
+        let start = self.at + rest.len() - trimmed.len();
+        let (kind, length) = measure(trimmed)?;
+        let text = trimmed.get(..length)?;
+        self.at = start + length;
+        Some(Token { kind, text, start })
+    }
+}
+
+/// Kind and length in bytes of the token that a text begins with.
+fn measure(text: &str) -> Option<(TokenKind, usize)> {
+    let first = text.chars().next()?;
+    let while_ = |is: fn(char) -> bool| text.find(|c| !is(c)).unwrap_or(text.len());
+    let line = || text.find('\n').unwrap_or(text.len());
+    let measured = match first {
+        'a'..='z' | 'A'..='Z' | '_' => (TokenKind::Word, while_(|c| c.is_ascii_alphanumeric() || c == '_')),
+        '0'..='9' => (TokenKind::Number, number_length(text)),
+        '"' => delimited(text, '"', TokenKind::Text),
+        '`' => delimited(text, '`', TokenKind::Quoted),
+        '/' if text.starts_with("////") => (TokenKind::Comment, line()),
+        '/' if text.starts_with("///") => (TokenKind::Doc, line()),
+        '/' if text.starts_with("//") => (TokenKind::Comment, line()),
+        other => {
+            let two =
+                ["==", "!=", "<=", ">=", "->", "..", "&&", "||"].iter().any(|mark| text.starts_with(mark));
+            (TokenKind::Mark, if two { 2 } else { other.len_utf8() })
+        }
+    };
+    Some(measured)
+}
+
+/// A text or a quoted name; it is open where its line ends first.
+fn delimited(text: &str, mark: char, kind: TokenKind) -> (TokenKind, usize) {
+    let mut is_escaped = false;
+    for (at, character) in text.char_indices().skip(1) {
+        match character {
+            '\n' | '\r' => return (TokenKind::Open, at),
+            _ if is_escaped => is_escaped = false,
+            '\\' if mark == '"' => is_escaped = true,
+            c if c == mark => return (kind, at + c.len_utf8()),
+            _ => {}
+        }
+    }
+    (TokenKind::Open, text.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TokenKind, tokens};
+
+    #[test]
+    fn any_text_has_tokens() {
+        let text = "let m = a(\"x\\\"y\") // c\n  `7up` 1.5e3 cm 1..2 /// d\n é \"open\n";
+        let found: Vec<_> = tokens(text, 0).map(|token| token.text).collect();
+        let expected = [
+            "let",
+            "m",
+            "=",
+            "a",
+            "(",
+            "\"x\\\"y\"",
+            ")",
+            "// c",
+            "`7up`",
+            "1.5e3",
+            "cm",
+            "1",
+            "..",
+            "2",
+            "/// d",
+            "é",
+            "\"open",
+        ];
+        assert_eq!(found, expected);
+        assert_eq!(tokens(text, 0).last().map(|token| token.kind), Some(TokenKind::Open));
+    }
+}

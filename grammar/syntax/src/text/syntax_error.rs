@@ -1,0 +1,309 @@
+//! Explanation of parse errors in plain words: the rules expected at the furthest offset that the parser
+//! reached, the token found there, and the habit of another language behind it.
+
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+use super::Rule;
+use super::lexer::{Token, TokenKind, tokens};
+use super::rule_names::{CLAUSE, DECLARATION, NAME, OPERATOR, STEP, VALUE, keyword, label, words};
+use crate::diagnostic::Diagnostic;
+use crate::errors::{DocumentKind, Empty, TextSyntax, UnknownUnit};
+use crate::source::{FileId, Span};
+use crate::suggest;
+use crate::unit::Unit;
+use crate::words::{CLAUSES, DECLARATIONS, STEP_WORDS, is_bare_name};
+
+/// The diagnostic for an error of the parser.
+pub(super) fn diagnostic(text: &str, error: &Error<Rule>, file: FileId) -> Diagnostic {
+    let at = match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    };
+    let expected: &[Rule] = match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => positives,
+        ErrorVariant::CustomError { .. } => &[],
+    };
+    let place = ErrorContext::find(text, at, expected);
+    if let Some(unit) = place.unknown_unit() {
+        return UnknownUnit { span: unit.span(file), unit: unit.text.into() }.into();
+    }
+    if place.found.is_none() && place.before.is_none() {
+        return Empty { span: Span::new(file, 0, 0), wanted: DocumentKind::Policy }.into();
+    }
+    if let Some(word) = place.lone_word() {
+        let message = format!("`{}` is no step", short(word.text));
+        let (help, fix) = place.advice_on_lone(word, text);
+        return TextSyntax { span: word.span(file), message, help, related: None, fix }.into();
+    }
+    let end = text.trim_end().len();
+    let span = place.found.map_or(Span::new(file, end, end), |token| token.span(file));
+    let found = match place.found {
+        None => "the end of the text".into(),
+        Some(token) if token.kind == TokenKind::Doc => "a `///` comment".into(),
+        Some(token) if token.kind == TokenKind::Text => format!("the text {}", short(token.text)),
+        Some(token) if is_control(token) => {
+            format!("the control character `{}`", token.text.escape_debug())
+        }
+        Some(token) => format!("`{}`", short(token.text)),
+    };
+    let message = match words(expected) {
+        Some(expected) => format!("expected {expected}, found {found}"),
+        None => format!("{found} does not fit here"),
+    };
+    let (help, fix) = place.advice();
+    TextSyntax { span, message, help, related: None, fix }.into()
+}
+
+fn is_control(token: Token<'_>) -> bool {
+    token.text.chars().all(char::is_control)
+}
+
+fn short(text: &str) -> String {
+    if text.chars().count() <= 30 {
+        return text.into();
+    }
+    text.chars().take(29).chain(['…']).collect()
+}
+
+/// The tokens about an error.
+struct ErrorContext<'t> {
+    earlier: Option<Token<'t>>,
+    before: Option<Token<'t>>,
+    found: Option<Token<'t>>,
+    after: Option<Token<'t>>,
+    expected: &'t [Rule],
+}
+
+/// Words of other languages for what Motet calls otherwise.
+const HABITS: &[(&str, &str)] = &[
+    ("elif", "write `else if`"),
+    ("elsif", "write `else if`"),
+    ("while", "loops are bounded: write `repeat 10 { … } until c`"),
+    ("loop", "loops are bounded: write `repeat 10 { … } until c`"),
+    ("for", "write `each x in xs at most 5 { … }` over a list, or `repeat 3 { … }`"),
+    ("foreach", "write `each x in xs at most 5 { … }`"),
+    ("return", "a policy returns nothing: write `done`, `fail \"why\"` or `replan \"why\"`"),
+    ("break", "loops end by `until`: write `repeat 10 { … } until c`"),
+    ("stop", "write `done` or `fail \"why\"`"),
+    ("abort", "write `fail \"why\"`"),
+    ("var", "write `let`"),
+    ("const", "write `let`"),
+    ("def", "write `policy name { … }`"),
+    ("fn", "write `policy name { … }`"),
+    ("func", "write `policy name { … }`"),
+    ("function", "write `policy name { … }`"),
+    ("except", "write `catch any { … }`"),
+    ("finally", "write the steps after the `try`"),
+    ("switch", "write `if c { … } else if d { … }`"),
+    ("match", "write `if c { … } else if d { … }`"),
+    ("do", "write the call itself: `pick(mug)`"),
+    ("call", "write the call itself: `pick(mug)`"),
+    ("timeout", "write `within 20 s`"),
+    ("deadline", "write `within 20 s`"),
+    ("retries", "write `retry 2`"),
+    ("times", "leave it out: `repeat 3 { … }`"),
+    ("begin", "blocks stand in braces: `{ … }`"),
+    ("end", "blocks stand in braces: `{ … }`"),
+    ("print", "write `say(\"…\")` to speak, and `//` for a comment"),
+    ("null", "leave it out: there is no null"),
+    ("None", "leave it out: there is no null"),
+    ("True", "write `true`"),
+    ("False", "write `false`"),
+];
+
+impl<'t> ErrorContext<'t> {
+    fn find(text: &'t str, at: usize, expected: &'t [Rule]) -> Self {
+        let mut place = ErrorContext { earlier: None, before: None, found: None, after: None, expected };
+        for token in tokens(text, 0).filter(|token| token.kind != TokenKind::Comment) {
+            if token.end() <= at {
+                place.earlier = place.before.replace(token);
+            } else if place.found.is_none() {
+                place.found = Some(token);
+            } else {
+                place.after = Some(token);
+                break;
+            }
+        }
+        place
+    }
+
+    fn expects(&self, words: &str) -> bool {
+        self.expected.iter().filter_map(|rule| label(*rule)).any(|(_, label)| label == words)
+    }
+
+    /// `20 sec`: a word on the place of a unit. What else a word after a number could be is left alone.
+    fn unknown_unit(&self) -> Option<Token<'t>> {
+        let candidates = [(self.before, self.found, self.after), (self.earlier, self.before, self.found)];
+        candidates.into_iter().find_map(|(number, word, after)| {
+            let (number, word) = (number?, word?);
+            let adjoins = number.kind == TokenKind::Number && word.kind == TokenKind::Word;
+            let is_spelling =
+                Unit::from_spelling(word.text).is_some() && after.is_none_or(|after| after.text != "(");
+            let is_glued = word.start == number.end();
+            (adjoins && Unit::parse(word.text).is_none() && (is_spelling || is_glued)).then_some(word)
+        })
+    }
+
+    /// A word where a step should begin, without the `(` of a call after it. It is the mistake, not what
+    /// follows it.
+    fn lone_word(&self) -> Option<Token<'t>> {
+        let needs_args = self.expected.iter().all(|rule| matches!(rule, Rule::args | Rule::lparen));
+        let word = self.before.filter(|before| before.kind == TokenKind::Word)?;
+        let declares = self
+            .earlier
+            .is_some_and(|earlier| DECLARATIONS.contains(&earlier.text) || earlier.text == "motion");
+        (needs_args && !self.expected.is_empty() && !declares).then_some(word)
+    }
+
+    fn advice_on_lone(&self, word: Token<'_>, text: &str) -> (Option<String>, Option<String>) {
+        if let Some((_, advice)) = HABITS.iter().find(|(habit, _)| *habit == word.text) {
+            return (Some((*advice).into()), None);
+        }
+        let next = self.found.map_or("", |token| token.text);
+        if next == "=" {
+            return (
+                Some(format!("a binding is written `let {} = …`", word.text)),
+                Some(format!("let {}", word.text)),
+            );
+        }
+        if matches!(word.text, "retry" | "within") {
+            let advice = "`within` and `retry` stand once behind a call, in this order: \
+                          `pick(mug) within 20 s retry 2`";
+            return (Some(advice.into()), None);
+        }
+        let starters = STEP_WORDS.into_iter().chain(DECLARATIONS).chain(CLAUSES);
+        if let Some(meant) = suggest::closest(word.text, starters).filter(|meant| *meant != word.text) {
+            return (Some(format!("did you mean `{meant}`?")), Some(meant.into()));
+        }
+        if self.earlier.is_some_and(|earlier| earlier.text == "=") {
+            let advice =
+                format!("a binding is the result of a call: write `{}` where it is meant", word.text);
+            return (Some(advice), None);
+        }
+        let rest = text.get(word.end()..).unwrap_or("");
+        let ends_line = rest.trim_start_matches([' ', '\t', '\r']).starts_with(['\n', '}']);
+        // `pick mug`: what stands behind it on its line is its argument.
+        let argument = self.found.filter(|found| {
+            let is_value = matches!(
+                found.kind,
+                TokenKind::Word | TokenKind::Quoted | TokenKind::Number | TokenKind::Text
+            );
+            let between = text.get(word.end()..found.start).unwrap_or("\n");
+            is_value && !between.contains('\n') && is_bare_name(found.text.trim_matches(['`', '"']))
+        });
+        let call = format!("{}({})", word.text, argument.map_or("", |argument| argument.text));
+        (Some(format!("a call needs its parentheses: `{call}`")), ends_line.then_some(call))
+    }
+
+    /// Help, and what to write in place of the token where that is sure.
+    fn advice(&self) -> (Option<String>, Option<String>) {
+        let Some(found) = self.found else { return (self.structure().map(Into::into), None) };
+        let say = |words: &str| (Some(String::from(words)), None);
+        let mend = |words: &str, fix: &str| (Some(String::from(words)), Some(fix.into()));
+        let before = self.before.map_or("", |token| token.text);
+        let after = self.after.map_or("", |token| token.text);
+        match (found.kind, found.text) {
+            (_, ";") => mend("steps need no separator: remove `;`", ""),
+            (_, "&&") => mend("write `and`", "and"),
+            (_, "||") => mend("write `or`", "or"),
+            (_, "!") => mend("write `not`", "not "),
+            (_, "=") if self.expects(OPERATOR) => mend("compare with `==`", "=="),
+            (_, "'" | "‘" | "’" | "“" | "”") => {
+                say("texts stand in straight double quotes: `\"red mug\"`")
+            }
+            (_, "#") => say("comments begin with `//`"),
+            (_, "°") => mend("an angle is written `90 deg`", " deg"),
+            (_, _) if is_control(found) => mend("remove it", ""),
+            (_, "{") if before == "sequence" => say("a sequence has a name: `sequence tidy { … }`"),
+            _ if before == "retry" && self.expects(VALUE) => say("say how often: `retry 2`"),
+            _ if before == "within" && self.expects(VALUE) => say("say how long: `within 20 s`"),
+            _ if matches!(before, "and" | "or" | "not") && self.expects(VALUE) => {
+                say("a condition follows: `holding(mug) and not lifted(mug)`")
+            }
+            (_, "/") if after == "*" => say("comments begin with `//` and end with the line"),
+            (_, "$") => say("write the name alone: `$` marks bindings in JSON only"),
+            (_, "-") if self.expects(VALUE) => say("write `0 - x`: only a number can begin with `-`"),
+            (TokenKind::Doc, _) => say("`///` documents a declaration: write `//` here"),
+            (_, "else") => say("`else` stands after the block of an `if` and nowhere else"),
+            (_, "catch") if self.expects(STEP) => say("`catch` stands after the block of a `try`"),
+            (_, "{") if before == "repeat" => say("a loop has a bound: `repeat 3 { … }`"),
+            (_, "{") if self.expects(DECLARATION) => {
+                say("a policy begins with its name: `policy name { … }`")
+            }
+            (_, ",") if self.expects(STEP) => mend("steps need no separator: remove `,`", ""),
+            (_, ":") if self.expects(STEP) || self.expects("`{`") => say("blocks stand in braces: `{ … }`"),
+            (TokenKind::Text, _) if self.expects(STEP) => {
+                say("a text is no step: call something with it, `say(\"…\")`")
+            }
+            (TokenKind::Word, word) => {
+                (self.word(word, after).or_else(|| self.structure().map(Into::into)), None)
+            }
+            (_, _) => (self.structure().map(Into::into), None),
+        }
+    }
+
+    /// Example of the construct that the author is writing.
+    fn structure(&self) -> Option<&'static str> {
+        let wants = |rules: &[Rule]| self.expected.iter().any(|rule| rules.contains(rule));
+        if wants(&[Rule::at_most, Rule::kw_at, Rule::kw_most]) {
+            return Some("it has a bound: write `at most 5`");
+        }
+        if wants(&[Rule::kw_during]) {
+            return Some("a monitor ends with what it watches over: `monitor when c then R during { … }`");
+        }
+        if wants(&[Rule::catch, Rule::kw_catch]) {
+            return Some("a `try` has a handler: `try { … } catch any { … }`");
+        }
+        if wants(&[Rule::kw_then]) {
+            return Some("what happens follows `then`: `when c then pause`");
+        }
+        if wants(&[Rule::kw_until]) && self.before.is_some_and(|before| before.text == "wait") {
+            return Some("write `wait until c within 60 s`");
+        }
+        if wants(&[Rule::pause, Rule::kw_pause]) {
+            return Some(
+                "the reactions are `pause`, `restart at most 3`, `resume at most 3 { … }`, `done`, \
+                 `fail \"why\"` and `replan \"why\"`",
+            );
+        }
+        if wants(&[Rule::block, Rule::lbrace]) {
+            return Some("blocks stand in braces: `{ … }`");
+        }
+        if self.expected == [Rule::colon] {
+            return Some("a parameter has a type: `name: Type`");
+        }
+        None
+    }
+
+    /// Help for a word.
+    fn word(&self, word: &str, after: &str) -> Option<String> {
+        let is_start = self.expects(STEP) || self.expects(DECLARATION);
+        let habit =
+            HABITS.iter().find(|(habit, _)| *habit == word).filter(|_| is_start || self.expects(VALUE));
+        if let Some((_, advice)) = habit {
+            return Some((*advice).into());
+        }
+        if self.expects(NAME) && !is_bare_name(word) && !is_start {
+            return Some(format!(
+                "`{word}` is a word of the language: choose another name, or write `` `{word}` ``"
+            ));
+        }
+        let mut candidates: Vec<&'static str> = Vec::new();
+        if self.expects(STEP) {
+            candidates.extend(STEP_WORDS);
+        }
+        if self.expects(DECLARATION) {
+            candidates.extend(DECLARATIONS);
+        }
+        if self.expects(CLAUSE) {
+            candidates.extend(CLAUSES);
+        }
+        candidates.extend(self.expected.iter().filter_map(|rule| keyword(*rule)));
+        if let Some(meant) = suggest::closest(word, candidates).filter(|meant| *meant != word) {
+            return Some(format!("did you mean `{meant}`?"));
+        }
+        if self.expects(DECLARATION) && (after == "(" || STEP_WORDS.contains(&word)) {
+            return Some("steps stand in a policy: `policy name { … }`".into());
+        }
+        None
+    }
+}

@@ -1,0 +1,138 @@
+//! The words of the language: the one list of reserved words, declaration words and JSON keys. `motet.pest`
+//! spells the same words as rules; a test below holds it against these lists.
+
+/// Words that are never a bare name in the text syntax: the rule `reserved` of the grammar.
+pub const RESERVED: [&str; 24] = [
+    "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
+    "repeat", "each", "parallel", "done", "fail", "replan", "and", "or", "not", "true", "false", "any",
+];
+
+/// Words at the start of a declaration.
+pub const DECLARATIONS: [&str; 11] = [
+    "policy",
+    "action",
+    "perception",
+    "kind",
+    "fluent",
+    "measure",
+    "failure",
+    "enum",
+    "entity",
+    "initially",
+    "closed",
+];
+
+/// Words at the start of a clause of a contract.
+pub const CLAUSES: [&str; 8] = ["needs", "makes", "unsettles", "motion", "uses", "takes", "fails", "lasts"];
+
+/// Reserved words at the start of a step or of one of its parts.
+pub const STEP_WORDS: [&str; 17] = [
+    "let", "sequence", "if", "wait", "monitor", "try", "repeat", "each", "parallel", "done", "fail",
+    "replan", "catch", "else", "until", "when", "during",
+];
+
+/// Keys of a `do` step in JSON that are not arguments.
+pub const CALL_KEYS: [&str; 4] = ["do", "as", "within", "retry"];
+
+/// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
+/// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a
+/// support.
+pub const FORM_KEYS: [(&str, &str); 25] = [
+    ("if", "a step of its own"),
+    ("then", "`if` and to a monitor's `when`"),
+    ("else", "`if`"),
+    ("wait", "a step of its own"),
+    ("monitor", "a step of its own"),
+    ("during", "`monitor`"),
+    ("try", "a step of its own"),
+    ("catch", "`try`"),
+    ("repeat", "a step of its own"),
+    ("until", "`repeat`"),
+    ("steps", "`sequence`, `repeat` and `each`"),
+    ("each", "a step of its own"),
+    ("in", "`each`"),
+    ("at_most", "`each` and to the reactions"),
+    ("parallel", "a step of its own"),
+    ("end", "a step of its own"),
+    ("why", "`end`"),
+    ("sequence", "a step of its own"),
+    ("when", "`monitor`"),
+    ("for", "a monitor's `when`"),
+    ("react", "a monitor's `then`"),
+    ("is", "conditions"),
+    ("get", "terms"),
+    ("field", "terms"),
+    ("of", "`field`"),
+];
+
+/// Form that a key of [`FORM_KEYS`] belongs to, in words. `None` for any other key.
+#[must_use]
+pub fn json_key_owner(key: &str) -> Option<&'static str> {
+    FORM_KEYS.iter().find(|(known, _)| *known == key).map(|(_, owner)| *owner)
+}
+
+/// Checks if a key has a meaning of its own in JSON, so that no parameter of a primitive may bear it.
+///
+/// ```
+/// use motet_syntax::words::is_json_key;
+///
+/// assert!(is_json_key("within") && is_json_key("steps"));
+/// assert!(!is_json_key("object"));
+/// ```
+#[must_use]
+pub fn is_json_key(key: &str) -> bool {
+    CALL_KEYS.contains(&key) || json_key_owner(key).is_some()
+}
+
+/// Checks if a text can stand in the text syntax as a name without back-quotes: a letter or `_`, then
+/// letters, digits and `_` of ASCII, and no word of [`RESERVED`].
+///
+/// ```
+/// use motet_syntax::words::is_bare_name;
+///
+/// assert!(is_bare_name("mug_1"));
+/// assert!(!is_bare_name("7up") && !is_bare_name("wait"));
+/// ```
+#[must_use]
+pub fn is_bare_name(text: &str) -> bool {
+    let mut letters = text.chars();
+    letters.next().is_some_and(|first| first == '_' || first.is_ascii_alphabetic())
+        && letters.all(|letter| letter == '_' || letter.is_ascii_alphanumeric())
+        && !RESERVED.contains(&text)
+}
+
+/// Checks if a text can stand as a name, in back-quotes where it is not a bare one: it is not empty, does not
+/// begin with `$` and has no back-quote and no control character but the tab.
+#[must_use]
+pub fn is_name(text: &str) -> bool {
+    let is_barred = |byte: &u8| matches!(byte, b'`' | 0..=8 | 10..=0x1f | 0x7f);
+    text.as_bytes().first().is_some_and(|first| *first != b'$') && !text.as_bytes().iter().any(is_barred)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CLAUSES, DECLARATIONS, RESERVED, STEP_WORDS};
+
+    const GRAMMAR: &str = include_str!("motet.pest");
+
+    /// Words between double quotes in the definition of a rule.
+    fn words_of(rule: &str) -> Vec<&'static str> {
+        let start = GRAMMAR.find(&format!("\n{rule} = ")).unwrap();
+        let body = GRAMMAR[start..].split_once('{').unwrap().1.split_once("\n}").unwrap().0;
+        body.split('"').skip(1).step_by(2).collect()
+    }
+
+    #[test]
+    fn reserved_words_are_those_of_the_grammar() {
+        assert_eq!(words_of("reserved"), RESERVED);
+    }
+
+    #[test]
+    fn keywords_are_rules_of_the_grammar() {
+        for word in DECLARATIONS.iter().chain(&CLAUSES).chain(&RESERVED) {
+            let rule = format!("\nkw_{word} ");
+            assert!(GRAMMAR.contains(&rule), "{word}");
+        }
+        assert!(STEP_WORDS.iter().all(|word| RESERVED.contains(word)));
+    }
+}

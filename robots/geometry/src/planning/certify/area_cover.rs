@@ -1,0 +1,174 @@
+//! Proofs that there is no place: that the base cannot come near enough to something whatever the arm does, and that a
+//! surface has no room for a thing.
+//!
+//! Both cover the plane with squares. A square is dead where what is surely there of the robot or the thing, smaller by the
+//! farthest that any place in the square is from its middle, still touches something.
+
+use nalgebra::{Isometry3, Point3, Translation3, Vector3};
+
+use crate::collision::{Shape, Solid};
+use crate::planning::motions::put::{ABOVE, SupportSurface};
+use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::scene_state::HeldObject;
+use crate::planning::search::context::QueryContext;
+
+/// A square's side in m, where the room is not too large for it.
+const CELL: f64 = 0.05;
+/// The most squares along a side.
+const CELLS: usize = 400;
+/// How far beyond everything squares go, in m.
+const MARGIN: f64 = 0.6;
+/// How often a square of a surface is divided.
+const DEPTH: u32 = 7;
+
+impl QueryContext<'_> {
+    /// Whether no way of the base leads from where it is to where `far`, which grows by at most 1 for 1, is within `reach`:
+    /// looked at is only the largest disc about the base's axis that is within a part no joint moves.
+    pub(crate) fn is_shut_off(&self, around: [f64; 2], reach: f64, far: impl Fn(f64, f64) -> f64) -> bool {
+        let Some((radius, height)) = self.core() else { return false };
+        let walls: Vec<Solid> =
+            self.obstacles.iter().filter_map(|obstacle| section(&obstacle.solid, height)).collect();
+        let [x, y, _] = self.state.robot.base;
+        let (mut low, mut high) = ([x, y], [x, y]);
+        let wide = |at: f64, half: f64| [at - half, at + half];
+        let solids = walls.iter().map(|wall| {
+            let [half_x, half_y] = [Vector3::x(), Vector3::y()].map(|axis| wall.extent(&axis));
+            [wide(wall.centre.x, half_x), wide(wall.centre.y, half_y)]
+        });
+        for spans in solids.chain([around.map(|at| wide(at, reach))]) {
+            for ((low, high), [from, to]) in low.iter_mut().zip(&mut high).zip(spans) {
+                (*low, *high) = (low.min(from), high.max(to));
+            }
+        }
+        // Around everything there is a ring in which it can always drive.
+        let margin = MARGIN + radius;
+        let origin = low.map(|low| low - margin);
+        let span = [high[0] - origin[0] + margin, high[1] - origin[1] + margin];
+        let cell = CELL.max(span[0].max(span[1]) / CELLS as f64);
+        let off = cell * std::f64::consts::FRAC_1_SQRT_2;
+        let size = span.map(|span| libm::ceil(span / cell) as i64 + 1);
+        let middle =
+            |[column, row]: [i64; 2]| [origin[0] + column as f64 * cell, origin[1] + row as f64 * cell];
+        let is_dead = |[x, y]: [f64; 2]| {
+            let point = disc(x, y, height);
+            walls.iter().any(|wall| radius - off > 0.0 && !wall.is_farther(&point, radius - off))
+        };
+        let begin = [(x - origin[0]) / cell, (y - origin[1]) / cell].map(|at| libm::round(at) as i64);
+        let index = |[column, row]: [i64; 2]| usize::try_from(row * size[0] + column).ok();
+        let mut seen = vec![false; usize::try_from(size[0] * size[1]).unwrap_or(0)];
+        let mut open = vec![begin];
+        while let Some(at) = open.pop() {
+            let place = middle(at);
+            if far(place[0], place[1]) - off <= reach {
+                return false;
+            }
+            for (right, down) in [(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)] {
+                let next = [at[0] + right, at[1] + down];
+                let is_within = next.iter().zip(size).all(|(at, size)| (0..size).contains(at));
+                let slot = index(next).filter(|_| is_within).and_then(|at| seen.get_mut(at));
+                let Some(slot) = slot.filter(|slot| !**slot) else { continue };
+                *slot = true;
+                if !is_dead(middle(next)) {
+                    open.push(next);
+                }
+            }
+        }
+        true
+    }
+
+    /// The largest upright disc about the base's axis within one part that no joint moves: its radius and its height.
+    fn core(&self) -> Option<(f64, f64)> {
+        let configuration = Configuration { base: [0.0; 3], joints: self.model.rest().to_vec() };
+        let placed = self.body.placed(&self.model.map_from_links(&configuration));
+        let fixed =
+            self.body.parts().iter().zip(&placed).filter(|(part, _)| self.model.levers(part.link).is_empty());
+        let discs = fixed.map(|(_, solid)| {
+            let [_, _, z] = &solid.axes;
+            let is_upright = z.x.abs() < 1e-9 && z.y.abs() < 1e-9;
+            let wide = match solid.shape {
+                Shape::Cylinder { radius, .. } if is_upright => radius,
+                Shape::Capsule { radius, .. } => radius,
+                Shape::Cylinder { radius, half } => radius.min(half),
+                Shape::Box(half) if is_upright => half.x.min(half.y),
+                Shape::Box(half) => half.min(),
+                Shape::HalfSpace => 0.0,
+            };
+            (wide - libm::hypot(solid.centre.x, solid.centre.y), solid.centre.z)
+        });
+        let best = discs.reduce(|best, next| if next.0 > best.0 { next } else { best });
+        best.filter(|(radius, _)| *radius > 2.0 * MIN_CLEARANCE)
+    }
+
+    /// Whether no place on a surface is free for what is held, upright in any direction, as far within as it has to stand.
+    pub(crate) fn is_full(&self, held: &HeldObject<'_>, on: &SupportSurface, index: usize) -> bool {
+        let solid = Solid::new(&Isometry3::identity(), held.shape);
+        let bottom = solid.extent(&Vector3::z());
+        let (inner, around) = match held.shape {
+            Shape::Box(half) => (half.x.min(half.y), libm::hypot(half.x, half.y)),
+            Shape::Cylinder { radius, .. } | Shape::Capsule { radius, .. } => (radius, radius),
+            Shape::HalfSpace => return false,
+        };
+        // Of a round thing only the ball at its middle is sure to be as wide all over.
+        let tall = if matches!(held.shape, Shape::Capsule { .. }) { 0.0 } else { bottom };
+        let others: Vec<&Solid> = self
+            .obstacles
+            .iter()
+            .filter(|obstacle| obstacle.entity != index)
+            .map(|obstacle| &obstacle.solid)
+            .collect();
+        let spread = on.half.map(|half| (half - around).max(0.0));
+        let mut open = vec![([0.0, 0.0], spread, 0)];
+        while let Some(([x, y], [half_x, half_y], depth)) = open.pop() {
+            let spot = on.map_from_face * Point3::new(x, y, bottom + ABOVE);
+            let off = libm::hypot(half_x, half_y);
+            let left = inner - off;
+            let stands = Solid {
+                centre: spot.coords,
+                axes: [Vector3::x(), Vector3::y(), Vector3::z()],
+                shape: if tall > 0.0 {
+                    Shape::Cylinder { radius: left.max(1e-6), half: tall }
+                } else {
+                    Shape::Capsule { radius: left.max(1e-6), half: 0.0 }
+                },
+            };
+            if left > 0.0 && others.iter().any(|other| !stands.is_farther(other, MIN_CLEARANCE)) {
+                continue;
+            }
+            if depth >= DEPTH {
+                return false;
+            }
+            let (quarter_x, quarter_y) = (half_x / 2.0, half_y / 2.0);
+            for (right, up) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+                open.push(([x + right * quarter_x, y + up * quarter_y], [quarter_x, quarter_y], depth + 1));
+            }
+        }
+        true
+    }
+}
+
+/// A solid where it is surely as wide at a height, as a flat slice; `None` where it is not there.
+fn section(solid: &Solid, height: f64) -> Option<Solid> {
+    const THIN: f64 = 1e-3;
+    let [_, _, z] = &solid.axes;
+    let is_upright = z.x.abs() < 1e-9 && z.y.abs() < 1e-9;
+    let shape = match solid.shape {
+        Shape::Box(half) if is_upright && (height - solid.centre.z).abs() <= half.z => {
+            Shape::Box(Vector3::new(half.x, half.y, THIN))
+        }
+        Shape::Cylinder { radius, half } | Shape::Capsule { radius, half }
+            if is_upright && (height - solid.centre.z).abs() <= half =>
+        {
+            Shape::Cylinder { radius, half: THIN }
+        }
+        Shape::Box(_) | Shape::Cylinder { .. } | Shape::Capsule { .. } | Shape::HalfSpace => return None,
+    };
+    let centre = Vector3::new(solid.centre.x, solid.centre.y, height);
+    Some(Solid { centre, axes: solid.axes, shape })
+}
+
+/// A point of the base's axis.
+fn disc(x: f64, y: f64, height: f64) -> Solid {
+    let pose = Isometry3::from(Translation3::new(x, y, height));
+    Solid::new(&pose, Shape::Capsule { radius: 0.0, half: 0.0 })
+}

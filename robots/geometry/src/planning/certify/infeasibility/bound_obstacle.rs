@@ -1,0 +1,411 @@
+//! Whether a part of the robot touches something in all of a cell, by how far its line goes along each direction of that, and not by how far
+//! anything goes at most: an arm that turns beside a wall goes far along it and hardly away from it.
+//!
+//! A line goes, as its solid does, so that what a point on it goes lies between what its ends do. Where a place on it is in the middle of a
+//! cell it stays as near to the box as the sum of squares says; where its ends stay on both sides of a plane through the middle of the box, it
+//! leads through that plane somewhere.
+
+use nalgebra::Vector3;
+
+use crate::collision::{Shape, Solid};
+use crate::inverse::family::Drift;
+use crate::planning::certify::deflate::SLACK;
+use crate::planning::scene::contact::MIN_CLEARANCE;
+
+/// Places on a line that are tried, each nearer to the best.
+const PLACES: usize = 6;
+
+/// What is told of a solid's line along the directions of a box.
+struct BoxLine {
+    /// Where the ends are, seen from the middle of the box.
+    ends: [[f64; 3]; 2],
+    /// How far they go.
+    gone: [[f64; 3]; 2],
+    half: [f64; 3],
+}
+
+/// How far something goes.
+pub(super) trait MotionExtent {
+    /// How far a point goes at most along a direction of length 1, in m. Of the points of a line none goes farther than those before and
+    /// after it, by their shares.
+    fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64;
+
+    /// Whether what stands upright does so still.
+    fn stays_upright(&self) -> bool;
+}
+
+impl MotionExtent for Drift {
+    fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
+        Self::along(self, point, direction)
+    }
+
+    fn stays_upright(&self) -> bool {
+        self.turns_about().is_some_and(|axis| is_upright(&axis))
+    }
+}
+
+/// What goes by a share of what another does.
+pub(super) struct ScaledMotion<'a, T>(pub(super) f64, pub(super) &'a T);
+
+impl<T: MotionExtent> MotionExtent for ScaledMotion<'_, T> {
+    fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
+        self.0 * self.1.along(point, direction)
+    }
+
+    fn stays_upright(&self) -> bool {
+        self.1.stays_upright()
+    }
+}
+
+/// What is within a solid for certain: all that is so near to half of its line to both sides, by no more than a share of that from its centre.
+struct InnerLine {
+    step: Vector3<f64>,
+    radius: f64,
+    share: f64,
+    is_round: bool,
+}
+
+impl InnerLine {
+    fn new(solid: &Solid) -> Option<Self> {
+        let [_, _, z] = &solid.axes;
+        let (step, radius) = match solid.shape {
+            Shape::Capsule { radius, half } => {
+                return Some(Self { step: z * half, radius, share: 1.0, is_round: true });
+            }
+            Shape::Cylinder { radius, half } => (z * half, radius.min(half)),
+            Shape::Box(_) => longest(solid),
+            Shape::HalfSpace => return None,
+        };
+        let long = step.norm();
+        (long > 0.0).then(|| Self { step, radius, share: 1.0 - (radius / long).min(1.0), is_round: false })
+    }
+}
+
+/// Whether a solid touches another wherever it goes.
+#[inline]
+pub(super) fn is_in(solid: &Solid, goes: &impl MotionExtent, other: &Solid) -> bool {
+    let Some(inside) = InnerLine::new(solid) else { return false };
+    let [_, _, z] = &solid.axes;
+    let upright = match solid.shape {
+        Shape::Cylinder { radius, half } if is_upright(z) && goes.stays_upright() => Some((radius, half)),
+        Shape::Cylinder { .. } | Shape::Capsule { .. } | Shape::Box(_) | Shape::HalfSpace => None,
+    };
+    match (other.shape, upright) {
+        (Shape::Box(half), Some((radius, long))) => {
+            is_in_upright(solid, radius, long, goes, other, [half.x, half.y, half.z])
+        }
+        (Shape::Box(half), None) => is_in_box(solid, &inside, goes, other, [half.x, half.y, half.z]),
+        (Shape::Cylinder { radius, half }, _) => {
+            is_in_round(solid, &inside, goes, other, RoundBody { radius, half, rim: 0.0 })
+        }
+        (Shape::Capsule { radius, half }, _) => {
+            is_in_round(solid, &inside, goes, other, RoundBody { radius: 0.0, half, rim: radius })
+        }
+        (Shape::HalfSpace, _) => false,
+    }
+}
+
+/// A cylinder with a rim around it.
+struct RoundBody {
+    radius: f64,
+    half: f64,
+    rim: f64,
+}
+
+/// Whether the place on a solid's line that is nearest to what is round stays as near to it: away from its axis, about it and along it.
+fn is_in_round(
+    solid: &Solid,
+    inside: &InnerLine,
+    goes: &impl MotionExtent,
+    other: &Solid,
+    round: RoundBody,
+) -> bool {
+    let [_, _, z] = &other.axes;
+    let between = solid.centre - other.centre;
+    let near = inside.radius + round.rim + MIN_CLEARANCE - SLACK;
+    let is_near = |share: f64| {
+        let point = between + inside.step * share;
+        let up = point.dot(z);
+        let out = point - z * up;
+        let far = out.norm();
+        if up.abs() > round.half + near || far > round.radius + near {
+            return false;
+        }
+        let away = if far > 1e-9 {
+            out / far
+        } else {
+            solid
+                .axes
+                .iter()
+                .map(|axis| z.cross(axis))
+                .fold(
+                    Vector3::zeros(),
+                    |most, next| if next.norm_squared() > most.norm_squared() { next } else { most },
+                )
+                .normalize()
+        };
+        let place = point + other.centre;
+        let gone = |axis: &Vector3<f64>| goes.along(&place, axis) + SLACK;
+        // What goes too far in one direction needs no look at the others.
+        let wide = round.radius + near;
+        let away_by = far + gone(&away);
+        if away_by.is_nan() || away_by > wide {
+            return false;
+        }
+        let about = gone(&z.cross(&away));
+        if about.is_nan() || about > wide {
+            return false;
+        }
+        let (out, up) =
+            ((libm::hypot(away_by, about) - round.radius).max(0.0), up.abs() + gone(z) - round.half);
+        // What is not known is nothing.
+        up.is_finite() && out * out + up.max(0.0) * up.max(0.0) <= near * near
+    };
+    let places = nearest(&between, &inside.step, z, round.half);
+    places.into_iter().any(|at| is_near(at.clamp(-inside.share, inside.share)))
+}
+
+/// Places on a line, −1 and 1 its ends, that are near to another through the origin: to its middle, and to it.
+fn nearest(between: &Vector3<f64>, step: &Vector3<f64>, z: &Vector3<f64>, half: f64) -> [f64; 2] {
+    let long = step.norm_squared();
+    if long < 1e-12 {
+        return [0.0; 2];
+    }
+    let (slope, up) = (step.dot(z), between.dot(z));
+    let square = long - slope * slope;
+    let level = if square > 1e-9 { (slope * up - step.dot(between)) / square } else { 0.0 };
+    // Beyond its ends it is those that are near.
+    let end = z * (up + slope * level.clamp(-1.0, 1.0)).clamp(-half, half);
+    [(end - between).dot(step) / long, level]
+}
+
+/// The same for a box.
+fn is_in_box(
+    solid: &Solid,
+    inside: &InnerLine,
+    goes: &impl MotionExtent,
+    board: &Solid,
+    half: [f64; 3],
+) -> bool {
+    let step = inside.step;
+    let between = solid.centre - board.centre;
+    let near = inside.radius + MIN_CLEARANCE - SLACK;
+    let mut line = BoxLine { ends: [[0.0; 3]; 2], gone: [[0.0; 3]; 2], half };
+    let [first, last] = &mut line.ends;
+    for (((axis, half), first), last) in board.axes.iter().zip(half).zip(first).zip(last) {
+        let (at, by) = (between.dot(axis), step.dot(axis));
+        (*first, *last) = (at - by, at + by);
+        // Even in the middle it does not come near.
+        if first.min(*last) > half + near || first.max(*last) < -half - near {
+            return false;
+        }
+    }
+    let BoxLine { ends: [first, last], gone: [gone, goes_last], .. } = &mut line;
+    let sides = first.iter().zip(last).zip(gone.iter_mut().zip(goes_last)).zip(board.axes.iter().zip(half));
+    for (((first, last), (gone, other)), (axis, half)) in sides {
+        *gone = goes.along(&(solid.centre - step), axis) + SLACK;
+        *other = goes.along(&(solid.centre + step), axis) + SLACK;
+        // All of it goes too far in this direction, and it does not lead through the middle either.
+        let is_through = *first * *last < 0.0 && first.abs() > *gone && last.abs() > *other;
+        let least = gone.min(*other);
+        if !gone.is_finite() || !other.is_finite() || (!is_through && least > half + near) {
+            return false;
+        }
+    }
+    // At the ends of what is not round there is no ball within.
+    line.stays(inside.share, near)
+        || line.leads_through(if inside.is_round { near } else { MIN_CLEARANCE - SLACK })
+}
+
+/// The same for an upright cylinder that stays upright: what its axis does is all there is.
+fn is_in_upright(
+    solid: &Solid,
+    radius: f64,
+    long: f64,
+    goes: &impl MotionExtent,
+    board: &Solid,
+    half: [f64; 3],
+) -> bool {
+    let between = solid.centre - board.centre;
+    let mut beside = 0.0;
+    let mut has_height = false;
+    for (axis, half) in board.axes.iter().zip(half) {
+        let beyond = between.dot(axis).abs() - half;
+        let is_up = is_upright(axis);
+        let wide = if is_up { long } else { radius };
+        if beyond > wide {
+            return false;
+        }
+        let gone = goes.along(&solid.centre, axis) + SLACK;
+        let beyond = beyond + gone;
+        if is_up {
+            has_height = true;
+            if beyond.is_nan() || beyond > long {
+                return false;
+            }
+        } else {
+            let out = if beyond.is_nan() { f64::INFINITY } else { beyond.max(0.0) };
+            beside += out * out;
+        }
+    }
+    has_height && beside <= radius * radius
+}
+
+fn is_upright(axis: &Vector3<f64>) -> bool {
+    axis.x.abs() < 1e-9 && axis.y.abs() < 1e-9
+}
+
+/// Half of the longest line along the axes of a box through its centre, and the radius of a ball that goes along it.
+fn longest(solid: &Solid) -> (Vector3<f64>, f64) {
+    let Shape::Box(half) = solid.shape else { return (Vector3::zeros(), 0.0) };
+    let [x, y, z] = &solid.axes;
+    let most = half.max();
+    let line = if half.x >= most {
+        x * half.x
+    } else if half.y >= most {
+        y * half.y
+    } else {
+        z * half.z
+    };
+    (line, half.min())
+}
+
+impl BoxLine {
+    /// The square of how far a place on the line can be from the box, but for one direction: −1 and 1 are its ends.
+    fn off(&self, at: f64, but: Option<usize>) -> f64 {
+        let (share, rest) = (0.5 + 0.5 * at, 0.5 - 0.5 * at);
+        let ([first, last], [gone, goes]) = (&self.ends, &self.gone);
+        let mut sum = 0.0;
+        let all = first.iter().zip(last).zip(gone.iter().zip(goes).zip(self.half)).zip(0..);
+        for (((first, last), ((gone, goes), half)), axis) in all {
+            if but != Some(axis) {
+                let out = (rest * first + share * last).abs() + rest * gone + share * goes - half;
+                sum += out.max(0.0) * out.max(0.0);
+            }
+        }
+        sum
+    }
+
+    /// Whether a place on it, by no more than a share from its middle, stays so near to the box.
+    fn stays(&self, share: f64, near: f64) -> bool {
+        // It is farther from the box the farther it is from where that is least.
+        let (mut low, mut high, near) = (-share, share, near * near);
+        let (mut at, mut off) = (0.0, self.off(0.0, None));
+        if off <= near {
+            return true;
+        }
+        for _ in 0..PLACES {
+            let (below, above) = ((low + at) / 2.0, (at + high) / 2.0);
+            let (off_below, off_above) = (self.off(below, None), self.off(above, None));
+            if off_below.min(off_above) <= near {
+                return true;
+            }
+            if off_below < off {
+                (high, at, off) = (at, below, off_below);
+            } else if off_above < off {
+                (low, at, off) = (at, above, off_above);
+            } else {
+                (low, high) = (below, above);
+            }
+        }
+        false
+    }
+
+    /// Whether it leads through one of the planes through the middle of the box, always near to the box there.
+    fn leads_through(&self, near: f64) -> bool {
+        let ([first, last], [gone, goes]) = (&self.ends, &self.gone);
+        let mut all = first.iter().zip(last).zip(gone.iter().zip(goes)).zip(0..);
+        all.any(|(((first, last), (gone, goes)), axis)| {
+            if first * last >= 0.0 || first.abs() <= *gone || last.abs() <= *goes {
+                return false;
+            }
+            // The first end as far out as can be with the second as far in, and the other way round.
+            let [one, other] = [1.0, -1.0].map(|to| {
+                let (first, last) = (first.abs() + to * gone, last.abs() - to * goes);
+                2.0 * first / (first + last) - 1.0
+            });
+            self.off(one, Some(axis)).max(self.off(other, Some(axis))) <= near * near
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+    use proptest::prelude::*;
+
+    use super::is_in;
+    use crate::collision::{Shape, Solid};
+    use crate::inverse::family::Drift;
+    use crate::planning::scene::contact::MIN_CLEARANCE;
+
+    fn solid(at: [f64; 3], turn: [f64; 3], shape: Shape) -> Solid {
+        let turned = UnitQuaternion::from_scaled_axis(Vector3::from(turn));
+        Solid::new(&Isometry3::from_parts(Translation3::from(Vector3::from(at)), turned), shape)
+    }
+
+    fn spun(axis: &Vector3<f64>, at: &Vector3<f64>, angle: f64) -> Isometry3<f64> {
+        let about = Translation3::from(*at);
+        about * UnitQuaternion::from_scaled_axis(axis * angle) * about.inverse()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(8192))]
+
+        /// What is said to be in a board, or in what is round, touches it wherever it is moved within its drift.
+        #[test]
+        fn what_is_in_something_touches_it_wherever_it_goes(
+            at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64], turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64],
+            half in 0.02..0.4_f64, radius in 0.01..0.2_f64, kind in 0..4_u8, beyond in 0..4_u8,
+            board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.3_f64], lean in -1.5..1.5_f64,
+            slide in [-0.2..0.2_f64, -0.2..0.2_f64, -0.2..0.2_f64], spin in 0.0..0.6_f64, bend in 0.0..0.4_f64,
+            centre in [-0.5..0.5_f64, -0.5..0.5_f64, -0.5..0.5_f64], size in prop::sample::select(vec![0.03, 0.3, 1.0]),
+            moved in prop::collection::vec(prop::sample::select(vec![-1.0, -0.6, 0.0, 0.3, 1.0]), 30),
+        ) {
+            let shape = match kind {
+                0 => Shape::Capsule { radius, half },
+                1 | 2 => Shape::Cylinder { radius, half },
+                _ => Shape::Box(Vector3::new(radius, half, 0.7 * radius)),
+            };
+            // One that stands upright and stays so is looked at by another rule.
+            let is_upright = kind == 2;
+            let own = solid(at, if is_upright { [0.0, 0.0, turn[2]] } else { turn }, shape);
+            let [long, wide, _] = board;
+            let other = match beyond {
+                0 | 1 => Shape::Box(Vector3::from(board)),
+                2 => Shape::Cylinder { radius: wide, half: long },
+                _ => Shape::Capsule { radius: 0.4 * wide, half: long },
+            };
+            let board = solid([0.0; 3], if kind == 3 { [lean, 0.3, 0.0] } else { [0.0, 0.0, lean] }, other);
+            let (slide, centre) = (Vector3::from(slide) * size, Vector3::from(centre));
+            let (spin, bend) = (spin * size, if is_upright { 0.0 } else { bend * size });
+            let axis = Vector3::new(lean, 1.0, 0.3).normalize();
+            let mut drift = Drift::none().slid(slide);
+            if !is_upright {
+                drift = drift.spun(axis, centre, bend);
+            }
+            let drift = drift.spun(Vector3::z(), centre, spin);
+            if is_in(&own, &drift, &board) {
+                for by in moved.chunks(3) {
+                    let moves = spun(&Vector3::z(), &centre, spin * by[0])
+                        * spun(&axis, &centre, bend * by[1])
+                        * Translation3::from(slide * by[2]);
+                    let moved = own.moved(&moves);
+                    prop_assert!(moved.is_nearer(&board, MIN_CLEARANCE), "{own:?} {moved:?} {board:?}");
+                }
+            }
+        }
+    }
+
+    /// An arm through a thin board, which turns along it, is in it however far it turns.
+    #[test]
+    fn an_arm_through_a_board_is_in_it() {
+        let arm = solid([0.0; 3], [0.0; 3], Shape::Capsule { radius: 0.05, half: 0.3 });
+        let board = solid([0.0; 3], [0.0; 3], Shape::Box(Vector3::new(1.0, 1.0, 0.005)));
+        let slid = |step: Vector3<f64>| is_in(&arm, &Drift::none().slid(step), &board);
+        assert!(slid(Vector3::new(0.9, 0.0, 0.25)));
+        assert!(!slid(Vector3::new(0.0, 0.0, 0.4)) && !slid(Vector3::new(1.2, 0.0, 0.0)));
+        let far = Drift::none().spun(Vector3::z(), Vector3::new(0.3, 0.0, 0.0), 3.0);
+        assert!(is_in(&arm, &far, &board));
+    }
+}

@@ -1,0 +1,260 @@
+//! What two parts of the robot do in a cell, seen from each other.
+
+use std::rc::Rc;
+
+use nalgebra::{Isometry3, Vector3};
+
+use super::bound_obstacle::{ScaledMotion, is_in};
+use super::cover::{BodyPair, CellModel, CellPart, CellPlacement, FAR, FEWER, kept};
+use super::relative::{PairGroup, RelativeAxis, RelativeChains};
+use crate::collision::{Shape, Solid};
+use crate::planning::certify::deflate::{DeflatedPart, SLACK};
+use crate::planning::scene::contact::MIN_CLEARANCE;
+
+/// The robot by itself in the middle of a cell, where that was asked for.
+#[derive(Default)]
+pub(super) struct RelativePlacement {
+    pub(super) axes: Vec<RelativeAxis>,
+    /// From any place to the frames, where those in the map do not tell.
+    pub(super) frames: Vec<Isometry3<f64>>,
+    pub(super) parts: Vec<Option<Solid>>,
+}
+
+impl CellModel<'_, '_, '_> {
+    /// The pairs of parts that may not touch.
+    pub(super) fn pair_groups(&self) -> Rc<[PairGroup]> {
+        let mut pair_groups: Vec<([usize; 2], Vec<[u16; 2]>)> = Vec::new();
+        let frame = |part: usize| self.limbs.get(part).map(|limb| limb.frame);
+        for [one, other] in self.checker.context.body.pairs() {
+            let Some((from, to)) = frame(*one).zip(frame(*other)).filter(|(from, to)| from != to) else {
+                continue;
+            };
+            let pair = [*one as u16, *other as u16];
+            let (frames, pair) =
+                if from < to { ([from, to], pair) } else { ([to, from], [pair[1], pair[0]]) };
+            match pair_groups.iter_mut().find(|(known, _)| *known == frames) {
+                Some((_, pairs)) => pairs.push(pair),
+                None => pair_groups.push((frames, vec![pair])),
+            }
+        }
+        let pair_groups = pair_groups.into_iter().map(|(frames, pairs)| {
+            let far = |[_, other]: &[u16; 2]| {
+                let limb = self.limbs.get(usize::from(*other));
+                limb.map_or(0.0, |limb| limb.solid.centre.norm() + limb.reach)
+            };
+            let reach = pairs.iter().map(far).fold(0.0, f64::max);
+            PairGroup { frames, reach, drift: FAR / FEWER, pairs: pairs.into() }
+        });
+        pair_groups.collect()
+    }
+
+    /// What of the parts of two frames may touch; `None` where they are as they were.
+    ///
+    /// # Errors
+    ///
+    /// What touches throughout.
+    pub(super) fn pair_group(
+        &self,
+        placing: &mut CellPlacement,
+        pair_group: &PairGroup,
+    ) -> Result<Option<PairGroup>, BodyPair> {
+        if placing.steps.is_empty() {
+            return Ok(None);
+        }
+        self.join(placing);
+        let [from, to] = pair_group.frames;
+        let at = placing.own.frames.get(to).map_or_else(Vector3::zeros, |pose| pose.translation.vector);
+        let Some(relative) = self.pair_groups.relative(from, to, &placing.own.axes) else { return Ok(None) };
+        let drift = relative.point(&at, pair_group.reach);
+        let is_fewer = drift < FEWER * pair_group.drift;
+        let mut left: Vec<[u16; 2]> = Vec::new();
+        for pair in pair_group.pairs.iter() {
+            let [part, at] = *pair;
+            self.ensure_both(placing, part, at);
+            let Some((own, other)) = self.both(placing, part, at) else { continue };
+            if is_fewer && own.is_apart(other, drift) {
+                continue;
+            }
+            // What is not near in the middle does not touch throughout.
+            if own.is_near(other) && self.touches_by(placing, [own, other], 1.0) {
+                return Err(BodyPair::RelativePlacement(part, at));
+            }
+            if is_fewer {
+                left.push(*pair);
+            }
+        }
+        Ok(is_fewer.then(|| PairGroup { drift, pairs: kept(left, &pair_group.pairs), ..*pair_group }))
+    }
+
+    /// Whether two parts of any touch in the middle.
+    pub(super) fn is_folded_in_middle(&self, placing: &mut CellPlacement, pair_groups: &[PairGroup]) -> bool {
+        pair_groups.iter().flat_map(PairGroup::pairs).any(|pair| self.touches_in_middle(placing, pair))
+    }
+
+    /// Two parts where they are to each other in the middle of a cell, where that was asked for.
+    pub(super) fn both<'p>(
+        &'p self,
+        placing: &'p CellPlacement,
+        part: u16,
+        at: u16,
+    ) -> Option<(RelativePart<'p>, RelativePart<'p>)> {
+        let joined = |part: u16| {
+            let solid = placing.own.parts.get(usize::from(part))?.as_ref()?;
+            Some(RelativePart { limb: self.limbs.get(usize::from(part))?, solid })
+        };
+        Some((joined(part)?, joined(at)?))
+    }
+
+    /// Whether two parts touch wherever the joints between them put them, by no more than a share of how far those go.
+    pub(super) fn touches_by(
+        &self,
+        placing: &CellPlacement,
+        [one, other]: [RelativePart<'_>; 2],
+        share: f64,
+    ) -> bool {
+        let (from, to) = (one.limb.frame, other.limb.frame);
+        let pair_groups =
+            [(from, to), (to, from)].map(|(from, to)| self.pair_groups.relative(from, to, &placing.own.axes));
+        let [Some(relative), Some(back)] = pair_groups else { return false };
+        // Most that are near do not even touch in the middle.
+        if !one.solid.is_nearer(other.solid, MIN_CLEARANCE) {
+            return false;
+        }
+        if let Some(step) = relative.slide() {
+            // What touches at both ends of a straight way touches on all of it.
+            let ends =
+                [step, -step].map(|step| Solid { centre: other.solid.centre + step * share, ..*other.solid });
+            return ends.iter().all(|end| one.solid.is_nearer(end, MIN_CLEARANCE - SLACK));
+        }
+        let is_round = |joined: &RelativePart<'_>| matches!(joined.solid.shape, Shape::Capsule { .. });
+        if is_round(&other) && is_in(other.solid, &ScaledMotion(share, &relative), one.solid)
+            || (is_round(&one) || !is_round(&other))
+                && is_in(one.solid, &ScaledMotion(share, &back), other.solid)
+        {
+            return true;
+        }
+        one.touches(other, share * relative.drift(other.solid))
+    }
+
+    /// The same of any two.
+    pub(super) fn own_touches(&self, placing: &mut CellPlacement, part: u16, at: u16, share: f64) -> bool {
+        self.ensure_both(placing, part, at);
+        let both = self.both(placing, part, at);
+        both.is_some_and(|(one, other)| one.is_near(other) && self.touches_by(placing, [one, other], share))
+    }
+
+    /// How far the second of two parts can be off, seen from the first.
+    pub(super) fn own_off(&self, placing: &mut CellPlacement, part: u16, at: u16) -> f64 {
+        self.ensure_both(placing, part, at);
+        let Some((one, other)) = self.both(placing, part, at) else { return 0.0 };
+        let relative = self.pair_groups.relative(one.limb.frame, other.limb.frame, &placing.own.axes);
+        relative.map_or(0.0, |relative| relative.drift(other.solid))
+    }
+
+    /// Puts the joints where they are to each other.
+    pub(super) fn join(&self, placing: &mut CellPlacement) {
+        if !placing.own.axes.is_empty() {
+            return;
+        }
+        placing.own.frames.clear();
+        if placing.is_joined {
+            placing.own.frames.extend(placing.frames.iter().map(|(pose, _)| *pose));
+        } else {
+            placing.own.frames.push(Isometry3::identity());
+            for (joint, [position, _]) in self.rig.joints.iter().zip(&placing.steps) {
+                let parent = placing.own.frames.get(joint.parent).copied().unwrap_or_default();
+                placing.own.frames.push(parent * joint.before * joint.motion(*position));
+            }
+        }
+        let offs: Vec<f64> = placing.steps.iter().map(|[_, off]| *off).collect();
+        placing.own.axes = RelativeChains::axes(&self.rig, &placing.own.frames, &offs);
+    }
+
+    /// Puts two parts where the joints do.
+    pub(super) fn ensure_both(&self, placing: &mut CellPlacement, part: u16, at: u16) {
+        self.join(placing);
+        self.ensure_own(placing, part);
+        self.ensure_own(placing, at);
+    }
+
+    /// Puts a part where the joints do.
+    fn ensure_own(&self, placing: &mut CellPlacement, part: u16) {
+        let at = usize::from(part);
+        let Some(slot @ None) = placing.own.parts.get_mut(at) else { return };
+        let Some(limb) = self.limbs.get(at) else { return };
+        *slot = placing.own.frames.get(limb.frame).map(|frame| limb.solid.moved(frame));
+    }
+}
+
+/// A part where the joints put it.
+#[derive(Clone, Copy)]
+pub(super) struct RelativePart<'p> {
+    pub(super) limb: &'p CellPart,
+    pub(super) solid: &'p Solid,
+}
+
+impl RelativePart<'_> {
+    /// Whether the balls around two are so near that they may touch.
+    pub(super) fn is_near(&self, other: RelativePart<'_>) -> bool {
+        let near = self.limb.reach + other.limb.reach + MIN_CLEARANCE;
+        (self.solid.centre - other.solid.centre).norm_squared() <= near * near
+    }
+
+    /// Whether two touch, wherever they are by so much.
+    pub(super) fn touches(&self, other: RelativePart<'_>, drift: f64) -> bool {
+        let own = DeflatedPart { solid: *self.solid, inner: self.limb.inner, reach: self.limb.reach, drift };
+        own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
+    }
+
+    /// Whether two are apart, wherever they are by so much.
+    pub(super) fn is_apart(&self, other: RelativePart<'_>, drift: f64) -> bool {
+        let far = self.limb.reach + other.limb.reach + MIN_CLEARANCE + drift + SLACK;
+        (self.solid.centre - other.solid.centre).norm_squared() > far * far
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::indexing_slicing, clippy::unwrap_used, reason = "a test fails by panicking")]
+impl CellModel<'_, '_, '_> {
+    /// By how much parts are farther off from each other than is said of two, with all where they are in a state and the links at poses.
+    pub(super) fn beyond_ties(
+        &self,
+        placing: &mut CellPlacement,
+        solids: &[Solid],
+        poses: &[Isometry3<f64>],
+    ) -> f64 {
+        use super::bound_obstacle::MotionExtent as _;
+        let mut most = f64::NEG_INFINITY;
+        for pair_group in self.pair_groups().iter() {
+            for [part, at] in pair_group.pairs.iter() {
+                self.ensure_both(placing, *part, *at);
+                let Some((one, other)) = self.both(placing, *part, *at) else { return f64::INFINITY };
+                let (from, to) = (one.limb.frame, other.limb.frame);
+                let relative = self.pair_groups.relative(from, to, &placing.own.axes).unwrap();
+                let drift = relative.drift(other.solid);
+                let ball = other.limb.solid.centre;
+                let off =
+                    relative.point(&(placing.own.frames[to] * nalgebra::Point3::from(ball)).coords, 0.0);
+                assert!(off <= drift + 1e-9 && pair_group.reach >= ball.norm());
+                let link = self.checker.context.body.parts()[usize::from(*part)].link;
+                let middle = placing.own.frames[from] * self.rig.links[link].1;
+                let (seen, is) = (other.solid.moved(&middle.inverse()), &solids[usize::from(*at)]);
+                let is = is.moved(&poses[link].inverse());
+                let along = |solid: &Solid| match solid.shape {
+                    Shape::Capsule { half, .. } | Shape::Cylinder { half, .. } => solid.axes[2] * half,
+                    _ => Vector3::zeros(),
+                };
+                for sign in [1.0, -1.0] {
+                    let gone = seen.centre + along(&seen) * sign - is.centre - along(&is) * sign;
+                    most = most.max(gone.norm() - drift);
+                    let end = other.solid.centre + along(other.solid) * sign;
+                    for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+                        let along = relative.along(&end, &(middle.rotation * axis));
+                        most = most.max(gone.dot(&axis).abs() - along);
+                    }
+                }
+            }
+        }
+        most
+    }
+}

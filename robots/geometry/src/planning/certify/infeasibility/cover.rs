@@ -1,0 +1,376 @@
+//! What is known of one cell of states: where each part of the robot is, how far it can be from there, and what it touches.
+
+use std::f64::consts::TAU;
+use std::rc::Rc;
+
+use nalgebra::{Isometry3, Vector3};
+
+use super::ArmFamily;
+use super::bound_obstacle::{ScaledMotion, is_in};
+use super::bound_pair::RelativePlacement;
+use super::relative::RelativeChains;
+use crate::collision::Solid;
+use crate::inverse::family::{Drift, Stretch, Tips};
+use crate::kinematics::Rig;
+use crate::planning::certify::deflate::{DeflatedPart, SLACK, inner};
+use crate::planning::checking::collision_checker::{CollisionChecker, above_floor};
+use crate::planning::scene::contact::AllowedCollisions;
+use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::ik_solver::IkSolver;
+use crate::planning::scene::robot_model::HandModel;
+
+/// What is needed to look at cells.
+pub(super) struct CellModel<'a, 'r, 'w> {
+    pub(super) checker: &'a CollisionChecker<'r, 'w>,
+    pub(super) hand: &'a HandModel,
+    pub(super) family: ArmFamily<'a>,
+    pub(super) allowed: AllowedCollisions,
+    pub(super) rig: Rig,
+    pub(super) pair_groups: RelativeChains,
+    /// The robot's joints with the hand as it reaches.
+    joints: Vec<f64>,
+    /// For each frame of the rig but the first the joint of the arm that it is, if it is one.
+    arm: Vec<Option<usize>>,
+    /// The frame of the tip, and the tip in it.
+    last: usize,
+    frame_from_tip: Isometry3<f64>,
+    pub(super) limbs: Vec<CellPart>,
+    /// Of the things the radius of the greatest ball within, about.
+    obstacles: Vec<f64>,
+}
+
+/// A part of the robot.
+pub(super) struct CellPart {
+    pub(super) frame: usize,
+    /// In the frame.
+    pub(super) solid: Solid,
+    pub(super) inner: f64,
+    pub(super) reach: f64,
+}
+
+/// Two that may not touch: a part and a thing, the floor or another part.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum BodyPair {
+    Obstacle(u16, u16),
+    Floor(u16),
+    RelativePlacement(u16, u16),
+}
+
+/// What a part may touch in a cell.
+#[derive(Clone)]
+pub(super) struct ContactGroup {
+    part: u16,
+    /// How far it could be off when others were last left out.
+    drift: f64,
+    is_above_floor: bool,
+    /// Those first that the largest balls are in.
+    obstacles: Rc<[u16]>,
+}
+
+impl ContactGroup {
+    /// One after the other.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = BodyPair> + '_ {
+        let obstacles = self.obstacles.iter().map(|at| BodyPair::Obstacle(self.part, *at));
+        obstacles.chain(self.is_above_floor.then_some(BodyPair::Floor(self.part)))
+    }
+}
+
+/// Where a part can be off by less than this share of what it could when it was last looked for what it cannot touch, that
+/// is done again.
+pub(super) const FEWER: f64 = 0.6;
+/// Before it can be off by less than this, in m, it is not looked for at all.
+pub(super) const FAR: f64 = 0.8;
+
+/// The robot in a cell: the frames of the rig, and those of its parts that were asked for.
+#[derive(Default)]
+pub(super) struct CellPlacement {
+    pub(super) frames: Vec<(Isometry3<f64>, Drift)>,
+    parts: Vec<Option<DeflatedPart>>,
+    /// Of each joint of the rig its position, and how far its variable can be off; nothing where that is not known.
+    pub(super) steps: Vec<[f64; 2]>,
+    pub(super) is_joined: bool,
+    pub(super) own: RelativePlacement,
+}
+
+impl CellPlacement {
+    fn part(&self, part: u16) -> Option<&DeflatedPart> {
+        self.parts.get(usize::from(part))?.as_ref()
+    }
+}
+
+impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
+    /// `None` where the robot is not simple enough.
+    pub(super) fn new(
+        checker: &'a CollisionChecker<'r, 'w>,
+        hand: &'a HandModel,
+        allowed: AllowedCollisions,
+    ) -> Option<Self> {
+        let (context, model) = (checker.context, checker.context.model);
+        let family = match &hand.solver {
+            IkSolver::Lift(arm) => ArmFamily::Lift(arm),
+            IkSolver::Parallel(arm) if model.drives() => {
+                ArmFamily::Parallel(arm, context.map_from_base([0.0; 3]).translation.z)
+            }
+            IkSolver::Seven(arm) if !model.drives() => {
+                let base = context.state.robot.base;
+                ArmFamily::Seven(arm, context.map_from_base(base), base)
+            }
+            IkSolver::Parallel(_) | IkSolver::Seven(_) | IkSolver::Steps(_) => ArmFamily::Any,
+        };
+        let chain = hand.solver.chain();
+        let joints = context.with(hand, [0.0; 3], &[]).joints;
+        let rig = model.tree().rig(&joints, |variable| chain.in_tree.contains(&variable))?;
+        let (last, frame_from_tip) = *rig.links.get(hand.tip)?;
+        // From the tip down to the base.
+        let (mut frame, mut order) = (last, vec![]);
+        while let Some(joint) = frame.checked_sub(1).and_then(|at| rig.joints.get(at)) {
+            order.push(frame);
+            frame = joint.parent;
+        }
+        order.reverse();
+        if order.len() != chain.joints.len() {
+            return None;
+        }
+        let arm = (1..=rig.joints.len()).map(|at| order.iter().position(|frame| *frame == at)).collect();
+        let mut limbs = Vec::new();
+        for part in context.body.parts() {
+            let (frame, pose) = rig.links.get(part.link)?;
+            let solid = part.solid.moved(pose);
+            limbs.push(CellPart { frame: *frame, solid, inner: inner(&solid), reach: solid.reach() });
+        }
+        let obstacles: Vec<f64> = checker.obstacles.iter().map(|near| inner(&near.solid)).collect();
+        // More than any robot or neighbourhood has.
+        let is_small = limbs.len() < usize::from(u16::MAX) && obstacles.len() < usize::from(u16::MAX);
+        let cover = Self {
+            checker,
+            hand,
+            family,
+            allowed,
+            pair_groups: RelativeChains::new(&rig),
+            rig,
+            joints,
+            arm,
+            last,
+            frame_from_tip,
+            limbs,
+            obstacles,
+        };
+        is_small.then_some(cover)
+    }
+
+    /// What the hand may touch of what stands around, and all else that the arm or the base moves against each other.
+    pub(super) fn groups(&self) -> [Rc<[ContactGroup]>; 2] {
+        let (mut hand, mut others) = (vec![], vec![]);
+        for ((limb, own), part) in self.checker.limbs.iter().zip(&self.limbs).zip(0..) {
+            let obstacles = self.checker.obstacles.iter().zip(&self.obstacles).zip(0..);
+            let obstacles =
+                obstacles.filter(|((near, _), _)| limb.counts && !limb.may_touch(near.entity, self.allowed));
+            let mut obstacles: Vec<(f64, u16)> = obstacles.map(|((_, inner), at)| (*inner, at)).collect();
+            obstacles.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+            let obstacles = obstacles.into_iter().map(|(_, at)| at).collect();
+            let is_above_floor = limb.counts && limb.is_carried;
+            let group = ContactGroup { part, drift: FAR / FEWER, is_above_floor, obstacles };
+            if group.is_above_floor || !group.obstacles.is_empty() {
+                if own.frame == self.last { hand.push(group) } else { others.push(group) }
+            }
+        }
+        [hand.into(), others.into()]
+    }
+
+    /// What of a group may touch; `None` where the group is as it was.
+    ///
+    /// # Errors
+    ///
+    /// What touches throughout.
+    pub(super) fn left_of(
+        &self,
+        placing: &mut CellPlacement,
+        group: &ContactGroup,
+    ) -> Result<Option<ContactGroup>, BodyPair> {
+        let part = group.part;
+        self.ensure(placing, part);
+        let Some(own) = placing.part(part) else { return Ok(None) };
+        if group.is_above_floor && self.is_on_floor(placing, own, part, 1.0) {
+            return Err(BodyPair::Floor(part));
+        }
+        let is_fewer = own.drift < FEWER * group.drift;
+        let mut obstacles: Vec<u16> = Vec::new();
+        for at in group.obstacles.iter().copied() {
+            let Some(near) = self.checker.obstacles.get(usize::from(at)) else { continue };
+            if is_fewer && own.is_apart(&near.solid, near.reach, own.drift) {
+                continue;
+            }
+            if self.is_in(placing, own, part, at, 1.0) {
+                return Err(BodyPair::Obstacle(part, at));
+            }
+            if is_fewer {
+                obstacles.push(at);
+            }
+        }
+        if !is_fewer {
+            return Ok(None);
+        }
+        let drift = own.drift;
+        Ok(Some(ContactGroup { drift, obstacles: kept(obstacles, &group.obstacles), ..*group }))
+    }
+
+    /// How far a pair can be off.
+    pub(super) fn off_by(&self, placing: &mut CellPlacement, pair: BodyPair) -> f64 {
+        match pair {
+            BodyPair::Obstacle(part, _) | BodyPair::Floor(part) => {
+                self.part(placing, part).map_or(0.0, |own| own.drift)
+            }
+            BodyPair::RelativePlacement(part, at) => self.own_off(placing, part, at),
+        }
+    }
+
+    /// Whether something of some groups touches in the middle.
+    pub(super) fn is_stuck_in_middle(&self, placing: &mut CellPlacement, groups: &[ContactGroup]) -> bool {
+        groups.iter().flat_map(ContactGroup::pairs).any(|pair| self.touches_in_middle(placing, pair))
+    }
+
+    /// Puts the hand alone where its tip is at any of some poses; what is elsewhere is not known to be anywhere.
+    pub(super) fn place_hand(&self, tips: &Tips, placing: &mut CellPlacement) {
+        let pose = tips.map_from_tip * self.frame_from_tip.inverse();
+        placing.frames.clear();
+        let unknown = Drift::unknown();
+        placing.frames.resize(self.rig.joints.len() + 1, (Isometry3::identity(), unknown));
+        placing.frames.get_mut(self.last).into_iter().for_each(|slot| *slot = (pose, tips.drift));
+        placing.steps.clear();
+        self.forget(placing);
+    }
+
+    /// Puts the robot where it is in a cell.
+    pub(super) fn place(&self, stretch: &Stretch, placing: &mut CellPlacement) {
+        let chain = self.hand.solver.chain();
+        let root = (self.checker.context.model.map_from_root(stretch.base), stretch.base_drift);
+        placing.frames.clear();
+        placing.frames.push(root);
+        placing.steps.clear();
+        placing.is_joined = stretch.is_joined;
+        for (joint, arm) in self.rig.joints.iter().zip(&self.arm) {
+            let mut values = chain.in_tree.iter().zip(&stretch.values).zip(&chain.variables);
+            let known = values.find(|((at, _), _)| **at == joint.driver.variable);
+            // Values that differ by full turns are one for the arm, and not for what follows it.
+            let turns = known.is_some_and(|(_, variable)| {
+                !variable.slides && variable.limits.is_none_or(|(lower, upper)| upper - lower > TAU)
+            });
+            let known = known.map(|((_, value), _)| *value);
+            let still = self.joints.get(joint.driver.variable).copied().unwrap_or_default();
+            let [value, off] = known.unwrap_or([still, 0.0]);
+            let position = joint.driver.multiplier * value + joint.driver.offset;
+            placing.steps.push([position, off]);
+            if let Some(frame) = arm.and_then(|at| stretch.frames.get(at)) {
+                placing.frames.push(*frame);
+                continue;
+            }
+            // What follows a joint of the arm elsewhere.
+            let (parent, drift) = placing.frames.get(joint.parent).copied().unwrap_or(root);
+            let off = off * joint.driver.multiplier;
+            let pose = parent * joint.before * joint.motion(position);
+            let drift = match (joint.slides, off == 0.0) {
+                _ if turns => Drift::unknown(),
+                (true, _) => drift.slid(pose.rotation * joint.axis.into_inner() * off),
+                (false, true) => drift,
+                (false, false) => Drift::unknown(),
+            };
+            placing.frames.push((pose, drift));
+        }
+        self.forget(placing);
+    }
+
+    fn forget(&self, placing: &mut CellPlacement) {
+        placing.parts.clear();
+        placing.parts.resize(self.limbs.len(), None);
+        placing.own.axes.clear();
+        placing.own.parts.clear();
+        placing.own.parts.resize(self.limbs.len(), None);
+    }
+
+    /// A part where it is in the middle of a cell, and how far it can be from there.
+    pub(super) fn part<'p>(&self, placing: &'p mut CellPlacement, part: u16) -> Option<&'p DeflatedPart> {
+        self.ensure(placing, part);
+        placing.part(part)
+    }
+
+    fn ensure(&self, placing: &mut CellPlacement, part: u16) {
+        let at = usize::from(part);
+        let Some(slot @ None) = placing.parts.get_mut(at) else { return };
+        let Some(limb) = self.limbs.get(at) else { return };
+        let Some((pose, drift)) = placing.frames.get(limb.frame) else { return };
+        let solid = limb.solid.moved(pose);
+        *slot = Some(DeflatedPart { solid, inner: limb.inner, reach: limb.reach, drift: drift.of(&solid) });
+    }
+
+    /// Whether a pair touches wherever both go by no more than a share of how far they can be off.
+    pub(super) fn touches(&self, placing: &mut CellPlacement, pair: BodyPair, share: f64) -> bool {
+        match pair {
+            BodyPair::Obstacle(part, at) => {
+                self.ensure(placing, part);
+                placing.part(part).is_some_and(|own| self.is_in(placing, own, part, at, share))
+            }
+            BodyPair::RelativePlacement(part, at) => {
+                if placing.steps.is_empty() {
+                    return false;
+                }
+                self.own_touches(placing, part, at, share)
+            }
+            BodyPair::Floor(part) => {
+                self.ensure(placing, part);
+                placing.part(part).is_some_and(|own| self.is_on_floor(placing, own, part, share))
+            }
+        }
+    }
+
+    /// Whether a part touches a thing throughout.
+    fn is_in(&self, placing: &CellPlacement, own: &DeflatedPart, part: u16, at: u16, share: f64) -> bool {
+        let at = usize::from(at);
+        let Some((near, inner)) = self.checker.obstacles.get(at).zip(self.obstacles.get(at)) else {
+            return false;
+        };
+        let wide = own.reach + near.reach + MIN_CLEARANCE;
+        if (own.solid.centre - near.solid.centre).norm_squared() > wide * wide {
+            return false;
+        }
+        let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
+        frame.is_some_and(|(_, drift)| is_in(&own.solid, &ScaledMotion(share, drift), &near.solid))
+            || own.touches(&near.solid, *inner, near.reach, share * own.drift)
+    }
+
+    /// Whether a part is on the floor throughout, by the lowest point of it in the middle.
+    fn is_on_floor(&self, placing: &CellPlacement, own: &DeflatedPart, part: u16, share: f64) -> bool {
+        let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
+        let Some((_, drift)) = frame else { return false };
+        let up = Vector3::z();
+        let lowest = own.solid.support(&-up);
+        lowest.z - own.solid.rim() + share * drift.along(&lowest, &up) + SLACK <= MIN_CLEARANCE
+    }
+
+    /// Whether a pair touches in the middle; what is not known to be anywhere touches nothing.
+    pub(super) fn touches_in_middle(&self, placing: &mut CellPlacement, pair: BodyPair) -> bool {
+        match pair {
+            BodyPair::Obstacle(part, at) => {
+                let at = usize::from(at);
+                let obstacle = self.checker.obstacles.get(at).zip(self.obstacles.get(at));
+                self.part(placing, part).zip(obstacle).is_some_and(|(own, (near, inner))| {
+                    own.drift.is_finite() && own.touches(&near.solid, *inner, near.reach, 0.0)
+                })
+            }
+            BodyPair::RelativePlacement(part, at) => {
+                if placing.steps.is_empty() {
+                    return false;
+                }
+                self.ensure_both(placing, part, at);
+                self.both(placing, part, at).is_some_and(|(one, other)| one.touches(other, 0.0))
+            }
+            BodyPair::Floor(part) => self
+                .part(placing, part)
+                .is_some_and(|own| own.drift.is_finite() && above_floor(&own.solid) + SLACK <= MIN_CLEARANCE),
+        }
+    }
+}
+
+/// What is left of all, which stays what it is where that is all.
+pub(super) fn kept<T: Copy>(left: Vec<T>, all: &Rc<[T]>) -> Rc<[T]> {
+    if left.len() == all.len() { Rc::clone(all) } else { left.into() }
+}

@@ -1,0 +1,344 @@
+//! The look at one patch after the other, and at the cells of each.
+
+use std::rc::Rc;
+
+use nalgebra::Isometry3;
+
+use super::cover::{BodyPair, CellModel, CellPlacement, ContactGroup};
+use super::relative::PairGroup;
+use super::split::{SplitCause, SplitGain, TRUSTED};
+use super::{ArmFamily, CellNode, OpenPatch};
+use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
+use crate::planning::grasp::candidates::GraspCandidate;
+use crate::planning::grasp::manifold::{GraspManifold, GraspPatch, widest};
+use crate::planning::scene::configuration::Configuration;
+
+/// Poses of the tip are looked at together where none is farther than this from the middle, in m, about.
+const COARSE: f64 = 0.6;
+/// Patches in which the hand alone is looked at are cut no smaller, in m, about.
+const FINE: f64 = 0.03;
+/// Cells are cut no smaller than so many times a patch before that is cut, where nothing is known to be to blame.
+const WIDER: f64 = 2.0;
+/// So much smaller than the largest side of a cell another one may be cut because it is to blame.
+const SLIM: f64 = 8.0;
+/// Below this a cell is looked at for a free state, in m that something goes in it.
+const SMALL: f64 = 0.05;
+/// So many pairs that touched lately are looked at before all others.
+const KNOWN: usize = 8;
+/// Below this a cell is given up.
+const LEAST: f64 = 5e-4;
+
+/// What is known of a patch.
+pub(super) enum PatchOutcome {
+    /// No state is free.
+    Done,
+    /// Not as much of its halves.
+    Halves([OpenPatch; 2]),
+    /// One is.
+    Free(Box<GraspCandidate>, Configuration),
+    /// It cannot be told, or the budget is spent.
+    Unclear,
+}
+
+/// A look at patches and cells.
+pub(super) struct BranchAndBound<'c, 'a, 'r, 'w> {
+    cover: CellModel<'a, 'r, 'w>,
+    manifold: &'c GraspManifold<'c>,
+    /// So many may be looked at.
+    cells: usize,
+    known: RecentPairs,
+    placing: CellPlacement,
+    /// To look at something else in between.
+    aside: CellPlacement,
+}
+
+impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
+    pub(super) fn new(cover: CellModel<'a, 'r, 'w>, manifold: &'c GraspManifold<'c>, cells: usize) -> Self {
+        let (placing, aside) = (CellPlacement::default(), CellPlacement::default());
+        Self { cover, manifold, cells, known: RecentPairs::default(), placing, aside }
+    }
+
+    /// Whether the hand alone touches something wherever it may be, told without a look at small patches.
+    pub(super) fn is_hand_stuck(&mut self, groups: &Rc<[ContactGroup]>) -> bool {
+        let patches = self.manifold.patches().into_iter();
+        let mut open: Vec<(GraspPatch, Rc<[ContactGroup]>)> =
+            patches.map(|patch| (patch, Rc::clone(groups))).collect();
+        while let Some((patch, groups)) = open.pop() {
+            let Some((map_from_tip, drift)) = self.manifold.over(&patch) else { continue };
+            self.cover.place_hand(&Tips::new(map_from_tip, drift), &mut self.placing);
+            let Some(groups) = self.left_of(&groups) else { continue };
+            let (size, across) = self.manifold.widest(&patch);
+            if size < FINE || self.is_spent() {
+                return false;
+            }
+            open.extend(patch.halves(across).map(|patch| (patch, Rc::clone(&groups))));
+        }
+        true
+    }
+
+    /// What is known of a patch.
+    pub(super) fn halves(&mut self, OpenPatch { patch, hand, nodes }: OpenPatch) -> PatchOutcome {
+        if self.is_spent() {
+            return PatchOutcome::Unclear;
+        }
+        let Some((map_from_tip, drift)) = self.manifold.over(&patch) else { return PatchOutcome::Done };
+        let tips = Tips::new(map_from_tip, drift);
+        let (size, across) = self.manifold.widest(&patch);
+        self.cover.place_hand(&tips, &mut self.placing);
+        let Some(hand) = self.left_of(&hand) else { return PatchOutcome::Done };
+        let nodes = if size > COARSE {
+            nodes
+        } else {
+            let hold = self.manifold.hold(&patch).filter(|hold| self.is_hand_free(hold, &hand));
+            match (self.cover.family, &hold) {
+                (ArmFamily::Any, Some(_)) => return PatchOutcome::Unclear,
+                // In a smaller patch it may touch throughout.
+                (ArmFamily::Any, None) => nodes,
+                (ArmFamily::Lift(_) | ArmFamily::Parallel(..) | ArmFamily::Seven(..), _) => {
+                    match self.left(&tips, hold.as_ref(), WIDER * size, &nodes) {
+                        Remaining::Nodes(left) if left.is_empty() => return PatchOutcome::Done,
+                        Remaining::Nodes(left) => left.into(),
+                        Remaining::Free(configuration) => match hold {
+                            Some(hold) => return PatchOutcome::Free(Box::new(hold), configuration),
+                            None => return PatchOutcome::Unclear,
+                        },
+                        Remaining::Unclear => return PatchOutcome::Unclear,
+                    }
+                }
+            }
+        };
+        if size < LEAST {
+            return PatchOutcome::Unclear;
+        }
+        PatchOutcome::Halves(patch.halves(across).map(|patch| OpenPatch {
+            patch,
+            hand: Rc::clone(&hand),
+            nodes: Rc::clone(&nodes),
+        }))
+    }
+
+    fn is_spent(&mut self) -> bool {
+        let fewer = self.cells.checked_sub(1);
+        self.cells = fewer.unwrap_or(0);
+        fewer.is_none()
+    }
+
+    /// What of some groups may touch; `None` where something does throughout.
+    fn left_of(&mut self, groups: &Rc<[ContactGroup]>) -> Option<Rc<[ContactGroup]>> {
+        let Self { cover, known, placing, .. } = self;
+        if known.any(|pair| cover.touches(placing, pair, 1.0)) {
+            return None;
+        }
+        fewer(groups, known, |group| cover.left_of(placing, group))
+    }
+
+    /// The same of the robot's parts.
+    fn pair_group(&mut self, pair_groups: &Rc<[PairGroup]>) -> Option<Rc<[PairGroup]>> {
+        let Self { cover, known, placing, .. } = self;
+        fewer(pair_groups, known, |pair_group| cover.pair_group(placing, pair_group))
+    }
+
+    /// Whether the hand alone is free, of what it may touch.
+    fn is_hand_free(&mut self, hold: &GraspCandidate, groups: &[ContactGroup]) -> bool {
+        let tips = Tips::new(hold.map_from_tip, Drift::none());
+        self.cover.place_hand(&tips, &mut self.placing);
+        !self.cover.is_stuck_in_middle(&mut self.placing, groups)
+    }
+
+    /// What is left of some cells: the parts, no larger than the tips are far from each other, of which it is not known that no state is
+    /// free.
+    fn left(
+        &mut self,
+        tips: &Tips,
+        hold: Option<&GraspCandidate>,
+        enough: f64,
+        all: &[CellNode],
+    ) -> Remaining {
+        let mut open: Vec<(CellNode, Option<SplitGain>)> =
+            all.iter().map(|node| (node.clone(), None)).collect();
+        let mut left = Vec::new();
+        while let Some((node, split_gain)) = open.pop() {
+            if self.is_spent() {
+                return Remaining::Unclear;
+            }
+            match self.seen(tips, hold, enough, node, split_gain) {
+                CellOutcome::Closed => {}
+                CellOutcome::Free(configuration) => return Remaining::Free(configuration),
+                CellOutcome::Unclear => return Remaining::Unclear,
+                CellOutcome::OpenPatch(node, split_gain) => {
+                    match self.across(&node.cell, split_gain.as_ref(), enough) {
+                        Some(across) => {
+                            let split_gain = split_gain.map(|split_gain| split_gain.halved(across));
+                            open.extend(node.halves(across).map(|half| (half, split_gain)));
+                        }
+                        None => left.push(node),
+                    }
+                }
+            }
+        }
+        Remaining::Nodes(left)
+    }
+
+    /// What is known of a cell, with what was to blame for it before.
+    fn seen(
+        &mut self,
+        tips: &Tips,
+        hold: Option<&GraspCandidate>,
+        enough: f64,
+        CellNode { cell, groups, pair_groups }: CellNode,
+        split_gain: Option<SplitGain>,
+    ) -> CellOutcome {
+        let stretch = match self.cover.family.over(tips, &cell) {
+            Over::Nothing => return CellOutcome::Closed,
+            Over::Unclear => return CellOutcome::Unclear,
+            Over::Near(stretch) => stretch,
+        };
+        self.cover.place(&stretch, &mut self.placing);
+        // What will close its parts soon needs no look at anything else.
+        if let Some(split_gain) = split_gain
+            && self.cover.closes(&mut self.placing, &stretch, split_gain.split_cause, TRUSTED)
+        {
+            return match split_gain.split_cause {
+                SplitCause::BodyPair(pair) if self.cover.touches(&mut self.placing, pair, 1.0) => {
+                    CellOutcome::Closed
+                }
+                // Of joints and the arm's length all is told already, with what rounding may take.
+                SplitCause::BodyPair(_) | SplitCause::Joint(_) | SplitCause::Short => {
+                    CellOutcome::OpenPatch(CellNode { cell, groups, pair_groups }, Some(split_gain))
+                }
+            };
+        }
+        let Some(groups) = self.left_of(&groups) else { return CellOutcome::Closed };
+        let Some(pair_groups) = self.pair_group(&pair_groups) else { return CellOutcome::Closed };
+        let (size, _) = widest(&self.sizes(&cell));
+        if size.max(enough) < SMALL
+            && let Some(hold) = hold
+            && !self.cover.is_stuck_in_middle(&mut self.placing, &groups)
+            && !self.cover.is_folded_in_middle(&mut self.placing, &pair_groups)
+            && let Some(configuration) = self.free_in(&hold.map_from_tip, &stretch, &cell)
+        {
+            return CellOutcome::Free(configuration);
+        }
+        let Self { cover, placing, aside, .. } = self;
+        let known = split_gain
+            .filter(|split_gain| cover.closes(placing, &stretch, split_gain.split_cause, split_gain.share));
+        let split_gain = known.or_else(|| {
+            let (split_cause, share) = cover.split_cause(placing, &stretch, &groups, &pair_groups)?;
+            Some(cover.split_gain(aside, tips, &cell, split_cause, share))
+        });
+        CellOutcome::OpenPatch(CellNode { cell, groups, pair_groups }, split_gain)
+    }
+
+    /// Across which parameter a cell is to be cut; nothing where the patch is.
+    fn across(&self, cell: &Cell, split_gain: Option<&SplitGain>, enough: f64) -> Option<usize> {
+        let sizes = self.sizes(cell);
+        let (size, wide) = widest(&sizes);
+        let Some(split_gain) = split_gain.filter(|split_gain| split_gain.tells()) else {
+            return (size >= enough.max(LEAST)).then_some(wide);
+        };
+        let (off, across) = widest(&split_gain.cell);
+        if off < split_gain.patch {
+            // Nor is a cell so much larger than its patch that others could be to blame.
+            return (size >= (SLIM * enough).max(LEAST)).then_some(wide);
+        }
+        match sizes.get(across) {
+            Some(own) if own * SLIM >= size => (size >= LEAST).then_some(across),
+            Some(_) | None => (size >= enough.max(LEAST)).then_some(wide),
+        }
+    }
+
+    /// How far something goes for the half of each side of a cell, about, in m.
+    fn sizes(&self, cell: &Cell) -> [f64; 3] {
+        let weights = self.cover.family.weights();
+        std::array::from_fn(|at: usize| {
+            weights.get(at).zip(cell.half.get(at)).map_or(0.0, |(weight, half)| weight * half)
+        })
+    }
+
+    /// A free state in the middle of a cell, or with the base there.
+    fn free_in(&self, tip: &Isometry3<f64>, stretch: &Stretch, cell: &Cell) -> Option<Configuration> {
+        let CellModel { checker, hand, family, allowed, .. } = &self.cover;
+        let context = checker.context;
+        let configurations: Vec<_> = match family {
+            ArmFamily::Lift(arm) => {
+                let [yaw, shoulder, _] = cell.middle;
+                let placed = arm.solve(tip, yaw, shoulder).into_iter();
+                placed.map(|placed| context.with(hand, placed.base, &placed.values)).collect()
+            }
+            ArmFamily::Parallel(arm, _) => {
+                let found = arm.solve(&(context.map_from_base(stretch.base).inverse() * tip)).into_iter();
+                found.map(|values| context.with(hand, stretch.base, &values)).collect()
+            }
+            ArmFamily::Seven(arm, map_from_base, base) => {
+                let [last, ..] = cell.middle;
+                let found = arm.solve(&(map_from_base.inverse() * tip), last).into_iter();
+                found.map(|values| context.with(hand, *base, &values)).collect()
+            }
+            ArmFamily::Any => vec![],
+        };
+        configurations.into_iter().find(|configuration| checker.contact(configuration, *allowed).is_none())
+    }
+}
+
+/// What is known of a cell.
+enum CellOutcome {
+    /// No state is free.
+    Closed,
+    /// One is.
+    Free(Configuration),
+    /// It cannot be told.
+    Unclear,
+    /// Not as much, with what may touch, and what is to blame for that, if something is.
+    OpenPatch(CellNode, Option<SplitGain>),
+}
+
+/// What is left of cells.
+enum Remaining {
+    Nodes(Vec<CellNode>),
+    Free(Configuration),
+    Unclear,
+}
+
+/// What is left of each of some; `None`, with what it is noted, where something touches throughout.
+fn fewer<T: Clone>(
+    all: &Rc<[T]>,
+    known: &mut RecentPairs,
+    mut left_of: impl FnMut(&T) -> Result<Option<T>, BodyPair>,
+) -> Option<Rc<[T]>> {
+    let mut left: Option<Vec<T>> = None;
+    for (one, at) in all.iter().zip(0..) {
+        match left_of(one) {
+            Ok(None) => {}
+            Ok(Some(fewer)) => {
+                let left = left.get_or_insert_with(|| all.to_vec());
+                left.get_mut(at).into_iter().for_each(|slot| *slot = fewer.clone());
+            }
+            Err(pair) => {
+                known.add(pair);
+                return None;
+            }
+        }
+    }
+    Some(left.map_or_else(|| Rc::clone(all), Into::into))
+}
+
+/// Pairs that touched lately; those that did often stand at the end.
+#[derive(Default)]
+struct RecentPairs(Vec<BodyPair>);
+
+impl RecentPairs {
+    fn add(&mut self, pair: BodyPair) {
+        if self.0.len() == KNOWN {
+            self.0.remove(0);
+        }
+        self.0.push(pair);
+    }
+
+    /// Whether one of them is so.
+    fn any(&mut self, mut is: impl FnMut(BodyPair) -> bool) -> bool {
+        let Some(at) = self.0.iter().rposition(|pair| is(*pair)) else { return false };
+        let next = (at + 1).min(self.0.len() - 1);
+        self.0.swap(at, next);
+        true
+    }
+}

@@ -1,0 +1,5 @@
+//! Infeasibility certificates.
+
+pub(crate) mod area_cover;
+pub(crate) mod deflate;
+pub(crate) mod infeasibility;

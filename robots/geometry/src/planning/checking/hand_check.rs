@@ -1,0 +1,184 @@
+//! The hand alone at a pose: what it touches there is in the way of every arm.
+
+use std::cell::{OnceCell, RefCell};
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+use smol_str::SmolStr;
+
+use crate::collision::Solid;
+use crate::lanes::{Against, Figure, Look, Met, Posed, Slab, Slabs};
+use crate::planning::checking::collision_checker::{above_floor, is_touching};
+use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::contact::{AllowedCollisions, Contact};
+use crate::planning::scene::grid_index::Obstacle;
+use crate::planning::scene::robot_model::HandModel;
+use crate::planning::search::context::QueryContext;
+
+/// An open hand without its arm, and what is near the thing that it goes around.
+pub(crate) struct HandChecker<'r, 'w> {
+    context: &'r QueryContext<'w>,
+    /// What is in the hand may touch this entity.
+    beneath: Option<usize>,
+    parts: Vec<HandPart>,
+    obstacles: Vec<Obstacle>,
+    /// A place in the middle of the poses.
+    middle: Vector3<f64>,
+    /// The same for a quick look, seen from there; made when it is first asked for.
+    quick: OnceCell<Option<(Figure, Slabs)>>,
+    posed: RefCell<Posed>,
+}
+
+/// A part of the hand, or what it holds.
+struct HandPart {
+    link: usize,
+    is_held: bool,
+    /// In the tip's frame.
+    solid: Solid,
+    reach: f64,
+}
+
+impl<'w> QueryContext<'w> {
+    /// The hand with its tip at any of some poses; `allowed` may be touched.
+    pub(crate) fn palm(
+        &self,
+        hand: &HandModel,
+        tips: &[Isometry3<f64>],
+        allowed: AllowedCollisions,
+    ) -> HandChecker<'_, 'w> {
+        let joints = &self.state.robot.joints;
+        // Around something the fingers stay as they are.
+        let joints = if self.state.held.is_some() { joints.clone() } else { hand.opened(joints) };
+        let poses = self.model.tree().root_from_links(&joints);
+        let tip_from_root = poses.get(hand.tip).map(Isometry3::inverse).unwrap_or_default();
+        let parts = self.body.parts().iter().zip(0..);
+        let parts = parts.filter(|(part, _)| hand.members.get(part.link) == Some(&true));
+        let parts = parts.filter_map(|(part, at)| {
+            let solid = part.solid.moved(&(tip_from_root * poses.get(part.link)?));
+            Some(HandPart { link: part.link, is_held: self.held == Some(at), solid, reach: solid.reach() })
+        });
+        let parts: Vec<HandPart> = parts.collect();
+        // The tip is this near to the middle of the poses, and a part reaches so far from the tip.
+        let places = tips.iter().map(|tip| tip.translation.vector);
+        let centre = places.clone().sum::<Vector3<f64>>() / (tips.len().max(1) as f64);
+        let far = places.map(|place| (place - centre).norm()).fold(0.0, f64::max);
+        let reach = parts.iter().map(|own| own.solid.centre.norm() + own.reach).fold(0.0, f64::max);
+        let far = far + reach + MIN_CLEARANCE;
+        let near = self.obstacles.near([centre.x, centre.y], far).filter(|(_, obstacle)| {
+            let wide = far + obstacle.reach;
+            allowed.hand != Some(obstacle.entity)
+                && (obstacle.solid.centre - centre).norm_squared() <= wide * wide
+        });
+        let obstacles: Vec<Obstacle> = near.map(|(_, obstacle)| *obstacle).collect();
+        let middle = Vector3::new(centre.x, centre.y, 0.0);
+        HandChecker {
+            context: self,
+            beneath: allowed.held,
+            parts,
+            obstacles,
+            middle,
+            quick: OnceCell::new(),
+            posed: RefCell::default(),
+        }
+    }
+}
+
+impl HandChecker<'_, '_> {
+    /// What it touches at some poses, at most eight.
+    pub(crate) fn contacts(&self, map_from_tips: &[Isometry3<f64>]) -> Vec<Option<Contact>> {
+        let Some(near) = self.near(map_from_tips) else {
+            return map_from_tips.iter().map(|tip| self.contact(tip)).collect();
+        };
+        let contact = |(tip, lane): (&Isometry3<f64>, usize)| {
+            let sure = near.iter().find(|met| met.sure >> lane & 1 == 1);
+            let mut near = near.iter().filter(|met| met.still >> lane & 1 == 1);
+            sure.or_else(|| near.find(|met| self.is_touching(met, tip))).and_then(|met| self.told(met))
+        };
+        map_from_tips.iter().zip(0..).map(contact).collect()
+    }
+
+    /// `None` where something is too large, or has no box and is known to be apart from nothing.
+    fn quick(&self) -> Option<&(Figure, Slabs)> {
+        let place = [self.middle.x, self.middle.y];
+        let make = || {
+            let slabs =
+                self.obstacles.iter().map(|obstacle| Slab::new(obstacle.entity, &obstacle.solid, place));
+            let slabs = slabs.collect::<Option<Slabs>>()?;
+            Some((Figure::rigid(self.parts.iter().map(|own| &own.solid))?, slabs))
+        };
+        self.quick.get_or_init(make).as_ref()
+    }
+
+    /// The pairs that are near each other at some poses; `None` where it cannot be told this way.
+    fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<Met>> {
+        let (figure, slabs) = self.quick()?;
+        let seen = |tip: &Isometry3<f64>| {
+            Isometry3::from_parts(Translation3::from(tip.translation.vector - self.middle), tip.rotation)
+        };
+        let eight = figure.at(&map_from_tips.iter().map(seen).collect::<Vec<_>>())?;
+        let counts = |part: usize, entity: Option<usize>| {
+            self.parts.get(part).is_some_and(|own| entity.is_none() || !own.is_held || self.beneath != entity)
+        };
+        let look = Look {
+            figure,
+            eight: &eight,
+            slabs,
+            gaps: [MIN_CLEARANCE as f32; 8],
+            is_own: false,
+            is_first: true,
+            pairs: None,
+            posed: &mut self.posed.borrow_mut(),
+            counts,
+        };
+        Some(look.met())
+    }
+
+    /// Whether a part touches something at a pose.
+    fn is_touching(&self, met: &Met, map_from_tip: &Isometry3<f64>) -> bool {
+        let Some(own) = self.parts.get(met.pair.part) else { return false };
+        let solid = own.solid.moved(map_from_tip);
+        match met.pair.against {
+            Against::Slab(at) => self
+                .obstacles
+                .get(at)
+                .is_some_and(|obstacle| is_touching(&solid, own.reach, &obstacle.solid, obstacle.reach)),
+            Against::Floor => above_floor(&solid) <= MIN_CLEARANCE,
+            Against::Part(..) => false,
+        }
+    }
+
+    /// What is told of a pair that touches.
+    fn told(&self, met: &Met) -> Option<Contact> {
+        let own = self.parts.get(met.pair.part)?;
+        match met.pair.against {
+            Against::Slab(at) => {
+                Some(self.contact_of(own, self.context.name(self.obstacles.get(at)?.entity)))
+            }
+            Against::Floor => Some(self.contact_of(own, "floor".into())),
+            Against::Part(..) => None,
+        }
+    }
+
+    fn contact_of(&self, own: &HandPart, other: SmolStr) -> Contact {
+        let link = self.context.model.tree().links().get(own.link).cloned().unwrap_or_default();
+        Contact { link, other, is_own: false }
+    }
+
+    /// What it touches.
+    pub(crate) fn contact(&self, map_from_tip: &Isometry3<f64>) -> Option<Contact> {
+        for own in &self.parts {
+            let solid = own.solid.moved(map_from_tip);
+            for obstacle in &self.obstacles {
+                if own.is_held && self.beneath == Some(obstacle.entity) {
+                    continue;
+                }
+                if is_touching(&solid, own.reach, &obstacle.solid, obstacle.reach) {
+                    return Some(self.contact_of(own, self.context.name(obstacle.entity)));
+                }
+            }
+            if above_floor(&solid) <= MIN_CLEARANCE {
+                return Some(self.contact_of(own, "floor".into()));
+            }
+        }
+        None
+    }
+}

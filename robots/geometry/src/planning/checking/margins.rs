@@ -1,0 +1,95 @@
+//! Room to spare along a path.
+
+use crate::lanes::Met;
+use crate::planning::checking::collision_checker::CollisionChecker;
+use crate::planning::query::answer::Margins;
+use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::contact::AllowedCollisions;
+use crate::planning::search::context::QueryContext;
+use crate::planning::search::path::plane;
+
+/// Clearances within which something is looked for first, in m, and then.
+const NEARBY: [[f32; 8]; 2] =
+    [[0.003, 0.005, 0.007, 0.01, 0.013, 0.017, 0.022, 0.03], [0.04, 0.05, 0.065, 0.08, 0.1, 0.13, 0.16, 0.2]];
+
+impl<'w> QueryContext<'w> {
+    /// All that may be within `metres` of the robot in some states.
+    pub(crate) fn all_around(
+        &self,
+        configurations: &[Configuration],
+        metres: f64,
+    ) -> CollisionChecker<'_, 'w> {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for configuration in configurations {
+            for ((low, high), at) in low.iter_mut().zip(&mut high).zip(plane(configuration)) {
+                (*low, *high) = (low.min(at), high.max(at));
+            }
+        }
+        let [wide, deep] = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
+        self.around([low[0] + wide, low[1] + deep], libm::hypot(wide, deep) + metres + 1e-6)
+    }
+}
+
+impl QueryContext<'_> {
+    /// Room to spare along a path.
+    pub(crate) fn margins(&self, path: &[Configuration], allowed: AllowedCollisions) -> Margins {
+        let [x, y] = path.last().map_or([0.0; 2], plane);
+        self.around([x, y], 1.0).margins(path, allowed)
+    }
+}
+
+impl CollisionChecker<'_, '_> {
+    /// Room to spare along a path, at its way-points and half-way between them.
+    pub(crate) fn margins(&self, path: &[Configuration], allowed: AllowedCollisions) -> Margins {
+        // The last states are where it is tightest, most often: after them little is looked at closely.
+        let mut clearance = path.last().map_or(1.0, |last| self.clearance_of(last, allowed));
+        let mut configurations: Vec<Configuration> = Vec::with_capacity(2 * path.len());
+        for pair in path.windows(2).rev() {
+            let [one, other] = pair else { continue };
+            configurations.extend([one.towards(other, 0.5), one.clone()]);
+        }
+        for configurations in configurations.chunks(8) {
+            let checker = self.context.all_around(configurations, clearance);
+            let all: Vec<&Configuration> = configurations.iter().collect();
+            // Rounded up.
+            let metres = (clearance * (1.0 + 1e-6)) as f32;
+            let near = checker.within(&all, allowed, [metres; 8]);
+            for (configuration, lane) in configurations.iter().zip(0..) {
+                clearance = match &near {
+                    Some(near) => checker.clearance_among(configuration, in_lane(near, lane), clearance),
+                    None => checker.clearance(configuration, allowed, clearance),
+                };
+            }
+        }
+        let variables = self.context.model.tree().variables().iter();
+        // An open hand is at its limit by intent.
+        let hand = self.context.model.hand();
+        let is_finger = |at: usize| hand.is_some_and(|hand| hand.open.iter().any(|(own, _)| *own == at));
+        let ends = path.first().zip(path.last());
+        let rooms = ends.into_iter().flat_map(|(first, last)| {
+            let values = first.joints.iter().zip(&last.joints).zip(variables.clone()).zip(0..);
+            let moved = values.filter(|(((before, after), _), at)| before != after && !is_finger(*at));
+            moved.map(|(((_, after), known), _)| known.room(*after))
+        });
+        Margins { clearance, limit: rooms.reduce(f64::min), payload: None }
+    }
+
+    /// The clearance of a state, looked for nearby first.
+    fn clearance_of(&self, configuration: &Configuration, allowed: AllowedCollisions) -> f64 {
+        for nearby in NEARBY {
+            let Some(near) = self.within(&[configuration], allowed, nearby) else { break };
+            for (metres, lane) in nearby.into_iter().map(f64::from).zip(0..) {
+                let found = self.clearance_among(configuration, in_lane(&near, lane), metres);
+                if found < metres {
+                    return found;
+                }
+            }
+        }
+        self.clearance_at(configuration, allowed, 1.0)
+    }
+}
+
+/// The pairs that may be near in one of eight states.
+fn in_lane(near: &[Met], lane: usize) -> impl Iterator<Item = &Met> {
+    near.iter().filter(move |near| near.still >> lane & 1 == 1)
+}

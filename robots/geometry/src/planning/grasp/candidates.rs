@@ -1,0 +1,229 @@
+//! How a thing can be held: poses of the hand's tip, from the shape of the thing and the opening of the hand.
+//!
+//! The fingers close across the thing on a line through its axis or its centre; its near face is as close to the palm as it can
+//! be, but no nearer than where its centre is between the finger tips.
+
+use std::f64::consts::{FRAC_PI_6, TAU};
+
+use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
+
+use crate::collision::{Shape, Solid};
+use crate::planning::query::answer::GraspSide;
+use crate::planning::scene::robot_model::HandModel;
+use crate::trigonometry::{sin_cos, turn};
+
+/// How far the fingers have to reach along a thing with flat faces, in m.
+pub(crate) const GRIP: f64 = 0.01;
+/// How far they may stay behind the widest place of a round thing, as a share of its radius: the sine of the angle of friction
+/// of rubber on most things, with some to spare.
+pub(crate) const SHORT: f64 = 0.35;
+
+/// What points down more than this comes from above: the cosine of 35°.
+pub(crate) const TOP: f64 = -0.819;
+
+/// A pose of the hand.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct GraspCandidate {
+    pub(crate) map_from_tip: Isometry3<f64>,
+    /// The direction in which the fingers point.
+    pub(crate) approach: Vector3<f64>,
+    pub(crate) side: GraspSide,
+    pub(crate) width: f64,
+}
+
+/// Every pose that is considered, in a fixed order, and the least width across which the thing could be held.
+pub(crate) fn grasp_candidates(
+    hand: &HandModel,
+    object: &Solid,
+    side: Option<GraspSide>,
+    base: [f64; 3],
+) -> (Vec<GraspCandidate>, f64) {
+    let mut found = CandidateList { hand, object, holds: vec![], least: f64::INFINITY };
+    let [x, _, z] = object.axes;
+    match object.shape {
+        Shape::Box(half) => found.of_box(&half),
+        Shape::Cylinder { radius, half } => {
+            found.around(&z, radius, half);
+            // By its rim, across its height: so is a plate held.
+            for step in 0..16 {
+                let out = turn(&Unit::new_normalize(z), TAU * f64::from(step) / 16.0) * x;
+                found.add(&-out, &z, 2.0 * half, FingerContact::Flat);
+                found.add(&-out, &-z, 2.0 * half, FingerContact::Flat);
+            }
+        }
+        Shape::Capsule { radius, half } if half > 0.0 => found.around(&z, radius, half),
+        Shape::Capsule { radius, .. } => found.around(&Vector3::z(), radius, 0.0),
+        Shape::HalfSpace => {}
+    }
+    let [base_x, base_y, _] = base;
+    let ahead = [object.centre.x - base_x, object.centre.y - base_y];
+    let (least, mut holds) = (found.least, found.holds);
+    holds.retain(|hold| match side {
+        None => true,
+        Some(GraspSide::Top) => hold.side == GraspSide::Top,
+        Some(GraspSide::Side) => hold.side != GraspSide::Top,
+        Some(GraspSide::Front) => hold.side != GraspSide::Top && is_ahead(&hold.approach, ahead),
+    });
+    (holds, least)
+}
+
+/// Whether fingers point within 45° of a direction in the plane.
+pub(crate) fn is_ahead(approach: &Vector3<f64>, [x, y]: [f64; 2]) -> bool {
+    let flat = libm::hypot(approach.x, approach.y);
+    approach.x * x + approach.y * y >= std::f64::consts::FRAC_1_SQRT_2 * flat * libm::hypot(x, y)
+}
+
+/// What the fingers meet.
+#[derive(Clone, Copy, PartialEq)]
+enum FingerContact {
+    /// It is widest at its centre.
+    Round,
+    /// It is as wide all along.
+    Flat,
+}
+
+/// Fingers that go around a thing, wherever along it they do.
+struct FingerPlacement {
+    approach: Vector3<f64>,
+    along: Vector3<f64>,
+    width: f64,
+    side: GraspSide,
+    /// How far the centre is from the tip, and how far it may be from above.
+    depth: f64,
+    shallow: Option<f64>,
+    rotation: UnitQuaternion<f64>,
+}
+
+struct CandidateList<'a> {
+    hand: &'a HandModel,
+    object: &'a Solid,
+    holds: Vec<GraspCandidate>,
+    least: f64,
+}
+
+impl CandidateList<'_> {
+    /// Around an axis, level and bent down towards its lower end, and along it from either end.
+    fn around(&mut self, axis: &Vector3<f64>, radius: f64, half: f64) {
+        // Downwards, where the axis stands.
+        let down = if axis.z > 0.0 { -axis } else { *axis };
+        let square = if axis.z.abs() < 0.9 { axis.cross(&Vector3::z()) } else { axis.cross(&Vector3::y()) };
+        let first = square.normalize();
+        let ball = half == 0.0;
+        let heights: &[f64] = if half > 0.03 { &[0.0, 0.5, -0.5] } else { &[0.0] };
+        let about = Unit::new_normalize(*axis);
+        let outs: Vec<Vector3<f64>> =
+            (0..16).map(|step| turn(&about, TAU * f64::from(step) / 16.0) * first).collect();
+        for (sin, cos) in [0.0, FRAC_PI_6, 2.0 * FRAC_PI_6].map(sin_cos) {
+            for out in &outs {
+                let approach = down * sin - out * cos;
+                let along = axis.cross(out);
+                // Bent, the fingers still close across the axis, and meet it where it is widest.
+                let ways = [along, -along]
+                    .map(|along| self.way(&approach, &along, 2.0 * radius, FingerContact::Round));
+                for height in heights {
+                    ways.iter().flatten().for_each(|way| self.hold(way, axis * (half * height)));
+                }
+            }
+        }
+        for along in &outs {
+            let grip = if ball { FingerContact::Round } else { FingerContact::Flat };
+            self.add(&down, along, 2.0 * radius, grip);
+        }
+    }
+
+    fn of_box(&mut self, half: &Vector3<f64>) {
+        let axes: Vec<(Vector3<f64>, f64)> =
+            self.object.axes.iter().copied().zip(half.iter().copied()).collect();
+        for (at, (along, wide)) in axes.iter().enumerate() {
+            for (other, (approach, _)) in axes.iter().enumerate() {
+                if other == at {
+                    continue;
+                }
+                let third = axes.iter().enumerate().find(|(third, _)| *third != at && *third != other);
+                let shifts = third.map_or(vec![0.0], |(_, (_, half))| {
+                    if *half > 0.04 { vec![0.0, half * 0.5, half * -0.5] } else { vec![0.0] }
+                });
+                let direction = third.map_or(Vector3::zeros(), |(_, (axis, _))| *axis);
+                let ways =
+                    [(*approach, *along), (*approach, -along), (-approach, *along), (-approach, -along)].map(
+                        |(approach, along)| self.way(&approach, &along, 2.0 * wide, FingerContact::Flat),
+                    );
+                for shift in shifts {
+                    ways.iter().flatten().for_each(|way| self.hold(way, direction * shift));
+                }
+            }
+        }
+    }
+
+    /// Around its middle.
+    fn add(&mut self, approach: &Vector3<f64>, along: &Vector3<f64>, width: f64, grip: FingerContact) {
+        if let Some(way) = self.way(approach, along, width, grip) {
+            self.hold(&way, Vector3::zeros());
+        }
+    }
+
+    /// Fingers that point along `approach` and close along `along`; `None` where they do not go around the thing.
+    fn way(
+        &mut self,
+        approach: &Vector3<f64>,
+        along: &Vector3<f64>,
+        width: f64,
+        grip: FingerContact,
+    ) -> Option<FingerPlacement> {
+        // From below there is no way for a hand.
+        if approach.z > 0.5 {
+            return None;
+        }
+        self.least = self.least.min(width);
+        if width > self.hand.card.opening_m {
+            return None;
+        }
+        let half = match grip {
+            FingerContact::Flat => self.object.extent(approach),
+            // Bent towards a long thing the palm meets its side, not its end.
+            FingerContact::Round => {
+                (width / 2.0).max(self.object.extent(approach).min(self.side_extent(approach)))
+            }
+        };
+        let depth = (self.hand.palm + half).max(0.0);
+        // How far the centre may be from the tip at most, so that the fingers still hold.
+        let most = match grip {
+            FingerContact::Round => self.hand.fingers + SHORT * width / 2.0,
+            FingerContact::Flat => self.hand.fingers + half - GRIP.min(half),
+        };
+        if depth > most {
+            return None;
+        }
+        let side = if approach.z < TOP { GraspSide::Top } else { GraspSide::Side };
+        // From above the finger tips may have to stay above what the thing stands on.
+        let shallow = (side == GraspSide::Top && most > depth + 0.005).then_some(most);
+        let rotation = self.hand.turned(approach, along);
+        Some(FingerPlacement { approach: *approach, along: *along, width, side, depth, shallow, rotation })
+    }
+
+    /// Around a place so far from its middle.
+    fn hold(&mut self, way: &FingerPlacement, shift: Vector3<f64>) {
+        let FingerPlacement { approach, along, width, side, rotation, .. } = *way;
+        for depth in [way.depth].into_iter().chain(way.shallow) {
+            let at = self.object.centre + shift - approach * depth - along * self.hand.middle(width);
+            let map_from_tip = Isometry3::from_parts(Translation3::from(at), rotation);
+            self.holds.push(GraspCandidate { map_from_tip, approach, side, width });
+        }
+    }
+
+    /// How far the thing extends against a direction on the line through its middle.
+    fn side_extent(&self, approach: &Vector3<f64>) -> f64 {
+        let [_, _, z] = &self.object.axes;
+        match self.object.shape {
+            Shape::Cylinder { radius, half } | Shape::Capsule { radius, half } => {
+                let along = approach.dot(z).abs();
+                let aside = (1.0 - along * along).max(0.0).sqrt();
+                let out = if aside > 1e-9 { radius / aside } else { f64::INFINITY };
+                let end = if along > 1e-9 { half / along } else { f64::INFINITY };
+                // A ball, and a round end, are met sooner than a flat one.
+                if half > 0.0 { out.min(end) } else { radius }
+            }
+            Shape::Box(_) | Shape::HalfSpace => self.object.extent(approach),
+        }
+    }
+}

@@ -1,0 +1,427 @@
+//! All ways to hold a thing, and not only those that a search goes through: families of poses of the hand with up to four parameters,
+//! which a proof that there is no way has to cover. What makes a pose a grasp is what does in `grasp`.
+
+use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
+
+use nalgebra::{Isometry3, Translation3, Unit, Vector3};
+
+use crate::collision::{Shape, Solid};
+use crate::inverse::family::Drift;
+use crate::planning::grasp::candidates::{GRIP, GraspCandidate, SHORT, TOP, is_ahead};
+use crate::planning::query::answer::GraspSide;
+use crate::planning::scene::robot_model::HandModel;
+use crate::trigonometry::{atan2, sin_cos, turn, wrapped};
+
+/// What rounding may take of an angle or a length.
+const SLACK: f64 = 1e-6;
+
+/// How far behind the palm an arm's wrist is, about, in m.
+const WRIST: f64 = 0.25;
+
+/// The ways to hold a thing with a hand.
+pub(crate) struct GraspManifold<'a> {
+    hand: &'a HandModel,
+    object: Solid,
+    side: Option<GraspSide>,
+    /// From the base to the thing, in the plane.
+    ahead: [f64; 2],
+    slots: Vec<GraspFamily>,
+}
+
+/// A part of the poses of a family.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GraspPatch {
+    slot: usize,
+    /// The angle about the thing's axis, how far the fingers are bent down, where along the thing in −1..=1, and how far from as deep as
+    /// can be to as shallow as can be.
+    middle: [f64; 4],
+    half: [f64; 4],
+}
+
+/// A family of poses.
+#[derive(Clone, Copy)]
+struct GraspFamily {
+    kind: FamilyKind,
+    width: f64,
+    /// Along which the place goes, and how far.
+    along: Vector3<f64>,
+    low: [f64; 4],
+    high: [f64; 4],
+    /// Whether poses are from above; `None` where some are.
+    is_top: Option<bool>,
+}
+
+#[derive(Clone, Copy)]
+enum FamilyKind {
+    /// Around an axis from its side: downwards along it, and a direction square to it; closing to one side or the other.
+    Around { down: Vector3<f64>, first: Vector3<f64>, sign: f64 },
+    /// Along an axis, turned about it.
+    End { down: Vector3<f64>, first: Vector3<f64>, is_round: bool },
+    /// From the side of a disc, across its height.
+    Rim { first: Vector3<f64>, across: Vector3<f64> },
+    /// Straight.
+    Flat { approach: Vector3<f64>, across: Vector3<f64> },
+    /// Around a bar before a face, which faces outwards: so deep, closing to one side or the other.
+    Bar { along: Vector3<f64>, out: Vector3<f64>, depth: f64, sign: f64 },
+}
+
+impl<'a> GraspManifold<'a> {
+    /// The ways to hold a thing from a side, with the base where it is.
+    pub(crate) fn new(
+        hand: &'a HandModel,
+        object: &Solid,
+        side: Option<GraspSide>,
+        [x, y, _]: [f64; 3],
+    ) -> Self {
+        let ahead = [object.centre.x - x, object.centre.y - y];
+        let mut manifold = Self { hand, object: *object, side, ahead, slots: vec![] };
+        let [x, _, z] = object.axes;
+        match object.shape {
+            Shape::Box(half) => manifold.of_box(&half),
+            Shape::Cylinder { radius, half } => {
+                manifold.around(&z, radius, half);
+                for across in [z, -z] {
+                    manifold.add(FamilyKind::Rim { first: x, across }, 2.0 * half, [PI, 0.0, 0.0], None);
+                }
+            }
+            Shape::Capsule { radius, half } if half > 0.0 => manifold.around(&z, radius, half),
+            Shape::Capsule { radius, .. } => manifold.around(&Vector3::z(), radius, 0.0),
+            Shape::HalfSpace => {}
+        }
+        manifold
+    }
+
+    /// The ways to hold a bar, a capsule, before a face that faces outwards: turned about it by no more than `about`, so deep, and
+    /// no farther than a share of its half length from its middle.
+    pub(crate) fn of_bar(
+        hand: &'a HandModel,
+        bar: &Solid,
+        out: Vector3<f64>,
+        depth: f64,
+        [about, share]: [f64; 2],
+    ) -> Self {
+        let [.., along] = bar.axes;
+        let (half, width) = match bar.shape {
+            Shape::Capsule { radius, half } => (half, 2.0 * radius),
+            Shape::Box(_) | Shape::Cylinder { .. } | Shape::HalfSpace => (0.0, 0.0),
+        };
+        let slot = |sign| GraspFamily {
+            kind: FamilyKind::Bar { along, out, depth, sign },
+            width,
+            along: along * (half * share),
+            low: [-about, 0.0, -1.0, 0.0],
+            high: [about, 0.0, 1.0, 0.0],
+            is_top: None,
+        };
+        Self { hand, object: *bar, side: None, ahead: [0.0; 2], slots: vec![slot(1.0), slot(-1.0)] }
+    }
+
+    fn around(&mut self, axis: &Vector3<f64>, radius: f64, half: f64) {
+        let down = if axis.z > 0.0 { -axis } else { *axis };
+        let square = if axis.z.abs() < 0.9 { axis.cross(&Vector3::z()) } else { axis.cross(&Vector3::y()) };
+        let first = square.normalize();
+        let along = if half > 0.03 { axis * (half * 0.5) } else { Vector3::zeros() };
+        let places = if half > 0.03 { 1.0 } else { 0.0 };
+        for sign in [1.0, -1.0] {
+            let kind = FamilyKind::Around { down, first, sign };
+            let spans = [PI, FRAC_PI_3, places];
+            self.add(kind, 2.0 * radius, spans, Some(along));
+        }
+        let kind = FamilyKind::End { down, first, is_round: half == 0.0 };
+        self.add(kind, 2.0 * radius, [PI, 0.0, 0.0], None);
+    }
+
+    fn of_box(&mut self, half: &Vector3<f64>) {
+        let [x, y, z] = self.object.axes;
+        let axes = [(x, half.x), (y, half.y), (z, half.z)];
+        for (at, (across, wide)) in axes.iter().enumerate() {
+            for (other, (approach, _)) in axes.iter().enumerate() {
+                let third = axes.iter().enumerate().find(|(third, _)| *third != at && *third != other);
+                let Some((_, (direction, long))) = third.filter(|_| other != at) else { continue };
+                let places = if *long > 0.04 { 1.0 } else { 0.0 };
+                for (approach, across) in
+                    [(*approach, *across), (*approach, -across), (-approach, *across), (-approach, -across)]
+                {
+                    let along = Some(direction * (long * 0.5));
+                    self.add(FamilyKind::Flat { approach, across }, 2.0 * wide, [0.0, 0.0, places], along);
+                }
+            }
+        }
+    }
+
+    /// Adds a family whose angle about the axis goes so far to both sides, whose fingers are bent so far down, and whose place goes so
+    /// far to both sides.
+    fn add(
+        &mut self,
+        kind: FamilyKind,
+        width: f64,
+        [about, bend, places]: [f64; 3],
+        along: Option<Vector3<f64>>,
+    ) {
+        if width > self.hand.card.opening_m {
+            return;
+        }
+        let along = along.unwrap_or_default();
+        let whole = GraspFamily {
+            kind,
+            width,
+            along,
+            low: [-about, 0.0, -places, 0.0],
+            high: [about, bend, places, 1.0],
+            is_top: None,
+        };
+        let is_upright = |axis: &Vector3<f64>| axis.z.abs() > 1.0 - 1e-9;
+        let level = |slot: GraspFamily| GraspFamily {
+            high: [about, slot.high[1], places, 0.0],
+            is_top: Some(false),
+            ..slot
+        };
+        match kind {
+            FamilyKind::Around { down, .. } if is_upright(&down) => {
+                // From where on they come from above.
+                let bent = libm::asin(-TOP);
+                let [_, most, ..] = whole.high;
+                let side = GraspFamily { high: [about, (bent + SLACK).min(most), places, 1.0], ..whole };
+                self.slots.push(level(side));
+                if bent < most {
+                    let low = [-about, bent - SLACK, -places, 0.0];
+                    self.slots.push(GraspFamily { low, is_top: Some(true), ..whole });
+                }
+            }
+            FamilyKind::Around { .. } => self.slots.push(whole),
+            FamilyKind::Rim { across, .. } if is_upright(&across) => self.slots.push(level(whole)),
+            FamilyKind::Rim { .. } => self.slots.push(whole),
+            FamilyKind::Bar { .. } => self.slots.push(whole),
+            FamilyKind::End { down: approach, .. } | FamilyKind::Flat { approach, .. } => {
+                if approach.z < TOP {
+                    self.slots.push(GraspFamily { is_top: Some(true), ..whole });
+                } else {
+                    self.slots.push(level(whole));
+                }
+            }
+        }
+    }
+
+    /// Patches that hold all poses.
+    pub(crate) fn patches(&self) -> Vec<GraspPatch> {
+        let slots = self.slots.iter().zip(0..).filter(|(slot, _)| match self.side {
+            None => true,
+            Some(GraspSide::Top) => slot.is_top != Some(false),
+            Some(GraspSide::Side | GraspSide::Front) => slot.is_top != Some(true),
+        });
+        let patches = slots.map(|(GraspFamily { low, high, .. }, slot)| {
+            let each = |of: fn(f64, f64) -> f64| {
+                std::array::from_fn(|at: usize| {
+                    low.get(at).zip(high.get(at)).map_or(0.0, |(low, high)| of(*low, *high))
+                })
+            };
+            GraspPatch {
+                slot,
+                middle: each(|low, high| (low + high) / 2.0),
+                half: each(|low, high| (high - low) / 2.0),
+            }
+        });
+        patches.collect()
+    }
+
+    /// How far the hand goes for the half of the widest side of a patch, about, in m, and which that is.
+    pub(crate) fn widest(&self, patch: &GraspPatch) -> (f64, usize) {
+        let [about, bend, place, deep] = patch.half;
+        let Some(slot) = self.slots.get(patch.slot) else { return (0.0, 0) };
+        let far = self.hand.palm.abs() + self.object.reach() + WRIST;
+        let deep = deep * (self.hand.fingers - self.hand.palm).abs();
+        widest(&[about * far, bend * far, place * slot.along.norm(), deep])
+    }
+
+    /// A pose in the middle of a patch, and how far the others of it can be; `None` where there is none.
+    pub(crate) fn over(&self, patch: &GraspPatch) -> Option<(Isometry3<f64>, Drift)> {
+        let slot = self.slots.get(patch.slot)?;
+        let ([about, bend, place, deep], [abouts, bends, places, deeps]) = (patch.middle, patch.half);
+        let (approach, across) = slot.kind.directions(about, bend);
+        let turns = match slot.kind {
+            FamilyKind::Flat { .. } => 0.0,
+            // About axes square to each other: the cosine of half of both is the product of those of the halves.
+            FamilyKind::Around { .. }
+            | FamilyKind::End { .. }
+            | FamilyKind::Rim { .. }
+            | FamilyKind::Bar { .. } => libm::hypot(abouts, bends),
+        };
+        // From below there is no way for a hand.
+        if approach.z - turns - SLACK > 0.5 || self.is_behind(slot, &approach, abouts + bends) {
+            return None;
+        }
+        let (first, last) = match slot.kind {
+            FamilyKind::Bar { depth, .. } => (depth, depth),
+            FamilyKind::Around { .. }
+            | FamilyKind::End { .. }
+            | FamilyKind::Rim { .. }
+            | FamilyKind::Flat { .. } => self.depths(slot, &approach, [bend, bends], [deep, deeps])?,
+        };
+        let depth = (first + last) / 2.0;
+        let middle = self.object.centre + slot.along * place;
+        let at = middle - approach * depth - across * self.hand.middle(slot.width);
+        let tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(&approach, &across));
+        let drift = Drift::none()
+            .shifted(SLACK)
+            .slid(slot.along * places)
+            .slid(approach * ((last - first).abs() / 2.0));
+        let drift = match slot.kind {
+            FamilyKind::Flat { .. } => drift,
+            // What is bent is turned about the thing in the end.
+            FamilyKind::Around { down, .. } => drift.spun(across, middle, bends).spun(down, middle, abouts),
+            FamilyKind::End { down: axis, .. }
+            | FamilyKind::Rim { across: axis, .. }
+            | FamilyKind::Bar { along: axis, .. } => drift.spun(axis, middle, abouts),
+        };
+        Some((tip, drift))
+    }
+
+    /// Between which depths the tip is before the middle; `None` where the thing is too far from the palm in all.
+    fn depths(
+        &self,
+        slot: &GraspFamily,
+        approach: &Vector3<f64>,
+        [bend, bends]: [f64; 2],
+        [deep, deeps]: [f64; 2],
+    ) -> Option<(f64, f64)> {
+        let ([near, far], is_round) = self.extents(slot, approach, bend, bends);
+        let palm = |half: f64| (self.hand.palm + half).max(0.0);
+        let most = if is_round {
+            self.hand.fingers + SHORT * slot.width / 2.0
+        } else {
+            self.hand.fingers + far - GRIP.min(far)
+        };
+        let (least, greatest) = (palm(near), palm(far).min(most));
+        if least > most + SLACK {
+            return None;
+        }
+        let mix = |from: f64, share: f64| from + (most - from) * share;
+        Some((mix(least, (deep - deeps).max(0.0)), mix(greatest, (deep + deeps).min(1.0))))
+    }
+
+    /// Whether something is so for all poses, each near to one by no more than what is told of it: `false` where as many patches as
+    /// may be looked at do not tell.
+    pub(crate) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &Drift) -> bool) -> bool {
+        const MOST: usize = 4096;
+        let mut open = self.patches();
+        for _ in 0..MOST {
+            let Some(patch) = open.pop() else { return true };
+            let Some((tip, drift)) = self.over(&patch) else { continue };
+            if !is(&tip, &drift) {
+                let (_, across) = self.widest(&patch);
+                open.extend(patch.halves(across));
+            }
+        }
+        false
+    }
+
+    /// The pose in the middle of a patch; `None` where that is none, or from another side than was asked for.
+    pub(crate) fn hold(&self, patch: &GraspPatch) -> Option<GraspCandidate> {
+        let slot = self.slots.get(patch.slot)?;
+        let [about, bend, ..] = patch.middle;
+        let (approach, _) = slot.kind.directions(about, bend);
+        let (map_from_tip, _) = self.over(&GraspPatch { half: [0.0; 4], ..*patch })?;
+        let side = if approach.z < TOP { GraspSide::Top } else { GraspSide::Side };
+        let is_asked_for = match self.side {
+            None => true,
+            Some(GraspSide::Top) => side == GraspSide::Top,
+            Some(GraspSide::Side) => side != GraspSide::Top,
+            Some(GraspSide::Front) => side != GraspSide::Top && is_ahead(&approach, self.ahead),
+        };
+        (is_asked_for && approach.z <= 0.5).then_some(GraspCandidate {
+            map_from_tip,
+            approach,
+            side,
+            width: slot.width,
+        })
+    }
+
+    /// Whether no pose of a patch is from the robot's side, where that is asked for.
+    fn is_behind(&self, slot: &GraspFamily, approach: &Vector3<f64>, off: f64) -> bool {
+        let is_level = matches!(slot.kind, FamilyKind::Flat { .. })
+            || matches!(slot.kind, FamilyKind::Around { down: axis, .. } | FamilyKind::Rim { across: axis, .. }
+                if axis.z.abs() > 1.0 - 1e-9);
+        let [x, y] = self.ahead;
+        let angle = wrapped(atan2(approach.y, approach.x) - atan2(y, x));
+        self.side == Some(GraspSide::Front) && is_level && angle.abs() > FRAC_PI_4 + off + SLACK
+    }
+
+    /// Between which lengths the thing extends against the fingers, and whether it is round there.
+    fn extents(
+        &self,
+        slot: &GraspFamily,
+        approach: &Vector3<f64>,
+        bend: f64,
+        bends: f64,
+    ) -> ([f64; 2], bool) {
+        let flat = self.object.extent(approach);
+        let radius = slot.width / 2.0;
+        match slot.kind {
+            FamilyKind::Flat { .. }
+            | FamilyKind::Rim { .. }
+            | FamilyKind::Bar { .. }
+            | FamilyKind::End { is_round: false, .. } => ([flat, flat], false),
+            FamilyKind::End { .. } => ([radius, radius], true),
+            FamilyKind::Around { .. } => {
+                let (half, is_flat) = match self.object.shape {
+                    Shape::Cylinder { half, .. } => (half, true),
+                    Shape::Capsule { half, .. } => (half, false),
+                    Shape::Box(_) | Shape::HalfSpace => (0.0, false),
+                };
+                if half == 0.0 {
+                    return ([radius, radius], true);
+                }
+                let (low, high) = ((bend - bends).max(0.0), bend + bends);
+                let (sin, cos) = (libm::sin, libm::cos);
+                // The line of the hand meets the side later and the end sooner, the more it is bent.
+                let side = |bend: f64| radius / cos(bend).max(1e-6);
+                let end = |bend: f64| half / sin(bend).max(1e-9);
+                let whole = |bend: f64| half * sin(bend) + if is_flat { radius * cos(bend) } else { radius };
+                let least = side(low).min(end(high)).min(whole(low)).min(whole(high));
+                let greatest = side(high).min(end(low)).min(whole(bend) + (half + radius) * bends);
+                ([radius.max(least), radius.max(greatest)], true)
+            }
+        }
+    }
+}
+
+impl FamilyKind {
+    /// Where the fingers point, and across what they close.
+    fn directions(&self, about: f64, bend: f64) -> (Vector3<f64>, Vector3<f64>) {
+        match self {
+            Self::Around { down, first, sign } => {
+                let axis = if *sign > 0.0 { *down } else { -down };
+                let out = turn(&Unit::new_unchecked(*down), about) * first;
+                let (sin, cos) = sin_cos(bend);
+                (down * sin - out * cos, axis.cross(&out))
+            }
+            Self::End { down, first, .. } => (*down, turn(&Unit::new_unchecked(*down), about) * first),
+            Self::Rim { first, across } => (-(turn(&Unit::new_unchecked(*across), about) * first), *across),
+            Self::Flat { approach, across } => (*approach, *across),
+            Self::Bar { along, out, sign, .. } => {
+                let approach = turn(&Unit::new_unchecked(*along), about) * -out;
+                (approach, along.cross(&approach) * *sign)
+            }
+        }
+    }
+}
+
+/// The largest of some sizes, the first of equals, and which it is.
+pub(crate) fn widest(sizes: &[f64]) -> (f64, usize) {
+    let all = sizes.iter().copied().zip(0..);
+    all.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most })
+}
+
+impl GraspPatch {
+    /// The two halves of a patch, cut across a parameter.
+    pub(crate) fn halves(&self, across: usize) -> [Self; 2] {
+        let mut halves = [*self; 2];
+        for (half, sign) in halves.iter_mut().zip([-0.5, 0.5]) {
+            if let (Some(middle), Some(side)) = (half.middle.get_mut(across), half.half.get_mut(across)) {
+                *middle += sign * *side;
+                *side = 0.5 * *side + 1e-12;
+            }
+        }
+        halves
+    }
+}

@@ -1,0 +1,3 @@
+//! Motion queries and their answers.
+
+pub(crate) mod answer;

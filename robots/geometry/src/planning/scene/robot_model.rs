@@ -1,0 +1,394 @@
+//! A robot made ready for queries: its card, its kinematics, its body, and how its hand is solved. Made once.
+
+use motet_robots::card::{Drive, Hand as HandCard, Robot};
+use motet_robots::urdf::Urdf;
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use smol_str::SmolStr;
+
+use crate::collision::{Body, Shape, Solid};
+use crate::kinematics::{Chain, Lever, Tree, planar};
+use crate::planning::checking::collision_checker::above_floor;
+use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::ik_solver::IkSolver;
+
+/// How far in front of the palm a thing is held, in m.
+const PALM_GAP: f64 = 0.005;
+
+/// A robot of which motions can be asked.
+#[derive(Clone, Debug)]
+pub struct RobotModel {
+    card: Robot,
+    tree: Tree,
+    body: Body,
+    floor_from_root: Isometry3<f64>,
+    /// For each link the joints that move it.
+    levers: Vec<Vec<Lever>>,
+    hand: Option<HandModel>,
+    rest: Vec<f64>,
+    /// How far any point of it can be from the vertical axis of its base, in m.
+    extent: f64,
+    /// For each variable whether it turns something.
+    turning: Vec<bool>,
+}
+
+/// A hand and the arm that carries it.
+#[derive(Clone, Debug)]
+pub struct HandModel {
+    /// Its name in the card.
+    pub name: SmolStr,
+    /// What the card says of it.
+    pub card: HandCard,
+    /// Index of its tip's link.
+    pub tip: usize,
+    /// How joint positions are found.
+    pub solver: IkSolver,
+    /// How far the palm reaches along the direction in which the fingers point, from the tip's origin, in m.
+    pub palm: f64,
+    /// How far the open fingers reach, likewise.
+    pub fingers: f64,
+    /// Whether the tip is on a jaw that does not move: then what is held lies against it, else in the middle between the fingers.
+    pub has_fixed_jaw: bool,
+    /// The variables of its own joints with their values when it is open.
+    pub open: Vec<(usize, f64)>,
+    /// For each link whether it belongs to the hand: rigid with the tip, or carried by it.
+    pub members: Vec<bool>,
+    /// For each link whether a joint of the arm moves it.
+    pub carried: Vec<bool>,
+}
+
+impl RobotModel {
+    /// A robot from its card and a URDF that fits it, with its meshes and its SRDF where there are any. O(parts²).
+    ///
+    /// The fingers of a hand may touch each other: that is what they are for.
+    #[must_use]
+    pub fn new(card: &Robot, urdf: &Urdf) -> Self {
+        let tree = Tree::new(urdf);
+        let model = card.model.as_ref();
+        let link = |name: Option<&SmolStr>| name.and_then(|name| tree.link(name).ok());
+        let base = link(model.and_then(|model| model.base.as_ref())).unwrap_or(tree.root());
+        let mut rest = tree.neutral();
+        let positions = model
+            .into_iter()
+            .flat_map(|model| &model.rest)
+            .chain(card.postures.get("home").into_iter().flatten());
+        for (joint, position) in positions {
+            set(&tree, &mut rest, joint, *position);
+        }
+        let height = model.map_or(0.0, |model| model.height_m);
+        let floor_from_root = Translation3::new(0.0, 0.0, height) * tree.pose(&rest, base, tree.root());
+        let levers: Vec<Vec<Lever>> = (0..tree.links().len()).map(|link| tree.levers(link)).collect();
+        let mut allowed = urdf.may_touch.clone();
+        for tip in card.hands.values().filter_map(|hand| link(hand.tip.as_ref())) {
+            let fingers: Vec<usize> =
+                (0..levers.len()).filter(|at| is_carried_by(&tree, &levers, tip, *at)).collect();
+            allowed.extend(fingers.iter().flat_map(|one| fingers.iter().map(|other| [*one, *other])));
+        }
+        let body = Body::new(urdf, &tree, &allowed);
+        let mut model = Self {
+            card: card.clone(),
+            tree,
+            body,
+            floor_from_root,
+            levers,
+            hand: None,
+            rest,
+            extent: 0.0,
+            turning: vec![],
+        };
+        let turns = |at: usize| {
+            let mut levers = model.levers.iter().flatten();
+            levers.any(|lever| lever.driver.variable == at && !lever.slides)
+        };
+        model.turning = (0..model.tree.variables().len()).map(turns).collect();
+        model.extent = model.extent_about(base);
+        model.hand = card.hands.iter().find_map(|(name, hand)| model.hand_of(name, hand, base, height));
+        model
+    }
+
+    fn hand_of(&self, name: &SmolStr, card: &HandCard, base: usize, height: f64) -> Option<HandModel> {
+        let tip = self.tree.link(card.tip.as_deref()?).ok()?;
+        let chain = Chain::new(&self.tree, base, tip)?;
+        let solver = IkSolver::of(&chain, self.card.base.drive, height);
+        let in_arm = |lever: &Lever| chain.in_tree.contains(&lever.driver.variable);
+        let carried = self.levers.iter().map(|levers| levers.iter().any(in_arm)).collect();
+        let links = 0..self.levers.len();
+        let members =
+            links.map(|at| self.body.is_rigid(tip, at) || is_carried_by(&self.tree, &self.levers, tip, at));
+        let members: Vec<bool> = members.collect();
+        let points = Vector3::from(card.points);
+        let open = card.open.iter().filter_map(|(joint, at)| Some((self.tree.variable(joint).ok()?, *at)));
+        let open: Vec<(usize, f64)> = open.collect();
+        let poses = self.tree.root_from_links(&opened(&self.rest, &open));
+        let tip_from_root = poses.get(tip)?.inverse();
+        let parts = self.body.parts().iter().filter(|part| members.get(part.link) == Some(&true));
+        let placed = parts.filter_map(|part| {
+            Some((
+                self.body.is_rigid(tip, part.link),
+                part.solid.moved(&(tip_from_root * poses.get(part.link)?)),
+            ))
+        });
+        let (mut palm, mut fingers) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        let mut has_fixed_jaw = false;
+        for (is_palm, solid) in placed {
+            let is_jaw = is_palm && is_jaw(&solid, &Vector3::from(card.closes));
+            has_fixed_jaw |= is_jaw;
+            let end = solid.centre.dot(&points) + solid.extent(&points);
+            if is_jaw {
+                fingers = fingers.max(end);
+            } else if is_palm {
+                palm = palm.max(front(&solid, &points));
+            } else {
+                fingers = fingers.max(end);
+            }
+        }
+        let palm = if palm.is_finite() { palm + PALM_GAP } else { 0.0 };
+        let fingers = if fingers.is_finite() { fingers } else { 0.02 };
+        Some(HandModel {
+            name: name.clone(),
+            card: card.clone(),
+            tip,
+            solver,
+            palm,
+            fingers,
+            has_fixed_jaw,
+            open,
+            members,
+            carried,
+        })
+    }
+
+    /// The card.
+    #[must_use]
+    pub fn card(&self) -> &Robot {
+        &self.card
+    }
+
+    /// The kinematics.
+    #[must_use]
+    pub fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// The body.
+    #[must_use]
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The hand that is meant where only one is: the first of the card's that the base's link carries.
+    #[must_use]
+    pub fn hand(&self) -> Option<&HandModel> {
+        self.hand.as_ref()
+    }
+
+    /// The configuration where nothing else is said: at rest, in the posture `home`.
+    #[must_use]
+    pub fn rest(&self) -> &[f64] {
+        &self.rest
+    }
+
+    /// The configuration of a posture, with everything that it does not name as in `from`.
+    #[must_use]
+    pub fn posture(&self, name: &str, from: &[f64]) -> Option<Vec<f64>> {
+        let mut joints = from.to_vec();
+        for (joint, position) in self.card.postures.get(name)? {
+            set(&self.tree, &mut joints, joint, *position);
+        }
+        Some(joints)
+    }
+
+    /// The lowest point of those links that count: a link, and its height above the floor in m. None where no shape of them is
+    /// known.
+    #[must_use]
+    pub fn lowest(
+        &self,
+        configuration: &Configuration,
+        counts: impl Fn(usize) -> bool,
+    ) -> Option<(SmolStr, f64)> {
+        let poses = self.map_from_links(configuration);
+        let parts = self.body.parts().iter().filter(|part| counts(part.link));
+        let heights =
+            parts.filter_map(|part| Some((part.link, above_floor(&part.solid.moved(poses.get(part.link)?)))));
+        let (link, height) = heights.min_by(|one, other| one.1.total_cmp(&other.1))?;
+        Some((self.tree.links().get(link)?.clone(), height))
+    }
+
+    /// Whether the base drives.
+    #[must_use]
+    pub fn drives(&self) -> bool {
+        self.card.base.drive != Drive::Fixed
+    }
+
+    /// The pose of every link in the map.
+    #[must_use]
+    pub fn map_from_links(&self, configuration: &Configuration) -> Vec<Isometry3<f64>> {
+        let map_from_root = self.map_from_root(configuration.base);
+        let mut poses = self.tree.root_from_links(&configuration.joints);
+        for pose in &mut poses {
+            *pose = map_from_root * *pose;
+        }
+        poses
+    }
+
+    /// The pose of the root's link with the base at a place.
+    pub(crate) fn map_from_root(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
+        planar(x, y, yaw) * self.floor_from_root
+    }
+
+    /// For each variable of the tree whether it turns something.
+    pub(crate) fn turning(&self) -> &[bool] {
+        &self.turning
+    }
+
+    /// How far any point of the robot can be from the vertical axis of its base, in m, whatever its joints.
+    pub(crate) fn extent(&self) -> f64 {
+        self.extent
+    }
+
+    /// Added up joint by joint. While nothing has turned about another axis than the vertical, heights do not count.
+    fn extent_about(&self, base: usize) -> f64 {
+        let parts = self.body.parts().iter().map(|part| {
+            let Some(chain) = Chain::new(&self.tree, base, part.link) else { return f64::INFINITY };
+            let (mut turned, mut is_upright, mut far) = (UnitQuaternion::identity(), true, 0.0);
+            let mut add = |turned: &UnitQuaternion<f64>, shift: Vector3<f64>, is_upright: bool| {
+                let shift = turned * shift;
+                far += if is_upright { libm::hypot(shift.x, shift.y) } else { shift.norm() };
+            };
+            for joint in &chain.joints {
+                add(&turned, joint.before.translation.vector, is_upright);
+                turned *= joint.before.rotation;
+                let axis = turned * joint.axis.into_inner();
+                if joint.slides {
+                    let limits = chain.variables.get(joint.driver.variable).and_then(|known| known.limits);
+                    let ends = limits.map(|(lower, upper)| {
+                        let place =
+                            |value: f64| (joint.driver.multiplier * value + joint.driver.offset).abs();
+                        place(lower).max(place(upper))
+                    });
+                    add(&turned, joint.axis.into_inner() * ends.unwrap_or(f64::INFINITY), is_upright);
+                } else {
+                    is_upright = is_upright && axis.z.abs() > 1.0 - 1e-9;
+                }
+            }
+            add(&turned, chain.last_from_tip.translation.vector, is_upright);
+            let solid = part.solid;
+            add(&(turned * chain.last_from_tip.rotation), solid.centre, is_upright);
+            let far = far + solid.reach();
+            // Nothing times no limit.
+            if far.is_nan() { f64::INFINITY } else { far }
+        });
+        parts.fold(0.0, f64::max)
+    }
+
+    pub(crate) fn levers(&self, link: usize) -> &[Lever] {
+        self.levers.get(link).map_or(&[], Vec::as_slice)
+    }
+}
+
+impl HandModel {
+    /// How far from the tip, in the direction in which the fingers close, the middle of a thing so wide is held, in m.
+    #[must_use]
+    pub fn middle(&self, width: f64) -> f64 {
+        if self.has_fixed_jaw { width / 2.0 } else { 0.0 }
+    }
+
+    /// A configuration with the hand open.
+    #[must_use]
+    pub fn opened(&self, joints: &[f64]) -> Vec<f64> {
+        opened(joints, &self.open)
+    }
+
+    /// A configuration with the fingers around a thing: as far open, from how they rest, as it is wide against the opening.
+    #[must_use]
+    pub fn around(&self, joints: &[f64], rest: &[f64], width: f64) -> Vec<f64> {
+        let share = (width / self.card.opening_m.max(1e-6)).clamp(0.0, 1.0);
+        let closed = |at: usize| rest.get(at).copied().unwrap_or(0.0);
+        let fingers: Vec<(usize, f64)> =
+            self.open.iter().map(|(at, open)| (*at, closed(*at) + (open - closed(*at)) * share)).collect();
+        opened(joints, &fingers)
+    }
+
+    /// The rotation of the tip in the map with the fingers pointing along `approach` and closing along `along`, which is
+    /// square to it; both of length 1.
+    #[must_use]
+    pub fn turned(&self, approach: &Vector3<f64>, along: &Vector3<f64>) -> UnitQuaternion<f64> {
+        let (points, closes) = (Vector3::from(self.card.points), Vector3::from(self.card.closes));
+        let own = Matrix3::from_columns(&[points, closes, points.cross(&closes)]);
+        let wanted = Matrix3::from_columns(&[*approach, *along, approach.cross(along)]);
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(wanted * own.transpose()))
+    }
+}
+
+fn opened(joints: &[f64], open: &[(usize, f64)]) -> Vec<f64> {
+    let mut joints = joints.to_vec();
+    for (at, value) in open {
+        if let Some(slot) = joints.get_mut(*at) {
+            *slot = *value;
+        }
+    }
+    joints
+}
+
+fn set(tree: &Tree, joints: &mut [f64], joint: &str, position: f64) {
+    if let Some(slot) = tree.variable(joint).ok().and_then(|at| joints.get_mut(at)) {
+        *slot = position;
+    }
+}
+
+/// Whether a link hangs on another by way of a joint that moves.
+fn is_carried_by(tree: &Tree, levers: &[Vec<Lever>], tip: usize, link: usize) -> bool {
+    let own = levers.get(tip).map_or(0, Vec::len);
+    levers.get(link).is_some_and(|levers| levers.len() > own)
+        && Chain::new(tree, tip_group(tree, levers, tip), link).is_some_and(|chain| !chain.joints.is_empty())
+}
+
+/// The link after the last moving joint before the tip: everything on it is rigid with the tip.
+fn tip_group(tree: &Tree, levers: &[Vec<Lever>], tip: usize) -> usize {
+    levers.get(tip).and_then(|levers| levers.last()).map_or(tree.root(), |last| last.frame)
+}
+
+/// Whether a solid in the tip's frame is a jaw on whose inner face the tip is.
+fn is_jaw(solid: &Solid, closes: &Vector3<f64>) -> bool {
+    const NEAR: f64 = 0.003;
+    let point = Solid {
+        shape: Shape::Capsule { radius: 0.0, half: 0.0 },
+        centre: Vector3::zeros(),
+        axes: solid.axes,
+    };
+    let face = solid.centre.dot(closes) + solid.extent(closes);
+    (-NEAR..=0.0).contains(&face) && solid.distance(&point) <= NEAR
+}
+
+/// Where a ray against a direction through the origin meets a solid, along the direction; −∞ where it passes by.
+fn front(solid: &Solid, direction: &Vector3<f64>) -> f64 {
+    let far = 2.0;
+    let mut at = far;
+    while at > -far {
+        let probe = Solid {
+            centre: direction * at,
+            axes: solid.axes,
+            shape: Shape::Capsule { radius: 0.0, half: 0.0 },
+        };
+        let distance = solid.distance(&probe);
+        if distance < 1e-6 {
+            return at;
+        }
+        at -= distance;
+    }
+    f64::NEG_INFINITY
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+impl RobotModel {
+    /// A robot that the crates bring along.
+    pub(crate) fn embedded(name: &str) -> Self {
+        use motet_robots::{card, urdf};
+        use motet_syntax::{FileId, Source};
+        let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
+        let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
+        let text = card::embedded_urdf(name).unwrap();
+        let urdf = urdf::read(&Source::new(name, text), FileId(0)).0.unwrap();
+        Self::new(&card, &urdf)
+    }
+}

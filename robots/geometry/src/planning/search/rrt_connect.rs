@@ -1,0 +1,195 @@
+//! RRT-Connect (Kuffner and LaValle 2000) for the arm with the base still, or for both: two trees of certified edges towards samples of
+//! a low-discrepancy sequence, so that the same question has the same answer.
+
+use crate::kinematics::{Variable, spread_over};
+use crate::planning::checking::collision_checker::CollisionChecker;
+use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::contact::AllowedCollisions;
+
+/// What the trees move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum PlannedJoints {
+    /// The arm, with the base still.
+    Arm,
+    /// The base with the arm.
+    All,
+}
+
+/// How long a search goes on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum RrtEffort {
+    /// As long as most that find something take.
+    Short,
+    Long,
+}
+
+impl RrtEffort {
+    /// Samples that the trees grow towards.
+    fn samples(self) -> usize {
+        match self {
+            Self::Short => 80,
+            Self::Long => 400,
+        }
+    }
+}
+
+impl PlannedJoints {
+    /// The greatest length of an edge.
+    fn step(self) -> f64 {
+        match self {
+            Self::Arm => 0.7,
+            Self::All => 0.4,
+        }
+    }
+
+    /// How far apart two states are: of the arm alone the largest change of a joint, in rad or m; else as a length, where a turn or the change of a joint counts a third.
+    fn far(self, from: &Configuration, to: &Configuration) -> f64 {
+        let changes = from.joints.iter().zip(&to.joints).map(|(a, b)| (a - b).abs());
+        match self {
+            Self::Arm => changes.fold(0.0, f64::max),
+            Self::All => {
+                let [x, y, yaw] = [0, 1, 2].map(|at: usize| match (from.base.get(at), to.base.get(at)) {
+                    (Some(a), Some(b)) => b - a,
+                    _ => 0.0,
+                });
+                let turns = changes.map(|change| change * change).sum::<f64>() + yaw * yaw;
+                (x * x + y * y + 0.1 * turns).sqrt()
+            }
+        }
+    }
+}
+
+/// How far beside both ends the base goes, in m.
+const ASIDE: f64 = 0.8;
+
+/// A tree of states, each with the index of the one before it.
+struct RrtTree(Vec<(Configuration, usize)>);
+
+/// Samples between two states.
+struct SampleSequence<'a> {
+    moving: PlannedJoints,
+    from: &'a Configuration,
+    to: &'a Configuration,
+    /// Between which values: of the base where it moves, then of the arm.
+    ranges: Vec<(f64, f64)>,
+    /// Which joints the last of them are.
+    joints: &'a [usize],
+}
+
+impl<'a> SampleSequence<'a> {
+    fn new(
+        moving: PlannedJoints,
+        from: &'a Configuration,
+        to: &'a Configuration,
+        arm: &'a [Variable],
+        joints: &'a [usize],
+    ) -> Self {
+        let between = |one: f64, other: f64, aside: f64| (one.min(other) - aside, one.max(other) + aside);
+        let base = from.base.iter().zip(to.base).zip([ASIDE, ASIDE, std::f64::consts::PI]);
+        let base = base.map(|((one, other), aside)| between(*one, other, aside));
+        let base: Vec<(f64, f64)> = if moving == PlannedJoints::All { base.collect() } else { vec![] };
+        let ranges = base.into_iter().chain(arm.iter().map(Variable::span)).collect();
+        Self { moving, from, to, ranges, joints }
+    }
+
+    /// A state to grow towards. In the open the arm need not move, and often not while the base does.
+    fn aim(&self, sample: usize) -> Option<Configuration> {
+        let mut aim = self.to.clone();
+        let values = spread_over(self.ranges.iter().copied(), sample);
+        let (base, arm) = values.split_at(values.len().checked_sub(self.joints.len())?);
+        aim.base.iter_mut().zip(base).for_each(|(slot, value)| *slot = *value);
+        match (self.moving, sample / 2 % 4) {
+            (PlannedJoints::All, 1) => aim.joints.clone_from(&self.from.joints),
+            (PlannedJoints::All, 3) => {}
+            (PlannedJoints::All | PlannedJoints::Arm, _) => {
+                for (at, value) in self.joints.iter().zip(arm) {
+                    *aim.joints.get_mut(*at)? = *value;
+                }
+            }
+        }
+        Some(aim)
+    }
+}
+
+impl CollisionChecker<'_, '_> {
+    /// A way between two free states, both included.
+    pub(crate) fn connect(
+        &self,
+        from: &Configuration,
+        to: &Configuration,
+        moving: PlannedJoints,
+        effort: RrtEffort,
+    ) -> Option<Vec<Configuration>> {
+        let chain = self.context.model.hand()?.solver.chain();
+        let samples = SampleSequence::new(moving, from, to, &chain.variables, &chain.in_tree);
+        let mut trees = [RrtTree(vec![(from.clone(), 0)]), RrtTree(vec![(to.clone(), 0)])];
+        for sample in 0..effort.samples() {
+            let aim = samples.aim(sample)?;
+            let [first, second] = &mut trees;
+            let is_turned = sample % 2 == 1;
+            let (near, far) = if is_turned { (second, first) } else { (first, second) };
+            let Some(new) = self.grow(near, &aim, moving) else { continue };
+            while let Some(next) = self.grow(far, &new, moving) {
+                if next != new {
+                    continue;
+                }
+                let (near, far) = (near.back(), far.back());
+                let (mut path, rest) = if is_turned { (far, near) } else { (near, far) };
+                path.reverse();
+                path.extend(rest.into_iter().skip(1));
+                return Some(self.shortened(path));
+            }
+        }
+        None
+    }
+
+    /// One step of a tree towards a state: the new state, where the way to it is free.
+    fn grow(&self, tree: &mut RrtTree, aim: &Configuration, moving: PlannedJoints) -> Option<Configuration> {
+        let best = tree.0.iter().map(|(configuration, _)| moving.far(configuration, aim)).enumerate();
+        let (at, way) = best.reduce(|best, next| if next.1 < best.1 { next } else { best })?;
+        if way == 0.0 {
+            return None;
+        }
+        let near = tree.0.get(at).map(|(configuration, _)| configuration)?;
+        let step = moving.step();
+        let next = if way <= step { aim.clone() } else { near.towards(aim, step / way) };
+        if self.contact(&next, AllowedCollisions::default()).is_some() {
+            return None;
+        }
+        self.between(near, &next, AllowedCollisions::default()).ok()?;
+        tree.0.push((next.clone(), at));
+        Some(next)
+    }
+
+    /// The same way without corners that can be cut.
+    fn shortened(&self, path: Vec<Configuration>) -> Vec<Configuration> {
+        let mut kept: Vec<Configuration> = Vec::new();
+        let mut rest = path.as_slice();
+        while let [first, after @ ..] = rest {
+            kept.push(first.clone());
+            let seen = (1..after.len()).rev().find(|at| {
+                after
+                    .get(*at)
+                    .is_some_and(|next| self.between(first, next, AllowedCollisions::default()).is_ok())
+            });
+            rest = after.get(seen.unwrap_or(0)..).unwrap_or_default();
+        }
+        kept
+    }
+}
+
+impl RrtTree {
+    /// The states from the last one back to the root.
+    fn back(&self) -> Vec<Configuration> {
+        let mut configurations = Vec::new();
+        let mut at = self.0.len().saturating_sub(1);
+        while let Some((configuration, before)) = self.0.get(at) {
+            configurations.push(configuration.clone());
+            if at == 0 {
+                break;
+            }
+            at = *before;
+        }
+        configurations
+    }
+}

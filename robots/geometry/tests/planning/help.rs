@@ -1,0 +1,314 @@
+//! What is said where a motion is infeasible: by how much, and what would help.
+
+use motet_geometry::planning::{
+    Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState,
+    SearchBudget,
+};
+use motet_robots::card;
+use motet_robots::scene::{Placement, Scene, Shape, Travel};
+use motet_robots::urdf;
+use motet_syntax::{FileId, Source};
+
+use super::{changed, embedded, machine};
+
+/// The HSR with a line of its card replaced.
+fn hsr(from: &str, to: &str) -> RobotModel {
+    let (name, toml, own) = card::embedded().iter().find(|(known, ..)| *known == "hsr").unwrap();
+    assert!(toml.contains(from));
+    let toml = toml.replace(from, to);
+    let card = card::read(&Source::new(*name, toml.as_str()), FileId(0), *own).0.unwrap();
+    let urdf = urdf::read(&Source::new(*name, card::embedded_urdf("hsr").unwrap()), FileId(0)).0.unwrap();
+    RobotModel::new(&card, &urdf)
+}
+
+/// The answer as it is told, and what would help.
+fn asked(machine: &RobotModel, scene: &Scene, query: &str) -> (MotionAnswer, Option<String>) {
+    let world = SceneState::new(machine, scene);
+    let room = QueryContext::new(machine, scene, &world);
+    let query = MotionQuery::parse(query).unwrap();
+    match room.answer(&query, SearchBudget::default()) {
+        MotionAnswer::Infeasible(why) => {
+            let told = room.explain(&query, &why, SearchBudget::default());
+            assert_eq!((told.reason.name(), told.certified), (why.reason.name(), why.certified));
+            let change = told.change.clone();
+            (MotionAnswer::Infeasible(told), change)
+        }
+        answer => (answer, None),
+    }
+}
+
+fn refused(machine: &RobotModel, scene: &Scene, query: &str) -> (Infeasible, Option<String>) {
+    match asked(machine, scene, query) {
+        (MotionAnswer::Infeasible(why), help) => (why, help),
+        (other, _) => panic!("{query}: {other:?}"),
+    }
+}
+
+/// Only the mug, so far from the robot and so many degrees to its left.
+fn aside(far: f64, degrees: f64) -> Scene {
+    changed(|scene| {
+        scene.entities.retain(|id, _| id == "mug_1");
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        scene.entities["mug_1"].on = None;
+        scene.entities["mug_1"].pose.as_mut().unwrap().xyz = [far * cos, far * sin, 0.8];
+        // The arm ahead, where the head does not come.
+        scene.robot.joints.insert("arm_flex_joint".into(), -1.3);
+    })
+}
+
+#[test]
+fn a_camera_sees_what_is_in_its_view() {
+    let (machine, _) = machine("hsr");
+    for degrees in [0.0, 60.0, -60.0, 90.0, -90.0, -120.0] {
+        let (answer, _) = asked(&machine, &aside(2.0, degrees), "look(mug_1)");
+        assert!(matches!(answer, MotionAnswer::Feasible(_)), "{degrees}: {answer:?}");
+    }
+    // Its neck turns so far to the right, and the card says that it sees 129° to either side.
+    for (degrees, told, help) in [
+        (
+            -170.0,
+            "is 170° to the right, the camera sees 129° to either side",
+            "turn to the right by at least 41° before",
+        ),
+        (
+            150.0,
+            "is 150° to the left, the camera sees 129° to either side",
+            "turn to the left by at least 21° before",
+        ),
+    ] {
+        let (why, found) = refused(&machine, &aside(2.0, degrees), "look(mug_1)");
+        assert_eq!((why.reason.to_string().as_str(), found.as_deref()), (told, Some(help)));
+        assert!(!why.certified);
+    }
+    let narrow = hsr("258 deg", "60 deg");
+    assert!(matches!(asked(&narrow, &aside(2.0, 20.0), "look(mug_1)").0, MotionAnswer::Feasible(_)));
+    let (why, _) = refused(&narrow, &aside(2.0, 40.0), "look(mug_1)");
+    assert!(matches!(why.reason, InfeasibleReason::NotInView { by: None, aside: Some(_) }), "{why:?}");
+}
+
+#[test]
+fn what_is_too_far_to_be_seen_says_by_how_much() {
+    let (machine, _) = machine("hsr");
+    let (why, help) = refused(&machine, &aside(6.0, 0.0), "look(mug_1)");
+    let InfeasibleReason::OutOfReach { what: "sight", needs, reach } = why.reason else { panic!("{why:?}") };
+    let least = ((needs - reach) * 100.0).ceil() / 100.0;
+    assert_eq!(help.unwrap(), format!("the robot has to be at least {least:.2} m nearer to `mug_1`"));
+}
+
+/// A wall.
+fn wall(scene: &mut Scene, id: &str, xyz: [f64; 3], extents: [f64; 3]) {
+    let mut wall = embedded("kitchen").entities["kitchen_table"].clone();
+    wall.id = id.into();
+    wall.pose = Some(Placement { xyz, rpy: [0.0; 3] });
+    wall.shape = Some(Shape::Box(extents));
+    scene.entities.insert(wall.id.clone(), wall);
+}
+
+/// The mug on a post in an alcove, before which something stands.
+fn alcove(is_fixed: bool) -> Scene {
+    changed(|scene| {
+        wall(scene, "post", [2.5, 0.0, 0.4], [0.2, 0.2, 0.8]);
+        wall(scene, "left", [2.5, 0.7, 1.0], [1.4, 0.1, 2.0]);
+        wall(scene, "right", [2.5, -0.7, 1.0], [1.4, 0.1, 2.0]);
+        wall(scene, "back", [3.2, 0.0, 1.0], [0.1, 1.4, 2.0]);
+        wall(scene, "chair", [1.85, 0.0, 0.9], [0.4, 1.2, 1.8]);
+        scene.entities["chair"].fixed = is_fixed;
+        scene.entities["mug_1"].on = Some("post".into());
+        scene.entities["mug_1"].pose.as_mut().unwrap().xyz = [2.5, 0.0, 0.85];
+        scene
+            .entities
+            .retain(|id, _| ["post", "left", "right", "back", "chair", "mug_1"].contains(&id.as_str()));
+    })
+}
+
+#[test]
+fn what_can_be_taken_away_is_named_where_that_helps() {
+    let (machine, _) = machine("hsr");
+    let (_, help) = refused(&machine, &alcove(false), "reach(mug_1)");
+    let told =
+        "every way to a place from which `mug_1` is in reach is blocked by `chair`: take it out of the way";
+    assert_eq!(help.as_deref(), Some(told));
+    let (_, help) = refused(&machine, &alcove(false), "go_to(mug_1)");
+    assert_eq!(
+        help.as_deref(),
+        Some("every way to a place within 0.60 m of `mug_1` is blocked by `chair`: take it out of the way")
+    );
+    // What never moves is not asked away, nor what would not help.
+    assert_eq!(refused(&machine, &alcove(true), "reach(mug_1)").1, None);
+    let mut both = alcove(false);
+    wall(&mut both, "front", [1.4, 0.0, 1.0], [0.1, 3.0, 2.0]);
+    wall(&mut both, "behind", [1.5, 1.5, 1.0], [4.0, 0.1, 2.0]);
+    wall(&mut both, "beside", [1.5, -1.5, 1.0], [4.0, 0.1, 2.0]);
+    assert_eq!(refused(&machine, &both, "reach(mug_1)").1, None);
+}
+
+/// The mug on a table in a closed room, in the only gap of which, so many metres to either side, stands something.
+fn doorway(gap: f64, chairs: &[(&str, [f64; 2], f64)]) -> Scene {
+    changed(|scene| {
+        scene.entities.retain(|id, _| id == "mug_1");
+        let (middle, wide) = ((2.7 + gap) / 2.0, 2.7 - gap);
+        wall(scene, "left", [1.5, middle, 1.0], [0.1, wide, 2.0]);
+        wall(scene, "right", [1.5, -middle, 1.0], [0.1, wide, 2.0]);
+        wall(scene, "north", [3.5, 2.7, 1.0], [4.1, 0.1, 2.0]);
+        wall(scene, "south", [3.5, -2.7, 1.0], [4.1, 0.1, 2.0]);
+        wall(scene, "back", [5.5, 0.0, 1.0], [0.1, 5.5, 2.0]);
+        wall(scene, "table", [4.0, 0.0, 0.36], [0.6, 1.0, 0.72]);
+        for (id, [x, y], deep) in chairs {
+            wall(scene, id, [*x, *y, 0.45], [*deep, 0.5, 0.9]);
+            scene.entities[*id].fixed = false;
+        }
+        let mug = &mut scene.entities["mug_1"];
+        mug.on = Some("table".into());
+        mug.pose.as_mut().unwrap().xyz = [3.8, 0.0, 0.775];
+    })
+}
+
+#[test]
+fn what_stands_in_the_only_doorway_is_the_culprit() {
+    for (robot, gap) in [("hsr", 0.5), ("anymal_z1", 1.0)] {
+        let (machine, _) = machine(robot);
+        for (query, to) in [
+            ("go_to(table)", "a place within"),
+            ("go_to(mug_1)", "a place within"),
+            ("reach(mug_1)", "a place from which `mug_1` is in reach"),
+        ] {
+            // One far from the doorway, as near to the table, is of no matter.
+            let scene = doorway(gap, &[("stool", [4.8, 1.5], 0.3), ("chair", [1.5, 0.0], 0.4)]);
+            let (why, help) = refused(&machine, &scene, query);
+            assert_eq!(
+                why.reason,
+                InfeasibleReason::BlockedPath { by: Some("chair".into()) },
+                "{robot}, {query}"
+            );
+            let help = help.unwrap();
+            assert!(help.starts_with(&format!("every way to {to}")), "{robot}, {query}: {help}");
+            assert!(
+                help.ends_with("is blocked by `chair`: take it out of the way"),
+                "{robot}, {query}: {help}"
+            );
+            // What never moves is told, and not asked away; the thing itself and the robot are never in the way.
+            let mut walled = doorway(gap, &[]);
+            wall(&mut walled, "board", [1.5, 0.0, 1.0], [0.1, 2.0 * gap, 2.0]);
+            let (why, help) = refused(&machine, &walled, query);
+            assert_eq!(help, None, "{robot}, {query}");
+            let InfeasibleReason::BlockedPath { by: Some(by) } = why.reason else {
+                panic!("{robot}, {query}: {why:?}")
+            };
+            assert!(walled.entities[&by].fixed && by != "table", "{robot}, {query}: {by}");
+        }
+    }
+}
+
+#[test]
+fn two_things_in_a_row_have_to_go_both() {
+    let (machine, _) = machine("hsr");
+    let mut scene = doorway(0.5, &[("chair", [1.5, 0.0], 0.4), ("stool", [2.3, 0.0], 0.4)]);
+    for (id, y) in [("inner_left", 0.6), ("inner_right", -0.6)] {
+        wall(&mut scene, id, [1.9, y, 1.0], [0.9, 0.2, 2.0]);
+    }
+    let (why, help) = refused(&machine, &scene, "go_to(table)");
+    assert_eq!(why.reason, InfeasibleReason::BlockedPath { by: Some("chair".into()) });
+    assert!(help.unwrap().ends_with("is blocked by `chair` and `stool`: take them out of the way"));
+}
+
+#[test]
+fn what_lies_too_flat_is_told_how_much_higher_it_would_do() {
+    let (machine, _) = machine("hsr");
+    let scene = embedded("kitchen");
+    let (why, help) = refused(&machine, &scene, "reach(plate)");
+    assert!(matches!(why.reason, InfeasibleReason::NoFreePose { share: Some(_), .. }));
+    let help = help.unwrap();
+    let up =
+        help.strip_prefix("with `plate` ").and_then(|rest| rest.strip_suffix(" m higher it can be done"));
+    let up: f64 = up.unwrap().parse().unwrap();
+    let mut higher = scene.clone();
+    higher.entities["plate"].pose.as_mut().unwrap().xyz[2] += up;
+    assert!(matches!(asked(&machine, &higher, "reach(plate)").0, MotionAnswer::Feasible(_)));
+}
+
+#[test]
+fn what_is_shut_in_is_let_out() {
+    let (machine, _) = machine("hsr");
+    let shut = |is_open: bool| {
+        changed(|scene| {
+            let at = scene.entities["drawer_1"].pose.unwrap().xyz;
+            scene.entities["drawer_1"].open = Some(is_open);
+            scene.entities["mug_1"].on = None;
+            scene.entities["mug_1"].inside = Some("drawer_1".into());
+            scene.entities["mug_1"].pose.as_mut().unwrap().xyz = at;
+        })
+    };
+    for query in ["reach(mug_1)", "look(mug_1)"] {
+        let (_, help) = refused(&machine, &shut(false), query);
+        assert_eq!(help.as_deref(), Some("open `drawer_1` before"), "{query}");
+    }
+    let (_, help) = asked(&machine, &shut(true), "reach(mug_1)");
+    assert!(help.is_none_or(|help| !help.contains("open")));
+}
+
+#[test]
+fn what_is_hidden_is_seen_from_elsewhere() {
+    let (machine, _) = machine("hsr");
+    let scene = changed(|scene| {
+        wall(scene, "screen", [1.2, 0.0, 1.0], [0.1, 1.6, 2.0]);
+        scene.entities["mug_1"].on = None;
+        scene.entities["mug_1"].pose.as_mut().unwrap().xyz = [2.4, 0.0, 0.8];
+        scene.entities.retain(|id, _| ["screen", "mug_1"].contains(&id.as_str()));
+    });
+    let (why, help) = refused(&machine, &scene, "look(mug_1)");
+    assert_eq!(why.reason, InfeasibleReason::NotInView { by: Some("screen".into()), aside: None });
+    assert_eq!(help.as_deref(), Some("go to `mug_1` before"));
+}
+
+#[test]
+fn heights_are_told_of_every_motion_of_the_hand() {
+    let (machine, _) = machine("hsr");
+    let high = |z: f64, held: bool| {
+        changed(|scene| {
+            scene.entities.retain(|id, _| ["mug_1", "shelf", "drawer_1"].contains(&id.as_str()));
+            scene.entities["mug_1"].on = None;
+            scene.entities["mug_1"].inside = None;
+            if held {
+                scene.robot.holding = Some(Some("mug_1".into()));
+            }
+            let shelf = &mut scene.entities["shelf"];
+            shelf.shape = Some(Shape::Box([0.8, 0.4, 0.04]));
+            shelf.pose.as_mut().unwrap().xyz[2] = z - 0.02;
+            let drawer = &mut scene.entities["drawer_1"];
+            (drawer.on, drawer.inside) = (None, None);
+            drawer.pose.as_mut().unwrap().xyz[2] = z;
+            assert!(matches!(drawer.travel, Some(Travel::Slide { .. })));
+        })
+    };
+    for (query, what, held) in [
+        ("put(mug_1, shelf)", "the top of `shelf`", true),
+        ("pull(drawer_1)", "the handle of `drawer_1`", false),
+    ] {
+        let (why, help) = refused(&machine, &high(2.4, held), query);
+        let InfeasibleReason::OutOfReach { what: "height", needs, reach } = why.reason else {
+            panic!("{query}: {why:?}")
+        };
+        let least = ((needs - reach) * 100.0).ceil() / 100.0;
+        assert_eq!(help.unwrap(), format!("{what} would have to be at least {least:.2} m lower"));
+        assert!((needs - 2.4).abs() < 0.05, "{query}: {needs}");
+        assert!(why.certified, "{query}");
+        // Lower by so much, and a little for the way there, it is not too high.
+        let lower = asked(&machine, &high(2.4 - least, held), query).0;
+        assert!(
+            !matches!(&lower, MotionAnswer::Infeasible(why) if matches!(why.reason, InfeasibleReason::OutOfReach { .. })),
+            "{query}: {lower:?}"
+        );
+    }
+}
+
+#[test]
+fn the_robot_in_its_own_way_is_told_with_its_links() {
+    let (machine, _) = machine("hsr");
+    // With the arm as at home the wrist is beside the head.
+    let mut scene = aside(2.0, 90.0);
+    scene.robot.joints.clear();
+    let (why, help) = refused(&machine, &scene, "look(mug_1)");
+    let told = "the robot itself (`head_tilt_link` and `wrist_roll_link`) blocks the way";
+    assert_eq!(why.reason.to_string(), told);
+    assert_eq!(help.as_deref(), Some("bring the arm into the posture `start` before"));
+}

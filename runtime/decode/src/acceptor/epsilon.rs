@@ -1,0 +1,193 @@
+//! What is meant where no byte is taken: rules begin and end, names are bound, blocks are entered and left.
+
+use std::sync::Arc;
+
+use super::event_log::{CallFrame, Event, Flags, Id, Name, State, UNSEEN};
+use super::machine::Machine;
+use crate::automaton::{Action, BlockRole, ConditionUse, NodeKind, Op, OpId};
+
+impl Machine {
+    /// Goes on at `op`, past all that takes no byte.
+    pub(super) fn follow_epsilon(&mut self, mut state: State, op: OpId) -> State {
+        let context = Arc::clone(&self.context);
+        state.op = op;
+        loop {
+            match context.automaton.op(state.op) {
+                Op::Action(apply) => {
+                    self.apply(&mut state, *apply);
+                    state.op += 1;
+                }
+                Op::Call(rule) => {
+                    let below = self.frame(state.frame);
+                    let rest = context.automaton.rest(state.op + 1) + below.rest;
+                    let (ret, scope) = (state.op + 1, state.scope);
+                    let frame = CallFrame { below: state.frame, ret, rest, count: 0, scope, ..below };
+                    state.frame = self.arenas.push_frame(frame);
+                    state.op = *rule;
+                }
+                Op::Jump(to) => state.op = *to,
+                Op::Return => {
+                    let frame = self.frame(state.frame);
+                    state.frame = frame.below;
+                    state.op = frame.ret;
+                }
+                Op::Literal(_)
+                | Op::Choose(_)
+                | Op::Optional(_)
+                | Op::Word(_)
+                | Op::Fork { .. }
+                | Op::Text { .. }
+                | Op::Name(_)
+                | Op::Number(_)
+                | Op::Accept => break,
+            }
+        }
+        (state.pos, state.lo, state.hi) = (0, UNSEEN, UNSEEN);
+        state
+    }
+
+    fn apply(&mut self, state: &mut State, apply: Action) {
+        let frame = self.frame(state.frame);
+        let changed = match apply {
+            Action::Open(kind) => {
+                state.event = self.record(state.event, Event::Open(kind));
+                return;
+            }
+            Action::Close => {
+                state.event = self.record(state.event, Event::Close);
+                return;
+            }
+            Action::Constant(plain) => {
+                state.event = self.record(state.event, Event::Constant(plain));
+                return;
+            }
+            Action::Head => {
+                state.event = self.arenas.record_step_end(state.event);
+                return;
+            }
+            Action::BindItem => {
+                let kind = self.kind_of_list(state.event);
+                let types = &self.context.automaton.types;
+                let ty = kind.and_then(|kind| {
+                    types.iter().position(|ty| *ty == motet_compiler::signature::Type::Entity(kind))
+                });
+                let ty = ty.and_then(|ty| u16::try_from(ty).ok()).unwrap_or(u16::MAX);
+                if let Some((start, len)) = self.name_before_list(state.event) {
+                    state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
+                }
+                return;
+            }
+            Action::Leave => {
+                if frame.slot != BlockRole::Body {
+                    state.event = self.record(state.event, Event::Close);
+                }
+                state.scope = frame.scope;
+                return;
+            }
+            Action::Forget => {
+                state.scope = self.arenas.name(state.scope).map_or(0, |name| name.below);
+                return;
+            }
+            Action::StepDone => {
+                if frame.slot == BlockRole::Body {
+                    state.event = self.arenas.record_step_end(state.event);
+                }
+                CallFrame { count: frame.count.saturating_add(1), ..frame }
+            }
+            Action::Count => CallFrame { count: frame.count.saturating_add(1), ..frame },
+            Action::Enter(slot) => self.enter(state, slot, frame),
+            Action::Condition(asks) => {
+                let flags = frame.flags.without(Flags::STRICT).without(Flags::LOOSE);
+                let flags = flags.without(Flags::GOAL).without(Flags::NEGATED);
+                let flags = match asks {
+                    ConditionUse::Goal => flags.with(Flags::GOAL),
+                    ConditionUse::Anything => flags,
+                    ConditionUse::Wait if flags.has(Flags::SHARED) => {
+                        let flags = flags.with(Flags::STRICT);
+                        if self.verify_beside(state.event, &[]) { flags.with(Flags::LOOSE) } else { flags }
+                    }
+                    ConditionUse::Wait => flags,
+                    ConditionUse::Until if self.needs_no_test(state.event) => flags,
+                    ConditionUse::Until => flags.with(Flags::STRICT),
+                };
+                CallFrame { flags, conditions: 0, ..frame }
+            }
+            Action::Bind(ty) => {
+                if let Some(name) = self.arenas.name(state.scope).copied() {
+                    state.event = self.record(state.event, Event::Name(name.start, name.len));
+                    state.scope = self.arenas.bind(Name { ty, ..name });
+                }
+                return;
+            }
+            Action::Join(kind) => {
+                state.event = self.record(state.event, Event::Joined(kind));
+                CallFrame { count: frame.count.saturating_add(1), ..frame }
+            }
+            Action::Deeper => CallFrame { conditions: frame.conditions.saturating_add(1), ..frame },
+            Action::Loosen => {
+                CallFrame { flags: frame.flags.without(Flags::STRICT).without(Flags::LOOSE), ..frame }
+            }
+            Action::Negate => CallFrame { flags: frame.flags.with(Flags::NEGATED), ..frame },
+        };
+        state.frame = self.arenas.push_frame(changed);
+    }
+
+    fn enter(&mut self, state: &mut State, slot: BlockRole, frame: CallFrame) -> CallFrame {
+        let flags = frame.flags.without(Flags::STRICT).without(Flags::LOOSE);
+        let mut flags = flags.without(Flags::NEGATED).without(Flags::GOAL);
+        match slot {
+            BlockRole::Branch | BlockRole::Reaction => flags = flags.with(Flags::SHARED),
+            BlockRole::During if self.reacts_inside(state.event, flags) => flags = flags.with(Flags::SHARED),
+            BlockRole::Try => flags = flags.with(Flags::TRIED),
+            BlockRole::Body
+            | BlockRole::Group
+            | BlockRole::Then
+            | BlockRole::Else
+            | BlockRole::Catch
+            | BlockRole::During
+            | BlockRole::Loop => {}
+        }
+        let is_fixpoint =
+            matches!(slot, BlockRole::Loop | BlockRole::Branch | BlockRole::During | BlockRole::Reaction);
+        let (depth, fix) = (frame.depth, frame.fix);
+        if slot != BlockRole::Body {
+            state.event = self.record(state.event, Event::Open(NodeKind::Block));
+        }
+        CallFrame {
+            count: 0,
+            depth: depth.saturating_add(u8::from(slot != BlockRole::Body)),
+            fix: fix.saturating_add(u8::from(is_fixpoint)),
+            conditions: 0,
+            flags,
+            slot,
+            scope: state.scope,
+            ..frame
+        }
+    }
+
+    /// Whether a reaction of the monitor of which everything but its body was said may be refuted by what the body does.
+    fn reacts_inside(&self, event: Id, flags: Flags) -> bool {
+        let mut at = event;
+        let mut nested = 0usize;
+        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
+            match said.event {
+                Event::Close => nested += 1,
+                Event::Open(NodeKind::Monitor) if nested == 0 => return false,
+                Event::Open(kind) => {
+                    nested = nested.saturating_sub(1);
+                    let is_inside = match kind {
+                        NodeKind::Restart | NodeKind::Resume | NodeKind::Done | NodeKind::Field(_) => true,
+                        NodeKind::Pause => flags.has(Flags::TRIED) || flags.has(Flags::SHARED),
+                        _ => false,
+                    };
+                    if is_inside {
+                        return true;
+                    }
+                }
+                _ => {}
+            }
+            at = said.below;
+        }
+        false
+    }
+}

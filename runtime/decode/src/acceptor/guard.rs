@@ -1,0 +1,363 @@
+//! Which choices are open: names in scope of the right type, calls that nothing refutes, endings that reach the goal,
+//! brackets that may close.
+
+use motet_compiler::MAX_FIXPOINTS;
+
+use super::event_log::{Event, Flags, Id, State};
+use super::machine::{Machine, is_ruled_out};
+use super::oracle::{Argument, CallSite, MOST_SHARED};
+use super::word::BOUND;
+use crate::automaton::{BlockRole, BoundNames, Guard, NodeKind, Op, OpId, WordList, WordRole};
+use crate::subset::{MAX_CONDITION_DEPTH, MAX_STEPS};
+
+impl Machine {
+    fn site(&self, state: &State, event: Id) -> CallSite {
+        let shared = self.frame(state.frame).flags.has(Flags::SHARED);
+        CallSite { event, scope: state.scope, shared, tries: MOST_SHARED }
+    }
+
+    /// Whether an alternative that is guarded like this is open.
+    pub(crate) fn allows(&mut self, state: &State, guard: Guard) -> bool {
+        let frame = self.frame(state.frame);
+        let flags = frame.flags;
+        let is_strict = flags.has(Flags::STRICT);
+        let may_be_loose = !is_strict || flags.has(Flags::LOOSE);
+        // The last place of a block is for its end.
+        let has_room = usize::from(frame.count) + 1 < MAX_STEPS;
+        let may_nest = has_room && usize::from(frame.depth) < self.context.automaton.subset.depth;
+        let may_fix = may_nest && usize::from(frame.fix) < MAX_FIXPOINTS;
+        match guard {
+            Guard::Open | Guard::Rare => true,
+            Guard::Never => false,
+            Guard::Below(most) => frame.count < most,
+            Guard::Close => self.may_close(state, frame.slot, flags),
+            Guard::Empty => {
+                let block = [Event::Open(NodeKind::Block), Event::Close];
+                !flags.has(Flags::SHARED) || self.verify_beside(state.event, &block)
+            }
+            Guard::Call => has_room && self.can_call_something(state, false),
+            Guard::Let => has_room && self.can_call_something(state, true),
+            Guard::Callable(number) => has_room && self.can_be_called(number, self.site(state, state.event)),
+            Guard::Nest => may_nest,
+            Guard::Fix => may_fix,
+            Guard::Wait => {
+                let wait = [Event::Open(NodeKind::Wait)];
+                has_room
+                    && (!flags.has(Flags::SHARED)
+                        || (self.context.automaton.measures && self.verify_beside(state.event, &wait))
+                        || self.some_condition_holds(state, &wait, false)
+                        || self.some_condition_holds(state, &wait, true))
+            }
+            Guard::Done => {
+                let done = [Event::Open(NodeKind::Done), Event::Close];
+                usize::from(frame.count) < MAX_STEPS
+                    && self.may_be_done(state.event)
+                    && (!flags.has(Flags::SHARED) || self.verify_beside(state.event, &done))
+            }
+            Guard::DoneWhen => self.verify(state.event, &[Event::Open(NodeKind::Done), Event::Close]),
+            Guard::React(NodeKind::Pause) => {
+                let is_plain = !flags.has(Flags::TRIED) && !flags.has(Flags::SHARED);
+                is_plain || self.verify_beside(state.event, &[Event::Open(NodeKind::Pause), Event::Close])
+            }
+            Guard::React(NodeKind::Resume) => {
+                usize::from(frame.depth) < self.context.automaton.subset.depth
+                    && usize::from(frame.fix) < MAX_FIXPOINTS
+                    && self.verify(state.event, &[Event::Open(NodeKind::Resume)])
+            }
+            Guard::React(kind) => self.verify(state.event, &[Event::Open(kind), Event::Close]),
+            Guard::All => !is_strict && usize::from(frame.conditions) < MAX_CONDITION_DEPTH,
+            Guard::Any => may_be_loose && usize::from(frame.conditions) < MAX_CONDITION_DEPTH,
+            Guard::Not => {
+                usize::from(frame.conditions) < MAX_CONDITION_DEPTH
+                    && (!is_strict
+                        || (!flags.has(Flags::NEGATED)
+                            && ((flags.has(Flags::LOOSE) && self.context.automaton.measures)
+                                || self.some_condition_holds(state, &[], true))))
+            }
+            Guard::Is => {
+                if is_strict {
+                    self.some_condition_holds(state, &[], false)
+                } else {
+                    flags.has(Flags::GOAL)
+                        || self.context.automaton.signatures.fluents.iter().any(|fluent| fluent.is_observable)
+                }
+            }
+            Guard::Fluent(number) if is_strict => self.condition_holds(state, number, &mut Vec::new()),
+            Guard::Fluent(number) => {
+                let fluent = self.context.automaton.signatures.fluents.get(usize::from(number));
+                usize::from(frame.conditions) <= MAX_CONDITION_DEPTH
+                    && (flags.has(Flags::GOAL) || fluent.is_some_and(|fluent| fluent.is_observable))
+            }
+            Guard::And => !is_strict && self.may_join(state, frame.conditions),
+            Guard::Or => may_be_loose && self.may_join(state, frame.conditions),
+            Guard::Paren(levels) => {
+                may_be_loose && usize::from(frame.conditions) + usize::from(levels) <= MAX_CONDITION_DEPTH
+            }
+            Guard::NotParen => {
+                let may_be_several = usize::from(frame.conditions) < MAX_CONDITION_DEPTH;
+                may_be_loose && (may_be_several || self.context.automaton.measures)
+            }
+            Guard::Several => usize::from(frame.conditions) <= MAX_CONDITION_DEPTH,
+            Guard::Compared => self.last_condition(state.event).is_comparison,
+            Guard::Loose => may_be_loose,
+            Guard::NoTest => self.needs_no_test(state.event),
+        }
+    }
+
+    /// Whether a block may end where it is.
+    fn may_close(&mut self, state: &State, slot: BlockRole, flags: Flags) -> bool {
+        let close = [Event::Close];
+        match slot {
+            BlockRole::Body => self.may_be_done(state.event),
+            // What comes back to the head of a loop; a test may keep it away.
+            BlockRole::Loop => {
+                self.may_iterate(state.event)
+                    || (self.is_repeat(state.event)
+                        && (self.some_condition_holds(state, &close, false)
+                            || self.some_condition_holds(state, &close, true)))
+            }
+            BlockRole::Branch
+            | BlockRole::Reaction
+            | BlockRole::During
+            | BlockRole::Group
+            | BlockRole::Then
+            | BlockRole::Else
+            | BlockRole::Try
+            | BlockRole::Catch => !flags.has(Flags::SHARED) || self.verify_beside(state.event, &close),
+        }
+    }
+
+    /// Whether the block that is open is the body of a `repeat`.
+    fn is_repeat(&self, event: Id) -> bool {
+        let mut at = event;
+        let mut closed = 0usize;
+        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
+            match said.event {
+                Event::Close => closed += 1,
+                Event::Open(NodeKind::Block) if closed == 0 => {}
+                Event::Open(kind) if closed == 0 => return kind == NodeKind::Repeat,
+                Event::Open(_) => closed -= 1,
+                _ => {}
+            }
+            at = said.below;
+        }
+        false
+    }
+
+    /// Whether anything can be called, or anything with a result.
+    fn can_call_something(&mut self, state: &State, has_result: bool) -> bool {
+        let site = self.site(state, state.event);
+        // Policies take a proof of all their steps: they come last.
+        let context = std::sync::Arc::clone(&self.context);
+        let results = context.automaton.signatures.callables.iter().map(|callable| callable.result.is_some());
+        let callables = context.automaton.callables.iter().zip(0..).zip(results);
+        let callables = callables.filter(|(_, has)| *has || !has_result).map(|(callable, _)| callable);
+        let mut order: Vec<(bool, u16)> =
+            callables.map(|(callable, number)| (callable.primitive.is_none(), number)).collect();
+        order.sort_unstable();
+        order.into_iter().any(|(_, callable)| self.can_be_called(callable, site))
+    }
+
+    /// Every word of an operation, in the order of the list.
+    pub(crate) fn words_of(&self, op: OpId, scope: Id, arg: Option<(usize, usize)>) -> Vec<Event> {
+        let Op::Word(words) = self.context.automaton.op(op) else { return Vec::new() };
+        let ruled_out = |index: u32| {
+            let meaning = words.table.get(index).map(|entry| entry.meaning);
+            arg.zip(meaning).is_some_and(|((callable, place), meaning)| {
+                is_ruled_out(&self.context, callable, place, meaning)
+            })
+        };
+        let own =
+            (0..u32::try_from(words.table.entries.len()).unwrap_or(0)).filter(|index| !ruled_out(*index));
+        let own = own.map(|index| Event::Word(op, index));
+        own.chain(self.bound_words(words, scope).map(Event::Bound)).collect()
+    }
+
+    /// The names in scope that are among the words of a list.
+    fn bound_words<'w>(&'w self, words: &WordList, scope: Id) -> impl Iterator<Item = Id> + use<'w> {
+        use motet_compiler::signature::Type;
+        let automaton = &self.context.automaton;
+        let bound = words.bound;
+        let fits = move |actual: u16| {
+            let Some(actual) = automaton.ty(actual) else { return false };
+            match bound {
+                BoundNames::None => false,
+                BoundNames::Lists => matches!(actual, Type::List(_)),
+                BoundNames::Type(wanted) => {
+                    automaton.ty(wanted).is_some_and(|wanted| automaton.signatures.fits(wanted, actual))
+                }
+            }
+        };
+        self.arenas.in_scope(scope).filter(move |(_, name)| fits(name.ty)).map(|(id, _)| id)
+    }
+
+    /// The words of an operation that are open, as a range of the list arena.
+    pub(crate) fn list(&mut self, state: &State, words: &WordList) -> (u32, u32) {
+        let mut call = match words.role {
+            WordRole::Argument(_) => self.call_so_far(state.event),
+            WordRole::Callable
+            | WordRole::Fluent
+            | WordRole::Of
+            | WordRole::Alike
+            | WordRole::Head
+            | WordRole::Keyword
+            | WordRole::Free => None,
+        };
+        let site = call.as_ref().and_then(|(callable, _, before)| {
+            let site = self.site(state, *before);
+            self.site_of(*callable, site)
+        });
+        let frame = self.frame(state.frame);
+        let arg = match (&call, words.role) {
+            (Some((callable, ..)), WordRole::Argument(place)) => {
+                Some((usize::from(*callable), usize::from(place)))
+            }
+            _ => None,
+        };
+        let mut found: Vec<u32> = Vec::new();
+        let mut kind = None;
+        let words_of = self.words_of(state.op, state.scope, arg);
+        if let (Some((callable, given, _)), Some(site)) = (&mut call, site) {
+            self.probe_values(*callable, given, &words_of, site);
+        }
+        if words.role == WordRole::Of && frame.flags.has(Flags::STRICT) {
+            self.probe_conditions(state, &words_of);
+        }
+        for event in words_of {
+            let (entry, meaning) = match event {
+                Event::Word(_, index) => (index, words.table.get(index).map(|entry| entry.meaning)),
+                Event::Bound(id) => (BOUND | id, None),
+                _ => continue,
+            };
+            let number = match meaning {
+                Some(crate::automaton::Meaning::Named(number)) => Some(number),
+                _ => None,
+            };
+            let is_open = match words.role {
+                WordRole::Callable => number.is_some_and(|callable| {
+                    let site = self.site(state, state.event);
+                    self.can_be_called(callable, site)
+                }),
+                WordRole::Argument(_) => match (&mut call, site) {
+                    (Some((callable, given, _)), Some(site)) => {
+                        given.push(Argument::One(event));
+                        let can = self.completes_call(*callable, given, site);
+                        given.pop();
+                        can
+                    }
+                    (Some(_), None) => false,
+                    (None, _) => true,
+                },
+                WordRole::Fluent if frame.flags.has(Flags::STRICT) => {
+                    number.is_some_and(|fluent| self.condition_holds(state, fluent, &mut Vec::new()))
+                }
+                WordRole::Fluent => {
+                    let fluents = &self.context.automaton.signatures.fluents;
+                    frame.flags.has(Flags::GOAL)
+                        || number
+                            .and_then(|number| fluents.get(usize::from(number)))
+                            .is_some_and(|fluent| fluent.is_observable)
+                }
+                WordRole::Of if frame.flags.has(Flags::STRICT) => match self.fluent_so_far(state.event) {
+                    Some((fluent, place)) => self.completes_with(state, fluent, place, event),
+                    None => true,
+                },
+                WordRole::Alike => {
+                    let wanted = *kind.get_or_insert_with(|| self.kind_of_list(state.event));
+                    let own = match meaning {
+                        Some(crate::automaton::Meaning::Entity(entity)) => self.kind_of(entity),
+                        _ => None,
+                    };
+                    wanted.is_none() || own == wanted
+                }
+                WordRole::Keyword => words.table.get(entry).is_some_and(|entry| {
+                    let to = entry.to.unwrap_or(words.next);
+                    self.fits(entry.name.len(), to, state.frame) && self.allows(state, entry.guard)
+                }),
+                WordRole::Of | WordRole::Head | WordRole::Free => true,
+            };
+            if is_open {
+                found.push(entry);
+            }
+        }
+        if found.iter().any(|entry| *entry >= BOUND) {
+            let machine = &*self;
+            let letters = |entry: u32| (0..).map_while(move |pos| machine.letter(words, entry, pos));
+            found.sort_by(|a, b| letters(*a).cmp(letters(*b)));
+        }
+        let lo = u32::try_from(self.arenas.lists.len()).unwrap_or(u32::MAX);
+        self.arenas.lists.append(&mut found);
+        (lo, u32::try_from(self.arenas.lists.len()).unwrap_or(u32::MAX))
+    }
+
+    /// The kind of an entity.
+    fn kind_of(&self, entity: u16) -> Option<usize> {
+        self.context.automaton.signatures.entities.get(usize::from(entity)).map(|(_, kind)| *kind)
+    }
+
+    /// The kind of the entities of the list that is being written, or that was just written; none before the first.
+    pub(crate) fn kind_of_list(&self, event: Id) -> Option<usize> {
+        let mut at = event;
+        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
+            match said.event {
+                Event::Word(op, index) => {
+                    let Op::Word(words) = self.context.automaton.op(op) else { return None };
+                    return match words.table.get(index)?.meaning {
+                        crate::automaton::Meaning::Entity(entity) => self.kind_of(entity),
+                        _ => None,
+                    };
+                }
+                Event::Close => at = said.below,
+                _ => return None,
+            }
+        }
+        None
+    }
+
+    /// The fluent of the condition that is being written, and how many arguments it has so far.
+    pub(super) fn fluent_so_far(&self, event: Id) -> Option<(u16, usize)> {
+        let mut at = event;
+        let mut given = 0;
+        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
+            match said.event {
+                Event::Open(NodeKind::Is(fluent)) => return Some((fluent, given)),
+                Event::Word(..) | Event::Bound(_) => given += 1,
+                _ => return None,
+            }
+            at = said.below;
+        }
+        None
+    }
+
+    /// Whether it may depend on what the text that is being written says whether it can stand where it does.
+    pub(crate) fn text_matters(&mut self) -> bool {
+        let state = self.state();
+        let op = match self.context.automaton.op(state.op) {
+            Op::Fork { other, .. } => *other,
+            _ => state.op,
+        };
+        let Op::Text { arg: Some(_) } = self.context.automaton.op(op) else { return false };
+        let Some((callable, _, before)) = self.call_so_far(state.event) else { return false };
+        let made = self.context.automaton.callables.get(usize::from(callable));
+        let site = self.site(&state, before);
+        made.is_none_or(|made| made.primitive.is_none())
+            || self.site_of(callable, site).is_none_or(|site| site.shared)
+    }
+
+    /// Whether a text may be an argument of the call that is being written: what it describes may matter there.
+    pub(crate) fn permits_text(&mut self, state: &State, text: Event) -> bool {
+        let Some((callable, mut given, before)) = self.call_so_far(state.event) else { return true };
+        let made = self.context.automaton.callables.get(usize::from(callable));
+        let is_policy = made.is_some_and(|made| made.primitive.is_none());
+        let site = self.site(state, before);
+        if !is_policy && !site.shared {
+            return true;
+        }
+        let Some(site) = self.site_of(callable, site) else { return false };
+        // A policy may ask what a text says.
+        let is_plain = made.is_some_and(|made| made.template.as_ref().is_none_or(|made| !made.compares()));
+        let text = if is_plain { self.plain_text(text) } else { text };
+        given.push(Argument::One(text));
+        self.completes_call(callable, &mut given, site)
+    }
+}

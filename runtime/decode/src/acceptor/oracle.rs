@@ -1,0 +1,388 @@
+//! What the checker says of a place of a machine. Two drafts follow the machine: one stands where the next step will stand and
+//! is asked of calls, the other is asked whether steps that are closed for the time being are errors.
+
+use motet_compiler::Session;
+use motet_compiler::draft::{Draft, Test, Value};
+use motet_compiler::signature::Type;
+
+use super::event_log::{Event, Id, mix};
+use super::machine::Machine;
+use super::memo::Question;
+use super::proof_cursor::{ProofCursor, Transcript};
+use crate::automaton::{Automaton, Constant, Meaning, NodeKind, Op};
+
+/// The drafts of a machine, and how far they are.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Oracle {
+    /// Oracle of calls.
+    place: ProofCursor,
+    /// Oracle of whole steps.
+    pub(super) verifier: ProofCursor,
+    /// The hash of what was said up to where the first of them stands.
+    stands: Option<u64>,
+}
+
+/// Where a call takes a proof of all that runs at once, so many values are tried of the argument behind those that are given, of
+/// values that nothing refutes at the place; of those behind it one. What is open here is open when its turn comes, so what is
+/// begun can still be completed.
+pub(super) const MOST_SHARED: usize = 3;
+
+/// An argument that is tried.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Argument {
+    /// A value.
+    One(Event),
+    /// A list of this one value.
+    List(Event),
+}
+
+/// Where a call is tried: the event before it, and what is bound there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CallSite {
+    pub(crate) event: Id,
+    pub(crate) scope: Id,
+    /// Whether what the call does may refute what stands elsewhere.
+    pub(crate) shared: bool,
+    /// How many values of the next argument are tried where it may.
+    pub(crate) tries: usize,
+}
+
+impl Machine {
+    /// Whether the step of the body that is being written is no error, with `more` behind what was said and closed.
+    pub(crate) fn verify(&mut self, event: Id, more: &[Event]) -> bool {
+        let key = self.key(Question::Verify, event, more.iter().copied());
+        self.answer(key, |machine| {
+            let before = machine.arenas.entry(event).map_or(0, |said| said.before);
+            let mut events = machine.arenas.between(before, event);
+            events.extend_from_slice(more);
+            let transcript =
+                Transcript { context: &machine.context, arenas: &machine.arenas, bytes: &machine.bytes };
+            let step = transcript.step(&events);
+            let draft = machine.oracle.verifier.follow(&transcript, before);
+            match (draft, step) {
+                (Some(draft), Some(step)) => draft.permits_step(&machine.context.session, &step),
+                (Some(_), None) => true,
+                (None, _) => false,
+            }
+        })
+    }
+
+    /// Whether what stands beside the place behind `event` is no error either, with `more` at the place.
+    pub(crate) fn verify_beside(&mut self, event: Id, more: &[Event]) -> bool {
+        self.is_independent(event, more) || self.verify(event, more)
+    }
+
+    /// The draft where the next step will stand, behind `event`.
+    fn place(&mut self, event: Id) -> Option<(&mut Draft, &Session)> {
+        let before = self.arenas.entry(event).map_or(0, |said| said.before);
+        let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
+        let hash = transcript.arenas.hash(event);
+        if self.oracle.stands != Some(hash) {
+            self.oracle.stands = None;
+            let draft = self.oracle.place.follow(&transcript, before)?;
+            let mut events = transcript.arenas.between(before, event);
+            let step = if events.is_empty() {
+                None
+            } else {
+                events.push(Event::Hole);
+                transcript.step(&events)
+            };
+            draft.go(&self.context.session, step.as_ref());
+            self.oracle.stands = Some(hash);
+        }
+        Some((self.oracle.place.draft.as_mut()?, &self.context.session))
+    }
+
+    /// What a test with this fluent and these arguments tells at the end of a loop's body, which is behind `event`.
+    pub(crate) fn test(&mut self, event: Id, fluent: u16, negated: bool, args: &[Event]) -> Test {
+        let values = args.iter().map(|event| match meaning(&self.context.automaton, *event) {
+            Some(Meaning::Any) => Some(None),
+            Some(meaning) => Some(Some(meaning.value())),
+            None => None,
+        });
+        // A name may be one of several entities.
+        let Some(values) = values.collect::<Option<Vec<_>>>() else { return Test::Open };
+        let context = std::sync::Arc::clone(&self.context);
+        let Some(name) =
+            context.automaton.signatures.fluents.get(usize::from(fluent)).map(|fluent| &fluent.name)
+        else {
+            return Test::Open;
+        };
+        self.place(event).map_or(Test::Open, |(draft, session)| draft.test(session, name, &values, negated))
+    }
+
+    /// Whether the loop whose body ends behind `event` may come round, as far as its own steps tell. Its test is a fluent, whether
+    /// it stands under `not`, and its arguments. Where it may, a number that tests share which leave the same facts.
+    pub(crate) fn permits_round(&mut self, event: Id, test: Option<(u16, bool, &[Event])>) -> Option<u64> {
+        let context = std::sync::Arc::clone(&self.context);
+        let Some((fluent, negated, args)) = test else {
+            return self.place(event).and_then(|(draft, session)| draft.permits_round(session, None));
+        };
+        let fluent = context.automaton.signatures.fluents.get(usize::from(fluent));
+        let (Some(fluent), Some(_)) = (fluent, self.place(event)) else { return None };
+        let site = CallSite { event, scope: 0, shared: false, tries: MOST_SHARED };
+        let values = args.iter().map(|arg| match meaning(&context.automaton, *arg) {
+            Some(Meaning::Any) => Some(None),
+            _ => self.value_of(Argument::One(*arg), site).map(Some),
+        });
+        let values = values.collect::<Option<Vec<_>>>()?;
+        let test = Some((fluent.name.as_str(), values.as_slice(), negated));
+        self.place(event).and_then(|(draft, session)| draft.permits_round(session, test))
+    }
+
+    /// Whether the policy may be done where the next step will stand.
+    pub(crate) fn may_be_done(&mut self, event: Id) -> bool {
+        let key = self.key(Question::Done, event, None);
+        self.answer(key, |machine| {
+            machine.place(event).is_some_and(|(draft, session)| draft.permits_done(session))
+        })
+    }
+
+    /// Where a call can be tried; none where what runs at once uses what it uses.
+    pub(crate) fn site_of(&self, callable: u16, site: CallSite) -> Option<CallSite> {
+        let made = self.context.automaton.callables.get(usize::from(callable))?;
+        if !site.shared {
+            return Some(site);
+        }
+        let is_free = made.uses & self.resources_taken(site.event) == 0;
+        let call = [Event::Open(NodeKind::Do(callable)), Event::Close];
+        is_free.then(|| CallSite { shared: !self.is_independent(site.event, &call), ..site })
+    }
+
+    /// Whether a callable can be called with some arguments.
+    pub(crate) fn can_be_called(&mut self, callable: u16, site: CallSite) -> bool {
+        let Some(own) = self.site_of(callable, site) else { return false };
+        if own.shared {
+            self.probe_callables(site);
+        }
+        self.completes_call(callable, &mut Vec::new(), own)
+    }
+
+    /// Whether a call can be completed from the arguments that are given.
+    pub(crate) fn completes_call(
+        &mut self,
+        callable: u16,
+        given: &mut Vec<Argument>,
+        site: CallSite,
+    ) -> bool {
+        let question = if site.shared { Question::SharedCall } else { Question::Call };
+        let key = self.key(question, site.event, of_call(callable, given));
+        let key = if site.shared { mix(key, site.tries as u64) } else { key };
+        self.answer(key, |machine| machine.completes_anew(callable, given, site))
+    }
+
+    fn completes_anew(&mut self, callable: u16, given: &mut Vec<Argument>, site: CallSite) -> bool {
+        let context = std::sync::Arc::clone(&self.context);
+        let index = usize::from(callable);
+        let (Some(made), Some(signature)) =
+            (context.automaton.callables.get(index), context.automaton.signatures.callables.get(index))
+        else {
+            return false;
+        };
+        let Some(args) = self.permitted(callable, given, site) else { return false };
+        let Some(options) = self.options(callable, given, site) else {
+            let events: Vec<Event> = of_call(callable, given).collect();
+            return !site.shared || self.verify(site.event, &events);
+        };
+        for (tried, option) in options.into_iter().enumerate() {
+            // Where the first does not do, it may be that none does.
+            if tried == 1
+                && made.primitive.is_none()
+                && !self.place(site.event).is_some_and(|(draft, session)| {
+                    draft.permits_open_policy(session, (&signature.name, made.template.as_ref()), &args)
+                })
+            {
+                return false;
+            }
+            given.push(option);
+            let can = self.completes_call(callable, given, CallSite { tries: 1, ..site });
+            given.pop();
+            if can {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The arguments of a call, as many as are given, where nothing refutes it at its place.
+    fn permitted(&mut self, callable: u16, given: &[Argument], site: CallSite) -> Option<Vec<Option<Value>>> {
+        let context = std::sync::Arc::clone(&self.context);
+        let made = context.automaton.callables.get(usize::from(callable))?;
+        let signature = context.automaton.signatures.callables.get(usize::from(callable))?;
+        let mut args: Vec<Option<Value>> = Vec::with_capacity(signature.params.len());
+        for given in given {
+            args.push(Some(self.value_of(*given, site)?));
+        }
+        args.resize_with(signature.params.len(), || None);
+        let ask = |machine: &mut Self| {
+            machine.place(site.event).is_some_and(|(draft, session)| match made.primitive {
+                Some(primitive) => draft.permits_call(session, primitive, &args),
+                None => draft.permits_policy(session, (&signature.name, made.template.as_ref()), &args),
+            })
+        };
+        let permits = if site.shared {
+            // It is asked of a value when that is picked, and again when it is tried.
+            let key = self.key(Question::Permitted, site.event, of_call(callable, given));
+            self.answer(key, ask)
+        } else {
+            ask(self)
+        };
+        permits.then_some(args)
+    }
+
+    /// The call that is the first to be asked of all that runs at once, with these arguments and some behind them: nothing
+    /// refutes it at its place.
+    pub(super) fn likely_call(
+        &mut self,
+        callable: u16,
+        given: &mut Vec<Argument>,
+        site: CallSite,
+    ) -> Option<Vec<Event>> {
+        self.permitted(callable, given, site)?;
+        let Some(options) = self.options(callable, given, site) else {
+            return Some(of_call(callable, given).collect());
+        };
+        options.into_iter().find_map(|option| {
+            given.push(option);
+            let call = self.likely_call(callable, given, CallSite { tries: 1, ..site });
+            given.pop();
+            call
+        })
+    }
+
+    /// A text, or what stands for any where it describes nothing and so is as good as any other that does not.
+    pub(crate) fn plain_text(&self, text: Event) -> Event {
+        let Event::Text(start, len) = text else { return text };
+        let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize);
+        let written = bytes.and_then(|bytes| std::str::from_utf8(bytes).ok());
+        match written {
+            Some(written) if self.context.session.describes(written) => text,
+            _ => Event::AnyText,
+        }
+    }
+
+    /// What is tried as an argument; none behind the last.
+    fn options(&mut self, callable: u16, given: &mut Vec<Argument>, site: CallSite) -> Option<Vec<Argument>> {
+        let index = usize::from(callable);
+        let context = std::sync::Arc::clone(&self.context);
+        let ty = &context.automaton.signatures.callables.get(index)?.params.get(given.len())?.ty;
+        let options = self.values_of(index, given.len(), ty, site);
+        if !site.shared {
+            return Some(options);
+        }
+        // Names of the policy's own stand last, and are what is meant more often.
+        let mut tried = Vec::with_capacity(site.tries);
+        for option in options.into_iter().rev() {
+            given.push(option);
+            if self.permitted(callable, given, site).is_some() {
+                tried.push(option);
+            }
+            given.pop();
+            if tried.len() == site.tries {
+                break;
+            }
+        }
+        Some(tried)
+    }
+
+    /// What can be tried as an argument: every word, and one of all values between which no contract tells.
+    fn values_of(&self, callable: usize, place: usize, ty: &Type, site: CallSite) -> Vec<Argument> {
+        let made = self.context.automaton.callables.get(callable);
+        let word = made.and_then(|made| made.words.get(place).copied().flatten());
+        let element = made.and_then(|made| made.elements.get(place).copied().flatten());
+        let words = |op: Option<u32>| {
+            op.map(|op| self.words_of(op, site.scope, Some((callable, place)))).unwrap_or_default()
+        };
+        match ty {
+            Type::Text => vec![Argument::One(Event::AnyText)],
+            Type::Bool => vec![Argument::One(Event::Constant(Constant::True))],
+            Type::Int | Type::Number | Type::Quantity(_) => {
+                let params = self.context.automaton.signatures.callables.get(callable);
+                let range =
+                    params.and_then(|signature| signature.params.get(place)).and_then(|param| param.range);
+                let range = crate::subset::NumberRange::of(ty, range);
+                range
+                    .map(|range| Argument::One(Event::Number(range.least, range.decimals)))
+                    .into_iter()
+                    .collect()
+            }
+            Type::List(_) => {
+                let whole = words(word).into_iter().map(Argument::One);
+                whole.chain(words(element).into_iter().take(1).map(Argument::List)).collect()
+            }
+            Type::Pose | Type::Entity(_) | Type::Enum(_) => {
+                words(word).into_iter().map(Argument::One).collect()
+            }
+        }
+    }
+
+    /// A value that is tried, as the checker knows it.
+    fn value_of(&mut self, given: Argument, site: CallSite) -> Option<Value> {
+        let event = match given {
+            Argument::List(_) => return Some(Value::unknown()),
+            Argument::One(event) => event,
+        };
+        let text = |start: u32, len: u32| {
+            let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize)?;
+            std::str::from_utf8(bytes).ok()
+        };
+        Some(match event {
+            Event::Word(..) => meaning(&self.context.automaton, event)?.value(),
+            Event::Bound(id) => {
+                let name = *self.arenas.name(id)?;
+                let name = smol_str::SmolStr::new(text(name.start, name.len)?);
+                let (draft, _) = self.place(site.event)?;
+                draft.binding(&name)?
+            }
+            Event::Text(start, len) => Value::text(text(start, len)?),
+            Event::Constant(_) | Event::Number(..) | Event::AnyText => Value::unknown(),
+            Event::Open(_) | Event::Close | Event::Name(..) | Event::Joined(_) | Event::Hole => {
+                Value::unknown()
+            }
+        })
+    }
+
+    /// The arguments of the call that is being written, and the place before it.
+    pub(crate) fn call_so_far(&self, event: Id) -> Option<(u16, Vec<Argument>, Id)> {
+        let mut given = Vec::new();
+        let mut at = event;
+        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
+            at = said.below;
+            match said.event {
+                Event::Open(NodeKind::Do(callable)) => {
+                    given.reverse();
+                    return Some((callable, given, at));
+                }
+                // A list: nothing depends on what is in it.
+                Event::Close => {
+                    while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
+                        at = said.below;
+                        if said.event == Event::Open(NodeKind::List) {
+                            break;
+                        }
+                    }
+                    given.push(Argument::One(Event::AnyText));
+                }
+                event => given.push(Argument::One(event)),
+            }
+        }
+        None
+    }
+}
+
+/// A call as it is said.
+fn of_call(callable: u16, given: &[Argument]) -> impl Iterator<Item = Event> {
+    let open = Event::Open(NodeKind::Do(callable));
+    let args = given.iter().flat_map(|given| match given {
+        Argument::One(event) => [Some(*event), None, None],
+        Argument::List(event) => [Some(Event::Open(NodeKind::List)), Some(*event), Some(Event::Close)],
+    });
+    std::iter::once(open).chain(args.flatten()).chain([Event::Close])
+}
+
+/// What a word means.
+pub(super) fn meaning(automaton: &Automaton, event: Event) -> Option<Meaning> {
+    let Event::Word(op, index) = event else { return None };
+    let Op::Word(words) = automaton.op(op) else { return None };
+    words.table.get(index).map(|entry| entry.meaning)
+}

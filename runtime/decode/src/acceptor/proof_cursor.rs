@@ -1,0 +1,112 @@
+//! Drafts that follow a machine: from what was said to the steps of a policy that the checker has proved.
+
+use motet_compiler::draft::Draft;
+use motet_syntax::ast::{self, Policy, Step};
+use motet_syntax::{Span, Syntax};
+
+use super::event_log::{Arenas, Event, Id};
+use super::machine::Context;
+use super::step_builder::Builder;
+
+/// A draft that follows a machine.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ProofCursor {
+    pub(super) draft: Option<Draft>,
+    /// The hash of what was said up to the end of what stands before the steps.
+    head: u64,
+    /// The same of each step.
+    steps: Vec<u64>,
+}
+
+/// What a machine has said, for a follower to read.
+pub(super) struct Transcript<'w> {
+    pub(super) context: &'w Context,
+    pub(super) arenas: &'w Arenas,
+    pub(super) bytes: &'w [u8],
+}
+
+impl Transcript<'_> {
+    pub(super) fn step(&self, events: &[Event]) -> Option<Step> {
+        self.step_with(events, &[])
+    }
+
+    /// The same with any of some steps in its hole.
+    pub(super) fn step_with(&self, events: &[Event], choice: &[Step]) -> Option<Step> {
+        let Self { context, arenas, bytes } = self;
+        Builder { automaton: &context.automaton, arenas, bytes, events, choice }.step()
+    }
+
+    /// Name, robot and goal of the policy, from what was said before its steps.
+    fn head(&self, last: Id) -> Policy {
+        let events = self.arenas.between(0, last);
+        let Self { context, arenas, bytes } = self;
+        let mut text = String::new();
+        let mut rest = events.as_slice();
+        if let Some((Event::Name(start, len), behind)) = events.split_first() {
+            let end = start.saturating_add(*len) as usize;
+            text = String::from_utf8_lossy(bytes.get(*start as usize..end).unwrap_or_default()).into_owned();
+            rest = behind;
+        }
+        let automaton = &context.automaton;
+        let named = |text: smol_str::SmolStr| ast::Name { text, span: Span::default() };
+        let achieves = matches!(rest.first(), Some(Event::Open(_)))
+            .then(|| Builder { automaton, arenas, bytes, events: rest, choice: &[] }.condition());
+        let robot = Some(&automaton.signatures.robot).filter(|robot| !robot.is_empty());
+        Policy {
+            doc: ast::Doc::default(),
+            name: named(text.into()),
+            params: Vec::new(),
+            robot: robot.cloned().map(named),
+            achieves,
+            body: ast::Block::default(),
+            span: Span::default(),
+        }
+    }
+}
+
+impl ProofCursor {
+    /// Follows the machine to the end of the last whole step of the body before `last`, which is the event that ended it.
+    pub(super) fn follow(&mut self, transcript: &Transcript<'_>, last: Id) -> Option<&mut Draft> {
+        let hash = transcript.arenas.hash(last);
+        let latest = self.steps.last().copied().unwrap_or(self.head);
+        if self.draft.is_some() && latest == hash {
+            return self.draft.as_mut();
+        }
+        let session = &transcript.context.session;
+        let mut ends = Vec::new();
+        let mut at = last;
+        while at > 0 {
+            ends.push(at);
+            at = transcript
+                .arenas
+                .entry(at)
+                .and_then(|said| transcript.arenas.entry(said.below))
+                .map_or(0, |said| said.before);
+        }
+        ends.reverse();
+        let (head, steps) = ends.split_first()?;
+        if self.draft.is_none() || self.head != transcript.arenas.hash(*head) {
+            let (draft, _) = Draft::new(session, &transcript.head(*head), Syntax::Json);
+            self.draft = Some(draft);
+            self.head = transcript.arenas.hash(*head);
+            self.steps.clear();
+        }
+        let draft = self.draft.as_mut()?;
+        let known =
+            steps.iter().zip(&self.steps).take_while(|(id, known)| transcript.arenas.hash(**id) == **known);
+        let known = known.count();
+        draft.truncate(known);
+        self.steps.truncate(known);
+        let mut before = known.checked_sub(1).and_then(|last| steps.get(last)).copied().unwrap_or(*head);
+        for id in steps.iter().skip(known) {
+            let events = transcript.arenas.between(before, *id);
+            let step = transcript.step(&events)?;
+            if !draft.push(session, &step) {
+                return None;
+            }
+            self.steps.push(transcript.arenas.hash(*id));
+            before = *id;
+        }
+        Some(draft)
+    }
+}

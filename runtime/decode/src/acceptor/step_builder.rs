@@ -1,0 +1,407 @@
+//! From what was said to the policy that it is: the abstract syntax of a step that need not be whole. What is open is
+//! closed in the way that refutes least: every block that is open ends with a `fail`, so that no way leads out of it.
+
+use motet_compiler::draft::{CHOICE, HOLE};
+use motet_compiler::signature::Type;
+use motet_syntax::Span;
+use motet_syntax::ast::{
+    Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Name, Reaction, Step, StepKind, When,
+};
+use smol_str::SmolStr;
+
+use super::event_log::{Arenas, Event};
+use super::placeholder::{argument, closed, end, expr, fail, named};
+use crate::automaton::{Automaton, Constant, Meaning, NodeKind, Op};
+use crate::subset::{Decimal, Modifiers, Relation};
+
+/// Reads events.
+pub(crate) struct Builder<'a> {
+    pub(crate) automaton: &'a Automaton,
+    pub(crate) arenas: &'a Arenas,
+    /// The bytes of the machine.
+    pub(crate) bytes: &'a [u8],
+    pub(crate) events: &'a [Event],
+    /// The steps of which any may stand in the hole; it stays one where there are none.
+    pub(crate) choice: &'a [Step],
+}
+
+impl Builder<'_> {
+    fn next(&mut self) -> Option<Event> {
+        let (first, rest) = self.events.split_first()?;
+        self.events = rest;
+        Some(*first)
+    }
+
+    fn peek(&self) -> Option<Event> {
+        self.events.first().copied()
+    }
+
+    /// The end of something with parts, where it was said.
+    fn close(&mut self) {
+        if self.peek() == Some(Event::Close) {
+            self.next();
+        }
+    }
+
+    /// The first step of the events; none where there is none.
+    pub(crate) fn step(&mut self) -> Option<Step> {
+        let kind = match self.next()? {
+            Event::Hole if self.choice.is_empty() => return Some(Step { kind: fail().kind, span: HOLE }),
+            Event::Hole => {
+                let body = Block { steps: self.choice.to_vec(), span: Span::default() };
+                let kind = StepKind::Sequence { name: named(SmolStr::new_static("_")), body };
+                return Some(Step { kind, span: CHOICE });
+            }
+            Event::Open(kind) => self.of_kind(kind),
+            _ => return None,
+        };
+        self.close();
+        Some(Step { kind, span: Span::default() })
+    }
+
+    fn of_kind(&mut self, kind: NodeKind) -> StepKind {
+        match kind {
+            NodeKind::Do(index) => StepKind::Do(self.call(index)),
+            NodeKind::Sequence => StepKind::Sequence { name: self.name(), body: self.block() },
+            NodeKind::If => {
+                let condition = self.condition();
+                let (then, otherwise) = (self.block(), Some(self.block()));
+                StepKind::If { condition, then, otherwise }
+            }
+            NodeKind::Wait => {
+                let condition = self.condition();
+                StepKind::Wait { condition, within: self.modifier() }
+            }
+            NodeKind::Monitor => {
+                let mut whens = Vec::new();
+                while self.peek() == Some(Event::Open(NodeKind::When)) {
+                    self.next();
+                    whens.push(self.when());
+                    self.close();
+                }
+                StepKind::Monitor { whens, body: self.block() }
+            }
+            NodeKind::Try => {
+                let body = self.block();
+                let mut catches = Vec::new();
+                while self.peek() == Some(Event::Open(NodeKind::Catch)) {
+                    self.next();
+                    catches.push(self.catch());
+                    self.close();
+                }
+                if catches.is_empty() {
+                    catches.push(Catch {
+                        on: CatchOn::Any(Span::default()),
+                        body: closed(Vec::new()),
+                        span: Span::default(),
+                    });
+                }
+                StepKind::Try { body, catches }
+            }
+            NodeKind::Repeat => {
+                let times = self.number().unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+                let body = self.block();
+                let until = match self.peek() {
+                    Some(Event::Open(_)) => Some(self.condition()),
+                    Some(Event::Constant(_)) => {
+                        self.next();
+                        None
+                    }
+                    _ => None,
+                };
+                StepKind::Repeat { times, body, until }
+            }
+            NodeKind::Each => {
+                let item = self.name();
+                let list = self.value().unwrap_or_else(|| expr(ExprKind::List(Vec::new())));
+                let at_most = self.number().unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+                StepKind::Each { item, list, at_most, body: self.block() }
+            }
+            NodeKind::Parallel => {
+                let mut branches = Vec::new();
+                while self.peek() == Some(Event::Open(NodeKind::Block)) {
+                    branches.push(self.block());
+                }
+                while branches.len() < 2 {
+                    branches.push(closed(Vec::new()));
+                }
+                StepKind::Parallel { branches }
+            }
+            NodeKind::Done => StepKind::End(self.end(EndKind::Done)),
+            NodeKind::Fail => StepKind::End(self.end(EndKind::Fail)),
+            NodeKind::Replan => StepKind::End(self.end(EndKind::Replan)),
+            // These are no steps.
+            NodeKind::When
+            | NodeKind::Pause
+            | NodeKind::Restart
+            | NodeKind::Resume
+            | NodeKind::Catch
+            | NodeKind::Block
+            | NodeKind::Is(_)
+            | NodeKind::Not
+            | NodeKind::All
+            | NodeKind::Any
+            | NodeKind::Get(_)
+            | NodeKind::Field(_)
+            | NodeKind::List
+            | NodeKind::Group => fail().kind,
+        }
+    }
+
+    /// A block: one that is open, or not there yet, ends with a `fail`.
+    fn block(&mut self) -> Block {
+        if self.peek() != Some(Event::Open(NodeKind::Block)) {
+            return closed(Vec::new());
+        }
+        self.next();
+        let mut steps = Vec::new();
+        loop {
+            match self.peek() {
+                Some(Event::Close) => {
+                    self.next();
+                    return Block { steps, span: Span::default() };
+                }
+                None => return closed(steps),
+                Some(_) => match self.step() {
+                    Some(step) => steps.push(step),
+                    None => return closed(steps),
+                },
+            }
+        }
+    }
+
+    fn call(&mut self, index: u16) -> Do {
+        let callable = self.automaton.signatures.callables.get(usize::from(index));
+        let mut args = Vec::new();
+        for param in callable.map(|callable| callable.params.as_slice()).unwrap_or_default() {
+            let Some(value) = self.value() else { break };
+            args.push(argument(&param.name, value));
+        }
+        let is_policy = callable.is_some_and(|callable| callable.is_policy);
+        let (within, retry) = if is_policy { (None, None) } else { (self.modifier(), self.modifier()) };
+        let bind = matches!(self.peek(), Some(Event::Name(..))).then(|| self.name());
+        let name = callable.map(|callable| callable.name.clone()).unwrap_or_default();
+        Do { call: Call { name: named(name), args, span: Span::default() }, bind, within, retry }
+    }
+
+    /// What a subset with modifiers says.
+    fn modifier(&mut self) -> Option<Expr> {
+        if self.automaton.subset.modifiers == Modifiers::Default {
+            return None;
+        }
+        match self.peek() {
+            Some(Event::Constant(Constant::Null)) => {
+                self.next();
+                None
+            }
+            _ => self.number(),
+        }
+    }
+
+    fn number(&mut self) -> Option<Expr> {
+        let Some(Event::Number(units, decimals)) = self.peek() else { return None };
+        self.next();
+        Some(expr(ExprKind::Number(Decimal { units, decimals }.value())))
+    }
+
+    fn name(&mut self) -> Name {
+        let Some(Event::Name(start, len)) = self.peek() else { return named(SmolStr::new_static("_")) };
+        self.next();
+        named(self.text(start, len))
+    }
+
+    fn text(&self, start: u32, len: u32) -> SmolStr {
+        let bytes = self.bytes.get(start as usize..).and_then(|rest| rest.get(..len as usize));
+        SmolStr::new(String::from_utf8_lossy(bytes.unwrap_or_default()))
+    }
+
+    /// A value; none where none was said.
+    fn value(&mut self) -> Option<Expr> {
+        let kind = match self.peek()? {
+            Event::Word(op, index) => {
+                let Op::Word(words) = self.automaton.op(op) else { return None };
+                let entry = words.table.get(index)?;
+                match entry.meaning {
+                    Meaning::Any => ExprKind::Any,
+                    meaning => ExprKind::Plain(
+                        meaning.name(&self.automaton.signatures).unwrap_or_else(|| entry.name.clone()),
+                    ),
+                }
+            }
+            Event::Bound(id) => {
+                let name = self.arenas.name(id)?;
+                ExprKind::Binding(self.text(name.start, name.len))
+            }
+            Event::Text(start, len) => ExprKind::Plain(self.text(start, len)),
+            Event::AnyText => ExprKind::Plain(SmolStr::new_static("~")),
+            Event::Number(units, decimals) => ExprKind::Number(Decimal { units, decimals }.value()),
+            Event::Constant(Constant::True) => ExprKind::Bool(true),
+            Event::Constant(Constant::False) => ExprKind::Bool(false),
+            Event::Open(NodeKind::List) => {
+                self.next();
+                let mut items = Vec::new();
+                while let Some(item) = self.value() {
+                    items.push(item);
+                }
+                self.close();
+                return Some(expr(ExprKind::List(items)));
+            }
+            Event::Constant(Constant::Null)
+            | Event::Open(_)
+            | Event::Close
+            | Event::Name(..)
+            | Event::Joined(_)
+            | Event::Hole => return None,
+        };
+        self.next();
+        Some(expr(kind))
+    }
+
+    /// A condition; one that is not there yet says nothing.
+    pub(crate) fn condition(&mut self) -> Expr {
+        let first = self.primary();
+        let Some(Event::Joined(kind)) = self.peek() else { return first };
+        let mut parts = vec![first];
+        while let Some(Event::Joined(_)) = self.peek() {
+            self.next();
+            parts.push(self.primary());
+        }
+        expr(if kind == NodeKind::Any { ExprKind::AnyOf(parts) } else { ExprKind::All(parts) })
+    }
+
+    /// A condition without those beside it.
+    fn primary(&mut self) -> Expr {
+        let Some(Event::Open(kind)) = self.peek() else { return expr(ExprKind::Bool(true)) };
+        let kind = match kind {
+            NodeKind::Is(index) => {
+                self.next();
+                let fluent = self.automaton.signatures.fluents.get(usize::from(index));
+                let fluent = fluent.map(|fluent| (&fluent.name, fluent.params.as_slice()));
+                ExprKind::Call(self.applied(fluent))
+            }
+            NodeKind::Not => {
+                self.next();
+                ExprKind::Not(Box::new(self.condition()))
+            }
+            NodeKind::All => {
+                self.next();
+                ExprKind::All(self.conditions())
+            }
+            NodeKind::Any => {
+                self.next();
+                ExprKind::AnyOf(self.conditions())
+            }
+            NodeKind::Get(index) => {
+                self.next();
+                let measure = self.automaton.signatures.measures.get(usize::from(index));
+                let measure = measure.map(|measure| (&measure.name, measure.params.as_slice()));
+                let call = self.applied(measure);
+                self.comparison(ExprKind::Call(call))
+            }
+            NodeKind::Field(index) => {
+                self.next();
+                let field = self.automaton.signatures.fields.get(usize::from(index));
+                let name = field.map(|field| field.name.clone()).unwrap_or_default();
+                let of = self.value().unwrap_or_else(|| expr(ExprKind::Any));
+                self.comparison(ExprKind::Field(Box::new(of), named(name)))
+            }
+            NodeKind::Group => {
+                self.next();
+                let inner = self.condition();
+                self.close();
+                return inner;
+            }
+            _ => return expr(ExprKind::Bool(true)),
+        };
+        self.close();
+        expr(kind)
+    }
+
+    fn conditions(&mut self) -> Vec<Expr> {
+        let mut parts = Vec::new();
+        while matches!(self.peek(), Some(Event::Open(_))) {
+            parts.push(self.condition());
+        }
+        parts
+    }
+
+    /// A fluent or a measure with the arguments that were said.
+    fn applied(&mut self, signature: Option<(&SmolStr, &[(SmolStr, Type)])>) -> Call {
+        let mut args = Vec::new();
+        for (param, _) in signature.map(|(_, params)| params).unwrap_or_default() {
+            let Some(value) = self.value() else { break };
+            args.push(argument(param, value));
+        }
+        let name = signature.map(|(name, _)| name.clone()).unwrap_or_default();
+        Call { name: named(name), args, span: Span::default() }
+    }
+
+    fn comparison(&mut self, subject: ExprKind) -> ExprKind {
+        let relation = match self.peek() {
+            Some(Event::Word(op, index)) => {
+                self.next();
+                match self.automaton.op(op) {
+                    Op::Word(words) => words.table.get(index).map(|entry| entry.meaning),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        let place = if let Some(Meaning::Named(place)) = relation { usize::from(place) } else { 0 };
+        let op = Relation::ALL.get(place).map_or(motet_syntax::ast::CompareOp::Equal, |relation| relation.0);
+        let than = self.value().unwrap_or_else(|| expr(ExprKind::Number(0.0)));
+        ExprKind::Compare(op, Box::new(expr(subject)), Box::new(than))
+    }
+
+    fn when(&mut self) -> When {
+        let condition = self.condition();
+        let hold = match self.peek() {
+            Some(Event::Constant(Constant::Null)) => {
+                self.next();
+                None
+            }
+            _ => self.number(),
+        };
+        let span = Span::default();
+        let Some(Event::Open(kind)) = self.peek() else {
+            return When { condition, hold, reaction: Reaction::End(end(EndKind::Fail)), span };
+        };
+        self.next();
+        let count = |number: Option<Expr>| number.unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+        let reaction = match kind {
+            NodeKind::Pause => Reaction::Pause { within: self.modifier(), span },
+            NodeKind::Restart => Reaction::Restart { at_most: count(self.number()), span },
+            NodeKind::Resume => {
+                let at_most = count(self.number());
+                Reaction::Resume { at_most, body: self.block(), span }
+            }
+            NodeKind::Done => Reaction::End(self.end(EndKind::Done)),
+            NodeKind::Replan => Reaction::End(self.end(EndKind::Replan)),
+            _ => Reaction::End(self.end(EndKind::Fail)),
+        };
+        self.close();
+        When { condition, hold, reaction, span }
+    }
+
+    fn catch(&mut self) -> Catch {
+        let mut on = CatchOn::Kinds(Vec::new());
+        if self.peek() == Some(Event::Open(NodeKind::List)) {
+            self.next();
+            while let Some(value) = self.value() {
+                match (value.kind, &mut on) {
+                    (ExprKind::Plain(name), CatchOn::Kinds(kinds)) => kinds.push(named(name)),
+                    _ => on = CatchOn::Any(Span::default()),
+                }
+            }
+            self.close();
+        }
+        if matches!(&on, CatchOn::Kinds(kinds) if kinds.is_empty()) {
+            on = CatchOn::Any(Span::default());
+        }
+        Catch { on, body: self.block(), span: Span::default() }
+    }
+
+    fn end(&mut self, kind: EndKind) -> End {
+        End { kind, why: self.value().or(end(kind).why), span: Span::default() }
+    }
+}

@@ -1,0 +1,194 @@
+//! Putting operations in a row, and finding the shortest completion of each.
+
+use super::{
+    Action, Alternative, BoundNames, Entry, Guard, NameUse, Op, OpId, OptionalPart, WordList, WordRole,
+};
+use crate::subset::MAX_NAME_CHARS;
+
+/// A automaton in the making.
+#[derive(Debug, Default)]
+pub(crate) struct Assembler {
+    pub(crate) ops: Vec<Op>,
+}
+
+/// More bytes than any document has: no way leads on.
+const ENDLESS: u32 = 1 << 24;
+
+impl Assembler {
+    /// Where the next operation will stand.
+    pub(crate) fn here(&self) -> OpId {
+        u32::try_from(self.ops.len()).unwrap_or(u32::MAX)
+    }
+
+    pub(crate) fn put(&mut self, op: Op) -> OpId {
+        let here = self.here();
+        self.ops.push(op);
+        here
+    }
+
+    pub(crate) fn literal(&mut self, text: &str) -> OpId {
+        self.put(Op::Literal(text.as_bytes().into()))
+    }
+
+    pub(crate) fn act(&mut self, act: Action) -> OpId {
+        self.put(Op::Action(act))
+    }
+
+    /// An operation whose alternatives are known later.
+    pub(crate) fn later(&mut self) -> OpId {
+        self.put(Op::Accept)
+    }
+
+    pub(crate) fn set(&mut self, at: OpId, op: Op) {
+        if let Some(slot) = self.ops.get_mut(at as usize) {
+            *slot = op;
+        }
+    }
+
+    pub(crate) fn choose(&mut self, at: OpId, alternatives: &[(&str, OpId, Guard)]) {
+        let made = alternatives.iter().map(|(text, to, guard)| Alternative {
+            bytes: text.as_bytes().into(),
+            to: *to,
+            guard: *guard,
+        });
+        let made = made.collect();
+        self.set(at, Op::Choose(made));
+    }
+
+    /// What may be left out, at a place that was kept for it.
+    pub(crate) fn maybe(
+        &mut self,
+        at: OpId,
+        (text, then, guard): (&str, OpId, Guard),
+        (other, absent): (OpId, Guard),
+    ) {
+        self.set(
+            at,
+            Op::Optional(OptionalPart { bytes: text.as_bytes().into(), then, guard, other, absent }),
+        );
+    }
+
+    /// By operation, how many bytes the shortest way to the end of its rule takes. A list of words counts with its longest
+    /// way, since which of them are open is not known here.
+    pub(crate) fn rests(&self) -> Vec<u32> {
+        let mut rest = vec![ENDLESS; self.ops.len()];
+        loop {
+            let mut changed = false;
+            for index in (0..self.ops.len()).rev() {
+                let Some(op) = self.ops.get(index) else { continue };
+                let new = self.rest_of(op, index, &rest).min(ENDLESS);
+                if let Some(old) = rest.get_mut(index).filter(|old| new < **old) {
+                    *old = new;
+                    changed = true;
+                }
+            }
+            if !changed {
+                return rest;
+            }
+        }
+    }
+
+    fn rest_of(&self, op: &Op, index: usize, rest: &[u32]) -> u32 {
+        let at = |id: OpId| rest.get(id as usize).copied().unwrap_or(ENDLESS);
+        let next = rest.get(index + 1).copied().unwrap_or(0);
+        match op {
+            Op::Literal(bytes) => len(bytes) + next,
+            Op::Choose(alternatives) => {
+                // What is guarded by the state may be closed.
+                let ways = alternatives.iter().filter(|way| is_always_open(way.guard));
+                ways.map(|way| len(&way.bytes) + at(way.to)).min().unwrap_or(ENDLESS)
+            }
+            Op::Word(words) if words.role == WordRole::Keyword => keyword(words, rest),
+            Op::Word(words) => self.word(words, rest),
+            Op::Optional(maybe) => {
+                let here = is_always_open(maybe.guard).then(|| len(&maybe.bytes) + at(maybe.then));
+                let there = is_always_open(maybe.absent).then(|| at(maybe.other));
+                here.into_iter().chain(there).min().unwrap_or(ENDLESS)
+            }
+            Op::Fork { other, .. } => at(*other),
+            Op::Text { .. } => 2 + next,
+            Op::Name(naming) => match naming {
+                NameUse::Policy | NameUse::Group => 4 + next,
+                NameUse::Result(_) | NameUse::Item | NameUse::Let => 4 + next,
+            },
+            Op::Number(range) => width(range.least, range.greatest, range.decimals) + next,
+            Op::Action(_) => next,
+            Op::Call(rule) => at(*rule) + next,
+            Op::Jump(to) => at(*to),
+            Op::Return | Op::Accept => 0,
+        }
+    }
+
+    fn word(&self, words: &WordList, rest: &[u32]) -> u32 {
+        let at = |id: OpId| rest.get(id as usize).copied().unwrap_or(ENDLESS);
+        let own = words.table.entries.iter().map(|entry| {
+            let name = u32::try_from(entry.name.len()).unwrap_or(ENDLESS);
+            name.saturating_add(at(entry.to.unwrap_or(words.next)))
+        });
+        let bound = match words.bound {
+            BoundNames::None => None,
+            BoundNames::Type(_) | BoundNames::Lists => {
+                Some(u32::try_from(MAX_NAME_CHARS).unwrap_or(0) + 1 + at(words.next))
+            }
+        };
+        own.chain(bound).filter(|way| *way < ENDLESS).max().map_or(ENDLESS, |most| most.saturating_add(2))
+    }
+}
+
+/// Whether an alternative can be the last resort.
+fn is_always_open(guard: Guard) -> bool {
+    match guard {
+        // A rule that is full ends: its last resort is then another.
+        Guard::Open | Guard::Below(_) | Guard::Loose | Guard::Is | Guard::Several | Guard::Any => true,
+        Guard::Close
+        | Guard::Empty
+        | Guard::Call
+        | Guard::Nest
+        | Guard::Fix
+        | Guard::Wait
+        | Guard::Done
+        | Guard::DoneWhen
+        | Guard::React(_)
+        | Guard::All
+        | Guard::Not
+        | Guard::NoTest
+        | Guard::Rare
+        | Guard::Never
+        | Guard::Callable(_)
+        | Guard::Let
+        | Guard::Fluent(_)
+        | Guard::And
+        | Guard::Or
+        | Guard::Paren(_)
+        | Guard::NotParen
+        | Guard::Compared => false,
+    }
+}
+
+/// The way through a list of keywords that is always open; among conditions, where one has to be found that refutes
+/// nothing, the longest of the fluents, and where there are calls only, the longest of these.
+fn keyword(words: &WordList, rest: &[u32]) -> u32 {
+    let way = |entry: &Entry| {
+        let to = rest.get(entry.to.unwrap_or(words.next) as usize).copied().unwrap_or(ENDLESS);
+        len(entry.name.as_bytes()).saturating_add(to)
+    };
+    let entries = words.table.entries.iter();
+    let fluents = entries.clone().filter(|entry| matches!(entry.guard, Guard::Fluent(_)));
+    let longest = |ways: &mut dyn Iterator<Item = u32>| ways.filter(|way| *way < ENDLESS).max();
+    let open = entries.clone().filter(|entry| is_always_open(entry.guard)).map(way).min();
+    let calls = entries.filter(|entry| matches!(entry.guard, Guard::Callable(_)));
+    let calls = || longest(&mut calls.map(way));
+    longest(&mut fluents.map(way)).or(open).or_else(calls).unwrap_or(ENDLESS)
+}
+
+fn len(bytes: &[u8]) -> u32 {
+    u32::try_from(bytes.len()).unwrap_or(ENDLESS)
+}
+
+/// The length of the longest number of a range.
+pub(crate) fn width(least: i64, greatest: i64, decimals: u8) -> u32 {
+    let scale = 10u64.pow(u32::from(decimals));
+    let digits = |units: i64| (units.unsigned_abs() / scale).checked_ilog10().unwrap_or(0) + 1;
+    let fraction = if decimals > 0 { u32::from(decimals) + 1 } else { 0 };
+    digits(least).max(digits(greatest)) + fraction + u32::from(least < 0)
+}

@@ -1,0 +1,250 @@
+//! The tokens of a language model, as bytes, in a trie; and what of them can be said once for all texts and names.
+
+mod error;
+mod huggingface;
+mod plain_list;
+#[cfg(feature = "tiktoken")]
+mod tiktoken;
+mod token_list;
+mod token_tree;
+
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+use toktrie::{SimpleVob, TokRxInfo, TokTrie};
+
+pub use self::error::VocabularyError;
+#[cfg(feature = "tiktoken")]
+pub use self::tiktoken::Encoding;
+pub use self::token_list::{EndToken, LONGEST_TOKEN, MAX_FILE_BYTES, MAX_TOKEN_BYTES, MAX_TOKENS};
+pub(crate) use self::token_tree::{Node, Tree};
+use crate::subset::{MAX_NAME_CHARS, is_text_char};
+
+/// The tokens of a language model.
+#[derive(Clone)]
+pub struct Vocabulary(Arc<Tokens>);
+
+pub(crate) struct Tokens {
+    pub(crate) trie: TokTrie,
+    /// The same for a search of few among many.
+    pub(crate) tree: Tree,
+    /// Tokens that can stand within a text wherever it is.
+    pub(crate) text: SimpleVob,
+    /// Those that end a text, or whose place in it matters.
+    pub(crate) text_ends: TokTrie,
+    /// Of tokens that begin with `$`: those that can stand within a text, but not begin it.
+    pub(crate) dollars: SimpleVob,
+    /// All that begin with `$` and reach into a text.
+    pub(crate) dollar_ends: TokTrie,
+    /// Those that end a text, by what follows it.
+    pub(crate) text_tails: Tails,
+    /// By length: tokens that can stand within a name and have at most so many bytes.
+    pub(crate) names: Vec<SimpleVob>,
+    /// Of those, the ones that can begin it.
+    pub(crate) first_names: Vec<SimpleVob>,
+    /// Those that end a name with a quote.
+    pub(crate) name_ends: TokTrie,
+    /// Those that end a name with a space.
+    pub(crate) bare_name_ends: TokTrie,
+    /// By length: tokens that are a space and can begin a name with what is behind it, at most so many bytes.
+    pub(crate) spaced_names: Vec<SimpleVob>,
+    /// Those that are a space and a name that another space ends.
+    pub(crate) spaced_name_ends: TokTrie,
+    pub(crate) longest: usize,
+    pub(crate) end: u32,
+    /// Tokens of the same bytes as one before them, which stands for them in the tries; in the order of their numbers.
+    pub(crate) twins: Vec<(u32, u32)>,
+}
+
+impl std::fmt::Debug for Vocabulary {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Vocabulary({} tokens)", self.0.trie.vocab_size())
+    }
+}
+
+impl Vocabulary {
+    /// The same as [`new`](Self::new), of tokens that come from outside. A token of more than [`LONGEST_TOKEN`] bytes is never
+    /// allowed.
+    ///
+    /// # Errors
+    ///
+    /// There are more than [`MAX_TOKENS`] tokens or [`MAX_TOKEN_BYTES`] bytes, none, or none of the number `end`.
+    pub fn from_tokens(tokens: Vec<Vec<u8>>, end: u32) -> Result<Self, VocabularyError> {
+        token_list::held(tokens, end).map(|tokens| Self::new(&tokens, end))
+    }
+
+    /// A vocabulary from the bytes of each token in the order of their numbers. A special token has none: it is never
+    /// allowed, but for `end`, which ends a sequence. O(bytes of all tokens).
+    #[must_use]
+    pub fn new(tokens: &[Vec<u8>], end: u32) -> Self {
+        let size = u32::try_from(tokens.len()).unwrap_or(u32::MAX);
+        let (tokens, twins) = apart(tokens);
+        let tokens = tokens.as_slice();
+        let trie = TokTrie::from(&TokRxInfo::new(size, end), tokens);
+        let is_name_byte = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+        let is_text_byte = |byte: &u8| is_text_char(char::from(*byte));
+        let set = |picks: &dyn Fn(&[u8]) -> bool| {
+            let mut set = trie.alloc_token_set();
+            for (id, bytes) in (0..size).zip(tokens) {
+                if !bytes.is_empty() && picks(bytes) {
+                    set.allow_token(id);
+                }
+            }
+            set
+        };
+        let before_quote = |bytes: &[u8]| bytes.split(|byte| *byte == b'"').next().map(<[u8]>::to_vec);
+        let text = set(&|bytes| bytes.iter().all(is_text_byte) && bytes.first() != Some(&b'$'));
+        let text_ends = set(&|bytes| {
+            let ends = bytes.contains(&b'"');
+            bytes.first() == Some(&b'$')
+                || (ends && before_quote(bytes).is_some_and(|before| before.iter().all(is_text_byte)))
+        });
+        let dollars = set(&|bytes| bytes.iter().all(is_text_byte) && bytes.first() == Some(&b'$'));
+        let dollar_ends = trie.filter(&set(&|bytes| bytes.first() == Some(&b'$')));
+        let ends = (0..size).zip(tokens).filter_map(|(id, bytes)| {
+            let quote = bytes.iter().position(|byte| *byte == b'"')?;
+            bytes.get(..quote)?.iter().all(is_text_byte).then_some((id, bytes.split_at_checked(quote)?))
+        });
+        let text_tails = Tails::new(ends);
+        let ends_name = |bytes: &[u8], end: u8| {
+            let before = bytes.iter().take_while(|byte| is_name_byte(byte)).count();
+            bytes.get(before) == Some(&end)
+        };
+        let name_ends = |end: u8| trie.filter(&set(&|bytes| ends_name(bytes, end)));
+        // A name's tokens by length; those of each are among those of the next.
+        let names = |length: &dyn Fn(&[u8]) -> Option<usize>| {
+            let mut sets: Vec<SimpleVob> = (0..=MAX_NAME_CHARS).map(|_| trie.alloc_token_set()).collect();
+            for (id, bytes) in (0..size).zip(tokens).filter(|(_, bytes)| !bytes.is_empty()) {
+                if let Some(set) = length(bytes).and_then(|length| sets.get_mut(length)) {
+                    set.allow_token(id);
+                }
+            }
+            for length in 1..sets.len() {
+                let (shorter, longer) = sets.split_at_mut(length);
+                if let (Some(shorter), Some(set)) = (shorter.last(), longer.first_mut()) {
+                    set.or(shorter);
+                }
+            }
+            sets
+        };
+        let name = |bytes: &[u8]| bytes.iter().all(is_name_byte).then_some(bytes.len());
+        let first_name =
+            |bytes: &[u8]| name(bytes).filter(|_| !bytes.first().is_some_and(u8::is_ascii_digit));
+        let spaced_names = names(&|bytes| bytes.strip_prefix(b" ").and_then(first_name));
+        let spaced_name_ends =
+            trie.filter(&set(&|bytes| bytes.strip_prefix(b" ").is_some_and(|rest| ends_name(rest, b' '))));
+        let text_ends = trie.filter(&text_ends);
+        let (name_ends, bare_name_ends) = (name_ends(b'"'), name_ends(b' '));
+        let longest = trie.max_token_len();
+        let (first_names, names) = (names(&first_name), names(&name));
+        let tree = Tree::new(&trie);
+        Self(Arc::new(Tokens {
+            trie,
+            tree,
+            text,
+            text_ends,
+            dollars,
+            dollar_ends,
+            text_tails,
+            names,
+            first_names,
+            name_ends,
+            bare_name_ends,
+            spaced_names,
+            spaced_name_ends,
+            longest,
+            end,
+            twins,
+        }))
+    }
+
+    /// The token that ends a sequence.
+    #[must_use]
+    pub fn end(&self) -> u32 {
+        self.0.end
+    }
+
+    /// How many tokens there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.0.trie.vocab_size()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The bytes of a token; empty for a special one.
+    #[must_use]
+    pub fn bytes(&self, token: u32) -> &[u8] {
+        let twin = self.0.twins.binary_search_by_key(&token, |(twin, _)| *twin).ok();
+        let token = twin.and_then(|twin| self.0.twins.get(twin)).map_or(token, |(_, first)| *first);
+        if (token as usize) < self.len() { self.0.trie.token(token) } else { &[] }
+    }
+
+    /// The tokens of bytes, each time the longest that fits.
+    #[must_use]
+    pub fn tokenize(&self, bytes: &[u8]) -> Vec<u32> {
+        self.0.trie.greedy_tokenize(bytes)
+    }
+
+    pub(crate) fn tokens(&self) -> &Tokens {
+        &self.0
+    }
+}
+
+/// Tokens without those that have the bytes of one before them, and these with that one. Vocabularies with a token for each
+/// byte to fall back to have many.
+fn apart(tokens: &[Vec<u8>]) -> (Vec<Vec<u8>>, Vec<(u32, u32)>) {
+    let mut firsts: FxHashMap<&[u8], u32> = FxHashMap::default();
+    let (mut kept, mut twins) = (Vec::with_capacity(tokens.len()), Vec::new());
+    for (id, bytes) in (0..).zip(tokens) {
+        let first = *firsts.entry(bytes).or_insert(id);
+        let is_twin = first != id && !bytes.is_empty();
+        twins.extend(is_twin.then_some((id, first)));
+        kept.push(if is_twin { Vec::new() } else { bytes.clone() });
+    }
+    (kept, twins)
+}
+
+/// Tokens that end a text, by what of them follows it: where any text may stand they may follow or not by that alone.
+pub(crate) struct Tails {
+    /// The tails, each a token of its own.
+    pub(crate) trie: TokTrie,
+    /// By tail.
+    pub(crate) tokens: Vec<Tail>,
+}
+
+/// The tokens with one tail.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tail {
+    /// The one that is nothing else.
+    pub(crate) bare: Option<u32>,
+    /// Those with text before it.
+    pub(crate) within: Vec<u32>,
+    /// Those with text before it that begins with `$`.
+    pub(crate) dollars: Vec<u32>,
+}
+
+impl Tails {
+    /// From tokens, each as its text and its tail.
+    fn new<'t>(tokens: impl Iterator<Item = (u32, (&'t [u8], &'t [u8]))>) -> Self {
+        let mut found: std::collections::BTreeMap<&[u8], Tail> = std::collections::BTreeMap::new();
+        for (id, (text, tail)) in tokens {
+            let tail = found.entry(tail).or_default();
+            match text.first() {
+                None => tail.bare = Some(id),
+                Some(b'$') => tail.dollars.push(id),
+                Some(_) => tail.within.push(id),
+            }
+        }
+        let spelled: Vec<Vec<u8>> = found.keys().map(|tail| tail.to_vec()).collect();
+        let size = u32::try_from(spelled.len()).unwrap_or(u32::MAX);
+        Self {
+            trie: TokTrie::from(&TokRxInfo::new(size, 0), &spelled),
+            tokens: found.into_values().collect(),
+        }
+    }
+}

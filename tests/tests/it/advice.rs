@@ -1,0 +1,248 @@
+//! What the compiler says of common mistakes: one finding each, with the words that help. The front end's own are in
+//! `grammar/syntax/tests/syntax/messages.rs`.
+
+use motet_compiler::{Options, Session};
+use motet_syntax::{Severity, Source, Sources, render};
+use motet_tests::setup;
+
+/// The errors of a document for the HSR in the kitchen, each as `code: message; help`.
+fn errors(document: &str) -> Vec<String> {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let mut sources = Sources::default();
+    let source = Source::new("p", document);
+    let file = sources.add(source.clone());
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut sources);
+    let said = session.check(&motet_syntax::read(&source, file));
+    let errors = said.iter().filter(|said| said.severity == Severity::Error);
+    errors
+        .map(|said| format!("{}: {}; {}", said.code, said.message, said.help.as_deref().unwrap_or("")))
+        .collect()
+}
+
+fn check(document: &str, expected: &[&str]) {
+    let found = errors(document);
+    let fits =
+        found.len() == expected.len() && found.iter().zip(expected).all(|(found, words)| found == words);
+    assert!(fits, "{document}\nexpected {expected:#?}\nfound {found:#?}");
+}
+
+/// A policy in text with this body.
+fn text(body: &str, expected: &[&str]) {
+    check(&format!("policy p for hsr {{\n    {body}\n}}\n"), expected);
+}
+
+/// A policy in JSON with these steps.
+fn json(steps: &str, expected: &[&str]) {
+    check(&format!(r#"{{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{steps}]}}"#), expected);
+}
+
+const DETECT: &str =
+    r#"{"do": "go", "to": "kitchen_table"}, {"do": "detect", "what": "red mug", "as": "mug"}"#;
+
+#[test]
+fn a_binding_in_json_has_its_sign() {
+    json(
+        &format!(r#"{DETECT}, {{"do": "pick", "object": "mug"}}"#),
+        &["M0202: there is no `Object` `mug`; `mug` is bound before: write `$mug`"],
+    );
+    json(
+        &format!(r#"{DETECT}, {{"do": "pick", "object": "$mgu"}}"#),
+        &["M0203: nothing is bound to `mgu` here; did you mean `$mug`?"],
+    );
+    json(
+        r#"{"do": "say", "text": "$5"}"#,
+        &["M0203: nothing is bound to `5` here; a text that begins with `$` is written with two: `$$5`"],
+    );
+}
+
+#[test]
+fn a_forgotten_sign_is_mended() {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    let steps = format!(r#"{DETECT}, {{"do": "pick", "object": "mug"}}"#);
+    let document = format!(r#"{{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{steps}]}}"#);
+    let fixed = motet_compiler::fix::fix(&session, &Source::new("p", document), Default::default(), 10);
+    assert!(fixed.text.contains(r#""object": "$mug""#), "{}", fixed.text);
+}
+
+#[test]
+fn ratios_lie_between_nothing_and_all() {
+    text(
+        "if battery() < 20 { say(\"x\") }",
+        &["M0302: `20` needs a unit: a `Ratio` is asked for; write `20 %`; the units are `%`"],
+    );
+    text(
+        "if battery() < 0.2 { say(\"x\") }",
+        &["M0302: `0.2` needs a unit: a `Ratio` is asked for; write `20 %`; the units are `%`"],
+    );
+    let meant = "M0310: a ratio is 20, and must be from 0 to 1; did you mean `20 %`? write `0.2`";
+    json(r#"{"if": {"less": [{"get": "battery"}, 20]}, "then": [{"do": "say", "text": "x"}]}"#, &[meant]);
+    json(r#"{"if": "battery() < 20", "then": [{"do": "say", "text": "x"}]}"#, &[meant]);
+    json(r#"{"if": {"less": [{"get": "battery"}, 0.2]}, "then": [{"do": "say", "text": "x"}]}"#, &[]);
+    text(
+        "if battery() < 2000 % { say(\"x\") }",
+        &["M0310: a ratio is 2000 %, and must be from 0 % to 100 %; write a number from 0 % to 100 %"],
+    );
+    text("if distance(user) / distance(counter) > 1.5 { say(\"x\") }", &[]);
+}
+
+#[test]
+fn a_binding_hides_no_entity() {
+    let said = "M0206: `kitchen_table` is an entity, which a binding may not hide; a name means one thing: choose another \
+                than `kitchen_table`";
+    json(
+        r#"{"do": "detect", "what": "red mug", "as": "kitchen_table"}, {"do": "go", "to": "kitchen_table"}"#,
+        &[said],
+    );
+    text("let kitchen_table = detect(\"red mug\") go(kitchen_table)", &[said]);
+    text(
+        "let user = detect(\"red mug\") go(user)",
+        &[
+            "M0206: `user` is an entity, which a binding may not hide; a name means one thing: choose another than `user`",
+        ],
+    );
+}
+
+#[test]
+fn an_unknown_robot_is_an_error() {
+    let (session, _) = Session::new(None, &[], None, None, Options::default(), &mut Sources::default());
+    let said = |text: &str| {
+        let parsed = motet_syntax::read(&Source::new("p", text), Default::default());
+        let said = session.check(&parsed);
+        said.iter()
+            .map(|said| format!("{} {}", said.code, said.help.clone().unwrap_or_default()))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(said("policy p for hsrr { say(\"x\") }"), ["M0447 did you mean `hsr`?"]);
+    assert_eq!(said("policy p for hsr { say(\"x\") }"), [""; 0]);
+}
+
+#[test]
+fn a_domain_is_checked_beside_a_robot() {
+    let mut sources = Sources::default();
+    let domain = "action wave() uses elbow\naction nod()\n";
+    let source = Source::new("domain.motet", domain);
+    let file = sources.add(source.clone());
+    let parsed = motet_syntax::read(&source, file);
+    let robot = setup::robot("hsr");
+    let (session, said) =
+        Session::new(Some(&robot), &[parsed.file], None, None, Options::default(), &mut sources);
+    let codes = |said: &[motet_syntax::Diagnostic]| said.iter().map(|said| said.code.0).collect::<Vec<_>>();
+    assert_eq!(codes(&said), ["M0215"]);
+    let policy =
+        motet_syntax::read(&Source::new("p", "policy p for hsr { nod() wave() }"), Default::default());
+    assert_eq!(codes(&session.check(&policy)), ["M0402", "M0402"]);
+}
+
+#[test]
+fn quantities_are_told_in_their_own_units() {
+    text(
+        "turn(720 deg)",
+        &[
+            "M0404: `by` of `turn` is 720 deg; `hsr` takes -360 deg to 360 deg; write a value from -360 deg to 360 deg",
+        ],
+    );
+    json(
+        r#"{"do": "turn", "by": 90}"#,
+        &[
+            "M0404: `by` of `turn` is 90 rad; `hsr` takes -6.28318531 rad to 6.28318531 rad; a number alone is in radians: \
+           did you mean `\"90 deg\"`?",
+        ],
+    );
+    text(
+        "go(user) within 1000 h",
+        &["M0310: a deadline is 1000 h, and must be from 0 h to 168 h; write a number from 0 h to 168 h"],
+    );
+    text(
+        "repeat 99999999999999999999 { say(\"x\") }",
+        &[
+            "M0310: the count of a `repeat` is 100000000000000000000, and must be from 1 to 1000000; write a number from 1 to \
+           1000000",
+        ],
+    );
+}
+
+#[test]
+fn one_mistake_is_told_once() {
+    json(
+        r#"{"do": "go", "to": "user", "retry": "two"}"#,
+        &["M0106: expected a whole number, found the string `two`; write a whole number here"],
+    );
+    json(
+        r#"{"do": "go", "to": "user", "within": "20"}"#,
+        &["M0108: `20` is not a duration; did you mean `\"20 s\"`?"],
+    );
+    let found = errors(
+        r#"{"motet": 1, "policy": "p", "steps": [{"if": "holding($mug)", "then": [{"do": "say", "text": "x"}]}]}"#,
+    );
+    assert!(found.len() == 1 && found[0].starts_with("M0101"), "{found:?}");
+    let found = errors(
+        "policy p for hsr { go(kitchen_table) inspect(mug_1) pick(mgu_1) go(counter) place(mug_1, counter) }",
+    );
+    assert!(found.len() == 1 && found[0].starts_with("M0202"), "{found:?}");
+}
+
+#[test]
+fn help_says_what_to_write() {
+    text(
+        "go(\"kitchen_table\")",
+        &[
+            "M0301: `to` of `go` takes an `Entity`, not the text \"kitchen_table\"; write `kitchen_table` without quotes",
+        ],
+    );
+    text(
+        "handover(mug_1, kitchen_table)",
+        &[
+            "M0501: `handover` needs `holding(mug_1)`, which does not hold at the start; `pick` or `grasp` makes it so: call it before",
+            "M0301: `to` of `handover` takes a `Person`, not `kitchen_table`, which is a `Surface`; write `user`",
+        ],
+    );
+    text("if holding { say(\"x\") }", &["M0202: nothing here is called `holding`; write `holding(object)`"]);
+    text("if battery < 20 % { say(\"x\") }", &["M0202: nothing here is called `battery`; write `battery()`"]);
+    text(
+        "if mug_1.colour < 1 m { say(\"x\") }",
+        &["M0211: `Object` has no field `colour`; its fields are `width` and `mass`"],
+    );
+    text(
+        "if counter.mass < 1 kg { say(\"x\") }",
+        &["M0211: `Surface` has no field `mass`; it is a field of `Object`; `Surface` has none"],
+    );
+    let found = errors(
+        r#"{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{"do": "turn", "by": "90 degrees"}]}"#,
+    );
+    assert!(found.len() == 1 && found[0].ends_with(r#"; write `"90 deg"`"#), "{found:?}");
+    let found = errors("policy p for hsr { let m = choose(\"x\", mug_1) go(m) }");
+    assert!(found.len() == 1 && found[0].ends_with("; write `[mug_1]`"), "{found:?}");
+}
+
+#[test]
+fn what_cannot_be_given_is_told_alone() {
+    text(
+        "go(kitchen_table) inspect(mug_1) pick(mug_1) place(mug_1, robot)",
+        &[
+            "M0501: `place` needs something other than `robot`, and that is what it is given; name something else, or leave this \
+           step out",
+        ],
+    );
+}
+
+/// A label within the place of the finding stands under what it is about.
+#[test]
+fn labels_stand_under_their_places() {
+    let mut sources = Sources::default();
+    let source = Source::new("p", "policy p { parallel { { open(drawer_1) } { close(drawer_1) } } }");
+    let file = sources.add(source.clone());
+    let scene = setup::scene("kitchen");
+    let (session, _) = setup::session(None, Some(&scene), &mut sources);
+    let mut said = session.check(&motet_syntax::read(&source, file));
+    said.retain(|said| said.code.0 == "M0702");
+    assert!(!said.is_empty());
+    let shown = render::human(&said[..1], &sources, render::ColorChoice::Off, 120);
+    let lines: Vec<&str> = shown.lines().collect();
+    let document = lines.iter().find(|line| line.contains("policy p")).unwrap();
+    let marks = lines.iter().find(|line| line.contains('┬')).unwrap();
+    let column = |line: &str, of: &str| line.split(of).next().unwrap().chars().count();
+    let at = |place: &str| marks.chars().nth(column(document, place)).unwrap();
+    assert!(["parallel", "open(", "close("].iter().all(|place| "─┬".contains(at(place))), "{shown}");
+    assert_eq!(at(" { open"), ' ', "{shown}");
+}

@@ -1,0 +1,352 @@
+//! The loop around the planner: questions and their answers, tries after a failure, and requests that come in between.
+use motet_compiler::Options as CheckOptions;
+use motet_planner::conversation::{
+    Builtin, Conversation, Kind, Nobody, Outcome, Person, Problem, Setting, Watcher,
+};
+use motet_runtime::memory::Memory;
+use motet_runtime::{Effect, Time};
+use motet_sim::{Faults, Sim, SimOptions};
+use motet_tests::setup;
+
+fn setting(robot: &str) -> Setting {
+    let (robot, scene) = (setup::robot(robot), setup::scene("kitchen"));
+    Setting { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
+}
+
+/// The robot in a kitchen where the coke is in the cupboard, whatever it was told.
+fn coke_in_cupboard(setting: &Setting) -> Sim {
+    let mut real = setting.scene.clone();
+    let coke = real.entities.get_mut("coke").unwrap();
+    (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
+    Sim::new(&setting.robot, &real, SimOptions::default())
+}
+
+/// Gives answers in order, and keeps what was asked.
+struct Answers(Vec<&'static str>, Vec<Problem>);
+
+impl Person for Answers {
+    fn ask(&mut self, problem: &Problem) -> Option<String> {
+        self.1.push(problem.clone());
+        (!self.0.is_empty()).then(|| self.0.remove(0).to_owned())
+    }
+}
+
+fn talk(
+    setting: &Setting,
+    sim: &mut Sim,
+    request: &str,
+    answers: &[&'static str],
+) -> (Outcome, Vec<Problem>, Memory) {
+    let mut talk = Conversation::new(setting);
+    let mut person = Answers(answers.to_vec(), Vec::new());
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, sim, &mut person, &mut (), Time::ZERO);
+    (outcome, person.1, talk.memory)
+}
+
+#[test]
+fn a_clear_request_is_done_without_a_question() {
+    for robot in ["hsr", "anymal_z1"] {
+        let setting = setting(robot);
+        let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+        let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &[]);
+        assert_eq!(outcome, Outcome::Done, "{asked:?}");
+        assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+    }
+}
+
+#[test]
+fn of_two_mugs_the_one_that_is_meant_is_asked_for() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the mug", &["the blue one"]);
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(asked[0].kind, Kind::AmbiguousReference);
+    assert_eq!(
+        asked[0].question,
+        "I know two things that could be the mug: the red mug on the kitchen table and the blue mug on the wall shelf. Which one?"
+    );
+    assert_eq!(sim.holds("at", &["mug_2", "user"]), Some(true));
+}
+
+#[test]
+fn an_answer_that_states_a_fact_becomes_one() {
+    let setting = setting("hsr");
+    let mut sim = coke_in_cupboard(&setting);
+    let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &["it is in the cupboard"]);
+    assert_eq!(outcome, Outcome::Done, "{asked:?}");
+    assert_eq!(asked.iter().map(|problem| problem.kind).collect::<Vec<_>>(), [Kind::NotFound]);
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+    assert_eq!(sim.holds("open", &["cupboard_1"]), Some(false), "what was opened is closed again");
+}
+
+#[test]
+fn a_step_that_merely_failed_is_tried_again_before_anyone_is_asked() {
+    let setting = setting("hsr");
+    let faults =
+        Faults::from_json(r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#)
+            .unwrap();
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() });
+    let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &[]);
+    assert_eq!((outcome, asked.len()), (Outcome::Done, 0));
+}
+
+#[test]
+fn where_there_is_no_room_it_is_asked_where_else() {
+    let setting = setting("hsr");
+    let blocked =
+        |nth: u32| format!(r#"{{"primitive": "place", "nth": {nth}, "then": {{"fails": "blocked"}}}}"#);
+    let sim = |times: u32| {
+        let calls: Vec<String> = (1..=times).map(blocked).collect();
+        let faults = Faults::from_json(&format!(r#"{{"calls": [{}]}}"#, calls.join(", "))).unwrap();
+        Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() })
+    };
+    for answer in ["On the kitchen table.", "the kitchen table", "put it on the kitchen table instead"] {
+        let mut sim = sim(1);
+        let (outcome, asked, _) = talk(&setting, &mut sim, "put the sponge on the counter", &[answer]);
+        assert_eq!(outcome, Outcome::Done, "{asked:?}");
+        let [question] = asked.as_slice() else { panic!("{asked:?}") };
+        assert_eq!(question.kind, Kind::NotReachable);
+        assert!(question.question.contains("Where else shall I put the"), "{}", question.question);
+        assert!(!question.options.iter().any(|option| option == "counter"), "{:?}", question.options);
+        assert_eq!(sim.holds("on", &["sponge", "kitchen_table"]), Some(true), "{answer}");
+    }
+    // What is no place is not taken for one.
+    let mut sim = sim(1);
+    let (outcome, asked, _) =
+        talk(&setting, &mut sim, "put the sponge on the counter", &["the moon", "leave it"]);
+    assert_eq!(outcome, Outcome::GivenUp, "{asked:?}");
+}
+
+#[test]
+fn who_stands_elsewhere_drives_there_before_anyone_is_asked() {
+    // The fridge stands by the counter: what is taken out of it could be put there from where the robot is, and there is no room.
+    let setting = setting("hsr");
+    let mut real = setting.scene.clone();
+    let coke = real.entities.get_mut("coke").unwrap();
+    (coke.on, coke.pose, coke.inside) = (None, None, Some("fridge_1".into()));
+    let fails = r#"{"calls": [{"primitive": "place", "nth": 1, "then": {"fails": "unreachable"}}]}"#;
+    for faults in [Faults::default(), Faults::from_json(fails).unwrap()] {
+        let mut sim = Sim::new(&setting.robot, &real, SimOptions { faults, ..SimOptions::default() });
+        let (outcome, asked, _) =
+            talk(&setting, &mut sim, "put the coke on the counter", &["It is in the fridge."]);
+        assert_eq!(outcome, Outcome::Done, "{asked:?}");
+        assert_eq!(asked.iter().map(|asked| asked.kind).collect::<Vec<_>>(), [Kind::NotFound]);
+        assert_eq!(sim.holds("on", &["coke", "counter"]), Some(true));
+    }
+}
+
+#[test]
+fn where_nobody_answers_the_problem_is_the_outcome() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let mut talk = Conversation::new(&setting);
+    let (outcome, _) =
+        talk.carry_out("wash the dishes", &mut Builtin, &mut sim, &mut Nobody, &mut (), Time::ZERO);
+    assert!(matches!(outcome, Outcome::Failed(problem) if problem.kind == Kind::AmbiguousTask));
+}
+
+/// Says something at a time, and counts the starts of picks.
+struct Interrupts {
+    at: Time,
+    says: Option<&'static str>,
+    swapped: usize,
+    picked: usize,
+}
+
+impl Watcher for Interrupts {
+    fn request(&mut self, now: Time) -> Option<String> {
+        if now < self.at {
+            return None;
+        }
+        self.says.take().map(ToOwned::to_owned)
+    }
+
+    fn effect(&mut self, _now: Time, effect: &Effect) {
+        if let Effect::Start { command, .. } = effect {
+            self.picked += usize::from(command.primitive == "pick");
+        }
+    }
+
+    fn swapped(&mut self, _now: Time, refusal: Option<&motet_runtime::SwapRefusal>) {
+        assert!(refusal.is_none(), "{refusal:?}");
+        self.swapped += 1;
+    }
+}
+
+#[test]
+fn a_request_in_between_takes_over() {
+    for robot in ["hsr", "anymal_z1"] {
+        let setting = setting(robot);
+        let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+        let mut talk = Conversation::new(&setting);
+        let mut watcher = Interrupts {
+            at: Time::from_secs(3.0),
+            says: Some("bring me the apple instead"),
+            swapped: 0,
+            picked: 0,
+        };
+        let (outcome, _) = talk.carry_out(
+            "bring me the coke",
+            &mut Builtin,
+            &mut sim,
+            &mut Nobody,
+            &mut watcher,
+            Time::ZERO,
+        );
+        assert_eq!(outcome, Outcome::Done);
+        assert_eq!((watcher.swapped, watcher.picked), (1, 1), "{robot}");
+        assert_eq!(sim.holds("at", &["apple", "user"]), Some(true));
+        assert_eq!(sim.holds("at", &["coke", "user"]), Some(false));
+    }
+}
+
+/// A request and another at a time, where it comes while the robot drives, grasps or carries.
+fn changes(robot: &str, request: &str, (at, says): (f64, &'static str), goal: (&str, [&str; 2])) {
+    let setting = setting(robot);
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let mut talk = Conversation::new(&setting);
+    let at = Time::from_secs(at);
+    let mut watcher = Interrupts { at, says: Some(says), swapped: 0, picked: 0 };
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
+    assert_eq!(outcome, Outcome::Done, "{robot}: {request} {at:?}");
+    assert_eq!(sim.holds(goal.0, &goal.1), Some(true), "{robot}: {request} {at:?}");
+}
+
+#[test]
+fn what_the_scene_says_of_every_entity_is_not_forgotten_between_policies() {
+    // Nothing was touched yet: where the mug is not is as well known as where it is.
+    let goal = ("on", ["mug_1", "sink"]);
+    changes("hsr", "put the red mug on the counter", (3.5, "no, put it on the sink"), goal);
+    changes(
+        "hsr",
+        "put the apple in the drawer",
+        (20.5, "put it in the fridge instead"),
+        ("in", ["apple", "fridge_1"]),
+    );
+}
+
+#[test]
+fn a_robot_that_is_under_way_is_no_longer_where_it_was() {
+    // It carries the coke away from the counter: to put it down there it has to drive back.
+    let goal = ("at", ["bottle", "user"]);
+    changes("hsr", "bring me the coke", (20.4, "actually, bring me the water bottle"), goal);
+}
+
+#[test]
+fn a_thing_is_looked_for_where_it_is_believed_to_be() {
+    let goal = ("at", ["apple", "user"]);
+    changes("anymal_z1", "bring me the red mug", (21.5, "bring me the green apple instead"), goal);
+}
+
+#[test]
+fn what_was_taken_is_put_back_where_it_was() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let mut talk = Conversation::new(&setting);
+    let mut now = Time::ZERO;
+    let mut person = Answers(Vec::new(), Vec::new());
+    for (request, place) in [("put the sponge on the counter", "counter"), ("put it back", "sink")] {
+        let (outcome, then) = talk.carry_out(request, &mut Builtin, &mut sim, &mut person, &mut (), now);
+        assert_eq!((outcome, &person.1), (Outcome::Done, &Vec::new()), "{request}");
+        assert_eq!(sim.holds("on", &["sponge", place]), Some(true), "{request}");
+        now = then;
+    }
+}
+
+/// A picking hand that slips each time.
+fn slipping(setting: &Setting) -> Sim {
+    let faults = r#"{"calls": [{"primitive": "pick", "then": {"fails": "slipped"}}]}"#;
+    let faults = Faults::from_json(faults).unwrap();
+    Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() })
+}
+
+#[test]
+fn who_says_no_is_not_taken_to_say_yes() {
+    let setting = setting("hsr");
+    for no in [
+        "No, leave it alone!",
+        "please don't",
+        "nah",
+        "not now",
+        "stop, that is dangerous!",
+        "I'll do it myself",
+    ] {
+        let (outcome, asked, _) = talk(&setting, &mut slipping(&setting), "bring me the coke", &[no, "yes"]);
+        assert_eq!((outcome, asked.len()), (Outcome::GivenUp, 1), "{no}: {asked:?}");
+    }
+}
+
+#[test]
+fn an_answer_that_is_not_understood_is_asked_for_again_and_moves_nothing() {
+    let setting = setting("hsr");
+    let mut sim = slipping(&setting);
+    let (outcome, asked, _) =
+        talk(&setting, &mut sim, "bring me the coke", &["what?", "wait a moment", "no"]);
+    assert_eq!(outcome, Outcome::GivenUp);
+    let questions: Vec<&str> = asked.iter().map(|problem| problem.question.as_str()).collect();
+    let [first, second, third] = questions.as_slice() else { panic!("{questions:?}") };
+    assert!(first.ends_with("Shall I try again?"), "{first}");
+    assert_eq!((*second, *third), (format!("I did not understand that. {first}").as_str(), *second));
+}
+
+/// The first request with a line that is said after three seconds.
+fn says(request: &str, line: &'static str, answers: &[&'static str]) -> (Outcome, Vec<Problem>, Sim) {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let mut talk = Conversation::new(&setting);
+    let mut watcher = Interrupts { at: Time::from_secs(3.0), says: Some(line), swapped: 0, picked: 0 };
+    let mut person = Answers(answers.to_vec(), Vec::new());
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut person, &mut watcher, Time::ZERO);
+    (outcome, person.1, sim)
+}
+
+#[test]
+fn who_moves_stops_when_told_to() {
+    for line in ["stop", "never mind", "wait!", "leave it, please"] {
+        let (outcome, asked, sim) = says("bring me the coke", line, &[]);
+        assert_eq!((outcome, asked.len()), (Outcome::GivenUp, 0), "{line}");
+        assert_eq!(sim.holds("at", &["coke", "user"]), Some(false), "{line}");
+    }
+}
+
+#[test]
+fn a_fact_that_is_said_meanwhile_changes_the_plan_and_not_the_request() {
+    let setting = setting("hsr");
+    let mut sim = coke_in_cupboard(&setting);
+    let mut talk = Conversation::new(&setting);
+    let line = Some("the coke is in the cupboard");
+    let mut watcher = Interrupts { at: Time::ZERO, says: line, swapped: 0, picked: 0 };
+    let request = "bring me the coke";
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+}
+
+#[test]
+fn a_fact_alone_is_no_request() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let (outcome, asked, _) = talk(&setting, &mut sim, "the coke is in the fridge", &[]);
+    assert!(matches!(outcome, Outcome::Failed(problem) if problem.kind == Kind::AmbiguousTask));
+    assert_eq!(asked[0].question, "I take note of that. What shall I do?");
+}
+
+#[test]
+fn what_was_asked_for_before_is_not_forgotten() {
+    // More of it.
+    let (outcome, asked, sim) = says("bring me the coke", "also bring me the apple", &[]);
+    assert_eq!((outcome, asked.len()), (Outcome::Done, 0));
+    for thing in ["coke", "apple"] {
+        assert_eq!(sim.holds("at", &[thing, "user"]), Some(true), "{thing}");
+    }
+    // Something else first.
+    let (outcome, asked, sim) = says("bring me the coke", "bring me the apple", &["yes"]);
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(asked[0].question, "That is done. Shall I go on with \"bring me the coke\"?");
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+    // Nothing that is understood.
+    let (outcome, asked, sim) = says("bring me the coke", "faster", &["go on"]);
+    assert_eq!(outcome, Outcome::Done, "{asked:?}");
+    assert!(asked[0].question.ends_with("Shall I go on with \"bring me the coke\"?"), "{asked:?}");
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+}

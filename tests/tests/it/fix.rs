@@ -1,0 +1,184 @@
+//! `motet check --fix`: single repairs in both forms, and that a mended document never checks worse.
+
+use motet_compiler::Session;
+use motet_compiler::fix::{Fixed, fix};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
+use motet_tests::generate::policy_of;
+use motet_tests::setup;
+use proptest::prelude::*;
+
+fn session() -> Session {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let mut sources = Sources::default();
+    sources.add(Source::new("policy", ""));
+    setup::session(Some(&robot), Some(&scene), &mut sources).0
+}
+
+/// The document's own; those of the library come after it.
+const FILE: FileId = FileId(0);
+
+fn mend(session: &Session, text: &str) -> Fixed {
+    fix(session, &Source::new("policy", text), FILE, 100)
+}
+
+fn errors(said: &[Diagnostic]) -> usize {
+    said.iter().filter(|said| said.severity == Severity::Error).count()
+}
+
+/// Both policies are bodies: of the text form, or the steps of the JSON form.
+fn check(session: &Session, body: &str, expected: &str) {
+    let whole = |body: &str| {
+        if body.trim_start().starts_with('[') {
+            format!("{{\"motet\": 1, \"policy\": \"p\", \"robot\": \"hsr\", \"steps\": {body}}}")
+        } else {
+            format!("policy p for hsr {{\n{body}}}\n")
+        }
+    };
+    let fixed = mend(session, &whole(body));
+    assert_eq!(fixed.text, whole(expected), "{:#?}", fixed.diagnostics);
+    assert_eq!(errors(&fixed.diagnostics), 0);
+}
+
+#[test]
+fn names_and_units_are_mended() {
+    let session = session();
+    check(&session, "    goo(user)\n", "    go(user)\n");
+    check(&session, "    go(usr)\n", "    go(user)\n");
+    check(&session, "    go(too: user)\n", "    go(to: user)\n");
+    check(&session, "    wait until near(user) within 3\n", "    wait until near(user) within 3 s\n");
+    check(&session, r#"[{"do": "goo", "to": "user"}]"#, r#"[{"do": "go", "to": "user"}]"#);
+    check(&session, r#"[{"do": "go", "too": "user"}]"#, r#"[{"do": "go", "to": "user"}]"#);
+    check(&session, r#"[{"do": "go", "to": "usr"}]"#, r#"[{"do": "go", "to": "user"}]"#);
+}
+
+#[test]
+fn missing_steps_are_inserted() {
+    let session = session();
+    check(
+        &session,
+        "    go(drawer_1)\n    let mug = detect(\"red mug\")\n    pick(mug)\n",
+        "    go(drawer_1)\n    let mug = detect(\"red mug\")\n    go(mug)\n    pick(mug)\n    place(mug, kitchen_table)\n",
+    );
+    check(
+        &session,
+        "[\n  {\"do\": \"go\", \"to\": \"user\"},\n  {\"do\": \"open\", \"what\": \"drawer_1\"}\n]",
+        "[\n  {\"do\": \"go\", \"to\": \"user\"},\n  {\"do\": \"go\", \"to\": \"drawer_1\"},\n  {\"do\": \"open\", \"what\": \"drawer_1\"},\n  {\"do\": \"close\", \"what\": \"drawer_1\"}\n]",
+    );
+    // A full hand cannot open the drawer: it is opened before.
+    let fixed = mend(
+        &session,
+        "policy p for hsr {\n    go(kitchen_table)\n    pick(mug_1)\n    go(drawer_1)\n    place(mug_1, drawer_1)\n}\n",
+    );
+    assert_eq!(errors(&fixed.diagnostics), 0, "{}\n{:#?}", fixed.text, fixed.diagnostics);
+}
+
+#[test]
+fn what_is_stale_is_perceived_again_and_what_is_dead_left_out() {
+    let session = session();
+    check(
+        &session,
+        "    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    let pose = locate(mug)\n    go(counter)\n    go(kitchen_table)\n    grasp(mug, pose)\n",
+        "    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    go(counter)\n    go(kitchen_table)\n    let pose = locate(mug)\n    grasp(mug, pose)\n    place(mug, kitchen_table)\n",
+    );
+    // Where it is used elsewhere too, it is perceived twice.
+    let first = "    go(kitchen_table)\n    let pose = locate(mug_1)\n    grasp(mug_1, pose)\n    place(mug_1, kitchen_table)\n    go(counter)\n    go(kitchen_table)\n";
+    check(
+        &session,
+        &format!("{first}    grasp(mug_1, pose)\n"),
+        &format!(
+            "{first}    let pose_2 = locate(mug_1)\n    grasp(mug_1, pose_2)\n    place(mug_1, kitchen_table)\n"
+        ),
+    );
+    check(&session, "    go(user)\n    done\n    say(\"x\")\n    go(user)\n", "    go(user)\n    done\n");
+    check(
+        &session,
+        r#"[{"do": "go", "to": "user"}, {"end": "done"}, {"do": "say", "text": "x"}]"#,
+        r#"[{"do": "go", "to": "user"}, {"end": "done"}]"#,
+    );
+    check(
+        &session,
+        "    go(kitchen_table)\n    pick(mug_1)\n    pick(mug_1)\n",
+        "    go(kitchen_table)\n    pick(mug_1)\n    place(mug_1, kitchen_table)\n",
+    );
+}
+
+/// What comes of a body has no errors, and these words in it.
+fn check_has(session: &Session, body: &str, words: &str) {
+    let policy = if body.starts_with('[') {
+        format!("{{\"motet\": 1, \"policy\": \"p\", \"robot\": \"hsr\", \"steps\": {body}}}")
+    } else {
+        format!("policy p for hsr {{\n{body}}}\n")
+    };
+    let fixed = mend(session, &policy);
+    assert!(fixed.text.contains(words), "{words} in {}\n{:#?}", fixed.text, fixed.diagnostics);
+    assert_eq!(errors(&fixed.diagnostics), 0, "{:#?}", fixed.diagnostics);
+}
+
+#[test]
+fn what_can_only_be_one_thing_is_written() {
+    let session = session();
+    let steps = r#"[{"do": "go", "to": "kitchen_table"}, {"do": "pick", "object": "$mug_1"}]"#;
+    check_has(&session, steps, r#""object": "mug_1""#);
+    let carry = "    go(kitchen_table)\n    pick(mug_1)\n    go(user)\n";
+    check_has(&session, &format!("{carry}    handover(mug_1)\n"), "handover(mug_1, to: user)");
+    check_has(&session, &format!("{carry}    handover(mug_1, counter)\n"), "handover(mug_1, user)");
+    let steps = r#"[{"do": "go", "to": "user"}, {"do": "go", "where": "counter"}]"#;
+    check_has(&session, steps, r#"{"do": "go", "to": "counter"}"#);
+}
+
+#[test]
+fn what_the_end_lacks_is_done_before_it() {
+    let session = session();
+    let held = "    go(kitchen_table)\n    pick(mug_1)\n    done\n";
+    check_has(&session, held, "    place(mug_1, kitchen_table)\n    done\n");
+    let left = "    go(drawer_1)\n    open(drawer_1)\n    done\n";
+    check_has(&session, left, "    close(drawer_1)\n    done\n");
+}
+
+#[test]
+fn what_is_right_stays_as_it_is() {
+    let session = session();
+    let text = policy_of(40);
+    let fixed = mend(&session, &text);
+    assert_eq!((fixed.text, fixed.applied), (text, Vec::new()));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Steps left out, doubled, swapped, or with a letter too many in a name.
+    #[test]
+    fn a_mended_document_never_checks_worse(
+        steps in 4_usize..24,
+        changes in proptest::collection::vec((0_usize..30, 0_u8..4), 1..4),
+    ) {
+        let session = session();
+        let mut policy: serde_json::Value = serde_json::from_str(&policy_of(steps)).unwrap();
+        let body = policy["steps"].as_array_mut().unwrap();
+        for (at, how) in changes {
+            let at = at % body.len();
+            match how {
+                0 if body.len() > 1 => { body.remove(at); }
+                1 => { let copy = body[at].clone(); body.insert(at, copy); }
+                2 => { let other = (at + 1) % body.len(); body.swap(at, other); }
+                _ => if let Some(name) = body[at].get_mut("do") {
+                    *name = format!("{}x", name.as_str().unwrap()).into();
+                },
+            }
+        }
+        let text = serde_json::to_string_pretty(&policy).unwrap();
+        let before = session.check(&motet_syntax::read(&Source::new("policy", text.as_str()), FILE));
+        let fixed = mend(&session, &text);
+        let after = session.check(&motet_syntax::read(&Source::new("policy", fixed.text.as_str()), FILE));
+        prop_assert_eq!(&after, &fixed.diagnostics);
+        prop_assert!(errors(&after) <= errors(&before));
+        prop_assert!(fixed.applied.is_empty() || after.len() < before.len() || errors(&after) < errors(&before));
+        for said in &after {
+            // A lint may have a word on a step that mends an error.
+            let is_lint = said.severity != Severity::Error && errors(&after) < errors(&before);
+            let is_known = is_lint || before.iter().any(|known| known.code == said.code);
+            prop_assert!(is_known, "{said:?}\n{}", fixed.text);
+        }
+        prop_assert!(serde_json::from_str::<serde_json::Value>(&fixed.text).is_ok(), "{}", fixed.text);
+    }
+}

@@ -1,0 +1,35 @@
+//! Tests across crates, in one binary.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::string_slice,
+    clippy::print_stdout,
+    reason = "a test fails by panicking"
+)]
+
+mod advice;
+mod conversation;
+mod corpus;
+mod dialect;
+mod dynamic;
+mod engines;
+mod explanation;
+mod fix;
+mod formats;
+mod forms;
+mod grammars;
+mod hostile;
+mod library;
+mod oracle;
+mod pddl;
+mod planning;
+mod promises;
+mod prompt;
+mod request;
+mod spec;
+mod speech;
+mod surface;
+mod vision;

@@ -1,0 +1,95 @@
+//! Plans by search: what is asked for is reached in simulation, on either robot, and what cannot be is said.
+use motet_compiler::plan::{Goal, Lasts, NoPlan};
+use motet_planner::builtin::{self, Planned, Unplanned};
+use motet_requests::Aim;
+use motet_runtime::{Engine, RunEnd, StartState, Time};
+use motet_sim::{Sim, SimOptions};
+use motet_syntax::{Severity, Sources};
+use motet_tests::setup;
+
+fn plan(robot: &str, scene: &str, goals: &[&str]) -> Result<Planned, Unplanned> {
+    let (robot, scene) = (setup::robot(robot), setup::scene(scene));
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    let aims: Vec<Aim> = goals
+        .iter()
+        .enumerate()
+        .map(|(index, goal)| Aim {
+            goal: Goal::read(goal, Lasts::ToTheEnd).unwrap(),
+            name: format!("goal_{index}"),
+            only_if: None,
+        })
+        .collect();
+    builtin::plan(&session, Some(&robot), "plan", &aims)
+}
+
+/// Plans, runs, and looks whether the facts hold.
+#[track_caller]
+fn reaches(scene: &str, goals: &[&str], facts: &[(&str, &[&str])]) {
+    for robot in ["hsr", "anymal_z1"] {
+        let planned = plan(robot, scene, goals).unwrap_or_else(|why| panic!("{robot}: {why}"));
+        let worse: Vec<_> =
+            planned.compiled.diagnostics.iter().filter(|said| said.severity > Severity::Note).collect();
+        assert!(worse.is_empty(), "{robot}: {}\n{worse:?}", planned.text);
+        assert_eq!(planned.text, plan(robot, scene, goals).unwrap().text, "the same again");
+        let (card, room) = (setup::robot(robot), setup::scene(scene));
+        let entities =
+            room.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone())).collect();
+        let start = StartState { entities, ..StartState::default() };
+        let mut engine = Engine::new(planned.compiled.graph.unwrap(), &start).unwrap();
+        let mut sim = Sim::new(&card, &room, SimOptions::default());
+        let end = motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO);
+        assert!(matches!(end, RunEnd::Done { .. }), "{robot}: {end}\n{}", planned.text);
+        for (fluent, args) in facts {
+            assert_eq!(sim.holds(fluent, args), Some(true), "{robot}: {fluent}{args:?}\n{}", planned.text);
+        }
+    }
+}
+
+#[test]
+fn goals_are_reached() {
+    reaches("kitchen", &["at(coke, user)"], &[("at", &["coke", "user"])]);
+    reaches("kitchen", &["on(mug_1, shelf)"], &[("on", &["mug_1", "shelf"])]);
+    reaches("kitchen", &["in(sponge, drawer_1)"], &[("in", &["sponge", "drawer_1"])]);
+}
+
+#[test]
+fn a_thing_whose_name_others_have_too_is_looked_for_by_another() {
+    reaches("living_room", &["in(toy, drawer_1)"], &[("in", &["toy", "drawer_1"])]);
+    let planned = plan("anymal_z1", "living_room", &["in(toy, drawer_1)"]).unwrap();
+    assert!(planned.text.contains("\"toy car\""), "{}", planned.text);
+}
+
+#[test]
+fn goals_are_reached_one_after_the_other() {
+    reaches(
+        "kitchen",
+        &["at(apple, user)", "in(bottle, trash)"],
+        &[("at", &["apple", "user"]), ("in", &["bottle", "trash"])],
+    );
+}
+
+#[test]
+fn what_a_plan_opens_it_closes() {
+    let text = plan("hsr", "kitchen", &["in(sponge, drawer_1)"]).unwrap().text;
+    let (opened, closed) = (text.find("open(drawer_1)").unwrap(), text.find("close(drawer_1)").unwrap());
+    assert!(opened < closed, "{text}");
+}
+
+#[test]
+fn what_cannot_be_reached_is_said_with_the_reason() {
+    let why = |goal| match plan("hsr", "lab", &[goal]) {
+        Err(Unplanned::NoPlan(NoPlan::Unreachable { blocker, .. })) => blocker.unwrap_or_default(),
+        other => panic!("{other:?}"),
+    };
+    assert!(why("on(vise, desk)").contains("mass"), "{}", why("on(vise, desk)"));
+    // Who is brought something is no reason.
+    assert!(why("at(vise, user)").contains("mass"), "{}", why("at(vise, user)"));
+    assert!(why("in(pen, drawer_2)").contains("locked"), "{}", why("in(pen, drawer_2)"));
+}
+
+#[test]
+fn wrong_goals_are_told_apart() {
+    assert!(matches!(Goal::read("on(", Lasts::ToTheEnd), Err(NoPlan::NoCondition { .. })));
+    let wrong = plan("hsr", "kitchen", &["on(mug_9, shelf)"]);
+    assert!(matches!(wrong, Err(Unplanned::NoPlan(NoPlan::Wrong { .. }))));
+}

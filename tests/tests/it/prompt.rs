@@ -1,0 +1,63 @@
+//! What a model is shown: examples that pass the check themselves, and a room as it is believed to be.
+use std::time::Duration;
+
+use motet_compiler::Session;
+use motet_planner::prompt::{Lasting, Prompt, TOKENS, Written};
+use motet_requests::RequestContext;
+use motet_robots::card::Robot;
+use motet_runtime::memory::{Memory, MemoryLimits};
+use motet_syntax::{FileId, Severity, Source, Sources};
+use motet_tests::setup;
+
+fn write(session: &Session, robot: &Robot, situation: &RequestContext<'_>) -> Written {
+    let scene = situation.scene;
+    let prompt = Prompt {
+        session,
+        robot,
+        scene,
+        situation,
+        memory: &Memory::new(MemoryLimits::default()),
+        lasting: &Lasting::new(session, robot, scene),
+        tokens: TOKENS,
+        time: Duration::ZERO,
+    };
+    prompt.write("go home")
+}
+
+#[test]
+fn the_examples_pass_the_check() {
+    let mut shown = 0;
+    for robot in ["hsr", "anymal_z1"] {
+        for scene in ["kitchen", "living_room", "lab"] {
+            let (robot, scene) = (setup::robot(robot), setup::scene(scene));
+            let session = setup::session(Some(&robot), Some(&scene), &mut Sources::default()).0;
+            let situation = RequestContext::new(&scene);
+            let written = write(&session, &robot, &situation);
+            let mut lines = written.system.lines();
+            while let Some(line) = lines.next() {
+                let Some(request) = line.strip_prefix("# Example: ") else { continue };
+                let source = Source::new("example.json", lines.next().unwrap());
+                let said = session.check(&motet_syntax::read(&source, FileId(9)));
+                let errors: Vec<_> = said.iter().filter(|said| said.severity == Severity::Error).collect();
+                assert!(errors.is_empty(), "{}: {request}: {errors:?}", robot.name);
+                shown += 1;
+            }
+        }
+    }
+    assert!(shown >= 8, "{shown} examples");
+}
+
+#[test]
+fn a_room_is_told_as_it_is_believed_to_be() {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let session = setup::session(Some(&robot), Some(&scene), &mut Sources::default()).0;
+    let moved = [("mug_1", Some("cupboard_1")), ("apple", None), ("user", None), ("plate", Some("shelf"))];
+    let supports = moved.iter().map(|(id, place)| ((*id).into(), place.map(Into::into))).collect();
+    let situation = RequestContext { supports, ..RequestContext::new(&scene) };
+    let room = write(&session, &robot, &situation).user;
+    let line = |id: &str| room.lines().find(|line| line.starts_with(&format!("- {id} "))).unwrap();
+    assert!(line("mug_1").contains("; in cupboard_1"), "{room}");
+    assert!(line("plate").contains("; on shelf"), "{room}");
+    assert!(line("apple").contains("; it is not known where"), "{room}");
+    assert!(!line("user").contains("not known where"), "{room}");
+}
