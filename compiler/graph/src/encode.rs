@@ -12,7 +12,8 @@ use std::borrow::Cow;
 use std::fmt;
 use thiserror::Error;
 
-/// Version of the encoding: the one that is written, and the only one that is read. 2 since motions have witnesses.
+/// Version of the encoding: the one that is written, and the only one that is read. 2 since motions have
+/// witnesses.
 pub const VERSION: u32 = 2;
 /// Size limit of a document in bytes.
 pub const MAX_BYTES: usize = 64 * 1024 * 1024;
@@ -43,8 +44,8 @@ pub struct GraphDocument {
     pub graph: Graph,
 }
 
-/// Encodes a graph as a JSON document. A duration that is not finite, which no valid graph holds, becomes `null` and cannot
-/// be decoded.
+/// Encodes a graph as a JSON document. A duration that is not finite, which no valid graph holds, becomes
+/// `null` and cannot be decoded.
 ///
 /// ```
 /// use motet_graph::{Graph, decode, encode, validate};
@@ -70,8 +71,8 @@ pub fn document(graph: &Graph) -> GraphDocument {
 ///
 /// # Errors
 ///
-/// A document that is too large or too deep, is not JSON, has another version, has unknown, missing or doubled keys, or
-/// states a hash that is not that of its content.
+/// A document that is too large or too deep, is not JSON, has another version, has unknown, missing or
+/// doubled keys, or states a hash that is not that of its content.
 pub fn decode(text: &str) -> Result<Graph, DecodeError> {
     if text.len() > MAX_BYTES {
         return Err(DecodeError::TooLarge { bytes: text.len(), limit: MAX_BYTES });
@@ -141,8 +142,8 @@ impl Serialize for GraphDocument {
 }
 
 impl<'de> Deserialize<'de> for GraphDocument {
-    /// Reads version and hash wherever they stand, and leaves all other keys to the graph, which refuses unknown ones.
-    /// `#[serde(flatten)]` could not refuse them.
+    /// Reads version and hash wherever they stand, and leaves all other keys to the graph, which refuses
+    /// unknown ones. `#[serde(flatten)]` could not refuse them.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_map(DocumentVisitor)
     }

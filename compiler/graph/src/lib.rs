@@ -1,7 +1,4 @@
-//! The execution graph: what the compiler makes of a policy, and all that a robot needs to run it.
-//!
-//! [`model`] is the graph in memory. It knows neither text nor compiler, and it trusts nothing: a graph that comes from
-//! elsewhere is decoded ([`decode`]) and validated ([`validate()`]) before an engine takes it. [`draw`] shows it to people.
+#![doc = include_str!("../README.md")]
 
 #[cfg(feature = "arbitrary")]
 pub mod arbitrary;

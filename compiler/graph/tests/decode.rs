@@ -30,7 +30,7 @@ fn forms() {
     refuse("[]", "no graph: ");
     refuse("{}", "no graph: missing field `motet_graph`");
     refuse("{\"motet_graph\": 1}", "the graph has version 1; this program reads version 2");
-    refuse("{\"motet_graph\": 2}", "no graph: missing field `hash`");
+    refuse("{\"motet_graph\": 2}", "no graph: missing field `policy`");
     refuse(&document().replacen("\"policy\"", "\"polcy\"", 1), "no graph: unknown field `polcy`");
     refuse(&document().replacen("\"retries\"", "\"x\":1,\"retries\"", 1), "no graph: unknown field `x`");
     refuse(

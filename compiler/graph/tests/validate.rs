@@ -15,8 +15,8 @@ use motet_graph::{
     MeasureId, NodeId, NodeKind, PrimitiveId, Reaction, RegionId, ResourceId, Term, Type, Value, validate,
 };
 
-/// Nodes: 0 detect, 1 try, 2 pick, 3 replan, 4 monitor, 5 go, 6 say (block), 7 policy, 8 done, 9 parallel, 10 go, 11 say,
-/// 12 each, 13 go.
+/// Nodes: 0 detect, 1 try, 2 pick, 3 replan, 4 monitor, 5 go, 6 say (block), 7 policy, 8 done, 9 parallel, 10
+/// go, 11 say, 12 each, 13 go.
 fn sound() -> Graph {
     let watch =
         WatchSketch { condition: v::nearer("user", 0.5), hold_secs: 0.2, react: ReactionSketch::Pause(60.0) };

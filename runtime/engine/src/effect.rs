@@ -1,4 +1,4 @@
-//! What the engine wants done: its only way to act on the world.
+//! Effects: the engine's only way to act on the world.
 
 use crate::ids::CheckId;
 use crate::ids::GoalId;
@@ -13,8 +13,8 @@ use smol_str::SmolStr;
 use std::fmt;
 use std::sync::Arc;
 
-/// One thing that the engine wants done. The effects of one event go out together, in order. The order of commands to a
-/// driver is the order in which they take effect.
+/// One thing that the engine wants done. The effects of one event go out together, in order. The order of
+/// commands to a driver is the order in which they take effect.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Effect {
@@ -24,74 +24,48 @@ pub enum Effect {
         goal: GoalId,
         /// The step that it is for.
         node: NodeId,
-        /// What to do.
         command: Arc<Command>,
-        /// When the engine will cancel it.
+        /// Time at which the engine will cancel it.
         deadline: Time,
     },
     /// End a goal early. Sent at most once a goal, never before it was acknowledged.
-    Cancel {
-        /// Which.
-        goal: GoalId,
-    },
-    /// Do this instead: the goal goes on under its old number with new arguments of the same primitive. Sent only for
-    /// primitives that the driver says it can update ([`crate::Capabilities`]), and only while the goal runs. Not
-    /// acknowledged; a driver that cannot after all ends the goal in a failure.
+    Cancel { goal: GoalId },
+    /// Do this instead: the goal goes on under its old number with new arguments of the same primitive. Sent
+    /// only for primitives that the driver says it can update ([`crate::Capabilities`]), and only while the
+    /// goal runs. Not acknowledged; a driver that cannot after all ends the goal in a failure.
     Update {
-        /// Which.
         goal: GoalId,
         /// The step that it is for from now on.
         node: NodeId,
-        /// What to do.
         command: Arc<Command>,
-        /// When the engine will cancel it.
+        /// Time at which the engine will cancel it.
         deadline: Time,
     },
     /// Keep still without ending, until [`Effect::Proceed`]. Not acknowledged; a driver that cannot says
     /// [`crate::DriverEvent::NotHeld`].
-    Hold {
-        /// Which.
-        goal: GoalId,
-    },
+    Hold { goal: GoalId },
     /// Go on after [`Effect::Hold`].
-    Proceed {
-        /// Which.
-        goal: GoalId,
-    },
-    /// A cancel was not answered in time: bring everything that the goal uses to a safe stop by whatever means, and
-    /// say [`crate::DriverEvent::Stopped`].
-    SafeStop {
-        /// Which.
-        goal: GoalId,
-    },
+    Proceed { goal: GoalId },
+    /// A cancel was not answered in time: bring everything that the goal uses to a safe stop by whatever
+    /// means, and say [`crate::DriverEvent::Stopped`].
+    SafeStop { goal: GoalId },
     /// Answer once, at once if possible.
-    Observe {
-        /// What.
-        query: Arc<Query>,
-    },
+    Observe { query: Arc<Query> },
     /// Answer now, and again whenever the answer changes.
-    Watch {
-        /// What.
-        query: Arc<Query>,
-    },
+    Watch { query: Arc<Query> },
     /// No longer watch.
-    Unwatch {
-        /// What.
-        query: Arc<Query>,
-    },
-    /// Say whether a motion has a solution, by [`crate::Event::Verified`]. Asked just before its step starts, and only where
-    /// [`crate::EngineSettings::verify_within`] says that somebody will answer.
+    Unwatch { query: Arc<Query> },
+    /// Say whether a motion has a solution, by [`crate::Event::Verified`]. Asked just before its step starts,
+    /// and only where [`crate::EngineSettings::verify_within`] says that somebody will answer.
     #[serde(with = "verification")]
     #[schemars(with = "verification::Verify")]
     Verify {
-        /// The question.
         check: CheckId,
         /// The step that waits for the verdict.
         node: NodeId,
-        /// What.
         motion: Arc<DeferredMotion>,
     },
-    /// What happened in the run, for people, traces and journals.
+    /// A trace event, for people, traces and journals.
     Report(TraceEvent),
     /// The run is over; the last effect of a run.
     Finished(Box<RunEnd>),
@@ -153,13 +127,12 @@ impl Command {
     }
 }
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RunEnd {
     /// The policy reached `done`, or its end.
     Done {
-        /// What `done` said.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
     },
@@ -167,7 +140,6 @@ pub enum RunEnd {
     Failed {
         /// The failure kind; `failed` for `fail`.
         kind: SmolStr,
-        /// What `fail` said.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
         /// The step in which it arose.
@@ -175,7 +147,6 @@ pub enum RunEnd {
     },
     /// The policy asks for a new policy.
     Replan {
-        /// What for.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
     },
@@ -185,15 +156,12 @@ pub enum RunEnd {
     Fault(Fault),
 }
 
-/// Why the engine could not go on. Every live goal was told to stop safely before.
+/// Fault that ends a run early. Every live goal was told to stop safely before.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Fault {
     /// More transitions at one instant than the budget allows.
-    StepBudget {
-        /// The budget.
-        steps: u32,
-    },
+    StepBudget { steps: u32 },
     /// The driver answered neither a cancel nor a safe stop.
     NotStopped {
         /// The step whose goal is still live.

@@ -1,4 +1,4 @@
-//! Which goals are live, and for which step.
+//! Table of live goals and their steps.
 
 use crate::ids::{GoalId, SLOT_BITS};
 use motet_graph::NodeId;

@@ -4,10 +4,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Bits of a [`GoalId`] that hold its slot in the table of goals; the running number of the start stands above them.
+/// Bits of a [`GoalId`] that hold its slot in the table of goals; the running number of the start stands
+/// above them.
 pub(crate) const SLOT_BITS: u32 = 24;
 
-/// Id of one start of a primitive. The engine chooses it and never uses it twice in a run, not even for a retry.
+/// Id of one start of a primitive. The engine chooses it and never uses it twice in a run, not even for a
+/// retry.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct GoalId(pub(crate) u64);

@@ -1,39 +1,4 @@
-//! The engine that runs execution graphs: `(graph, state, event) -> effects`, without a clock, without input or output.
-//!
-//! An [`Event`] goes into the [`Engine`], [`Effect`]s come out. A host passes them to a [`Driver`] and feeds back what it
-//! reports; [`run`] is such a host, for any driver whose time is not the wall clock's as well as for those whose is.
-//!
-//! ```
-//! use motet_graph::{Bounds, Ending, Graph, Node, NodeKind, Region, ROOT};
-//! use motet_runtime::{Effect, Engine, Event, StartState, Time};
-//!
-//! // A policy of one step, `done`.
-//! let graph = Graph {
-//!     policy: "nothing".into(),
-//!     robot: "".into(),
-//!     kinds: vec![], fluents: vec![], measures: vec![], primitives: vec![], resources: vec![], bindings: vec![],
-//!     failures: vec!["timeout".into()],
-//!     nodes: vec![Node {
-//!         path: "/steps/0".into(),
-//!         region: ROOT,
-//!         next: None,
-//!         duration: Bounds::default(),
-//!         kind: NodeKind::End { how: Ending::Done, of: None, why: None },
-//!     }],
-//!     regions: vec![Region { owner: None, entry: Some(motet_graph::NodeId(0)) }],
-//!     initial: vec![],
-//!     observe_within_secs: 0.5,
-//!     duration: Bounds::default(),
-//! };
-//! let mut engine = Engine::new(graph, &StartState::default())?;
-//! let mut effects = Vec::new();
-//! engine.handle(Time::ZERO, Event::Begin, &mut effects);
-//! assert!(matches!(effects.last(), Some(Effect::Finished(_))));
-//! # Ok::<(), Vec<motet_graph::InvalidGraph>>(())
-//! ```
-//!
-//! Inside: `plan` is the graph made ready once; `state` is all that changes, in flat tables; `turn` makes the transitions
-//! that one event enables; `belief` is what the engine believes of the world. Only `turn` changes the state.
+#![doc = include_str!("../README.md")]
 
 mod belief;
 pub mod conformance;

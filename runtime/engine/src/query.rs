@@ -1,4 +1,4 @@
-//! What can be observed: ground questions about the world, and their answers.
+//! Queries: ground questions about the world, and their answers.
 
 use motet_graph::Value;
 use schemars::JsonSchema;
@@ -10,25 +10,18 @@ use std::fmt;
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Query {
-    /// Whether a fluent holds. The answer is an [`Answer::Truth`].
+    /// Truth value of a fluent. The answer is an [`Answer::Truth`].
     Fact {
-        /// The fluent.
         fluent: SmolStr,
         /// Its arguments; with [`Pattern::Any`]: whether it holds of some entity.
         args: Vec<Pattern>,
     },
-    /// What a measure reads. The answer is an [`Answer::Value`].
-    Measure {
-        /// The measure.
-        measure: SmolStr,
-        /// Its arguments.
-        args: Vec<Value>,
-    },
-    /// What an entity's field reads. The answer is an [`Answer::Value`].
+    /// Reading of a measure. The answer is an [`Answer::Value`].
+    Measure { measure: SmolStr, args: Vec<Value> },
+    /// Reading of an entity's field. The answer is an [`Answer::Value`].
     Field {
         /// The entity's id.
         entity: SmolStr,
-        /// The field.
         field: SmolStr,
     },
 }
@@ -37,9 +30,7 @@ pub enum Query {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Pattern {
-    /// This value.
     Is(Value),
-    /// Some entity.
     Any,
 }
 
@@ -51,7 +42,8 @@ pub enum Answer {
     Unknown,
     /// To a fact: whether it holds.
     Truth(bool),
-    /// To a measure or a field: its value, numbers in SI units. A number that is not finite counts as unknown.
+    /// To a measure or a field: its value, numbers in SI units. A number that is not finite counts as
+    /// unknown.
     Value(Value),
 }
 

@@ -21,7 +21,6 @@ use std::sync::Arc;
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Snapshot {
-    /// Of when.
     pub at: Time,
     /// The number of the graph that runs.
     pub revision: u32,
@@ -29,8 +28,8 @@ pub struct Snapshot {
     pub policy: SmolStr,
     /// The robot that it is for.
     pub robot: SmolStr,
-    /// What is believed: in order, a later one wins, and one with `any` is meant of every entity. What stands in no line is
-    /// unknown.
+    /// Believed facts in order: a later one overrides an earlier one, and one with `any` holds for every
+    /// entity. Facts that are not listed are unknown.
     #[serde(with = "rows::facts")]
     #[schemars(with = "Vec<rows::FactRow>")]
     pub facts: Vec<(Query, Truth)>,
@@ -46,7 +45,7 @@ pub struct Snapshot {
     #[serde(with = "rows::bindings")]
     #[schemars(with = "Vec<rows::BindingRow>")]
     pub bindings: Vec<(SmolStr, Value)>,
-    /// What runs, by start.
+    /// Live goals in the order of their starts.
     pub goals: Vec<LiveGoal>,
 }
 
@@ -64,9 +63,7 @@ pub struct Reading {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LiveGoal {
-    /// Its number.
     pub goal: GoalId,
-    /// What it does.
     pub command: Arc<Command>,
     /// The path of the step that started it, in the graph of its time.
     pub path: SmolStr,
@@ -84,8 +81,9 @@ impl Snapshot {
         }
     }
 
-    /// The facts in the text form, as a state file has them: what holds is true, what does not is false, what is unknown
-    /// though something before it says otherwise is none. Only facts about entities and cases can be said.
+    /// The facts in the text form, as a state file has them: what holds is true, what does not is false, what
+    /// is unknown though something before it says otherwise is none. Only facts about entities and cases can
+    /// be said.
     #[must_use]
     pub fn state(&self) -> Vec<(String, Option<bool>)> {
         let said = self.facts.iter().filter_map(|(query, truth)| Some((fact_text(query)?, known(*truth))));

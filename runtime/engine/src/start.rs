@@ -1,4 +1,4 @@
-//! What is known when a run begins: what stands in the graph, and what a host adds.
+//! Knowledge at the beginning of a run: from the graph and from the host.
 
 use crate::belief::Beliefs;
 use crate::query::{Answer, Pattern, Query};
@@ -10,20 +10,20 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-/// What a host knows at the start. Facts and kinds that the graph does not mention are left out.
+/// Knowledge of the host at the start of a run. Facts and kinds that the graph does not mention are left out.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartState {
-    /// Facts with their truth values, in order: a later one overrides an earlier one, and one with `any` holds for every
-    /// entity. Queries that are not facts are ignored.
+    /// Facts with their truth values, in order: a later one overrides an earlier one, and one with `any`
+    /// holds for every entity. Queries that are not facts are ignored.
     #[serde(with = "rows::facts")]
     #[schemars(with = "Vec<rows::FactRow>")]
     pub facts: Vec<(Query, Truth)>,
     /// Facts with `any` that hold for some entity, which one is not known.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub some: Vec<Query>,
-    /// Entities with the names of their kinds. Effects that quantify over a kind range over these and over every entity
-    /// that a graph, a result or an observation names.
+    /// Entities with the names of their kinds. Effects that quantify over a kind range over these and over
+    /// every entity that a graph, a result or an observation names.
     #[serde(with = "rows::entities")]
     #[schemars(with = "Vec<rows::EntityRow>")]
     pub entities: Vec<(SmolStr, SmolStr)>,

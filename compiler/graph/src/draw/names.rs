@@ -10,7 +10,7 @@ use crate::model::{
 #[derive(Clone, Copy, Debug)]
 pub struct Names<'a>(pub &'a Graph);
 
-/// Where a table has no such entry.
+/// Placeholder for an id without an entry in its table.
 const NOBODY: &str = "?";
 
 impl<'a> Names<'a> {
@@ -74,7 +74,7 @@ impl<'a> Names<'a> {
         quantity::literal(arg, ty).unwrap_or_else(|| self.term(arg))
     }
 
-    /// What is compared, a number with the unit of what it is compared with.
+    /// One side of a comparison; a number takes the unit of the other side.
     fn side(&self, term: &Term, other: &Term) -> String {
         quantity::literal(term, quantity::type_of(self.0, other)).unwrap_or_else(|| self.term(term))
     }
@@ -172,7 +172,7 @@ impl<'a> Names<'a> {
         format!("{name}({})", args.collect::<Vec<_>>().join(", "))
     }
 
-    /// A condition.
+    /// A condition in the text syntax.
     #[must_use]
     pub fn condition(&self, condition: &Condition) -> String {
         match condition {

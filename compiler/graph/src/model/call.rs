@@ -42,13 +42,14 @@ pub enum Verdict {
     Deferred,
 }
 
-/// A precondition.
+/// A precondition of a call, with its verdict.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Need {
     /// Condition at the start of the step. With `each`, for every entity of that kind that the engine knows.
     pub condition: Condition,
-    /// Premise: the condition is required only where this is true; unknown counts as false. May contain [`Term::Each`].
+    /// Premise: the condition is required only where this is true; unknown counts as false. May contain
+    /// [`Term::Each`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub when: Option<Condition>,
     /// Kind over which [`Term::Each`] ranges in `condition` and `when`.
@@ -67,7 +68,8 @@ pub struct Motion {
     pub query: SmolStr,
     pub args: Vec<Term>,
     pub verdict: Verdict,
-    /// The solution of a proven motion. If the step can be reached in several worlds, the solution for one of them.
+    /// The solution of a proven motion. If the step can be reached in several worlds, the solution for one of
+    /// them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub witness: Option<Box<Witness>>,
     /// Reason for a deferral, in words, if one is known.
@@ -75,14 +77,15 @@ pub struct Motion {
     pub why: Option<SmolStr>,
 }
 
-/// A path that proves a motion feasible in the world that the compiler expects. Lengths in m, angles in rad, poses in the
-/// frame `map`.
+/// A path that proves a motion feasible in the world that the compiler expects. Lengths in m, angles in rad,
+/// poses in the frame `map`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Witness {
     /// Names of the joints that move; all others keep their positions.
     pub joints: Vec<SmolStr>,
-    /// At least one waypoint, from start to end; between two of them base and joints move along a straight line.
+    /// At least one waypoint, from start to end; between two of them base and joints move along a straight
+    /// line.
     pub path: Vec<Waypoint>,
     /// Grasp or placement at the end, for queries that ask for one.
     #[serde(default, skip_serializing_if = "Option::is_none")]

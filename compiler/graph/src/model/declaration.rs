@@ -1,4 +1,5 @@
-//! Declarations of a graph: kinds, fluents, measures, signatures of primitives, resources, bindings, initial facts.
+//! Declarations of a graph: kinds, fluents, measures, signatures of primitives, resources, bindings, initial
+//! facts.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -78,7 +79,8 @@ pub struct Resource {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Binding {
-    /// The name in the policy. A suffix `'2`, `'3` … makes it unique where inlining repeats it; an unnamed result is `_`.
+    /// The name in the policy. A suffix `'2`, `'3` … makes it unique where inlining repeats it; an unnamed
+    /// result is `_`.
     pub name: SmolStr,
     #[serde(rename = "type")]
     pub ty: Type,

@@ -1,12 +1,13 @@
 //! The graph: tables of declarations, nodes in an arena, and regions that chain them.
 //!
-//! A **region** is a list of nodes that run one after the other with a single thread of control: the policy's body, a
-//! branch, a handler. A **node** belongs to one region; its success edge leads to the next node of the region, or
-//! ends the region in success. A node's failure ends its region in that failure, which fails the region's owner; a
-//! [`NodeKind::Try`] owner has failure edges, its handlers. Ids are indices: stable for one graph, in document order.
+//! A **region** is a list of nodes that run one after the other with a single thread of control: the policy's
+//! body, a branch, a handler. A **node** belongs to one region; its success edge leads to the next node of
+//! the region, or ends the region in success. A node's failure ends its region in that failure, which fails
+//! the region's owner; a [`NodeKind::Try`] owner has failure edges, its handlers. Ids are indices: stable for
+//! one graph, in document order.
 //!
-//! The types derive their JSON form. Explicit names stand where JSON and Rust differ; [`crate::encode`] adds the version
-//! and the hash. Nothing here is checked: that is the task of [`crate::validate()`].
+//! The types derive their JSON form. Explicit names stand where JSON and Rust differ; [`crate::encode`] adds
+//! the version and the hash. Nothing here is checked: that is the task of [`crate::validate()`].
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -89,7 +90,6 @@ pub struct Graph {
     pub failures: Vec<SmolStr>,
     /// Exclusive resources of the robot that the graph uses.
     pub resources: Vec<Resource>,
-    /// Named results.
     pub bindings: Vec<Binding>,
     /// Regions; the first is the policy's body.
     pub regions: Vec<Region>,
@@ -137,9 +137,7 @@ pub const TIMEOUT: FailureId = FailureId(0);
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(from = "[f64; 2]", into = "[f64; 2]")]
 pub struct DurationBounds {
-    /// Lower bound.
     pub least_secs: f64,
-    /// Upper bound.
     pub greatest_secs: f64,
 }
 

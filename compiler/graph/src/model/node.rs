@@ -22,8 +22,8 @@ pub struct Region {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Node {
-    /// JSON Pointer to the step in the policy's JSON form, such as `/steps/2/try/0`. Nodes of an inlined policy have the
-    /// call's path followed by `:` and the path in that policy.
+    /// JSON Pointer to the step in the policy's JSON form, such as `/steps/2/try/0`. Nodes of an inlined
+    /// policy have the call's path followed by `:` and the path in that policy.
     pub path: SmolStr,
     /// The region to which the node belongs.
     pub region: RegionId,
@@ -44,7 +44,8 @@ pub enum NodeKind {
     Call(CallNode),
     /// A named group of steps.
     Sequence { name: SmolStr, body: RegionId },
-    /// An inlined sub-policy. `End` nodes may refer to it: `done` ends it in success, `fail` in the failure `failed`.
+    /// An inlined sub-policy. `End` nodes may refer to it: `done` ends it in success, `fail` in the failure
+    /// `failed`.
     Inline { policy: SmolStr, body: RegionId },
     /// A branch. An unknown condition is observed first, and counts as false if it stays unknown.
     If {
@@ -62,7 +63,8 @@ pub enum NodeKind {
         #[serde(rename = "within")]
         within_secs: f64,
     },
-    /// Watches conditions while the body runs. An outer monitor wins over an inner one, an earlier watch over a later.
+    /// Watches conditions while the body runs. An outer monitor wins over an inner one, an earlier watch over
+    /// a later.
     Monitor { watches: Vec<Watch>, body: RegionId },
     /// Handles failures of its body.
     Try {
@@ -70,7 +72,8 @@ pub enum NodeKind {
         /// Failure edges; the first that matches wins.
         handlers: Vec<Handler>,
     },
-    /// A bounded loop: the body, then the test. Fails with `exhausted` if the test does not hold after the last run.
+    /// A bounded loop: the body, then the test. Fails with `exhausted` if the test does not hold after the
+    /// last run.
     Repeat {
         /// Greatest number of runs, at least 1.
         times: u32,
@@ -79,7 +82,8 @@ pub enum NodeKind {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         until: Option<Condition>,
     },
-    /// A loop over a list. Fails with `exhausted`, before the first item, if the list is longer than `at_most`.
+    /// A loop over a list. Fails with `exhausted`, before the first item, if the list is longer than
+    /// `at_most`.
     Each {
         /// Binding of the item.
         item: BindingId,
@@ -128,7 +132,8 @@ pub struct Watch {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Reaction {
-    /// Holds the body until the condition is false again; more than `within_secs` in all is the failure `timeout`.
+    /// Holds the body until the condition is false again; more than `within_secs` in all is the failure
+    /// `timeout`.
     Pause {
         /// The longest pause in seconds, all pauses of one run of the monitor taken together.
         #[serde(rename = "within")]
@@ -136,8 +141,8 @@ pub enum Reaction {
     },
     /// Runs the body again from its start, at most `at_most` times; then fails with `exhausted`.
     Restart { at_most: u32 },
-    /// Interrupts the body, runs a region and continues from the interrupted step, at most `at_most` times; then fails
-    /// with `exhausted`.
+    /// Interrupts the body, runs a region and continues from the interrupted step, at most `at_most` times;
+    /// then fails with `exhausted`.
     Resume { at_most: u32, body: RegionId },
     /// Ends the policy, or the inlined policy `of`.
     End {

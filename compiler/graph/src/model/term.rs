@@ -73,7 +73,8 @@ impl Comparison {
 pub enum Term {
     Literal(Value),
     Binding(BindingId),
-    /// The variable of a quantified entry; only in [`super::CallEffect`], [`super::Unsettled`] and [`super::Need`].
+    /// The variable of a quantified entry; only in [`super::CallEffect`], [`super::Unsettled`] and
+    /// [`super::Need`].
     Each,
     /// A field of an entity, observed like a measure.
     Field(Box<Term>, SmolStr),

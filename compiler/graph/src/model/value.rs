@@ -31,8 +31,8 @@ pub enum Type {
 
 /// A value of a binding, an argument or a reading.
 ///
-/// JSON has no numbers that are not finite: they are written as the texts `"NaN"`, `"Infinity"` and `"-Infinity"`. No valid
-/// graph holds one, but a driver may report one.
+/// JSON has no numbers that are not finite: they are written as the texts `"NaN"`, `"Infinity"` and
+/// `"-Infinity"`. No valid graph holds one, but a driver may report one.
 ///
 /// ```
 /// use motet_graph::{Type, Value};
@@ -77,8 +77,8 @@ pub struct Pose {
 }
 
 impl Value {
-    /// True if this is a value of the type. Numbers must be finite; a whole number also stands for a number. The kind of an
-    /// entity is not checked, because a value does not carry it.
+    /// True if this is a value of the type. Numbers must be finite; a whole number also stands for a number.
+    /// The kind of an entity is not checked, because a value does not carry it.
     #[must_use]
     pub fn fits(&self, ty: &Type) -> bool {
         match (self, ty) {

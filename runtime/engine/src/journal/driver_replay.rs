@@ -1,5 +1,5 @@
-//! Leads a driver through a journal again: for one that is deterministic and has forgotten everything, as a simulator has
-//! whose process ended.
+//! Leads a driver through a journal again: for one that is deterministic and has forgotten everything, as a
+//! simulator has whose process ended.
 
 use super::entry::{JournalEntry, StepEntry};
 use crate::driver::Driver;
@@ -9,7 +9,8 @@ use crate::json::to_json;
 use crate::time::Time;
 use std::fmt;
 
-/// Gives a driver the commands of a journal at their times, and compares what it reports with what it reported then.
+/// Gives a driver the commands of a journal at their times, and compares what it reports with what it
+/// reported then.
 #[derive(Clone, Debug, Default)]
 pub struct DriverReplay {
     now: Time,
@@ -18,11 +19,10 @@ pub struct DriverReplay {
 /// The driver reports something else than it did then.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ReplayMismatch {
-    /// When.
     pub at: Time,
-    /// What it reported then; none where nothing happened.
+    /// Report in the journal; absent if nothing happened.
     pub journal: Option<DriverEvent>,
-    /// What it reports now, with its time.
+    /// Report of the driver now, with its time.
     pub driver: Option<(Time, DriverEvent)>,
 }
 

@@ -17,7 +17,7 @@ pub struct EngineReplay {
     out: Vec<Effect>,
 }
 
-/// Why a replay cannot begin or go on.
+/// Error that stops a replay.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum ReplayError {
     /// The graph in the journal was changed, or is of another version.
@@ -31,7 +31,7 @@ pub enum ReplayError {
     Refused(String),
 }
 
-/// Where a replay differs from the journal.
+/// First difference between a replay and its journal.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EffectMismatch {
     /// The place of the first effect that differs, from 0.
@@ -57,7 +57,8 @@ impl EngineReplay {
         Ok(Self { engine, now: head.from, out: Vec::new() })
     }
 
-    /// Takes an entry in. Gives the first difference between the effects in it and those of the engine, as bytes.
+    /// Takes an entry in. Gives the first difference between the effects in it and those of the engine, as
+    /// bytes.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! What stands in a line.
+//! Entries of a journal.
 
 use crate::driver::Capabilities;
 use crate::effect::Effect;
@@ -26,7 +26,7 @@ pub enum JournalEntry {
     Resumed(ResumeEntry),
 }
 
-/// What an engine was made from.
+/// Configuration of an engine at the beginning of a run.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JournalHead {
@@ -34,22 +34,21 @@ pub struct JournalHead {
     pub motet_journal: u32,
     /// The version of the wire forms, 1.
     pub wire: u32,
-    /// When the run began by the host's clock, in ns since 1970; for people and tools, the engine does not know it.
+    /// Time at which the run began by the host's clock, in ns since 1970; for people and tools, the engine
+    /// does not know it.
     pub began_unix_ns: u64,
     /// The engine's time then.
     pub from: Time,
-    /// What a person asked for, in their words.
+    /// The operator's request, word for word.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instruction: Option<String>,
-    /// The graph.
     pub graph: GraphDocument,
-    /// What was known.
     pub start: StartState,
-    /// How patient the engine is.
+    /// Time limits and budgets of the engine.
     pub settings: EngineSettings,
-    /// What the driver can do.
+    /// Abilities of the driver, as the host stated them.
     pub capabilities: Capabilities,
-    /// What the host needs to come to the same driver again; its own affair.
+    /// Data with which the host finds the same driver again, in a form of its own.
     pub driver: serde_json::Value,
 }
 
@@ -59,10 +58,8 @@ pub struct JournalHead {
 pub struct StepEntry {
     /// The engine's time.
     pub at: Time,
-    /// What it took in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub event: Option<Event>,
-    /// What it gave out.
     pub effects: Vec<Effect>,
 }
 
@@ -74,7 +71,6 @@ pub struct SwapEntry {
     pub at: Time,
     /// The new graph.
     pub graph: GraphDocument,
-    /// What the engine gave out.
     pub effects: Vec<Effect>,
 }
 
@@ -82,7 +78,7 @@ pub struct SwapEntry {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResumeEntry {
-    /// When by the host's clock, in ns since 1970.
+    /// Time on the host's clock in ns since 1970.
     pub unix_ns: u64,
     /// Bytes of a line that was not written to its end and was cut off.
     pub cut_bytes: u64,
@@ -102,8 +98,8 @@ impl JournalEntry {
 }
 
 impl JournalHead {
-    /// The head of a run of a graph that begins at time 0, with the engine's own settings and nothing known beside what
-    /// the graph says.
+    /// The head of a run of a graph that begins at time 0, with the engine's own settings and nothing known
+    /// beside what the graph says.
     #[must_use]
     pub fn new(graph: &motet_graph::Graph) -> Self {
         Self {

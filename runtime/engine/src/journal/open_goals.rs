@@ -1,4 +1,5 @@
-//! What a driver was asked for and has not answered yet, at the end of a journal: what to ask it about after a crash.
+//! Open goals: commands that a driver has not answered at the end of a journal, to be clarified after a
+//! crash.
 
 use super::entry::JournalEntry;
 use crate::effect::{Command, Effect};
@@ -8,18 +9,18 @@ use crate::query::Query;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What is open between the engine and its driver.
+/// Unanswered commands between the engine and its driver.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct OpenGoals {
     /// Goals that have not ended, by number.
     pub goals: BTreeMap<GoalId, OpenGoal>,
-    /// What is watched, in order.
+    /// Watched queries in order.
     pub watches: Vec<Query>,
     /// Observations that were not answered, in order.
     pub observations: Vec<Query>,
     /// Commands of the last entry. Whether they reached the driver, the journal cannot know.
     pub uncertain: Vec<Effect>,
-    /// Whether the run is over.
+    /// True if the run is over.
     pub is_over: bool,
 }
 
@@ -27,9 +28,9 @@ pub struct OpenGoals {
 #[derive(Clone, PartialEq, Debug)]
 pub struct OpenGoal {
     pub command: Arc<Command>,
-    /// Whether it was given new arguments since.
+    /// True if it was given new arguments since.
     pub updated: bool,
-    /// What was said last of its going on: to hold, to proceed, to end early, to stop safely.
+    /// Last command about its progress: hold, proceed, cancel or safe stop.
     pub told: Option<Effect>,
 }
 

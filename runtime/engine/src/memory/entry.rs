@@ -10,15 +10,14 @@ use std::fmt;
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MemoryEntry {
-    /// When it was over, in seconds since the run's origin.
+    /// Time at which it was over, in seconds since the run's origin.
     pub at_secs: f64,
     /// The number of the policy that ran: 0, and one more with each swap.
     pub revision: u32,
-    /// What.
     pub what: MemoryEvent,
 }
 
-/// What is remembered.
+/// Content of a memory entry.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum MemoryEvent {
@@ -33,9 +32,7 @@ pub enum MemoryEvent {
         call: String,
         /// JSON Pointer to the step in its policy.
         path: String,
-        /// How long it took.
         took_secs: f64,
-        /// How it ended.
         ended: StepEnd,
     },
     /// A step that is no call failed by itself: a wait, a loop.
@@ -44,41 +41,34 @@ pub enum MemoryEvent {
         path: String,
         /// The failure kind.
         kind: String,
-        /// Why.
         cause: EndCause,
     },
     /// A person was asked.
     Question {
-        /// What.
         question: String,
-        /// What they said; none where they did not answer.
+        /// The answer; absent if nobody answered.
         answer: Option<String>,
     },
     /// A new policy took over.
-    Swap {
-        /// Its name.
-        policy: String,
-    },
+    Swap { policy: String },
     /// A run ended.
     Ended {
-        /// How, in words.
+        /// Description of the violation.
         how: String,
-        /// Whether it reached what it was for.
+        /// True if it reached what it was for.
         done: bool,
     },
 }
 
-/// How a step ended.
+/// Outcome of a step.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum StepEnd {
     /// It did what it was for; with its result where it has one.
     Success(Option<Value>),
-    /// It failed.
     Failure {
         /// The failure kind.
         kind: String,
-        /// Why.
         cause: EndCause,
     },
     /// It was interrupted.
@@ -89,7 +79,6 @@ pub enum StepEnd {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunningStep {
-    /// The call.
     pub call: String,
     /// JSON Pointer to the step in its policy.
     pub path: String,
@@ -98,7 +87,7 @@ pub struct RunningStep {
 }
 
 impl MemoryEntry {
-    /// Whether it is something that went wrong.
+    /// True if it is something that went wrong.
     #[must_use]
     pub const fn is_failure(&self) -> bool {
         match &self.what {

@@ -1,4 +1,4 @@
-//! How a memory learns: from the events that go into an engine and the effects that come out.
+//! Feeding a memory with the events that go into an engine and the effects that come out.
 
 use super::entry::{MemoryEvent, StepEnd};
 use super::store::Memory;
@@ -19,17 +19,17 @@ pub(super) struct OpenStep {
     pub(super) call: String,
     pub(super) path: String,
     pub(super) since: Time,
-    /// What it asks a person.
+    /// Question to a person, for primitives that ask one.
     question: Option<String>,
-    /// What the driver said came of it.
+    /// Result that the driver reported.
     result: Option<Value>,
     /// The failure that the driver named.
     kind: Option<String>,
 }
 
 impl Memory {
-    /// A policy is about to run as this revision. Call it before the first event, and before the effects of a swap. A
-    /// revision above 0 is remembered as a swap.
+    /// A policy is about to run as this revision. Call it before the first event, and before the effects of a
+    /// swap. A revision above 0 is remembered as a swap.
     pub fn policy(&mut self, at: Time, revision: u32, graph: Arc<Graph>) {
         self.revision = revision;
         if revision > 0 {
@@ -107,8 +107,8 @@ impl Memory {
                     self.ended(record.at, open, *ending, *cause);
                 }
             }
-            // The goal of a step that ended because another policy took over goes on, for a step of that or until it has
-            // been stopped.
+            // The goal of a step that ended because another policy took over goes on, for a step of that or
+            // until it has been stopped.
             TraceEventKind::Ended { cause: EndCause::Swap, .. } => {}
             TraceEventKind::Ended { node, ending, cause } => {
                 let is_its = |open: &OpenStep| open.node == *node && open.revision == record.revision;
@@ -165,7 +165,8 @@ impl Memory {
         self.push(entry);
     }
 
-    /// A step failed that has no goal: a guard that did not hold, or a step that is no call and failed by itself.
+    /// A step failed that has no goal: a guard that did not hold, or a step that is no call and failed by
+    /// itself.
     fn stuck(&mut self, at: Time, node: NodeId, kind: FailureId, cause: EndCause) {
         let own = match cause {
             EndCause::GuardRefuted | EndCause::Deadline | EndCause::Exhausted | EndCause::BadValue => true,

@@ -1,6 +1,7 @@
-//! The engine beside a naive interpreter: plain recursion over the tree, which writes down what it believes as a list and
-//! reads it from its end. Policies with a single thread of control, also across a swap in the middle of an action; what runs
-//! at once (monitors, waits, parallel branches) is made one after the other before: `rescan.rs` has that.
+//! The engine beside a naive interpreter: plain recursion over the tree, which writes down what it believes
+//! as a list and reads it from its end. Policies with a single thread of control, also across a swap in the
+//! middle of an action; what runs at once (monitors, waits, parallel branches) is made one after the other
+//! before: `rescan.rs` has that.
 
 use motet_graph::arbitrary::{CallSketch, StepSketch, graph, steps};
 use motet_graph::{

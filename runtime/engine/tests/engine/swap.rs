@@ -1,4 +1,5 @@
-//! Another policy takes over: what goes on, what is updated, what is cancelled and what waits for it; and what is refused.
+//! Another policy takes over: what goes on, what is updated, what is cancelled and what waits for it; and
+//! what is refused.
 
 use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Lost, Refused, Stop, Stopped, Swap, Tick};
@@ -280,7 +281,8 @@ fn a_start_that_does_not_hold_is_refused() {
 
 #[test]
 fn a_start_that_is_no_longer_known_is_refused() {
-    // Where the robot is, is unknown after it was interrupted; so far only that it stands nowhere known is not said.
+    // Where the robot is, is unknown after it was interrupted; so far only that it stands nowhere known is
+    // not said.
     let (mut engine, mut out) = going();
     let prepare = |engine: &Engine, initial| {
         let mut graph = graph(&[StepSketch::say("new")]);

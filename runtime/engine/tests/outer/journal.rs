@@ -1,4 +1,5 @@
-//! A journal is read as it was written, cut where it is torn, refused where it is damaged, and replayed to the byte.
+//! A journal is read as it was written, cut where it is torn, refused where it is damaged, and replayed to
+//! the byte.
 
 use crate::ready::{Run, run, success};
 use motet_graph::arbitrary::{StepSketch, graph, steps};

@@ -1,4 +1,4 @@
-//! What stands in the messages of our own topics.
+//! Messages of Motet's topics.
 
 use motet_graph::GraphDocument;
 use motet_runtime::{Effect, Event, Snapshot, Time};
@@ -12,7 +12,7 @@ pub(super) struct EventMessage {
     pub(super) seq: u64,
     /// The engine's time in ns.
     pub(super) at: Time,
-    /// What it took in; none where it gave up.
+    /// The event; absent if the engine gave up.
     pub(super) event: Option<Event>,
 }
 
@@ -25,7 +25,6 @@ pub(super) struct EffectMessage {
     pub(super) index: u32,
     /// The engine's time in ns.
     pub(super) at: Time,
-    /// What it gave out.
     pub(super) effect: Effect,
 }
 
@@ -36,7 +35,6 @@ pub(super) struct GraphMessage {
     pub(super) seq: u64,
     /// The number of the graph.
     pub(super) revision: u32,
-    /// The graph.
     pub(super) graph: GraphDocument,
 }
 

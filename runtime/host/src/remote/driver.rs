@@ -19,8 +19,8 @@ use std::time::Instant;
 /// A driver in another process. Its time is the wall clock's, from where it was connected.
 ///
 /// A driver that ends, is silent, floods or says what is no message is spoken with no more, and
-/// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few times; these calls
-/// then wait for its greeting. What it used is safe once it has answered the safe stop.
+/// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few
+/// times; these calls then wait for its greeting. What it used is safe once it has answered the safe stop.
 pub struct RemoteDriver {
     address: DriverAddress,
     patience: DriverTimeouts,
@@ -49,7 +49,8 @@ struct Waiting {
 }
 
 impl RemoteDriver {
-    /// Starts or calls a driver and greets it. It is `from` then. `note` hears in words what goes wrong, and feedback.
+    /// Starts or calls a driver and greets it. It is `from` then. `note` hears in words what goes wrong, and
+    /// feedback.
     ///
     /// # Errors
     ///
@@ -87,13 +88,13 @@ impl RemoteDriver {
         Ok(this)
     }
 
-    /// What the driver said of itself.
+    /// The driver's answer to the greeting.
     #[must_use]
     pub const fn welcome(&self) -> &Welcome {
         &self.welcome
     }
 
-    /// What became of some goals, asked for and waited for.
+    /// Asks for the state of some goals and waits for the answer.
     ///
     /// # Errors
     ///

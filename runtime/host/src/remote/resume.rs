@@ -1,4 +1,5 @@
-//! After a crash of the host: what a driver that went on, or was started anew, knows of the goals that are open.
+//! After a crash of the host: what a driver that went on, or was started anew, knows of the goals that are
+//! open.
 
 use super::driver::RemoteDriver;
 use super::link::LinkError;
@@ -8,13 +9,15 @@ use motet_runtime::{Driver, DriverEvent, Effect, Event, GoalId, Time};
 use std::collections::BTreeMap;
 
 impl RemoteDriver {
-    /// Asks what became of the goals that are open by the journal, says again what it was told of those that have not ended,
-    /// and gives the events with which the engine goes on. `instance` is the driver's that the run began with.
+    /// Asks what became of the goals that are open by the journal, says again what it was told of those that
+    /// have not ended, and gives the events with which the engine goes on. `instance` is the driver's that
+    /// the run began with.
     ///
     /// Commands can be said twice, and what was written down last before a crash may never have been said.
     ///
-    /// A goal of which the driver has never heard was not started, if it is the same driver and the start was the last thing
-    /// that was written down: then it is started now. Any other one is lost, and the engine has it stopped safely.
+    /// A goal of which the driver has never heard was not started, if it is the same driver and the start was
+    /// the last thing that was written down: then it is started now. Any other one is lost, and the engine
+    /// has it stopped safely.
     ///
     /// # Errors
     ///
@@ -51,7 +54,8 @@ impl RemoteDriver {
                 Some(GoalStatus::Unknown) if is_same && just_started => {
                     self.start(now, goal, &open.command);
                 }
-                // Whoever is asked again for a safe stop brings it about, also for what was started by another.
+                // Whoever is asked again for a safe stop brings it about, also for what was started by
+                // another.
                 Some(GoalStatus::Unknown) | None if matches!(open.told, Some(Effect::SafeStop { .. })) => {
                     self.say_again(now, goal, open);
                 }

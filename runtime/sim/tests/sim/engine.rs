@@ -8,7 +8,8 @@ use motet_graph::{
 use motet_runtime::{Engine, RunEnd, StartState, Time, run};
 use motet_sim::{Faults, SimOptions};
 
-/// A policy of calls, one after the other: primitive, arguments, and whether it binds `found`, which `None` names.
+/// A policy of calls, one after the other: primitive, arguments, and whether it binds `found`, which `None`
+/// names.
 fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
     let span = DurationBounds { least_secs: 0.0, greatest_secs: 300.0 };
     let object = Type::Entity(KindId(1));

@@ -1,4 +1,4 @@
-//! What the engine wants of the driver.
+//! Commands of the engine as calls of the protocol.
 
 use super::super::protocol::{DriverCall, GoalParams, QueryParams, StartParams};
 use super::{RemoteDriver, failed};

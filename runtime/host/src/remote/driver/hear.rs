@@ -1,4 +1,4 @@
-//! What the driver says, and what it should have said by now.
+//! Messages of the driver, and overdue answers.
 
 use super::super::link::LinkError;
 use super::super::protocol::{
@@ -70,8 +70,8 @@ impl RemoteDriver {
         }
     }
 
-    /// The failure kind that a driver names: a name of at most [`MAX_KIND_BYTES`]. Anything else is `failed`, and is told
-    /// to people.
+    /// The failure kind that a driver names: a name of at most [`MAX_KIND_BYTES`]. Anything else is `failed`,
+    /// and is told to people.
     pub(in super::super) fn kind(&mut self, named: &str) -> SmolStr {
         let mut letters = named.chars();
         let is_name = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
