@@ -137,8 +137,8 @@ impl Case {
             self.said.extend(said);
             let urdf = urdf.map(|urdf| {
                 let find = |name: &str| match self.meshes.iter().find(|(known, _)| known == name) {
-                    Some((_, bytes)) => mesh::Found::Bytes(bytes.clone()),
-                    None => mesh::Found::Missing(mesh::locate(name, "", &[])),
+                    Some((_, bytes)) => mesh::MeshFile::Bytes(bytes.clone()),
+                    None => mesh::MeshFile::Missing(mesh::locate(name, "", &[])),
                 };
                 let (urdf, said) = mesh::attach(&source, file, urdf, find);
                 self.said.extend(said);

@@ -102,7 +102,7 @@ fn two_legs_that_are_feasible_alone_and_not_one_after_the_other_are_found() {
     let mut stand = scene.entities["shelf"].clone();
     stand.id = "stand".into();
     stand.pose = Some(Placement { xyz: [-0.9, 0.9, 0.35], rpy: [0.0; 3] });
-    stand.shape = Some(scene::Shape::Box([0.1, 0.1, 0.7]));
+    stand.shape = Some(scene::EntityShape::Box([0.1, 0.1, 0.7]));
     scene.entities.insert("stand".into(), stand);
     let session = session(&scene);
     let bring =
@@ -149,7 +149,7 @@ fn walled() -> Scene {
         let mut wall = scene.entities["shelf"].clone();
         wall.id = format!("wall_{at}").into();
         wall.pose = Some(Placement { xyz: [x, y, 1.0], rpy: [0.0; 3] });
-        wall.shape = Some(scene::Shape::Box([along, across, 2.0]));
+        wall.shape = Some(scene::EntityShape::Box([along, across, 2.0]));
         scene.entities.insert(wall.id.clone(), wall);
     }
     scene
@@ -203,7 +203,7 @@ fn what_stands_before_a_drawer_is_named() {
     let mut chair = scene.entities["trash"].clone();
     chair.id = "chair".into();
     chair.pose = Some(Placement { xyz: [2.95, -1.7, 0.4], rpy: [0.0; 3] });
-    chair.shape = Some(scene::Shape::Cylinder { radius: 0.1, height: 0.8 });
+    chair.shape = Some(scene::EntityShape::Cylinder { radius: 0.1, height: 0.8 });
     scene.entities.insert(chair.id.clone(), chair);
     let (said, _) =
         refusal(&session(&scene), "policy look for hsr { go(drawer_1) open(drawer_1) close(drawer_1) }");
@@ -216,7 +216,7 @@ fn what_a_search_did_not_find_is_a_warning_and_left_to_the_run() {
     let mut screen = scene.entities["shelf"].clone();
     screen.id = "screen".into();
     screen.pose = Some(Placement { xyz: [1.7, 0.3, 1.2], rpy: [0.0; 3] });
-    screen.shape = Some(scene::Shape::Box([0.05, 1.4, 1.0]));
+    screen.shape = Some(scene::EntityShape::Box([0.05, 1.4, 1.0]));
     scene.entities.insert(screen.id.clone(), screen);
     let (graph, said) = compile(&session(&scene), "policy see for hsr { go(kitchen_table) inspect(mug_1) }");
     assert!(graph.is_some(), "{:?}", errors(&said));

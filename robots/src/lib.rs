@@ -6,7 +6,7 @@
 
 pub mod card;
 pub mod mesh;
+pub mod quaternion;
 pub mod scene;
 pub mod srdf;
-pub mod turn;
 pub mod urdf;

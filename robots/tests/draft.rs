@@ -33,7 +33,7 @@ fn made(links: &[&str], joints: &[&str]) -> Urdf {
 }
 
 /// The base's link, its drive, the tip of the hand and the joints of the posture `home` of a first card.
-fn guessed(urdf: &Urdf, beside: &card::Beside<'_>) -> (String, Drive, Option<String>, Vec<String>) {
+fn guessed(urdf: &Urdf, beside: &card::DraftInputs<'_>) -> (String, Drive, Option<String>, Vec<String>) {
     let toml = Source::new("robot.toml", card::draft(urdf, "robot.urdf", beside));
     let (robot, found) = card::read(&toml, FileId(0), None);
     assert_eq!((found, card::fit(&toml, FileId(0), urdf)), (vec![], vec![]), "{}", toml.text);
@@ -49,7 +49,7 @@ fn a_first_card_tells_the_base_from_what_carries_it() {
     const LINKS: [&str; 5] = ["BODY", "A", "B", "TOOL", "body_imu_frame"];
     let check = |links: &[&str], joints: &[&str], base: &str, drive: Drive| {
         let urdf = made(&[&LINKS, links].concat(), &[joints, &["fixed TOOL body_imu_frame"], &ARM].concat());
-        let (found, found_drive, tip, arm) = guessed(&urdf, &card::Beside::default());
+        let (found, found_drive, tip, arm) = guessed(&urdf, &card::DraftInputs::default());
         assert_eq!((found.as_str(), found_drive), (base, drive), "{joints:?}");
         assert_eq!(tip.as_deref(), Some("TOOL"), "{joints:?}");
         let own = if base == "world" { 1 } else { 0 };
@@ -71,11 +71,11 @@ fn a_first_card_tells_the_base_from_what_carries_it() {
     // Beams make a machine of it.
     let (beam, y, turn) = ("prismatic odom X 1 0 0", "prismatic X y 0 1 0", "continuous y BODY 0 0 1");
     let urdf = made(&[&LINKS[..4], &["odom", "X", "y"]].concat(), &[&[beam, y, turn], &ARM[..]].concat());
-    assert_eq!(guessed(&urdf, &card::Beside::default()).0, "odom");
+    assert_eq!(guessed(&urdf, &card::DraftInputs::default()).0, "odom");
     let floating =
         "<robot name='a'><link name='world'/><link name='base'/><joint name='free' type='floating'>
         <parent link='world'/><child link='base'/></joint></robot>";
-    assert_eq!(guessed(&read(floating), &card::Beside::default()).0, "base");
+    assert_eq!(guessed(&read(floating), &card::DraftInputs::default()).0, "base");
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn a_first_card_takes_the_hand_that_a_srdf_describes() {
         let (srdf, found) = srdf::read(&source, FileId(0), &urdf);
         assert_eq!(found, []);
         let srdf = srdf.unwrap();
-        let beside = card::Beside { srdf: Some((&srdf, "robot.srdf")), stance: None };
+        let beside = card::DraftInputs { srdf: Some((&srdf, "robot.srdf")), stance: None };
         let text = card::draft(&urdf, "robot.urdf", &beside);
         assert!(text.contains("\nsrdf = \"robot.srdf\"\n"), "{text}");
         let open = text.contains("\nopen = { \"r_pad_joint\" = ");
@@ -133,7 +133,7 @@ fn a_first_card_is_toml_whatever_things_are_called() {
         let urdf = read(&format!("<robot name='a{odd}'>{body}{joints}</robot>"));
         let toml = Source::new(
             "robot.toml",
-            card::draft(&urdf, &format!("{}.urdf", urdf.name), &card::Beside::default()),
+            card::draft(&urdf, &format!("{}.urdf", urdf.name), &card::DraftInputs::default()),
         );
         let (robot, found) = card::read(&toml, FileId(0), None);
         assert_eq!(found, [], "{}", toml.text);
@@ -153,9 +153,9 @@ fn a_first_card_stands_as_it_is_told_to() {
         &["revolute BODY A", "revolute A B 0 1 0", "revolute B TOOL 0 1 0"],
     );
     let joints = [("A_joint".into(), 0.5), ("TOOL_joint".into(), -0.25), ("other".into(), 1.0)];
-    let stance = card::Stance { height_m: 0.124, joints: joints.into_iter().collect(), touch: None };
-    let read = |stance: card::Stance| {
-        let text = card::draft(&urdf, "robot.urdf", &card::Beside { srdf: None, stance: Some(stance) });
+    let stance = card::DraftStance { height_m: 0.124, joints: joints.into_iter().collect(), touch: None };
+    let read = |stance: card::DraftStance| {
+        let text = card::draft(&urdf, "robot.urdf", &card::DraftInputs { srdf: None, stance: Some(stance) });
         (card::read(&Source::new("robot.toml", text.as_str()), FileId(0), None).0.unwrap(), text)
     };
     let (robot, text) = read(stance.clone());
@@ -164,6 +164,6 @@ fn a_first_card_stands_as_it_is_told_to() {
     assert_eq!((home, &robot.postures["start"]), (vec![0.5, 0.0, -0.25], &robot.postures["home"]));
     assert!(!text.contains("touches"), "{text}");
     let touch = Some(["A".into(), "one\nmore".into()]);
-    let (_, text) = read(card::Stance { touch, ..stance });
+    let (_, text) = read(card::DraftStance { touch, ..stance });
     assert!(text.contains("# In it `A` touches `one\\nmore`"), "{text}");
 }

@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use motet_robots::mesh::{self, Found, MAX_TRIANGLES, Triangle};
-use motet_robots::urdf::{self, Shape, Solid};
+use motet_robots::mesh::{self, MAX_TRIANGLES, MeshFile, Triangle};
+use motet_robots::urdf::{self, LinkShape, UrdfShape};
 use motet_syntax::{FileId, Source};
 use proptest::prelude::*;
 
@@ -83,26 +83,28 @@ fn turned([x, y, z, w]: [f64; 4], [a, b, c]: [f64; 3]) -> [f64; 3] {
     [a + w * u + y * t - z * v, b + w * v + z * u - x * t, c + w * t + x * v - y * u]
 }
 
-fn holds(piece: &Solid, point: [f64; 3]) -> bool {
+fn holds(piece: &LinkShape, point: [f64; 3]) -> bool {
     let pose = piece.link_from_shape;
     let off = [0, 1, 2].map(|at| point[at] - pose.xyz[at]);
     let [x, y, z, w] = pose.quaternion_xyzw;
     let [a, b, c] = turned([-x, -y, -z, w], off);
     match piece.shape {
-        Shape::Box(size) => [a, b, c].iter().zip(size).all(|(at, size)| at.abs() <= size / 2.0),
-        Shape::Cylinder { radius, length } => a.hypot(b) <= radius && c.abs() <= length / 2.0,
-        Shape::Capsule { radius, length } => a.hypot(b).hypot((c.abs() - length / 2.0).max(0.0)) <= radius,
-        Shape::Sphere { .. } | Shape::Mesh { .. } => false,
+        UrdfShape::Box(size) => [a, b, c].iter().zip(size).all(|(at, size)| at.abs() <= size / 2.0),
+        UrdfShape::Cylinder { radius, length } => a.hypot(b) <= radius && c.abs() <= length / 2.0,
+        UrdfShape::Capsule { radius, length } => {
+            a.hypot(b).hypot((c.abs() - length / 2.0).max(0.0)) <= radius
+        }
+        UrdfShape::Sphere { .. } | UrdfShape::Mesh { .. } => false,
     }
 }
 
-fn volume(piece: &Solid) -> f64 {
+fn volume(piece: &LinkShape) -> f64 {
     let disc = |radius: f64| TAU / 2.0 * radius * radius;
     match piece.shape {
-        Shape::Box([x, y, z]) => x * y * z,
-        Shape::Cylinder { radius, length } => disc(radius) * length,
-        Shape::Capsule { radius, length } => disc(radius) * (length + radius * 4.0 / 3.0),
-        Shape::Sphere { .. } | Shape::Mesh { .. } => f64::INFINITY,
+        UrdfShape::Box([x, y, z]) => x * y * z,
+        UrdfShape::Cylinder { radius, length } => disc(radius) * length,
+        UrdfShape::Capsule { radius, length } => disc(radius) * (length + radius * 4.0 / 3.0),
+        UrdfShape::Sphere { .. } | UrdfShape::Mesh { .. } => f64::INFINITY,
     }
 }
 
@@ -148,7 +150,7 @@ fn a_shape_is_found_again_and_a_bend_is_cut() {
         })
         .collect();
     let pieces = one(&tube);
-    assert!(matches!(pieces[..], [Solid { shape: Shape::Cylinder { .. }, .. }]), "{pieces:?}");
+    assert!(matches!(pieces[..], [LinkShape { shape: UrdfShape::Cylinder { .. }, .. }]), "{pieces:?}");
     // Two bars in the shape of an L: far less than the box around both.
     let bar = |[x, y, z]: [f64; 3]| -> Vec<Triangle> {
         let corner =
@@ -174,7 +176,7 @@ const URDF: &str = "<robot name='stand'><link name='base'>
     <collision><geometry><mesh filename='a.obj'/></geometry></collision>
     <collision><geometry><mesh filename='b.stl'/></geometry></collision></link></robot>";
 
-fn attached(find: impl FnMut(&str) -> Found) -> (Vec<Solid>, Vec<String>) {
+fn attached(find: impl FnMut(&str) -> MeshFile) -> (Vec<LinkShape>, Vec<String>) {
     let source = Source::new("robot.urdf", URDF);
     let urdf = urdf::read(&source, FileId(0)).0.unwrap();
     let (urdf, found) = mesh::attach(&source, FileId(0), urdf, find);
@@ -196,10 +198,10 @@ fn meshes_of_a_urdf_become_pieces() {
     let mut asked = Vec::new();
     let (solids, told) = attached(|name| {
         asked.push(name.to_owned());
-        Found::Bytes(if name == "a.obj" { text.into() } else { binary(&[CORNER]) })
+        MeshFile::Bytes(if name == "a.obj" { text.into() } else { binary(&[CORNER]) })
     });
     assert_eq!((asked, told), (vec!["a.obj".to_owned(), "b.stl".to_owned()], vec![]));
-    assert!(!solids.iter().any(|solid| matches!(solid.shape, Shape::Mesh { .. })));
+    assert!(!solids.iter().any(|solid| matches!(solid.shape, UrdfShape::Mesh { .. })));
     assert!(solids.iter().any(|solid| holds(solid, [-2.0, 0.0, 1.0])));
     assert!(solids.iter().any(|solid| holds(solid, [0.0, 2.0, 0.0])));
 }
@@ -207,8 +209,8 @@ fn meshes_of_a_urdf_become_pieces() {
 #[test]
 fn what_is_wrong_with_meshes_is_told_where_they_are_named() {
     let (solids, told) = attached(|name| match name {
-        "a.obj" => Found::Missing(vec!["/r/a.obj".to_owned()]),
-        _ => Found::Outside,
+        "a.obj" => MeshFile::Missing(vec!["/r/a.obj".to_owned()]),
+        _ => MeshFile::Outside,
     });
     assert_eq!(solids.len(), 3);
     assert_eq!(
@@ -218,6 +220,6 @@ fn what_is_wrong_with_meshes_is_told_where_they_are_named() {
             "M0449 [b.stl] the mesh `b.stl` cannot be used: it lies neither below the folder of the card or of the URDF nor below one of `packages` / "
         ]
     );
-    let (_, told) = attached(|_| Found::TooLarge);
+    let (_, told) = attached(|_| MeshFile::TooLarge);
     assert_eq!(told[0], "M0449 [a.obj] the mesh `a.obj` cannot be used: it is larger than 32 MiB / ");
 }

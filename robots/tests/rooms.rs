@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
-use motet_robots::scene::{self, Entity, Scene, Shape};
+use motet_robots::scene::{self, Entity, EntityShape, Scene};
 use motet_syntax::{FileId, Source};
 
 /// Gaps and overlaps that do not count, in m.
@@ -23,11 +23,11 @@ fn rooms() -> impl Iterator<Item = (&'static str, Scene)> {
 fn bounds(entity: &Entity) -> Option<Bounds> {
     let (pose, shape) = (entity.pose?, entity.shape.as_ref()?);
     let mut extents = match *shape {
-        Shape::Box(extents) => extents,
-        Shape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
-        Shape::Sphere { radius } => [2.0 * radius; 3],
-        Shape::Capsule { radius, height } => [2.0 * radius, 2.0 * radius, height + 2.0 * radius],
-        Shape::Mesh { .. } => return None,
+        EntityShape::Box(extents) => extents,
+        EntityShape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
+        EntityShape::Sphere { radius } => [2.0 * radius; 3],
+        EntityShape::Capsule { radius, height } => [2.0 * radius, 2.0 * radius, height + 2.0 * radius],
+        EntityShape::Mesh { .. } => return None,
     };
     let quarters = pose.rpy[2] / std::f64::consts::FRAC_PI_2;
     if quarters.round() as i64 % 2 != 0 {

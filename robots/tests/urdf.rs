@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use motet_robots::card::{self, Drive};
 use motet_robots::mesh;
 use motet_robots::srdf;
-use motet_robots::urdf::{self, JointKind, Shape, Urdf};
+use motet_robots::urdf::{self, JointKind, Urdf, UrdfShape};
 use motet_syntax::{Diagnostic, FileId, Source};
 use proptest::prelude::*;
 
@@ -77,7 +77,7 @@ fn a_good_urdf_is_read() {
     assert_eq!((limits.lower, limits.upper), (-0.1, 0.4), "from `<limit>`, not from the safety controller");
     let mimic = follow.mimic.unwrap();
     assert_eq!((mimic.joint, mimic.multiplier, mimic.offset), (0, 0.5, 0.1));
-    assert_eq!(robot.links[0].collisions[0].shape, Shape::Box([1.0, 2.0, 3.0]));
+    assert_eq!(robot.links[0].collisions[0].shape, UrdfShape::Box([1.0, 2.0, 3.0]));
 }
 
 #[test]
@@ -328,7 +328,7 @@ fn meshes_are_looked_for_without_a_shell() {
 }
 
 fn draft(urdf: &Urdf, file: &str) -> String {
-    card::draft(urdf, file, &card::Beside::default())
+    card::draft(urdf, file, &card::DraftInputs::default())
 }
 
 /// Published URDFs, where they lie beside the repository, and our own.

@@ -1,7 +1,8 @@
-//! Chores of the workspace. `cargo run -p xtask -- house` measures the code against `xtask/house.toml`.
+//! Chores of the workspace: `house` measures the code against `xtask/house.toml`, `docs` checks the documentation.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a chore reports on its output")]
 
+mod docs;
 mod house;
 
 use std::path::Path;
@@ -9,7 +10,9 @@ use std::process::ExitCode;
 
 /// The usage text.
 const USAGE: &str = "usage: cargo run -p xtask -- house [--list MEASURE] [--under FOLDER]
+       cargo run -p xtask -- docs MOTET [PAGE]
 
+docs    runs the commands of the README and the book with the binary MOTET, and follows their links
 house   measures the code and compares each figure with its limit in xtask/house.toml
         --list MEASURE   prints the places that a measure counts, such as `wh-docs`
         --under FOLDER   reads one folder only, without limits";
@@ -20,6 +23,8 @@ fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let result = match words.as_slice() {
         ["house", options @ ..] => house::run(&root, options),
+        ["docs", motet] => docs::run(&root, Path::new(motet), None),
+        ["docs", motet, page] => docs::run(&root, Path::new(motet), Some(page)),
         _ => Err(USAGE.to_owned()),
     };
     match result {

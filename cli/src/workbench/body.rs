@@ -4,8 +4,8 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use motet_robots::card::{self, Model, ModelFile, Robot};
-use motet_robots::mesh::{self, Found};
+use motet_robots::card::{self, ModelFile, ModelSpec, Robot};
+use motet_robots::mesh::{self, MeshFile};
 use motet_robots::srdf;
 use motet_robots::urdf::{self, Urdf};
 use motet_syntax::Sources;
@@ -63,7 +63,7 @@ impl Card {
     }
 
     /// The URDF's name and bytes; none where it is not there.
-    fn urdf(&self, model: &Model) -> Result<Option<(String, Vec<u8>)>, Trouble> {
+    fn urdf(&self, model: &ModelSpec) -> Result<Option<(String, Vec<u8>)>, Trouble> {
         match &self.home {
             Home::BuiltIn(name) => {
                 let text = card::embedded_urdf(name).unwrap_or_default();
@@ -73,13 +73,13 @@ impl Card {
         }
     }
 
-    fn srdf(&self, model: &Model) -> Result<Srdf, Trouble> {
+    fn srdf(&self, model: &ModelSpec) -> Result<Srdf, Trouble> {
         let (Home::Folder(folder), Some(file)) = (&self.home, &model.srdf) else { return Ok(Srdf::None) };
         Ok(present(&folder.join(file))?.map_or(Srdf::Missing, |(name, bytes)| Srdf::Text(name, bytes)))
     }
 
     /// Says which folders with packages are not there.
-    fn packages(&self, model: &Model, mut say: impl FnMut(usize)) {
+    fn packages(&self, model: &ModelSpec, mut say: impl FnMut(usize)) {
         let Home::Folder(folder) = &self.home else { return };
         for (package, at) in model.packages.iter().zip(0..) {
             if !folder.join(package).is_dir() {
@@ -88,7 +88,7 @@ impl Card {
         }
     }
 
-    fn folders(&self, model: &Model) -> Folders {
+    fn folders(&self, model: &ModelSpec) -> Folders {
         let Home::Folder(folder) = &self.home else { return Folders::default() };
         let urdf = folder.join(&model.urdf);
         let own = urdf.parent().unwrap_or(folder).to_owned();
@@ -127,7 +127,7 @@ struct Folders {
 }
 
 impl Folders {
-    fn find(&self, name: &str) -> Found {
+    fn find(&self, name: &str) -> MeshFile {
         let looked = mesh::locate(name, &self.own, &self.packages);
         let mut there: Vec<PathBuf> = looked.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
         // Files first.
@@ -135,21 +135,21 @@ impl Folders {
         let Some(path) = there.first() else {
             // A way out of a package is no path at all.
             let leaves = looked.is_empty() && name.split('/').any(|part| part == "..");
-            return if leaves { Found::Outside } else { Found::Missing(looked) };
+            return if leaves { MeshFile::Outside } else { MeshFile::Missing(looked) };
         };
         if !self.allowed.iter().any(|folder| path.starts_with(folder)) {
-            return Found::Outside;
+            return MeshFile::Outside;
         }
         if !path.is_file() {
-            return Found::NoFile;
+            return MeshFile::NotAFile;
         }
         let mut bytes = Vec::new();
         // One byte more than is allowed tells that there are too many.
         let read = File::open(path).and_then(|file| file.take(mesh::MAX_BYTES + 1).read_to_end(&mut bytes));
         match read {
-            Ok(_) if bytes.len() as u64 > mesh::MAX_BYTES => Found::TooLarge,
-            Ok(_) => Found::Bytes(bytes),
-            Err(_) => Found::Missing(looked),
+            Ok(_) if bytes.len() as u64 > mesh::MAX_BYTES => MeshFile::TooLarge,
+            Ok(_) => MeshFile::Bytes(bytes),
+            Err(_) => MeshFile::Missing(looked),
         }
     }
 }

@@ -44,7 +44,7 @@ impl Library {
             .collect();
         builder.layer(&standard);
         if let Some(robot) = robot.filter(|robot| !robot.declarations.is_empty()) {
-            let name = robot.places.declarations.as_str();
+            let name = robot.spans.declarations.as_str();
             let file = builder.read(Source::new(name, robot.declarations.as_str()), sources);
             builder.layer(&[file]);
         }

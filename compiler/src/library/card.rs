@@ -1,7 +1,7 @@
 //! Whether a robot's card and the declarations fit: what it observes and provides is declared, its bounds are for
 //! parameters that are there and in their unit, what holds at the start is a fact. Every finding stands in the card.
 
-use motet_robots::card::{Bound, Robot};
+use motet_robots::card::{BoundSpan, Robot};
 use motet_syntax::ast::Expr;
 use motet_syntax::unit::Dimension;
 use motet_syntax::{Diagnostic, Mistake, Span};
@@ -32,7 +32,7 @@ pub(super) fn check(library: &Library, declarations: &Declarations, robot: &Robo
         let params = &decl.item.params;
         for param in bounds.keys() {
             let key = (name.clone(), param.clone());
-            let bound = robot.places.bounds.get(&key).copied().unwrap_or(Bound { span, dimension: None });
+            let bound = robot.spans.bounds.get(&key).copied().unwrap_or(BoundSpan { span, dimension: None });
             let Some(known) = params.iter().find(|known| known.name.text == *param) else {
                 let names = || params.iter().map(|param| &param.name.text);
                 let near = near(param, names().map(SmolStr::as_str));
@@ -68,7 +68,7 @@ fn observes(library: &Library, robot: &Robot) -> Vec<Diagnostic> {
         fluents.chain(library.measures.iter().map(|def| def.name.as_str()))
     };
     let found = robot.observes.iter().filter(unknown).map(|name| {
-        let span = robot.places.observes.get(name).copied().unwrap_or_default();
+        let span = robot.spans.observes.get(name).copied().unwrap_or_default();
         UnknownObserved { span, name: name.clone(), near: near(name, known()) }.into()
     });
     found.collect()
@@ -76,7 +76,7 @@ fn observes(library: &Library, robot: &Robot) -> Vec<Diagnostic> {
 
 /// Where the card says that the robot provides a primitive.
 fn place(robot: &Robot, primitive: &str) -> Span {
-    robot.places.primitives.get(primitive).copied().unwrap_or_default()
+    robot.spans.primitives.get(primitive).copied().unwrap_or_default()
 }
 
 /// What is wrong with a primitive that the card provides and that a layer below the card declares. The declaration is
@@ -97,7 +97,7 @@ pub(super) fn unfit(
 
 /// The facts that the card says hold at the start, each with its place, and what is no fact at all.
 pub(super) fn facts<'r>(robot: &'r Robot, diagnostics: &mut Vec<Diagnostic>) -> Vec<(&'r str, Expr, Span)> {
-    let spans = robot.places.initially.iter().copied().chain(std::iter::repeat(Span::default()));
+    let spans = robot.spans.initially.iter().copied().chain(std::iter::repeat(Span::default()));
     let mut facts = Vec::new();
     for (text, span) in robot.initially.iter().zip(spans) {
         match motet_syntax::text::parse_condition(text) {

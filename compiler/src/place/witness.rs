@@ -11,14 +11,14 @@ pub(super) fn kept(machine: &RobotModel, witness: &MotionWitness) -> graph::Witn
         let begin = first.and_then(|state| value(&state.joints));
         witness.path.iter().any(|state| value(&state.joints) != begin)
     };
-    let variables = machine.tree().variables();
-    let moving: Vec<usize> = (0..variables.len()).filter(moves).collect();
+    let dofs = machine.tree().dofs();
+    let moving: Vec<usize> = (0..dofs.len()).filter(moves).collect();
     let path = witness.path.iter().map(|state| graph::Waypoint {
         base: state.base,
         joints: moving.iter().map(|at| state.joints.get(*at).copied().unwrap_or(0.0)).collect(),
     });
     graph::Witness {
-        joints: moving.iter().filter_map(|at| Some(variables.get(*at)?.name.clone())).collect(),
+        joints: moving.iter().filter_map(|at| Some(dofs.get(*at)?.name.clone())).collect(),
         path: path.collect(),
         grasp: witness.grasp.as_ref().map(|grasp| {
             let (xyz, quaternion) = components(&grasp.map_from_tip);

@@ -25,19 +25,19 @@ pub(super) fn entities(
             None => {
                 let near = near(&thing.kind, library.kinds.iter().map(|def| def.name.as_str()));
                 let (kind, entity) = (thing.kind.clone(), thing.id.clone());
-                diagnostics.push(UnknownKind { span: thing.written.kind, kind, entity, near }.into());
+                diagnostics.push(UnknownKind { span: thing.spans.kind, kind, entity, near }.into());
                 library.kind_named("Entity")
             }
         };
         if entities.len() >= MAX_ENTITIES {
-            diagnostics.push(TooManyEntities { span: thing.written.id, limit: MAX_ENTITIES }.into());
+            diagnostics.push(TooManyEntities { span: thing.spans.id, limit: MAX_ENTITIES }.into());
             return;
         }
         let known = entities.find(&thing.id);
         // `user` and `start` may be placed by the scene; the robot is its own.
         let placeable = known.is_none_or(|(entity, _)| entity == USER || entity == START);
         if entities.add(thing.id.clone(), kind).is_none() && !placeable {
-            diagnostics.push(TakenName { span: thing.written.id, entity: thing.id.clone() }.into());
+            diagnostics.push(TakenName { span: thing.spans.id, entity: thing.id.clone() }.into());
         }
     }
 }

@@ -66,8 +66,8 @@ impl Subject<'_> {
 
     /// The joints that a search may move; the base aside.
     fn moves(self) -> Value {
-        let variables = self.model.machine.tree().variables();
-        self.model.movable().iter().flatten().map(|at| json!(variables[*at].name)).collect()
+        let dofs = self.model.machine.tree().dofs();
+        self.model.movable().iter().flatten().map(|at| json!(dofs[*at].name)).collect()
     }
 
     fn room(self, name: &str) -> Value {
@@ -108,7 +108,7 @@ impl Subject<'_> {
             "height": card.model.as_ref().map_or(0.0, |model| model.height_m),
             "tip": tip,
             "drives": machine.drives(),
-            "variables": machine.tree().variables().iter().map(|known| known.name.clone()).collect::<Vec<_>>(),
+            "variables": machine.tree().dofs().iter().map(|known| known.name.clone()).collect::<Vec<_>>(),
             "apart": apart,
             "carried": chosen(&|at| model.is_carried(at)),
             "members": chosen(&|at| model.in_hand(at)),

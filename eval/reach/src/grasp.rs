@@ -3,7 +3,7 @@
 //! can be, the fingers beyond the widest place of a round thing or 1 cm over a flat one.
 
 use motet_geometry::planning::RobotModel;
-use motet_robots::scene::{Entity, Shape};
+use motet_robots::scene::{Entity, EntityShape};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::chance::Chance;
@@ -34,11 +34,11 @@ pub(crate) fn draw(
 ) -> Option<Grasp> {
     let hand = machine.hand()?;
     let way = match *entity.shape.as_ref()? {
-        Shape::Box(extents) => flat(pose, extents.map(|extent| extent / 2.0), chance),
-        Shape::Cylinder { radius, height } => round(pose, radius, height / 2.0, true, chance),
-        Shape::Capsule { radius, height } => round(pose, radius, height / 2.0, false, chance),
-        Shape::Sphere { radius } => round(pose, radius, 0.0, false, chance),
-        Shape::Mesh { .. } => return None,
+        EntityShape::Box(extents) => flat(pose, extents.map(|extent| extent / 2.0), chance),
+        EntityShape::Cylinder { radius, height } => round(pose, radius, height / 2.0, true, chance),
+        EntityShape::Capsule { radius, height } => round(pose, radius, height / 2.0, false, chance),
+        EntityShape::Sphere { radius } => round(pose, radius, 0.0, false, chance),
+        EntityShape::Mesh { .. } => return None,
     };
     if way.approach.z > 0.5 || way.width > hand.card.opening_m {
         return None;

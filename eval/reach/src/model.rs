@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glamx::{DPose3, DVec3};
 use motet_geometry::planning::{Configuration, RobotModel};
 use motet_robots::card;
-use motet_robots::urdf::{self, JointKind, Pose, Shape, Urdf};
+use motet_robots::urdf::{self, JointKind, Pose, Urdf, UrdfShape};
 use motet_syntax::{FileId, Source};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use parry3d_f64::query;
@@ -87,7 +87,7 @@ struct Joint {
     driver: Option<(usize, f64, f64)>,
 }
 
-/// The tip's pose, and how it moves with the base's x, y and yaw and with each variable: velocity, angular velocity.
+/// The tip's pose, and how it moves with the base's x, y and yaw and with each dof: velocity, angular velocity.
 pub(crate) struct Tip {
     pub(crate) pose: Isometry3<f64>,
     pub(crate) bases: [[f64; 6]; 3],
@@ -139,7 +139,7 @@ impl Model {
                 factor *= mimic.multiplier;
                 at = mimic.joint;
             }
-            machine.tree().variable(&urdf.joints[at].name).ok().map(|variable| (variable, factor, offset))
+            machine.tree().dof(&urdf.joints[at].name).ok().map(|dof| (dof, factor, offset))
         };
         let moves = |kind| matches!(kind, JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic);
         let joints: Vec<Joint> = (urdf.joints.iter().enumerate())
@@ -157,11 +157,11 @@ impl Model {
             for listed in &link.collisions {
                 let pose = isometry(&listed.link_from_shape);
                 let solid = match listed.shape {
-                    Shape::Box(extents) => Solid::cuboid(pose, extents),
-                    Shape::Cylinder { radius, length } => Solid::cylinder(pose, radius, length),
-                    Shape::Capsule { radius, length } => Solid::capsule(pose, radius, length),
-                    Shape::Sphere { radius } => Solid::ball(pose, radius),
-                    Shape::Mesh { .. } => return None,
+                    UrdfShape::Box(extents) => Solid::cuboid(pose, extents),
+                    UrdfShape::Cylinder { radius, length } => Solid::cylinder(pose, radius, length),
+                    UrdfShape::Capsule { radius, length } => Solid::capsule(pose, radius, length),
+                    UrdfShape::Sphere { radius } => Solid::ball(pose, radius),
+                    UrdfShape::Mesh { .. } => return None,
                 };
                 parts.push((at, solid));
             }
@@ -224,14 +224,14 @@ impl Model {
         poses.iter().map(|pose| map_from_root * pose).collect()
     }
 
-    /// The variables that move the tip: `None` for the base's three, where it drives.
+    /// The dofs that move the tip: `None` for the base's three, where it drives.
     pub(crate) fn movable(&self) -> Vec<Option<usize>> {
         let mut found: Vec<Option<usize>> = if self.machine.drives() { vec![None] } else { vec![] };
         for joint in &self.chain {
-            if let Some((variable, ..)) = self.joints[*joint].driver
-                && !found.contains(&Some(variable))
+            if let Some((dof, ..)) = self.joints[*joint].driver
+                && !found.contains(&Some(dof))
             {
-                found.push(Some(variable));
+                found.push(Some(dof));
             }
         }
         found
@@ -244,14 +244,8 @@ impl Model {
         for joint in &self.chain {
             let it = &self.joints[*joint];
             let before = pose * it.fixed;
-            if let Some((variable, factor, _)) = it.driver {
-                axes.push((
-                    variable,
-                    factor,
-                    it.slides,
-                    before * it.axis.into_inner(),
-                    before.translation.vector,
-                ));
+            if let Some((dof, factor, _)) = it.driver {
+                axes.push((dof, factor, it.slides, before * it.axis.into_inner(), before.translation.vector));
             }
             pose *= self.step(*joint, &state.joints);
         }
@@ -264,12 +258,12 @@ impl Model {
         let bases =
             [[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], turn(Vector3::z(), base)];
         let mut columns: Vec<(usize, [f64; 6])> = Vec::new();
-        for (variable, factor, slides, axis, from) in axes {
+        for (dof, factor, slides, axis, from) in axes {
             let column = if slides { [axis.x, axis.y, axis.z, 0.0, 0.0, 0.0] } else { turn(axis, from) };
             let column = column.map(|part| part * factor);
-            match columns.iter_mut().find(|(known, _)| *known == variable) {
+            match columns.iter_mut().find(|(known, _)| *known == dof) {
                 Some((_, sum)) => sum.iter_mut().zip(column).for_each(|(sum, part)| *sum += part),
-                None => columns.push((variable, column)),
+                None => columns.push((dof, column)),
             }
         }
         Tip { pose, bases, columns }

@@ -19,7 +19,7 @@ pub(crate) fn solve(
     drives: bool,
 ) -> Option<Configuration> {
     let mut state = from.clone();
-    let variables = model.machine.tree().variables();
+    let dofs = model.machine.tree().dofs();
     let gap = |state: &Configuration| {
         let Tip { pose, bases, columns } = model.tip(state);
         let shift = wanted.translation.vector - pose.translation.vector;
@@ -48,7 +48,7 @@ pub(crate) fn solve(
         }
         for (at, column) in &columns {
             next.joints[*at] += amount(column);
-            if let Some((lower, upper)) = variables[*at].limits {
+            if let Some((lower, upper)) = dofs[*at].limits {
                 next.joints[*at] = next.joints[*at].clamp(lower, upper);
             }
         }
@@ -76,8 +76,8 @@ pub(crate) fn scatter(
     chance: &mut Chance,
 ) -> Configuration {
     let mut state = like.clone();
-    for variable in model.movable() {
-        match variable {
+    for dof in model.movable() {
+        match dof {
             None => {
                 let (sin, cos) = chance.between(-std::f64::consts::PI, std::f64::consts::PI).sin_cos();
                 let out = far * chance.unit().sqrt();
@@ -86,7 +86,7 @@ pub(crate) fn scatter(
             }
             Some(at) => {
                 let pi = std::f64::consts::PI;
-                let (lower, upper) = model.machine.tree().variables()[at].limits.unwrap_or((-pi, pi));
+                let (lower, upper) = model.machine.tree().dofs()[at].limits.unwrap_or((-pi, pi));
                 state.joints[at] = chance.between(lower.max(-2.0 * pi), upper.min(2.0 * pi));
             }
         }

@@ -3,7 +3,7 @@
 
 use motet_geometry::planning::RobotModel;
 use motet_robots::card::Drive;
-use motet_robots::scene::{Entity, Placement, Scene, Shape, Travel};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene, Travel};
 use smol_str::{SmolStr, format_smolstr};
 
 use crate::chance::Chance;
@@ -63,7 +63,7 @@ impl Made {
             let place = Place { x: 0.0, y: 0.0, yaw: side };
             for sign in [-1.0, 1.0] {
                 let [wall_x, wall_y] = place.at(x, y + sign * (gap / 2.0 + 1.0));
-                self.add("wall", "Place", [wall_x, wall_y, 1.0], side, Shape::Box([0.1, 2.0, 2.0]));
+                self.add("wall", "Place", [wall_x, wall_y, 1.0], side, EntityShape::Box([0.1, 2.0, 2.0]));
                 for part in [-0.8, -0.4, 0.0, 0.4, 0.8] {
                     self.outlines.push((place.at(x, y + sign * (gap / 2.0 + 1.0) + part), 0.25));
                 }
@@ -84,9 +84,9 @@ impl Made {
             let Some(place) = self.free(radius, 2.6) else { continue };
             let height = self.chance.between(0.2, 0.9);
             let shape = if self.chance.is(0.5) {
-                Shape::Cylinder { radius, height }
+                EntityShape::Cylinder { radius, height }
             } else {
-                Shape::Box([radius * 1.4, radius * 1.4, height])
+                EntityShape::Box([radius * 1.4, radius * 1.4, height])
             };
             self.add("stool", "Place", [place.x, place.y, height / 2.0], place.yaw, shape);
         }
@@ -100,16 +100,16 @@ impl Made {
     /// A workbench about a robot that is bolted to it.
     fn bench(&mut self) {
         let top = 0.715;
-        self.add("bench", "Place", [0.35, 0.0, top / 2.0], 0.0, Shape::Box([1.3, 1.4, top]));
+        self.add("bench", "Place", [0.35, 0.0, top / 2.0], 0.0, EntityShape::Box([1.3, 1.4, top]));
         let place = Place { x: 0.0, y: 0.0, yaw: 0.0 };
         for _ in 0..2 + self.chance.below(5) {
             let (x, y) = self.on_bench();
             let height = self.chance.between(0.1, 0.5);
             let radius = self.chance.between(0.02, 0.08);
             let shape = if self.chance.is(0.5) {
-                Shape::Cylinder { radius, height }
+                EntityShape::Cylinder { radius, height }
             } else {
-                Shape::Box([radius * 2.0, radius * 3.0, height])
+                EntityShape::Box([radius * 2.0, radius * 3.0, height])
             };
             let yaw = self.chance.between(-3.1, 3.1);
             self.add("block", "Place", [x, y, top + height / 2.0], yaw, shape);
@@ -118,10 +118,10 @@ impl Made {
         if self.chance.is(0.5) {
             let height = self.chance.between(0.25, 0.5);
             let (x, y) = (self.chance.between(0.4, 0.6), self.chance.between(-0.3, 0.3));
-            self.add("board", "Place", [x, y, top + height], 0.0, Shape::Box([0.3, 0.6, 0.02]));
+            self.add("board", "Place", [x, y, top + height], 0.0, EntityShape::Box([0.3, 0.6, 0.02]));
             for sign in [-1.0, 1.0] {
                 let centre = [x, y + sign * 0.3, top + height / 2.0];
-                self.add("post", "Place", centre, 0.0, Shape::Box([0.3, 0.02, height - 0.02]));
+                self.add("post", "Place", centre, 0.0, EntityShape::Box([0.3, 0.02, height - 0.02]));
             }
             self.thing(place, [x, y], top + height + 0.01);
         }
@@ -130,7 +130,7 @@ impl Made {
             self.thing(place, [x, y], top);
         }
         let far = self.chance.between(0.9, 1.3);
-        self.add("stand", "Place", [far + 0.2, 0.9, 0.4], 0.0, Shape::Box([0.4, 0.4, 0.8]));
+        self.add("stand", "Place", [far + 0.2, 0.9, 0.4], 0.0, EntityShape::Box([0.4, 0.4, 0.8]));
         self.thing(place, [far + 0.2, 0.9], 0.8);
     }
 
@@ -145,7 +145,7 @@ impl Made {
         let height = self.chance.between(0.35, 1.05);
         let Some(place) = self.free(deep.hypot(wide) / 2.0, 2.4) else { return };
         let [x, y] = place.at(0.0, 0.0);
-        self.add("counter", "Place", [x, y, height / 2.0], place.yaw, Shape::Box([deep, wide, height]));
+        self.add("counter", "Place", [x, y, height / 2.0], place.yaw, EntityShape::Box([deep, wide, height]));
         self.things(place, [deep, wide], height);
     }
 
@@ -154,7 +154,7 @@ impl Made {
         let height = self.chance.between(0.45, 0.9);
         let Some(place) = self.free(deep.hypot(wide) / 2.0, 2.4) else { return };
         let [x, y] = place.at(0.0, 0.0);
-        self.add("table", "Place", [x, y, height - 0.015], place.yaw, Shape::Box([deep, wide, 0.03]));
+        self.add("table", "Place", [x, y, height - 0.015], place.yaw, EntityShape::Box([deep, wide, 0.03]));
         for (a, b) in [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)] {
             let [x, y] = place.at(a * (deep / 2.0 - 0.04), b * (wide / 2.0 - 0.04));
             let tall = height - 0.03;
@@ -163,7 +163,7 @@ impl Made {
                 "Place",
                 [x, y, tall / 2.0],
                 0.0,
-                Shape::Cylinder { radius: 0.025, height: tall },
+                EntityShape::Cylinder { radius: 0.025, height: tall },
             );
         }
         self.things(place, [deep, wide], height);
@@ -180,15 +180,15 @@ impl Made {
         let Some(place) = self.free(deep.hypot(wide) / 2.0, 2.4) else { return };
         for sign in [-1.0, 1.0] {
             let [x, y] = place.at(0.0, sign * (wide / 2.0 - 0.01));
-            self.add("side", "Place", [x, y, tall / 2.0], place.yaw, Shape::Box([deep, 0.02, tall]));
+            self.add("side", "Place", [x, y, tall / 2.0], place.yaw, EntityShape::Box([deep, 0.02, tall]));
         }
         let [x, y] = place.at(-deep / 2.0 + 0.005, 0.0);
-        self.add("back", "Place", [x, y, tall / 2.0], place.yaw, Shape::Box([0.01, wide - 0.04, tall]));
+        self.add("back", "Place", [x, y, tall / 2.0], place.yaw, EntityShape::Box([0.01, wide - 0.04, tall]));
         for board in 0..=boards {
             let height = (rise * board as f64).max(0.05);
             let [x, y] = place.at(0.006, 0.0);
             let extents = [deep - 0.012, wide - 0.04, 0.02];
-            self.add("shelf", "Place", [x, y, height - 0.01], place.yaw, Shape::Box(extents));
+            self.add("shelf", "Place", [x, y, height - 0.01], place.yaw, EntityShape::Box(extents));
             if self.chance.is(0.6) {
                 let off = self.chance.between(-0.35, 0.35) * wide;
                 let out = self.chance.between(-0.3, 0.3) * deep;
@@ -205,10 +205,11 @@ impl Made {
         let part = self.chance.between(0.14, 0.22);
         let body = height - part;
         let [x, y] = place.at(0.0, 0.0);
-        self.add("cabinet", "Place", [x, y, body / 2.0], place.yaw, Shape::Box([deep, wide, body]));
-        self.add("top", "Place", [x, y, height + 0.01], place.yaw, Shape::Box([deep, wide, 0.02]));
+        self.add("cabinet", "Place", [x, y, body / 2.0], place.yaw, EntityShape::Box([deep, wide, body]));
+        self.add("top", "Place", [x, y, height + 0.01], place.yaw, EntityShape::Box([deep, wide, 0.02]));
         let extents = [deep - 0.02, wide - 0.04, part - 0.02];
-        let id = self.add("drawer", "Container", [x, y, body + part / 2.0], place.yaw, Shape::Box(extents));
+        let id =
+            self.add("drawer", "Container", [x, y, body + part / 2.0], place.yaw, EntityShape::Box(extents));
         let out = self.chance.between(0.2, 0.35);
         let is_open = self.chance.is(0.7);
         if let Some(drawer) = self.scene.entities.get_mut(&id) {
@@ -236,26 +237,26 @@ impl Made {
 
     /// Something to grasp, where nothing else stands.
     fn thing(&mut self, place: Place, [x, y]: [f64; 2], height: f64) {
-        let (kind, shape, tall, round): (&str, Shape, f64, f64) = match self.chance.below(5) {
+        let (kind, shape, tall, round): (&str, EntityShape, f64, f64) = match self.chance.below(5) {
             0 => {
                 let (radius, height) = (self.chance.between(0.025, 0.05), self.chance.between(0.08, 0.26));
-                ("bottle", Shape::Cylinder { radius, height }, height, radius)
+                ("bottle", EntityShape::Cylinder { radius, height }, height, radius)
             }
             1 => {
                 let (radius, height) = (self.chance.between(0.03, 0.06), self.chance.between(0.06, 0.13));
-                ("can", Shape::Cylinder { radius, height }, height, radius)
+                ("can", EntityShape::Cylinder { radius, height }, height, radius)
             }
             2 => {
                 let radius = self.chance.between(0.02, 0.042);
-                ("ball", Shape::Sphere { radius }, 2.0 * radius, radius)
+                ("ball", EntityShape::Sphere { radius }, 2.0 * radius, radius)
             }
             3 => {
                 let [a, b, c] = [0.03, 0.03, 0.04].map(|least| self.chance.between(least, 0.11));
-                ("box", Shape::Box([a, b, c]), c, a.hypot(b) / 2.0)
+                ("box", EntityShape::Box([a, b, c]), c, a.hypot(b) / 2.0)
             }
             _ => {
                 let [a, b, c] = [0.03, 0.12, 0.12].map(|least| self.chance.between(least, least + 0.08));
-                ("packet", Shape::Box([a, b, c]), c, a.hypot(b) / 2.0)
+                ("packet", EntityShape::Box([a, b, c]), c, a.hypot(b) / 2.0)
             }
         };
         let yaw = self.chance.between(-3.1, 3.1);
@@ -286,7 +287,7 @@ impl Made {
         None
     }
 
-    fn add(&mut self, class: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: Shape) -> SmolStr {
+    fn add(&mut self, class: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: EntityShape) -> SmolStr {
         let id = format_smolstr!("{class}_{}", self.scene.entities.len());
         let pose = Placement { xyz, rpy: [0.0, 0.0, yaw] };
         let mut entity = Entity::place(id.clone(), pose);

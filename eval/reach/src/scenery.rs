@@ -1,7 +1,7 @@
 //! What stands around, a second time: entities as parry3d's shapes, open drawers as five walls.
 
 use motet_geometry::planning::{Configuration, SceneState};
-use motet_robots::scene::{Entity, Scene, Shape, Travel};
+use motet_robots::scene::{Entity, EntityShape, Scene, Travel};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::model::{Model, Solid};
@@ -86,17 +86,22 @@ pub(crate) enum Touched {
     Floor,
 }
 
-fn standing(entity: &Entity, world: &SceneState, shape: &Shape, pose: Isometry3<f64>) -> Option<Vec<Solid>> {
+fn standing(
+    entity: &Entity,
+    world: &SceneState,
+    shape: &EntityShape,
+    pose: Isometry3<f64>,
+) -> Option<Vec<Solid>> {
     Some(match (shape, &entity.travel) {
-        (Shape::Box(extents), Some(Travel::Slide { axis, distance })) if world.is_open(entity) => {
+        (EntityShape::Box(extents), Some(Travel::Slide { axis, distance })) if world.is_open(entity) => {
             drawer(pose, *extents, *axis, *distance)
         }
-        (Shape::Box(_), Some(Travel::Hinge { .. })) if world.is_open(entity) => return None,
-        (Shape::Box(extents), _) => vec![Solid::cuboid(pose, *extents)],
-        (Shape::Cylinder { radius, height }, _) => vec![Solid::cylinder(pose, *radius, *height)],
-        (Shape::Capsule { radius, height }, _) => vec![Solid::capsule(pose, *radius, *height)],
-        (Shape::Sphere { radius }, _) => vec![Solid::ball(pose, *radius)],
-        (Shape::Mesh { .. }, _) => return None,
+        (EntityShape::Box(_), Some(Travel::Hinge { .. })) if world.is_open(entity) => return None,
+        (EntityShape::Box(extents), _) => vec![Solid::cuboid(pose, *extents)],
+        (EntityShape::Cylinder { radius, height }, _) => vec![Solid::cylinder(pose, *radius, *height)],
+        (EntityShape::Capsule { radius, height }, _) => vec![Solid::capsule(pose, *radius, *height)],
+        (EntityShape::Sphere { radius }, _) => vec![Solid::ball(pose, *radius)],
+        (EntityShape::Mesh { .. }, _) => return None,
     })
 }
 

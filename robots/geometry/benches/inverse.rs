@@ -5,27 +5,27 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use motet_geometry::inverse::manifold::Manifold;
+use motet_geometry::inverse::batch::BatchSolver;
 use motet_geometry::inverse::{LiftArm, ParallelArm, numeric};
-use motet_geometry::kinematics::{Chain, Tree, planar};
+use motet_geometry::kinematics::{KinematicChain, KinematicTree, planar};
 use motet_robots::{card, urdf};
 use motet_syntax::{FileId, Source};
 
-fn tree(robot: &str) -> Tree {
+fn tree(robot: &str) -> KinematicTree {
     let text = card::embedded_urdf(robot).unwrap();
-    Tree::new(&urdf::read(&Source::new(robot, text), FileId(0)).0.unwrap())
+    KinematicTree::new(&urdf::read(&Source::new(robot, text), FileId(0)).0.unwrap())
 }
 
-fn chain(robot: &str, base: &str, tip: &str) -> Chain {
+fn chain(robot: &str, base: &str, tip: &str) -> KinematicChain {
     let tree = tree(robot);
-    Chain::new(&tree, tree.link(base).unwrap(), tree.link(tip).unwrap()).unwrap()
+    KinematicChain::new(&tree, tree.link(base).unwrap(), tree.link(tip).unwrap()).unwrap()
 }
 
 fn inverse(criterion: &mut Criterion) {
     let arm = LiftArm::detect(&chain("hsr", "base_footprint", "hand_palm_link")).unwrap();
     let values = [0.35, -1.2, 0.4, -0.9, 0.3];
     let wanted = planar(2.0, -1.0, 0.7) * arm.chain().base_from_tip(&values);
-    let manifold = Manifold::new(&arm);
+    let manifold = BatchSolver::new(&arm);
     let poses = manifold.poses(&[(wanted, 0.7); 8], [2.0, -1.0]);
     criterion.bench_function("hsr: 16 candidates in f32", |bencher| {
         bencher.iter(|| manifold.block(black_box(&poses), 0.3, -1.2));
@@ -40,7 +40,8 @@ fn inverse(criterion: &mut Criterion) {
     let wanted = panda.base_from_tip(&[0.3, -0.5, 0.2, -2.0, 0.1, 1.8, 0.5]);
     let from = [0.0, -0.8, 0.0, -2.4, 0.0, 1.6, 0.8];
     criterion.bench_function("panda: one solution by steps", |bencher| {
-        bencher.iter(|| numeric::solve(&panda, black_box(&wanted), &from, numeric::Settings::default()));
+        bencher
+            .iter(|| numeric::solve(&panda, black_box(&wanted), &from, numeric::NumericSettings::default()));
     });
     let hsr = tree("hsr");
     let configuration = hsr.neutral();

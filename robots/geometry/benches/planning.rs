@@ -16,7 +16,7 @@ use motet_geometry::planning::{
     AllowedCollisions, Configuration, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState,
     SearchBudget,
 };
-use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_robots::{card, scene, urdf};
 use motet_syntax::{FileId, Source};
 
@@ -68,7 +68,7 @@ fn along(room: &QueryContext<'_>, id: &str) -> Vec<Configuration> {
 /// Tables in rows, 3 m from one to the next, with nine cups on each; the robot stands between the first four.
 fn depot(tables: i32) -> Scene {
     let mut scene = Scene::default();
-    let mut add = |id: String, kind: &str, xyz: [f64; 3], shape: Shape| {
+    let mut add = |id: String, kind: &str, xyz: [f64; 3], shape: EntityShape| {
         let mut entity = Entity::place(id.as_str().into(), Placement { xyz, rpy: [0.0; 3] });
         entity.kind = kind.into();
         entity.shape = Some(shape);
@@ -79,10 +79,10 @@ fn depot(tables: i32) -> Scene {
         // The first four are around the robot however many there are.
         let (row, column) = (table / side - side / 2, table % side - side / 2);
         let (x, y) = (3.0 * f64::from(column) + 1.5, 3.0 * f64::from(row) + 1.5);
-        add(format!("table_{row}_{column}"), "Place", [x, y, 0.35], Shape::Box([1.2, 0.8, 0.7]));
+        add(format!("table_{row}_{column}"), "Place", [x, y, 0.35], EntityShape::Box([1.2, 0.8, 0.7]));
         for cup in 0..9 {
             let (dx, dy) = (0.4 * f64::from(cup % 3 - 1), 0.25 * f64::from(cup / 3 - 1));
-            let shape = Shape::Cylinder { radius: 0.035, height: 0.1 };
+            let shape = EntityShape::Cylinder { radius: 0.035, height: 0.1 };
             add(format!("cup_{row}_{column}_{cup}"), "Object", [x + dx, y + dy, 0.751], shape);
         }
     }

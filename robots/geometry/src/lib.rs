@@ -11,8 +11,8 @@
 pub mod collision;
 pub mod inverse;
 pub mod kinematics;
-mod lanes;
 pub mod planning;
+mod simd;
 mod trigonometry;
 
-pub use kinematics::{Tree, Variable};
+pub use kinematics::{Dof, KinematicTree};

@@ -9,8 +9,8 @@
 )]
 
 use glamx::{DPose3, DVec3};
-use motet_geometry::Tree;
-use motet_geometry::collision::{Body, Shape, Solid};
+use motet_geometry::KinematicTree;
+use motet_geometry::collision::{CollisionModel, Shape, Solid};
 use motet_robots::{card, urdf};
 use motet_syntax::{FileId, Source};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -81,11 +81,11 @@ proptest! {
     }
 }
 
-fn robot(name: &str) -> (Tree, Body) {
+fn robot(name: &str) -> (KinematicTree, CollisionModel) {
     let text = card::embedded_urdf(name).unwrap();
     let urdf = urdf::read(&Source::new(name, text), FileId(0)).0.unwrap();
-    let tree = Tree::new(&urdf);
-    let body = Body::new(&urdf, &tree, &[]);
+    let tree = KinematicTree::new(&urdf);
+    let body = CollisionModel::new(&urdf, &tree, &[]);
     (tree, body)
 }
 
@@ -95,9 +95,9 @@ fn an_arm_against_the_body_is_seen() {
     let mut configuration = tree.neutral();
     // The arm hangs straight down with its hand turned back against the base.
     for (joint, position) in [("arm_flex_joint", -2.6), ("arm_lift_joint", 0.1), ("wrist_flex_joint", -1.9)] {
-        configuration[tree.variable(joint).unwrap()] = position;
+        configuration[tree.dof(joint).unwrap()] = position;
     }
-    let near = body.to_itself(&body.placed(&tree.root_from_links(&configuration))).unwrap();
+    let near = body.nearest_self_pair(&body.placed(&tree.root_from_links(&configuration))).unwrap();
     assert!(near.metres <= 0.0, "{near:?}");
 }
 
@@ -111,8 +111,8 @@ fn the_jaws_of_the_z1_enclose_their_meshes() {
     };
     let urdf = urdf::read(&Source::new("anymal_z1", card::embedded_urdf("anymal_z1").unwrap()), FileId(0)).0;
     let urdf = urdf.unwrap();
-    let tree = Tree::new(&urdf);
-    let body = Body::new(&urdf, &tree, &[]);
+    let tree = KinematicTree::new(&urdf);
+    let body = CollisionModel::new(&urdf, &tree, &[]);
     let mut seen = 0;
     for row in text.lines().filter(|row| row.starts_with("z1,")) {
         let fields: Vec<&str> = row.split(',').collect();

@@ -10,7 +10,7 @@
 
 use std::path::Path;
 
-use motet_geometry::kinematics::{Chain, Tree, planar};
+use motet_geometry::kinematics::{KinematicChain, KinematicTree, planar};
 use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
@@ -19,11 +19,11 @@ use serde_json::Value;
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/robots");
 const MODELS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../models");
 
-fn tree(path: &str) -> Tree {
+fn tree(path: &str) -> KinematicTree {
     let text = std::fs::read_to_string(path).unwrap();
     let (urdf, found) = urdf::read(&Source::new(path, text), FileId(0));
     assert_eq!(found, []);
-    Tree::new(&urdf.unwrap())
+    KinematicTree::new(&urdf.unwrap())
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -42,7 +42,7 @@ fn check(poses: &str, urdf: &str, standing: Option<(&str, f64)>) {
     let mut rows = 0;
     for line in std::fs::read_to_string(path).unwrap().lines() {
         let row: Value = serde_json::from_str(line).unwrap();
-        let mut configuration = vec![0.0; tree.variables().len()];
+        let mut configuration = vec![0.0; tree.dofs().len()];
         let mut base = [0.0; 3];
         for (name, value) in row["q"].as_object().unwrap() {
             let value = value.as_f64().unwrap();
@@ -50,7 +50,7 @@ fn check(poses: &str, urdf: &str, standing: Option<(&str, f64)>) {
                 ("odom_x", Some(_)) => base[0] = value,
                 ("odom_y", Some(_)) => base[1] = value,
                 ("odom_t", Some(_)) => base[2] = value,
-                (name, _) => configuration[tree.variable(name).unwrap()] = value,
+                (name, _) => configuration[tree.dof(name).unwrap()] = value,
             }
         }
         let tip = tree.link(row["tip"].as_str().unwrap()).unwrap();
@@ -106,16 +106,16 @@ fn our_own_urdfs_give_the_reference_poses() {
 #[test]
 fn a_pose_is_the_same_by_every_way() {
     let tree = tree(&format!("{MODELS}/hsr/robot.urdf"));
-    let configuration: Vec<f64> = (0..tree.variables().len()).map(|n| 0.1 * (n as f64) - 0.3).collect();
+    let configuration: Vec<f64> = (0..tree.dofs().len()).map(|n| 0.1 * (n as f64) - 0.3).collect();
     let all = tree.root_from_links(&configuration);
     let (palm, head) = (tree.link("hand_palm_link").unwrap(), tree.link("head_tilt_link").unwrap());
     let between = tree.pose(&configuration, head, palm);
     assert!(difference(&(all[head].inverse() * all[palm]), &between).0 < 1e-12);
-    let chain = Chain::new(&tree, tree.root(), palm).unwrap();
+    let chain = KinematicChain::new(&tree, tree.root(), palm).unwrap();
     let values: Vec<f64> = chain.in_tree.iter().map(|at| configuration[*at]).collect();
     assert!(difference(&chain.base_from_tip(&values), &all[palm]).0 < 1e-12);
-    assert!(Chain::new(&tree, palm, head).is_none());
-    assert_eq!(chain.variables.len(), 5);
+    assert!(KinematicChain::new(&tree, palm, head).is_none());
+    assert_eq!(chain.dofs.len(), 5);
 }
 
 #[test]
@@ -126,8 +126,8 @@ fn followers_follow_and_planes_turn() {
           <limit lower='0' upper='1' velocity='1' effort='1'/></joint>
         <joint name='two' type='prismatic'><parent link='c'/><child link='d'/><axis xyz='1 0 0'/>
           <limit lower='0' upper='1' velocity='1' effort='1'/><mimic joint='one' multiplier='2' offset='0.5'/></joint></robot>";
-    let tree = Tree::new(&urdf::read(&Source::new("x", text), FileId(0)).0.unwrap());
-    let names: Vec<&str> = tree.variables().iter().map(|known| known.name.as_str()).collect();
+    let tree = KinematicTree::new(&urdf::read(&Source::new("x", text), FileId(0)).0.unwrap());
+    let names: Vec<&str> = tree.dofs().iter().map(|known| known.name.as_str()).collect();
     assert_eq!(names, ["drive/x", "drive/y", "drive/theta", "one"]);
     let pose = tree.pose(&[1.0, 2.0, std::f64::consts::FRAC_PI_2, 0.25], 0, 3);
     let wanted = Isometry3::translation(1.0, 2.0 + 0.25 + 1.0, 0.0);

@@ -9,40 +9,40 @@
 
 use std::f64::consts::PI;
 
-use motet_geometry::inverse::manifold::Manifold;
+use motet_geometry::inverse::batch::BatchSolver;
 use motet_geometry::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
-use motet_geometry::kinematics::{Chain, Tree, Variable, planar};
+use motet_geometry::kinematics::{Dof, KinematicChain, KinematicTree, planar};
 use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
 use proptest::prelude::*;
 
-fn read(text: &str) -> Tree {
+fn read(text: &str) -> KinematicTree {
     let (urdf, found) = urdf::read(&Source::new("robot.urdf", text), FileId(0));
     assert_eq!(found, []);
-    Tree::new(&urdf.unwrap())
+    KinematicTree::new(&urdf.unwrap())
 }
 
-fn chain(robot: &str, base: &str, tip: &str) -> Chain {
+fn chain(robot: &str, base: &str, tip: &str) -> KinematicChain {
     let text =
         std::fs::read_to_string(format!("{}/../models/{robot}/robot.urdf", env!("CARGO_MANIFEST_DIR")));
     let tree = read(&text.unwrap());
-    Chain::new(&tree, tree.link(base).unwrap(), tree.link(tip).unwrap()).unwrap()
+    KinematicChain::new(&tree, tree.link(base).unwrap(), tree.link(tip).unwrap()).unwrap()
 }
 
-fn hsr() -> Chain {
+fn hsr() -> KinematicChain {
     chain("hsr", "base_footprint", "hand_palm_link")
 }
 
-fn z1() -> Chain {
+fn z1() -> KinematicChain {
     chain("anymal_z1", "link00", "hand_tip")
 }
 
-fn panda() -> Chain {
+fn panda() -> KinematicChain {
     chain("panda", "panda_link0", "panda_hand_tcp")
 }
 
 /// An arm in the proportions of the UR family: axes 2 to 4 parallel and offset along themselves, limits of two turns.
-fn ur() -> Chain {
+fn ur() -> KinematicChain {
     let link = |n: usize| format!("<link name='l{n}'/>");
     let joint = |n: usize, xyz: &str, axis: &str| {
         format!(
@@ -61,12 +61,12 @@ fn ur() -> Chain {
     ];
     let text = format!("<robot>{}{}</robot>", (0..7).map(link).collect::<String>(), joints.concat());
     let tree = read(&text);
-    Chain::new(&tree, 0, 6).unwrap()
+    KinematicChain::new(&tree, 0, 6).unwrap()
 }
 
 /// Values of a chain from numbers in 0..1, one each.
-fn spread(chain: &Chain, parts: &[f64]) -> Vec<f64> {
-    let limits = chain.variables.iter().map(|variable| variable.limits.unwrap_or((-PI, PI)));
+fn spread(chain: &KinematicChain, parts: &[f64]) -> Vec<f64> {
+    let limits = chain.dofs.iter().map(|dof| dof.limits.unwrap_or((-PI, PI)));
     limits.zip(parts).map(|((lower, upper), part)| lower + part * (upper - lower)).collect()
 }
 
@@ -156,8 +156,8 @@ proptest! {
 #[test]
 fn of_full_turns_the_nearest_counts() {
     let mut chain = ur();
-    for variable in &mut chain.variables {
-        variable.limits = Some((-40.0, 60.0));
+    for dof in &mut chain.dofs {
+        dof.limits = Some((-40.0, 60.0));
     }
     let arm = ParallelArm::detect(&chain).unwrap();
     let values = [0.3, -1.1, 1.4, 0.2, -0.9, 2.0];
@@ -181,13 +181,12 @@ fn limits_on_one_side_stay() {
             "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>
              <limit {limit} velocity='1' effort='1'/></joint>"
         );
-        read(&format!("<robot name='r'><link name='a'/><link name='b'/>{joint}</robot>")).variables()[0]
-            .clone()
+        read(&format!("<robot name='r'><link name='a'/><link name='b'/>{joint}</robot>")).dofs()[0].clone()
     };
     assert_eq!(limits("lower='0' upper='1e16'").limits, Some((0.0, 1e16)));
-    assert_eq!(limits("lower='0' upper='1e16'").span(), (0.0, 2.0 * PI));
+    assert_eq!(limits("lower='0' upper='1e16'").sampling_range(), (0.0, 2.0 * PI));
     let none = limits("lower='-1e16' upper='1e16'");
-    assert_eq!((none.limits, none.is_turn), (None, true));
+    assert_eq!((none.limits, none.is_continuous), (None, true));
 }
 
 /// The heights of a wrist are the same some turns further.
@@ -196,7 +195,7 @@ fn heights_do_not_depend_on_full_turns() {
     let chain = hsr();
     let mut turned = chain.clone();
     let far = 8.0 * PI;
-    turned.variables[1].limits = chain.variables[1].limits.map(|(lower, upper)| (lower + far, upper + far));
+    turned.dofs[1].limits = chain.dofs[1].limits.map(|(lower, upper)| (lower + far, upper + far));
     let [one, other] = [chain, turned].map(|chain| LiftArm::detect(&chain).unwrap().heights());
     assert!(one.iter().zip(other).all(|(a, b)| (a - b).abs() < 1e-9), "{one:?} and {other:?}");
 }
@@ -204,8 +203,8 @@ fn heights_do_not_depend_on_full_turns() {
 #[test]
 fn a_joint_that_turns_is_looked_for_within_one_turn() {
     let limited = |limits: Option<(f64, f64)>, slides: bool| {
-        let is_turn = limits.is_none() && !slides;
-        Variable { name: "it".into(), limits, is_turn, slides }.span()
+        let is_continuous = limits.is_none() && !slides;
+        Dof { name: "it".into(), limits, is_continuous, is_prismatic: slides }.sampling_range()
     };
     assert_eq!(limited(None, false), (-PI, PI));
     assert_eq!(limited(None, true), (-1.0, 1.0));
@@ -225,8 +224,9 @@ fn any_arm_is_solved_by_steps() {
     let mut solved = 0;
     // The search starts from the first of these values itself.
     for index in 1000..1000 + poses {
-        let wanted = chain.base_from_tip(&motet_geometry::kinematics::spread(&chain.variables, index));
-        let Some(found) = numeric::solve(&chain, &wanted, &middle, numeric::Settings::default()) else {
+        let wanted = chain.base_from_tip(&motet_geometry::kinematics::quasi_random(&chain.dofs, index));
+        let Some(found) = numeric::solve(&chain, &wanted, &middle, numeric::NumericSettings::default())
+        else {
             continue;
         };
         assert!(chain.allows(&found));
@@ -241,7 +241,7 @@ fn what_is_out_of_reach_is_not_found() {
     let chain = panda();
     let far = nalgebra::Isometry3::translation(3.0, 0.0, 0.0);
     assert_eq!(
-        numeric::solve(&chain, &far, &[0.0; 7], numeric::Settings { starts: 5, ..Default::default() }),
+        numeric::solve(&chain, &far, &[0.0; 7], numeric::NumericSettings { starts: 5, ..Default::default() }),
         None
     );
     assert!(ParallelArm::detect(&z1()).unwrap().solve(&far).is_empty());
@@ -253,7 +253,7 @@ fn what_is_out_of_reach_is_not_found() {
 #[test]
 fn the_fast_path_finds_what_the_exact_one_finds() {
     let arm = LiftArm::detect(&hsr()).unwrap();
-    let manifold = Manifold::new(&arm);
+    let manifold = BatchSolver::new(&arm);
     let origin = [1.5, -0.5];
     let poses: Vec<_> = (0..8)
         .map(|at| {

@@ -9,7 +9,7 @@ use motet_geometry::planning::{
     MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
 };
 use motet_robots::card;
-use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
 use proptest::prelude::*;
@@ -25,7 +25,7 @@ fn machine(name: &str) -> RobotModel {
     RobotModel::new(&card, &urdf)
 }
 
-fn entity(id: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: Shape) -> Entity {
+fn entity(id: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: EntityShape) -> Entity {
     let mut entity = Entity::place(id.into(), Placement { xyz, rpy: [0.0, 0.0, yaw] });
     entity.kind = kind.into();
     entity.shape = Some(shape);
@@ -52,17 +52,23 @@ fn furnished(drives: bool) -> impl Strategy<Value = Scene> {
             let y = if drives { y } else { 0.3 * y };
             let far = least + wide / 2.0;
             let (x, y) = if x.hypot(y) < far { (far + x, y) } else { (x, y) };
-            add(entity("table", "Place", [x, y, height / 2.0], yaw, Shape::Box([0.6, wide, height])));
+            add(entity("table", "Place", [x, y, height / 2.0], yaw, EntityShape::Box([0.6, wide, height])));
             let (sin, cos) = yaw.sin_cos();
             let (a, b) = (off_x * 0.6, off_y * wide);
             let at = [x + cos * a - sin * b, y + sin * a + cos * b, height + tall / 2.0 + 0.001];
-            add(entity("can", "Object", at, yaw, Shape::Cylinder { radius, height: tall }));
+            add(entity("can", "Object", at, yaw, EntityShape::Cylinder { radius, height: tall }));
             let board = [x, y, height + tall + above];
-            add(entity("board", "Place", board, yaw, Shape::Box([0.6, wide, 0.02])));
+            add(entity("board", "Place", board, yaw, EntityShape::Box([0.6, wide, 0.02])));
             for ((x, y, side, height), at) in boxes.into_iter().zip(0..) {
                 if x.hypot(y) > free + side {
                     let id = format!("box_{at}");
-                    add(entity(&id, "Place", [x, y, height / 2.0], 0.0, Shape::Box([side, side, height])));
+                    add(entity(
+                        &id,
+                        "Place",
+                        [x, y, height / 2.0],
+                        0.0,
+                        EntityShape::Box([side, side, height]),
+                    ));
                 }
             }
             scene

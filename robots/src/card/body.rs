@@ -6,16 +6,16 @@ use motet_syntax::{Diagnostic, FileId, Source, Span, suggest};
 use smol_str::SmolStr;
 
 use super::errors::{BeyondLimit, NoArm, NoFile, NoFolder, NoPlace, NotInUrdf, SameAxis, WrongDimension};
-use super::model::Model;
-use super::quantity::{Numbers, Sign, units_of};
-use super::read::Reader;
-use super::wire::{self, At, Direction, Quantity};
+use super::model::ModelSpec;
+use super::quantity::{QuantityReader, Sign, units_of};
+use super::read::CardReader;
+use super::wire::{self, Direction, TomlSpanned, WrittenQuantity};
 use crate::urdf::{Joint, JointKind, Urdf};
 
-impl Reader {
-    pub(super) fn model(&mut self, model: &wire::Model) -> Model {
+impl CardReader {
+    pub(super) fn model(&mut self, model: &wire::ModelTable) -> ModelSpec {
         let height = model.height.as_ref();
-        Model {
+        ModelSpec {
             urdf: model.urdf.get().clone(),
             srdf: model.srdf.as_ref().map(|file| file.get().clone()),
             base: model.base.as_ref().map(|link| link.get().into()),
@@ -31,7 +31,7 @@ impl Reader {
     pub(super) fn positions(
         &mut self,
         key: &str,
-        joints: &IndexMap<String, At<Quantity>>,
+        joints: &IndexMap<String, TomlSpanned<WrittenQuantity>>,
     ) -> IndexMap<SmolStr, f64> {
         let positions = joints.iter().filter_map(|(name, position)| {
             let key = format!("{key}.{name}");
@@ -43,7 +43,7 @@ impl Reader {
     }
 
     /// Where the fingers of a hand point, and along what they close.
-    pub(super) fn directions(&mut self, name: &str, hand: &wire::Hand) -> ([f64; 3], [f64; 3]) {
+    pub(super) fn directions(&mut self, name: &str, hand: &wire::HandTable) -> ([f64; 3], [f64; 3]) {
         let points = hand.points.as_ref().map_or(Direction::Z, |at| *at.get());
         let closes = hand.closes.as_ref().map_or(Direction::Y, |at| *at.get());
         let (points, closes) = (vector(points), vector(closes));
@@ -71,8 +71,8 @@ fn vector(direction: Direction) -> [f64; 3] {
 /// there, positions are within limits, and hands and cameras have a place. O(bytes + links).
 #[must_use]
 pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
-    let Ok(card) = toml::from_str::<wire::Card>(&toml.text) else { return vec![] };
-    let mut fit = Fit { numbers: Numbers { file, found: Vec::new() }, urdf };
+    let Ok(card) = toml::from_str::<wire::CardTable>(&toml.text) else { return vec![] };
+    let mut fit = UrdfFit { numbers: QuantityReader { file, found: Vec::new() }, urdf };
     if let Some(model) = &card.model {
         fit.link(model.base.as_ref());
         fit.positions(&model.rest);
@@ -96,9 +96,9 @@ pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
 /// That a file or a folder which the card names is not there. None where the card does not name one.
 #[must_use]
 pub fn missing(toml: &Source, file: FileId, which: ModelFile) -> Option<Diagnostic> {
-    let card = toml::from_str::<wire::Card>(&toml.text).ok()?;
+    let card = toml::from_str::<wire::CardTable>(&toml.text).ok()?;
     let model = card.model.as_ref()?;
-    let span = |name: &At<String>| Numbers { file, found: Vec::new() }.span(name);
+    let span = |name: &TomlSpanned<String>| QuantityReader { file, found: Vec::new() }.span(name);
     let (key, name) = match which {
         ModelFile::Urdf => ("urdf", &model.urdf),
         ModelFile::Srdf => ("srdf", model.srdf.as_ref()?),
@@ -122,13 +122,13 @@ pub enum ModelFile {
     Package(usize),
 }
 
-struct Fit<'u> {
-    numbers: Numbers,
+struct UrdfFit<'u> {
+    numbers: QuantityReader,
     urdf: &'u Urdf,
 }
 
-impl Fit<'_> {
-    fn link(&mut self, link: Option<&At<String>>) {
+impl UrdfFit<'_> {
+    fn link(&mut self, link: Option<&TomlSpanned<String>>) {
         let Some(link) = link.filter(|link| self.urdf.link(link.get()).is_none()) else { return };
         let known = self.urdf.links.iter().map(|link| link.name.as_str());
         let near = suggest::closest(link.get(), known).map(str::to_owned);
@@ -140,8 +140,8 @@ impl Fit<'_> {
         &mut self,
         what: &'static str,
         name: &str,
-        part: &At<T>,
-        link: Option<&At<String>>,
+        part: &TomlSpanned<T>,
+        link: Option<&TomlSpanned<String>>,
         key: &'static str,
     ) {
         if link.is_none() {
@@ -152,7 +152,7 @@ impl Fit<'_> {
     }
 
     /// Whether a joint moves the tip of a hand against the base's link.
-    fn arm(&mut self, name: &str, tip: Option<&At<String>>, base: Option<&At<String>>) {
+    fn arm(&mut self, name: &str, tip: Option<&TomlSpanned<String>>, base: Option<&TomlSpanned<String>>) {
         let Some(tip) = tip else { return };
         let base = base.map_or(Some(self.urdf.root), |base| self.urdf.link(base.get()));
         // Links that are not there have been told.
@@ -174,7 +174,7 @@ impl Fit<'_> {
         }
     }
 
-    fn positions(&mut self, positions: &IndexMap<String, At<Quantity>>) {
+    fn positions(&mut self, positions: &IndexMap<String, TomlSpanned<WrittenQuantity>>) {
         for (name, position) in positions {
             let span = self.numbers.span(position);
             let joint = match found(name, span, self.urdf) {
@@ -198,20 +198,20 @@ impl Fit<'_> {
                 self.numbers.found.push(WrongDimension { span, key, unit, units }.into());
                 continue;
             }
-            self.numbers.found.extend(Position { joint: name, value, span }.beyond(joint));
+            self.numbers.found.extend(JointPosition { joint: name, value, span }.beyond(joint));
         }
     }
 }
 
 /// A position that a joint is said to be at, in m or rad, and where that is said.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Position<'a> {
+pub(crate) struct JointPosition<'a> {
     pub(crate) joint: &'a str,
     pub(crate) value: f64,
     pub(crate) span: Span,
 }
 
-impl Position<'_> {
+impl JointPosition<'_> {
     /// What is wrong with it, beside a URDF.
     pub(crate) fn fault(self, urdf: &Urdf) -> Option<Diagnostic> {
         // Any place will do for what moves in a plane.

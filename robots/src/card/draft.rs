@@ -11,21 +11,21 @@ use indexmap::IndexMap;
 use smol_str::SmolStr;
 
 use crate::srdf::Srdf;
-use crate::urdf::{Shape, Urdf};
-use parts::{Hand, Parts};
+use crate::urdf::{Urdf, UrdfShape};
+use parts::{DraftHand, RobotParts};
 
 /// What is known beside the URDF.
 #[derive(Clone, Default, Debug)]
-pub struct Beside<'a> {
+pub struct DraftInputs<'a> {
     /// The SRDF, and its path as seen from the card's folder.
     pub srdf: Option<(&'a Srdf, &'a str)>,
     /// How it stands, as far as that was worked out.
-    pub stance: Option<Stance>,
+    pub stance: Option<DraftStance>,
 }
 
 /// How a robot stands.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Stance {
+pub struct DraftStance {
     /// How high the base's link is above the floor, in m.
     pub height_m: f64,
     /// Positions of joints of the arm by name, in rad or m.
@@ -38,8 +38,8 @@ pub struct Stance {
 ///
 /// The card can be read by [`super::read`], and fits the URDF. O(links × joints).
 #[must_use]
-pub fn draft(urdf: &Urdf, file: &str, beside: &Beside<'_>) -> String {
-    let parts = Parts::find(urdf, beside.srdf.map(|(srdf, _)| srdf));
+pub fn draft(urdf: &Urdf, file: &str, beside: &DraftInputs<'_>) -> String {
+    let parts = RobotParts::find(urdf, beside.srdf.map(|(srdf, _)| srdf));
     let mut card = String::new();
     // Writing to a string does not fail.
     let _ = write_card(&mut card, urdf, file, beside, &parts);
@@ -50,8 +50,8 @@ fn write_card(
     card: &mut String,
     urdf: &Urdf,
     file: &str,
-    beside: &Beside<'_>,
-    parts: &Parts,
+    beside: &DraftInputs<'_>,
+    parts: &RobotParts,
 ) -> std::fmt::Result {
     let name = identifier(&urdf.name);
     let (drive, why) = parts.drive;
@@ -108,8 +108,8 @@ fn write_model(
     card: &mut String,
     urdf: &Urdf,
     file: &str,
-    beside: &Beside<'_>,
-    parts: &Parts,
+    beside: &DraftInputs<'_>,
+    parts: &RobotParts,
 ) -> std::fmt::Result {
     writeln!(card, "\n[model]\nurdf = {}", quoted(file))?;
     if let Some((_, srdf)) = beside.srdf {
@@ -125,7 +125,7 @@ fn write_model(
     writeln!(card, "height = \"{height} m\"  # guessed: {why}")
 }
 
-fn write_postures(card: &mut String, beside: &Beside<'_>, parts: &Parts) -> std::fmt::Result {
+fn write_postures(card: &mut String, beside: &DraftInputs<'_>, parts: &RobotParts) -> std::fmt::Result {
     writeln!(card, "\n# Where every joint is in the posture in which the robot drives, and looks: guessed.")?;
     let stance = beside.stance.as_ref();
     if let Some([one, other]) = stance.and_then(|stance| stance.touch.as_ref()) {
@@ -147,7 +147,7 @@ fn write_postures(card: &mut String, beside: &Beside<'_>, parts: &Parts) -> std:
     Ok(())
 }
 
-fn write_hand(card: &mut String, urdf: &Urdf, hand: &Hand) -> std::fmt::Result {
+fn write_hand(card: &mut String, urdf: &Urdf, hand: &DraftHand) -> std::fmt::Result {
     writeln!(card, "\n[hands.hand]\npayload = \"0.5 kg\"  # guessed")?;
     match hand.opening {
         Some(opening) => writeln!(card, "opening = {opening:.3}  # guessed: the travel of the fingers")?,
@@ -208,10 +208,10 @@ fn radius(urdf: &Urdf, link: usize) -> f64 {
     let solids = urdf.links.get(link).map_or(&[][..], |link| link.collisions.as_slice());
     let reach = solids.iter().filter_map(|solid| {
         let size = match solid.shape {
-            Shape::Box([x, y, _]) => libm::hypot(x, y) / 2.0,
-            Shape::Cylinder { radius, .. } | Shape::Sphere { radius } => radius,
-            Shape::Capsule { radius, length } => radius + length / 2.0,
-            Shape::Mesh { .. } => return None,
+            UrdfShape::Box([x, y, _]) => libm::hypot(x, y) / 2.0,
+            UrdfShape::Cylinder { radius, .. } | UrdfShape::Sphere { radius } => radius,
+            UrdfShape::Capsule { radius, length } => radius + length / 2.0,
+            UrdfShape::Mesh { .. } => return None,
         };
         let [x, y, _] = solid.link_from_shape.xyz;
         Some(libm::hypot(x, y) + size)

@@ -3,7 +3,7 @@
 use indexmap::IndexMap;
 use smol_str::SmolStr;
 
-use super::places::Places;
+use super::spans::CardSpans;
 
 /// A robot.
 #[derive(Clone, PartialEq, Debug)]
@@ -13,13 +13,13 @@ pub struct Robot {
     /// What people call it, "Toyota HSR".
     pub title: String,
     /// How it drives.
-    pub base: Base,
+    pub base: BaseSpec,
     /// Its hands, by resource name; the first is the one meant where only one is.
-    pub hands: IndexMap<SmolStr, Hand>,
+    pub hands: IndexMap<SmolStr, HandSpec>,
     /// Its cameras, by resource name.
-    pub cameras: IndexMap<SmolStr, Camera>,
+    pub cameras: IndexMap<SmolStr, CameraSpec>,
     /// Its body, where the card names a URDF.
-    pub model: Option<Model>,
+    pub model: Option<ModelSpec>,
     /// Named postures: positions of joints by name, in rad or m.
     pub postures: IndexMap<SmolStr, IndexMap<SmolStr, f64>>,
     /// Exclusive resources and what each contains, directly (`arm` contains `camera` on a robot with a wrist camera).
@@ -31,7 +31,7 @@ pub struct Robot {
     pub observe_within_secs: f64,
     /// Primitives that it provides, by name, with bounds on their numeric parameters.
     pub primitives: IndexMap<SmolStr, IndexMap<SmolStr, Range>>,
-    /// Numbers that contracts may use as `robot.NAME`, in SI units, with their quantity type (`Length`, `Mass`, …,
+    /// QuantityReader that contracts may use as `robot.NAME`, in SI units, with their quantity type (`Length`, `Mass`, …,
     /// `Number` where it has no unit): `payload`, `opening` and `reach` of the first hand, `speed` of the base, and what
     /// the card lists beside them.
     pub numbers: IndexMap<SmolStr, (f64, SmolStr)>,
@@ -40,12 +40,12 @@ pub struct Robot {
     /// Text of the card's `primitives.motet`: signatures that differ from the standard ones; empty where there is none.
     pub declarations: String,
     /// Where the card says what declarations give a meaning to.
-    pub places: Places,
+    pub spans: CardSpans,
 }
 
 /// How a robot drives.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Base {
+pub struct BaseSpec {
     /// Whether it drives at all, and how.
     pub drive: Drive,
     /// Nominal speed in m/s.
@@ -71,7 +71,7 @@ pub enum Drive {
 
 /// A robot's body.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Model {
+pub struct ModelSpec {
     /// The URDF, a path as seen from the card's folder.
     pub urdf: String,
     /// The SRDF, likewise.
@@ -88,7 +88,7 @@ pub struct Model {
 
 /// A hand.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Hand {
+pub struct HandSpec {
     /// The heaviest object in kg.
     pub payload_kg: f64,
     /// The widest object in m.
@@ -109,7 +109,7 @@ pub struct Hand {
 
 /// A camera.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Camera {
+pub struct CameraSpec {
     /// How far it sees, in m.
     pub range_m: f64,
     /// Full horizontal angle of view in rad.

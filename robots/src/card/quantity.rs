@@ -1,11 +1,11 @@
-//! Numbers of a card: read from a number or from a text with a unit, checked, in SI units.
+//! QuantityReader of a card: read from a number or from a text with a unit, checked, in SI units.
 
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, FileId, Span};
 
 use super::errors::{BadQuantity, EmptyRange, OutOfRange, WrongDimension};
 use super::model::Range;
-use super::wire::{self, At, Quantity};
+use super::wire::{self, TomlSpanned, WrittenQuantity};
 
 /// What a number must be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,19 +22,25 @@ pub(super) enum Sign {
 const GREATEST: f64 = 1e6;
 
 /// Reads quantities and collects what is wrong with them.
-pub(super) struct Numbers {
+pub(super) struct QuantityReader {
     pub(super) file: FileId,
     pub(super) found: Vec<Diagnostic>,
 }
 
-impl Numbers {
-    pub(super) fn span<T>(&self, at: &At<T>) -> Span {
+impl QuantityReader {
+    pub(super) fn span<T>(&self, at: &TomlSpanned<T>) -> Span {
         let range = at.0.span();
         Span::new(self.file, range.start, range.end)
     }
 
     /// A quantity of a known dimension; 0 where it is wrong.
-    pub(super) fn of(&mut self, key: &str, at: &At<Quantity>, dimension: Dimension, sign: Sign) -> f64 {
+    pub(super) fn of(
+        &mut self,
+        key: &str,
+        at: &TomlSpanned<WrittenQuantity>,
+        dimension: Dimension,
+        sign: Sign,
+    ) -> f64 {
         let Some((value, found)) = self.in_one_of(key, at, &units_of(dimension)) else { return 0.0 };
         if let Some(unit) = found.filter(|unit| unit.dimension() != dimension) {
             let units = units_of(dimension);
@@ -47,19 +53,23 @@ impl Numbers {
     }
 
     /// A quantity of any dimension with its unit, in SI units.
-    pub(super) fn any(&mut self, key: &str, at: &At<Quantity>) -> Option<(f64, Option<Unit>)> {
+    pub(super) fn any(
+        &mut self,
+        key: &str,
+        at: &TomlSpanned<WrittenQuantity>,
+    ) -> Option<(f64, Option<Unit>)> {
         self.in_one_of(key, at, &["m", "cm", "mm", "rad", "deg", "s", "ms", "kg", "g", "N", "m/s", "%"])
     }
 
     fn in_one_of(
         &mut self,
         key: &str,
-        at: &At<Quantity>,
+        at: &TomlSpanned<WrittenQuantity>,
         units: &[&'static str],
     ) -> Option<(f64, Option<Unit>)> {
         let text = match at.get() {
-            Quantity::Number(value) => return Some((*value, None)),
-            Quantity::Text(text) => text,
+            WrittenQuantity::Number(value) => return Some((*value, None)),
+            WrittenQuantity::Text(text) => text,
         };
         let split = text.find(|c: char| !(c.is_ascii_digit() || ".+-eE_".contains(c))).unwrap_or(text.len());
         let (number, symbol) = text.split_at_checked(split).unwrap_or((text, ""));
@@ -93,7 +103,7 @@ impl Numbers {
     }
 
     /// The dimension of the first unit that an interval is written with. What is wrong with it is said elsewhere.
-    pub(super) fn written(&mut self, at: &wire::Range) -> Option<Dimension> {
+    pub(super) fn written(&mut self, at: &wire::RangeTable) -> Option<Dimension> {
         let before = self.found.len();
         let mut unit = |at| self.any("", at).and_then(|(_, unit)| unit);
         let unit = unit(&at.least).or_else(|| unit(&at.greatest));
@@ -102,7 +112,7 @@ impl Numbers {
     }
 
     /// An interval of a known dimension, or of any.
-    pub(super) fn range(&mut self, key: &str, at: &wire::Range, dimension: Option<Dimension>) -> Range {
+    pub(super) fn range(&mut self, key: &str, at: &wire::RangeTable, dimension: Option<Dimension>) -> Range {
         let before = self.found.len();
         // Of an interval of any dimension the first unit that is written decides; a bare number goes with it.
         let dimension = dimension.or_else(|| self.written(at)).unwrap_or(Dimension::NONE);

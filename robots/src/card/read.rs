@@ -7,11 +7,11 @@ use smol_str::SmolStr;
 use toml::de::DeTable;
 
 use super::errors::{BadName, ListedTwice, NotToml, TakenNumber};
-use super::model::{Base, Camera, Drive, Hand, Range, Robot};
-use super::places::{self, Bound, Places};
-use super::quantity::{Numbers, Sign};
+use super::model::{BaseSpec, CameraSpec, Drive, HandSpec, Range, Robot};
+use super::quantity::{QuantityReader, Sign};
 use super::shape;
-use super::wire::{self, At};
+use super::spans::{self, BoundSpan, CardSpans};
+use super::wire::{self, TomlSpanned};
 
 /// Reads the card of a robot. `declarations` is the text of its `primitives.motet`, which is kept as it is: the
 /// compiler reads it. There is no robot where there is an error. O(bytes).
@@ -25,13 +25,13 @@ pub fn read(toml: &Source, file: FileId, declarations: Option<&str>) -> (Option<
     if !found.is_empty() {
         return (None, sorted(found));
     }
-    let card = match toml::from_str::<wire::Card>(&toml.text) {
+    let card = match toml::from_str::<wire::CardTable>(&toml.text) {
         Ok(card) => card,
         Err(problem) => return (None, vec![not_toml(&problem, file)]),
     };
-    let mut reader = Reader { numbers: Numbers { file, found: Vec::new() } };
+    let mut reader = CardReader { numbers: QuantityReader { file, found: Vec::new() } };
     let mut robot = reader.robot(&card, declarations.unwrap_or_default());
-    robot.places = reader.places(&card, &document, &toml.name);
+    robot.spans = reader.spans(&card, &document, &toml.name);
     let found = sorted(reader.numbers.found);
     let wrong = found.iter().any(|diagnostic| diagnostic.severity == Severity::Error);
     ((!wrong).then_some(robot), found)
@@ -47,12 +47,12 @@ fn not_toml(problem: &toml::de::Error, file: FileId) -> Diagnostic {
     NotToml { span: Span::new(file, span.start, span.end), problem: problem.message().to_owned() }.into()
 }
 
-pub(super) struct Reader {
-    pub(super) numbers: Numbers,
+pub(super) struct CardReader {
+    pub(super) numbers: QuantityReader,
 }
 
-impl Reader {
-    fn robot(&mut self, card: &wire::Card, declarations: &str) -> Robot {
+impl CardReader {
+    fn robot(&mut self, card: &wire::CardTable, declarations: &str) -> Robot {
         self.name(card.name.get(), self.numbers.span(&card.name));
         let base = self.base(&card.base);
         let hands: IndexMap<_, _> =
@@ -85,7 +85,7 @@ impl Reader {
             numbers,
             initially: card.initially.iter().map(|fact| fact.get().clone()).collect(),
             declarations: declarations.to_owned(),
-            places: Places::default(),
+            spans: CardSpans::default(),
         }
     }
 
@@ -97,15 +97,15 @@ impl Reader {
         }
     }
 
-    fn base(&mut self, base: &wire::Base) -> Base {
+    fn base(&mut self, base: &wire::BaseTable) -> BaseSpec {
         let (drive, sign) = match base.drive {
-            wire::Drive::Fixed => (Drive::Fixed, Sign::NotNegative),
-            wire::Drive::Omnidirectional => (Drive::Omnidirectional, Sign::Positive),
-            wire::Drive::Differential => (Drive::Differential, Sign::Positive),
-            wire::Drive::Legged => (Drive::Legged, Sign::Positive),
+            wire::DriveWord::Fixed => (Drive::Fixed, Sign::NotNegative),
+            wire::DriveWord::Omnidirectional => (Drive::Omnidirectional, Sign::Positive),
+            wire::DriveWord::Differential => (Drive::Differential, Sign::Positive),
+            wire::DriveWord::Legged => (Drive::Legged, Sign::Positive),
         };
         let turn_span = self.numbers.span(&base.turn);
-        Base {
+        BaseSpec {
             drive,
             speed_m_per_s: self.numbers.of("base.speed", &base.speed, Dimension::SPEED, sign),
             turn_rad_per_s: self.numbers.checked("base.turn", turn_span, *base.turn.get(), sign),
@@ -113,12 +113,12 @@ impl Reader {
         }
     }
 
-    fn hand(&mut self, name: &str, hand: &wire::Hand) -> Hand {
+    fn hand(&mut self, name: &str, hand: &wire::HandTable) -> HandSpec {
         let key = |field: &str| format!("hands.{name}.{field}");
         let (points, closes) = self.directions(name, hand);
         let open = self.positions(&key("open"), &hand.open);
         let numbers = &mut self.numbers;
-        Hand {
+        HandSpec {
             payload_kg: numbers.of(&key("payload"), &hand.payload, Dimension::MASS, Sign::Positive),
             opening_m: numbers.of(&key("opening"), &hand.opening, Dimension::LENGTH, Sign::Positive),
             reach_m: numbers.of(&key("reach"), &hand.reach, Dimension::LENGTH, Sign::Positive),
@@ -130,16 +130,16 @@ impl Reader {
         }
     }
 
-    fn camera(&mut self, name: &str, camera: &wire::Camera) -> Camera {
+    fn camera(&mut self, name: &str, camera: &wire::CameraTable) -> CameraSpec {
         let key = |field: &str| format!("cameras.{name}.{field}");
-        Camera {
+        CameraSpec {
             range_m: self.numbers.of(&key("range"), &camera.range, Dimension::LENGTH, Sign::Positive),
             view_rad: self.numbers.of(&key("view"), &camera.view, Dimension::ANGLE, Sign::Positive),
             frame: camera.frame.as_ref().map(|frame| frame.get().into()),
         }
     }
 
-    fn observes(&mut self, listed: &[At<String>]) -> Vec<SmolStr> {
+    fn observes(&mut self, listed: &[TomlSpanned<String>]) -> Vec<SmolStr> {
         let mut first: IndexMap<&str, Span> = IndexMap::new();
         for name in listed {
             let span = self.numbers.span(name);
@@ -153,7 +153,7 @@ impl Reader {
         first.keys().map(SmolStr::new).collect()
     }
 
-    fn primitives(&mut self, card: &wire::Card) -> IndexMap<SmolStr, IndexMap<SmolStr, Range>> {
+    fn primitives(&mut self, card: &wire::CardTable) -> IndexMap<SmolStr, IndexMap<SmolStr, Range>> {
         let mut primitives = IndexMap::new();
         for (name, bounds) in &card.primitives {
             self.name(name, self.numbers.span(bounds));
@@ -167,17 +167,23 @@ impl Reader {
     }
 
     /// Where the card says what only the compiler can judge.
-    fn places(&mut self, card: &wire::Card, document: &toml::Spanned<DeTable<'_>>, name: &str) -> Places {
-        let mut found = Places { declarations: places::beside(name, card.name.get()), ..Places::default() };
+    fn spans(
+        &mut self,
+        card: &wire::CardTable,
+        document: &toml::Spanned<DeTable<'_>>,
+        name: &str,
+    ) -> CardSpans {
+        let mut found =
+            CardSpans { declarations: spans::beside(name, card.name.get()), ..CardSpans::default() };
         for name in &card.observes {
             found.observes.entry(name.get().into()).or_insert_with(|| self.numbers.span(name));
         }
-        for (primitive, (span, params)) in places::primitives(document, self.numbers.file) {
-            let bounds = card.primitives.get(primitive.as_str()).map(At::get);
+        for (primitive, (span, params)) in spans::primitives(document, self.numbers.file) {
+            let bounds = card.primitives.get(primitive.as_str()).map(TomlSpanned::get);
             for (param, span) in params {
-                let bound = bounds.and_then(|bounds| bounds.get(param.as_str())).map(At::get);
+                let bound = bounds.and_then(|bounds| bounds.get(param.as_str())).map(TomlSpanned::get);
                 let dimension = bound.and_then(|bound| self.numbers.written(bound));
-                found.bounds.insert((primitive.clone(), param), Bound { span, dimension });
+                found.bounds.insert((primitive.clone(), param), BoundSpan { span, dimension });
             }
             found.primitives.insert(primitive, span);
         }
@@ -188,9 +194,9 @@ impl Reader {
     /// The numbers that every robot has, and those of the card.
     fn named_numbers(
         &mut self,
-        card: &wire::Card,
-        base: &Base,
-        hand: Option<&Hand>,
+        card: &wire::CardTable,
+        base: &BaseSpec,
+        hand: Option<&HandSpec>,
     ) -> IndexMap<SmolStr, (f64, SmolStr)> {
         let mut numbers: IndexMap<SmolStr, (f64, SmolStr)> = IndexMap::new();
         let mut add = |name: &'static str, value: f64, ty: &'static str| {

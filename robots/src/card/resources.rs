@@ -5,12 +5,12 @@ use motet_syntax::{Span, suggest};
 use smol_str::SmolStr;
 
 use super::errors::{NotAResource, ResourceCycle, TakenName, UnknownResource};
-use super::read::Reader;
+use super::read::CardReader;
 use super::wire;
 
-impl Reader {
+impl CardReader {
     /// What the card says of resources, with what is wrong with it.
-    pub(super) fn resources(&mut self, card: &wire::Card) -> IndexMap<SmolStr, Vec<SmolStr>> {
+    pub(super) fn resources(&mut self, card: &wire::CardTable) -> IndexMap<SmolStr, Vec<SmolStr>> {
         let mut resources = IndexMap::new();
         for (name, contains) in &card.resources {
             self.name(name, self.numbers.span(contains));
@@ -42,7 +42,7 @@ impl Reader {
         resources
     }
 
-    fn is_resource(&mut self, card: &wire::Card, what: &'static str, name: &str, span: Span) {
+    fn is_resource(&mut self, card: &wire::CardTable, what: &'static str, name: &str, span: Span) {
         if !card.resources.contains_key(name) {
             self.numbers.found.push(NotAResource { span, what, name: name.to_owned() }.into());
         }

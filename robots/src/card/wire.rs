@@ -11,22 +11,22 @@ use serde::Deserialize;
 /// The JSON Schema of a `robot.toml`, seen as the JSON of the same shape.
 #[must_use]
 pub fn schema() -> Schema {
-    schemars::schema_for!(Card)
+    schemars::schema_for!(CardTable)
 }
 
 /// A value and its place in the document.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(transparent)]
-pub struct At<T>(pub toml::Spanned<T>);
+pub struct TomlSpanned<T>(pub toml::Spanned<T>);
 
-impl<T> At<T> {
+impl<T> TomlSpanned<T> {
     /// The value.
     pub fn get(&self) -> &T {
         self.0.get_ref()
     }
 }
 
-impl<T: JsonSchema> JsonSchema for At<T> {
+impl<T: JsonSchema> JsonSchema for TomlSpanned<T> {
     fn schema_name() -> Cow<'static, str> {
         T::schema_name()
     }
@@ -44,7 +44,8 @@ impl<T: JsonSchema> JsonSchema for At<T> {
 /// A number in SI units, or a text with a unit such as `"20 cm"`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
-pub enum Quantity {
+#[schemars(rename = "Quantity")]
+pub enum WrittenQuantity {
     /// In SI units.
     Number(f64),
     /// With a unit.
@@ -54,60 +55,63 @@ pub enum Quantity {
 /// A robot card.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Card {
+#[schemars(rename = "Card")]
+pub struct CardTable {
     /// The robot's id in policies and on the command line, `hsr`.
-    pub name: At<String>,
+    pub name: TomlSpanned<String>,
     /// What people call it.
-    pub title: At<String>,
+    pub title: TomlSpanned<String>,
     /// The longest time that one observation takes, in s.
-    pub observe_within: At<Quantity>,
+    pub observe_within: TomlSpanned<WrittenQuantity>,
     /// Fluents and measures that it can observe.
-    pub observes: Vec<At<String>>,
+    pub observes: Vec<TomlSpanned<String>>,
     /// Facts that hold at the start unless a state says otherwise, as text conditions: `not standing(robot)`.
     #[serde(default)]
-    pub initially: Vec<At<String>>,
+    pub initially: Vec<TomlSpanned<String>>,
     /// How it drives.
-    pub base: Base,
+    pub base: BaseTable,
     /// Its hands by the name of their resource; the first is the one meant where only one is.
     #[serde(default)]
-    pub hands: IndexMap<String, At<Hand>>,
+    pub hands: IndexMap<String, TomlSpanned<HandTable>>,
     /// Its cameras by the name of their resource.
     #[serde(default)]
-    pub cameras: IndexMap<String, At<Camera>>,
+    pub cameras: IndexMap<String, TomlSpanned<CameraTable>>,
     /// The robot's body: without it, no motion can be computed.
     #[serde(default)]
-    #[schemars(with = "Model")]
-    pub model: Option<Model>,
+    #[schemars(with = "ModelTable")]
+    pub model: Option<ModelTable>,
     /// Named postures: positions of joints, in rad or m. `home` and `start` are those of the standard primitives.
     #[serde(default)]
-    pub postures: IndexMap<String, At<IndexMap<String, At<Quantity>>>>,
+    pub postures: IndexMap<String, TomlSpanned<IndexMap<String, TomlSpanned<WrittenQuantity>>>>,
     /// Exclusive resources, each with what it contains: using one is using what it contains.
-    pub resources: IndexMap<String, At<Vec<At<String>>>>,
+    pub resources: IndexMap<String, TomlSpanned<Vec<TomlSpanned<String>>>>,
     /// Other numbers that contracts may use as `robot.NAME`; a text with a unit gives the type of the quantity.
     #[serde(default)]
-    pub numbers: IndexMap<String, At<Quantity>>,
+    pub numbers: IndexMap<String, TomlSpanned<WrittenQuantity>>,
     /// The primitives that it provides, each with bounds on its numeric parameters.
-    pub primitives: IndexMap<String, At<IndexMap<String, At<Range>>>>,
+    pub primitives: IndexMap<String, TomlSpanned<IndexMap<String, TomlSpanned<RangeTable>>>>,
 }
 
 /// How a robot drives.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Base {
+#[schemars(rename = "Base")]
+pub struct BaseTable {
     /// The kind of drive.
-    pub drive: Drive,
+    pub drive: DriveWord,
     /// Nominal speed in m/s; 0 for a fixed base.
-    pub speed: At<Quantity>,
+    pub speed: TomlSpanned<WrittenQuantity>,
     /// Nominal turning speed in rad/s.
-    pub turn: At<f64>,
+    pub turn: TomlSpanned<f64>,
     /// Radius of the disc that encloses the footprint, in m.
-    pub radius: At<Quantity>,
+    pub radius: TomlSpanned<WrittenQuantity>,
 }
 
 /// The kind of a base.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Drive {
+#[schemars(rename = "Drive")]
+pub enum DriveWord {
     /// Bolted down.
     Fixed,
     /// Any direction at any time.
@@ -121,27 +125,28 @@ pub enum Drive {
 /// The robot's body.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Model {
+#[schemars(rename = "Model")]
+pub struct ModelTable {
     /// The URDF, a file beside the card.
-    pub urdf: At<String>,
+    pub urdf: TomlSpanned<String>,
     /// Its link whose pose is that of the base, x forward; its root where none is named.
     #[serde(default)]
     #[schemars(with = "String")]
-    pub base: Option<At<String>>,
+    pub base: Option<TomlSpanned<String>>,
     /// How high above the floor that link is, in m.
     #[serde(default)]
-    #[schemars(with = "Quantity")]
-    pub height: Option<At<Quantity>>,
+    #[schemars(with = "WrittenQuantity")]
+    pub height: Option<TomlSpanned<WrittenQuantity>>,
     /// Positions of joints where no posture says otherwise, in rad or m; 0 for the others.
     #[serde(default)]
-    pub rest: IndexMap<String, At<Quantity>>,
+    pub rest: IndexMap<String, TomlSpanned<WrittenQuantity>>,
     /// The SRDF, a file beside the card: which links may touch.
     #[serde(default)]
     #[schemars(with = "String")]
-    pub srdf: Option<At<String>>,
+    pub srdf: Option<TomlSpanned<String>>,
     /// Folders, as seen from the card's, that hold ROS packages: where `package://` is looked for.
     #[serde(default)]
-    pub packages: Vec<At<String>>,
+    pub packages: Vec<TomlSpanned<String>>,
 }
 
 /// A direction along an axis of a frame.
@@ -170,52 +175,55 @@ pub enum Direction {
 /// A hand.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Hand {
+#[schemars(rename = "Hand")]
+pub struct HandTable {
     /// The heaviest object in kg.
-    pub payload: At<Quantity>,
+    pub payload: TomlSpanned<WrittenQuantity>,
     /// The widest object in m.
-    pub opening: At<Quantity>,
+    pub opening: TomlSpanned<WrittenQuantity>,
     /// The greatest distance in m, in the plane, from where the base stands.
-    pub reach: At<Quantity>,
+    pub reach: TomlSpanned<WrittenQuantity>,
     /// Heights above the floor in m at which it serves a thing.
-    pub heights: At<Range>,
+    pub heights: TomlSpanned<RangeTable>,
     /// Its link in the URDF: what it holds is where the link's origin is.
     #[serde(default)]
     #[schemars(with = "String")]
-    pub tip: Option<At<String>>,
+    pub tip: Option<TomlSpanned<String>>,
     /// The direction of that link in which the fingers point; z where none is given.
     #[serde(default)]
     #[schemars(with = "Direction")]
-    pub points: Option<At<Direction>>,
+    pub points: Option<TomlSpanned<Direction>>,
     /// The direction of that link along which they close; y where none is given.
     #[serde(default)]
     #[schemars(with = "Direction")]
-    pub closes: Option<At<Direction>>,
+    pub closes: Option<TomlSpanned<Direction>>,
     /// Positions of its own joints when it is open, in rad or m; every joint that is not named stays at rest.
     #[serde(default)]
-    pub open: IndexMap<String, At<Quantity>>,
+    pub open: IndexMap<String, TomlSpanned<WrittenQuantity>>,
 }
 
 /// A camera.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Camera {
+#[schemars(rename = "Camera")]
+pub struct CameraTable {
     /// How far it sees, in m.
-    pub range: At<Quantity>,
+    pub range: TomlSpanned<WrittenQuantity>,
     /// Full horizontal angle of view in rad; what a head that turns sees without moving the base counts.
-    pub view: At<Quantity>,
+    pub view: TomlSpanned<WrittenQuantity>,
     /// Its link in the URDF, which looks along z with y down.
     #[serde(default)]
     #[schemars(with = "String")]
-    pub frame: Option<At<String>>,
+    pub frame: Option<TomlSpanned<String>>,
 }
 
 /// A closed interval.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Range {
+#[schemars(rename = "Range")]
+pub struct RangeTable {
     /// Least, in SI units or as a text with a unit.
-    pub least: At<Quantity>,
+    pub least: TomlSpanned<WrittenQuantity>,
     /// Greatest, likewise.
-    pub greatest: At<Quantity>,
+    pub greatest: TomlSpanned<WrittenQuantity>,
 }

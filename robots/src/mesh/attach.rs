@@ -7,12 +7,12 @@ use roxmltree::Node;
 use super::cover::cover;
 use super::errors::{BadMesh, UnreadMesh};
 use super::read::{self, Triangle};
-use crate::turn::composed;
-use crate::urdf::{Dialect, Document, Shape, Solid, Urdf};
+use crate::quaternion::compose;
+use crate::urdf::{LinkShape, Urdf, UrdfShape, XmlDialect, XmlDocument};
 
 /// What was found for the name of a mesh.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Found {
+pub enum MeshFile {
     /// Its file.
     Bytes(Vec<u8>),
     /// Nothing at these paths; none where the name says of no path.
@@ -20,7 +20,7 @@ pub enum Found {
     /// A file, but not below the folder of the card, of the URDF or of a package.
     Outside,
     /// A folder, or what has no end, such as a device.
-    NoFile,
+    NotAFile,
     /// A file of more than [`super::MAX_BYTES`].
     TooLarge,
 }
@@ -33,7 +33,7 @@ pub fn attach(
     source: &Source,
     file: FileId,
     urdf: Urdf,
-    mut find: impl FnMut(&str) -> Found,
+    mut find: impl FnMut(&str) -> MeshFile,
 ) -> (Urdf, Vec<Diagnostic>) {
     let mut meshes: IndexMap<String, Option<Vec<Triangle>>> = IndexMap::new();
     let mut found = Vec::new();
@@ -58,18 +58,21 @@ pub fn attach(
         meshes.insert(name, mesh);
     }
     found.sort_by_key(|diagnostic| diagnostic.span);
-    let pieces = |solid: Solid| match &solid.shape {
-        Shape::Mesh { file, scale } => match meshes.get(file) {
+    let pieces = |solid: LinkShape| match &solid.shape {
+        UrdfShape::Mesh { file, scale } => match meshes.get(file) {
             Some(Some(mesh)) => {
-                let placed = |piece: Solid| Solid {
-                    link_from_shape: composed(&solid.link_from_shape, &piece.link_from_shape),
+                let placed = |piece: LinkShape| LinkShape {
+                    link_from_shape: compose(&solid.link_from_shape, &piece.link_from_shape),
                     ..piece
                 };
                 cover(mesh, *scale).into_iter().map(placed).collect()
             }
             Some(None) | None => vec![solid],
         },
-        Shape::Box(_) | Shape::Cylinder { .. } | Shape::Capsule { .. } | Shape::Sphere { .. } => vec![solid],
+        UrdfShape::Box(_)
+        | UrdfShape::Cylinder { .. }
+        | UrdfShape::Capsule { .. }
+        | UrdfShape::Sphere { .. } => vec![solid],
     };
     let mut urdf = urdf;
     for link in &mut urdf.links {
@@ -78,31 +81,34 @@ pub fn attach(
     (urdf, found)
 }
 
-fn name(shape: &Shape) -> Option<&str> {
+fn name(shape: &UrdfShape) -> Option<&str> {
     match shape {
-        Shape::Mesh { file, .. } => Some(file),
-        Shape::Box(_) | Shape::Cylinder { .. } | Shape::Capsule { .. } | Shape::Sphere { .. } => None,
+        UrdfShape::Mesh { file, .. } => Some(file),
+        UrdfShape::Box(_)
+        | UrdfShape::Cylinder { .. }
+        | UrdfShape::Capsule { .. }
+        | UrdfShape::Sphere { .. } => None,
     }
 }
 
-fn load(span: Span, name: &str, found: Found) -> Result<Vec<Triangle>, Box<Diagnostic>> {
+fn load(span: Span, name: &str, found: MeshFile) -> Result<Vec<Triangle>, Box<Diagnostic>> {
     let bad = |problem: String| Box::new(BadMesh { span, file: name.to_owned(), problem }.into());
     let unread = |problem: &str, help: String| {
         Box::new(UnreadMesh { span, file: name.to_owned(), problem: problem.to_owned(), help }.into())
     };
     match found {
         // A format that is not read is no mistake of the robot's.
-        Found::Bytes(_) if !["stl", "obj"].contains(&read::extension(name).as_str()) => {
+        MeshFile::Bytes(_) if !["stl", "obj"].contains(&read::extension(name).as_str()) => {
             Err(unread("only STL and OBJ are", "convert it, or name a shape that encloses it".to_owned()))
         }
-        Found::Bytes(bytes) => read::read(name, &bytes).map_err(bad),
-        Found::Missing(looked) => Err(unread("there is no such file", help(&looked))),
-        Found::Outside => Err(bad(
+        MeshFile::Bytes(bytes) => read::read(name, &bytes).map_err(bad),
+        MeshFile::Missing(looked) => Err(unread("there is no such file", help(&looked))),
+        MeshFile::Outside => Err(bad(
             "it lies neither below the folder of the card or of the URDF nor below one of `packages`"
                 .to_owned(),
         )),
-        Found::NoFile => Err(bad("it is a folder or a device, and no file".to_owned())),
-        Found::TooLarge => Err(bad(read::too_large())),
+        MeshFile::NotAFile => Err(bad("it is a folder or a device, and no file".to_owned())),
+        MeshFile::TooLarge => Err(bad(read::too_large())),
     }
 }
 
@@ -120,11 +126,11 @@ fn help(looked: &[String]) -> String {
 /// Where each mesh is first named.
 fn spans(source: &Source, file: FileId) -> IndexMap<String, Span> {
     let mut spans = IndexMap::new();
-    let Ok(document) = Document::parse(source, file, Dialect::Urdf) else { return spans };
+    let Ok(document) = XmlDocument::parse(source, file, XmlDialect::Urdf) else { return spans };
     let meshes = document.root().descendants().filter(|node: &Node<'_, '_>| node.tag_name().name() == "mesh");
     let is_hit = |node: &Node<'_, '_>| node.ancestors().any(|above| above.tag_name().name() == "collision");
     for mesh in meshes.filter(is_hit) {
-        if let Some((name, span)) = document.places.attribute(mesh, "filename") {
+        if let Some((name, span)) = document.spans.attribute(mesh, "filename") {
             spans.entry(name.trim().to_owned()).or_insert(span);
         }
     }

@@ -6,8 +6,8 @@
 //! to all three axes could leave out what lies deep inside.
 
 use super::read::Triangle;
-use crate::turn::{Quaternion, about, inverse, product, turned};
-use crate::urdf::{Pose, Shape, Solid};
+use crate::quaternion::{Quaternion, from_axis_angle, inverse, mul, rotate};
+use crate::urdf::{LinkShape, Pose, UrdfShape};
 
 /// The most pieces of one mesh.
 const PIECES: usize = 6;
@@ -49,13 +49,13 @@ enum Form {
 /// The pieces in the mesh's frame, at most six: every point on the mesh, and every point that it encloses, is in one of them.
 /// `scale` is applied to the mesh first. None where there is no triangle. O(triangles).
 #[must_use]
-pub fn cover(mesh: &[Triangle], scale: [f64; 3]) -> Vec<Solid> {
+pub fn cover(mesh: &[Triangle], scale: [f64; 3]) -> Vec<LinkShape> {
     let scaled = |[x, y, z]: [f64; 3]| [x * scale[0], y * scale[1], z * scale[2]];
     let mesh: Vec<Triangle> = mesh.iter().map(|triangle| triangle.map(scaled)).collect();
     let Some(mesh_from_frame) = best_frame(&mesh) else { return vec![] };
     let back = inverse(mesh_from_frame);
     let whole: Polygons =
-        mesh.iter().map(|triangle| triangle.map(|corner| turned(back, corner)).to_vec()).collect();
+        mesh.iter().map(|triangle| triangle.map(|corner| rotate(back, corner)).to_vec()).collect();
     let Some(first) = Part::new(whole) else { return vec![] };
     let axes = longest_two(&first.polygons);
     let with_cut = |part: Part| {
@@ -80,11 +80,11 @@ pub fn cover(mesh: &[Triangle], scale: [f64; 3]) -> Vec<Solid> {
 
 /// Of the mesh's own frame and those turned about one axis, that in which the box around it is smallest.
 fn best_frame(mesh: &[Triangle]) -> Option<Quaternion> {
-    let turns = (0..3).flat_map(|axis| ANGLES.map(|angle| about(axis, angle.to_radians())));
+    let turns = (0..3).flat_map(|axis| ANGLES.map(|angle| from_axis_angle(axis, angle.to_radians())));
     let frames = std::iter::once([0.0, 0.0, 0.0, 1.0]).chain(turns);
     let sized = frames.filter_map(|frame| {
         let back = inverse(frame);
-        let (low, high) = bounds(mesh.iter().flatten().map(|corner| turned(back, *corner)))?;
+        let (low, high) = bounds(mesh.iter().flatten().map(|corner| rotate(back, *corner)))?;
         let volume: f64 = low.iter().zip(high).map(|(low, high)| high - low + SLACK).product();
         Some((frame, volume))
     });
@@ -201,20 +201,23 @@ impl Piece {
         Some(round.fold(whole, |best, next| if next.volume < best.volume { next } else { best }))
     }
 
-    fn placed(&self, mesh_from_frame: Quaternion) -> Solid {
+    fn placed(&self, mesh_from_frame: Quaternion) -> LinkShape {
         let right = std::f64::consts::FRAC_PI_2;
         // Turns z to where the shape's own z lies.
         let frame_from_shape = match self.along {
-            0 => about(1, right),
-            1 => about(0, -right),
-            _ => about(2, 0.0),
+            0 => from_axis_angle(1, right),
+            1 => from_axis_angle(0, -right),
+            _ => from_axis_angle(2, 0.0),
         };
         let shape = match self.shape {
-            Form::Box(size) => Shape::Box(size),
-            Form::Cylinder { radius, length } => Shape::Cylinder { radius, length },
-            Form::Capsule { radius, length } => Shape::Capsule { radius, length },
+            Form::Box(size) => UrdfShape::Box(size),
+            Form::Cylinder { radius, length } => UrdfShape::Cylinder { radius, length },
+            Form::Capsule { radius, length } => UrdfShape::Capsule { radius, length },
         };
-        let quaternion_xyzw = product(mesh_from_frame, frame_from_shape);
-        Solid { link_from_shape: Pose { xyz: turned(mesh_from_frame, self.centre), quaternion_xyzw }, shape }
+        let quaternion_xyzw = mul(mesh_from_frame, frame_from_shape);
+        LinkShape {
+            link_from_shape: Pose { xyz: rotate(mesh_from_frame, self.centre), quaternion_xyzw },
+            shape,
+        }
     }
 }

@@ -9,7 +9,7 @@ mod obj;
 mod read;
 mod stl;
 
-pub use attach::{Found, attach};
+pub use attach::{MeshFile, attach};
 pub use cover::cover;
 pub use errors::CODES;
 pub(crate) use errors::UnreadMesh;

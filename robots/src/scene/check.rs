@@ -6,8 +6,8 @@ use motet_syntax::json::Spanned;
 use smol_str::SmolStr;
 
 use super::errors::{EmptyName, FieldTwice, TooWideAngle};
-use super::model::{Entity, Placement, Shape, Travel, View, Written};
-use super::number::{Numbers, Quantity};
+use super::model::{CameraView, Entity, EntityShape, EntitySpans, Placement, Travel};
+use super::number::{NumberReader, SceneQuantity};
 use super::wire;
 use crate::mesh::UnreadMesh;
 
@@ -15,7 +15,7 @@ use crate::mesh::UnreadMesh;
 const OWN_KEYS: &[&str] = &["mass", "width"];
 
 /// An entity, its relations as given.
-pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut Numbers) -> Entity {
+pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut NumberReader) -> Entity {
     if wire.kind.is_empty() {
         numbers.found.push(EmptyName { span: wire.kind.span, key: "kind" }.into());
     }
@@ -28,7 +28,7 @@ pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut Numbers) -> Ent
         categories: wire.categories.clone(),
         pose: wire.pose.0.as_ref().and_then(|pose| placement(pose, numbers)),
         shape: wire.shape.0.as_ref().and_then(|it| shape(it, wire.id.span, numbers)),
-        mass_kg: wire.mass.as_ref().and_then(|mass| numbers.one(mass, Quantity::Mass)),
+        mass_kg: wire.mass.as_ref().and_then(|mass| numbers.one(mass, SceneQuantity::Mass)),
         fixed: wire.fixed,
         on: name(&wire.on),
         inside: name(&wire.r#in),
@@ -37,48 +37,54 @@ pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut Numbers) -> Ent
         locked: wire.locked,
         travel: wire.travel.0.as_ref().and_then(|it| travel(it, numbers)),
         fields: fields(wire, numbers),
-        written: Written { id: wire.id.span, kind: wire.kind.span },
+        spans: EntitySpans { id: wire.id.span, kind: wire.kind.span },
     }
 }
 
-fn fields(wire: &wire::Entity, numbers: &mut Numbers) -> IndexMap<SmolStr, f64> {
+fn fields(wire: &wire::Entity, numbers: &mut NumberReader) -> IndexMap<SmolStr, f64> {
     let mut fields = IndexMap::new();
-    if let Some(width) = wire.width.as_ref().and_then(|width| numbers.one(width, Quantity::Size)) {
+    if let Some(width) = wire.width.as_ref().and_then(|width| numbers.one(width, SceneQuantity::Size)) {
         fields.insert("width".into(), width);
     }
     for (name, value) in &wire.fields {
         if OWN_KEYS.contains(&name.as_str()) {
             numbers.found.push(FieldTwice { span: value.span, field: name.clone() }.into());
-        } else if let Some(value) = numbers.one(value, Quantity::Field) {
+        } else if let Some(value) = numbers.one(value, SceneQuantity::Field) {
             fields.insert(name.clone(), value);
         }
     }
     fields
 }
 
-fn placement(pose: &wire::Pose, numbers: &mut Numbers) -> Option<Placement> {
-    let xyz = numbers.three(&pose.xyz, Quantity::Coordinate);
+fn placement(pose: &wire::Pose, numbers: &mut NumberReader) -> Option<Placement> {
+    let xyz = numbers.three(&pose.xyz, SceneQuantity::Coordinate);
     let rpy = match &pose.rpy {
-        Some(rpy) => numbers.three(rpy, Quantity::Angle),
+        Some(rpy) => numbers.three(rpy, SceneQuantity::Angle),
         None => Some([0.0; 3]),
     };
     Some(Placement { xyz: xyz?, rpy: rpy? })
 }
 
-fn shape(shape: &wire::Shape, span: Span, numbers: &mut Numbers) -> Option<Shape> {
+fn shape(shape: &wire::Shape, span: Span, numbers: &mut NumberReader) -> Option<EntityShape> {
     let mut rod = |rod: &wire::Rod| {
-        let radius = numbers.one(&rod.radius, Quantity::Size);
-        let height = numbers.one(&rod.height, Quantity::Size);
+        let radius = numbers.one(&rod.radius, SceneQuantity::Size);
+        let height = numbers.one(&rod.height, SceneQuantity::Size);
         Some((radius?, height?))
     };
     Some(match shape {
-        wire::Shape::Cylinder(it) => rod(it).map(|(radius, height)| Shape::Cylinder { radius, height })?,
-        wire::Shape::Capsule(it) => rod(it).map(|(radius, height)| Shape::Capsule { radius, height })?,
-        wire::Shape::Box(extents) => Shape::Box(numbers.three(extents, Quantity::Size)?),
-        wire::Shape::Sphere(ball) => Shape::Sphere { radius: numbers.one(&ball.radius, Quantity::Size)? },
+        wire::Shape::Cylinder(it) => {
+            rod(it).map(|(radius, height)| EntityShape::Cylinder { radius, height })?
+        }
+        wire::Shape::Capsule(it) => {
+            rod(it).map(|(radius, height)| EntityShape::Capsule { radius, height })?
+        }
+        wire::Shape::Box(extents) => EntityShape::Box(numbers.three(extents, SceneQuantity::Size)?),
+        wire::Shape::Sphere(ball) => {
+            EntityShape::Sphere { radius: numbers.one(&ball.radius, SceneQuantity::Size)? }
+        }
         wire::Shape::Mesh(mesh) => {
             let scale = match &mesh.scale {
-                Some(scale) => numbers.three(scale, Quantity::Scale)?,
+                Some(scale) => numbers.three(scale, SceneQuantity::Scale)?,
                 None => [1.0; 3],
             };
             let file = mesh.file.clone();
@@ -86,22 +92,22 @@ fn shape(shape: &wire::Shape, span: Span, numbers: &mut Numbers) -> Option<Shape
             let help =
                 "give the `box`, `cylinder`, `capsule` or `sphere` that encloses it instead".to_owned();
             numbers.found.push(UnreadMesh { span, file: file.clone(), problem, help }.into());
-            Shape::Mesh { file, scale }
+            EntityShape::Mesh { file, scale }
         }
     })
 }
 
-fn travel(travel: &wire::Travel, numbers: &mut Numbers) -> Option<Travel> {
+fn travel(travel: &wire::Travel, numbers: &mut NumberReader) -> Option<Travel> {
     match travel {
         wire::Travel::Slide(slide) => {
             let axis = numbers.axis(&slide.axis);
-            let distance = numbers.one(&slide.distance, Quantity::Size);
+            let distance = numbers.one(&slide.distance, SceneQuantity::Size);
             Some(Travel::Slide { axis: axis?, distance: distance? })
         }
         wire::Travel::Hinge(hinge) => {
             let axis = numbers.axis(&hinge.axis);
-            let at = numbers.three(&hinge.at, Quantity::Coordinate);
-            let angle = numbers.one(&hinge.angle, Quantity::Opening)?;
+            let at = numbers.three(&hinge.at, SceneQuantity::Coordinate);
+            let angle = numbers.one(&hinge.angle, SceneQuantity::Opening)?;
             if angle > std::f64::consts::TAU {
                 numbers.found.push(TooWideAngle { span: hinge.angle.span, found: angle }.into());
                 return None;
@@ -112,15 +118,15 @@ fn travel(travel: &wire::Travel, numbers: &mut Numbers) -> Option<Travel> {
 }
 
 /// What a camera saw.
-pub(super) fn view(view: &wire::View, numbers: &mut Numbers) -> Option<View> {
+pub(super) fn view(view: &wire::View, numbers: &mut NumberReader) -> Option<CameraView> {
     let intrinsics = view.intrinsics.0.as_ref().and_then(|it| {
-        let fx = numbers.one(&it.fx, Quantity::FocalLength);
-        let fy = numbers.one(&it.fy, Quantity::FocalLength);
-        let cx = numbers.one(&it.cx, Quantity::Pixel);
-        let cy = numbers.one(&it.cy, Quantity::Pixel);
+        let fx = numbers.one(&it.fx, SceneQuantity::FocalLength);
+        let fy = numbers.one(&it.fy, SceneQuantity::FocalLength);
+        let cx = numbers.one(&it.cx, SceneQuantity::Pixel);
+        let cy = numbers.one(&it.cy, SceneQuantity::Pixel);
         Some([fx?, fy?, cx?, cy?])
     });
-    Some(View {
+    Some(CameraView {
         camera: view.camera.clone(),
         image: view.image.clone(),
         depth: view.depth.clone(),

@@ -3,7 +3,7 @@
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
-use super::number::{FURTHEST, Quantity};
+use super::number::{FURTHEST, SceneQuantity};
 use super::read::MAX_ENTITIES;
 
 motet_syntax::mistakes! {
@@ -94,21 +94,21 @@ motet_syntax::mistakes! {
     help(m) { Some(format!("write `\"{}\": …` beside `fields`, not in it", m.field)) }
 
     /// A size, mass or way that is zero or negative.
-    NotPositive("M0441", Error) { quantity: Quantity, found: f64 }
+    NotPositive("M0441", Error) { quantity: SceneQuantity, found: f64 }
     message(m) {
         format!("{} is {}, it has to be above zero", m.quantity.words(), m.quantity.show(m.found))
     }
 
     /// A coordinate or size beyond what a room has, or an angle beyond what is exact.
-    TooFar("M0442", Error) { quantity: Quantity, found: f64 }
+    TooFar("M0442", Error) { quantity: SceneQuantity, found: f64 }
     message(m) {
         let limit = m.quantity.show(FURTHEST);
         format!("{} is {}, at most {limit} are taken", m.quantity.words(), m.quantity.show(m.found))
     }
     help(m) {
         let help = match m.quantity {
-            Quantity::Angle => "angles are in radians, and a full turn, 6.28, leaves them as they are",
-            Quantity::Joint => "joints are in radians, or in metres where they slide",
+            SceneQuantity::Angle => "angles are in radians, and a full turn, 6.28, leaves them as they are",
+            SceneQuantity::Joint => "joints are in radians, or in metres where they slide",
             _ => "lengths are in metres: 72 cm is 0.72",
         };
         Some(help.into())

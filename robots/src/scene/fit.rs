@@ -3,17 +3,16 @@
 use motet_syntax::Diagnostic;
 
 use super::model::Scene;
-use crate::card::Position;
+use crate::card::JointPosition;
 use crate::urdf::Urdf;
 
 /// Whether the joints that a scene gives are joints of the robot that move by themselves, within their limits; each mistake is told
 /// at its place in the scene. O(joints given × joints).
 #[must_use]
 pub fn fit(scene: &Scene, urdf: &Urdf) -> Vec<Diagnostic> {
-    let place = |name: &str| scene.robot.written.0.get(name).copied().unwrap_or_default();
-    let told =
-        scene.robot.joints.iter().filter_map(|(name, value)| {
-            Position { joint: name, value: *value, span: place(name) }.fault(urdf)
-        });
+    let place = |name: &str| scene.robot.spans.0.get(name).copied().unwrap_or_default();
+    let told = scene.robot.joints.iter().filter_map(|(name, value)| {
+        JointPosition { joint: name, value: *value, span: place(name) }.fault(urdf)
+    });
     told.collect()
 }

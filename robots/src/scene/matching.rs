@@ -1,6 +1,6 @@
 //! Which entities a description means, and how wide a thing is.
 
-use super::model::{Entity, Scene, Shape};
+use super::model::{Entity, EntityShape, Scene};
 
 impl Scene {
     /// The entities that a description such as `"the red mug"` fits, in the order of the file.
@@ -26,11 +26,11 @@ impl Entity {
             return Some(*width);
         }
         match self.shape.as_ref()? {
-            Shape::Box([x, y, _]) => Some(x.min(*y)),
-            Shape::Cylinder { radius, .. } | Shape::Sphere { radius } | Shape::Capsule { radius, .. } => {
-                Some(2.0 * radius)
-            }
-            Shape::Mesh { .. } => None,
+            EntityShape::Box([x, y, _]) => Some(x.min(*y)),
+            EntityShape::Cylinder { radius, .. }
+            | EntityShape::Sphere { radius }
+            | EntityShape::Capsule { radius, .. } => Some(2.0 * radius),
+            EntityShape::Mesh { .. } => None,
         }
     }
 

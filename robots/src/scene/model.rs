@@ -13,7 +13,7 @@ pub struct Scene {
     /// What there is, by id, in the order of the file.
     pub entities: IndexMap<SmolStr, Entity>,
     /// What a camera saw.
-    pub views: Vec<View>,
+    pub views: Vec<CameraView>,
 }
 
 /// The robot at the start.
@@ -28,14 +28,14 @@ pub struct RobotState {
     /// The entity that it stands at so that it serves it, where the scene says.
     pub at: Option<SmolStr>,
     /// Where the scene's file gives joints.
-    pub written: WrittenJoints,
+    pub spans: JointSpans,
 }
 
 /// Where each joint was read, by its name. That is no part of where it is, so any two are equal.
 #[derive(Clone, Debug, Default)]
-pub struct WrittenJoints(pub IndexMap<SmolStr, Span>);
+pub struct JointSpans(pub IndexMap<SmolStr, Span>);
 
-impl PartialEq for WrittenJoints {
+impl PartialEq for JointSpans {
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -57,7 +57,7 @@ pub struct Entity {
     /// The pose of its shape's centre (of the feet for a `Person` and a `Place`), where known.
     pub pose: Option<Placement>,
     /// Its shape.
-    pub shape: Option<Shape>,
+    pub shape: Option<EntityShape>,
     /// Its mass in kg.
     pub mass_kg: Option<f64>,
     /// Whether it never moves.
@@ -77,19 +77,19 @@ pub struct Entity {
     /// Other fields that its kind declares, in SI units.
     pub fields: IndexMap<SmolStr, f64>,
     /// Where the scene's file says so.
-    pub written: Written,
+    pub spans: EntitySpans,
 }
 
 /// Where an entity was read. That is no part of what it is, so any two are equal.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Written {
+pub struct EntitySpans {
     /// Its id.
     pub id: Span,
     /// Its kind.
     pub kind: Span,
 }
 
-impl PartialEq for Written {
+impl PartialEq for EntitySpans {
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -116,7 +116,7 @@ impl Entity {
             locked: None,
             travel: None,
             fields: IndexMap::new(),
-            written: Written::default(),
+            spans: EntitySpans::default(),
         }
     }
 }
@@ -132,7 +132,7 @@ pub struct Placement {
 
 /// A shape about its own centre, axes along the entity's.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Shape {
+pub enum EntityShape {
     /// Full extents along x, y, z.
     Box([f64; 3]),
     /// Along z.
@@ -186,7 +186,7 @@ pub enum Travel {
 
 /// What a camera saw.
 #[derive(Clone, PartialEq, Debug)]
-pub struct View {
+pub struct CameraView {
     /// Which camera.
     pub camera: SmolStr,
     /// The image's file.

@@ -11,7 +11,7 @@ pub(super) const FURTHEST: f64 = 1000.0;
 
 /// What a number measures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Quantity {
+pub(crate) enum SceneQuantity {
     /// A coordinate of a position, in m.
     Coordinate,
     /// An extent, radius, height, width or way, in m.
@@ -36,7 +36,7 @@ pub(crate) enum Quantity {
     Field,
 }
 
-impl Quantity {
+impl SceneQuantity {
     /// As the subject of a sentence.
     pub(super) fn words(self) -> &'static str {
         match self {
@@ -92,19 +92,19 @@ impl Quantity {
 
 /// Says what is wrong with numbers.
 #[derive(Debug, Default)]
-pub(super) struct Numbers {
+pub(super) struct NumberReader {
     /// What was found so far.
     pub(super) found: Vec<Diagnostic>,
 }
 
-impl Numbers {
+impl NumberReader {
     /// The number, where it can be.
-    pub(super) fn one(&mut self, number: &Spanned<f64>, quantity: Quantity) -> Option<f64> {
+    pub(super) fn one(&mut self, number: &Spanned<f64>, quantity: SceneQuantity) -> Option<f64> {
         self.value(number.value, number.span, quantity)
     }
 
     /// The three numbers, where all can be; at most one mistake is told.
-    pub(super) fn three(&mut self, point: &Spanned<[f64; 3]>, quantity: Quantity) -> Option<[f64; 3]> {
+    pub(super) fn three(&mut self, point: &Spanned<[f64; 3]>, quantity: SceneQuantity) -> Option<[f64; 3]> {
         let [x, y, z] = point.value;
         Some([
             self.value(x, point.span, quantity)?,
@@ -115,7 +115,7 @@ impl Numbers {
 
     /// The direction of a vector, with length 1.
     pub(super) fn axis(&mut self, axis: &Spanned<[f64; 3]>) -> Option<[f64; 3]> {
-        let raw = self.three(axis, Quantity::Direction)?;
+        let raw = self.three(axis, SceneQuantity::Direction)?;
         // Scaled first, so that neither tiny nor huge components are lost in the squares.
         let greatest = raw.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
         if greatest == 0.0 {
@@ -128,7 +128,7 @@ impl Numbers {
     }
 
     /// The value is finite: JSON has no other, and the reader takes no number that is too large for a float.
-    fn value(&mut self, value: f64, span: Span, quantity: Quantity) -> Option<f64> {
+    fn value(&mut self, value: f64, span: Span, quantity: SceneQuantity) -> Option<f64> {
         if quantity.has_to_be_positive() && value <= 0.0 {
             self.found.push(NotPositive { span, quantity, found: value }.into());
         } else if quantity.has_bound() && value.abs() > FURTHEST {

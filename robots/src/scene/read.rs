@@ -8,8 +8,8 @@ use smol_str::SmolStr;
 
 use super::check;
 use super::errors::{BadId, DuplicateId, Frame, ReservedId, TooManyEntities, Version};
-use super::model::{Entity, RobotState, Scene, WrittenJoints};
-use super::number::{Numbers, Quantity};
+use super::model::{Entity, JointSpans, RobotState, Scene};
+use super::number::{NumberReader, SceneQuantity};
 use super::relations;
 use super::wire;
 
@@ -32,7 +32,7 @@ pub fn read(source: &Source, file: FileId) -> (Option<Scene>, Vec<Diagnostic>) {
         found.push(version.into());
         return (None, found);
     }
-    let mut numbers = Numbers::default();
+    let mut numbers = NumberReader::default();
     if let Some(frame) = document.frame.as_ref().filter(|frame| frame.value != "map") {
         numbers.found.push(Frame { span: frame.span, found: frame.value.clone() }.into());
     }
@@ -49,12 +49,12 @@ pub fn read(source: &Source, file: FileId) -> (Option<Scene>, Vec<Diagnostic>) {
         robot: at_start(&robot, &mut numbers),
     };
     found.append(&mut numbers.found);
-    found.extend(relations::settle(&mut scene, &wires, &robot));
+    found.extend(relations::resolve_relations(&mut scene, &wires, &robot));
     found.sort_by_key(|diagnostic| diagnostic.span.start);
     (Some(scene), found)
 }
 
-fn entities(wires: &[Spanned<wire::Entity>], numbers: &mut Numbers) -> IndexMap<SmolStr, Entity> {
+fn entities(wires: &[Spanned<wire::Entity>], numbers: &mut NumberReader) -> IndexMap<SmolStr, Entity> {
     let mut entities = IndexMap::with_capacity(wires.len());
     let mut places: IndexMap<SmolStr, Span> = IndexMap::with_capacity(wires.len());
     for wire in wires {
@@ -73,15 +73,15 @@ fn entities(wires: &[Spanned<wire::Entity>], numbers: &mut Numbers) -> IndexMap<
     entities
 }
 
-fn at_start(robot: &wire::Robot, numbers: &mut Numbers) -> RobotState {
+fn at_start(robot: &wire::Robot, numbers: &mut NumberReader) -> RobotState {
     let base = robot.base.0.as_ref().and_then(|base| {
         let [x, y, heading] = base.value;
-        let x = numbers.one(&Spanned::new(x, base.span), Quantity::Coordinate)?;
-        let y = numbers.one(&Spanned::new(y, base.span), Quantity::Coordinate)?;
-        Some([x, y, numbers.one(&Spanned::new(heading, base.span), Quantity::Angle)?])
+        let x = numbers.one(&Spanned::new(x, base.span), SceneQuantity::Coordinate)?;
+        let y = numbers.one(&Spanned::new(y, base.span), SceneQuantity::Coordinate)?;
+        Some([x, y, numbers.one(&Spanned::new(heading, base.span), SceneQuantity::Angle)?])
     });
     let joints = robot.joints.iter().filter_map(|(name, value)| {
-        let value = numbers.one(value, Quantity::Joint)?;
+        let value = numbers.one(value, SceneQuantity::Joint)?;
         Some((name.clone(), value))
     });
     RobotState {
@@ -89,6 +89,6 @@ fn at_start(robot: &wire::Robot, numbers: &mut Numbers) -> RobotState {
         joints: joints.collect(),
         holding: robot.holding.as_ref().map(|held| held.as_ref().map(|id| id.value.clone())),
         at: robot.at.as_ref().map(|at| at.value.clone()),
-        written: WrittenJoints(robot.joints.iter().map(|(name, value)| (name.clone(), value.span)).collect()),
+        spans: JointSpans(robot.joints.iter().map(|(name, value)| (name.clone(), value.span)).collect()),
     }
 }

@@ -14,7 +14,7 @@ use super::wire;
 const SHOWN: usize = 8;
 
 /// Takes relations out of the scene that cannot be, and says why.
-pub(super) fn settle(
+pub(super) fn resolve_relations(
     scene: &mut Scene,
     wires: &[Spanned<wire::Entity>],
     robot: &wire::Robot,

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::model::{Entity, Placement, RobotState, Scene, Shape, Travel, View};
+use super::model::{CameraView, Entity, EntityShape, Placement, RobotState, Scene, Travel};
 
 /// Writes a scene as one line of JSON. Reading it again gives the same scene where all its numbers are finite. O(entities).
 #[must_use]
@@ -92,13 +92,13 @@ fn placement(pose: &Placement) -> Value {
     json!({"xyz": pose.xyz, "rpy": pose.rpy})
 }
 
-fn shape(shape: &Shape) -> Value {
+fn shape(shape: &EntityShape) -> Value {
     match shape {
-        Shape::Box(extents) => json!({"box": extents}),
-        Shape::Cylinder { radius, height } => json!({"cylinder": {"radius": radius, "height": height}}),
-        Shape::Sphere { radius } => json!({"sphere": {"radius": radius}}),
-        Shape::Capsule { radius, height } => json!({"capsule": {"radius": radius, "height": height}}),
-        Shape::Mesh { file, scale } => json!({"mesh": {"file": file, "scale": scale}}),
+        EntityShape::Box(extents) => json!({"box": extents}),
+        EntityShape::Cylinder { radius, height } => json!({"cylinder": {"radius": radius, "height": height}}),
+        EntityShape::Sphere { radius } => json!({"sphere": {"radius": radius}}),
+        EntityShape::Capsule { radius, height } => json!({"capsule": {"radius": radius, "height": height}}),
+        EntityShape::Mesh { file, scale } => json!({"mesh": {"file": file, "scale": scale}}),
     }
 }
 
@@ -109,7 +109,7 @@ fn travel(travel: &Travel) -> Value {
     }
 }
 
-fn view(view: &View) -> Value {
+fn view(view: &CameraView) -> Value {
     let mut map = Map::new();
     map.insert("camera".to_owned(), json!(view.camera.as_str()));
     map.insert("image".to_owned(), json!(view.image));

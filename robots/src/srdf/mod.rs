@@ -14,7 +14,7 @@ pub use read::read;
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Srdf {
     /// Groups by name.
-    pub groups: IndexMap<SmolStr, Group>,
+    pub groups: IndexMap<SmolStr, JointGroup>,
     /// End effectors by name.
     pub end_effectors: IndexMap<SmolStr, EndEffector>,
     /// Pairs of links whose collision does not count, the lower index first, sorted, each once.
@@ -23,7 +23,7 @@ pub struct Srdf {
 
 /// Parts that are planned for together.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Group {
+pub struct JointGroup {
     /// Links.
     pub links: Vec<usize>,
     /// Joints.

@@ -7,26 +7,26 @@ use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
 use super::errors::{GroupCycle, NotSrdf, TakenPart, UnknownPart};
-use super::{EndEffector, Group, Srdf};
-use crate::urdf::{Dialect, Document, Places, Urdf, children, is_own, unknown};
+use super::{EndEffector, JointGroup, Srdf};
+use crate::urdf::{Urdf, XmlDialect, XmlDocument, XmlSpans, children, is_own, unknown};
 
 /// Reads a SRDF of a robot. There is none where there is an error. O(bytes + links + joints).
 #[must_use]
 pub fn read(source: &Source, file: FileId, urdf: &Urdf) -> (Option<Srdf>, Vec<Diagnostic>) {
-    let document = match Document::parse(source, file, Dialect::Srdf) {
+    let document = match XmlDocument::parse(source, file, XmlDialect::Srdf) {
         Ok(document) => document,
         Err(problem) => return (None, vec![*problem]),
     };
-    let (root, places) = (document.root(), document.places);
+    let (root, spans) = (document.root(), document.spans);
     if root.tag_name().name() != "robot" {
         let found = root.tag_name().name().to_owned();
-        return (None, vec![NotSrdf { span: places.tag(root), found }.into()]);
+        return (None, vec![NotSrdf { span: spans.tag(root), found }.into()]);
     }
     let index = |names: &mut dyn Iterator<Item = &SmolStr>| {
         names.zip(0..).map(|(name, at)| (name.clone(), at)).collect::<FxHashMap<_, _>>()
     };
-    let mut reader = Reader {
-        places,
+    let mut reader = SrdfReader {
+        spans,
         links: index(&mut urdf.links.iter().map(|link| &link.name)),
         joints: index(&mut urdf.joints.iter().map(|joint| &joint.name)),
         found: Vec::new(),
@@ -54,21 +54,21 @@ const PASSED_OVER: [&str; 9] = [
     "contact_managers_plugin_config",
 ];
 
-struct Reader {
-    places: Places,
+struct SrdfReader {
+    spans: XmlSpans,
     links: FxHashMap<SmolStr, usize>,
     joints: FxHashMap<SmolStr, usize>,
     found: Vec<Diagnostic>,
 }
 
-impl Reader {
+impl SrdfReader {
     fn srdf(&mut self, root: Node<'_, '_>) -> Srdf {
         let mut srdf = Srdf::default();
         self.elements(root, &PARTS, &PASSED_OVER);
         let mut taken = FxHashMap::default();
         for node in children(root, "group") {
             self.elements(node, &["link", "joint", "chain", "group"], &["passive_joint"]);
-            if let Some(name) = self.places.required(node, "name", &mut self.found) {
+            if let Some(name) = self.spans.required(node, "name", &mut self.found) {
                 let group = self.group(node);
                 if self.is_new("group", name, &mut taken) {
                     srdf.groups.insert(name.0.into(), group);
@@ -80,7 +80,7 @@ impl Reader {
             children(root, "group").flat_map(|group| children(group, "group").map(|inner| (inner, "name")));
         let named = inner.chain(children(root, "end_effector").map(|hand| (hand, "group")));
         for (node, key) in named {
-            let Some((name, span)) = self.places.required(node, key, &mut self.found) else { continue };
+            let Some((name, span)) = self.spans.required(node, key, &mut self.found) else { continue };
             if !is_group(name) {
                 let near = suggest::closest(name, srdf.groups.keys().map(SmolStr::as_str)).map(str::to_owned);
                 self.found.push(UnknownPart { span, what: "group", name: name.to_owned(), near }.into());
@@ -93,8 +93,8 @@ impl Reader {
         }));
         let mut taken = FxHashMap::default();
         for node in children(root, "end_effector") {
-            let name = self.places.required(node, "name", &mut self.found);
-            let group = self.places.attribute(node, "group");
+            let name = self.spans.required(node, "name", &mut self.found);
+            let group = self.spans.attribute(node, "group");
             let parent = self.link(node, "parent_link");
             if let (Some(name), Some((group, _)), Some(parent)) = (name, group, parent)
                 && self.is_new("end effector", name, &mut taken)
@@ -118,7 +118,7 @@ impl Reader {
             let name = child.tag_name().name();
             if !known.contains(&name) && !passed_over.contains(&name) {
                 let names = known.iter().chain(passed_over).copied();
-                self.found.push(unknown(child, names, self.places));
+                self.found.push(unknown(child, names, self.spans));
             }
         }
     }
@@ -136,7 +136,7 @@ impl Reader {
         first == span
     }
 
-    fn group(&mut self, node: Node<'_, '_>) -> Group {
+    fn group(&mut self, node: Node<'_, '_>) -> JointGroup {
         let named = |found: &mut Self, what, table: fn(&Self) -> &FxHashMap<SmolStr, usize>| -> Vec<usize> {
             children(node, what).filter_map(|part| found.part(part, "name", what, table)).collect()
         };
@@ -148,7 +148,7 @@ impl Reader {
         });
         let chains = chains.collect();
         let groups = children(node, "group").filter_map(|inner| inner.attribute("name")).map(SmolStr::new);
-        Group { links, joints, chains, groups: groups.collect() }
+        JointGroup { links, joints, chains, groups: groups.collect() }
     }
 
     fn link(&mut self, node: Node<'_, '_>, key: &'static str) -> Option<usize> {
@@ -162,7 +162,7 @@ impl Reader {
         what: &'static str,
         table: fn(&Self) -> &FxHashMap<SmolStr, usize>,
     ) -> Option<usize> {
-        let (name, span) = self.places.required(node, key, &mut self.found)?;
+        let (name, span) = self.spans.required(node, key, &mut self.found)?;
         let known = table(self).get(name).copied();
         if known.is_none() {
             let mut names: Vec<&str> = table(self).keys().map(SmolStr::as_str).collect();
@@ -175,7 +175,7 @@ impl Reader {
 }
 
 /// A group that contains itself, by way of those between, the first at both ends. O(groups and what they name).
-fn ring(groups: &IndexMap<SmolStr, Group>) -> Option<Vec<SmolStr>> {
+fn ring(groups: &IndexMap<SmolStr, JointGroup>) -> Option<Vec<SmolStr>> {
     let mut seen = vec![false; groups.len()];
     let mut is_open = vec![false; groups.len()];
     for start in 0..groups.len() {

@@ -14,7 +14,7 @@ const MAX_DEPTH: usize = 64;
 
 /// What a document is meant to be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Dialect {
+pub(crate) enum XmlDialect {
     /// A robot's links and joints.
     Urdf,
     /// What is said beside it.
@@ -22,33 +22,37 @@ pub(crate) enum Dialect {
 }
 
 /// A parsed description.
-pub(crate) struct Document<'t> {
+pub(crate) struct XmlDocument<'t> {
     xml: roxmltree::Document<'t>,
-    pub(crate) places: Places,
+    pub(crate) spans: XmlSpans,
 }
 
 /// From nodes to places in the file.
 #[derive(Clone, Copy)]
-pub(crate) struct Places {
+pub(crate) struct XmlSpans {
     file: FileId,
     /// Bytes before the XML, which must start its file to be well-formed: a blanked byte order mark, empty lines.
     skipped: usize,
 }
 
-impl<'t> Document<'t> {
+impl<'t> XmlDocument<'t> {
     /// Parses the text. O(bytes).
-    pub(crate) fn parse(source: &'t Source, file: FileId, dialect: Dialect) -> Result<Self, Box<Diagnostic>> {
+    pub(crate) fn parse(
+        source: &'t Source,
+        file: FileId,
+        dialect: XmlDialect,
+    ) -> Result<Self, Box<Diagnostic>> {
         let text = source.text.trim_start();
-        let places = Places { file, skipped: source.text.len() - text.len() };
+        let spans = XmlSpans { file, skipped: source.text.len() - text.len() };
         let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, entity_resolver: None };
         let xml = match roxmltree::Document::parse_with_options(text, options) {
             Ok(xml) => xml,
-            Err(problem) => return Err(Box::new(places.not_xml(&problem, source, dialect))),
+            Err(problem) => return Err(Box::new(spans.not_xml(&problem, source, dialect))),
         };
-        let document = Self { xml, places };
+        let document = Self { xml, spans };
         match document.too_deep() {
             Some(node) => {
-                let span = places.tag(node);
+                let span = spans.tag(node);
                 Err(Box::new(TooMuch { span, what: "levels of elements", limit: MAX_DEPTH }.into()))
             }
             None => Ok(document),
@@ -73,7 +77,7 @@ impl<'t> Document<'t> {
     }
 }
 
-impl Places {
+impl XmlSpans {
     fn span(self, range: std::ops::Range<usize>) -> Span {
         Span::new(self.file, range.start + self.skipped, range.end + self.skipped)
     }
@@ -101,19 +105,19 @@ impl Places {
     ) -> Option<(&'a str, Span)> {
         let attribute = self.attribute(node, name).filter(|(value, _)| !value.trim().is_empty());
         if attribute.is_none() {
-            found.push(self.missing(node, name, Part::Attribute));
+            found.push(self.missing(node, name, XmlPart::Attribute));
         }
         attribute
     }
 
     /// That an element lacks a part.
-    pub(crate) fn missing(self, node: Node<'_, '_>, part: &'static str, kind: Part) -> Diagnostic {
+    pub(crate) fn missing(self, node: Node<'_, '_>, part: &'static str, kind: XmlPart) -> Diagnostic {
         let name = node.attribute("name").unwrap_or_default().to_owned();
         let element = node.tag_name().name().to_owned();
         MissingPart { span: self.tag(node), element, name, part, kind }.into()
     }
 
-    fn not_xml(self, problem: &Error, source: &Source, dialect: Dialect) -> Diagnostic {
+    fn not_xml(self, problem: &Error, source: &Source, dialect: XmlDialect) -> Diagnostic {
         let at = match problem {
             Error::NoRootNode | Error::UnclosedRootNode => source.text.len(),
             other => self.offset(source, other.pos()),
@@ -145,7 +149,7 @@ impl Places {
 
 /// What kind of part an element lacks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Part {
+pub(crate) enum XmlPart {
     /// `name="…"`
     Attribute,
     /// `<name …/>`

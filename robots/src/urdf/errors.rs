@@ -3,18 +3,18 @@
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};
 
-use super::document::{Dialect, Part};
+use super::document::{XmlDialect, XmlPart};
 
 motet_syntax::mistakes! {
     pub const CODES;
 
     /// The text is not XML.
-    NotXml("M0451", Error) { problem: String, dialect: Dialect }
+    NotXml("M0451", Error) { problem: String, dialect: XmlDialect }
     message(m) { format!("this is not XML: {}", m.problem) }
     help(m) {
         let what = match m.dialect {
-            Dialect::Urdf => "URDF",
-            Dialect::Srdf => "SRDF",
+            XmlDialect::Urdf => "URDF",
+            XmlDialect::Srdf => "SRDF",
         };
         Some(format!("a {what} is an XML document whose root element is `<robot>`"))
     }
@@ -34,7 +34,7 @@ motet_syntax::mistakes! {
     help(_m) { Some("run `xacro robot.urdf.xacro > robot.urdf` and give the result".to_owned()) }
 
     /// An element without something that it needs.
-    MissingPart("M0455", Error) { element: String, name: String, part: &'static str, kind: Part }
+    MissingPart("M0455", Error) { element: String, name: String, part: &'static str, kind: XmlPart }
     message(m) {
         let element = if m.name.is_empty() {
             format!("`<{}>`", m.element)
@@ -42,14 +42,14 @@ motet_syntax::mistakes! {
             format!("{} `{}`", m.element, m.name.escape_debug())
         };
         match m.kind {
-            Part::Attribute => format!("{element} has no `{}`", m.part),
-            Part::Element => format!("{element} has no `<{}>`", m.part),
+            XmlPart::Attribute => format!("{element} has no `{}`", m.part),
+            XmlPart::Element => format!("{element} has no `<{}>`", m.part),
         }
     }
     help(m) {
         Some(match m.kind {
-            Part::Attribute => format!("add `{}=\"…\"`", m.part),
-            Part::Element => format!("add `<{} …/>`", m.part),
+            XmlPart::Attribute => format!("add `{}=\"…\"`", m.part),
+            XmlPart::Element => format!("add `<{} …/>`", m.part),
         })
     }
 

@@ -3,37 +3,37 @@
 use motet_syntax::{Span, suggest};
 use roxmltree::Node;
 
-use super::document::{Part, child};
+use super::document::{XmlPart, child};
 use super::errors::{EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, ZeroAxis};
-use super::model::{JointKind, Limits, Pose};
-use super::number::Numbers;
+use super::model::{JointKind, JointLimits, Pose};
+use super::number::UrdfReader;
 
 /// A name and where it stands.
-pub(super) type Named<'a> = (&'a str, Span);
+pub(super) type SpannedName<'a> = (&'a str, Span);
 
 /// A joint whose names are not looked up yet.
 pub(super) struct RawJoint<'a> {
-    pub(super) name: Named<'a>,
+    pub(super) name: SpannedName<'a>,
     pub(super) kind: JointKind,
-    pub(super) parent: Named<'a>,
-    pub(super) child: Named<'a>,
+    pub(super) parent: SpannedName<'a>,
+    pub(super) child: SpannedName<'a>,
     pub(super) parent_from_joint: Pose,
     pub(super) axis: [f64; 3],
-    pub(super) limits: Option<Limits>,
+    pub(super) limits: Option<JointLimits>,
     pub(super) velocity: Option<f64>,
     pub(super) mimic: Option<RawMimic<'a>>,
 }
 
 /// A mimic rule whose leader is not looked up yet.
 pub(super) struct RawMimic<'a> {
-    pub(super) leader: Named<'a>,
+    pub(super) leader: SpannedName<'a>,
     pub(super) multiplier: f64,
     pub(super) offset: f64,
 }
 
-impl Numbers {
+impl UrdfReader {
     /// A joint; `None` where a part is missing without which it means nothing.
-    pub(super) fn joint<'a>(&mut self, node: Node<'a, '_>, name: Named<'a>) -> Option<RawJoint<'a>> {
+    pub(super) fn joint<'a>(&mut self, node: Node<'a, '_>, name: SpannedName<'a>) -> Option<RawJoint<'a>> {
         let kind = self.kind(node);
         let parent = self.end(node, "parent");
         let child_link = self.end(node, "child");
@@ -45,7 +45,7 @@ impl Numbers {
         if let Some(mimic) = mimic.filter(|_| !kind.has_one_position()) {
             let word =
                 JointKind::WORDS.iter().find(|(_, known)| *known == kind).map_or("", |(word, _)| *word);
-            let span = self.places.tag(mimic);
+            let span = self.spans.tag(mimic);
             self.found.push(IdleMimic { span, joint: name.0.to_owned(), kind: word }.into());
         }
         let mimic = mimic.filter(|_| kind.has_one_position()).and_then(|mimic| self.mimic(mimic));
@@ -66,7 +66,7 @@ impl Numbers {
     }
 
     fn kind(&mut self, node: Node<'_, '_>) -> Option<JointKind> {
-        let (word, span) = self.places.required(node, "type", &mut self.found)?;
+        let (word, span) = self.spans.required(node, "type", &mut self.found)?;
         let known = JointKind::WORDS.iter().find(|(known, _)| *known == word);
         if known.is_none() {
             let known: Vec<_> = JointKind::WORDS.iter().map(|(known, _)| *known).collect();
@@ -76,12 +76,12 @@ impl Numbers {
         known.map(|(_, kind)| *kind)
     }
 
-    fn end<'a>(&mut self, node: Node<'a, '_>, part: &'static str) -> Option<Named<'a>> {
+    fn end<'a>(&mut self, node: Node<'a, '_>, part: &'static str) -> Option<SpannedName<'a>> {
         let Some(end) = child(node, part) else {
-            self.found.push(self.places.missing(node, part, Part::Element));
+            self.found.push(self.spans.missing(node, part, XmlPart::Element));
             return None;
         };
-        self.places.required(end, "link", &mut self.found)
+        self.spans.required(end, "link", &mut self.found)
     }
 
     /// The axis at length 1; x where the file gives none, as URDF says.
@@ -94,7 +94,7 @@ impl Numbers {
         let xyz = self.triple(axis, "xyz", X);
         let norm = xyz.iter().map(|value| value * value).sum::<f64>().sqrt();
         if norm < 1e-9 {
-            let span = self.places.attribute(axis, "xyz").map_or(self.places.tag(axis), |(_, span)| span);
+            let span = self.spans.attribute(axis, "xyz").map_or(self.spans.tag(axis), |(_, span)| span);
             self.found.push(ZeroAxis { span, joint: joint.to_owned() }.into());
             return X;
         }
@@ -103,11 +103,16 @@ impl Numbers {
 
     /// Position limits and the greatest speed, from `<limit>`. `<safety_controller>` is passed over: its soft limits
     /// belong to a controller, and files leave them at zero.
-    fn limits(&mut self, node: Node<'_, '_>, joint: &str, kind: JointKind) -> (Option<Limits>, Option<f64>) {
+    fn limits(
+        &mut self,
+        node: Node<'_, '_>,
+        joint: &str,
+        kind: JointKind,
+    ) -> (Option<JointLimits>, Option<f64>) {
         let needed = matches!(kind, JointKind::Revolute | JointKind::Prismatic);
         let Some(limit) = child(node, "limit") else {
             if needed {
-                self.found.push(self.places.missing(node, "limit", Part::Element));
+                self.found.push(self.spans.missing(node, "limit", XmlPart::Element));
             }
             return (None, None);
         };
@@ -118,18 +123,18 @@ impl Numbers {
         }
         // URDF takes a bound that is not written as 0.
         let (lower, upper) = (self.limit(limit, "lower"), self.limit(limit, "upper"));
-        let span = lower.or(upper).map_or(self.places.tag(limit), |(_, span)| span);
+        let span = lower.or(upper).map_or(self.spans.tag(limit), |(_, span)| span);
         let (lower, upper) = (lower.map_or(0.0, |(value, _)| value), upper.map_or(0.0, |(value, _)| value));
         if lower > upper {
             self.found
                 .push(EmptyLimits { span, joint: joint.to_owned(), lower, upper, is_followed: false }.into());
             return (None, velocity);
         }
-        (Some(Limits { lower, upper }), velocity)
+        (Some(JointLimits { lower, upper }), velocity)
     }
 
     fn mimic<'a>(&mut self, node: Node<'a, '_>) -> Option<RawMimic<'a>> {
-        let leader = self.places.required(node, "joint", &mut self.found)?;
+        let leader = self.spans.required(node, "joint", &mut self.found)?;
         let multiplier = self.scalar(node, "multiplier").unwrap_or(1.0);
         let offset = self.scalar(node, "offset").unwrap_or(0.0);
         Some(RawMimic { leader, multiplier, offset })

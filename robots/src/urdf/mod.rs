@@ -19,5 +19,5 @@ pub use errors::CODES;
 pub use model::*;
 pub use read::read;
 
-pub(crate) use document::{Dialect, Document, Places, children, is_own};
+pub(crate) use document::{XmlDialect, XmlDocument, XmlSpans, children, is_own};
 pub(crate) use surplus::unknown;

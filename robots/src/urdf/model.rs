@@ -44,23 +44,23 @@ pub struct Link {
     /// Its name, unique among links.
     pub name: SmolStr,
     /// Its shapes for collision, in the link's frame.
-    pub collisions: Vec<Solid>,
+    pub collisions: Vec<LinkShape>,
     /// Its shapes for showing, in the link's frame.
-    pub visuals: Vec<Solid>,
+    pub visuals: Vec<LinkShape>,
 }
 
 /// A shape somewhere on a link.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Solid {
+pub struct LinkShape {
     /// Pose of the shape's centre in the link's frame.
     pub link_from_shape: Pose,
     /// What it is.
-    pub shape: Shape,
+    pub shape: UrdfShape,
 }
 
 /// A shape, centred at its origin; lengths in m, none negative.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Shape {
+pub enum UrdfShape {
     /// A box with its full extents along x, y and z.
     Box([f64; 3]),
     /// A cylinder along z.
@@ -122,7 +122,7 @@ pub struct Joint {
     pub axis: [f64; 3],
     /// Range of positions in rad or m; `None` for a joint without (fixed, continuous, planar, floating). For one
     /// that moves by itself it is where all that follow it are within theirs, too.
-    pub limits: Option<Limits>,
+    pub limits: Option<JointLimits>,
     /// Greatest speed in rad/s or m/s; `None` where the file gives none.
     pub velocity: Option<f64>,
     /// The joint that it follows. No chain of these comes back to itself.
@@ -166,7 +166,7 @@ impl JointKind {
 
 /// A closed interval of joint positions; `lower <= upper`, both finite.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Limits {
+pub struct JointLimits {
     /// Least, in rad or m.
     pub lower: f64,
     /// Greatest.

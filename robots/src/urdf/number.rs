@@ -4,7 +4,7 @@
 use motet_syntax::{Diagnostic, Span};
 use roxmltree::Node;
 
-use super::document::{Places, child};
+use super::document::{XmlSpans, child};
 use super::errors::{BadNumber, ImpossibleNumber};
 use super::model::Pose;
 
@@ -12,17 +12,17 @@ use super::model::Pose;
 const GREATEST: f64 = 1e6;
 
 /// Reads numbers and collects what is wrong with them.
-pub(super) struct Numbers {
-    pub(super) places: Places,
+pub(super) struct UrdfReader {
+    pub(super) spans: XmlSpans,
     /// Whether `<origin>` may have `quat_xyzw`, as since URDF 1.1.
     pub(super) quaternions: bool,
     pub(super) found: Vec<Diagnostic>,
 }
 
-impl Numbers {
+impl UrdfReader {
     /// Exactly `N` finite numbers; `None` where the attribute is missing or wrong.
     fn vector<const N: usize>(&mut self, node: Node<'_, '_>, key: &'static str) -> Option<([f64; N], Span)> {
-        let (text, span) = self.places.attribute(node, key)?;
+        let (text, span) = self.spans.attribute(node, key)?;
         let words: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
         let Some(values) = words.and_then(|words| <[f64; N]>::try_from(words).ok()) else {
             let wanted = match N {
@@ -57,7 +57,7 @@ impl Numbers {
 
     /// One number of a joint's limits, which may be beyond what a length can be: "unlimited" is often `1e16`.
     pub(super) fn limit(&mut self, node: Node<'_, '_>, key: &'static str) -> Option<(f64, Span)> {
-        let (text, span) = self.places.attribute(node, key)?;
+        let (text, span) = self.spans.attribute(node, key)?;
         match text.trim().parse::<f64>() {
             Ok(value) if value.is_finite() => Some((value, span)),
             Ok(actual) => {
@@ -78,7 +78,7 @@ impl Numbers {
         node: Node<'_, '_>,
         key: &'static str,
     ) -> Option<[f64; N]> {
-        self.places.required(node, key, &mut self.found)?;
+        self.spans.required(node, key, &mut self.found)?;
         let (values, span) = self.vector::<N>(node, key)?;
         if let Some(actual) = values.into_iter().find(|value| *value < 0.0) {
             self.found.push(ImpossibleNumber { span, key, actual, wanted: "zero or more" }.into());

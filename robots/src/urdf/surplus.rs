@@ -4,11 +4,11 @@
 use motet_syntax::{Diagnostic, suggest};
 use roxmltree::Node;
 
-use super::document::{Places, children, is_own};
+use super::document::{XmlSpans, children, is_own};
 use super::errors::{Repeated, UnknownAttribute, UnknownElement};
 
 /// What may stand in an element.
-struct Known {
+struct ElementRule {
     name: &'static str,
     attributes: &'static [&'static str],
     /// Whether other tools write attributes of their own, so that one which is like none of these says nothing.
@@ -19,7 +19,7 @@ struct Known {
     many: &'static [&'static str],
 }
 
-const KNOWN: [Known; 17] = [
+const KNOWN: [ElementRule; 17] = [
     open("robot", &["name", "version"], &[], &["link", "joint"]),
     open("link", &["name", "type"], &[], &["collision", "visual", "inertial"]),
     open("collision", &["name", "group"], &["origin", "geometry"], &[]),
@@ -70,29 +70,29 @@ const fn open(
     attributes: &'static [&'static str],
     once: &'static [&'static str],
     many: &'static [&'static str],
-) -> Known {
-    Known { name, attributes, is_open: true, once, many }
+) -> ElementRule {
+    ElementRule { name, attributes, is_open: true, once, many }
 }
 
 const fn closed(
     name: &'static str,
     attributes: &'static [&'static str],
     many: &'static [&'static str],
-) -> Known {
-    Known { name, attributes, is_open: false, once: &[], many }
+) -> ElementRule {
+    ElementRule { name, attributes, is_open: false, once: &[], many }
 }
 
 /// Everything of a description's links and joints that is not read and belongs to no other tool. O(bytes).
-pub(super) fn surplus(root: Node<'_, '_>, places: Places, found: &mut Vec<Diagnostic>) {
+pub(super) fn surplus(root: Node<'_, '_>, spans: XmlSpans, found: &mut Vec<Diagnostic>) {
     // The levels of a description are few, and nothing below an element that is not known is looked at.
     let mut open = vec![root];
     while let Some(node) = open.pop() {
         let name = node.tag_name().name();
         let Some(known) = KNOWN.iter().find(|known| known.name == name) else { continue };
-        attributes(node, known, places, found);
-        elements(node, known, places, found);
+        attributes(node, known, spans, found);
+        elements(node, known, spans, found);
         if known.name == "geometry" {
-            shapes(node, places, found);
+            shapes(node, spans, found);
         }
         // A joint within a transmission is no joint of the robot's: only what belongs here is gone into.
         let belongs = |child: &Node<'_, '_>| {
@@ -103,7 +103,7 @@ pub(super) fn surplus(root: Node<'_, '_>, places: Places, found: &mut Vec<Diagno
     }
 }
 
-fn attributes(node: Node<'_, '_>, known: &Known, places: Places, found: &mut Vec<Diagnostic>) {
+fn attributes(node: Node<'_, '_>, known: &ElementRule, spans: XmlSpans, found: &mut Vec<Diagnostic>) {
     for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
         let name = attribute.name();
         if known.attributes.contains(&name) {
@@ -115,25 +115,25 @@ fn attributes(node: Node<'_, '_>, known: &Known, places: Places, found: &mut Vec
             continue;
         }
         let (element, known) = (known.name, known.attributes);
-        let span = places.attribute(node, name).map_or(places.tag(node), |(_, span)| span);
+        let span = spans.attribute(node, name).map_or(spans.tag(node), |(_, span)| span);
         let near = near.map(str::to_owned);
         found.push(UnknownAttribute { span, element, name: name.to_owned(), near, known }.into());
     }
 }
 
-fn elements(node: Node<'_, '_>, known: &Known, places: Places, found: &mut Vec<Diagnostic>) {
+fn elements(node: Node<'_, '_>, known: &ElementRule, spans: XmlSpans, found: &mut Vec<Diagnostic>) {
     for child in node.children().filter(|child| is_own(node, child)) {
         let name = child.tag_name().name();
         let is_known = known.once.contains(&name) || known.many.contains(&name) || FOREIGN.contains(&name);
         if !is_known && known.name != "geometry" {
-            found.push(unknown(child, known.once.iter().chain(known.many).copied(), places));
+            found.push(unknown(child, known.once.iter().chain(known.many).copied(), spans));
         }
     }
     for part in known.once {
         let mut all = children(node, part);
         let first = all.next();
         if let (Some(first), Some(second)) = (first, all.next()) {
-            found.push(repeated(node, format!("`<{part}>`"), [first, second], places));
+            found.push(repeated(node, format!("`<{part}>`"), [first, second], spans));
         }
     }
 }
@@ -142,17 +142,17 @@ fn elements(node: Node<'_, '_>, known: &Known, places: Places, found: &mut Vec<D
 pub(crate) fn unknown<'k>(
     node: Node<'_, '_>,
     known: impl Iterator<Item = &'k str>,
-    places: Places,
+    spans: XmlSpans,
 ) -> Diagnostic {
     let name = node.tag_name().name().to_owned();
     let near = suggest::closest(&name, known).map(str::to_owned);
-    UnknownElement { span: places.tag(node), name, near }.into()
+    UnknownElement { span: spans.tag(node), name, near }.into()
 }
 
-fn shapes(node: Node<'_, '_>, places: Places, found: &mut Vec<Diagnostic>) {
+fn shapes(node: Node<'_, '_>, spans: XmlSpans, found: &mut Vec<Diagnostic>) {
     let mut all = node.children().filter(|child| is_own(node, child));
     if let (Some(first), Some(second)) = (all.next(), all.next()) {
-        found.push(repeated(node, "shapes".to_owned(), [first, second], places));
+        found.push(repeated(node, "shapes".to_owned(), [first, second], spans));
     }
 }
 
@@ -160,10 +160,10 @@ fn repeated(
     node: Node<'_, '_>,
     part: String,
     [first, second]: [Node<'_, '_>; 2],
-    places: Places,
+    spans: XmlSpans,
 ) -> Diagnostic {
     let element = node.tag_name().name().to_owned();
     let name = node.attribute("name").unwrap_or_default().to_owned();
-    let (span, first) = (places.tag(second), places.tag(first));
+    let (span, first) = (spans.tag(second), spans.tag(first));
     Repeated { span, element, name, part, first }.into()
 }

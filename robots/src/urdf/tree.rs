@@ -7,23 +7,23 @@ use rustc_hash::FxHashMap;
 use super::errors::{
     EmptyLimits, LinkCycle, MimicCycle, SeveralRoots, TwoParents, UnknownLink, UnknownMimic,
 };
-use super::joint::{Named, RawJoint};
-use super::model::{Joint, Limits, Link, Mimic, Urdf};
+use super::joint::{RawJoint, SpannedName};
+use super::model::{Joint, JointLimits, Link, Mimic, Urdf};
 
 /// What a follower's limits may be rounded by.
 const ROUNDED: f64 = 1e-9;
 
 /// The tree of what was read; `None` where it is none.
-pub(super) fn settle(
+pub(super) fn build_tree(
     name: &str,
     links: Vec<Link>,
-    places: &[Named<'_>],
+    spans: &[SpannedName<'_>],
     raw: Vec<RawJoint<'_>>,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Urdf> {
     let before = found.len();
     let by_name: FxHashMap<&str, usize> =
-        places.iter().enumerate().map(|(at, (name, _))| (*name, at)).collect();
+        spans.iter().enumerate().map(|(at, (name, _))| (*name, at)).collect();
     let ends: Vec<Option<(usize, usize)>> = raw
         .iter()
         .map(|joint| {
@@ -36,8 +36,8 @@ pub(super) fn settle(
         return None;
     }
     let ends: Vec<(usize, usize)> = ends.into_iter().flatten().collect();
-    let carriers = carriers(&ends, &raw, places, found)?;
-    let root = root(&ends, &carriers, places, found)?;
+    let carriers = carriers(&ends, &raw, spans, found)?;
+    let root = root(&ends, &carriers, spans, found)?;
     let order = order(&ends, root, links.len());
     let leaders = leaders(&raw, found)?;
     // Joints in order of the tree, so their indices change.
@@ -89,8 +89,8 @@ fn follow(joints: &mut [Joint], raw: &[RawJoint<'_>], moved: &[usize], found: &m
 
 /// For each joint the limits within which it and all that follow it are within theirs; where there is no such place, `lower` is above
 /// `upper`. Joints may follow each other in chains of any length, of which one alone is long.
-fn ranges(joints: &[Joint]) -> Vec<Option<Limits>> {
-    let mut ranges: Vec<Option<Limits>> = joints.iter().map(|joint| joint.limits).collect();
+fn ranges(joints: &[Joint]) -> Vec<Option<JointLimits>> {
+    let mut ranges: Vec<Option<JointLimits>> = joints.iter().map(|joint| joint.limits).collect();
     for joint in joints {
         let Some(own) = joint.limits else { continue };
         let (mut multiplier, mut offset, mut next) = (1.0, 0.0, joint.mimic);
@@ -104,8 +104,8 @@ fn ranges(joints: &[Joint]) -> Vec<Option<Limits>> {
             };
             let (one, other) = ((own.lower - offset) / multiplier, (own.upper - offset) / multiplier);
             let (lower, upper) = (one.min(other), one.max(other));
-            let known = slot.unwrap_or(Limits { lower: f64::NEG_INFINITY, upper: f64::INFINITY });
-            *slot = Some(Limits {
+            let known = slot.unwrap_or(JointLimits { lower: f64::NEG_INFINITY, upper: f64::INFINITY });
+            *slot = Some(JointLimits {
                 lower: if lower > known.lower + ROUNDED { lower } else { known.lower },
                 upper: if upper < known.upper - ROUNDED { upper } else { known.upper },
             });
@@ -115,7 +115,7 @@ fn ranges(joints: &[Joint]) -> Vec<Option<Limits>> {
 }
 
 fn link(
-    (name, span): Named<'_>,
+    (name, span): SpannedName<'_>,
     by_name: &FxHashMap<&str, usize>,
     found: &mut Vec<Diagnostic>,
 ) -> Option<usize> {
@@ -133,11 +133,11 @@ fn link(
 fn carriers(
     ends: &[(usize, usize)],
     raw: &[RawJoint<'_>],
-    places: &[Named<'_>],
+    spans: &[SpannedName<'_>],
     found: &mut Vec<Diagnostic>,
 ) -> Option<Vec<Option<usize>>> {
     let before = found.len();
-    let mut carriers: Vec<Option<usize>> = vec![None; places.len()];
+    let mut carriers: Vec<Option<usize>> = vec![None; spans.len()];
     for (at, ((_, child), joint)) in ends.iter().zip(raw).enumerate() {
         let Some(slot) = carriers.get_mut(*child) else { continue };
         match slot.and_then(|other| raw.get(other)) {
@@ -157,7 +157,7 @@ fn carriers(
 fn root(
     ends: &[(usize, usize)],
     carriers: &[Option<usize>],
-    places: &[Named<'_>],
+    spans: &[SpannedName<'_>],
     found: &mut Vec<Diagnostic>,
 ) -> Option<usize> {
     let before = found.len();
@@ -175,7 +175,7 @@ fn root(
             }
             let Some(parent) = parent_of(at) else { break };
             if seen.get(parent) == Some(&(start + 1)) {
-                found.push(ring(parent, parent_of, places));
+                found.push(ring(parent, parent_of, spans));
                 break;
             }
             at = parent;
@@ -183,8 +183,8 @@ fn root(
     }
     let mut roots = (0..carriers.len()).filter(|link| carriers.get(*link) == Some(&None));
     let root = roots.next();
-    if let Some((first, place)) = root.and_then(|root| places.get(root)) {
-        for (link, span) in roots.filter_map(|other| places.get(other)) {
+    if let Some((first, place)) = root.and_then(|root| spans.get(root)) {
+        for (link, span) in roots.filter_map(|other| spans.get(other)) {
             let (link, first) = ((*link).to_owned(), (*first).to_owned());
             found.push(SeveralRoots { span: *span, link, first, place: *place }.into());
         }
@@ -192,10 +192,10 @@ fn root(
     root.filter(|_| found.len() == before)
 }
 
-fn ring(start: usize, parent_of: impl Fn(usize) -> Option<usize>, places: &[Named<'_>]) -> Diagnostic {
+fn ring(start: usize, parent_of: impl Fn(usize) -> Option<usize>, spans: &[SpannedName<'_>]) -> Diagnostic {
     const SHOWN: usize = 8;
-    let name = |link: usize| places.get(link).map_or(String::new(), |(name, _)| (*name).to_owned());
-    let span = places.get(start).map_or_else(Default::default, |(_, span)| *span);
+    let name = |link: usize| spans.get(link).map_or(String::new(), |(name, _)| (*name).to_owned());
+    let span = spans.get(start).map_or_else(Default::default, |(_, span)| *span);
     let mut chain = vec![name(start)];
     let mut at = start;
     while let Some(parent) = parent_of(at).filter(|parent| *parent != start && chain.len() < SHOWN) {

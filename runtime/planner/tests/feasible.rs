@@ -6,7 +6,7 @@ mod common;
 use common::{hsr, kitchen, session, walled};
 use motet_compiler::{Options, Session};
 use motet_planner::prompt::{self, Feasible};
-use motet_robots::scene::{Scene, Shape};
+use motet_robots::scene::{EntityShape, Scene};
 use motet_syntax::Sources;
 use std::time::Duration;
 
@@ -41,7 +41,7 @@ fn what_is_walled_in_out_of_reach_or_cannot_be_held_is_not_and_the_reason_is_tol
     };
     assert!(reason(&walled()).contains("way"), "{}", reason(&walled()));
     assert_eq!(reason(&with_mug(|mug| mug.mass_kg = Some(5.0))), "too heavy: 5 kg, payload is 1.2 kg");
-    let wide = with_mug(|mug| mug.shape = Some(Shape::Cylinder { radius: 0.2, height: 0.1 }));
+    let wide = with_mug(|mug| mug.shape = Some(EntityShape::Cylinder { radius: 0.2, height: 0.1 }));
     assert_eq!(reason(&wide), "too wide: 0.4 m, opening is 0.13 m");
     let high = with_mug(|mug| mug.pose.as_mut().unwrap().xyz[2] = 2.6);
     assert!(reason(&high).contains("reach"), "{}", reason(&high));

@@ -4,8 +4,9 @@ use super::noun::{Noun, Which, noun};
 use super::part::part;
 use super::remark::is_boundary;
 use super::spot::{Relation, Spot, is_way, located, spot, way};
-use super::token::{Token, longest, stands};
+use super::token::{Token, stands};
 use super::verb::{Act, begins, is_want, verb};
+use crate::english::{GOES_ON_AT_HITHER, GOES_ON_DO_NOT, PART_FOLLOWS_OVER, PREDICATES, WHERE_IT_BELONGS};
 
 /// One thing that is asked for.
 #[derive(Clone, PartialEq, Debug)]
@@ -24,33 +25,6 @@ pub(super) struct Command {
     /// Where the last thing that was named ends, as a position among the tokens.
     pub(super) thing_end: usize,
 }
-
-/// What is told of a place that was named.
-const WHERE_IT_BELONGS: &[&str] = &[
-    "where it belongs",
-    "where it lives",
-    "where it goes",
-    "where it should be",
-    "where it is supposed to be",
-    "where it always is",
-    "where it usually is",
-    "where it is kept",
-    "where it came from",
-    "where they belong",
-    "where they live",
-    "where they go",
-    "its usual place",
-    "its proper place",
-    "its home",
-    "its usual spot",
-    "as always",
-    "as usual",
-    "where it normally lives",
-    "where it always goes",
-    "where we keep it",
-    "where i keep it",
-    "where we always keep it",
-];
 
 /// Among what a verb goes with: it is done only where it is not so yet.
 pub(super) const ONLY_IF: &str = "only if";
@@ -92,7 +66,7 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
                 let after = skip_and(tokens, at);
                 // `to the drawer, where it lives`
                 if now.to.is_some()
-                    && let Some(count) = longest(tokens, after, WHERE_IT_BELONGS)
+                    && let Some(count) = WHERE_IT_BELONGS.longest(tokens, after)
                     && is_boundary(tokens, after + count)
                 {
                     at = after + count;
@@ -164,22 +138,11 @@ fn skip_and(tokens: &[Token], mut at: usize) -> usize {
     at
 }
 
-/// Behind a noun these begin what is told of it.
-const PREDICATES: &[&str] = &[
-    "is", "are", "was", "were", "has", "have", "had", "will", "would", "should", "does", "did", "looks",
-    "seems", "needs",
-];
-
 /// Behind an `and` or a comma another thing follows for the same verb. What had its place already is a command of its own.
 fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at: usize) -> bool {
     // `… and do not let go`, `…, it is hot`: a clause of its own.
-    let is = |after: usize| tokens.get(after).is_some_and(|token| PREDICATES.contains(&token.word()));
-    let is_clause = longest(
-        tokens,
-        at,
-        &["do not", "never", "not", "no putting", "no dropping", "no letting", "no giving"],
-    )
-    .is_some();
+    let is = |after: usize| tokens.get(after).is_some_and(|token| PREDICATES.has(token.word()));
+    let is_clause = GOES_ON_DO_NOT.longest(tokens, at).is_some();
     let another = noun(tokens, at).is_some_and(|(noun, after)| match noun {
         Noun::Phrase(_) => !is(after) && !is_clause,
         // `…, it stinks` tells something of it.
@@ -221,9 +184,7 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
 
 /// Whether what follows a thing says where it goes or for whom.
 fn part_follows(tokens: &[Token], at: usize) -> bool {
-    spot(tokens, at).is_some()
-        || is_way(tokens, at)
-        || longest(tokens, at, &["over", "back", "away", "up", "down", "too"]).is_some()
+    spot(tokens, at).is_some() || is_way(tokens, at) || PART_FOLLOWS_OVER.longest(tokens, at).is_some()
 }
 
 /// Whether a place follows for what is taken, hidden or put, of which it was not said before where to.
@@ -261,17 +222,9 @@ impl Command {
             return None;
         }
         let is_end = |end: usize| matches!(tokens.get(end), None | Some(Token::Stop | Token::Comma));
-        let hither = [
-            "here",
-            "over here",
-            "right here",
-            "to me",
-            "over to me",
-            "here to me",
-            "for me",
-            "over here to me",
-        ];
-        if let Some(end) = longest(tokens, at, &hither).map(|count| at + count).filter(|end| is_end(*end)) {
+        if let Some(end) =
+            GOES_ON_AT_HITHER.longest(tokens, at).map(|count| at + count).filter(|end| is_end(*end))
+        {
             self.to_whom.get_or_insert(Noun::Speaker);
             return Some(end);
         }

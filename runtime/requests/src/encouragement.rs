@@ -1,13 +1,13 @@
 //! Whether somebody who was asked whether to try again says so, in whatever words: `give it another shot`, `it cannot hurt`.
 
-use super::again::{AGAIN, WHOLE};
-use super::assent::{AGREES, PLAIN};
-use super::dissent::{BESIDE, DENIES, GIVES_UP};
-use super::frame::SOUNDS;
 use super::inflection::{Form, base};
 use super::lead::skip_leads;
-use super::token::{Token, longest, stands, tokens};
+use super::token::{Token, stands, tokens};
 use super::verb::{Act, verb};
+use crate::english::{
+    AGAIN, AGREES, AGREES_AS_CLAUSE, AGREES_PLAINLY, BESIDE_THE_POINT, DENIAL_WORDS, GIVES_UP, IS_TAG_ASKS,
+    NEGATES_NO, PLAIN_WORDS, REPORT_WORDS, RETRY_WORDS, SKIP_SOFT_SOFT, SOUNDS, TRIES_AGAIN,
+};
 
 /// Whether an answer agrees to another try, and says nothing else that would have to be done or heeded: what it says beside
 /// that, in words; none where it does not agree.
@@ -17,26 +17,27 @@ pub fn encourages(answer: &str) -> Option<String> {
     // `uh huh` and `mm hm` agree.
     said.retain(|token| {
         let word = token.word();
-        !SOUNDS.contains(&word) || matches!(word, "uh" | "huh" | "mm" | "hm")
+        !SOUNDS.has(word) || matches!(word, "uh" | "huh" | "mm" | "hm")
     });
     let (mut agrees, mut beside) = (false, Vec::new());
     for clause in said.split(|token| matches!(token, Token::Comma | Token::Stop)) {
         let begin = skip_soft(clause, 0);
         if clause.get(begin..).is_none_or(<[Token]>::is_empty) {
-            agrees |= (0..clause.len()).any(|at| longest(clause, at, AGREES).is_some());
+            agrees |= (0..clause.len()).any(|at| AGREES.longest(clause, at).is_some());
             continue;
         }
         // `if you would, thank you`
-        if WHOLE.iter().any(|words| stands(clause, begin, words) == Some(clause.len() - begin)) {
+        if AGREES_AS_CLAUSE.longest(clause, begin) == Some(clause.len() - begin) {
             agrees = true;
             continue;
         }
-        let is_beside = longest(clause, begin, BESIDE).max(longest(clause, 0, BESIDE)).is_some();
-        if !is_beside && (0..clause.len()).any(|at| longest(clause, at, GIVES_UP).is_some()) {
+        let is_beside =
+            BESIDE_THE_POINT.longest(clause, begin).max(BESIDE_THE_POINT.longest(clause, 0)).is_some();
+        if !is_beside && (0..clause.len()).any(|at| GIVES_UP.longest(clause, at).is_some()) {
             return None;
         }
         let is_agreed = (0..clause.len())
-            .any(|at| longest(clause, at, AGAIN).is_some() || longest(clause, at, AGREES).is_some())
+            .any(|at| AGAIN.longest(clause, at).is_some() || AGREES.longest(clause, at).is_some())
             && is_plain(clause);
         // `I cannot do it myself` says why.
         let is_agreed = is_agreed && stands(clause, begin, "i can not").is_none();
@@ -46,7 +47,7 @@ pub fn encourages(answer: &str) -> Option<String> {
             continue;
         }
         let is_denied = !is_beside
-            && clause.iter().any(|token| DENIES.contains(&token.word()))
+            && clause.iter().any(|token| DENIAL_WORDS.has(token.word()))
             && (!is_agreed || negates(clause));
         if is_denied {
             return None;
@@ -65,17 +66,16 @@ pub fn encourages(answer: &str) -> Option<String> {
 
 /// `can it?`
 fn is_tag(clause: &[Token]) -> bool {
-    let asks = ["can", "could", "will", "would", "is", "does", "shall"];
-    matches!(clause, [ask, _] if asks.contains(&ask.word()))
+    matches!(clause, [ask, _] if IS_TAG_ASKS.has(ask.word()))
 }
 
 /// Whether it takes back or bounds something, in words that are no part of what only sounds so.
 fn negates(clause: &[Token]) -> bool {
     let mut at = 0;
     while let Some(token) = clause.get(at) {
-        match longest(clause, at, BESIDE).max(longest(clause, at, WHOLE)) {
+        match BESIDE_THE_POINT.longest(clause, at).max(AGREES_AS_CLAUSE.longest(clause, at)) {
             Some(count) => at += count,
-            None if matches!(token.word(), "no" | "not" | "never" | "if" | "without" | "nothing") => {
+            None if NEGATES_NO.has(token.word()) => {
                 return true;
             }
             None => at += 1,
@@ -87,33 +87,24 @@ fn negates(clause: &[Token]) -> bool {
 /// Whether a clause that asks for another try says nothing else that would have to be heeded: words that deny or bound it, or
 /// another thing to do. What it says beside that, in words.
 fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
-    const TRIES: &[&str] = &[
-        "again", "more", "another", "retry", "redo", "repeat", "second", "third", "trying", "over", "try",
-        "once",
-    ];
     // Who asks something, or tells what somebody did, asks for nothing.
-    const TELLS: &[&str] = &[
-        "what", "why", "who", "where", "when", "how", "which", "did", "does", "was", "were", "is", "has",
-        "had", "he", "she", "they", "tried", "failed", "fell", "broke", "dropped", "myself", "somebody",
-        "someone", "tomorrow", "tonight", "soon", "think",
-    ];
     let (mut at, mut tries, mut left) = (0, false, Vec::new());
     while let Some(token) = clause.get(at) {
-        let taken = [AGAIN, BESIDE, WHOLE].iter().filter_map(|table| longest(clause, at, table)).max();
+        let taken = TRIES_AGAIN.longest(clause, at);
         match taken {
             Some(count) => {
                 let said = clause.get(at..at + count)?;
-                tries |= said.iter().any(|token| TRIES.contains(&token.word()));
+                tries |= said.iter().any(|token| RETRY_WORDS.has(token.word()));
                 at += count;
             }
-            None if PLAIN.contains(&token.word()) || AGREES.contains(&token.word()) => at += 1,
-            None if DENIES.contains(&token.word()) => return None,
+            None if PLAIN_WORDS.has(token.word()) || AGREES.has(token.word()) => at += 1,
+            None if DENIAL_WORDS.has(token.word()) => return None,
             None if verb(clause, at)
                 .is_some_and(|(act, _)| !matches!(act, Act::Go | Act::Come | Act::Move)) =>
             {
                 return None;
             }
-            None if TELLS.contains(&token.word()) => return None,
+            None if REPORT_WORDS.has(token.word()) => return None,
             // `try opening it again`
             None if matches!(base(token.word()), Some((_, Form::Gerund))) => return None,
             None => {
@@ -129,11 +120,10 @@ fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
 fn is_plain(clause: &[Token]) -> bool {
     let mut at = 0;
     while let Some(token) = clause.get(at) {
-        let taken =
-            AGAIN.iter().chain(AGREES).chain(BESIDE).filter_map(|words| stands(clause, at, words)).max();
+        let taken = AGREES_PLAINLY.longest(clause, at);
         match taken {
             Some(count) => at += count,
-            None if PLAIN.contains(&token.word()) => at += 1,
+            None if PLAIN_WORDS.has(token.word()) => at += 1,
             None => return false,
         }
     }
@@ -142,11 +132,7 @@ fn is_plain(clause: &[Token]) -> bool {
 
 /// Past words that only soften.
 fn skip_soft(clause: &[Token], mut at: usize) -> usize {
-    let soft = [
-        "oh", "well", "um", "uh", "huh", "hmm", "and", "but", "so", "yes", "yeah", "sure", "okay", "ok",
-        "please", "then", "dear",
-    ];
-    while clause.get(at).is_some_and(|token| soft.contains(&token.word())) {
+    while clause.get(at).is_some_and(|token| SKIP_SOFT_SOFT.has(token.word())) {
         at += 1;
     }
     at

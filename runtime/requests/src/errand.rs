@@ -1,5 +1,6 @@
 //! Commands as goals: what shall be true when somebody goes, opens, closes, lets go, takes and puts.
 
+use crate::english::ONTO;
 use motet_compiler::plan::{Lasts, fact};
 use motet_syntax::Span;
 use motet_syntax::ast::{Expr, ExprKind};
@@ -194,16 +195,7 @@ impl Command {
                 Act::Pick
             }
             // `lift it onto the table`
-            Act::Pick | Act::Lift
-                if self.to.as_ref().is_some_and(|to| {
-                    matches!(
-                        to.preposition,
-                        "onto" | "into" | "up onto" | "over onto" | "back onto" | "over into" | "back into"
-                    )
-                }) =>
-            {
-                Act::Put
-            }
+            Act::Pick | Act::Lift if self.to.as_ref().is_some_and(|to| ONTO.has(&to.preposition)) => Act::Put,
             // `stand the bottle on the table`
             Act::Go if !self.items.is_empty() && self.to.is_some() => Act::Put,
             Act::Put if self.has("away") || (self.has("back") && self.to.is_none()) => Act::Stow,

@@ -4,113 +4,28 @@ use super::command::{Command, command};
 use super::lead::skip_leads;
 use super::noun::Noun;
 use super::remark::{is_boundary, remark_end};
-use super::token::{Token, longest, stands};
+use super::token::{Token, stands};
 use super::verb::{Act, verb};
+use crate::english::{
+    CAUTION_DO_NOT_YOU_DARE, CAUTION_PUTTING_IT_DOWN, FORBIDDEN_NOT, FORBIDDEN_UNTIL, LETTING_GO, MISHAPS,
+};
+use crate::phrases::Phrases;
 
 /// `do not drop it`, `do not let go`: what to mind with what is asked for anyway. Where it ends.
 pub(super) fn caution(tokens: &[Token], begin: usize, before: Option<Act>) -> Option<usize> {
-    const MIND: &[&str] = &[
-        "drop",
-        "spill",
-        "break",
-        "scratch",
-        "crush",
-        "squash",
-        "bump",
-        "knock",
-        "damage",
-        "worry",
-        "rush",
-        "hurry",
-        "dawdle",
-        "be long",
-        "be late",
-        "be shy",
-        "be slow",
-        "take too long",
-        "take long",
-        "take forever",
-        "let it fall",
-        "let it slip",
-        "make a mess",
-        "make me wait",
-        "forget",
-        "be afraid",
-        "ask",
-        "argue",
-        "touch anything else",
-        "hit anything",
-        "bang",
-        "smash",
-        "tip it",
-        "shake it",
-        "squeeze it",
-        "be too rough",
-        "be rough",
-        "make any noise",
-        "make noise",
-    ];
-    const HOLD: &[&str] = &[
-        "let go",
-        "let it go",
-        "put it down",
-        "put down",
-        "set it down",
-        "put it anywhere",
-        "give it back",
-        "lose it",
-        "release it",
-        "move",
-        "go anywhere",
-        "do anything else with it",
-        "do anything with it",
-        "do anything else",
-        "lose your grip",
-        "hand it to anyone",
-    ];
     // `no putting it down`: the `no` was passed over.
     let is_no = begin.checked_sub(1).is_some_and(|at| stands(tokens, at, "no").is_some());
-    if let (true, Some(count)) =
-        (is_no, longest(tokens, begin, &["putting it down", "letting go", "dropping it", "giving it back"]))
-    {
+    if let (true, Some(count)) = (is_no, CAUTION_PUTTING_IT_DOWN.longest(tokens, begin)) {
         let is_held = matches!(before, Some(Act::Pick | Act::Lift));
         return (is_held && is_boundary(tokens, begin + count)).then_some(begin + count);
     }
-    let at = begin
-        + longest(
-            tokens,
-            begin,
-            &[
-                "do not you dare",
-                "do not you",
-                "do not",
-                "never",
-                "try not to",
-                "careful not to",
-                "and not",
-                "but not",
-                "not to",
-                "and not to",
-                "not",
-                "and try not to",
-                "and careful not to",
-                "be careful not to",
-                "be careful you do not",
-                "careful you do not",
-                "mind you do not",
-                "make sure you do not",
-                "make sure not to",
-                "be sure not to",
-                "take care not to",
-                "see that you do not",
-            ],
-        )?;
-    let of = |table: &[&str]| longest(tokens, at, table).is_some();
+    let at = begin + CAUTION_DO_NOT_YOU_DARE.longest(tokens, begin)?;
+    let of = |list: &Phrases| list.longest(tokens, at).is_some();
     // `do not forget the mug` may ask for it, `do not forget!` minds what was said.
     let forgets = stands(tokens, at, "forget").is_some();
     let end = remark_end(tokens, at);
-    let is_minded = of(MIND) && (!forgets || end == at + 1);
-    let is_held = of(HOLD) && matches!(before, Some(Act::Pick | Act::Lift));
+    let is_minded = of(&MISHAPS) && (!forgets || end == at + 1);
+    let is_held = of(&LETTING_GO) && matches!(before, Some(Act::Pick | Act::Lift));
     let says_more = (at..end)
         .any(|at| tokens.get(at).is_some_and(|token| matches!(token.word(), "and" | "or" | "but" | "just")));
     ((is_minded || is_held) && !says_more).then_some(end)
@@ -119,37 +34,9 @@ pub(super) fn caution(tokens: &[Token], begin: usize, before: Option<Act>) -> Op
 /// A request not to do something, which takes nothing from what is asked for, since that is something else: where it ends, and
 /// whether it stands before what is asked for.
 pub(super) fn forbidden(tokens: &[Token], begin: usize, asked: &[Command]) -> Option<(usize, When)> {
-    let not = [
-        "do not you dare",
-        "do not you",
-        "do not go and",
-        "do not just",
-        "do not",
-        "never",
-        "you do not have to",
-        "you do not need to",
-        "you need not",
-        "no need to",
-        "there is no need to",
-    ];
-    let at = begin + longest(tokens, begin, &not)?;
+    let at = begin + FORBIDDEN_NOT.longest(tokens, begin)?;
     let (found, end) = one(tokens, at)?;
-    let is_bound = |token: &Token| {
-        matches!(
-            token.word(),
-            "until"
-                | "till"
-                | "before"
-                | "unless"
-                | "if"
-                | "when"
-                | "while"
-                | "without"
-                | "yet"
-                | "or"
-                | "and"
-        )
-    };
+    let is_bound = |token: &Token| FORBIDDEN_UNTIL.has(token.word());
     let said = tokens.get(at..end)?;
     if said.iter().any(is_bound) {
         return None;

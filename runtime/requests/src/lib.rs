@@ -2,17 +2,13 @@
 //!
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
-mod again;
 mod aim;
 mod asking;
-mod assent;
-mod beside;
 mod carry;
 mod clash;
 mod command;
-mod dissent;
 mod encouragement;
-mod ending;
+mod english;
 mod errand;
 mod forbidden;
 mod frame;
@@ -20,14 +16,10 @@ mod hedge;
 mod inflection;
 mod knowledge;
 mod lead;
-mod lexicon;
-mod looking;
-mod manners;
 mod meaning;
 mod noun;
-mod opening;
-mod overture;
 mod part;
+mod phrases;
 mod pick;
 mod puzzle;
 mod reference;
@@ -37,11 +29,10 @@ mod spoken;
 mod spot;
 mod statement;
 mod staying;
-mod telling;
+mod template;
 pub mod token;
 mod verb;
 mod vocabulary;
-mod wanting;
 mod whereabouts;
 mod wish;
 

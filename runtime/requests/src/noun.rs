@@ -1,9 +1,11 @@
 //! What a request speaks of: a noun with its article, count, and what narrows it down.
 
-use super::ending::{ENDS, KIN, PRONOUNS};
 use super::knowledge;
 use super::spot::{Spot, is_way, spot};
 use super::token::{Token, singular, stands};
+use crate::english::{
+    KIN, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, NOUN_OLD, NOUN_PLACE, PHRASE_SOMETHING, PRONOUNS,
+};
 
 /// Which of several things are meant.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -61,21 +63,7 @@ pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     let next = tokens.get(at + 1).map_or("", Token::word);
     match word {
         "me" | "us" | "myself" => return Some((Noun::Speaker, at + 1)),
-        "my" if matches!(
-            next,
-            "place"
-                | "hand"
-                | "hands"
-                | "side"
-                | "lap"
-                | "seat"
-                | "spot"
-                | "position"
-                | "way"
-                | "direction"
-                | "end"
-        ) =>
-        {
+        "my" if NOUN_PLACE.has(next) => {
             return Some((Noun::Speaker, at + 2));
         }
         _ => {}
@@ -83,27 +71,12 @@ pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     // `bring it to your old granny`: who says so of themselves.
     if word == "your"
         && let Some(kin) =
-            (at + 1..at + 4).find(|at| tokens.get(*at).is_some_and(|token| KIN.contains(&token.word())))
-        && tokens.get(at + 1..kin).is_some_and(|how| {
-            how.iter().all(|token| {
-                matches!(
-                    token.word(),
-                    "old"
-                        | "dear"
-                        | "poor"
-                        | "favourite"
-                        | "favorite"
-                        | "thirsty"
-                        | "tired"
-                        | "good"
-                        | "beloved"
-                )
-            })
-        })
+            (at + 1..at + 4).find(|at| tokens.get(*at).is_some_and(|token| KIN.has(token.word())))
+        && tokens.get(at + 1..kin).is_some_and(|how| how.iter().all(|token| NOUN_OLD.has(token.word())))
     {
         return Some((Noun::Speaker, kin + 1));
     }
-    let pronoun = PRONOUNS.iter().find(|known| **known == word);
+    let pronoun = PRONOUNS.value(word);
     if let Some(pronoun) = pronoun.filter(|_| matches!(word, "it" | "them") || ends(tokens, at + 1)) {
         return Some((Noun::Before(pronoun), at + 1));
     }
@@ -119,7 +92,7 @@ fn ends(tokens: &[Token], at: usize) -> bool {
     match tokens.get(at) {
         None | Some(Token::Comma | Token::Stop) => true,
         Some(Token::Word(word)) if word == "can" => stands(tokens, at, "can you").is_some(),
-        Some(Token::Word(word)) => ENDS.contains(&word.as_str()) || is_way(tokens, at),
+        Some(Token::Word(word)) => NOUN_ENDS.has(word.as_str()) || is_way(tokens, at),
     }
 }
 
@@ -143,7 +116,7 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
     while !ends(tokens, at) {
         let word = tokens.get(at).map_or("", Token::word);
         // `hand the guest the magazine`
-        if matches!(word, "something" | "anything" | "everything" | "the" | "a" | "an" | "my" | "some") {
+        if PHRASE_SOMETHING.has(word) {
             break;
         }
         at += 1;
@@ -204,21 +177,12 @@ fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
             at = rest_of_use(tokens, at + 2);
             continue;
         }
-        let liked = [
-            "that i would like",
-            "which i would like",
-            "i would like",
-            "that i like",
-            "i like",
-            "for me to enjoy",
-        ];
-        if let Some(count) = liked.iter().find_map(|words| stands(tokens, at, words)) {
+        if let Some(count) = NARROWED_LIKED.longest(tokens, at) {
             phrase.is_liked = true;
             at += count;
             continue;
         }
-        let is = ["that is", "which is", "that are", "which are"];
-        if let Some(count) = is.iter().find_map(|words| stands(tokens, at, words)) {
+        if let Some(count) = NARROWED_IS.longest(tokens, at) {
             let after = at + count;
             let (is_so, after) = match tokens.get(after).map_or("", Token::word) {
                 "not" => (false, after + 1),

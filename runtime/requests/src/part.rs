@@ -5,25 +5,17 @@ use super::lead::{contrasts, thanks};
 use super::noun::{Noun, noun};
 use super::remark::{beside, is_boundary};
 use super::spot::{Relation, Spot, is_way, spot, way};
-use super::token::{Token, longest, stands};
+use super::token::{Token, stands};
 use super::verb::Act;
-
-/// Where something goes that somebody does not want to see.
-const OUT_OF_SIGHT: &[&str] = &[
-    "out of my sight",
-    "out of sight",
-    "out of view",
-    "out of my way",
-    "out of the way",
-    "out of my face",
-    "out of here",
-    "off my hands",
-];
+use crate::english::{
+    IF_SO, IS_DETERMINED_THE, OUT_OF_SIGHT, PART_FOR_ME, PART_FROM_OFF, PART_GO, PART_ON_TOP, PART_RUBBISH,
+    PART_TO_WHERE_IT_BELONGS, PART_UP, PART_WAS, PART_WITH_ME,
+};
 
 /// One part of a command: where the next begins.
 pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<usize, String> {
     // `grab the mug for me`: who takes something for somebody brings it.
-    let for_me = longest(tokens, at, &["for me", "for us"]);
+    let for_me = PART_FOR_ME.longest(tokens, at);
     if let (Some(count), Act::Take) = (for_me, now.act) {
         // `take the mug to the sink for me`, `carry the mug for me` ask for a favour.
         let carries = matches!(tokens.get(begin).map_or("", Token::word), "carry" | "cart" | "haul" | "lug");
@@ -46,7 +38,7 @@ pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command)
     }
     let goes = matches!(now.act, Act::Go | Act::Come) || (now.act == Act::Move && now.items.is_empty());
     // `carry it to the table and set it on top`
-    if let Some(count) = longest(tokens, at, &["on top", "on it", "up there", "over there", "right there"])
+    if let Some(count) = PART_ON_TOP.longest(tokens, at)
         && is_boundary(tokens, at + count)
         && !now.items.is_empty()
     {
@@ -60,32 +52,20 @@ pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command)
         return Ok(at + count);
     }
     // `get it out of my sight`
-    if let Some(count) = longest(tokens, at, OUT_OF_SIGHT)
+    if let Some(count) = OUT_OF_SIGHT.longest(tokens, at)
         && matches!(now.act, Act::Fetch | Act::Take | Act::Put | Act::Move)
     {
         now.act = Act::Stow;
         return Ok(at + count);
     }
     // `put it out with the rubbish`
-    let rubbish = [
-        "out with the rubbish",
-        "out with the trash",
-        "out with the garbage",
-        "with the rubbish",
-        "with the trash",
-        "with the garbage",
-        "in with the rubbish",
-        "in with the trash",
-    ];
-    if let Some(count) = longest(tokens, at, &rubbish)
+    if let Some(count) = PART_RUBBISH.longest(tokens, at)
         && matches!(now.act, Act::Take | Act::Put | Act::Move | Act::Throw)
     {
         now.act = Act::Discard;
         return Ok(at + count);
     }
-    if let Some(count) =
-        longest(tokens, at, &["from off", "from on top of", "from inside", "from", "off of", "off", "out of"])
-    {
+    if let Some(count) = PART_FROM_OFF.longest(tokens, at) {
         let Some((source, after)) = noun(tokens, at + count) else {
             now.with.push(word.to_owned());
             return Ok(at + 1);
@@ -129,21 +109,14 @@ pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command)
         return Ok(at + 1);
     }
     // `close the drawer if it is open`
-    let conditions = [
-        super::frame::ONLY_IF_SO,
-        "if it is still open",
-        "if it is closed",
-        "if it is not open",
-        "if it is shut",
-    ];
-    if let Some(count) = longest(tokens, at, &conditions)
+    if let Some(count) = IF_SO.longest(tokens, at)
         && matches!(now.act, Act::Open | Act::Close)
     {
         now.with.push(ONLY_IF.to_owned());
         return Ok(at + count);
     }
     // `come to me with the mug`
-    if let Some(count) = longest(tokens, at, &["with me", "with us"])
+    if let Some(count) = PART_WITH_ME.longest(tokens, at)
         && matches!(now.act, Act::Go | Act::Come)
     {
         return Ok(at + count);
@@ -165,22 +138,7 @@ pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command)
     if word == "for" {
         let Some((whom, after)) = noun(tokens, at + 1) else { return Err(lost()) };
         // `nip over for the coke`: who goes for something brings it.
-        let sets_out = matches!(
-            tokens.get(begin).map_or("", Token::word),
-            "go" | "nip"
-                | "pop"
-                | "run"
-                | "hop"
-                | "dash"
-                | "scoot"
-                | "hurry"
-                | "trot"
-                | "zip"
-                | "rush"
-                | "race"
-                | "walk"
-                | "scurry"
-        );
+        let sets_out = PART_GO.has(tokens.get(begin).map_or("", Token::word));
         if now.act == Act::Go
             && now.to.is_none()
             && now.items.is_empty()
@@ -199,36 +157,13 @@ pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command)
         return Ok(after);
     }
     // `put it back where it was`
-    let was = [
-        "where it came from",
-        "where it was",
-        "where it was before",
-        "where you found it",
-        "where you got it",
-        "where you got it from",
-    ];
     let to = stands(tokens, at, "to").unwrap_or(0);
-    if let Some(count) = longest(tokens, at + to, &was) {
+    if let Some(count) = PART_WAS.longest(tokens, at + to) {
         now.with.push("back".to_owned());
         return Ok(at + to + count);
     }
     // `put it back where it belongs`
-    if let Some(count) = [
-        "to where it belongs",
-        "where it belongs",
-        "to where it goes",
-        "where it goes",
-        "where it lives",
-        "to its place",
-        "in its usual place",
-        "to its usual place",
-        "in its usual spot",
-        "in its proper place",
-        "in its place",
-    ]
-    .iter()
-    .find_map(|words| stands(tokens, at, words))
-    {
+    if let Some(count) = PART_TO_WHERE_IT_BELONGS.longest(tokens, at) {
         now.with.extend(["back".to_owned(), BELONGS.to_owned()]);
         return Ok(at + count);
     }
@@ -237,30 +172,7 @@ pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command)
         now.to.get_or_insert(there("inside", Relation::In, Noun::There));
         return Ok(at + 1);
     }
-    if matches!(
-        word,
-        "up" | "down"
-            | "away"
-            | "out"
-            | "back"
-            | "over"
-            | "in"
-            | "on"
-            | "please"
-            | "closed"
-            | "open"
-            | "together"
-            | "across"
-            | "along"
-            | "aside"
-            | "around"
-            | "ready"
-            | "tight"
-            | "firm"
-            | "steady"
-            | "anywhere"
-            | "elsewhere"
-    ) {
+    if PART_UP.has(word) {
         now.with.push(word.to_owned());
         return Ok(at + 1);
     }
@@ -281,17 +193,14 @@ pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command)
 }
 
 /// A place that is said in one word.
-fn there(preposition: &'static str, relation: Relation, noun: Noun) -> Spot {
-    Spot { relation, preposition, noun, is_behind_thing: false }
+fn there(preposition: &str, relation: Relation, noun: Noun) -> Spot {
+    Spot { relation, preposition: preposition.to_owned(), noun, is_behind_thing: false }
 }
 
 /// Whether an article or the like stands at a place.
 fn is_determined(tokens: &[Token], at: usize) -> bool {
     let word = tokens.get(at).map_or("", Token::word);
-    matches!(
-        word,
-        "the" | "a" | "an" | "my" | "your" | "our" | "his" | "her" | "their" | "this" | "that" | "me" | "us"
-    )
+    IS_DETERMINED_THE.has(word)
 }
 
 /// Whether it is the robot's own hand.

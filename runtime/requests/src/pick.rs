@@ -1,5 +1,6 @@
 //! Single things in words: which of some options an answer means, what a request names, what a thing is called.
 
+use crate::english::{ALL_OF_THEM, ANY_OF_THEM, NUMBERED_THE};
 use motet_robots::scene::Entity;
 use smol_str::SmolStr;
 
@@ -45,9 +46,8 @@ pub fn pick(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -
         _ => (Vec::new(), place(spot(words, 0).map(|(place, _)| place))),
     };
     told.retain(|word| word != "one" && word != "thing");
-    let number = ["first", "second", "third", "fourth"];
     if let [ordinal] = told.as_slice()
-        && let Some(index) = number.iter().position(|known| known == ordinal)
+        && let Some(index) = ["first", "second", "third", "fourth"].iter().position(|known| known == ordinal)
     {
         return options.get(index).cloned();
     }
@@ -73,33 +73,6 @@ pub fn pick(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -
     }
 }
 
-/// Answers that leave it to the robot.
-const ANY: &[&str] = &[
-    "any",
-    "any one",
-    "any of them",
-    "any of those",
-    "either",
-    "either one",
-    "either of them",
-    "whichever",
-    "whatever",
-    "i do not care",
-    "i do not mind",
-    "do not care",
-    "do not mind",
-    "it does not matter",
-    "does not matter",
-    "you choose",
-    "you decide",
-    "your choice",
-    "one of them",
-    "whichever you like",
-];
-/// Answers that mean every option.
-const BOTH: &[&str] =
-    &["both", "both of them", "both of those", "the two", "all", "all of them", "all of those", "every one"];
-
 /// Which of the options the answer to "Which one?" means, or what else it names: `both`, `any`, `not the red one`, `2`,
 /// `the last one`. Empty where that is not clear.
 #[must_use]
@@ -107,10 +80,10 @@ pub fn choose(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>)
     let mut words: Vec<String> = tokens(answer).iter().map(|token| token.word().to_owned()).collect();
     words.retain(|word| !matches!(word.as_str(), "" | "please" | "just" | "really" | "then"));
     let said = words.join(" ");
-    if ANY.contains(&said.as_str()) {
+    if ANY_OF_THEM.has(said.as_str()) {
         return options.first().cloned().into_iter().collect();
     }
-    if BOTH.contains(&said.as_str()) && (options.len() == 2 || !said.contains("both") && said != "the two") {
+    if ALL_OF_THEM.has(said.as_str()) && (options.len() == 2 || !said.contains("both") && said != "the two") {
         return options.to_vec();
     }
     if let Some(rest) = said.strip_prefix("not ") {
@@ -157,10 +130,7 @@ fn numbered(words: &[String], options: &[SmolStr]) -> Option<SmolStr> {
     let all: Vec<&str> = words.iter().map(String::as_str).collect();
     // `number one` counts, `the red one` does not.
     let is_first = matches!(all.as_slice(), ["one"] | ["number" | "no" | "option", "one"]);
-    let kept = all.into_iter().filter(|word| {
-        !matches!(*word, "the" | "number" | "no" | "option" | "mentioned" | "said" | "you")
-            && (is_first || *word != "one")
-    });
+    let kept = all.into_iter().filter(|word| !NUMBERED_THE.has(word) && (is_first || *word != "one"));
     let kept: Vec<&str> = kept.collect();
     match kept.as_slice() {
         ["last" | "latter"] => options.last().cloned(),

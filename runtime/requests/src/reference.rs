@@ -1,5 +1,6 @@
 //! What nouns mean: the things of the scene that words, pronouns and places single out.
 
+use crate::english::CANDIDATES_OPEN;
 use smol_str::SmolStr;
 
 use super::RequestError;
@@ -130,7 +131,7 @@ impl Reader<'_> {
         }
         let mut words = phrase.words.clone();
         // What someone says of a thing that they opened or emptied tells nothing about which it is.
-        words.retain(|word| !matches!(word.as_str(), "open" | "opened" | "nice" | "good" | "other" | "new"));
+        words.retain(|word| !CANDIDATES_OPEN.has(word.as_str()));
         let found = self.named(&words, roles);
         if found.is_empty()
             && let Some(other) = self.vocabulary.meant(&words, ALL).first()

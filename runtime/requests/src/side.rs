@@ -1,5 +1,6 @@
 //! `the left one`: which of several things is farther to a side, where that is so for the person and for the robot.
 
+use crate::english::SIDE_THE;
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
@@ -12,11 +13,7 @@ pub(super) enum Side {
 
 /// The side that words name.
 pub(super) fn side(words: &[&str]) -> Option<Side> {
-    let kept: Vec<&str> = words
-        .iter()
-        .copied()
-        .filter(|word| !matches!(*word, "the" | "one" | "on" | "to" | "side" | "hand" | "thing"))
-        .collect();
+    let kept: Vec<&str> = words.iter().copied().filter(|word| !SIDE_THE.has(word)).collect();
     match kept.as_slice() {
         ["left" | "leftmost"] => Some(Side::Left),
         ["right" | "rightmost"] => Some(Side::Right),

@@ -7,8 +7,9 @@ use super::lead::{contrasts, skip_leads, thanks};
 use super::noun::{Noun, noun};
 use super::remark::{beside, is_question, is_remark, remark_end};
 use super::staying::stays_put;
-use super::token::{Token, longest, stands};
+use super::token::{Token, stands};
 use super::verb::{begins, is_want, verb};
+use crate::english::SPOKEN_I_MEAN;
 
 /// What somebody says beside what they ask for.
 #[derive(Clone, PartialEq, Debug)]
@@ -127,12 +128,9 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
             return Err(words(tokens, at, end));
         }
         // `the coke, I mean the sponge`: so is what is put right.
-        let corrects = longest(
-            tokens,
-            begin,
-            &["i mean", "i meant", "i mean to say", "make that", "or rather", "scratch that", "correction"],
-        )
-        .filter(|count| noun(tokens, begin + count).is_some_and(|(noun, _)| matches!(noun, Noun::Phrase(_))));
+        let corrects = SPOKEN_I_MEAN.longest(tokens, begin).filter(|count| {
+            noun(tokens, begin + count).is_some_and(|(noun, _)| matches!(noun, Noun::Phrase(_)))
+        });
         if corrects.is_some() && !spoken.commands.is_empty() {
             return Err(words(tokens, at, end));
         }

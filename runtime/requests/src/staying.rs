@@ -1,19 +1,12 @@
 //! Where the robot stays once it has done what it was asked for: `and wait there`.
 
 use super::remark::is_boundary;
-use super::token::{Token, longest, run};
+use super::token::Token;
 use super::verb::Act;
-
-/// What keeps open or shut what is.
-const SO: &[&str] = &[
-    "leave it like that",
-    "leave it that way",
-    "leave it so",
-    "keep it like that",
-    "keep it that way",
-    "keep it so",
-    "let it stay like that",
-];
+use crate::english::{
+    KEEPS_SO, KEPT_HOLD, KEPT_OPEN, KEPT_SHUT, KEPT_THERE, STAYS_PUT_AWAITS, STAYS_PUT_LEFT, STAYS_PUT_STAY,
+    STAYS_PUT_THERE, STAYS_PUT_WHAT_FOR, STOPS_THERE,
+};
 
 /// `just stay there with it`: where the robot is once it has done what it was asked for. Where it ends.
 pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<usize> {
@@ -24,127 +17,36 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
         return None;
     }
     let is_joined = joined.is_some_and(|token| matches!(token.word(), "and" | "then"));
-    let same: &[&str] = match before {
-        Act::Pick | Act::Lift => &[
-            "keep it there",
-            "hold it there",
-            "keep it",
-            "keep hold of it",
-            "keep holding it",
-            "just keep it",
-            "just hold it",
-            "keep them",
-            "keep it up",
-            "keep it in the air",
-            "hold on to it",
-            "hang on to it",
-            "hold it",
-            "hold it tight",
-        ],
-        Act::Open => &["keep it open", "leave it open", "hold it open"],
-        Act::Close => &["keep it shut", "leave it shut", "keep it closed", "leave it closed"],
-        Act::Put | Act::Store | Act::Stow => {
-            &["leave it there", "keep it there", "let it stay there", "leave it like that"]
-        }
-        Act::Go if is_joined => &["stop", "stop there"],
-        _ => &[],
+    let same = match before {
+        Act::Pick | Act::Lift => KEPT_HOLD.longest(tokens, begin),
+        Act::Open => KEPT_OPEN.longest(tokens, begin).max(KEEPS_SO.longest(tokens, begin)),
+        Act::Close => KEPT_SHUT.longest(tokens, begin).max(KEEPS_SO.longest(tokens, begin)),
+        Act::Put | Act::Store | Act::Stow => KEPT_THERE.longest(tokens, begin),
+        Act::Go if is_joined => STOPS_THERE.longest(tokens, begin),
+        _ => None,
     };
     // `open it and leave it`; as a sentence of its own it may take back what was asked for.
-    let left = ["leave it", "leave it be", "leave it alone", "let it be"];
     if is_joined
         && matches!(before, Act::Open | Act::Put | Act::Store | Act::Stow)
-        && let Some(count) = longest(tokens, begin, &left)
+        && let Some(count) = STAYS_PUT_LEFT.longest(tokens, begin)
         && is_boundary(tokens, begin + count)
     {
         return Some(begin + count);
     }
-    let so: &[&str] = if matches!(before, Act::Open | Act::Close) { SO } else { &[] };
-    if let Some(count) = longest(tokens, begin, same).max(longest(tokens, begin, so))
+    if let Some(count) = same
         && is_boundary(tokens, begin + count)
     {
         return Some(begin + count);
     }
-    let awaits = [
-        "await further instructions",
-        "await instructions",
-        "await my instructions",
-        "await further orders",
-        "await orders",
-        "await my orders",
-        "await my signal",
-        "await my word",
-    ];
-    if let Some(count) = longest(tokens, begin, &awaits) {
+    if let Some(count) = STAYS_PUT_AWAITS.longest(tokens, begin) {
         return is_boundary(tokens, begin + count).then_some(begin + count);
     }
-    let stays = longest(
-        tokens,
-        begin,
-        &[
-            "stay",
-            "wait",
-            "stand by",
-            "stand",
-            "remain",
-            "sit",
-            "hang on",
-            "hold on",
-            "hold still",
-            "stay put",
-            "hang about",
-        ],
-    )?;
-    let there = [
-        "there",
-        "put",
-        "still",
-        "where you are",
-        "right where you are",
-        "over there",
-        "in place",
-        "at the ready",
-        "ready",
-        "out of the way",
-        "out of my way",
-        "out of everyone's way",
-        "out from under my feet",
-        "clear",
-    ];
+    let stays = STAYS_PUT_STAY.longest(tokens, begin)?;
     let mut at = begin + stays;
-    let is_there = longest(tokens, at, &there);
+    let is_there = STAYS_PUT_THERE.longest(tokens, at);
     at += is_there.unwrap_or(0);
-    let what_for = [
-        "with it",
-        "with them",
-        "for me",
-        "for us",
-        "for now",
-        "please",
-        "for further instructions",
-        "for more instructions",
-        "for instructions",
-        "for my instructions",
-        "for further orders",
-        "for orders",
-        "for my orders",
-        "for my signal",
-        "for my word",
-        "for my call",
-        "for my command",
-        "for what comes next",
-        "for the next step",
-        "for the next instruction",
-        "for a bit",
-        "a bit",
-        "for me there",
-        "there",
-        "for me to come",
-        "for me to tell you",
-        "for me to say so",
-        "holding it",
-    ];
     let begins_for = at;
-    at += run(tokens, at, &what_for);
+    at += STAYS_PUT_WHAT_FOR.run(tokens, at);
     // `and wait` alone, behind what it waits with or where
     let is_waiting = is_there.is_some()
         || (matches!(before, Act::Pick | Act::Lift | Act::Go | Act::Take) && (at > begins_for || is_joined));

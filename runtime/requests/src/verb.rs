@@ -1,9 +1,12 @@
 //! The verbs of household requests.
 
 use super::lead::skip_leads;
-use super::lexicon::VERBS;
-use super::token::{Token, longest, run, stands};
+use super::token::Token;
 use super::wish::wish;
+use crate::english::{
+    IS_NO_THING_DONE, IS_NO_THING_HELP, IS_NO_THING_RID, IS_NO_THING_YOUR, TAKE_HOLD, VAGUE_VERBS, VERB,
+    WANTED_LATER,
+};
 
 /// What is asked for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -42,6 +45,31 @@ pub(super) enum Act {
     Find,
 }
 
+impl Act {
+    /// The act of a name in the list of verbs.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "go" => Self::Go,
+            "come" => Self::Come,
+            "fetch" => Self::Fetch,
+            "pick" => Self::Pick,
+            "lift" => Self::Lift,
+            "put" => Self::Put,
+            "take" => Self::Take,
+            "stow" => Self::Stow,
+            "store" => Self::Store,
+            "discard" => Self::Discard,
+            "throw" => Self::Throw,
+            "release" => Self::Release,
+            "open" => Self::Open,
+            "close" => Self::Close,
+            "move" => Self::Move,
+            "find" => Self::Find,
+            _ => return None,
+        })
+    }
+}
+
 /// The verb that stands at a place, and where its object begins.
 pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     // `the table, trash can and shelf`: a noun, for want of an object.
@@ -51,23 +79,13 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
         return None;
     }
     // `take care of it` says nothing of what to do with it.
-    let vague = [
-        "take care",
-        "take a look",
-        "hold on a",
-        "set about",
-        "get ready",
-        "come to think",
-        "run out",
-        "pass by",
-    ];
-    if longest(tokens, at, &vague).is_some() {
+    if VAGUE_VERBS.longest(tokens, at).is_some() {
         return None;
     }
     let wants = wanted(tokens, at).map(|after| (Act::Fetch, after));
-    let verbs = VERBS.iter().filter_map(|(verb, act)| Some((*act, at + stands(tokens, at, verb)?)));
-    let holds = hold(tokens, at).map(|after| (Act::Pick, after));
-    verbs.chain(wants).chain(holds).max_by_key(|(_, after)| *after)
+    let verb = VERB.valued(tokens, at).and_then(|(count, act)| Some((Act::named(act)?, at + count)));
+    let holds = TAKE_HOLD.longest(tokens, at).map(|count| (Act::Pick, at + count));
+    verb.into_iter().chain(wants).chain(holds).max_by_key(|(_, after)| *after)
 }
 
 /// Where what somebody wants to have begins, where they want it now.
@@ -79,90 +97,22 @@ fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
             || matches!(token.word(), "and" | "so" | "but" | "because")
     };
     let clause = tokens.get(after..)?.iter().take_while(|token| !is_end(token));
-    let is_later = clause.clone().any(|token| {
-        matches!(
-            token.word(),
-            "later" | "tomorrow" | "tonight" | "afterwards" | "soon" | "gone" | "eventually"
-        )
-    });
+    let is_later = clause.clone().any(|token| WANTED_LATER.has(token.word()));
     (!is_later && !is_no_thing(tokens, after)).then_some(after)
-}
-
-/// `get a firm grip on`, `keep a tight hold of`, `close your hand around`: where what is held begins.
-fn hold(tokens: &[Token], at: usize) -> Option<usize> {
-    let hand = [
-        "close your hand",
-        "close your hands",
-        "close your gripper",
-        "close your fingers",
-        "wrap your hand",
-        "wrap your fingers",
-        "wrap your gripper",
-        "put your hand",
-        "put your hands",
-        "lay your hands",
-    ];
-    if let Some(count) = longest(tokens, at, &hand) {
-        return Some(at + count + longest(tokens, at + count, &["around", "round", "on", "about"])?);
-    }
-    let takes =
-        longest(tokens, at, &["get", "take", "keep", "grab", "catch", "have", "maintain", "hold", "hang"])?;
-    let mut end = at + takes;
-    if longest(tokens, at, &["hold", "hang"]).is_some() {
-        // `hold on tight to it`
-        end += stands(tokens, end, "on").unwrap_or(0);
-        end +=
-            longest(tokens, end, &["tight", "fast", "firm", "good and tight", "really tight", "very tight"])?;
-        return Some(end + longest(tokens, end, &["to", "onto"])?);
-    }
-    end += longest(tokens, end, &["a", "your"]).unwrap_or(0);
-    end += run(
-        tokens,
-        end,
-        &["nice", "good", "firm", "tight", "proper", "safe", "secure", "steady", "strong", "solid", "very"],
-    );
-    end += longest(tokens, end, &["grip", "hold", "grasp"])?;
-    Some(end + longest(tokens, end, &["on to", "on", "of", "onto"])?)
 }
 
 /// What somebody wants to do, or wants of somebody, and does not want to have: `to open it`, `your help`.
 fn is_no_thing(tokens: &[Token], at: usize) -> bool {
-    let whose =
-        matches!(tokens.get(at).map_or("", Token::word), "your" | "some" | "a" | "more" | "any" | "the");
+    let whose = IS_NO_THING_YOUR.has(tokens.get(at).map_or("", Token::word));
     let what = tokens.get(at + usize::from(whose)).map_or("", Token::word);
     let is_undone = tokens.get(at).is_some_and(|token| matches!(token.word(), "something" | "anything"))
-        && tokens.get(at + 1).is_some_and(|token| {
-            matches!(token.word(), "done" | "about" | "sorted" | "out" | "from" | "in" | "inside")
-        });
+        && tokens.get(at + 1).is_some_and(|token| IS_NO_THING_DONE.has(token.word()));
     // `I would like to get into the drawer`
-    let is_way_in = tokens.get(at).is_some_and(|token| {
-        matches!(
-            token.word(),
-            "rid" | "into" | "in" | "at" | "inside" | "through" | "out" | "past" | "by" | "started" | "going"
-        )
-    });
+    let is_way_in = tokens.get(at).is_some_and(|token| IS_NO_THING_RID.has(token.word()));
     is_undone
         || is_way_in
         || tokens.get(at).is_some_and(|token| matches!(token.word(), "to" | "you"))
-        || matches!(
-            what,
-            "help"
-                | "hand"
-                | "look"
-                | "chat"
-                | "peek"
-                | "think"
-                | "seat"
-                | "assistance"
-                | "advice"
-                | "favor"
-                | "favour"
-                | "word"
-                | "break"
-                | "rest"
-                | "room"
-                | "space"
-        )
+        || IS_NO_THING_HELP.has(what)
 }
 
 /// Whether it is a wish that stands here, and no verb.

@@ -2,16 +2,20 @@
 //!
 //! A clause is such a fact as a whole or not at all: who sits at a table says nothing of what is on it.
 
+use crate::english::{
+    ADVICE, BEFORE_REPORT, BEHIND_REPORT, FINDS, HAD, IS_HABIT_ALWAYS, IS_SOMEWHERE, IS_SOMEWHERE_HOW,
+    LOOK_THERE, NEXT_PLACE, NO_REPORTER, PUT_SOMEWHERE, PUTS_PAST, REPORT_DENIALS, REPORTED_SAYS, REPORTER,
+    REPORTER_ARTICLE, REPORTER_HAS, SAID_LIVES, SAID_SEEN, SAID_THERE, SPOTS_GOES_ON, SURELY, TOLD_THERE,
+};
+use crate::phrases::Phrases;
 use smol_str::SmolStr;
 
 use super::ReportedLocation;
 use super::hedge;
-use super::looking::{HOW, IS, LOOK};
 use super::meaning::{OBJECTS, Reader};
 use super::noun::{Noun, noun};
 use super::spot::{Relation, Spot, spot, way};
-use super::telling::{BEFORE, BEHIND, DENIES, HAS, PUT, WHO};
-use super::token::{Token, longest, run, stands};
+use super::token::{Token, stands};
 use super::vocabulary::Role;
 
 /// Whether a clause answers the question where something is, so that a bare place is one.
@@ -29,11 +33,7 @@ impl Reader<'_> {
             let mut here = Vec::new();
             for clause in sentence.split(|token| *token == Token::Comma) {
                 // `I put it in the fridge, but it is not there any more`
-                if denies(clause)
-                    && clause
-                        .iter()
-                        .any(|token| matches!(token.word(), "there" | "gone" | "anymore" | "more" | "longer"))
-                {
+                if denies(clause) && clause.iter().any(|token| TOLD_THERE.has(token.word())) {
                     here.clear();
                 }
                 here.extend(self.whereabouts(clause, Clause::Answer));
@@ -48,7 +48,8 @@ impl Reader<'_> {
         let begin = reported(tokens, leading(tokens, 0, clause), clause);
         // `is it not in the fridge?` proposes it.
         let proposes = clause == Clause::Answer
-            && longest(tokens, begin, LOOK)
+            && LOOK_THERE
+                .longest(tokens, begin)
                 .is_some_and(|count| !denies(tokens.get(begin + count..).unwrap_or_default()));
         // Who says beside a request where something is kept as a rule does not say that it is there.
         if (clause == Clause::Statement && is_habit(tokens))
@@ -75,7 +76,7 @@ impl Reader<'_> {
         if denies(tokens) {
             return None;
         }
-        let (thing, spots) = said(tokens, skip(tokens, 0, BEFORE), Clause::Answer)?;
+        let (thing, spots) = said(tokens, skip(tokens, 0, &BEFORE_REPORT), Clause::Answer)?;
         let ([spot], Ok(things)) = (spots.as_slice(), self.things(&thing, OBJECTS, None)) else {
             return None;
         };
@@ -100,12 +101,7 @@ impl Reader<'_> {
 
 /// Whether a clause tells what is so as a rule.
 pub(super) fn is_habit(tokens: &[Token]) -> bool {
-    tokens.iter().any(|token| {
-        matches!(
-            token.word(),
-            "always" | "usually" | "normally" | "generally" | "typically" | "lives" | "belongs" | "keep"
-        )
-    })
+    tokens.iter().any(|token| IS_HABIT_ALWAYS.has(token.word()))
 }
 
 /// Which thing a clause places, and where.
@@ -119,121 +115,80 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
     // `it in the cupboard`, behind `you will see`
     if is_answer
         && stands(tokens, at, "it").is_some()
-        && let Some(spots) = spots(tokens, skip(tokens, at + 1, HOW), false)
+        && let Some(spots) = spots(tokens, skip(tokens, at + 1, &IS_SOMEWHERE_HOW), false)
     {
         return Some((it(), spots));
     }
-    let look = longest(tokens, at, LOOK).filter(|_| is_answer);
+    let look = LOOK_THERE.longest(tokens, at).filter(|_| is_answer);
     if let Some(count) = look {
         // `look for it in the cupboard`
         let for_it = stands(tokens, at + count, "for it").unwrap_or(0);
         return Some((it(), spots(tokens, at + count + for_it, true)?));
     }
     // `should be in the fridge`
-    if let (true, Some(count)) = (is_answer, longest(tokens, at, IS)) {
-        return Some((it(), spots(tokens, skip(tokens, at + count, HOW), false)?));
+    if let (true, Some(count)) = (is_answer, IS_SOMEWHERE.longest(tokens, at)) {
+        return Some((it(), spots(tokens, skip(tokens, at + count, &IS_SOMEWHERE_HOW), false)?));
     }
     // `there is a can in the fridge`
-    let there = ["there is", "there should be", "there might be", "there must be", "there was"];
-    if let Some(count) = there.iter().find_map(|there| stands(tokens, at, there)) {
+    if let Some(count) = SAID_THERE.longest(tokens, at) {
         let (thing, after) = noun(tokens, at + count)?;
         return Some((thing, spots(tokens, after, false)?));
     }
     // `somebody moved it to the cupboard`
-    if WHO.contains(&tokens.get(at)?.word()) {
+    if REPORTER.has(tokens.get(at)?.word()) {
         let is_kin = matches!(tokens.get(at)?.word(), "my" | "our");
-        let verb = skip(tokens, at + 1 + usize::from(is_kin), HAS);
+        let verb = skip(tokens, at + 1 + usize::from(is_kin), &REPORTER_HAS);
         // `I had it in the fridge`
-        let verb = if is_one_of(tokens, verb - 1, &["had"]) && !is_one_of(tokens, verb, PUT) {
+        let verb = if is_one_of(tokens, verb - 1, &HAD) && !is_one_of(tokens, verb, &PUT_SOMEWHERE) {
             verb - 1
         } else {
             verb
         };
         // `I saw somebody put it in the fridge`
-        let seen = [
-            "saw somebody",
-            "saw someone",
-            "saw him",
-            "saw her",
-            "saw them",
-            "saw you",
-            "watched somebody",
-            "watched someone",
-        ];
-        let verb = verb + longest(tokens, verb, &seen).unwrap_or(0);
+        let verb = verb + SAID_SEEN.longest(tokens, verb).unwrap_or(0);
         let is_to_come = tokens.get(at..verb)?.iter().any(|token| token.word() == "will");
-        let is_found = is_one_of(tokens, verb, &["find", "see", "spot", "locate", "discover"]);
-        if !is_one_of(tokens, verb, PUT) || (is_to_come && !is_found) {
+        let is_found = is_one_of(tokens, verb, &FINDS);
+        if !is_one_of(tokens, verb, &PUT_SOMEWHERE) || (is_to_come && !is_found) {
             return None;
         }
         let (thing, after) = noun(tokens, verb + 1)?;
-        return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
+        return Some((thing, spots(tokens, skip(tokens, after, &IS_SOMEWHERE_HOW), false)?));
     }
     // `Tommy put it in the fridge`
-    let named =
-        if is_one_of(tokens, at, &["the", "one", "some", "his", "her", "their"]) { at + 2 } else { at + 1 };
-    let verb = skip(tokens, named, HAS);
-    let verb = if verb > named && is_one_of(tokens, verb - 1, &["had"]) && !is_one_of(tokens, verb, PUT) {
-        verb - 1
-    } else {
-        verb
-    };
-    let is_past = is_one_of(
-        tokens,
-        verb,
-        &[
-            "put", "left", "placed", "moved", "saw", "hid", "dropped", "stuck", "popped", "tucked",
-            "stashed", "shoved", "chucked", "stored", "found", "threw", "set", "tidied", "took", "had",
-        ],
-    );
+    let named = if is_one_of(tokens, at, &REPORTER_ARTICLE) { at + 2 } else { at + 1 };
+    let verb = skip(tokens, named, &REPORTER_HAS);
+    let verb =
+        if verb > named && is_one_of(tokens, verb - 1, &HAD) && !is_one_of(tokens, verb, &PUT_SOMEWHERE) {
+            verb - 1
+        } else {
+            verb
+        };
+    let is_past = is_one_of(tokens, verb, &PUTS_PAST);
     if is_answer
         && is_past
-        && !is_one_of(tokens, at, &["it", "that", "you", "there"])
+        && !is_one_of(tokens, at, &NO_REPORTER)
         && let Some((thing @ Noun::Before(_), after)) = noun(tokens, verb + 1)
     {
-        return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
+        return Some((thing, spots(tokens, skip(tokens, after, &IS_SOMEWHERE_HOW), false)?));
     }
     // `(I remember) leaving it in the fridge`
-    if is_answer && tokens.get(at)?.word().ends_with("ing") && is_one_of(tokens, at, PUT) {
+    if is_answer && tokens.get(at)?.word().ends_with("ing") && is_one_of(tokens, at, &PUT_SOMEWHERE) {
         let (thing, after) = noun(tokens, at + 1)?;
-        return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
+        return Some((thing, spots(tokens, skip(tokens, after, &IS_SOMEWHERE_HOW), false)?));
     }
     // `the sponge lives in the drawer`: a verb that the noun would take in.
     let before_verb = (at + 1..tokens.len()).find_map(|verb| {
-        let count = longest(
-            tokens,
-            verb,
-            &["lives", "goes", "belongs", "sits", "stands", "lies", "hides", "stays", "rests"],
-        )?;
+        let count = SAID_LIVES.longest(tokens, verb)?;
         let (thing, after) = noun(tokens.get(..verb)?, at)?;
         (after == verb).then_some((thing, verb + count))
     });
     if let Some((thing, after)) = before_verb {
-        return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
+        return Some((thing, spots(tokens, skip(tokens, after, &IS_SOMEWHERE_HOW), false)?));
     }
     let (thing, after) = noun(tokens, at)?;
-    let after = skip(
-        tokens,
-        after,
-        &[
-            "probably",
-            "usually",
-            "normally",
-            "most likely",
-            "likely",
-            "definitely",
-            "surely",
-            "certainly",
-            "just",
-            "still",
-            "actually",
-            "always",
-            "generally",
-            "apparently",
-        ],
-    );
-    let count = longest(tokens, after, IS)?;
-    Some((thing, spots(tokens, skip(tokens, after + count, HOW), false)?))
+    let after = skip(tokens, after, &SURELY);
+    let count = IS_SOMEWHERE.longest(tokens, after)?;
+    Some((thing, spots(tokens, skip(tokens, after + count, &IS_SOMEWHERE_HOW), false)?))
 }
 
 /// Places to the end of a clause: `in the fridge or in the cupboard`, `the fridge first and then the drawer`.
@@ -243,38 +198,34 @@ fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>
         // `the cupboard yesterday`, `the fridge first and then …`: a place ends before such words, `the first drawer` does not.
         let whole = tokens;
         let is_end = |end: &usize| {
-            let after = skip(whole, *end, BEHIND);
-            after > *end && (after == whole.len() || longest(whole, after, NEXT).is_some())
+            let after = skip(whole, *end, &BEHIND_REPORT);
+            after > *end && (after == whole.len() || NEXT_PLACE.longest(whole, after).is_some())
         };
         let end = (at + 1..whole.len()).find(is_end).unwrap_or(whole.len());
         let tokens = whole.get(..end)?;
         let bare = || {
             let (noun, after) = noun(tokens, at)?;
             let is_named = matches!(noun, Noun::Phrase(_));
-            let spot = Spot { relation: Relation::To, preposition: "", noun, is_behind_thing: false };
+            let spot =
+                Spot { relation: Relation::To, preposition: String::new(), noun, is_behind_thing: false };
             (is_named && (may_be_bare || !spots.is_empty())).then_some((spot, after))
         };
         let (spot, after) = spot(tokens, at).or_else(|| way(tokens, at)).or_else(bare)?;
         spots.push(spot);
-        at = skip(whole, after, BEHIND);
-        let goes_on = ["when", "while", "because", "since", "where", "so"];
-        if at >= whole.len() || (at > 0 && longest(whole, at, &goes_on).is_some()) {
+        at = skip(whole, after, &BEHIND_REPORT);
+        if at >= whole.len() || (at > 0 && SPOTS_GOES_ON.longest(whole, at).is_some()) {
             return Some(spots);
         }
-        at += longest(whole, at, NEXT)?;
-        at = skip(whole, at, LOOK);
+        at += NEXT_PLACE.longest(whole, at)?;
+        at = skip(whole, at, &LOOK_THERE);
     }
 }
-
-/// What joins two places.
-const NEXT: &[&str] =
-    &["or else", "or maybe", "or perhaps", "or", "and then", "and after that", "and", "then"];
 
 /// Past what says how sure somebody is, or is only said before.
 fn leading(tokens: &[Token], mut at: usize, clause: Clause) -> usize {
     loop {
-        let count = longest(tokens, at, BEFORE).max(hedge::before(tokens, at));
-        let asks = longest(tokens, at, ASKING).filter(|_| clause == Clause::Answer);
+        let count = BEFORE_REPORT.longest(tokens, at).max(hedge::before(tokens, at));
+        let asks = ADVICE.longest(tokens, at).filter(|_| clause == Clause::Answer);
         match count.max(asks) {
             Some(count) => at += count,
             None => return at,
@@ -282,81 +233,30 @@ fn leading(tokens: &[Token], mut at: usize, clause: Clause) -> usize {
     }
 }
 
-/// Who tells where to look says it politely.
-const ASKING: &[&str] = &[
-    "would you",
-    "could you",
-    "can you",
-    "will you",
-    "you might want to",
-    "you may want to",
-    "you want to",
-    "you had better",
-    "you ought to",
-    "you should probably",
-    "you will have to",
-    "you would do well to",
-    "i would",
-    "i would advise you to",
-    "maybe you could",
-    "maybe you should",
-    "it might be worth",
-    "it is worth",
-    "it would be worth",
-    "it may help to",
-    "it might help to",
-    "best",
-    "best to",
-    "if i were you i would",
-    "you need to",
-    "you have to",
-    "let us",
-    "please do",
-    "just",
-    "you should be able to",
-    "go and",
-    "do",
-    "quickly",
-    "also",
-    "first",
-    "next",
-];
-
-fn skip(tokens: &[Token], mut at: usize, skipped: &[&str]) -> usize {
-    at += run(tokens, at, skipped);
-    at
+fn skip(tokens: &[Token], at: usize, skipped: &Phrases) -> usize {
+    at + skipped.run(tokens, at)
 }
 
 /// `my wife tells me it is …`: where what somebody else knows begins.
 fn reported(tokens: &[Token], at: usize, clause: Clause) -> usize {
-    let says = [
-        "says",
-        "said",
-        "thinks",
-        "tells me",
-        "told me",
-        "reckons",
-        "swears",
-        "is sure",
-        "told us",
-        "mentioned",
-    ];
-    let is_said = |end: usize| longest(tokens, end, &says).map(|count| skip(tokens, end + count, BEFORE));
+    let is_said = |end: usize| {
+        REPORTED_SAYS.longest(tokens, end).map(|count| skip(tokens, end + count, &BEFORE_REPORT))
+    };
     let found = (at + 1..=at + 2).find_map(is_said);
     found.filter(|_| clause == Clause::Answer).unwrap_or(at)
 }
 
-fn is_one_of(tokens: &[Token], at: usize, words: &[&str]) -> bool {
-    tokens.get(at).is_some_and(|token| words.contains(&token.word()))
+fn is_one_of(tokens: &[Token], at: usize, words: &Phrases) -> bool {
+    tokens.get(at).is_some_and(|token| words.has(token.word()))
 }
 
 fn denies(tokens: &[Token]) -> bool {
     let mut at = 0;
     while at < tokens.len() {
         // `if I were you`, `unless I am mistaken` take nothing back.
-        if let Some(count) = longest(tokens, at, BEHIND).max(hedge::before(tokens, at)) {
+        if let Some(count) = BEHIND_REPORT.longest(tokens, at).max(hedge::before(tokens, at)) {
             at += count;
-        } else if longest(tokens, at, DENIES).is_some() {
+        } else if REPORT_DENIALS.longest(tokens, at).is_some() {
             return true;
         } else {
             at += 1;

@@ -2,7 +2,7 @@
 //! as upright.
 
 use motet_graph::Pose;
-use motet_robots::scene::{Placement, Shape};
+use motet_robots::scene::{EntityShape, Placement};
 
 /// Position where the robot stands: x and y in m in the frame `map`, heading in rad.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -56,15 +56,15 @@ pub(crate) struct UprightBody {
 
 impl UprightBody {
     /// A thing as a scene gives it. One without a shape is a disc of 4 cm radius and 8 cm height.
-    pub(crate) fn new(pose: Placement, shape: Option<&Shape>, stands_on_pose: bool) -> Self {
+    pub(crate) fn new(pose: Placement, shape: Option<&EntityShape>, stands_on_pose: bool) -> Self {
         let (outline, height) = match shape {
-            Some(Shape::Box([x, y, z])) => (Outline::Rectangle { half: [x / 2.0, y / 2.0] }, *z),
-            Some(Shape::Cylinder { radius, height }) => (Outline::Disc { radius: *radius }, *height),
-            Some(Shape::Sphere { radius }) => (Outline::Disc { radius: *radius }, 2.0 * radius),
-            Some(Shape::Capsule { radius, height }) => {
+            Some(EntityShape::Box([x, y, z])) => (Outline::Rectangle { half: [x / 2.0, y / 2.0] }, *z),
+            Some(EntityShape::Cylinder { radius, height }) => (Outline::Disc { radius: *radius }, *height),
+            Some(EntityShape::Sphere { radius }) => (Outline::Disc { radius: *radius }, 2.0 * radius),
+            Some(EntityShape::Capsule { radius, height }) => {
                 (Outline::Disc { radius: *radius }, height + 2.0 * radius)
             }
-            Some(Shape::Mesh { .. }) | None => (Outline::Disc { radius: 0.04 }, 0.08),
+            Some(EntityShape::Mesh { .. }) | None => (Outline::Disc { radius: 0.04 }, 0.08),
         };
         let (below, above) = if stands_on_pose { (0.0, height) } else { (height / 2.0, height / 2.0) };
         Self { xyz: pose.xyz, yaw: pose.rpy[2], outline, below, above }
@@ -199,7 +199,7 @@ mod tests {
 
     fn table() -> UprightBody {
         let pose = Placement { xyz: [2.0, 0.5, 0.36], rpy: [0.0, 0.0, std::f64::consts::FRAC_PI_2] };
-        UprightBody::new(pose, Some(&Shape::Box([1.2, 0.8, 0.72])), false)
+        UprightBody::new(pose, Some(&EntityShape::Box([1.2, 0.8, 0.72])), false)
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Motion of the base and of people: along straight lines at constant speed.
 
 use crate::body::{BasePose, UprightBody, turned};
-use motet_robots::card::{Base, Drive};
+use motet_robots::card::{BaseSpec, Drive};
 use motet_runtime::Time;
 
 /// A motion of the base.
@@ -15,7 +15,7 @@ pub(crate) struct BaseMotion {
 
 impl BaseMotion {
     /// A motion to a stance, or nothing where the base is bolted down and would have to move.
-    pub(crate) fn new(base: &Base, from: BasePose, to: BasePose, start: Time) -> Option<Self> {
+    pub(crate) fn new(base: &BaseSpec, from: BasePose, to: BasePose, start: Time) -> Option<Self> {
         let (distance, angle) = (from.distance_to(to.x, to.y), turned(to.heading - from.heading).abs());
         let driving = distance / base.speed_m_per_s.max(1e-3);
         let turning = angle / base.turn_rad_per_s.max(1e-3);
@@ -30,7 +30,7 @@ impl BaseMotion {
     }
 
     /// A turn on the spot by any angle.
-    pub(crate) fn turn(base: &Base, from: BasePose, by: f64, start: Time) -> Self {
+    pub(crate) fn turn(base: &BaseSpec, from: BasePose, by: f64, start: Time) -> Self {
         let to = BasePose { heading: from.heading + by, ..from };
         Self { from, to, start, span: Time::from_secs(by.abs() / base.turn_rad_per_s.max(1e-3)) }
     }
@@ -133,8 +133,8 @@ pub(crate) fn standing_place(
 mod tests {
     use super::*;
 
-    const BASE: Base =
-        Base { drive: Drive::Omnidirectional, speed_m_per_s: 0.5, turn_rad_per_s: 1.0, radius_m: 0.2 };
+    const BASE: BaseSpec =
+        BaseSpec { drive: Drive::Omnidirectional, speed_m_per_s: 0.5, turn_rad_per_s: 1.0, radius_m: 0.2 };
 
     #[test]
     fn the_base_keeps_its_speed() {
@@ -143,7 +143,7 @@ mod tests {
         assert_eq!(motion.end(), Time::from_secs(5.0));
         assert_eq!(motion.at(Time::from_secs(3.0)), BasePose { x: 1.0, y: 0.0, heading: 0.5 });
         assert_eq!(motion.rest(Time::from_secs(3.0), Time::from_secs(9.0)).end(), Time::from_secs(11.0));
-        let fixed = Base { drive: Drive::Fixed, ..BASE };
+        let fixed = BaseSpec { drive: Drive::Fixed, ..BASE };
         assert_eq!(BaseMotion::new(&fixed, BasePose::default(), to, Time::ZERO), None);
     }
 

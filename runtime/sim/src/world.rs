@@ -7,7 +7,7 @@ use crate::body::{BasePose, UprightBody};
 use crate::motion::{BaseMotion, PersonWalk};
 use crate::thing::{Rest, Role, Thing};
 use indexmap::IndexMap;
-use motet_robots::card::{Base, Camera, Hand};
+use motet_robots::card::{BaseSpec, CameraSpec, HandSpec};
 use motet_runtime::Time;
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
@@ -21,9 +21,9 @@ pub(crate) struct SimWorld {
     pub(crate) now: Time,
     pub(crate) base: BasePose,
     pub(crate) motion: Option<BaseMotion>,
-    pub(crate) drive: Base,
+    pub(crate) drive: BaseSpec,
     pub(crate) hands: IndexMap<SmolStr, HandState>,
-    pub(crate) cameras: Vec<Camera>,
+    pub(crate) cameras: Vec<CameraSpec>,
     pub(crate) things: IndexMap<SmolStr, Thing>,
     pub(crate) arm: ArmPose,
     pub(crate) standing: bool,
@@ -38,7 +38,7 @@ pub(crate) struct SimWorld {
 /// A hand and what it holds.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct HandState {
-    pub(crate) hand: Hand,
+    pub(crate) hand: HandSpec,
     pub(crate) holds: Option<SmolStr>,
     pub(crate) lifted: bool,
 }

@@ -7,7 +7,7 @@ use crate::thing::{Door, Rest, Role, Thing};
 use crate::world::{ArmPose, HandState, SimWorld};
 use indexmap::IndexMap;
 use motet_robots::card::Robot;
-use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_runtime::Time;
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
@@ -137,7 +137,7 @@ fn bare(id: &str, kind: &str, pose: Option<Placement>) -> Entity {
         locked: None,
         travel: None,
         fields: IndexMap::new(),
-        written: Default::default(),
+        spans: Default::default(),
     }
 }
 
@@ -205,12 +205,12 @@ fn role(entity: &Entity, options: &SimOptions) -> Role {
 }
 
 /// The shape of a thing of which none is given.
-const fn usual_shape(role: Role) -> Option<Shape> {
+const fn usual_shape(role: Role) -> Option<EntityShape> {
     match role {
-        Role::Place => Some(Shape::Cylinder { radius: 0.01, height: 0.0 }),
-        Role::Surface => Some(Shape::Box([0.8, 1.2, 0.72])),
-        Role::Container => Some(Shape::Box([0.5, 0.5, 0.7])),
-        Role::Person => Some(Shape::Cylinder { radius: 0.3, height: 1.7 }),
+        Role::Place => Some(EntityShape::Cylinder { radius: 0.01, height: 0.0 }),
+        Role::Surface => Some(EntityShape::Box([0.8, 1.2, 0.72])),
+        Role::Container => Some(EntityShape::Box([0.5, 0.5, 0.7])),
+        Role::Person => Some(EntityShape::Cylinder { radius: 0.3, height: 1.7 }),
         Role::Object => None,
     }
 }

@@ -61,7 +61,7 @@ fn of(machine: &RobotModel, witness: &MotionWitness) -> Value {
 }
 
 fn state(machine: &RobotModel, state: &Configuration) -> Value {
-    let names = machine.tree().variables().iter().map(|variable| variable.name.to_string());
+    let names = machine.tree().dofs().iter().map(|dof| dof.name.to_string());
     let joints: Map<String, Value> = names.zip(state.joints.iter().map(|value| json!(value))).collect();
     json!({"base": state.base, "joints": joints})
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use motet_robots::card::{Beside, Stance};
+use motet_robots::card::{DraftInputs, DraftStance};
 use motet_robots::srdf::{self, Srdf};
 use motet_robots::urdf::Urdf;
 use motet_robots::{card, urdf};
@@ -49,7 +49,7 @@ pub(super) fn run(
     };
     let file = seen_from(path, folder)?;
     let mut beside =
-        Beside { srdf: described.as_ref().map(|(srdf, name)| (srdf, name.as_str())), stance: None };
+        DraftInputs { srdf: described.as_ref().map(|(srdf, name)| (srdf, name.as_str())), stance: None };
     let stance = stands(folder, &card::draft(&robot, &file, &beside));
     let touch = stance.as_ref().and_then(|stance| stance.touch.clone());
     beside.stance = stance;
@@ -87,7 +87,7 @@ fn described(
 }
 
 /// How the robot of a card stands, with its meshes and its SRDF; none where its body cannot be used, which `check` says.
-fn stands(folder: &Path, card: &str) -> Option<Stance> {
+fn stands(folder: &Path, card: &str) -> Option<DraftStance> {
     let (mut sources, mut report) = (Sources::default(), Report::silent());
     let card = Card::drafted(folder, card);
     let robot = card.read(&mut sources, &mut report).ok()?;

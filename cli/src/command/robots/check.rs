@@ -1,7 +1,7 @@
 //! `motet robots check`: whether a card, its declarations and its URDF are sound and fit each other, and what they come to.
 
 use motet_compiler::{Options, Session};
-use motet_geometry::kinematics::Chain;
+use motet_geometry::kinematics::KinematicChain;
 use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -73,7 +73,7 @@ fn told(robot: &Robot, urdf: &Urdf) -> Told {
         "body      {}, {}, of which {} by themselves, {} for collision",
         count(urdf.links.len(), "link"),
         count(urdf.joints.len(), "joint"),
-        match tree.variables().len() {
+        match tree.dofs().len() {
             1 => "1 moves".to_owned(),
             moving => format!("{moving} move"),
         },
@@ -83,15 +83,15 @@ fn told(robot: &Robot, urdf: &Urdf) -> Told {
     let base = base.and_then(|base| tree.link(base).ok()).unwrap_or(tree.root());
     for (name, hand) in &robot.hands {
         let tip = hand.tip.as_deref().and_then(|tip| tree.link(tip).ok());
-        let Some(chain) = tip.and_then(|tip| Chain::new(tree, base, tip)) else {
+        let Some(chain) = tip.and_then(|tip| KinematicChain::new(tree, base, tip)) else {
             lines.push(format!("{name:8}  not carried by the base's link"));
             continue;
         };
         // How high the base's link is does not tell which solver it is.
         let found = IkSolver::of(&chain, robot.base.drive, 0.0);
-        lines.push(format!("{name:8}  {}: {}", count(chain.variables.len(), "joint"), solver(&found)));
+        lines.push(format!("{name:8}  {}: {}", count(chain.dofs.len(), "joint"), solver(&found)));
     }
-    lines.extend(machine.body().unseen().iter().filter_map(|link| {
+    lines.extend(machine.body().uncovered_links().iter().filter_map(|link| {
         Some(format!(
             "`{}` has a mesh that is not read, so no motion is computed",
             tree.links().get(*link)?.escape_debug()

@@ -1,11 +1,11 @@
 //! How a robot of which there is a first card stands: how high its base is above the floor, and a posture in which it touches
 //! nothing.
 
-use motet_geometry::kinematics::{Variable, spread};
+use motet_geometry::kinematics::{Dof, quasi_random};
 use motet_geometry::planning::{
     AllowedCollisions, Configuration, HandModel, MIN_CLEARANCE, QueryContext, RobotModel, SceneState,
 };
-use motet_robots::card::{Robot, Stance};
+use motet_robots::card::{DraftStance, Robot};
 use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
 
@@ -13,7 +13,7 @@ use motet_robots::urdf::Urdf;
 const POSTURES: usize = 256;
 
 /// How the robot of a first card stands.
-pub(super) fn find(robot: &Robot, urdf: &Urdf) -> Stance {
+pub(super) fn find(robot: &Robot, urdf: &Urdf) -> DraftStance {
     let machine = RobotModel::new(robot, urdf);
     let is_arm = |hand: &HandModel, link: usize| hand.carried.get(link) == Some(&true);
     if machine.drives() {
@@ -48,7 +48,7 @@ enum Against {
 
 /// The first posture of the arm in which nothing touches, at a height; where there is none, what the robot touches in the first
 /// that was tried.
-fn posture(machine: &RobotModel, height_m: f64) -> (Stance, Option<Against>) {
+fn posture(machine: &RobotModel, height_m: f64) -> (DraftStance, Option<Against>) {
     let scene = Scene::default();
     let world = SceneState::new(machine, &scene);
     let room = QueryContext::new(machine, &scene, &world);
@@ -57,11 +57,11 @@ fn posture(machine: &RobotModel, height_m: f64) -> (Stance, Option<Against>) {
         room.contact(&state, AllowedCollisions::default())
     };
     let Some(first) = touch(machine.rest()) else {
-        return (Stance { height_m, ..Stance::default() }, None);
+        return (DraftStance { height_m, ..DraftStance::default() }, None);
     };
     let found = machine.hand().and_then(|hand| {
         let chain = hand.solver.chain();
-        (0..POSTURES).map(|index| written(&chain.variables, index)).find(|values| {
+        (0..POSTURES).map(|index| written(&chain.dofs, index)).find(|values| {
             let mut joints = machine.rest().to_vec();
             for (at, value) in chain.in_tree.iter().zip(values) {
                 if let Some(slot) = joints.get_mut(*at) {
@@ -71,13 +71,13 @@ fn posture(machine: &RobotModel, height_m: f64) -> (Stance, Option<Against>) {
             touch(&joints).is_none()
         })
     });
-    let variables = machine.hand().map(|hand| hand.solver.chain().variables.as_slice()).unwrap_or_default();
+    let dofs = machine.hand().map(|hand| hand.solver.chain().dofs.as_slice()).unwrap_or_default();
     // In a room without a thing, what is not the robot's own is the floor.
     let against = if first.is_own { Against::Itself } else { Against::Floor };
     let against = found.is_none().then_some(against);
     let touch = against.map(|_| [first.link, first.other]);
-    let joints = variables.iter().map(|variable| variable.name.clone()).zip(found.into_iter().flatten());
-    (Stance { height_m, joints: joints.collect(), touch }, against)
+    let joints = dofs.iter().map(|dof| dof.name.clone()).zip(found.into_iter().flatten());
+    (DraftStance { height_m, joints: joints.collect(), touch }, against)
 }
 
 /// How high the base's link has to be for these links to be so far above the floor, in m, to the next millimetre; 0 where it
@@ -90,10 +90,10 @@ fn above(machine: &RobotModel, counts: impl Fn(usize) -> bool, gap: f64) -> f64 
 }
 
 /// A posture as a card writes it: the middle of the limits, then others all over them, to three digits.
-fn written(variables: &[Variable], index: usize) -> Vec<f64> {
-    let values = spread(variables, index).into_iter().zip(variables).map(|(value, variable)| {
+fn written(dofs: &[Dof], index: usize) -> Vec<f64> {
+    let values = quasi_random(dofs, index).into_iter().zip(dofs).map(|(value, dof)| {
         let value = (value * 1e3).round() / 1e3;
-        variable.limits.map_or(value, |(lower, upper)| value.clamp(lower, upper))
+        dof.limits.map_or(value, |(lower, upper)| value.clamp(lower, upper))
     });
     values.collect()
 }

@@ -5,7 +5,7 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use motet_host::mcap::{McapBody, McapExporter, McapScene, McapSolid};
-use motet_robots::scene::{Scene, Shape};
+use motet_robots::scene::{EntityShape, Scene};
 use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_sim::Sim;
 
@@ -86,15 +86,15 @@ impl World {
         let bodies = self.scene.entities.values().filter_map(|entity| {
             let pose = entity.pose?;
             let solid = match entity.shape.as_ref()? {
-                Shape::Box(size) => McapSolid::Box(*size),
-                Shape::Cylinder { radius, height } => {
+                EntityShape::Box(size) => McapSolid::Box(*size),
+                EntityShape::Cylinder { radius, height } => {
                     McapSolid::Cylinder { radius: *radius, height: *height }
                 }
-                Shape::Capsule { radius, height } => {
+                EntityShape::Capsule { radius, height } => {
                     McapSolid::Cylinder { radius: *radius, height: height + 2.0 * radius }
                 }
-                Shape::Sphere { radius } => McapSolid::Sphere { radius: *radius },
-                Shape::Mesh { .. } => return None,
+                EntityShape::Sphere { radius } => McapSolid::Sphere { radius: *radius },
+                EntityShape::Mesh { .. } => return None,
             };
             let mut xyz = self.sim.position(&entity.id)?;
             if let (true, McapSolid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {

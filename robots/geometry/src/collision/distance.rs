@@ -16,7 +16,7 @@ impl Solid {
     /// nearly flat. Where they overlap it is 0 or negative, and says nothing about how deep.
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
-        self.bounded(other, Told { enough: f64::INFINITY, least: None }, &mut Vector3::zeros())
+        self.bounded(other, Precision { enough: f64::INFINITY, least: None }, &mut Vector3::zeros())
     }
 
     /// Whether the distance is more than `metres`. Cheaper than the distance.
@@ -28,7 +28,7 @@ impl Solid {
     /// The distance, or a bound from below where one is above `enough`: at once where that suffices, from the balls around
     /// both, whose radii the caller knows, or from the directions of a box or a cylinder.
     pub(crate) fn distance_to(&self, reach: f64, other: &Self, other_reach: f64, enough: f64) -> f64 {
-        self.told(reach, other, other_reach, Told { enough, least: None }, &mut Vector3::zeros())
+        self.precision(reach, other, other_reach, Precision { enough, least: None }, &mut Vector3::zeros())
     }
 
     /// A bound from below that tells only whether the distance is above `enough`, and if it is not, whether it is above
@@ -42,7 +42,7 @@ impl Solid {
         [least, enough]: [f64; 2],
         axis: &mut Vector3<f64>,
     ) -> f64 {
-        self.told(reach, other, other_reach, Told { enough, least: Some(least) }, axis)
+        self.precision(reach, other, other_reach, Precision { enough, least: Some(least) }, axis)
     }
 
     /// Whether the distance is at most `metres`, for certain but for what a number rounds: a place on each is that near to the
@@ -56,8 +56,15 @@ impl Solid {
         }
     }
 
-    fn told(&self, reach: f64, other: &Self, other_reach: f64, told: Told, axis: &mut Vector3<f64>) -> f64 {
-        let enough = told.enough;
+    fn precision(
+        &self,
+        reach: f64,
+        other: &Self,
+        other_reach: f64,
+        precision: Precision,
+        axis: &mut Vector3<f64>,
+    ) -> f64 {
+        let enough = precision.enough;
         let wide = reach + other_reach + enough;
         let between = (self.centre - other.centre).norm_squared();
         if between > wide * wide {
@@ -71,7 +78,7 @@ impl Solid {
             (Shape::Cylinder { radius, half }, _) => self.beside_cylinder(*radius, *half, other),
             (Shape::Capsule { .. }, Shape::Capsule { .. }) => f64::NEG_INFINITY,
         };
-        if below > enough { below } else { self.bounded(other, told, axis) }
+        if below > enough { below } else { self.bounded(other, precision, axis) }
     }
 
     /// A bound from below that tells only whether the distance is above `enough`, for all places of this solid while it moves by
@@ -101,8 +108,8 @@ impl Solid {
             }
         }
         let rims = self.rim() + other.rim();
-        let told = Told { enough: enough + rims, least: Some(enough + rims) };
-        cores(&Swept { solid: self, shift: *shift }, other, told, &mut Vector3::zeros()) - rims
+        let precision = Precision { enough: enough + rims, least: Some(enough + rims) };
+        cores(&Swept { solid: self, shift: *shift }, other, precision, &mut Vector3::zeros()) - rims
     }
 
     /// The distance from this box to the smallest box along its directions that holds the other, less its rim.
@@ -151,7 +158,7 @@ impl Solid {
     }
 
     /// The distance, or a bound from below as soon as one is above `enough`.
-    fn bounded(&self, other: &Self, told: Told, axis: &mut Vector3<f64>) -> f64 {
+    fn bounded(&self, other: &Self, precision: Precision, axis: &mut Vector3<f64>) -> f64 {
         match (&self.shape, &other.shape) {
             (Shape::HalfSpace, Shape::HalfSpace) => f64::NEG_INFINITY,
             (_, Shape::HalfSpace) => above(other, self),
@@ -161,8 +168,8 @@ impl Solid {
             }
             _ => {
                 let rims = self.rim() + other.rim();
-                let least = told.least.map(|least| least + rims);
-                cores(self, other, Told { enough: told.enough + rims, least }, axis) - rims
+                let least = precision.least.map(|least| least + rims);
+                cores(self, other, Precision { enough: precision.enough + rims, least }, axis) - rims
             }
         }
     }
@@ -170,7 +177,7 @@ impl Solid {
 
 /// What is to be told of a distance.
 #[derive(Clone, Copy)]
-struct Told {
+struct Precision {
     /// Above this any bound does.
     enough: f64,
     /// If it is not above that, only whether it is above this; the distance itself where there is none.
@@ -226,8 +233,8 @@ impl Convex for Swept<'_> {
 /// both, no point of the difference is nearer to the origin than the plane square to `v` through the support `w`.
 ///
 /// `nearest` is a point of the difference, so its length is never below the distance.
-fn cores(one: &impl Convex, other: &Solid, told: Told, axis: &mut Vector3<f64>) -> f64 {
-    let enough = told.enough;
+fn cores(one: &impl Convex, other: &Solid, precision: Precision, axis: &mut Vector3<f64>) -> f64 {
+    let enough = precision.enough;
     if *axis != Vector3::zeros() {
         // The plane square to where they were apart before, most often, is enough.
         let below = axis.dot(&(one.farthest(&-*axis) - other.support(axis)));
@@ -248,7 +255,8 @@ fn cores(one: &impl Convex, other: &Solid, told: Told, axis: &mut Vector3<f64>) 
         if bound > below {
             (below, *axis) = (bound, nearest / length);
         }
-        let is_told = told.least.is_some_and(|least| length <= least || (length <= enough && below > least));
+        let is_told =
+            precision.least.is_some_and(|least| length <= least || (length <= enough && below > least));
         if below > enough || is_told || length - below <= CLOSE || simplex.contains(&support) {
             return below;
         }

@@ -1,12 +1,12 @@
 //! What touches what, in `f64`: solids and the distance between two, and the solids of a robot.
 
-mod body;
+mod collision_model;
 mod distance;
+mod link_solid;
 mod outline;
-mod part;
 mod simplex;
 mod solid;
 
-pub use body::{Body, Near};
-pub use part::Part;
+pub use collision_model::{CollisionModel, NearestPair};
+pub use link_solid::LinkSolid;
 pub use solid::{Shape, Solid};

@@ -10,13 +10,13 @@ use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 use super::Tolerance;
 use super::screw::{ROUNDED, Screw, drives_each, screws};
 use super::subproblem::{angle_between, component, turned, within};
-use crate::kinematics::{Chain, Variable, planar};
+use crate::kinematics::{Dof, KinematicChain, planar};
 use crate::trigonometry::{turn, wrapped};
 
 /// The solver of one arm. The base's frame stands on the floor, z up.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LiftArm {
-    pub(crate) chain: Chain,
+    pub(crate) chain: KinematicChain,
     /// 1 where the lift's positive direction is up, −1 where it is down.
     pub(crate) up: f64,
     pub(crate) shoulder: Shoulder,
@@ -39,7 +39,7 @@ pub(crate) struct Shoulder {
 
 /// A base pose on the floor with the positions of the arm.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Placed {
+pub struct MobileSolution {
     /// x and y in m and yaw in (−π, π], of the base in the map.
     pub base: [f64; 3],
     /// Values of the chain's variables: lift, shoulder, three of the wrist.
@@ -49,8 +49,8 @@ pub struct Placed {
 impl LiftArm {
     /// The solver, where the chain is of this kind.
     #[must_use]
-    pub fn detect(chain: &Chain) -> Option<Self> {
-        let kinds: Vec<bool> = chain.joints.iter().map(|joint| joint.slides).collect();
+    pub fn detect(chain: &KinematicChain) -> Option<Self> {
+        let kinds: Vec<bool> = chain.joints.iter().map(|joint| joint.is_prismatic).collect();
         if kinds != [true, false, false, false, false] || !drives_each(chain) {
             return None;
         }
@@ -82,29 +82,29 @@ impl LiftArm {
 
     /// The chain that it solves.
     #[must_use]
-    pub fn chain(&self) -> &Chain {
+    pub fn chain(&self) -> &KinematicChain {
         &self.chain
     }
 
     /// Every solution with the given yaw of the base and value of the shoulder's variable, within the limits; the
     /// branches in a fixed order: at most two. Of values that differ by full turns it has the nearest to 0.
     #[must_use]
-    pub fn solve(&self, map_from_tip: &Isometry3<f64>, yaw: f64, shoulder: f64) -> Vec<Placed> {
+    pub fn solve(&self, map_from_tip: &Isometry3<f64>, yaw: f64, shoulder: f64) -> Vec<MobileSolution> {
         let [lift_joint, shoulder_joint, wrist_joints @ ..] = self.chain.joints.as_slice() else {
             return vec![];
         };
-        let [lift_variable, shoulder_variable, wrist_variables @ ..] = self.chain.variables.as_slice() else {
+        let [lift_variable, shoulder_variable, wrist_variables @ ..] = self.chain.dofs.as_slice() else {
             return vec![];
         };
         if !shoulder_variable.allows(shoulder) {
             return vec![];
         }
         let Shoulder { axis, point, to_wrist } = self.shoulder;
-        let angle = shoulder_joint.driver.position(&[0.0, shoulder]);
+        let angle = shoulder_joint.coupling.position(&[0.0, shoulder]);
         let centre = map_from_tip * nalgebra::Point3::from(self.centre_in_tip);
         let from_shoulder = point + turned(&axis, angle, &to_wrist);
         let lift = (centre.z - from_shoulder.z) * self.up;
-        let lift = (lift - lift_joint.driver.offset) / lift_joint.driver.multiplier;
+        let lift = (lift - lift_joint.coupling.offset) / lift_joint.coupling.multiplier;
         if !lift_variable.allows(lift) {
             return vec![];
         }
@@ -116,15 +116,15 @@ impl LiftArm {
         for angles in wrist(&self.wrist, &left) {
             let mut values = [lift, shoulder, 0.0, 0.0, 0.0];
             let joints = wrist_joints.iter().zip(wrist_variables).zip(angles);
-            let is_within = values.iter_mut().skip(2).zip(joints).all(|(slot, ((joint, variable), q))| {
-                let value = within(variable, (q - joint.driver.offset) / joint.driver.multiplier, 0.0);
+            let is_within = values.iter_mut().skip(2).zip(joints).all(|(slot, ((joint, dof), q))| {
+                let value = within(dof, (q - joint.coupling.offset) / joint.coupling.multiplier, 0.0);
                 value.is_some_and(|value| {
                     *slot = value;
                     true
                 })
             });
             if is_within {
-                found.push(Placed { base, values });
+                found.push(MobileSolution { base, values });
             }
         }
         found.retain(|placed| Tolerance::EXACT.covers(&self.map_from_tip(placed), map_from_tip));
@@ -133,7 +133,7 @@ impl LiftArm {
 
     /// Where the tip is.
     #[must_use]
-    pub fn map_from_tip(&self, placed: &Placed) -> Isometry3<f64> {
+    pub fn map_from_tip(&self, placed: &MobileSolution) -> Isometry3<f64> {
         let [x, y, yaw] = placed.base;
         planar(x, y, yaw) * self.chain.base_from_tip(&placed.values)
     }
@@ -147,13 +147,13 @@ impl LiftArm {
     /// The heights, in m, between which the wrist's centre can be, with every value of the shoulder within the limits.
     #[must_use]
     pub fn heights(&self) -> [f64; 2] {
-        let range = |at: usize| self.chain.variables.get(at).and_then(|variable| variable.limits);
+        let range = |at: usize| self.chain.dofs.get(at).and_then(|dof| dof.limits);
         let place = |at: usize, value: f64| {
             let mut values = [0.0; 2];
             if let Some(slot) = values.get_mut(at) {
                 *slot = value;
             }
-            self.chain.joints.get(at).map_or(0.0, |joint| joint.driver.position(&values))
+            self.chain.joints.get(at).map_or(0.0, |joint| joint.coupling.position(&values))
         };
         let (lower, upper) = range(0).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         let lifts = [place(0, lower) * self.up, place(0, upper) * self.up];
@@ -179,7 +179,7 @@ impl LiftArm {
 
     /// Values of the shoulder's variable that stand for all others.
     pub(crate) fn shoulder_span(&self) -> (f64, f64) {
-        self.chain.variables.get(1).map_or((0.0, 0.0), Variable::span)
+        self.chain.dofs.get(1).map_or((0.0, 0.0), Dof::sampling_range)
     }
 
     /// How far the tip can be from the vertical axis of the base, in m.

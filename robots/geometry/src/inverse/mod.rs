@@ -6,17 +6,17 @@
 //! takes any chain. What is returned is within the limits, and
 //! forward kinematics confirms it.
 
-pub(crate) mod family;
-mod lanes;
+pub mod batch;
+pub(crate) mod interval;
 mod lift_arm;
-pub mod manifold;
 pub mod numeric;
 mod parallel_arm;
 mod screw;
 mod seven_arm;
 mod subproblem;
+mod wide_angles;
 
-pub use lift_arm::{LiftArm, Placed};
+pub use lift_arm::{LiftArm, MobileSolution};
 pub use parallel_arm::ParallelArm;
 pub use seven_arm::SevenArm;
 

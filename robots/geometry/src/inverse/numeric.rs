@@ -4,12 +4,12 @@
 use nalgebra::{Isometry3, Vector3};
 
 use super::Tolerance;
-use crate::kinematics::{Chain, spread};
+use crate::kinematics::{KinematicChain, quasi_random};
 use crate::trigonometry::{rotation_vector, turn};
 
 /// How long to look.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Settings {
+pub struct NumericSettings {
     /// Starts, the given one included.
     pub starts: usize,
     /// Steps from one start.
@@ -18,7 +18,7 @@ pub struct Settings {
     pub tolerance: Tolerance,
 }
 
-impl Default for Settings {
+impl Default for NumericSettings {
     fn default() -> Self {
         Self { starts: 100, steps: 60, tolerance: Tolerance::EXACT }
     }
@@ -28,12 +28,12 @@ impl Default for Settings {
 /// The first start is `from`; the next are spread over the limits. O(starts × steps × joints).
 #[must_use]
 pub fn solve(
-    chain: &Chain,
+    chain: &KinematicChain,
     base_from_tip: &Isometry3<f64>,
     from: &[f64],
-    settings: Settings,
+    settings: NumericSettings,
 ) -> Option<Vec<f64>> {
-    let spread = (1..settings.starts).map(|index| spread(&chain.variables, index));
+    let spread = (1..settings.starts).map(|index| quasi_random(&chain.dofs, index));
     std::iter::once(from.to_vec())
         .chain(spread)
         .find_map(|start| refined(chain, base_from_tip, &start, settings.steps, settings.tolerance))
@@ -42,16 +42,16 @@ pub fn solve(
 /// The same from one start only.
 #[must_use]
 pub fn refined(
-    chain: &Chain,
+    chain: &KinematicChain,
     base_from_tip: &Isometry3<f64>,
     from: &[f64],
     steps: usize,
     tolerance: Tolerance,
 ) -> Option<Vec<f64>> {
     let mut values = from.to_vec();
-    values.resize(chain.variables.len(), 0.0);
+    values.resize(chain.dofs.len(), 0.0);
     clamp(chain, &mut values);
-    let (mut placed, mut after) = (Placed::default(), Placed::default());
+    let (mut placed, mut after) = (ChainState::default(), ChainState::default());
     placed.set(chain, base_from_tip, &values);
     let mut columns = placed.jacobian(chain);
     let mut damping = 1e-3;
@@ -78,7 +78,7 @@ pub fn refined(
 
 /// A solution of a closed form as it is where forward kinematics confirms it; a URDF whose axes are rounded needs a step or two.
 pub(super) fn polished<const N: usize>(
-    chain: &Chain,
+    chain: &KinematicChain,
     values: [f64; N],
     base_from_tip: &Isometry3<f64>,
 ) -> Option<[f64; N]> {
@@ -101,7 +101,7 @@ fn is_within([x, y, z, a, b, c]: &Twist, tolerance: Tolerance) -> bool {
 
 /// A chain with its variables at some values.
 #[derive(Default)]
-struct Placed {
+struct ChainState {
     /// For each joint its axis, as long as its position changes with its variable, and where it is.
     axes: Vec<[Vector3<f64>; 2]>,
     tip: Vector3<f64>,
@@ -109,16 +109,16 @@ struct Placed {
     error: Twist,
 }
 
-impl Placed {
-    fn set(&mut self, chain: &Chain, wanted: &Isometry3<f64>, values: &[f64]) {
+impl ChainState {
+    fn set(&mut self, chain: &KinematicChain, wanted: &Isometry3<f64>, values: &[f64]) {
         self.axes.clear();
         let mut pose = Isometry3::identity();
         for joint in &chain.joints {
             pose *= joint.before;
-            let axis = pose.rotation * joint.axis.into_inner() * joint.driver.multiplier;
+            let axis = pose.rotation * joint.axis.into_inner() * joint.coupling.multiplier;
             self.axes.push([axis, pose.translation.vector]);
-            let position = joint.driver.position(values);
-            if joint.slides {
+            let position = joint.coupling.position(values);
+            if joint.is_prismatic {
                 pose *= joint.motion(position);
             } else {
                 pose.rotation *= turn(&joint.axis, position);
@@ -132,14 +132,14 @@ impl Placed {
     }
 
     /// For each variable how the tip moves with it: velocity, then angular velocity.
-    fn jacobian(&self, chain: &Chain) -> Vec<Twist> {
-        let mut columns = vec![[0.0; 6]; chain.variables.len()];
+    fn jacobian(&self, chain: &KinematicChain) -> Vec<Twist> {
+        let mut columns = vec![[0.0; 6]; chain.dofs.len()];
         for (joint, [axis, at]) in chain.joints.iter().zip(&self.axes) {
-            let (arm, turn) = match joint.slides {
+            let (arm, turn) = match joint.is_prismatic {
                 true => (*axis, Vector3::zeros()),
                 false => (axis.cross(&(self.tip - at)), *axis),
             };
-            if let Some(column) = columns.get_mut(joint.driver.variable) {
+            if let Some(column) = columns.get_mut(joint.coupling.dof) {
                 let more = [arm.x, arm.y, arm.z, turn.x, turn.y, turn.z];
                 column.iter_mut().zip(more).for_each(|(slot, more)| *slot += more);
             }
@@ -150,7 +150,13 @@ impl Placed {
 
 /// The damped step `Jᵀ (J Jᵀ + damping)⁻¹ error`, within the limits. A variable that stands at a limit and would be
 /// pushed beyond is held, and the others share its part.
-fn step(chain: &Chain, values: &[f64], columns: &[Twist], error: &Twist, damping: f64) -> Option<Vec<f64>> {
+fn step(
+    chain: &KinematicChain,
+    values: &[f64],
+    columns: &[Twist],
+    error: &Twist,
+    damping: f64,
+) -> Option<Vec<f64>> {
     let mut held = vec![false; values.len()];
     // Every round holds one variable more, or is the last.
     for _ in 0..=values.len() {
@@ -168,8 +174,8 @@ fn step(chain: &Chain, values: &[f64], columns: &[Twist], error: &Twist, damping
         let pull = solved(normal, *error)?;
         let mut next = values.to_vec();
         let mut again = false;
-        for ((((value, column), held), variable), before) in
-            next.iter_mut().zip(columns).zip(&mut held).zip(&chain.variables).zip(values)
+        for ((((value, column), held), dof), before) in
+            next.iter_mut().zip(columns).zip(&mut held).zip(&chain.dofs).zip(values)
         {
             if *held {
                 continue;
@@ -179,7 +185,7 @@ fn step(chain: &Chain, values: &[f64], columns: &[Twist], error: &Twist, damping
             let at_limit = |(lower, upper): (f64, f64)| {
                 (*before <= lower && change < 0.0) || (*before >= upper && change > 0.0)
             };
-            if variable.limits.is_some_and(at_limit) {
+            if dof.limits.is_some_and(at_limit) {
                 (*held, again) = (true, true);
             }
         }
@@ -191,9 +197,9 @@ fn step(chain: &Chain, values: &[f64], columns: &[Twist], error: &Twist, damping
     None
 }
 
-fn clamp(chain: &Chain, values: &mut [f64]) {
-    for (value, variable) in values.iter_mut().zip(&chain.variables) {
-        if let Some((lower, upper)) = variable.limits {
+fn clamp(chain: &KinematicChain, values: &mut [f64]) {
+    for (value, dof) in values.iter_mut().zip(&chain.dofs) {
+        if let Some((lower, upper)) = dof.limits {
             *value = value.clamp(lower, upper);
         }
     }

@@ -10,13 +10,13 @@ use nalgebra::{Isometry3, Unit, UnitQuaternion, Vector3};
 use super::numeric::polished;
 use super::screw::{Screw, drives_each, screws};
 use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
-use crate::kinematics::Chain;
+use crate::kinematics::KinematicChain;
 use crate::trigonometry::turn;
 
 /// The solver of one arm.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ParallelArm {
-    pub(super) chain: Chain,
+    pub(super) chain: KinematicChain,
     /// Directions of the six axes at positions 0, in the base's frame.
     pub(super) axes: [Vector3<f64>; 6],
     /// For the parallel joints 1 where they turn with the second axis, −1 where against it.
@@ -34,8 +34,8 @@ pub struct ParallelArm {
 impl ParallelArm {
     /// The solver, where the chain is of this kind.
     #[must_use]
-    pub fn detect(chain: &Chain) -> Option<Self> {
-        if chain.joints.iter().any(|joint| joint.slides) || !drives_each(chain) {
+    pub fn detect(chain: &KinematicChain) -> Option<Self> {
+        if chain.joints.iter().any(|joint| joint.is_prismatic) || !drives_each(chain) {
             return None;
         }
         let (axes, tip) = screws(chain);
@@ -65,7 +65,7 @@ impl ParallelArm {
 
     /// The chain that it solves.
     #[must_use]
-    pub fn chain(&self) -> &Chain {
+    pub fn chain(&self) -> &KinematicChain {
         &self.chain
     }
 
@@ -99,9 +99,9 @@ impl ParallelArm {
 
     /// Whether a joint may be at a position, or at one that differs by full turns.
     fn may_be(&self, joint: usize, position: f64) -> bool {
-        let known = self.chain.joints.get(joint).zip(self.chain.variables.get(joint));
-        known.is_some_and(|(joint, variable)| {
-            within(variable, (position - joint.driver.offset) / joint.driver.multiplier, 0.0).is_some()
+        let known = self.chain.joints.get(joint).zip(self.chain.dofs.get(joint));
+        known.is_some_and(|(joint, dof)| {
+            within(dof, (position - joint.coupling.offset) / joint.coupling.multiplier, 0.0).is_some()
         })
     }
 
@@ -158,9 +158,9 @@ impl ParallelArm {
     /// Values within the limits that stand for positions, of those that differ by full turns the nearest to some.
     fn values(&self, positions: &[f64; 6], to: &[f64; 6]) -> Option<[f64; 6]> {
         let mut values = *to;
-        let joints = self.chain.joints.iter().zip(&self.chain.variables).zip(positions);
-        for (slot, ((joint, variable), q)) in values.iter_mut().zip(joints) {
-            *slot = within(variable, (q - joint.driver.offset) / joint.driver.multiplier, *slot)?;
+        let joints = self.chain.joints.iter().zip(&self.chain.dofs).zip(positions);
+        for (slot, ((joint, dof), q)) in values.iter_mut().zip(joints) {
+            *slot = within(dof, (q - joint.coupling.offset) / joint.coupling.multiplier, *slot)?;
         }
         Some(values)
     }

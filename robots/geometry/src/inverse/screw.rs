@@ -3,7 +3,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use crate::kinematics::Chain;
+use crate::kinematics::KinematicChain;
 
 /// How far directions and points of a URDF may be off what is meant: its numbers are often rounded to six digits.
 pub(super) const ROUNDED: f64 = 1e-6;
@@ -40,7 +40,7 @@ impl Screw {
 }
 
 /// The axes of all joints, and the tip's pose.
-pub(super) fn screws(chain: &Chain) -> (Vec<Screw>, Isometry3<f64>) {
+pub(super) fn screws(chain: &KinematicChain) -> (Vec<Screw>, Isometry3<f64>) {
     let mut base_from_joint = Isometry3::identity();
     let screws = chain.joints.iter().map(|joint| {
         base_from_joint *= joint.before;
@@ -54,12 +54,12 @@ pub(super) fn screws(chain: &Chain) -> (Vec<Screw>, Isometry3<f64>) {
 }
 
 /// Whether each joint has a variable of its own, of which a turn is a turn of the joint.
-pub(super) fn drives_each(chain: &Chain) -> bool {
-    chain.variables.len() == chain.joints.len()
+pub(super) fn drives_each(chain: &KinematicChain) -> bool {
+    chain.dofs.len() == chain.joints.len()
         && chain.joints.iter().zip(0..).all(|(joint, at)| {
-            let size = joint.driver.multiplier.abs();
-            joint.driver.variable == at
+            let size = joint.coupling.multiplier.abs();
+            joint.coupling.dof == at
                 && size > ROUNDED
-                && (joint.slides || (size - 1.0).abs() <= f64::EPSILON)
+                && (joint.is_prismatic || (size - 1.0).abs() <= f64::EPSILON)
         })
 }

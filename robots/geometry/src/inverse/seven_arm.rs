@@ -13,13 +13,13 @@ use super::lift_arm::wrist;
 use super::numeric::polished;
 use super::screw::{ROUNDED, Screw, drives_each, screws};
 use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
-use crate::kinematics::{Chain, Variable};
+use crate::kinematics::{Dof, KinematicChain};
 use crate::trigonometry::turn;
 
 /// The solver of one arm.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SevenArm {
-    pub(super) chain: Chain,
+    pub(super) chain: KinematicChain,
     /// Directions of the axes at positions 0, in the base's frame.
     pub(super) axes: [Vector3<f64>; 7],
     /// Where the first three axes meet.
@@ -37,8 +37,8 @@ pub struct SevenArm {
 impl SevenArm {
     /// The solver, where the chain is of this kind.
     #[must_use]
-    pub fn detect(chain: &Chain) -> Option<Self> {
-        if chain.joints.iter().any(|joint| joint.slides) || !drives_each(chain) {
+    pub fn detect(chain: &KinematicChain) -> Option<Self> {
+        if chain.joints.iter().any(|joint| joint.is_prismatic) || !drives_each(chain) {
             return None;
         }
         let (axes, base_from_tip) = screws(chain);
@@ -68,13 +68,13 @@ impl SevenArm {
 
     /// The chain that it solves.
     #[must_use]
-    pub fn chain(&self) -> &Chain {
+    pub fn chain(&self) -> &KinematicChain {
         &self.chain
     }
 
     /// Values of the last joint's variable that stand for all others.
     pub(crate) fn last_span(&self) -> (f64, f64) {
-        self.chain.variables.last().map_or((0.0, 0.0), Variable::span)
+        self.chain.dofs.last().map_or((0.0, 0.0), Dof::sampling_range)
     }
 
     /// Every solution within the limits with the given value of the last joint's variable, in a fixed order: values of the chain's
@@ -107,13 +107,13 @@ impl SevenArm {
 
     /// Values within the limits that forward kinematics has yet to confirm.
     fn unconfirmed(&self, base_from_tip: &Isometry3<f64>, last: f64) -> Vec<[f64; 7]> {
-        let Some((joint, variable)) = self.chain.joints.last().zip(self.chain.variables.last()) else {
+        let Some((joint, dof)) = self.chain.joints.last().zip(self.chain.dofs.last()) else {
             return vec![];
         };
-        if !variable.allows(last) {
+        if !dof.allows(last) {
             return vec![];
         }
-        let angle = joint.driver.multiplier * last + joint.driver.offset;
+        let angle = joint.coupling.multiplier * last + joint.coupling.offset;
         let positions = self.positions(base_from_tip, angle);
         positions.iter().filter_map(|angles| self.values(angles, last)).collect()
     }
@@ -160,10 +160,10 @@ impl SevenArm {
     /// Values within the limits that stand for the positions, of those that differ by full turns the nearest to 0.
     fn values(&self, angles: &[f64; 6], last: f64) -> Option<[f64; 7]> {
         let mut values = [last; 7];
-        let joints = self.chain.joints.iter().zip(&self.chain.variables);
-        for ((slot, angle), (joint, variable)) in values.iter_mut().zip(angles).zip(joints) {
-            let value = (angle - joint.driver.offset) / joint.driver.multiplier;
-            *slot = within(variable, value, 0.0)?;
+        let joints = self.chain.joints.iter().zip(&self.chain.dofs);
+        for ((slot, angle), (joint, dof)) in values.iter_mut().zip(angles).zip(joints) {
+            let value = (angle - joint.coupling.offset) / joint.coupling.multiplier;
+            *slot = within(dof, value, 0.0)?;
         }
         Some(values)
     }

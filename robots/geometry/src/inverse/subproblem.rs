@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Unit, Vector3};
 
-use crate::kinematics::Variable;
+use crate::kinematics::Dof;
 use crate::trigonometry::{acos, atan2, turn};
 
 /// How far a cosine may be outside of [−1, 1] and still be rounding: at the ends of a range two solutions become one.
@@ -46,8 +46,8 @@ pub(super) fn component(
 
 /// Of the values of a variable that differ from `angle` by full turns the nearest to `to` within its limits; `None` where there is none. A
 /// value that rounding put outside by less than 1e-9 rad is the limit itself. Without limits it is in [−π, π) from `to`.
-pub(super) fn within(variable: &Variable, angle: f64, to: f64) -> Option<f64> {
-    let Some((lower, upper)) = variable.limits else {
+pub(super) fn within(dof: &Dof, angle: f64, to: f64) -> Option<f64> {
+    let Some((lower, upper)) = dof.limits else {
         return Some(angle + TAU * libm::floor((to - angle) / TAU + 0.5));
     };
     let least = libm::ceil((lower - 1e-9 - angle) / TAU);

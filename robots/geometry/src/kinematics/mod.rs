@@ -1,20 +1,20 @@
 //! Forward kinematics: the tree of a URDF, flattened, and the poses of its links.
 
-mod along;
+mod ancestor_joint;
 mod chain;
+mod edge_poses;
 mod forward;
-mod lever;
-mod rig;
-mod spread;
+mod quasi_random;
+mod reduced_model;
 mod tree;
 
-pub use along::Along;
-pub use chain::{Chain, ChainJoint};
-pub use lever::Lever;
-pub(crate) use rig::{Rig, RigJoint};
-pub use spread::spread;
-pub(crate) use spread::spread_over;
-pub(crate) use tree::{Driver, isometry};
-pub use tree::{Tree, UnknownName, Variable};
+pub use ancestor_joint::AncestorJoint;
+pub use chain::{ChainJoint, KinematicChain};
+pub use edge_poses::EdgePoses;
+pub use quasi_random::quasi_random;
+pub(crate) use quasi_random::quasi_random_in;
+pub(crate) use reduced_model::{ReducedJoint, ReducedModel};
+pub use tree::{Dof, KinematicTree, UnknownName};
+pub(crate) use tree::{JointCoupling, isometry};
 
 pub use crate::trigonometry::planar;

@@ -2,43 +2,43 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motet_robots::urdf::{Joint, JointKind, Limits, Pose, Urdf};
+use motet_robots::urdf::{Joint, JointKind, JointLimits, Pose, Urdf};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use smol_str::{SmolStr, format_smolstr};
 
 /// A robot's kinematics: links, and variables that move them.
 ///
-/// A *configuration* is one number for each variable, in the order of [`Tree::variables`]. A revolute, continuous or
+/// A *configuration* is one number for each variable, in the order of [`KinematicTree::dofs`]. A revolute, continuous or
 /// prismatic joint that follows no other has one variable of its name. A planar joint has three, `NAME/x`, `NAME/y` and
 /// `NAME/theta`. The position of a joint that follows others is a multiple of one variable plus an offset, which is
 /// worked out here once; the variable's limits are those of the joint and of all that follow it.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Tree {
+pub struct KinematicTree {
     pub(super) links: Vec<SmolStr>,
     /// Index of the step that places a link; `None` for the root.
     pub(super) placed_by: Vec<Option<usize>>,
     pub(super) root: usize,
-    variables: Vec<Variable>,
-    pub(super) steps: Vec<Step>,
+    dofs: Vec<Dof>,
+    pub(super) segments: Vec<Segment>,
 }
 
 /// What a robot moves by itself.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Variable {
+pub struct Dof {
     /// Its name.
     pub name: SmolStr,
     /// Least and greatest value in rad or m; `None` where it has no limits.
     pub limits: Option<(f64, f64)>,
     /// Whether a full turn brings it back, so that it is an angle without limits.
-    pub is_turn: bool,
+    pub is_continuous: bool,
     /// Whether it is a length in m, and no angle.
-    pub slides: bool,
+    pub is_prismatic: bool,
 }
 
-/// Limits as far from 0 as that on both sides, in rad and in m, are none: "unlimited" is often written as 1e16.
+/// JointLimits as far from 0 as that on both sides, in rad and in m, are none: "unlimited" is often written as 1e16.
 const UNLIMITED: [f64; 2] = [1000.0 * TAU, 1000.0];
 
-impl Variable {
+impl Dof {
     /// Whether a value lies within the limits, both ends included.
     #[must_use]
     pub fn allows(&self, value: f64) -> bool {
@@ -48,15 +48,15 @@ impl Variable {
     /// Where values are looked for: within the limits, of an angle within one full turn, about 0 as far as they allow it; half a turn or
     /// 1 m either way where there are none.
     #[must_use]
-    pub fn span(&self) -> (f64, f64) {
+    pub fn sampling_range(&self) -> (f64, f64) {
         match self.limits {
-            None if self.is_turn => (-PI, PI),
+            None if self.is_continuous => (-PI, PI),
             None => (-1.0, 1.0),
-            Some((lower, upper)) if upper - lower > TAU && !self.slides => {
+            Some((lower, upper)) if upper - lower > TAU && !self.is_prismatic => {
                 let least = (-PI).clamp(lower, upper - TAU);
                 (least, least + TAU)
             }
-            Some((lower, upper)) if self.slides => {
+            Some((lower, upper)) if self.is_prismatic => {
                 let [_, most] = UNLIMITED;
                 (lower.clamp(-most, most), upper.clamp(-most, most))
             }
@@ -66,29 +66,29 @@ impl Variable {
 
     /// Room to the nearer limit in rad or m, negative outside; infinite where there is no limit.
     #[must_use]
-    pub fn room(&self, value: f64) -> f64 {
+    pub fn limit_margin(&self, value: f64) -> f64 {
         self.limits.map_or(f64::INFINITY, |(lower, upper)| (value - lower).min(upper - value))
     }
 }
 
 /// From a link to the next: a fixed pose, then at most one motion.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Step {
+pub(super) struct Segment {
     pub(super) parent: usize,
     pub(super) child: usize,
     pub(super) parent_from_joint: Isometry3<f64>,
-    pub(super) motion: Motion,
+    pub(super) motion: JointMotion,
 }
 
 /// What a step moves.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) enum Motion {
+pub(super) enum JointMotion {
     /// Nothing.
     Fixed,
     /// A rotation about an axis.
-    Turn(Unit<Vector3<f64>>, Driver),
+    Turn(Unit<Vector3<f64>>, JointCoupling),
     /// A shift along an axis.
-    Slide(Unit<Vector3<f64>>, Driver),
+    Slide(Unit<Vector3<f64>>, JointCoupling),
     /// A shift along two axes, then a rotation about the third; the three variables follow each other.
     Planar {
         /// Directions of x, y and the normal.
@@ -98,22 +98,22 @@ pub(super) enum Motion {
     },
 }
 
-/// A joint position in terms of a variable: `multiplier * variable + offset`.
+/// A joint position in terms of a variable: `multiplier * dof + offset`.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Driver {
+pub struct JointCoupling {
     /// Index of the variable.
-    pub variable: usize,
+    pub dof: usize,
     /// Factor.
     pub multiplier: f64,
     /// Offset in rad or m.
     pub offset: f64,
 }
 
-impl Driver {
+impl JointCoupling {
     /// The joint's position.
     #[must_use]
     pub fn position(&self, configuration: &[f64]) -> f64 {
-        self.multiplier * configuration.get(self.variable).copied().unwrap_or(0.0) + self.offset
+        self.multiplier * configuration.get(self.dof).copied().unwrap_or(0.0) + self.offset
     }
 }
 
@@ -129,50 +129,52 @@ impl std::fmt::Display for UnknownName {
 
 impl std::error::Error for UnknownName {}
 
-impl Tree {
+impl KinematicTree {
     /// The tree of a URDF. O(links + joints).
     #[must_use]
     pub fn new(urdf: &Urdf) -> Self {
-        let mut variables = Vec::new();
+        let mut dofs = Vec::new();
         let mut is_followed = vec![false; urdf.joints.len()];
         for mimic in urdf.joints.iter().filter_map(|joint| joint.mimic) {
             is_followed.get_mut(mimic.joint).into_iter().for_each(|slot| *slot = true);
         }
         let joints = urdf.joints.iter().zip(is_followed);
-        let drivers: Vec<Option<Driver>> =
-            joints.map(|(joint, is_followed)| own_variable(joint, is_followed, &mut variables)).collect();
-        let steps = urdf.joints.iter().zip(0..).map(|(joint, at)| {
+        let couplings: Vec<Option<JointCoupling>> =
+            joints.map(|(joint, is_followed)| own_dof(joint, is_followed, &mut dofs)).collect();
+        let segments = urdf.joints.iter().zip(0..).map(|(joint, at)| {
             let axis = Unit::new_unchecked(Vector3::from(joint.axis));
-            let motion = match (joint.kind, resolved(urdf, &drivers, at)) {
-                (JointKind::Revolute | JointKind::Continuous, Some(driver)) => Motion::Turn(axis, driver),
-                (JointKind::Prismatic, Some(driver)) => Motion::Slide(axis, driver),
-                (JointKind::Planar, Some(driver)) => {
-                    Motion::Planar { axes: plane(axis), first: driver.variable }
+            let motion = match (joint.kind, resolved(urdf, &couplings, at)) {
+                (JointKind::Revolute | JointKind::Continuous, Some(coupling)) => {
+                    JointMotion::Turn(axis, coupling)
                 }
-                (JointKind::Fixed | JointKind::Floating, _) | (_, None) => Motion::Fixed,
+                (JointKind::Prismatic, Some(coupling)) => JointMotion::Slide(axis, coupling),
+                (JointKind::Planar, Some(coupling)) => {
+                    JointMotion::Planar { axes: plane(axis), first: coupling.dof }
+                }
+                (JointKind::Fixed | JointKind::Floating, _) | (_, None) => JointMotion::Fixed,
             };
-            Step {
+            Segment {
                 parent: joint.parent,
                 child: joint.child,
                 parent_from_joint: isometry(&joint.parent_from_joint),
                 motion,
             }
         });
-        let steps: Vec<Step> = steps.collect();
+        let segments: Vec<Segment> = segments.collect();
         let mut placed_by = vec![None; urdf.links.len()];
-        for (step, at) in steps.iter().zip(0..) {
-            if let Some(slot) = placed_by.get_mut(step.child) {
+        for (segment, at) in segments.iter().zip(0..) {
+            if let Some(slot) = placed_by.get_mut(segment.child) {
                 *slot = Some(at);
             }
         }
         let links = urdf.links.iter().map(|link| link.name.clone()).collect();
-        Self { links, placed_by, root: urdf.root, variables, steps }
+        Self { links, placed_by, root: urdf.root, dofs, segments }
     }
 
     /// The variables, in the order of a configuration.
     #[must_use]
-    pub fn variables(&self) -> &[Variable] {
-        &self.variables
+    pub fn dofs(&self) -> &[Dof] {
+        &self.dofs
     }
 
     /// The links' names, in the order of the URDF.
@@ -201,63 +203,63 @@ impl Tree {
     /// # Errors
     ///
     /// There is no such variable.
-    pub fn variable(&self, name: &str) -> Result<usize, UnknownName> {
-        self.variables.iter().position(|known| known.name == name).ok_or_else(|| UnknownName(name.into()))
+    pub fn dof(&self, name: &str) -> Result<usize, UnknownName> {
+        self.dofs.iter().position(|known| known.name == name).ok_or_else(|| UnknownName(name.into()))
     }
 
     /// A configuration with zero where the limits allow it, else the nearer limit.
     #[must_use]
     pub fn neutral(&self) -> Vec<f64> {
-        self.variables.iter().map(|known| known.limits.map_or(0.0, |(l, u)| 0.0_f64.clamp(l, u))).collect()
+        self.dofs.iter().map(|known| known.limits.map_or(0.0, |(l, u)| 0.0_f64.clamp(l, u))).collect()
     }
 
     /// Whether a configuration is within the limits of every variable.
     #[must_use]
     pub fn allows(&self, configuration: &[f64]) -> bool {
-        configuration.len() == self.variables.len()
-            && self.variables.iter().zip(configuration).all(|(known, value)| known.allows(*value))
+        configuration.len() == self.dofs.len()
+            && self.dofs.iter().zip(configuration).all(|(known, value)| known.allows(*value))
     }
 }
 
 /// The variable of a joint that follows no other.
-fn own_variable(joint: &Joint, is_followed: bool, variables: &mut Vec<Variable>) -> Option<Driver> {
+fn own_dof(joint: &Joint, is_followed: bool, dofs: &mut Vec<Dof>) -> Option<JointCoupling> {
     if joint.mimic.is_some() {
         return None;
     }
-    let first = variables.len();
-    let slides = joint.kind == JointKind::Prismatic;
+    let first = dofs.len();
+    let is_prismatic = joint.kind == JointKind::Prismatic;
     let [angle, length] = UNLIMITED;
-    let most = if slides { length } else { angle };
-    let limits = joint.limits.map(|Limits { lower, upper }| (lower, upper));
+    let most = if is_prismatic { length } else { angle };
+    let limits = joint.limits.map(|JointLimits { lower, upper }| (lower, upper));
     // One that is followed has limits for the sake of others, in whatever unit.
     let limits = limits.filter(|(lower, upper)| is_followed || -most < *lower || *upper < most);
     match joint.kind {
         JointKind::Fixed | JointKind::Floating => return None,
         JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {
-            let is_turn = !slides && limits.is_none();
-            variables.push(Variable { name: joint.name.clone(), limits, is_turn, slides });
+            let is_continuous = !is_prismatic && limits.is_none();
+            dofs.push(Dof { name: joint.name.clone(), limits, is_continuous, is_prismatic });
         }
         JointKind::Planar => {
             for part in ["x", "y", "theta"] {
                 let name = format_smolstr!("{}/{part}", joint.name);
-                let is_turn = part == "theta";
-                variables.push(Variable { name, limits: None, is_turn, slides: !is_turn });
+                let is_continuous = part == "theta";
+                dofs.push(Dof { name, limits: None, is_continuous, is_prismatic: !is_continuous });
             }
         }
     }
-    Some(Driver { variable: first, multiplier: 1.0, offset: 0.0 })
+    Some(JointCoupling { dof: first, multiplier: 1.0, offset: 0.0 })
 }
 
 /// What moves a joint in the end: follows the chain of mimic rules, which has no ring.
-fn resolved(urdf: &Urdf, drivers: &[Option<Driver>], joint: usize) -> Option<Driver> {
+fn resolved(urdf: &Urdf, couplings: &[Option<JointCoupling>], joint: usize) -> Option<JointCoupling> {
     let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
     while let Some(mimic) = urdf.joints.get(at)?.mimic {
         offset += multiplier * mimic.offset;
         multiplier *= mimic.multiplier;
         at = mimic.joint;
     }
-    let variable = drivers.get(at).copied().flatten()?.variable;
-    Some(Driver { variable, multiplier, offset })
+    let dof = couplings.get(at).copied().flatten()?.dof;
+    Some(JointCoupling { dof, multiplier, offset })
 }
 
 /// Two directions that make a right-handed frame with a normal; x and y for the normal z.

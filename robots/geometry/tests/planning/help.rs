@@ -5,7 +5,7 @@ use motet_geometry::planning::{
     SearchBudget,
 };
 use motet_robots::card;
-use motet_robots::scene::{Placement, Scene, Shape, Travel};
+use motet_robots::scene::{EntityShape, Placement, Scene, Travel};
 use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
 
@@ -100,7 +100,7 @@ fn wall(scene: &mut Scene, id: &str, xyz: [f64; 3], extents: [f64; 3]) {
     let mut wall = embedded("kitchen").entities["kitchen_table"].clone();
     wall.id = id.into();
     wall.pose = Some(Placement { xyz, rpy: [0.0; 3] });
-    wall.shape = Some(Shape::Box(extents));
+    wall.shape = Some(EntityShape::Box(extents));
     scene.entities.insert(wall.id.clone(), wall);
 }
 
@@ -272,7 +272,7 @@ fn heights_are_told_of_every_motion_of_the_hand() {
                 scene.robot.holding = Some(Some("mug_1".into()));
             }
             let shelf = &mut scene.entities["shelf"];
-            shelf.shape = Some(Shape::Box([0.8, 0.4, 0.04]));
+            shelf.shape = Some(EntityShape::Box([0.8, 0.4, 0.04]));
             shelf.pose.as_mut().unwrap().xyz[2] = z - 0.02;
             let drawer = &mut scene.entities["drawer_1"];
             (drawer.on, drawer.inside) = (None, None);

@@ -44,7 +44,7 @@ fn embedded(name: &str) -> Scene {
 fn postures_are_free_of_the_robot_itself_and_of_the_floor() {
     for (name, _, _) in card::embedded() {
         let (machine, _) = machine(name);
-        assert!(machine.body().unseen().is_empty());
+        assert!(machine.body().uncovered_links().is_empty());
         let scene = Scene::default();
         let mut world = SceneState::new(&machine, &scene);
         for posture in machine.card().postures.keys() {
@@ -156,12 +156,12 @@ fn states_are_looked_at_together_as_one_by_one() {
     let ((machine, _), scene) = (machine("hsr"), embedded("kitchen"));
     let world = SceneState::new(&machine, &scene);
     let room = QueryContext::new(&machine, &scene, &world);
-    let variables = machine.tree().variables();
+    let dofs = machine.tree().dofs();
     let states: Vec<Configuration> = (0..203)
         .map(|at| {
             let turn = f64::from(at) * 2.4;
             let base = [2.0 * turn.cos() * f64::from(at % 7) / 6.0, 2.0 * turn.sin(), turn];
-            Configuration { base, joints: motet_geometry::kinematics::spread(variables, at as usize) }
+            Configuration { base, joints: motet_geometry::kinematics::quasi_random(dofs, at as usize) }
         })
         .collect();
     let together = room.contacts(&states, AllowedCollisions::default());
@@ -178,7 +178,8 @@ fn what_is_infeasible_says_why() {
         reason(ask(&heavy, "reach(mug_1)")),
         (InfeasibleReason::TooHeavy { needs: 2.0, limit: 1.2 }, true)
     );
-    let wide = changed(|scene| scene.entities["apple"].shape = Some(scene::Shape::Sphere { radius: 0.1 }));
+    let wide =
+        changed(|scene| scene.entities["apple"].shape = Some(scene::EntityShape::Sphere { radius: 0.1 }));
     assert_eq!(
         reason(ask(&wide, "reach(apple)")),
         (InfeasibleReason::TooWide { needs: 0.2, limit: 0.13 }, true)
@@ -195,7 +196,7 @@ fn what_is_infeasible_says_why() {
             let mut wall = scene.entities["shelf"].clone();
             wall.id = format!("wall_{at}").into();
             wall.pose.as_mut().unwrap().xyz = [x, y, 1.0];
-            wall.shape = Some(scene::Shape::Box([0.1 + 2.2 * y.abs(), 0.1 + 2.2 * x.abs(), 2.0]));
+            wall.shape = Some(scene::EntityShape::Box([0.1 + 2.2 * y.abs(), 0.1 + 2.2 * x.abs(), 2.0]));
             scene.entities.insert(wall.id.clone(), wall);
         }
     });
@@ -337,7 +338,7 @@ proptest! {
             let mut table = kitchen.entities["kitchen_table"].clone();
             table.id = format!("table_{at}").into();
             table.pose = Some(Placement { xyz: [x, y, size[2] / 2.0], rpy: [0.0, 0.0, yaw] });
-            table.shape = Some(scene::Shape::Box(size));
+            table.shape = Some(scene::EntityShape::Box(size));
             scene.entities.insert(table.id.clone(), table);
             if has_can {
                 let mut can = kitchen.entities["coke"].clone();
@@ -371,7 +372,7 @@ fn a_face_has_places_all_over() {
             scene.entities.retain(|id, _| id == "mug_1" || id == "counter");
             let counter = scene.entities.get_mut("counter").unwrap();
             counter.pose.as_mut().unwrap().xyz = [1.0, y, 0.45];
-            counter.shape = Some(scene::Shape::Box([1.6, 0.6, 0.9]));
+            counter.shape = Some(scene::EntityShape::Box([1.6, 0.6, 0.9]));
             scene.entities["mug_1"].on = None;
             scene.robot.holding = Some(Some("mug_1".into()));
         });

@@ -1,14 +1,14 @@
 //! Things to which no simple way leads: down in a box, under the robot's head, behind a passage.
 
 use motet_geometry::planning::{MotionAnswer, MotionQuery, QueryContext, SceneState, SearchBudget};
-use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 
 use super::{machine, verify};
 
 /// A scene of boxes, each with its middle, and one thing.
-fn scene(boxes: &[(&str, [f64; 3], [f64; 3])], at: [f64; 3], shape: Shape) -> Scene {
+fn scene(boxes: &[(&str, [f64; 3], [f64; 3])], at: [f64; 3], shape: EntityShape) -> Scene {
     let mut scene = Scene::default();
-    let things = boxes.iter().map(|(id, at, extents)| (*id, *at, Shape::Box(*extents)));
+    let things = boxes.iter().map(|(id, at, extents)| (*id, *at, EntityShape::Box(*extents)));
     for (id, xyz, shape) in things.chain([("thing", at, shape)]) {
         let mut entity = Entity::place(id.into(), Placement { xyz, rpy: [0.0; 3] });
         entity.shape = Some(shape);
@@ -34,7 +34,7 @@ fn reached(robot: &str, scene: &Scene) {
 #[test]
 fn what_is_as_high_as_the_hand_comes_is_gripped_from_above() {
     let table = ("table", [1.6, 0.0, 0.42], [0.8, 0.8, 0.84]);
-    reached("hsr", &scene(&[table], [1.45, 0.0, 0.856], Shape::Box([0.05, 0.09, 0.03])));
+    reached("hsr", &scene(&[table], [1.45, 0.0, 0.856], EntityShape::Box([0.05, 0.09, 0.03])));
 }
 
 /// Base and arm move together until the hand is out of the box.
@@ -47,7 +47,7 @@ fn what_lies_in_a_box_as_high_as_the_hand_comes_is_gripped() {
         ("left", [1.45, 0.25, 0.76], [0.41, 0.01, 0.16]),
         ("right", [1.45, -0.25, 0.76], [0.41, 0.01, 0.16]),
     ];
-    reached("hsr", &scene(&walls, [1.45, 0.0, 0.741], Shape::Box([0.06, 0.09, 0.12])));
+    reached("hsr", &scene(&walls, [1.45, 0.0, 0.741], EntityShape::Box([0.06, 0.09, 0.12])));
 }
 
 /// Taken for a disc, the robot does not fit between the walls, at the far end of which the thing stands.
@@ -59,5 +59,8 @@ fn between_walls_a_robot_fits_that_is_longer_than_wide() {
         ("end", [2.85, 0.0, 0.6], [0.1, 1.2, 1.2]),
         ("stand", [2.65, 0.0, 0.2], [0.2, 0.8, 0.4]),
     ];
-    reached("anymal_z1", &scene(&walls, [2.6, 0.0, 0.461], Shape::Cylinder { radius: 0.03, height: 0.12 }));
+    reached(
+        "anymal_z1",
+        &scene(&walls, [2.6, 0.0, 0.461], EntityShape::Cylinder { radius: 0.03, height: 0.12 }),
+    );
 }

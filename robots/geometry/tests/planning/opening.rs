@@ -121,7 +121,7 @@ fn what_stands_before_a_drawer_stops_it() {
     let mut chair = scene.entities["trash"].clone();
     chair.id = "chair".into();
     chair.pose.as_mut().unwrap().xyz = [2.8, -1.7, 0.4];
-    chair.shape = Some(scene::Shape::Cylinder { radius: 0.2, height: 0.8 });
+    chair.shape = Some(scene::EntityShape::Cylinder { radius: 0.2, height: 0.8 });
     scene.entities.insert(chair.id.clone(), chair);
     let world = SceneState::new(&machine, &scene);
     let room = QueryContext::new(&machine, &scene, &world);
@@ -148,7 +148,7 @@ fn a_thing_is_pushed_away() {
 #[test]
 fn a_thing_is_shut_in_only_where_it_is_in_all_directions() {
     let (machine, _) = machine("hsr");
-    let add = |scene: &mut scene::Scene, id: &str, xyz: [f64; 3], shape: scene::Shape| {
+    let add = |scene: &mut scene::Scene, id: &str, xyz: [f64; 3], shape: scene::EntityShape| {
         let mut entity = scene::Entity::place(id.into(), scene::Placement { xyz, rpy: [0.0; 3] });
         entity.kind = if id == "puck" { "Object".into() } else { "Place".into() };
         entity.fixed = id != "puck";
@@ -157,15 +157,15 @@ fn a_thing_is_shut_in_only_where_it_is_in_all_directions() {
     };
     let [mut posts, mut wall] = [0.005, 0.02].map(|radius| {
         let mut scene = scene::Scene::default();
-        add(&mut scene, "puck", [1.0, 0.0, 0.051], scene::Shape::Cylinder { radius, height: 0.1 });
+        add(&mut scene, "puck", [1.0, 0.0, 0.051], scene::EntityShape::Cylinder { radius, height: 0.1 });
         scene
     });
     for (at, aside) in [0.0, 0.26, -0.26, 0.52, -0.52, 0.78, -0.78_f64].into_iter().enumerate() {
         let (sin, cos) = aside.sin_cos();
         let at = (format!("post_{at}"), [1.0 + 0.09 * cos, 0.09 * sin, 0.1]);
-        add(&mut posts, &at.0, at.1, scene::Shape::Cylinder { radius: 0.002, height: 0.2 });
+        add(&mut posts, &at.0, at.1, scene::EntityShape::Cylinder { radius: 0.002, height: 0.2 });
     }
-    add(&mut wall, "wall", [1.16, 0.0, 0.5], scene::Shape::Box([0.2, 2.0, 1.0]));
+    add(&mut wall, "wall", [1.16, 0.0, 0.5], scene::EntityShape::Box([0.2, 2.0, 1.0]));
     for (scene, is_proven) in [(posts, false), (wall, true)] {
         let world = SceneState::new(&machine, &scene);
         let answer = QueryContext::new(&machine, &scene, &world)

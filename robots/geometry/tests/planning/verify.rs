@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use glamx::{DPose3, DVec3};
 use motet_geometry::planning::{Articulation, Configuration, MotionWitness, RobotModel, SceneState};
 use motet_robots::scene::{self, Scene};
-use motet_robots::urdf::{JointKind, Pose, Shape, Urdf};
+use motet_robots::urdf::{JointKind, Pose, Urdf, UrdfShape};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use parry3d_f64::query;
 use parry3d_f64::shape;
@@ -32,7 +32,7 @@ fn links(machine: &RobotModel, urdf: &Urdf, state: &Configuration) -> Vec<Isomet
             factor *= mimic.multiplier;
             at = mimic.joint;
         }
-        let own = machine.tree().variable(&urdf.joints[at].name).map_or(0.0, |at| state.joints[at]);
+        let own = machine.tree().dof(&urdf.joints[at].name).map_or(0.0, |at| state.joints[at]);
         factor * own + offset
     };
     let mut poses = vec![Isometry3::identity(); urdf.links.len()];
@@ -64,29 +64,31 @@ fn upright(pose: Isometry3<f64>) -> Isometry3<f64> {
     pose * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2)
 }
 
-fn of_urdf(shape: &Shape, pose: Isometry3<f64>) -> Solid {
+fn of_urdf(shape: &UrdfShape, pose: Isometry3<f64>) -> Solid {
     match *shape {
-        Shape::Box([x, y, z]) => (pose, Box::new(shape::Cuboid::new(DVec3::new(x, y, z) / 2.0))),
-        Shape::Cylinder { radius, length } => {
+        UrdfShape::Box([x, y, z]) => (pose, Box::new(shape::Cuboid::new(DVec3::new(x, y, z) / 2.0))),
+        UrdfShape::Cylinder { radius, length } => {
             (upright(pose), Box::new(shape::Cylinder::new(length / 2.0, radius)))
         }
-        Shape::Capsule { radius, length } => (pose, Box::new(shape::Capsule::new_z(length / 2.0, radius))),
-        Shape::Sphere { radius } => (pose, Box::new(shape::Ball::new(radius))),
-        Shape::Mesh { .. } => panic!("no meshes here"),
+        UrdfShape::Capsule { radius, length } => {
+            (pose, Box::new(shape::Capsule::new_z(length / 2.0, radius)))
+        }
+        UrdfShape::Sphere { radius } => (pose, Box::new(shape::Ball::new(radius))),
+        UrdfShape::Mesh { .. } => panic!("no meshes here"),
     }
 }
 
-fn of_scene(shape: &scene::Shape, pose: Isometry3<f64>) -> Solid {
+fn of_scene(shape: &scene::EntityShape, pose: Isometry3<f64>) -> Solid {
     match *shape {
-        scene::Shape::Box([x, y, z]) => (pose, Box::new(shape::Cuboid::new(DVec3::new(x, y, z) / 2.0))),
-        scene::Shape::Cylinder { radius, height } => {
+        scene::EntityShape::Box([x, y, z]) => (pose, Box::new(shape::Cuboid::new(DVec3::new(x, y, z) / 2.0))),
+        scene::EntityShape::Cylinder { radius, height } => {
             (upright(pose), Box::new(shape::Cylinder::new(height / 2.0, radius)))
         }
-        scene::Shape::Capsule { radius, height } => {
+        scene::EntityShape::Capsule { radius, height } => {
             (pose, Box::new(shape::Capsule::new_z(height / 2.0, radius)))
         }
-        scene::Shape::Sphere { radius } => (pose, Box::new(shape::Ball::new(radius))),
-        scene::Shape::Mesh { .. } => panic!("no meshes here"),
+        scene::EntityShape::Sphere { radius } => (pose, Box::new(shape::Ball::new(radius))),
+        scene::EntityShape::Mesh { .. } => panic!("no meshes here"),
     }
 }
 

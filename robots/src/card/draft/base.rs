@@ -1,20 +1,20 @@
 //! Which link of a URDF is the base: what a root that stands for the room carries, and joints by which the base itself moves.
 
-use crate::turn::{product, turned};
+use crate::quaternion::{mul, rotate};
 use crate::urdf::{Joint, JointKind, Urdf};
 
 use super::parts::has_word;
 
 /// The base.
 #[derive(Clone, Copy)]
-pub(super) struct Base {
+pub(super) struct DraftBase {
     pub(super) link: usize,
     pub(super) why: &'static str,
     /// Whether joints before it slide it over the floor.
     pub(super) is_planar: bool,
 }
 
-impl Base {
+impl DraftBase {
     /// The root, or what hangs on links that stand for the room. O(joints²) of the links before the base.
     pub(super) fn find(urdf: &Urdf) -> Self {
         let mut base = Self { link: urdf.root, why: "the root", is_planar: false };
@@ -57,8 +57,8 @@ fn slid(urdf: &Urdf, from: usize) -> Option<usize> {
         if urdf.links.get(at).is_none_or(|link| !link.collisions.is_empty() || !link.visuals.is_empty()) {
             break;
         }
-        turn = product(turn, joint.parent_from_joint.quaternion_xyzw);
-        let along = turned(turn, joint.axis).map(|part| part.abs() > 0.999);
+        turn = mul(turn, joint.parent_from_joint.quaternion_xyzw);
+        let along = rotate(turn, joint.axis).map(|part| part.abs() > 0.999);
         let which = match (joint.kind, along) {
             (JointKind::Prismatic, [true, _, _]) => 0,
             (JointKind::Prismatic, [_, true, _]) => 1,

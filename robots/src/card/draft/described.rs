@@ -2,7 +2,7 @@
 
 use smol_str::SmolStr;
 
-use crate::srdf::{Group, Srdf};
+use crate::srdf::{JointGroup, Srdf};
 use crate::urdf::{JointKind, Urdf};
 
 /// A hand as it is described.
@@ -38,7 +38,7 @@ impl Described {
 }
 
 /// Where the chains of a group end, and what its last joint moves.
-fn ends<'a>(urdf: &'a Urdf, group: &'a Group) -> impl Iterator<Item = usize> + 'a {
+fn ends<'a>(urdf: &'a Urdf, group: &'a JointGroup) -> impl Iterator<Item = usize> + 'a {
     // Each joint stands after the one that carries its parent.
     let last = group.joints.iter().max().and_then(|joint| urdf.joints.get(*joint)).map(|joint| joint.child);
     group.chains.iter().map(|[_, tip]| *tip).chain(last)

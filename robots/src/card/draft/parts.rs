@@ -1,25 +1,25 @@
 //! Which link of a URDF is the base, the tip of the hand, the frame of the camera: told by what moves what, then by
 //! the words that names are made of.
 
-use super::base::Base;
+use super::base::DraftBase;
 use super::described::Described;
 use crate::srdf::Srdf;
 use crate::urdf::{Joint, JointKind, Urdf};
 
 /// What was found.
-pub(super) struct Parts {
+pub(super) struct RobotParts {
     pub(super) base: usize,
     pub(super) base_why: &'static str,
     /// The kind of drive, and why.
     pub(super) drive: (&'static str, &'static str),
-    pub(super) hand: Option<Hand>,
+    pub(super) hand: Option<DraftHand>,
     /// The camera's link, and why.
     pub(super) camera: Option<(usize, &'static str)>,
     pub(super) camera_is_on_arm: bool,
 }
 
 /// The hand at the end of the arm.
-pub(super) struct Hand {
+pub(super) struct DraftHand {
     pub(super) tip: usize,
     /// Why it is the tip, and who says so.
     pub(super) why: String,
@@ -40,9 +40,9 @@ pub(super) struct Hand {
 /// Fewest joints of an arm.
 const ARM: usize = 3;
 
-impl Parts {
+impl RobotParts {
     pub(super) fn find(urdf: &Urdf, srdf: Option<&Srdf>) -> Self {
-        let Base { link: base, why: base_why, is_planar } = Base::find(urdf);
+        let DraftBase { link: base, why: base_why, is_planar } = DraftBase::find(urdf);
         let hand = hand(urdf, srdf, base);
         let camera = camera(urdf);
         let camera_is_on_arm = camera.is_some_and(|(camera, _)| {
@@ -122,7 +122,7 @@ const TIPS: [&[&str]; 3] =
     [&["tcp", "tool0", "grasp", "ee_link", "end_effector"], &["palm"], &["hand", "gripper"]];
 
 /// The hand that the SRDF describes, else that at the end of the longest arm.
-fn hand(urdf: &Urdf, srdf: Option<&Srdf>, base: usize) -> Option<Hand> {
+fn hand(urdf: &Urdf, srdf: Option<&Srdf>, base: usize) -> Option<DraftHand> {
     let stems = stems(urdf, base);
     let length = |link: usize| stems.get(link).filter(|stem| !stem.is_leg).map_or(0, |stem| stem.joints);
     let described = srdf.and_then(|srdf| Described::find(urdf, srdf, length));
@@ -159,7 +159,7 @@ fn described_tip(urdf: &Urdf, hand: &Described, length: impl Fn(usize) -> usize)
 }
 
 /// The tip of the longest arm: a link named for it, else the link that carries fingers, else the last link.
-fn guessed_tip(urdf: &Urdf, base: usize, stems: &[Stem]) -> Option<(usize, &'static str)> {
+fn guessed_tip(urdf: &Urdf, base: usize, stems: &[ArmStem]) -> Option<(usize, &'static str)> {
     let is_leg = |link: usize| stems.get(link).is_some_and(|stem| stem.is_leg);
     let arms = |link: usize| stems.get(link).map_or(0, |stem| stem.joints);
     let palm = |link: usize| stems.get(link).and_then(|stem| stem.palm).unwrap_or(link);
@@ -188,7 +188,7 @@ fn guessed_tip(urdf: &Urdf, base: usize, stems: &[Stem]) -> Option<(usize, &'sta
 }
 
 /// The hand with this tip, whose own joints the SRDF may name.
-fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) -> Hand {
+fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) -> DraftHand {
     let steps = beyond(urdf, base, tip);
     let arm: Vec<&Joint> = steps.iter().copied().filter(|joint| works(joint)).collect();
     let first =
@@ -199,7 +199,7 @@ fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) ->
     let (points, closes, sliding) = fingers(urdf, tip, own);
     let travel: f64 =
         sliding.iter().filter_map(|joint| joint.limits).map(|limits| limits.upper - limits.lower).sum();
-    Hand {
+    DraftHand {
         tip,
         why,
         reach: steps.iter().skip(first + 1).map(|joint| length(joint) + slides(joint)).sum::<f64>().max(0.05),
@@ -214,7 +214,7 @@ fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) ->
 
 /// What lies between the base and a link.
 #[derive(Clone, Copy, Default)]
-struct Stem {
+struct ArmStem {
     /// How many joints work.
     joints: usize,
     is_leg: bool,
@@ -224,7 +224,7 @@ struct Stem {
 }
 
 /// That of each link; nothing for what the base does not carry. O(links + joints).
-fn stems(urdf: &Urdf, base: usize) -> Vec<Stem> {
+fn stems(urdf: &Urdf, base: usize) -> Vec<ArmStem> {
     // Whether a link carries two joints, and whether one of them follows another or slides.
     let mut carried = vec![(0_usize, false); urdf.links.len()];
     for joint in urdf.joints.iter().filter(|joint| joint.kind.has_one_position()) {
@@ -233,7 +233,7 @@ fn stems(urdf: &Urdf, base: usize) -> Vec<Stem> {
             *is_finger |= joint.mimic.is_some() || joint.kind == JointKind::Prismatic;
         }
     }
-    let mut stems = vec![Stem::default(); urdf.links.len()];
+    let mut stems = vec![ArmStem::default(); urdf.links.len()];
     let mut is_carried = vec![false; urdf.links.len()];
     if let Some(base) = is_carried.get_mut(base) {
         *base = true;
@@ -249,7 +249,7 @@ fn stems(urdf: &Urdf, base: usize) -> Vec<Stem> {
             && joint.kind.has_one_position()
             && (carries || has_word(&joint.name, &["finger", "gripper"]));
         if let Some(stem) = stems.get_mut(joint.child) {
-            *stem = Stem {
+            *stem = ArmStem {
                 joints: before.joints + usize::from(works(joint)),
                 is_leg: before.is_leg || has_word(&joint.name, &["hfe", "knee", "wheel"]),
                 palm: before.palm.or(is_finger.then_some(joint.parent)),

@@ -1,6 +1,6 @@
 //! A place for a thing on or in the furniture: free, near an edge from which it can be taken, and well inside the edge.
 
-use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 
 use super::is_bin;
 use crate::random::Draw;
@@ -86,12 +86,12 @@ fn millimetres(value: f64) -> f64 {
 }
 
 /// The extents of a shape along its own axes, in m; none of a mesh.
-fn extents(shape: &Shape) -> Option<[f64; 3]> {
+fn extents(shape: &EntityShape) -> Option<[f64; 3]> {
     Some(match *shape {
-        Shape::Box(extents) => extents,
-        Shape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
-        Shape::Sphere { radius } => [2.0 * radius; 3],
-        Shape::Capsule { radius, height } => [2.0 * radius, 2.0 * radius, height + 2.0 * radius],
-        Shape::Mesh { .. } => return None,
+        EntityShape::Box(extents) => extents,
+        EntityShape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
+        EntityShape::Sphere { radius } => [2.0 * radius; 3],
+        EntityShape::Capsule { radius, height } => [2.0 * radius, 2.0 * radius, height + 2.0 * radius],
+        EntityShape::Mesh { .. } => return None,
     })
 }

@@ -4,7 +4,7 @@
 use motet_compiler::{Geometry, Options, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_robots::card::{self, Robot};
-use motet_robots::scene::{self, Placement, Scene, Shape};
+use motet_robots::scene::{self, EntityShape, Placement, Scene};
 use motet_robots::urdf;
 use motet_syntax::{FileId, Source, Sources};
 use std::sync::Arc;
@@ -27,7 +27,7 @@ pub(crate) fn walled() -> Scene {
         let mut wall = scene.entities["shelf"].clone();
         wall.id = format!("wall_{at}").into();
         wall.pose = Some(Placement { xyz: [x, y, 1.0], rpy: [0.0; 3] });
-        wall.shape = Some(Shape::Box([along, across, 2.0]));
+        wall.shape = Some(EntityShape::Box([along, across, 2.0]));
         scene.entities.insert(wall.id.clone(), wall);
     }
     scene

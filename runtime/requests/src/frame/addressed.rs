@@ -3,37 +3,13 @@
 
 use super::clause::cause;
 use super::state::words;
+use crate::english::{HABIT_WORDS, SAME_PASTS, TOLD_YOU_FOR_WHOM, TOLD_YOU_GO};
 use crate::inflection::{Form, base};
 use crate::lead::skip_leads;
 use crate::noun::noun;
 use crate::spot::{is_way, spot};
 use crate::token::{Token, stands};
 use crate::verb::verb;
-
-/// With these it is told how things are or were.
-const TELLS: &[&str] = &[
-    "always",
-    "never",
-    "often",
-    "usually",
-    "sometimes",
-    "every",
-    "yesterday",
-    "earlier",
-    "before",
-    "last",
-    "when",
-    "whenever",
-    "if",
-    "already",
-    "ago",
-    "too",
-    "not",
-    "like",
-];
-/// Their pasts look the same, or they tell of a habit, where nothing was asked for before.
-const TOLD: &[&str] =
-    &["put", "set", "shut", "leave", "keep", "stand", "sit", "stay", "hold", "find", "get", "wait"];
 
 /// Up to where `you` and its verb stand, and the verb, with `it` where nothing else says of what.
 pub(super) fn told_you(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Token>)> {
@@ -49,7 +25,7 @@ pub(super) fn told_you(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Tok
     let here = tokens.get(..end)?;
     let word = here.get(at)?.word();
     let said = here.get(at..)?.split(|token| matches!(token.word(), "and" | "but" | "so")).next()?;
-    if said.iter().any(|token| TELLS.contains(&token.word())) {
+    if said.iter().any(|token| HABIT_WORDS.has(token.word())) {
         return None;
     }
     let sentence = here.get(..begin)?.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
@@ -57,7 +33,7 @@ pub(super) fn told_you(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Tok
     let is_series = here.get(..begin)?.iter().any(|token| token.word() == "and")
         || verb(sentence, skip_leads(sentence, 0)).is_some()
         || sentence.iter().chain(asks).any(|token| token.word() == "please");
-    if TOLD.contains(&word) && !is_series {
+    if SAME_PASTS.has(word) && !is_series {
         return None;
     }
     // `you make open for me`
@@ -74,11 +50,9 @@ pub(super) fn told_you(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Tok
         return None;
     }
     let (_, after) = verb(here, at)?;
-    let is_moving =
-        matches!(word, "go" | "drive" | "move" | "come" | "stop" | "roll" | "walk" | "head" | "run");
-    let for_whom = ["to me", "for me", "to us", "for us", "me", "us", "now", "please", "down", "away", "up"];
+    let is_moving = TOLD_YOU_GO.has(word);
     let mut next = after;
-    while let Some(count) = for_whom.iter().find_map(|words| stands(here, next, words)) {
+    while let Some(count) = TOLD_YOU_FOR_WHOM.longest(here, next) {
         next += count;
     }
     let has_place = spot(here, next).is_some() || is_way(here, next);

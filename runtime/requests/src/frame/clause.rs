@@ -1,16 +1,21 @@
 //! Clauses that ask without an imperative: predicates, wishes, causatives, and what stands before its verb.
 
 use super::ONLY_IF_SO;
-use super::link::{CAUSE, DO_NOT_WANT, HOLDS, IN_HAND, IS, SEE_TO, SHALL, SHALL_IT, TO_BE, WANT};
 use super::placed::{fronted, headed, sent, with_it};
 use super::pleasant::{called_for, pleasant};
 use super::room::room_for;
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
+use crate::english::{
+    BARE_BINS, BARE_PLEASE, BARE_WAYS, BECOMES, CAUSATIVES, IN_HAND, IS_PRONOUN_ME, OPINIONS, PREDICATE_BIN,
+    PREDICATE_CAN, PREDICATE_ME, PREDICATE_NEEDS, PREDICATE_REACHES, PREDICATE_SHOULD_NOT_BE,
+    PREDICATE_TO_ME, SEE_TO, SELF_MOVED_TAKE, SHALL_BE, SHALL_IT, TO_BE, UNLESS_SO_IF, UNLESS_SO_IS_STILL,
+    UNWANTED_STATE, WANTS_STATE, WISH_SEES_YOU,
+};
 use crate::inflection::Form;
 use crate::lead::skip_leads;
 use crate::noun::{Noun, noun};
 use crate::spot::{Relation, spot, way};
-use crate::token::{Token, longest, stands};
+use crate::token::{Token, stands};
 use crate::verb::begins;
 use crate::wish::wish as to_have;
 
@@ -40,20 +45,20 @@ pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> O
 
 /// `the coke belongs in the fridge`, `can the coke go in the fridge`, `make sure that the drawer is shut`
 fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let asks = longest(tokens, begin, &["can", "could", "may", "would"]);
-    let sees = longest(tokens, begin, SEE_TO);
+    let asks = PREDICATE_CAN.longest(tokens, begin);
+    let sees = SEE_TO.longest(tokens, begin);
     let (begin, links) = match (asks, sees) {
-        (Some(count), _) => (begin + count, SHALL_IT),
-        (None, Some(count)) => (begin + count, IS),
-        (None, None) => (begin + longest(tokens, begin, HOLDS).unwrap_or(0), SHALL),
+        (Some(count), _) => (begin + count, &SHALL_IT),
+        (None, Some(count)) => (begin + count, &BECOMES),
+        (None, None) => (begin + OPINIONS.longest(tokens, begin).unwrap_or(0), &SHALL_BE),
     };
     let is_seen_to = asks.is_none() && sees.is_some();
     let belongs = asks.is_none() && sees.is_none();
     let (mut said, after) = thing_before(tokens, begin, |at| {
         // `can it please go there`
         let please = if asks.is_some() { stands(tokens, at, "please").unwrap_or(0) } else { 0 };
-        let count = longest(tokens, at + please, links).map(|count| count + please);
-        let none = longest(tokens, at, &["should not be", "is not", "needs", "wants"]);
+        let count = links.longest(tokens, at + please).map(|count| count + please);
+        let none = PREDICATE_SHOULD_NOT_BE.longest(tokens, at);
         let (count, is_wanted) = match (count, none) {
             (Some(count), _) => (count, true),
             (None, Some(1)) => (1, true),
@@ -61,14 +66,13 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
             (None, _) => return None,
         };
         // `see that it gets to me`
-        let to_me = ["to me", "to us", "over to me", "to where i am", "with me", "here with me"];
         if is_seen_to
-            && let Some(reached) = longest(tokens, at, &["reaches", "reached"])
-            && let Some(me) = longest(tokens, at + reached, &["me", "us"])
+            && let Some(reached) = PREDICATE_REACHES.longest(tokens, at)
+            && let Some(me) = PREDICATE_ME.longest(tokens, at + reached)
         {
             return Some((State::Done("bring me".to_owned()), at + reached + me));
         }
-        if (is_seen_to || belongs) && is_wanted && longest(tokens, at + count, &to_me).is_some() {
+        if (is_seen_to || belongs) && is_wanted && PREDICATE_TO_ME.longest(tokens, at + count).is_some() {
             return Some((State::At, at + count));
         }
         if stands(tokens, at, "disappears").or(stands(tokens, at, "disappeared")).is_some()
@@ -78,25 +82,12 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
         }
         // `it is for the bin`
         if tokens.get(at + count - 1).is_some_and(|token| token.word() == "for") {
-            let bin = [
-                "the bin",
-                "the trash",
-                "the rubbish",
-                "the rubbish bin",
-                "the garbage",
-                "the waste",
-                "the trash can",
-                "the dustbin",
-                "the waste bin",
-                "the garbage can",
-                "the scrapheap",
-            ];
             return Some((
                 State::Done("discard".to_owned()),
-                at + count + longest(tokens, at + count, &bin)?,
+                at + count + PREDICATE_BIN.longest(tokens, at + count)?,
             ));
         }
-        let needs = longest(tokens, at, &["needs", "wants"]) == Some(count);
+        let needs = PREDICATE_NEEDS.longest(tokens, at) == Some(count);
         let (state, after) = state(tokens, at + count, if needs { Form::Gerund } else { Form::Participle })?;
         // `it must be closed` may only guess; `it must be put on the table` asks.
         if stands(tokens, at, "must be") == Some(count)
@@ -117,17 +108,16 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
 
 /// `I need the fridge open`, `I would like the coke to be on the table`, `I want you at the door`
 fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let sees_you = ["to see you", "to meet you", "to have you", "you to be", "you"];
-    let wants = longest(tokens, begin, WANT).max(to_have(tokens, begin));
+    let wants = WANTS_STATE.longest(tokens, begin).max(to_have(tokens, begin));
     if let Some(count) = wants
-        && let Some(you) = sees_you.iter().find_map(|see| stands(tokens, begin + count, see))
+        && let Some(you) = WISH_SEES_YOU.longest(tokens, begin + count)
         && is_place(tokens, begin + count + you)
     {
         return Some((words("go"), begin + count + you));
     }
     if let Some(count) = wants {
         return thing_before(tokens, begin + count, |at| {
-            let to_be = longest(tokens, at, TO_BE);
+            let to_be = TO_BE.longest(tokens, at);
             let found = state(tokens, at + to_be.unwrap_or(0), Form::Participle)?;
             // `I want the mug on the table` is left to who knows where the mug is.
             let sees = stands(tokens, begin + count - 1, "see").is_some()
@@ -135,9 +125,9 @@ fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
             (to_be.is_some() || sees || !matches!(found.0, State::At)).then_some(found)
         });
     }
-    let count = longest(tokens, begin, DO_NOT_WANT)?;
+    let count = UNWANTED_STATE.longest(tokens, begin)?;
     thing_before(tokens, begin + count, |at| {
-        let to_be = longest(tokens, at, TO_BE).unwrap_or(0);
+        let to_be = TO_BE.longest(tokens, at).unwrap_or(0);
         let (state, after) = state(tokens, at + to_be, Form::Participle)?;
         Some((opposite(state)?, after))
     })
@@ -146,7 +136,7 @@ fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
 /// `get the fridge open`, `push the drawer shut`, `have the coke brought to me`
 pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let verb = tokens.get(begin)?.word();
-    if !CAUSE.contains(&verb) {
+    if !CAUSATIVES.has(verb) {
         return None;
     }
     thing_before(tokens, begin + 1, |at| {
@@ -173,7 +163,7 @@ pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize
             return is_place(tokens, at + 1).then_some((State::At, at + 1));
         }
         // `have it in your hand`
-        if let ("have" | "get" | "keep", Some(_)) = (verb, longest(tokens, at, IN_HAND)) {
+        if let ("have" | "get" | "keep", Some(_)) = (verb, IN_HAND.longest(tokens, at)) {
             return Some((State::Done("hold".to_owned()), at));
         }
         // `let it rest on the table`
@@ -198,38 +188,17 @@ pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize
 
 /// `take yourself to the door`
 fn self_moved(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let moves = matches!(
-        tokens.get(begin)?.word(),
-        "take"
-            | "get"
-            | "bring"
-            | "move"
-            | "drive"
-            | "park"
-            | "roll"
-            | "drag"
-            | "haul"
-            | "wheel"
-            | "shift"
-            | "plant"
-            | "place"
-            | "put"
-            | "position"
-            | "station"
-            | "steer"
-            | "carry"
-    );
+    let moves = SELF_MOVED_TAKE.has(tokens.get(begin)?.word());
     let is_self = matches!(tokens.get(begin + 1)?.word(), "yourself");
     (moves && is_self).then(|| (words("go"), begin + 2))
 }
 
 /// `if the drawer is open, close it`: `close the drawer if it is open`.
 fn unless_so(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
-    let at = begin + longest(tokens, begin, &["if", "in case", "when"])?;
+    let at = begin + UNLESS_SO_IF.longest(tokens, begin)?;
     let here = tokens.get(..limit)?;
     let (said, after) = thing_before(here, at, |at| {
-        let count =
-            ["is still", "is", "was left", "has been left"].iter().find_map(|is| stands(here, at, is))?;
+        let count = UNLESS_SO_IS_STILL.longest(here, at)?;
         let (state, after) = state(here, at + count, Form::Participle)?;
         Some((opposite(state)?, after))
     })?;
@@ -261,20 +230,8 @@ fn is_spoken_of(tokens: &[Token], mut at: usize) -> bool {
 /// `the coke, please`: someone wants to have it.
 fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
     // `nobody wants the toy now. Rubbish bin, please`
-    let bins = [
-        "rubbish bin",
-        "bin",
-        "trash",
-        "trash can",
-        "dustbin",
-        "rubbish",
-        "garbage",
-        "garbage can",
-        "straight in the bin",
-        "waste bin",
-    ];
     if !begins_first(tokens, begin)
-        && let Some(count) = longest(tokens, begin, &bins)
+        && let Some(count) = BARE_BINS.longest(tokens, begin)
         && matches!(tokens.get(begin + count), None | Some(Token::Comma | Token::Stop))
         && stands(tokens, begin + count + 1, "please").is_some()
     {
@@ -308,7 +265,7 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         && matches!(place.noun, Noun::Phrase(_))
         && place.relation != Relation::Beside
         && let asks = end + usize::from(tokens.get(end) == Some(&Token::Comma))
-        && let Some(asked) = longest(tokens, asks, &["please", "now", "quick"])
+        && let Some(asked) = BARE_PLEASE.longest(tokens, asks)
         && matches!(tokens.get(asks + asked), None | Some(Token::Stop | Token::Comma))
     {
         let mut said = words("put");
@@ -316,25 +273,7 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         said.extend_from_slice(tokens.get(limit + 1..end)?);
         return Some((said, end));
     }
-    let ways = [
-        "over to",
-        "to",
-        "into",
-        "onto",
-        "away into",
-        "away in",
-        "back into",
-        "back onto",
-        "back to",
-        "back in",
-        "back on",
-        "over onto",
-        "over into",
-        "straight into",
-        "down onto",
-        "up onto",
-    ];
-    let goes = longest(tokens, after, &ways);
+    let goes = BARE_WAYS.longest(tokens, after);
     let (_, end) = noun(tokens.get(..limit)?, after + goes?)?;
     let is_short = after - begin <= 4;
     let is_said =
@@ -353,5 +292,5 @@ fn begins_first(tokens: &[Token], begin: usize) -> bool {
 }
 
 fn is_pronoun(word: &str) -> bool {
-    matches!(word, "me" | "us" | "it" | "them" | "that" | "this" | "here" | "there" | "you" | "i")
+    IS_PRONOUN_ME.has(word)
 }

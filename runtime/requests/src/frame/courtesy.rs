@@ -1,25 +1,14 @@
 //! What is said to whom is asked and asks for nothing: `um`, `, love`, `, would you?`, `no hurry`.
 
-use super::aside::{ASIDES, NAMES};
-use super::haste::{APART, HASTE};
-use super::tags::TAGS;
+use crate::english::{
+    APART_TAGS, ASIDE_LIKE, ASIDES, CALLED_HONEY, CALLED_I, CALLS, ENDEARMENTS, HASTE, INNER_WORDS,
+    IS_WANTED_PLEASE, SOUNDS, TAGS,
+};
 use crate::inflection::{Form, base};
 use crate::lead::skip_leads;
 use crate::noun::{Noun, noun};
-use crate::token::{Token, longest, run, stands};
+use crate::token::{Token, stands};
 use crate::verb::begins;
-
-/// Sounds that are made while thinking, wherever they stand.
-pub(crate) const SOUNDS: &[&str] = &[
-    "um", "umm", "uh", "uhm", "er", "erm", "hm", "hmm", "mm", "ugh", "ah", "aah", "oh", "ooh", "aw", "gosh",
-    "phew", "whoa", "ahem", "huh", "oops", "blimey", "argh", "eh", "yuck", "ew", "eww", "yikes", "ouch",
-    "yay", "wow", "oof", "jeez", "sheesh", "brr",
-];
-/// What is called before a name.
-const CALLS: &[&str] = &[
-    "hey", "hi", "hello", "oi", "yo", "ok", "okay", "thanks", "sorry", "please", "alright", "right",
-    "listen", "there",
-];
 
 /// A request without them.
 pub(crate) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
@@ -37,7 +26,7 @@ pub(crate) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
             at += 2;
             continue;
         }
-        if SOUNDS.contains(&token.word()) {
+        if SOUNDS.has(token.word()) {
             at += 1;
             // `the coke, um, please`
             if is_mark(kept.last()) && tokens.get(at) == Some(&Token::Comma) {
@@ -66,23 +55,7 @@ pub(crate) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
 
 /// Whether courtesy follows a bare noun.
 fn is_wanted(courtesy: &[Token], kept: &[Token]) -> bool {
-    let begs = |token: &Token| {
-        matches!(
-            token.word(),
-            "please"
-                | "kind"
-                | "mind"
-                | "grateful"
-                | "trouble"
-                | "bother"
-                | "thanks"
-                | "cheers"
-                | "ta"
-                | "obliged"
-                | "appreciated"
-                | "good"
-        )
-    };
+    let begs = |token: &Token| IS_WANTED_PLEASE.has(token.word());
     let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
     let begin = skip_leads(sentence, 0);
     courtesy.iter().any(begs)
@@ -93,19 +66,12 @@ fn is_wanted(courtesy: &[Token], kept: &[Token]) -> bool {
 /// `could I, er, have`, `the, uh, coke`: a comma behind a word that does not end a clause was put around what was left out.
 fn unbroken(kept: &mut Vec<Token>, next: Option<&Token>) {
     if let [.., word, Token::Comma] = kept.as_slice()
-        && MIDDLE.contains(&word.word())
+        && INNER_WORDS.has(word.word())
         && matches!(next, Some(Token::Word(_)))
     {
         kept.pop();
     }
 }
-
-/// Words behind which no clause ends.
-const MIDDLE: &[&str] = &[
-    "the", "a", "an", "my", "your", "our", "to", "in", "on", "into", "onto", "me", "i", "we", "could",
-    "would", "maybe", "perhaps", "possibly", "and", "of", "for", "have", "need", "want", "with", "at", "by",
-    "be", "if",
-];
 
 fn is_mark(token: Option<&Token>) -> bool {
     matches!(token, None | Some(Token::Comma | Token::Stop))
@@ -113,18 +79,18 @@ fn is_mark(token: Option<&Token>) -> bool {
 
 /// `, like,`: with the comma behind it.
 fn aside(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
-    let end = at + longest(tokens, at, ASIDES)?;
+    let end = at + ASIDES.longest(tokens, at)?;
     // `and, like, put it there`
     let joins = kept.last().is_some_and(|token| matches!(token.word(), "and" | "so" | "but" | "then"))
-        && longest(tokens, at, &["like", "you know", "i mean", "well"]).is_some();
+        && ASIDE_LIKE.longest(tokens, at).is_some();
     ((is_mark(kept.last()) || joins) && tokens.get(end) == Some(&Token::Comma)).then_some(end + 1)
 }
 
 /// `, love`, `hey buddy,`: whom somebody calls, with the comma before it.
 fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let comma = usize::from(tokens.get(at) == Some(&Token::Comma));
-    longest(tokens, at + comma, NAMES)?;
-    let end = at + comma + run(tokens, at + comma, NAMES);
+    ENDEARMENTS.longest(tokens, at + comma)?;
+    let end = at + comma + ENDEARMENTS.run(tokens, at + comma);
     if !is_mark(tokens.get(end)) {
         return None;
     }
@@ -132,30 +98,15 @@ fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let goes_on = tokens.get(end) == Some(&Token::Comma)
         && matches!(tokens.get(end + 1).map_or("", Token::word), "and" | "or");
     // `take it, dear, and do not let go`
-    let is_thing = matches!(
-        tokens.get(end - 1).map_or("", Token::word),
-        "honey"
-            | "duck"
-            | "pet"
-            | "treasure"
-            | "machine"
-            | "flower"
-            | "sugar"
-            | "pumpkin"
-            | "hen"
-            | "star"
-            | "petal"
-    );
-    let is_clause =
-        longest(tokens, end + 2, &["i", "we", "it", "you", "he", "she", "they", "there", "that", "do not"])
-            .is_some();
+    let is_thing = CALLED_HONEY.has(tokens.get(end - 1).map_or("", Token::word));
+    let is_clause = CALLED_I.longest(tokens, end + 2).is_some();
     let goes_on = goes_on
         && !is_clause
         && (is_thing || (!begins(tokens, end + 2) && stands(tokens, end + 2, "do not").is_none()));
     let is_called = match kept.last() {
         _ if comma == 1 => !kept.is_empty() && !goes_on,
         None | Some(Token::Stop) => tokens.get(end).is_some(),
-        Some(Token::Word(word)) => CALLS.contains(&word.as_str()),
+        Some(Token::Word(word)) => CALLS.has(word.as_str()),
         Some(Token::Comma) => false,
     };
     is_called.then_some(end)
@@ -166,15 +117,14 @@ fn tag(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let comma = usize::from(tokens.get(at) == Some(&Token::Comma));
     // `…, and be quick about it`
     let and =
-        stands(tokens, at + comma, "and").filter(|and| longest(tokens, at + comma + and, HASTE).is_some());
-    if let Some(end) = and.and_then(|and| Some(at + comma + and + longest(tokens, at + comma + and, HASTE)?))
-    {
+        stands(tokens, at + comma, "and").filter(|and| HASTE.longest(tokens, at + comma + and).is_some());
+    if let Some(end) = and.and_then(|and| Some(at + comma + and + HASTE.longest(tokens, at + comma + and)?)) {
         return (!kept.is_empty() && is_mark(tokens.get(end))).then_some(end);
     }
     let is_apart = comma == 1 || kept.last() == Some(&Token::Stop);
-    let apart = longest(tokens, at + comma, APART).filter(|_| is_apart);
-    let mut end = at + comma + longest(tokens, at + comma, TAGS).max(apart)?;
+    let apart = APART_TAGS.longest(tokens, at + comma).filter(|_| is_apart);
+    let mut end = at + comma + TAGS.longest(tokens, at + comma).max(apart)?;
     // `would you mate`, `cheers love`
-    end += longest(tokens, end, NAMES).filter(|count| is_mark(tokens.get(end + count))).unwrap_or(0);
+    end += ENDEARMENTS.longest(tokens, end).filter(|count| is_mark(tokens.get(end + count))).unwrap_or(0);
     (!kept.is_empty() && is_mark(tokens.get(end))).then_some(end)
 }

@@ -1,147 +1,32 @@
 //! What would be nice, asked for in a clause with `if`: `I would be ever so grateful if you brought me the coke`, `it would
 //! help if the drawer were shut`.
 
+use crate::english::{
+    FAVOUR_BEGINS, FAVOUR_I, FAVOUR_WHO, FAVOUR_WORDS, FAVOUR_WOULD, TOLD_WHEN_DONE_DONE,
+    TOLD_WHEN_DONE_TELLS,
+};
 use crate::inflection::{Form, base, of_past};
-use crate::token::{Token, run, stands};
+use crate::token::{Token, stands};
 use crate::verb::begins;
-
-/// How it begins.
-const BEGINS: &[&str] = &[
-    "i would",
-    "we would",
-    "it would",
-    "that would",
-    "i will",
-    "it is",
-    "would it be",
-    "is it",
-    "i am",
-    "i should",
-    "you would",
-    "you will",
-];
-/// What is said of it before the `if`.
-const NICE: &[&str] = &[
-    "be",
-    "look",
-    "nicer",
-    "tidier",
-    "neater",
-    "feel",
-    "love",
-    "like",
-    "appreciate",
-    "prefer",
-    "it",
-    "that",
-    "ever",
-    "so",
-    "very",
-    "really",
-    "much",
-    "most",
-    "more",
-    "quite",
-    "a",
-    "an",
-    "the",
-    "great",
-    "good",
-    "nice",
-    "lovely",
-    "big",
-    "huge",
-    "real",
-    "grateful",
-    "thankful",
-    "obliged",
-    "glad",
-    "happy",
-    "happier",
-    "better",
-    "best",
-    "help",
-    "helpful",
-    "kind",
-    "sweet",
-    "wonderful",
-    "fantastic",
-    "amazing",
-    "awesome",
-    "brilliant",
-    "super",
-    "perfect",
-    "handy",
-    "useful",
-    "lifesaver",
-    "life",
-    "saver",
-    "relief",
-    "me",
-    "us",
-    "of",
-    "you",
-    "to",
-    "my",
-    "day",
-    "make",
-    "possible",
-    "okay",
-    "ok",
-    "alright",
-    "all",
-    "right",
-    "too",
-    "trouble",
-    "ask",
-    "pleased",
-    "delighted",
-    "easier",
-    "safer",
-    "calmer",
-    "weight",
-    "off",
-    "mind",
-    "enormously",
-    "immensely",
-    "lot",
-    "ideal",
-    "do",
-    "doing",
-    "helping",
-    "favour",
-    "favor",
-    "out",
-    "no",
-    "end",
-    "solid",
-    "lots",
-    "for",
-    "cool",
-];
-const WHO: &[&str] = &["you", "somebody", "someone", "one of you", "anybody", "anyone"];
-const WOULD: &[&str] =
-    &["could", "would", "can", "might", "just", "please", "kindly", "also", "were to", "be so kind as to"];
 
 /// Up to where the frame takes the place of what, and the words that do: a verb, or what sees to a state.
 pub(super) fn favour(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Token>)> {
-    let mut at = begin + BEGINS.iter().find_map(|begins| stands(tokens, begin, begins))?;
+    let mut at = begin + FAVOUR_BEGINS.longest(tokens, begin)?;
     let nice = at;
-    while tokens.get(at).is_some_and(|token| NICE.contains(&token.word())) {
+    while tokens.get(at).is_some_and(|token| FAVOUR_WORDS.has(token.word())) {
         at += 1;
     }
     if at == nice && stands(tokens, begin, "is it").is_none() {
         return None;
     }
     at += stands(tokens, at, "if")?;
-    let Some(who) = WHO.iter().find_map(|who| stands(tokens, at, who)) else {
+    let Some(who) = FAVOUR_WHO.longest(tokens, at) else {
         // `it would help if the drawer were shut`
-        let is_told =
-            tokens.get(at).is_some_and(|token| matches!(token.word(), "i" | "we" | "he" | "she" | "they"));
+        let is_told = tokens.get(at).is_some_and(|token| FAVOUR_I.has(token.word()));
         return (!is_told).then(|| (at, vec![Token::Word("ensure".to_owned())]));
     };
     at += who;
-    at += run(tokens, at, WOULD);
+    at += FAVOUR_WOULD.run(tokens, at);
     let word = tokens.get(at)?.word();
     let verb = match base(word) {
         Some((verb, Form::Base)) => verb,
@@ -175,10 +60,8 @@ fn doing(word: &str) -> Option<String> {
 
 /// `let me know once you have put it there`: that it shall be done, and told.
 pub(super) fn told_when_done(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Token>)> {
-    let tells = ["let me know", "tell me", "give me a shout", "give me a call", "call me", "shout"];
-    let at = begin + tells.iter().find_map(|tells| stands(tokens, begin, tells))?;
-    let done = ["once you have", "when you have", "as soon as you have", "after you have"];
-    let at = at + done.iter().find_map(|done| stands(tokens, at, done))?;
+    let at = begin + TOLD_WHEN_DONE_TELLS.longest(tokens, begin)?;
+    let at = at + TOLD_WHEN_DONE_DONE.longest(tokens, at)?;
     let (verb, form) = base(tokens.get(at)?.word())?;
     // `once you have put it there`: some participles are the verb itself.
     let is_done = form == Form::Participle || (form == Form::Base && of_past(&verb).is_some());

@@ -5,28 +5,21 @@
 //! (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and what politeness puts before them.
 
 mod addressed;
-mod aside;
 mod clause;
 mod courtesy;
 mod delegate;
 mod favour;
-mod fill;
 mod filler;
-mod haste;
 mod leisure;
-mod link;
 mod placed;
 mod pleasant;
 mod room;
-mod setting_out;
 mod state;
-mod tags;
-mod task;
 mod unwrap;
 
 use self::addressed::told_you;
 use self::clause::clause;
-pub(super) use self::courtesy::{SOUNDS, without_courtesy};
+pub(super) use self::courtesy::without_courtesy;
 pub(super) use self::delegate::asks_for_it;
 use self::delegate::{delegated, elliptic};
 use self::favour::{favour, in_series};
@@ -35,7 +28,8 @@ use self::placed::wanted_there;
 use self::unwrap::unwrapped;
 use super::asking::in_another_form;
 use super::lead::skip_leads;
-use super::token::{Token, longest};
+use super::token::Token;
+use crate::english::{PLAIN_AND, POSSESSED_IN, POSSESSED_PLACE_IS, POSSESSED_USUAL};
 
 /// Behind a verb of opening or closing: only where it is not so already, which has to be seen first.
 pub(super) const ONLY_IF_SO: &str = "if it is open";
@@ -81,8 +75,7 @@ pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
             }
         }
         let Some(token) = tokens.get(at) else { break };
-        let joins = matches!(token, Token::Comma | Token::Stop)
-            || matches!(token.word(), "and" | "so" | "but" | "then" | "because");
+        let joins = matches!(token, Token::Comma | Token::Stop) || PLAIN_AND.has(token.word());
         begins_sentence = *token == Token::Stop || (begins_sentence && starts && is_lead(&tokens, at));
         starts = joins;
         said.push(token.clone());
@@ -103,17 +96,10 @@ fn possessed(tokens: &[Token]) -> Vec<Token> {
     while let Some(token) = tokens.get(at) {
         at += 1;
         let whose = token.word().strip_suffix("'s").filter(|whose| !whose.is_empty());
-        let how =
-            longest(tokens, at, &["usual", "proper", "right", "rightful", "normal", "own"]).unwrap_or(0);
-        let place = longest(
-            tokens,
-            at + how,
-            &["place is", "home is", "spot is", "place should be", "place has always been"],
-        )
-        .filter(|count| {
-            longest(tokens, at + how + count, &["in", "on", "inside", "at", "up on", "over on", "back in"])
-                .is_some()
-        });
+        let how = POSSESSED_USUAL.longest(tokens, at).unwrap_or(0);
+        let place = POSSESSED_PLACE_IS
+            .longest(tokens, at + how)
+            .filter(|count| POSSESSED_IN.longest(tokens, at + how + count).is_some());
         match (whose, place) {
             (Some(whose), Some(count)) => {
                 said.push(Token::Word(whose.to_owned()));

@@ -1,16 +1,22 @@
 //! Requests that begin with the place, or have no verb: `into the bin with it`, `off to the sink with you`, `next stop is the door`.
 
-use super::link::WANT;
 use super::state::{is_place, words};
+use crate::english::{
+    DESTINATION_DESTINATION, DESTINATION_FOR_YOU, DESTINATION_IS, DESTINATION_NEXT, DESTINATION_YOUR,
+    FRONTED_IS_THE_PLACE_FOR, HAS_ITS_PLACE, HEADED_NOW, HEADED_OVER, HEADED_PLEASE, IS_WHERE, OFF_YOU_GO,
+    SENT_BE_OVER, SENT_NEEDED, SENT_OVER, SENT_OVER_AT, SENT_STOP, SENT_WITH_YOU, SENT_WITH_YOU_2,
+    WANTED_TO_BE, WANTED_WE_KEEP, WANTED_YOU, WANTS_STATE, WITH_IT_GOES, WITH_IT_OFF, WITH_IT_OUT_IT_GOES,
+    WITH_IT_OUT_WITH, WITH_IT_RUBBISH,
+};
 use crate::lead::skip_leads;
 use crate::noun::{Noun, noun};
 use crate::spot::{Relation, located, spot, way};
-use crate::token::{Token, longest, stands};
+use crate::token::{Token, stands};
 
 /// `into the bin with it`, `in the drawer it goes`: what shall be put there.
 pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     // `out with it!`
-    if let Some(count) = longest(tokens, begin, &["out with", "away with"])
+    if let Some(count) = WITH_IT_OUT_WITH.longest(tokens, begin)
         && let Some((Noun::Before(_) | Noun::Phrase(_), end)) = noun(tokens, begin + count)
         && is_over(tokens, end)
     {
@@ -19,37 +25,12 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
         return Some((said, end));
     }
     // `out it goes`
-    if let Some(count) = longest(
-        tokens,
-        begin,
-        &[
-            "out it goes",
-            "out it should go",
-            "away it goes",
-            "out they go",
-            "out it must go",
-            "out it has to go",
-        ],
-    ) {
-        let rubbish = [
-            "with the rubbish",
-            "with the trash",
-            "with the garbage",
-            "with the bins",
-            "into the bin",
-            "in the bin",
-            "into the trash",
-            "in the trash",
-            "in the rubbish",
-            "in the garbage",
-            "into the garbage",
-            "to the bin",
-        ];
-        let end = begin + count + longest(tokens, begin + count, &rubbish).unwrap_or(0);
+    if let Some(count) = WITH_IT_OUT_IT_GOES.longest(tokens, begin) {
+        let end = begin + count + WITH_IT_RUBBISH.longest(tokens, begin + count).unwrap_or(0);
         return is_over(tokens, end).then(|| (words("discard it"), end));
     }
     // `off to the bin with it`
-    let begin = begin + longest(tokens, begin, &["off", "straight"]).unwrap_or(0);
+    let begin = begin + WITH_IT_OFF.longest(tokens, begin).unwrap_or(0);
     let (place, after) = spot(tokens, begin).or_else(|| way(tokens, begin))?;
     if matches!(place.noun, Noun::Before(_)) || place.relation == Relation::Beside {
         return None;
@@ -69,7 +50,7 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
         (after + 1..end, end)
     } else {
         let (_, end) = noun(tokens, after)?;
-        let goes = longest(tokens, end, &["goes", "go", "belongs"])?;
+        let goes = WITH_IT_GOES.longest(tokens, end)?;
         (after..end, end + goes)
     };
     let thing = tokens.get(thing)?;
@@ -84,15 +65,13 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
 
 /// `off to the sink with you`, `off you go to the sink`, `next stop for you is the sink`, `be at the door`
 pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let off =
-        ["off you go", "off with you", "off you pop", "away you go", "away with you", "on you go", "off"];
-    if let Some(count) = longest(tokens, begin, &off) {
+    if let Some(count) = OFF_YOU_GO.longest(tokens, begin) {
         let at = begin + count;
         let (place, after) = way(tokens, at)?;
         if matches!(place.noun, Noun::Speaker) {
             return None;
         }
-        let with_you = longest(tokens, after, &["with you", "you go", "you pop", "you trot"]);
+        let with_you = SENT_WITH_YOU.longest(tokens, after);
         // `off the table` tells where something is.
         if place.relation != Relation::To || (with_you.is_none() && count == 1) {
             return None;
@@ -105,74 +84,36 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
     if let Some((place, after)) = way(tokens, begin)
         && place.relation == Relation::To
         && matches!(place.noun, Noun::Phrase(_))
-        && let Some(with_you) =
-            longest(tokens, after, &["with you", "you go", "you pop", "you trot", "then you"])
+        && let Some(with_you) = SENT_WITH_YOU_2.longest(tokens, after)
         && is_over(tokens, after + with_you)
     {
         let mut said = words("go");
         said.extend_from_slice(tokens.get(begin..after)?);
         return Some((said, after + with_you));
     }
-    let stop = [
-        "your next stop is",
-        "next stop for you is",
-        "next stop is",
-        "next stop",
-        "stop for you is",
-        "stop is",
-        "your place is",
-        "your spot is",
-        "your place now is",
-        "your post is",
-        "your position is",
-    ];
-    if let Some(count) = longest(tokens, begin, &stop) {
-        let at = begin
-            + count
-            + longest(
-                tokens,
-                begin + count,
-                &["over at", "over by", "at", "by", "near", "next to", "beside"],
-            )
-            .unwrap_or(0);
+    if let Some(count) = SENT_STOP.longest(tokens, begin) {
+        let at = begin + count + SENT_OVER_AT.longest(tokens, begin + count).unwrap_or(0);
         let (place, _) = noun(tokens, at)?;
         return matches!(place, Noun::Phrase(_)).then(|| (words("go to"), at));
     }
     // `you are needed at the sink`
-    let needed = [
-        "you are needed",
-        "you are wanted",
-        "you are required",
-        "you are expected",
-        "you are awaited",
-        "your presence is required",
-        "your presence is needed",
-        "your presence is requested",
-        "your help is needed",
-        "your help is wanted",
-        "i require you",
-        "i require your presence",
-    ];
-    if let Some(count) = longest(tokens, begin, &needed) {
-        let at = begin + count + longest(tokens, begin + count, &["over", "back"]).unwrap_or(0);
+    if let Some(count) = SENT_NEEDED.longest(tokens, begin) {
+        let at = begin + count + SENT_OVER.longest(tokens, begin + count).unwrap_or(0);
         return located(tokens, at).map(|_| (words("go"), at));
     }
     // `I would like you to be at the door`
-    let be = begin
-        + ["be over", "be standing", "be waiting", "be back", "be"]
-            .iter()
-            .find_map(|be| stands(tokens, begin, be))?;
+    let be = begin + SENT_BE_OVER.longest(tokens, begin)?;
     let is_there = is_place(tokens, be) || located(tokens, be).is_some();
     is_there.then(|| (words("go"), be))
 }
 
 /// `your destination is`, `next destination`: how many words it takes.
 fn destination(tokens: &[Token], begin: usize) -> Option<usize> {
-    let mut at = begin + longest(tokens, begin, &["your", "the"]).unwrap_or(0);
-    at += longest(tokens, at, &["next", "new", "first"]).unwrap_or(0);
-    at += longest(tokens, at, &["destination", "target", "goal", "waypoint", "position", "post", "station"])?;
-    at += longest(tokens, at, &["for you", "for now"]).unwrap_or(0);
-    match longest(tokens, at, &["is", "will be", "shall be"]) {
+    let mut at = begin + DESTINATION_YOUR.longest(tokens, begin).unwrap_or(0);
+    at += DESTINATION_NEXT.longest(tokens, at).unwrap_or(0);
+    at += DESTINATION_DESTINATION.longest(tokens, at)?;
+    at += DESTINATION_FOR_YOU.longest(tokens, at).unwrap_or(0);
+    match DESTINATION_IS.longest(tokens, at) {
         Some(count) => Some(at + count - begin),
         None => (tokens.get(at) == Some(&Token::Comma)).then(|| at + 1 - begin),
     }
@@ -194,7 +135,7 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
     if let Some((place, after)) = spot(here, begin).or_else(|| way(here, begin))
         && matches!(place.noun, Noun::Phrase(_))
         && place.relation != Relation::Beside
-        && let next = after + longest(tokens, after, &["please", "now"]).unwrap_or(0)
+        && let next = after + HEADED_PLEASE.longest(tokens, after).unwrap_or(0)
         && tokens.get(next) == Some(&Token::Comma)
         && let Some((Noun::Phrase(_), end)) = noun(tokens, next + 1)
         && is_over(tokens, end)
@@ -218,11 +159,11 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
         said.extend_from_slice(tokens.get(begin..after)?);
         return Some((said, end));
     }
-    let over = longest(here, begin, &["over", "on over", "straight", "back", "off"]).unwrap_or(0);
+    let over = HEADED_OVER.longest(here, begin).unwrap_or(0);
     let (place, after) = way(here, begin).or_else(|| way(here, begin + over))?;
     let is_place = place.relation == Relation::To && matches!(place.noun, Noun::Phrase(_));
     let is_first = (0..begin).all(|at| crate::verb::verb(tokens, at).is_none());
-    let now = longest(tokens, after, &["now", "next", "then", "this time"]).map(|count| after + count);
+    let now = HEADED_NOW.longest(tokens, after).map(|count| after + count);
     let alone = (is_first && after == limit).then_some(after);
     let please = please(after).or(now).or(alone)?;
     (is_place && is_over(tokens, please)).then(|| {
@@ -231,45 +172,6 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
         (said, please)
     })
 }
-
-/// What tells where something has its place.
-const LIVES: &[&str] = &[
-    "goes",
-    "go",
-    "belongs",
-    "belong",
-    "lives",
-    "live",
-    "should go",
-    "should be",
-    "should live",
-    "should end up",
-    "has to go",
-    "needs to go",
-    "needs to be",
-    "is supposed to go",
-    "is supposed to be",
-    "is meant to go",
-    "is meant to be",
-    "is to go",
-    "ought to go",
-    "ought to be",
-    "is kept",
-    "must go",
-    "can go",
-    "has its place",
-    "fits",
-    "is stored",
-];
-/// The place of something is asked for, or told, in these words behind it.
-const IS_WHERE: &[&str] = &[
-    "that is where",
-    "this is where",
-    "is where",
-    "is the place where",
-    "is the spot where",
-    "that is the place where",
-];
 
 /// `on the table, that is where I want it`: up to where `put it on the table` takes the place of it.
 pub(super) fn wanted_there(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Token>)> {
@@ -286,7 +188,7 @@ pub(super) fn wanted_there(tokens: &[Token], begin: usize) -> Option<(usize, Vec
     if at == after {
         return None;
     }
-    at += longest(tokens, at, IS_WHERE)?;
+    at += IS_WHERE.longest(tokens, at)?;
     let (thing, end, verb) = wanted(tokens, at)?;
     is_over(tokens, end).then(|| {
         let mut said = words(verb);
@@ -302,35 +204,20 @@ fn wanted(tokens: &[Token], at: usize) -> Option<(Vec<Token>, usize, &'static st
         let (thing, end) = noun(tokens, at)?;
         (!matches!(thing, Noun::Speaker)).then_some((tokens.get(at..end)?.to_vec(), end))
     };
-    if let Some(count) = longest(tokens, at, WANT) {
-        let you = [
-            "you to put",
-            "you to place",
-            "you to leave",
-            "you to set",
-            "you to store",
-            "you to keep",
-            "to have",
-            "to see",
-        ];
-        let count = count + longest(tokens, at + count, &you).unwrap_or(0);
+    if let Some(count) = WANTS_STATE.longest(tokens, at) {
+        let count = count + WANTED_YOU.longest(tokens, at + count).unwrap_or(0);
         let (thing, end) = noun_at(at + count)?;
-        let be =
-            longest(tokens, end, &["to be", "to go", "to end up", "to stay", "put", "kept"]).unwrap_or(0);
+        let be = WANTED_TO_BE.longest(tokens, end).unwrap_or(0);
         return Some((thing, end + be, "put"));
     }
     // Who keeps it there wants it there.
-    let keeps = longest(
-        tokens,
-        at,
-        &["we keep", "i keep", "we always keep", "i always keep", "you should put", "you can put", "you put"],
-    );
+    let keeps = WANTED_WE_KEEP.longest(tokens, at);
     if let Some(count) = keeps {
         let (thing, end) = noun_at(at + count)?;
         return Some((thing, end, "keep"));
     }
     (at + 1..tokens.len()).find_map(|end| {
-        let count = longest(tokens, end, LIVES)?;
+        let count = HAS_ITS_PLACE.longest(tokens, end)?;
         let (thing, after) = noun(tokens.get(..end)?, at)?;
         let is_thing = after == end && !matches!(thing, Noun::Speaker);
         is_thing.then(|| Some((tokens.get(at..end)?.to_vec(), end + count, "keep")))?
@@ -344,16 +231,12 @@ pub(super) fn fronted(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
         Some((_, after)) => (false, after),
         None => (true, noun(tokens, begin).filter(|(noun, _)| matches!(noun, Noun::Phrase(_)))?.1),
     };
-    let (thing, end, verb) = match longest(
-        tokens,
-        after,
-        &["is the place for", "is the right place for", "is the best place for", "is the spot for"],
-    ) {
+    let (thing, end, verb) = match FRONTED_IS_THE_PLACE_FOR.longest(tokens, after) {
         Some(count) => {
             let (_, end) = noun(tokens, after + count)?;
             (tokens.get(after + count..end)?.to_vec(), end, "keep")
         }
-        None => wanted(tokens, after + longest(tokens, after, IS_WHERE)?)?,
+        None => wanted(tokens, after + IS_WHERE.longest(tokens, after)?)?,
     };
     let mut said = words(verb);
     said.extend_from_slice(&thing);

@@ -1,33 +1,18 @@
 //! Room for a thing: `find a spot on the table for it`, `make room in the drawer and put it there`.
 
 use super::state::words;
+use crate::english::{AND_PUT, MADE_ROOM_THERE, ROOM_FOR_FIND, ROOM_FOR_MAKES, ROOM_FOR_ROOM};
 use crate::noun::{Noun, noun};
 use crate::spot::spot;
-use crate::token::{Token, longest, stands};
+use crate::token::{Token, stands};
 
 /// `find a spot on the table for the coke`: put there.
 pub(super) fn room_for(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let makes = ["clear", "clear me", "make", "make me", "free up", "free", "clear up", "create"];
-    let (at, is_made) = match longest(tokens, begin, &makes) {
+    let (at, is_made) = match ROOM_FOR_MAKES.longest(tokens, begin) {
         Some(count) => (begin + count, true),
-        None => (begin + longest(tokens, begin, &["find", "find me"])?, false),
+        None => (begin + ROOM_FOR_FIND.longest(tokens, begin)?, false),
     };
-    let room = [
-        "a spot",
-        "a place",
-        "a space",
-        "space",
-        "room",
-        "a home",
-        "some space",
-        "some room",
-        "a nice spot",
-        "a nice place",
-        "a good spot",
-        "a good place",
-        "a corner",
-    ];
-    let at = at + longest(tokens, at, &room)?;
+    let at = at + ROOM_FOR_ROOM.longest(tokens, at)?;
     if is_made {
         return made_room(tokens, at);
     }
@@ -57,15 +42,9 @@ pub(super) fn made_room(tokens: &[Token], at: usize) -> Option<(Vec<Token>, usiz
     let named =
         stands(tokens, after, "for").and_then(|count| Some((after + count, noun(tokens, after + count)?.1)));
     let then = named.map_or(after, |(_, end)| end);
-    let puts =
-        ["and put", "and then put", "then put", "and set", "and place", "and stick", "and pop", "and leave"];
-    let put = then + longest(tokens, then, &puts)?;
+    let put = then + AND_PUT.longest(tokens, then)?;
     let (it, end) = noun(tokens, put)?;
-    let there = longest(
-        tokens,
-        end,
-        &["there", "inside", "in it", "on it", "in there", "on there", "in", "on", "inside it"],
-    )?;
+    let there = MADE_ROOM_THERE.longest(tokens, end)?;
     let thing = match (it, named) {
         (Noun::Before(_), Some((begin, end))) => begin..end,
         (Noun::Phrase(_), _) => put..end,

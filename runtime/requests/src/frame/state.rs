@@ -1,9 +1,10 @@
 //! What is wanted of a thing: that it is open, closed, somewhere, or that something is done with it.
 
+use crate::english::{STATE_AND, STATE_POSED, STATE_RUBBISH, STATE_SKIPPED, WHERETO};
 use crate::inflection::{Form, base};
 use crate::noun::{Noun, noun};
 use crate::spot::{Relation, located, way};
-use crate::token::{Token, longest, run, stands};
+use crate::token::Token;
 
 /// What is wanted of something.
 pub(super) enum State {
@@ -42,54 +43,27 @@ pub(super) fn thing_before(
 
 /// What is wanted, and where the words for it that are still to be read begin.
 pub(super) fn state(tokens: &[Token], at: usize, form: Form) -> Option<(State, usize)> {
-    let skipped = ["back", "all", "wide", "safely", "properly"];
     let word = tokens.get(at)?.word();
     // `standing open`
     let is_door = tokens.get(at + 1).is_some_and(|next| matches!(next.word(), "open" | "closed" | "shut"));
-    let skips = skipped.contains(&word) || (is_door && matches!(word, "standing" | "left" | "kept"));
+    let skips = STATE_SKIPPED.has(word) || (is_door && matches!(word, "standing" | "left" | "kept"));
     let at = if skips && tokens.get(at + 1).is_some() { at + 1 } else { at };
-    let posed = [
-        "sitting",
-        "standing",
-        "lying",
-        "resting",
-        "waiting",
-        "living",
-        "sat",
-        "up",
-        "over",
-        "out",
-        "right",
-        "safe",
-        "ready",
-        "safe and sound",
-        "down",
-        "somewhere",
-        "properly",
-        "tucked up",
-        "back",
-    ];
-    let at = match run(tokens, at, &posed) {
+    let at = match STATE_POSED.run(tokens, at) {
         0 => at,
         count if is_place(tokens, at + count) => at + count,
         _ => at,
     };
     let word = tokens.get(at)?.word();
-    let is_last = tokens.get(at + 1).is_none_or(|next| {
-        matches!(next, Token::Comma | Token::Stop)
-            || matches!(
-                next.word(),
-                "and" | "for" | "please" | "again" | "now" | "like" | "all" | "when" | "while"
-            )
-    });
+    let is_last = tokens
+        .get(at + 1)
+        .is_none_or(|next| matches!(next, Token::Comma | Token::Stop) || STATE_AND.has(next.word()));
     match word {
         "open" if is_last => return Some((State::Open, at + 1)),
         "closed" | "shut" if is_last => return Some((State::Closed, at + 1)),
         _ => {}
     }
     // `it can go out with the rubbish`
-    let rubbish = ["out with the rubbish", "out with the trash", "out with the garbage"];
-    if let Some(count) = rubbish.iter().find_map(|out| stands(tokens, at, out)) {
+    if let Some(count) = STATE_RUBBISH.longest(tokens, at) {
         return Some((State::Done("discard".to_owned()), at + count));
     }
     if is_place(tokens, at) {
@@ -114,10 +88,8 @@ fn base_is_participle(word: &str) -> bool {
 
 /// Whether words for a place begin here.
 pub(super) fn is_place(tokens: &[Token], at: usize) -> bool {
-    let to =
-        ["into", "onto", "over here", "over there", "here", "next to", "near", "by", "beside", "with me"];
     let is_way = || way(tokens, at).is_some_and(|(spot, _)| spot.relation != Relation::To);
-    located(tokens, at).is_some() || longest(tokens, at, &to).is_some() || is_way()
+    located(tokens, at).is_some() || WHERETO.longest(tokens, at).is_some() || is_way()
 }
 
 /// What is wanted of a thing of which this is not wanted; none where nothing is the opposite.

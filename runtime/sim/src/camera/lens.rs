@@ -1,7 +1,7 @@
 //! A pinhole camera at a place, looking somewhere.
 
 use motet_graph::Pose;
-use motet_robots::turn::product;
+use motet_robots::quaternion::mul;
 use motet_runtime::CameraModel;
 
 /// Columns and rows of a picture.
@@ -28,8 +28,8 @@ impl CameraLens {
         let axes = [[sy, -cy, 0.0], [-sb * cy, -sb * sy, -cb], [cb * cy, cb * sy, -sb]];
         let ((hs, hc), (ts, tc)) = ((heading / 2.0).sin_cos(), (below / 2.0).sin_cos());
         // map_from_camera = yaw * pitch * the turn from a body's axes to those of images.
-        let turned = product([0.0, 0.0, hs, hc], [0.0, ts, 0.0, tc]);
-        Self { eye, axes, quaternion: product(turned, [-0.5, 0.5, -0.5, 0.5]) }
+        let turned = mul([0.0, 0.0, hs, hc], [0.0, ts, 0.0, tc]);
+        Self { eye, axes, quaternion: mul(turned, [-0.5, 0.5, -0.5, 0.5]) }
     }
 
     /// A camera that looks at a point; straight ahead where it is in it.
@@ -103,14 +103,14 @@ mod tests {
     #![allow(clippy::indexing_slicing, reason = "a test fails by panicking")]
 
     use super::*;
-    use motet_robots::turn::turned;
+    use motet_robots::quaternion::rotate;
 
     #[test]
     fn the_quaternion_is_that_of_the_axes() {
         for (heading, below) in [(0.0, 0.0), (0.7, 0.3), (-2.9, -0.4), (3.1, 1.5)] {
             let lens = CameraLens::new([0.0; 3], heading, below);
             for (axis, unit) in lens.axes.iter().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
-                let off = minus(turned(lens.quaternion, unit), *axis);
+                let off = minus(rotate(lens.quaternion, unit), *axis);
                 assert!(dot(off, off) < 1e-18, "{heading} {below}");
             }
         }

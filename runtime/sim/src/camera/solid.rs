@@ -1,6 +1,6 @@
 //! Upright solids, and where a ray meets them first.
 
-use motet_robots::scene::Shape;
+use motet_robots::scene::EntityShape;
 
 use super::lens::minus;
 
@@ -62,15 +62,17 @@ impl Solid {
 
 impl Form {
     /// A scene's shape, a capsule as the cylinder about it; none where only a file has it.
-    pub(super) fn of(shape: &Shape) -> Option<Self> {
+    pub(super) fn of(shape: &EntityShape) -> Option<Self> {
         Some(match shape {
-            Shape::Box(extents) => Self::Box(extents.map(|extent| extent / 2.0)),
-            Shape::Cylinder { radius, height } => Self::Cylinder { radius: *radius, half: height / 2.0 },
-            Shape::Sphere { radius } => Self::Sphere { radius: *radius },
-            Shape::Capsule { radius, height } => {
+            EntityShape::Box(extents) => Self::Box(extents.map(|extent| extent / 2.0)),
+            EntityShape::Cylinder { radius, height } => {
+                Self::Cylinder { radius: *radius, half: height / 2.0 }
+            }
+            EntityShape::Sphere { radius } => Self::Sphere { radius: *radius },
+            EntityShape::Capsule { radius, height } => {
                 Self::Cylinder { radius: *radius, half: height / 2.0 + radius }
             }
-            Shape::Mesh { .. } => return None,
+            EntityShape::Mesh { .. } => return None,
         })
     }
 }

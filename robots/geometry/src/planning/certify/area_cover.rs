@@ -81,8 +81,12 @@ impl QueryContext<'_> {
     fn core(&self) -> Option<(f64, f64)> {
         let configuration = Configuration { base: [0.0; 3], joints: self.model.rest().to_vec() };
         let placed = self.body.placed(&self.model.map_from_links(&configuration));
-        let fixed =
-            self.body.parts().iter().zip(&placed).filter(|(part, _)| self.model.levers(part.link).is_empty());
+        let fixed = self
+            .body
+            .parts()
+            .iter()
+            .zip(&placed)
+            .filter(|(part, _)| self.model.ancestor_joints(part.link).is_empty());
         let discs = fixed.map(|(_, solid)| {
             let [_, _, z] = &solid.axes;
             let is_upright = z.x.abs() < 1e-9 && z.y.abs() < 1e-9;

@@ -4,13 +4,13 @@
 use nalgebra::Vector3;
 
 use crate::collision::Solid;
-use crate::lanes::Met;
 use crate::planning::checking::prefilter::{PrefilterCache, SegmentCentres, other};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::MIN_CLEARANCE;
 use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
 use crate::planning::search::context::QueryContext;
 use crate::planning::search::path::ContactTally;
+use crate::simd::NearPair;
 
 /// A neighbourhood, and the robot in it.
 pub(crate) struct CollisionChecker<'r, 'w> {
@@ -222,11 +222,11 @@ impl CollisionChecker<'_, '_> {
     pub(crate) fn clearance_among<'n>(
         &self,
         configuration: &Configuration,
-        near: impl Iterator<Item = &'n Met>,
+        near: impl Iterator<Item = &'n NearPair>,
         mut least: f64,
     ) -> f64 {
         let mut placed: Option<(usize, Solid)> = None;
-        for Met { pair, .. } in near {
+        for NearPair { pair, .. } in near {
             let solid = match placed {
                 Some((part, solid)) if part == pair.part => solid,
                 Some(_) | None => {

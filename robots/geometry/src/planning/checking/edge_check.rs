@@ -7,14 +7,14 @@ use std::collections::VecDeque;
 use nalgebra::Vector3;
 
 use crate::collision::Solid;
-use crate::kinematics::Lever;
-use crate::lanes::{self, Met};
+use crate::kinematics::AncestorJoint;
 use crate::planning::checking::collision_checker::{CollisionChecker, above_floor};
 use crate::planning::checking::motion_bound::MotionBound;
 use crate::planning::checking::prefilter::{SegmentCentres, other};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::MIN_CLEARANCE;
 use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
+use crate::simd::{self, NearPair};
 
 /// How often a way is halved before it counts as not free.
 const DEPTH: u32 = 10;
@@ -149,7 +149,7 @@ struct SegmentBatch {
     legs: SegmentCentres,
     /// How often the way was halved for them.
     depth: u32,
-    near: Vec<Met>,
+    near: Vec<NearPair>,
 }
 
 impl SegmentBatch {
@@ -161,7 +161,7 @@ impl SegmentBatch {
 
     /// Pieces of those, eight at a time: of four or fewer legs, each cut in as many as there is room for, with how often the way was halved
     /// for them and the pairs to look at on them.
-    fn pieces(&self) -> impl Iterator<Item = (SegmentCentres, u32, Vec<(lanes::Pair, u8)>)> {
+    fn pieces(&self) -> impl Iterator<Item = (SegmentCentres, u32, Vec<(simd::BatchPair, u8)>)> {
         let mut open = self.open();
         std::iter::from_fn(move || {
             let first = open.next()?;
@@ -182,7 +182,7 @@ impl SegmentBatch {
                 }
             }
             let all = u8::MAX >> (8 - pieces);
-            let on = |met: &Met| {
+            let on = |met: &NearPair| {
                 let ones = four.into_iter().flatten().zip(0..);
                 let ones = ones.filter(|(lane, _)| met.lanes >> lane & 1 == 1);
                 ones.fold(0, |lanes, (_, at): (usize, u32)| lanes | all << (pieces * at))
@@ -233,7 +233,7 @@ struct EdgeCheck<'a, 'r, 'w> {
     motion_bound: MotionBound<'a>,
     /// The state in the middle.
     configuration: Configuration,
-    along: crate::kinematics::Along,
+    along: crate::kinematics::EdgePoses,
     moved: Vec<PlacedPart>,
     leg: usize,
 }
@@ -245,7 +245,7 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
             checker,
             motion_bound: MotionBound { from, to, half: 0.0 },
             configuration: from.clone(),
-            along: checker.context.model.tree().along(&from.joints, &to.joints),
+            along: checker.context.model.tree().edge_poses(&from.joints, &to.joints),
             moved: vec![nowhere; checker.limbs.len()],
             leg: 0,
         }
@@ -256,7 +256,7 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         self.configuration.set_towards(self.motion_bound.from, self.motion_bound.to, middle);
         (self.motion_bound.half, self.leg) = (half, self.leg + 1);
         let root = model.map_from_root(self.configuration.base);
-        model.tree().place(&mut self.along, &root, &self.configuration.joints);
+        model.tree().place_on_edge(&mut self.along, &root, &self.configuration.joints);
     }
 
     /// Hands over every pair that may not touch.
@@ -324,13 +324,14 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
     fn approach(&self, part: usize, solid: &Solid, other: usize, beyond: &Solid) -> f64 {
         let (context, limbs) = (self.checker.context, &self.checker.limbs);
         let Some((one, two)) = limbs.get(part).zip(limbs.get(other)) else { return 0.0 };
-        let (levers, others) = (context.model.levers(one.link), context.model.levers(two.link));
-        let common = levers.iter().zip(others).take_while(|(a, b)| a.frame == b.frame).count();
-        let goes = |levers: &[Lever], solid: &Solid, reach: f64| {
-            let own = levers.get(common..).unwrap_or_default();
+        let (ancestors, others) =
+            (context.model.ancestor_joints(one.link), context.model.ancestor_joints(two.link));
+        let common = ancestors.iter().zip(others).take_while(|(a, b)| a.frame == b.frame).count();
+        let goes = |ancestors: &[AncestorJoint], solid: &Solid, reach: f64| {
+            let own = ancestors.get(common..).unwrap_or_default();
             self.motion_bound.by(own, self.along.poses(), solid, reach)
         };
-        goes(levers, solid, one.reach) + goes(others, beyond, two.reach)
+        goes(ancestors, solid, one.reach) + goes(others, beyond, two.reach)
     }
 
     /// A part where it is, and how far it goes.
@@ -342,8 +343,8 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         let context = self.checker.context;
         let (limb, own) = (self.checker.limbs.get(part)?, context.body.parts().get(part)?);
         let solid = own.solid.moved(self.along.poses().get(limb.link)?);
-        let (levers, poses) = (context.model.levers(limb.link), self.along.poses());
-        let whole = self.motion_bound.in_map(self.configuration.base, levers, poses, &solid, limb.reach);
+        let (ancestors, poses) = (context.model.ancestor_joints(limb.link), self.along.poses());
+        let whole = self.motion_bound.in_map(self.configuration.base, ancestors, poses, &solid, limb.reach);
         let moved = PlacedPart { leg: self.leg, solid, whole };
         *self.moved.get_mut(part)? = moved;
         Some(moved)

@@ -6,13 +6,13 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
 
 use crate::collision::Solid;
-use crate::lanes::{Against, Figure, Look, Met, Posed, Slab, Slabs};
 use crate::planning::checking::collision_checker::{above_floor, is_touching};
 use crate::planning::scene::contact::MIN_CLEARANCE;
 use crate::planning::scene::contact::{AllowedCollisions, Contact};
 use crate::planning::scene::grid_index::Obstacle;
 use crate::planning::scene::robot_model::HandModel;
 use crate::planning::search::context::QueryContext;
+use crate::simd::{BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
 
 /// An open hand without its arm, and what is near the thing that it goes around.
 pub(crate) struct HandChecker<'r, 'w> {
@@ -24,8 +24,8 @@ pub(crate) struct HandChecker<'r, 'w> {
     /// A place in the middle of the poses.
     middle: Vector3<f64>,
     /// The same for a quick look, seen from there; made when it is first asked for.
-    quick: OnceCell<Option<(Figure, Slabs)>>,
-    posed: RefCell<Posed>,
+    quick: OnceCell<Option<(BatchModel, ObbSet)>>,
+    posed: RefCell<PosedBatch>,
 }
 
 /// A part of the hand, or what it holds.
@@ -97,31 +97,31 @@ impl HandChecker<'_, '_> {
     }
 
     /// `None` where something is too large, or has no box and is known to be apart from nothing.
-    fn quick(&self) -> Option<&(Figure, Slabs)> {
+    fn quick(&self) -> Option<&(BatchModel, ObbSet)> {
         let place = [self.middle.x, self.middle.y];
         let make = || {
-            let slabs =
-                self.obstacles.iter().map(|obstacle| Slab::new(obstacle.entity, &obstacle.solid, place));
-            let slabs = slabs.collect::<Option<Slabs>>()?;
-            Some((Figure::rigid(self.parts.iter().map(|own| &own.solid))?, slabs))
+            let obbs =
+                self.obstacles.iter().map(|obstacle| Obb::new(obstacle.entity, &obstacle.solid, place));
+            let obbs = obbs.collect::<Option<ObbSet>>()?;
+            Some((BatchModel::rigid(self.parts.iter().map(|own| &own.solid))?, obbs))
         };
         self.quick.get_or_init(make).as_ref()
     }
 
     /// The pairs that are near each other at some poses; `None` where it cannot be told this way.
-    fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<Met>> {
-        let (figure, slabs) = self.quick()?;
+    fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<NearPair>> {
+        let (batch_model, obbs) = self.quick()?;
         let seen = |tip: &Isometry3<f64>| {
             Isometry3::from_parts(Translation3::from(tip.translation.vector - self.middle), tip.rotation)
         };
-        let eight = figure.at(&map_from_tips.iter().map(seen).collect::<Vec<_>>())?;
+        let batch = batch_model.at(&map_from_tips.iter().map(seen).collect::<Vec<_>>())?;
         let counts = |part: usize, entity: Option<usize>| {
             self.parts.get(part).is_some_and(|own| entity.is_none() || !own.is_held || self.beneath != entity)
         };
-        let look = Look {
-            figure,
-            eight: &eight,
-            slabs,
+        let look = BatchCheck {
+            batch_model,
+            batch: &batch,
+            obbs,
             gaps: [MIN_CLEARANCE as f32; 8],
             is_own: false,
             is_first: true,
@@ -129,32 +129,32 @@ impl HandChecker<'_, '_> {
             posed: &mut self.posed.borrow_mut(),
             counts,
         };
-        Some(look.met())
+        Some(look.near_pairs())
     }
 
     /// Whether a part touches something at a pose.
-    fn is_touching(&self, met: &Met, map_from_tip: &Isometry3<f64>) -> bool {
+    fn is_touching(&self, met: &NearPair, map_from_tip: &Isometry3<f64>) -> bool {
         let Some(own) = self.parts.get(met.pair.part) else { return false };
         let solid = own.solid.moved(map_from_tip);
-        match met.pair.against {
-            Against::Slab(at) => self
+        match met.pair.target {
+            PairTarget::Obb(at) => self
                 .obstacles
                 .get(at)
                 .is_some_and(|obstacle| is_touching(&solid, own.reach, &obstacle.solid, obstacle.reach)),
-            Against::Floor => above_floor(&solid) <= MIN_CLEARANCE,
-            Against::Part(..) => false,
+            PairTarget::Floor => above_floor(&solid) <= MIN_CLEARANCE,
+            PairTarget::Part(..) => false,
         }
     }
 
     /// What is told of a pair that touches.
-    fn told(&self, met: &Met) -> Option<Contact> {
+    fn told(&self, met: &NearPair) -> Option<Contact> {
         let own = self.parts.get(met.pair.part)?;
-        match met.pair.against {
-            Against::Slab(at) => {
+        match met.pair.target {
+            PairTarget::Obb(at) => {
                 Some(self.contact_of(own, self.context.name(self.obstacles.get(at)?.entity)))
             }
-            Against::Floor => Some(self.contact_of(own, "floor".into())),
-            Against::Part(..) => None,
+            PairTarget::Floor => Some(self.contact_of(own, "floor".into())),
+            PairTarget::Part(..) => None,
         }
     }
 

@@ -1,12 +1,12 @@
 //! Room to spare along a path.
 
-use crate::lanes::Met;
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::query::answer::Margins;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 use crate::planning::search::context::QueryContext;
 use crate::planning::search::path::plane;
+use crate::simd::NearPair;
 
 /// Clearances within which something is looked for first, in m, and then.
 const NEARBY: [[f32; 8]; 2] =
@@ -61,15 +61,15 @@ impl CollisionChecker<'_, '_> {
                 };
             }
         }
-        let variables = self.context.model.tree().variables().iter();
+        let dofs = self.context.model.tree().dofs().iter();
         // An open hand is at its limit by intent.
         let hand = self.context.model.hand();
         let is_finger = |at: usize| hand.is_some_and(|hand| hand.open.iter().any(|(own, _)| *own == at));
         let ends = path.first().zip(path.last());
         let rooms = ends.into_iter().flat_map(|(first, last)| {
-            let values = first.joints.iter().zip(&last.joints).zip(variables.clone()).zip(0..);
+            let values = first.joints.iter().zip(&last.joints).zip(dofs.clone()).zip(0..);
             let moved = values.filter(|(((before, after), _), at)| before != after && !is_finger(*at));
-            moved.map(|(((_, after), known), _)| known.room(*after))
+            moved.map(|(((_, after), known), _)| known.limit_margin(*after))
         });
         Margins { clearance, limit: rooms.reduce(f64::min), payload: None }
     }
@@ -90,6 +90,6 @@ impl CollisionChecker<'_, '_> {
 }
 
 /// The pairs that may be near in one of eight states.
-fn in_lane(near: &[Met], lane: usize) -> impl Iterator<Item = &Met> {
+fn in_lane(near: &[NearPair], lane: usize) -> impl Iterator<Item = &NearPair> {
     near.iter().filter(move |near| near.still >> lane & 1 == 1)
 }

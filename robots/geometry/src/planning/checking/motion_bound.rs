@@ -4,7 +4,7 @@
 use nalgebra::Isometry3;
 
 use crate::collision::Solid;
-use crate::kinematics::Lever;
+use crate::kinematics::AncestorJoint;
 use crate::planning::scene::configuration::Configuration;
 
 /// A leg of the straight way between two states, seen from its middle.
@@ -19,22 +19,28 @@ pub(crate) struct MotionBound<'a> {
 impl MotionBound<'_> {
     /// How far any point of a solid goes at most while levers move it, until the ends of the leg. Links are where `poses` say,
     /// and a ball of the radius `reach` about its centre holds the solid.
-    pub(crate) fn by(&self, levers: &[Lever], poses: &[Isometry3<f64>], solid: &Solid, reach: f64) -> f64 {
+    pub(crate) fn by(
+        &self,
+        ancestors: &[AncestorJoint],
+        poses: &[Isometry3<f64>],
+        solid: &Solid,
+        reach: f64,
+    ) -> f64 {
         let change = |at: usize| {
             let value = |joints: &[f64]| joints.get(at).copied().unwrap_or(0.0);
             (value(&self.to.joints) - value(&self.from.joints)).abs() * self.half
         };
         let mut goes = 0.0;
-        for lever in levers.iter().rev() {
-            let amount = change(lever.driver.variable) * lever.driver.multiplier.abs();
+        for ancestor in ancestors.iter().rev() {
+            let amount = change(ancestor.coupling.dof) * ancestor.coupling.multiplier.abs();
             if amount == 0.0 {
                 continue;
             }
-            goes += if lever.slides {
+            goes += if ancestor.is_prismatic {
                 amount
             } else {
-                let pose = poses.get(lever.frame).copied().unwrap_or_default();
-                let axis = pose.rotation * lever.axis.into_inner();
+                let pose = poses.get(ancestor.frame).copied().unwrap_or_default();
+                let axis = pose.rotation * ancestor.axis.into_inner();
                 let arm = (solid.centre - pose.translation.vector).cross(&axis).norm() + reach;
                 amount * (arm + goes)
             };
@@ -46,12 +52,12 @@ impl MotionBound<'_> {
     pub(crate) fn in_map(
         &self,
         base: [f64; 3],
-        levers: &[Lever],
+        ancestors: &[AncestorJoint],
         poses: &[Isometry3<f64>],
         solid: &Solid,
         reach: f64,
     ) -> f64 {
-        let goes = self.by(levers, poses, solid, reach);
+        let goes = self.by(ancestors, poses, solid, reach);
         let ([x, y, yaw], [to_x, to_y, to_yaw]) = (self.from.base, self.to.base);
         let (dx, dy, turn) = (to_x - x, to_y - y, (to_yaw - yaw).abs() * self.half);
         let shift = (dx * dx + dy * dy).sqrt() * self.half;

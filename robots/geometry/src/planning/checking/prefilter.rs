@@ -3,19 +3,19 @@
 
 use std::cell::{OnceCell, RefCell};
 
-use crate::lanes::{Against, Eight, Figure, Look, Met, Pair, Posed, Slab, Slabs};
 use crate::planning::checking::collision_checker::{CollisionChecker, is_touching};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::MIN_CLEARANCE;
 use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
 use crate::planning::search::context::QueryContext;
+use crate::simd::{Batch8, BatchCheck, BatchModel, BatchPair, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
 
 /// What the quick look needs of a neighbourhood, made when it is first asked for.
 #[derive(Default)]
 pub(crate) struct PrefilterCache {
-    slabs: OnceCell<Option<Slabs>>,
+    obbs: OnceCell<Option<ObbSet>>,
     /// Where the robot was placed last: nothing but room for the next time.
-    posed: RefCell<Posed>,
+    posed: RefCell<PosedBatch>,
 }
 
 /// What counts as near.
@@ -47,7 +47,7 @@ impl SegmentCentres {
 
 impl QueryContext<'_> {
     /// The robot with the joints that a hand, its arm and the postures move; `None` where it is not simple enough.
-    pub(crate) fn figure(&self) -> Option<&Figure> {
+    pub(crate) fn batch_model(&self) -> Option<&BatchModel> {
         let make = || {
             // Pairs that never move against each other are as apart as at the start.
             if self.start_contact().is_some() {
@@ -55,40 +55,38 @@ impl QueryContext<'_> {
             }
             let model = self.model;
             let hand = model.hand()?;
-            let variables = model.tree().variables().iter().zip(0..);
-            let named: Vec<usize> = variables
-                .filter(|(variable, _)| {
-                    model.card().postures.values().any(|it| it.contains_key(&variable.name))
-                })
+            let dofs = model.tree().dofs().iter().zip(0..);
+            let named: Vec<usize> = dofs
+                .filter(|(dof, _)| model.card().postures.values().any(|it| it.contains_key(&dof.name)))
                 .map(|(_, at)| at)
                 .collect();
             let chain = &hand.solver.chain().in_tree;
             let is_free = |at: usize| {
                 chain.contains(&at) || named.contains(&at) || hand.open.iter().any(|(open, _)| *open == at)
             };
-            let rig = model.tree().rig(&self.state.robot.joints, is_free)?;
-            let free = (0..model.tree().variables().len()).map(is_free).collect();
-            Some((Figure::new(&rig, &model.map_from_root([0.0; 3]), &self.body)?, free))
+            let reduced = model.tree().reduced(&self.state.robot.joints, is_free)?;
+            let free = (0..model.tree().dofs().len()).map(is_free).collect();
+            Some((BatchModel::new(&reduced, &model.map_from_root([0.0; 3]), &self.body)?, free))
         };
-        let (figure, _) = self.figure.get_or_init(make).as_ref()?;
-        Some(figure)
+        let (batch_model, _) = self.batch_model.get_or_init(make).as_ref()?;
+        Some(batch_model)
     }
 
     /// Whether all but the joints of the figure are as at the start, and the robot itself is free there.
     fn is_drawn(&self, configuration: &Configuration) -> bool {
-        let Some(Some((_, free))) = self.figure.get() else { return false };
+        let Some(Some((_, free))) = self.batch_model.get() else { return false };
         let values = configuration.joints.iter().zip(&self.state.robot.joints).zip(free);
         values.into_iter().all(|((one, start), is_free)| *is_free || one == start)
     }
 }
 
 impl CollisionChecker<'_, '_> {
-    fn slabs(&self) -> Option<&Slabs> {
+    fn obbs(&self) -> Option<&ObbSet> {
         let make = || {
-            let slabs = self.obstacles.iter().map(|near| Slab::new(near.entity, &near.solid, self.place()));
-            slabs.collect()
+            let obbs = self.obstacles.iter().map(|near| Obb::new(near.entity, &near.solid, self.place()));
+            obbs.collect()
         };
-        self.quick.slabs.get_or_init(make).as_ref()
+        self.quick.obbs.get_or_init(make).as_ref()
     }
 
     /// The pairs that are near each other in some states, at most eight: `None` where it cannot be told this way.
@@ -96,9 +94,9 @@ impl CollisionChecker<'_, '_> {
         &self,
         configurations: &[&Configuration],
         allowed: AllowedCollisions,
-    ) -> Option<Vec<Met>> {
-        let figure = self.context.figure()?;
-        self.near(figure, &self.eight(figure, configurations)?, allowed, None, NearRange::LEAST)
+    ) -> Option<Vec<NearPair>> {
+        let batch_model = self.context.batch_model()?;
+        self.near(batch_model, &self.batch(batch_model, configurations)?, allowed, None, NearRange::LEAST)
     }
 
     /// The pairs that are near each other on eight legs of a way; where some are given, of these only, each on those legs of which its
@@ -108,16 +106,16 @@ impl CollisionChecker<'_, '_> {
         way: [&Configuration; 2],
         legs: &SegmentCentres,
         allowed: AllowedCollisions,
-        pairs: Option<&[(Pair, u8)]>,
-    ) -> Option<Vec<Met>> {
-        let figure = self.context.figure()?;
+        pairs: Option<&[(BatchPair, u8)]>,
+    ) -> Option<Vec<NearPair>> {
+        let batch_model = self.context.batch_model()?;
         if !way.iter().all(|configuration| self.context.is_drawn(configuration)) {
             return None;
         }
-        let mut eight = figure.eight();
+        let mut batch = batch_model.batch();
         let ends = way.map(|configuration| (self.seen(configuration.base), configuration.joints.as_slice()));
-        let is_within = figure.set_on(&mut eight, ends, &legs.middles, legs.half);
-        if is_within { self.near(figure, &eight, allowed, pairs, NearRange::LEAST) } else { None }
+        let is_within = batch_model.set_on(&mut batch, ends, &legs.middles, legs.half);
+        if is_within { self.near(batch_model, &batch, allowed, pairs, NearRange::LEAST) } else { None }
     }
 
     /// What stands around, or the floor, that may be within so many metres of the robot in each of some states, at most eight; `None`
@@ -127,14 +125,14 @@ impl CollisionChecker<'_, '_> {
         configurations: &[&Configuration],
         allowed: AllowedCollisions,
         metres: [f32; 8],
-    ) -> Option<Vec<Met>> {
-        let figure = self.context.figure()?;
+    ) -> Option<Vec<NearPair>> {
+        let batch_model = self.context.batch_model()?;
         if !configurations.iter().all(|configuration| self.holds(configuration)) {
             return None;
         }
         self.near(
-            figure,
-            &self.eight(figure, configurations)?,
+            batch_model,
+            &self.batch(batch_model, configurations)?,
             allowed,
             None,
             NearRange { metres, is_own: false },
@@ -142,15 +140,15 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// Some states, at most eight, the first again for what is left.
-    fn eight(&self, figure: &Figure, configurations: &[&Configuration]) -> Option<Eight> {
+    fn batch(&self, batch_model: &BatchModel, configurations: &[&Configuration]) -> Option<Batch8> {
         let first = configurations.first()?;
-        let mut eight = figure.eight();
+        let mut batch = batch_model.batch();
         let set = |lane: usize| {
             let configuration = configurations.get(lane).unwrap_or(first);
             self.context.is_drawn(configuration)
-                && figure.set(&mut eight, lane, self.seen(configuration.base), &configuration.joints)
+                && batch_model.set(&mut batch, lane, self.seen(configuration.base), &configuration.joints)
         };
-        (0..8).all(set).then_some(eight)
+        (0..8).all(set).then_some(batch)
     }
 
     /// A pose of the base from the origin of the neighbourhood.
@@ -162,22 +160,22 @@ impl CollisionChecker<'_, '_> {
     /// The pairs that are near each other in eight states.
     pub(crate) fn near_to(
         &self,
-        figure: &Figure,
-        eight: &Eight,
+        batch_model: &BatchModel,
+        batch: &Batch8,
         allowed: AllowedCollisions,
-    ) -> Option<Vec<Met>> {
-        self.near(figure, eight, allowed, None, NearRange::LEAST)
+    ) -> Option<Vec<NearPair>> {
+        self.near(batch_model, batch, allowed, None, NearRange::LEAST)
     }
 
     fn near(
         &self,
-        figure: &Figure,
-        eight: &Eight,
+        batch_model: &BatchModel,
+        batch: &Batch8,
         allowed: AllowedCollisions,
-        pairs: Option<&[(Pair, u8)]>,
+        pairs: Option<&[(BatchPair, u8)]>,
         gap: NearRange,
-    ) -> Option<Vec<Met>> {
-        let slabs = self.slabs()?;
+    ) -> Option<Vec<NearPair>> {
+        let obbs = self.obbs()?;
         let mut posed = self.quick.posed.borrow_mut();
         let counts = |part: usize, entity: Option<usize>| {
             self.limbs.get(part).is_some_and(|limb| match entity {
@@ -185,10 +183,10 @@ impl CollisionChecker<'_, '_> {
                 None => limb.counts && limb.is_carried,
             })
         };
-        let look = Look {
-            figure,
-            eight,
-            slabs,
+        let look = BatchCheck {
+            batch_model,
+            batch,
+            obbs,
             gaps: gap.metres,
             is_own: gap.is_own,
             // Where a clearance is looked for, all that is near counts.
@@ -197,7 +195,7 @@ impl CollisionChecker<'_, '_> {
             posed: &mut posed,
             counts,
         };
-        Some(look.met())
+        Some(look.near_pairs())
     }
 
     /// The first touch in the first of some states that touches anything, with [`MIN_CLEARANCE`] between everything.
@@ -234,7 +232,7 @@ impl CollisionChecker<'_, '_> {
     /// Which of some pairs touches in a state, which is one of those looked at: what is certain first, which costs nothing more.
     pub(crate) fn contact_among(
         &self,
-        near: &[Met],
+        near: &[NearPair],
         lane: usize,
         configuration: &Configuration,
     ) -> Option<Contact> {
@@ -246,7 +244,7 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// The touch of a pair that touches.
-    pub(crate) fn told(&self, near: &Met) -> Contact {
+    pub(crate) fn told(&self, near: &NearPair) -> Contact {
         let other = match other(&near.pair) {
             ContactTarget::Obstacle(at) => {
                 ContactTarget::Obstacle(self.obstacles.get(at).map_or(at, |obstacle| obstacle.index))
@@ -257,7 +255,7 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// Whether a pair touches in a state.
-    pub(crate) fn contact_of(&self, near: &Met, configuration: &Configuration) -> Option<Contact> {
+    pub(crate) fn contact_of(&self, near: &NearPair, configuration: &Configuration) -> Option<Contact> {
         let solid = |part: usize| Some((self.part_at(part, configuration)?, self.limbs.get(part)?));
         let (one, limb) = solid(near.pair.part)?;
         let is_touched = match other(&near.pair) {
@@ -278,10 +276,10 @@ impl CollisionChecker<'_, '_> {
 }
 
 /// What a part is near to.
-pub(crate) fn other(pair: &Pair) -> ContactTarget {
-    match pair.against {
-        Against::Slab(at) => ContactTarget::Obstacle(at),
-        Against::Part(at, _) => ContactTarget::Part(at),
-        Against::Floor => ContactTarget::Floor,
+pub(crate) fn other(pair: &BatchPair) -> ContactTarget {
+    match pair.target {
+        PairTarget::Obb(at) => ContactTarget::Obstacle(at),
+        PairTarget::Part(at, _) => ContactTarget::Part(at),
+        PairTarget::Floor => ContactTarget::Floor,
     }
 }

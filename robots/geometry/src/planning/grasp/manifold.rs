@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::inverse::family::Drift;
+use crate::inverse::interval::DisplacementBound;
 use crate::planning::grasp::candidates::{GRIP, GraspCandidate, SHORT, TOP, is_ahead};
 use crate::planning::query::answer::GraspSide;
 use crate::planning::scene::robot_model::HandModel;
@@ -234,7 +234,7 @@ impl<'a> GraspManifold<'a> {
     }
 
     /// A pose in the middle of a patch, and how far the others of it can be; `None` where there is none.
-    pub(crate) fn over(&self, patch: &GraspPatch) -> Option<(Isometry3<f64>, Drift)> {
+    pub(crate) fn over(&self, patch: &GraspPatch) -> Option<(Isometry3<f64>, DisplacementBound)> {
         let slot = self.slots.get(patch.slot)?;
         let ([about, bend, place, deep], [abouts, bends, places, deeps]) = (patch.middle, patch.half);
         let (approach, across) = slot.kind.directions(about, bend);
@@ -261,7 +261,7 @@ impl<'a> GraspManifold<'a> {
         let middle = self.object.centre + slot.along * place;
         let at = middle - approach * depth - across * self.hand.middle(slot.width);
         let tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(&approach, &across));
-        let drift = Drift::none()
+        let drift = DisplacementBound::none()
             .shifted(SLACK)
             .slid(slot.along * places)
             .slid(approach * ((last - first).abs() / 2.0));
@@ -301,7 +301,7 @@ impl<'a> GraspManifold<'a> {
 
     /// Whether something is so for all poses, each near to one by no more than what is told of it: `false` where as many patches as
     /// may be looked at do not tell.
-    pub(crate) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &Drift) -> bool) -> bool {
+    pub(crate) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &DisplacementBound) -> bool) -> bool {
         const MOST: usize = 4096;
         let mut open = self.patches();
         for _ in 0..MOST {

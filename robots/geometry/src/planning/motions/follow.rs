@@ -181,8 +181,8 @@ impl QueryContext<'_> {
                 if !drives && pull.hand.carried.get(own.link) != Some(&true) {
                     continue;
                 }
-                let levers = self.model.levers(own.link);
-                let goes = motion_bound.in_map(configuration.base, levers, &poses, solid, solid.reach());
+                let ancestors = self.model.ancestor_joints(own.link);
+                let goes = motion_bound.in_map(configuration.base, ancestors, &poses, solid, solid.reach());
                 for other in &moving {
                     let margin = goes + pull.opening.goes(other, span);
                     if solid.is_farther(other, MIN_CLEARANCE + margin) {

@@ -9,7 +9,7 @@ use motet_robots::scene::Entity;
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
-use crate::kinematics::{Variable, spread};
+use crate::kinematics::{Dof, quasi_random};
 use crate::planning::query::answer::{
     BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
 };
@@ -42,7 +42,7 @@ impl QueryContext<'_> {
             return unknown(format!("the hand holds `{id}`"));
         }
         let start = &self.state.robot;
-        let (moving, variables) = self.head(frame);
+        let (moving, dofs) = self.head(frame);
         let view = CameraView {
             frame,
             range: camera.range_m,
@@ -56,7 +56,7 @@ impl QueryContext<'_> {
         for at in 0..rounds {
             let mut configuration = start.clone();
             if at > 0 {
-                for (slot, value) in moving.iter().zip(spread(&variables, at)) {
+                for (slot, value) in moving.iter().zip(quasi_random(&dofs, at)) {
                     if let Some(joint) = configuration.joints.get_mut(*slot) {
                         *joint = value;
                     }
@@ -94,17 +94,17 @@ impl QueryContext<'_> {
     }
 
     /// The joints that turn a camera and nothing of the arm; of a camera at the wrist those of the arm.
-    fn head(&self, frame: usize) -> (Vec<usize>, Vec<Variable>) {
+    fn head(&self, frame: usize) -> (Vec<usize>, Vec<Dof>) {
         let arm = self.model.hand().map(|hand| &hand.solver.chain().in_tree);
         let mut all: Vec<usize> =
-            self.model.levers(frame).iter().map(|lever| lever.driver.variable).collect();
+            self.model.ancestor_joints(frame).iter().map(|ancestor| ancestor.coupling.dof).collect();
         all.sort_unstable();
         all.dedup();
         let own: Vec<usize> =
             all.iter().copied().filter(|at| !arm.is_some_and(|arm| arm.contains(at))).collect();
         let moving = if own.is_empty() { all } else { own };
-        let variables = self.model.tree().variables();
-        let known = moving.iter().filter_map(|at| variables.get(*at).cloned()).collect();
+        let dofs = self.model.tree().dofs();
+        let known = moving.iter().filter_map(|at| dofs.get(*at).cloned()).collect();
         (moving, known)
     }
 

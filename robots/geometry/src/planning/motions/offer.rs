@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
-use crate::kinematics::{planar, spread};
+use crate::kinematics::{planar, quasi_random};
 use crate::planning::query::answer::{
     Infeasible, InfeasibleReason, MotionAnswer, SearchBudget, UnknownReason,
 };
@@ -112,7 +112,7 @@ impl QueryContext<'_> {
             self.model.map_from_links(configuration).get(held.hand.tip).copied()
         };
         let IkSolver::Lift(arm) = &held.hand.solver else {
-            let configuration = with(&spread(&chain.variables, at));
+            let configuration = with(&quasi_random(&chain.dofs, at));
             return tip(&configuration).map(|tip| (configuration, tip)).into_iter().collect();
         };
         // Solved anywhere with the thing upright, then moved as one so that the base is where it is.

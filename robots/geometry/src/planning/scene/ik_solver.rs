@@ -4,7 +4,7 @@ use motet_robots::card::Drive;
 use nalgebra::Isometry3;
 
 use crate::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
-use crate::kinematics::Chain;
+use crate::kinematics::KinematicChain;
 
 /// The largest change of a joint between two places on a line that the hand follows, in rad or m.
 const JUMP: f64 = 0.5;
@@ -19,13 +19,13 @@ pub enum IkSolver {
     /// Seven joints as of the Franka arms.
     Seven(SevenArm),
     /// Any other chain, in steps.
-    Steps(Chain),
+    Steps(KinematicChain),
 }
 
 impl IkSolver {
     /// How the arm of a chain is solved on a base that drives so, whose link is so high above the floor, in m.
     #[must_use]
-    pub fn of(chain: &Chain, drive: Drive, height: f64) -> Self {
+    pub fn of(chain: &KinematicChain, drive: Drive, height: f64) -> Self {
         let drives_anywhere = matches!(drive, Drive::Omnidirectional | Drive::Legged);
         let lift =
             LiftArm::detect(chain).filter(|_| drives_anywhere).map(|arm| Self::Lift(arm.raised(height)));
@@ -36,7 +36,7 @@ impl IkSolver {
 
     /// The arm's chain, from the base's link to the tip.
     #[must_use]
-    pub fn chain(&self) -> &Chain {
+    pub fn chain(&self) -> &KinematicChain {
         match self {
             Self::Lift(arm) => arm.chain(),
             Self::Parallel(arm) => arm.chain(),

@@ -1,6 +1,6 @@
 //! What stands in the way: the solids of the entities of a scene, in the world as it is.
 
-use motet_robots::scene::{Entity, Shape as Listed};
+use motet_robots::scene::{Entity, EntityShape};
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
@@ -23,10 +23,10 @@ pub(crate) fn solids(entity: &Entity, state: &SceneState) -> Vec<Solid> {
 /// The shape of an entity as a solid; `None` for a mesh and where there is none.
 pub(crate) fn solid_shape(entity: &Entity) -> Option<Shape> {
     Some(match entity.shape.as_ref()? {
-        Listed::Box([x, y, z]) => Shape::Box(Vector3::new(x / 2.0, y / 2.0, z / 2.0)),
-        Listed::Cylinder { radius, height } => Shape::Cylinder { radius: *radius, half: height / 2.0 },
-        Listed::Sphere { radius } => Shape::Capsule { radius: *radius, half: 0.0 },
-        Listed::Capsule { radius, height } => Shape::Capsule { radius: *radius, half: height / 2.0 },
-        Listed::Mesh { .. } => return None,
+        EntityShape::Box([x, y, z]) => Shape::Box(Vector3::new(x / 2.0, y / 2.0, z / 2.0)),
+        EntityShape::Cylinder { radius, height } => Shape::Cylinder { radius: *radius, half: height / 2.0 },
+        EntityShape::Sphere { radius } => Shape::Capsule { radius: *radius, half: 0.0 },
+        EntityShape::Capsule { radius, height } => Shape::Capsule { radius: *radius, half: height / 2.0 },
+        EntityShape::Mesh { .. } => return None,
     })
 }

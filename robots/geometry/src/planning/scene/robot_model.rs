@@ -1,12 +1,12 @@
 //! A robot made ready for queries: its card, its kinematics, its body, and how its hand is solved. Made once.
 
-use motet_robots::card::{Drive, Hand as HandCard, Robot};
+use motet_robots::card::{Drive, HandSpec, Robot};
 use motet_robots::urdf::Urdf;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
-use crate::collision::{Body, Shape, Solid};
-use crate::kinematics::{Chain, Lever, Tree, planar};
+use crate::collision::{CollisionModel, Shape, Solid};
+use crate::kinematics::{AncestorJoint, KinematicChain, KinematicTree, planar};
 use crate::planning::checking::collision_checker::above_floor;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::ik_solver::IkSolver;
@@ -18,11 +18,11 @@ const PALM_GAP: f64 = 0.005;
 #[derive(Clone, Debug)]
 pub struct RobotModel {
     card: Robot,
-    tree: Tree,
-    body: Body,
+    tree: KinematicTree,
+    body: CollisionModel,
     floor_from_root: Isometry3<f64>,
     /// For each link the joints that move it.
-    levers: Vec<Vec<Lever>>,
+    ancestors: Vec<Vec<AncestorJoint>>,
     hand: Option<HandModel>,
     rest: Vec<f64>,
     /// How far any point of it can be from the vertical axis of its base, in m.
@@ -37,7 +37,7 @@ pub struct HandModel {
     /// Its name in the card.
     pub name: SmolStr,
     /// What the card says of it.
-    pub card: HandCard,
+    pub card: HandSpec,
     /// Index of its tip's link.
     pub tip: usize,
     /// How joint positions are found.
@@ -62,7 +62,7 @@ impl RobotModel {
     /// The fingers of a hand may touch each other: that is what they are for.
     #[must_use]
     pub fn new(card: &Robot, urdf: &Urdf) -> Self {
-        let tree = Tree::new(urdf);
+        let tree = KinematicTree::new(urdf);
         let model = card.model.as_ref();
         let link = |name: Option<&SmolStr>| name.and_then(|name| tree.link(name).ok());
         let base = link(model.and_then(|model| model.base.as_ref())).unwrap_or(tree.root());
@@ -76,54 +76,56 @@ impl RobotModel {
         }
         let height = model.map_or(0.0, |model| model.height_m);
         let floor_from_root = Translation3::new(0.0, 0.0, height) * tree.pose(&rest, base, tree.root());
-        let levers: Vec<Vec<Lever>> = (0..tree.links().len()).map(|link| tree.levers(link)).collect();
+        let ancestors: Vec<Vec<AncestorJoint>> =
+            (0..tree.links().len()).map(|link| tree.ancestor_joints(link)).collect();
         let mut allowed = urdf.may_touch.clone();
         for tip in card.hands.values().filter_map(|hand| link(hand.tip.as_ref())) {
             let fingers: Vec<usize> =
-                (0..levers.len()).filter(|at| is_carried_by(&tree, &levers, tip, *at)).collect();
+                (0..ancestors.len()).filter(|at| is_carried_by(&tree, &ancestors, tip, *at)).collect();
             allowed.extend(fingers.iter().flat_map(|one| fingers.iter().map(|other| [*one, *other])));
         }
-        let body = Body::new(urdf, &tree, &allowed);
+        let body = CollisionModel::new(urdf, &tree, &allowed);
         let mut model = Self {
             card: card.clone(),
             tree,
             body,
             floor_from_root,
-            levers,
+            ancestors,
             hand: None,
             rest,
             extent: 0.0,
             turning: vec![],
         };
         let turns = |at: usize| {
-            let mut levers = model.levers.iter().flatten();
-            levers.any(|lever| lever.driver.variable == at && !lever.slides)
+            let mut ancestors = model.ancestors.iter().flatten();
+            ancestors.any(|ancestor| ancestor.coupling.dof == at && !ancestor.is_prismatic)
         };
-        model.turning = (0..model.tree.variables().len()).map(turns).collect();
+        model.turning = (0..model.tree.dofs().len()).map(turns).collect();
         model.extent = model.extent_about(base);
         model.hand = card.hands.iter().find_map(|(name, hand)| model.hand_of(name, hand, base, height));
         model
     }
 
-    fn hand_of(&self, name: &SmolStr, card: &HandCard, base: usize, height: f64) -> Option<HandModel> {
+    fn hand_of(&self, name: &SmolStr, card: &HandSpec, base: usize, height: f64) -> Option<HandModel> {
         let tip = self.tree.link(card.tip.as_deref()?).ok()?;
-        let chain = Chain::new(&self.tree, base, tip)?;
+        let chain = KinematicChain::new(&self.tree, base, tip)?;
         let solver = IkSolver::of(&chain, self.card.base.drive, height);
-        let in_arm = |lever: &Lever| chain.in_tree.contains(&lever.driver.variable);
-        let carried = self.levers.iter().map(|levers| levers.iter().any(in_arm)).collect();
-        let links = 0..self.levers.len();
-        let members =
-            links.map(|at| self.body.is_rigid(tip, at) || is_carried_by(&self.tree, &self.levers, tip, at));
+        let in_arm = |ancestor: &AncestorJoint| chain.in_tree.contains(&ancestor.coupling.dof);
+        let carried = self.ancestors.iter().map(|ancestors| ancestors.iter().any(in_arm)).collect();
+        let links = 0..self.ancestors.len();
+        let members = links.map(|at| {
+            self.body.is_rigidly_attached(tip, at) || is_carried_by(&self.tree, &self.ancestors, tip, at)
+        });
         let members: Vec<bool> = members.collect();
         let points = Vector3::from(card.points);
-        let open = card.open.iter().filter_map(|(joint, at)| Some((self.tree.variable(joint).ok()?, *at)));
+        let open = card.open.iter().filter_map(|(joint, at)| Some((self.tree.dof(joint).ok()?, *at)));
         let open: Vec<(usize, f64)> = open.collect();
         let poses = self.tree.root_from_links(&opened(&self.rest, &open));
         let tip_from_root = poses.get(tip)?.inverse();
         let parts = self.body.parts().iter().filter(|part| members.get(part.link) == Some(&true));
         let placed = parts.filter_map(|part| {
             Some((
-                self.body.is_rigid(tip, part.link),
+                self.body.is_rigidly_attached(tip, part.link),
                 part.solid.moved(&(tip_from_root * poses.get(part.link)?)),
             ))
         });
@@ -165,13 +167,13 @@ impl RobotModel {
 
     /// The kinematics.
     #[must_use]
-    pub fn tree(&self) -> &Tree {
+    pub fn tree(&self) -> &KinematicTree {
         &self.tree
     }
 
     /// The body.
     #[must_use]
-    pub fn body(&self) -> &Body {
+    pub fn body(&self) -> &CollisionModel {
         &self.body
     }
 
@@ -248,7 +250,7 @@ impl RobotModel {
     /// Added up joint by joint. While nothing has turned about another axis than the vertical, heights do not count.
     fn extent_about(&self, base: usize) -> f64 {
         let parts = self.body.parts().iter().map(|part| {
-            let Some(chain) = Chain::new(&self.tree, base, part.link) else { return f64::INFINITY };
+            let Some(chain) = KinematicChain::new(&self.tree, base, part.link) else { return f64::INFINITY };
             let (mut turned, mut is_upright, mut far) = (UnitQuaternion::identity(), true, 0.0);
             let mut add = |turned: &UnitQuaternion<f64>, shift: Vector3<f64>, is_upright: bool| {
                 let shift = turned * shift;
@@ -258,11 +260,11 @@ impl RobotModel {
                 add(&turned, joint.before.translation.vector, is_upright);
                 turned *= joint.before.rotation;
                 let axis = turned * joint.axis.into_inner();
-                if joint.slides {
-                    let limits = chain.variables.get(joint.driver.variable).and_then(|known| known.limits);
+                if joint.is_prismatic {
+                    let limits = chain.dofs.get(joint.coupling.dof).and_then(|known| known.limits);
                     let ends = limits.map(|(lower, upper)| {
                         let place =
-                            |value: f64| (joint.driver.multiplier * value + joint.driver.offset).abs();
+                            |value: f64| (joint.coupling.multiplier * value + joint.coupling.offset).abs();
                         place(lower).max(place(upper))
                     });
                     add(&turned, joint.axis.into_inner() * ends.unwrap_or(f64::INFINITY), is_upright);
@@ -280,8 +282,8 @@ impl RobotModel {
         parts.fold(0.0, f64::max)
     }
 
-    pub(crate) fn levers(&self, link: usize) -> &[Lever] {
-        self.levers.get(link).map_or(&[], Vec::as_slice)
+    pub(crate) fn ancestor_joints(&self, link: usize) -> &[AncestorJoint] {
+        self.ancestors.get(link).map_or(&[], Vec::as_slice)
     }
 }
 
@@ -329,22 +331,23 @@ fn opened(joints: &[f64], open: &[(usize, f64)]) -> Vec<f64> {
     joints
 }
 
-fn set(tree: &Tree, joints: &mut [f64], joint: &str, position: f64) {
-    if let Some(slot) = tree.variable(joint).ok().and_then(|at| joints.get_mut(at)) {
+fn set(tree: &KinematicTree, joints: &mut [f64], joint: &str, position: f64) {
+    if let Some(slot) = tree.dof(joint).ok().and_then(|at| joints.get_mut(at)) {
         *slot = position;
     }
 }
 
 /// Whether a link hangs on another by way of a joint that moves.
-fn is_carried_by(tree: &Tree, levers: &[Vec<Lever>], tip: usize, link: usize) -> bool {
-    let own = levers.get(tip).map_or(0, Vec::len);
-    levers.get(link).is_some_and(|levers| levers.len() > own)
-        && Chain::new(tree, tip_group(tree, levers, tip), link).is_some_and(|chain| !chain.joints.is_empty())
+fn is_carried_by(tree: &KinematicTree, ancestors: &[Vec<AncestorJoint>], tip: usize, link: usize) -> bool {
+    let own = ancestors.get(tip).map_or(0, Vec::len);
+    ancestors.get(link).is_some_and(|ancestors| ancestors.len() > own)
+        && KinematicChain::new(tree, tip_group(tree, ancestors, tip), link)
+            .is_some_and(|chain| !chain.joints.is_empty())
 }
 
 /// The link after the last moving joint before the tip: everything on it is rigid with the tip.
-fn tip_group(tree: &Tree, levers: &[Vec<Lever>], tip: usize) -> usize {
-    levers.get(tip).and_then(|levers| levers.last()).map_or(tree.root(), |last| last.frame)
+fn tip_group(tree: &KinematicTree, ancestors: &[Vec<AncestorJoint>], tip: usize) -> usize {
+    ancestors.get(tip).and_then(|ancestors| ancestors.last()).map_or(tree.root(), |last| last.frame)
 }
 
 /// Whether a solid in the tip's frame is a jaw on whose inner face the tip is.

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
@@ -41,18 +41,18 @@ impl SceneState {
     pub fn new(model: &RobotModel, scene: &Scene) -> Self {
         let mut joints = model.rest().to_vec();
         for (name, value) in &scene.robot.joints {
-            if let Some(slot) = model.tree().variable(name).ok().and_then(|at| joints.get_mut(at)) {
+            if let Some(slot) = model.tree().dof(name).ok().and_then(|at| joints.get_mut(at)) {
                 *slot = *value;
             }
         }
         let held = scene.robot.holding.clone().flatten().and_then(|id| {
             let (hand, entity) = model.hand().zip(scene.entities.get(&id))?;
             let half = match entity.shape.as_ref()? {
-                Shape::Box([x, ..]) => x / 2.0,
-                Shape::Cylinder { radius, .. } | Shape::Sphere { radius } | Shape::Capsule { radius, .. } => {
-                    *radius
-                }
-                Shape::Mesh { .. } => return None,
+                EntityShape::Box([x, ..]) => x / 2.0,
+                EntityShape::Cylinder { radius, .. }
+                | EntityShape::Sphere { radius }
+                | EntityShape::Capsule { radius, .. } => *radius,
+                EntityShape::Mesh { .. } => return None,
             };
             let points = Vector3::from(hand.card.points);
             let closes = Vector3::from(hand.card.closes);
@@ -80,9 +80,9 @@ impl SceneState {
         let pose = isometry(entity.pose.as_ref()?);
         // The pose of a person is that of the feet.
         let lifted = match (&entity.shape, entity.kind.as_str()) {
-            (Some(Shape::Cylinder { height, .. }), "Person") => height / 2.0,
-            (Some(Shape::Capsule { radius, height }), "Person") => height / 2.0 + radius,
-            (Some(Shape::Box([_, _, z])), "Person") => z / 2.0,
+            (Some(EntityShape::Cylinder { height, .. }), "Person") => height / 2.0,
+            (Some(EntityShape::Capsule { radius, height }), "Person") => height / 2.0 + radius,
+            (Some(EntityShape::Box([_, _, z])), "Person") => z / 2.0,
             _ => 0.0,
         };
         Some(pose * Translation3::new(0.0, 0.0, lifted))

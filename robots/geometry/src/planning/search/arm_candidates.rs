@@ -6,7 +6,7 @@ use motet_robots::card::Drive;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::inverse::{Tolerance, numeric};
-use crate::kinematics::{Chain, planar, spread};
+use crate::kinematics::{KinematicChain, planar, quasi_random};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::ik_solver::IkSolver;
 use crate::planning::scene::robot_model::HandModel;
@@ -67,7 +67,7 @@ impl QueryContext<'_> {
                 let chain = hand.solver.chain();
                 let start = match at {
                     0 => self.now(chain),
-                    _ => spread(&chain.variables, at - 1),
+                    _ => quasi_random(&chain.dofs, at - 1),
                 };
                 numeric::refined(chain, &base_from_tip, &start, CLOSES, Tolerance::EXACT)
                     .into_iter()
@@ -78,7 +78,7 @@ impl QueryContext<'_> {
     }
 
     /// Where the arm is.
-    fn now(&self, chain: &Chain) -> Vec<f64> {
+    fn now(&self, chain: &KinematicChain) -> Vec<f64> {
         let joints = &self.state.robot.joints;
         chain.in_tree.iter().map(|at| joints.get(*at).copied().unwrap_or_default()).collect()
     }
@@ -135,11 +135,11 @@ impl QueryContext<'_> {
         if let IkSolver::Lift(arm) = &hand.solver {
             // With all else still, the base and the lift alone move the hand along any line.
             let chain = hand.solver.chain();
-            let (joint, variable) = (chain.joints.first()?, chain.variables.first()?);
+            let (joint, dof) = (chain.joints.first()?, chain.dofs.first()?);
             let mut first = configuration.clone();
             let lift = first.joints.get_mut(*chain.in_tree.first()?)?;
-            *lift += shift.z * arm.up / joint.driver.multiplier;
-            if !variable.allows(*lift) {
+            *lift += shift.z * arm.up / joint.coupling.multiplier;
+            if !dof.allows(*lift) {
                 return None;
             }
             let [x, y, yaw] = first.base;

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use motet_robots::scene::{Entity, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Scene};
 use smol_str::SmolStr;
 
-use crate::collision::{Body, Part, Solid};
-use crate::lanes::Figure;
+use crate::collision::{CollisionModel, LinkSolid, Solid};
 use crate::planning::base::base_map::BaseMap;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::{AllowedCollisions, Contact};
@@ -15,6 +14,7 @@ use crate::planning::scene::grid_index::{Obstacle, ObstacleIndex};
 use crate::planning::scene::obstacle::{solid_shape, solids};
 use crate::planning::scene::robot_model::RobotModel;
 use crate::planning::scene::scene_state::SceneState;
+use crate::simd::BatchModel;
 
 /// A robot in a world. Made once for all queries of one world; O(entities), and O(obstacles × cells of the map) when it is first
 /// asked how the base drives.
@@ -24,7 +24,7 @@ pub struct QueryContext<'w> {
     pub(crate) scene: &'w Scene,
     pub(crate) state: &'w SceneState,
     /// With what is in the hand.
-    pub(crate) body: Body,
+    pub(crate) body: CollisionModel,
     /// Index of the part that is in the hand.
     pub(crate) held: Option<usize>,
     pub(crate) obstacles: ObstacleIndex,
@@ -38,7 +38,7 @@ pub struct QueryContext<'w> {
     /// What the robot touches where it is.
     start_contact: OnceLock<Option<Contact>>,
     /// The robot for a quick look, and for each variable whether it moves it; made when it is first asked for.
-    pub(crate) figure: OnceLock<Option<(Figure, Vec<bool>)>>,
+    pub(crate) batch_model: OnceLock<Option<(BatchModel, Vec<bool>)>>,
     /// Index of the container that is about to open or close, whose moving parts are not among the things.
     pub(crate) opening: Option<usize>,
     /// Entities with a mesh for a shape.
@@ -84,10 +84,10 @@ impl<'w> QueryContext<'w> {
             && let Some(shape) = scene.entities.get(id).and_then(solid_shape)
         {
             held = Some(body.parts().len());
-            let part = Part { link: hand.tip, solid: Solid::new(tip_from_object, shape) };
-            body = body.carrying(part, |link| hand.members.get(link) == Some(&true));
+            let part = LinkSolid { link: hand.tip, solid: Solid::new(tip_from_object, shape) };
+            body = body.with_attached(part, |link| hand.members.get(link) == Some(&true));
         }
-        let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(Shape::Mesh { .. }));
+        let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(EntityShape::Mesh { .. }));
         let unseen = scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
         Self {
             model,
@@ -101,7 +101,7 @@ impl<'w> QueryContext<'w> {
             escapes: OnceLock::new(),
             homes: OnceLock::new(),
             start_contact: OnceLock::new(),
-            figure: OnceLock::new(),
+            batch_model: OnceLock::new(),
             opening: None,
             unseen,
         }
@@ -177,7 +177,8 @@ impl<'w> QueryContext<'w> {
         if let Some(entity) = self.unseen.first() {
             return Some(format!("the shape of `{entity}` is a mesh, which is not read"));
         }
-        let link = self.body.unseen().first().and_then(|link| self.model.tree().links().get(*link))?;
+        let link =
+            self.body.uncovered_links().first().and_then(|link| self.model.tree().links().get(*link))?;
         Some(format!("the shape of the robot's link `{link}` is a mesh, which is not read"))
     }
 

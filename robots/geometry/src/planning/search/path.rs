@@ -211,7 +211,7 @@ impl QueryContext<'_> {
     /// Makes what is otherwise made when it is first asked for.
     pub(crate) fn prepare(&self) {
         self.start_contact();
-        self.figure();
+        self.batch_model();
         if let Some(map) = self.map() {
             self.homes(map);
         }
@@ -260,7 +260,7 @@ impl QueryContext<'_> {
             return None;
         };
         let chain = arm.chain();
-        let (lower, upper) = chain.variables.first()?.limits?;
+        let (lower, upper) = chain.dofs.first()?.limits?;
         Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))
     }
 }

@@ -6,13 +6,13 @@ use std::f64::consts::TAU;
 use nalgebra::Isometry3;
 
 use crate::inverse::LiftArm;
-use crate::inverse::manifold::{Block, LANES, Manifold, Poses};
-use crate::lanes::Figure;
+use crate::inverse::batch::{BatchSolver, CandidateBatch, LANES, TipBatch};
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::{AllowedCollisions, Contact};
 use crate::planning::scene::robot_model::HandModel;
 use crate::planning::search::arm_candidates::{PLANE, part};
+use crate::simd::BatchModel;
 
 /// How far a value of a solution in `f64` may be from the draft's, in rad or m.
 const SAME: f64 = 1e-3;
@@ -20,10 +20,10 @@ const SAME: f64 = 1e-3;
 /// What looks at candidates.
 pub(crate) struct ArmPrefilter<'a, 'r, 'w> {
     checker: &'a CollisionChecker<'r, 'w>,
-    figure: &'a Figure,
+    batch_model: &'a BatchModel,
     hand: &'a HandModel,
     arm: &'a LiftArm,
-    manifold: Manifold<'a>,
+    manifold: BatchSolver<'a>,
     allowed: AllowedCollisions,
     /// The robot with the hand as it reaches.
     still: Configuration,
@@ -34,7 +34,7 @@ pub(crate) struct ArmPrefilter<'a, 'r, 'w> {
 /// Eight poses of the tip or fewer, each with its index.
 pub(crate) struct PoseBatch {
     tips: Vec<(usize, Isometry3<f64>)>,
-    poses: Poses,
+    poses: TipBatch,
 }
 
 /// A candidate for a pose, in `f32`.
@@ -70,10 +70,10 @@ impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
         let (lower, upper) = arm.shoulder_span();
         Some(Self {
             checker,
-            figure: checker.context.figure()?,
+            batch_model: checker.context.batch_model()?,
             hand,
             arm,
-            manifold: Manifold::new(arm),
+            manifold: BatchSolver::new(arm),
             allowed,
             still: checker.context.with(hand, [0.0; 3], &[]),
             shoulders: [lower, upper],
@@ -92,7 +92,7 @@ impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
         let [lower, upper] = self.shoulders;
         let shoulder = lower + part(round, 2, PLANE) * (upper - lower);
         let block = self.manifold.block(&group.poses, (part(round, 1, PLANE) - 0.5) * TAU, shoulder);
-        let Block { lift, base: [x, y], .. } = block;
+        let CandidateBatch { lift, base: [x, y], .. } = block;
         let (lift, x, y) = (lift.to_array(), x.to_array(), y.to_array());
         for branch in &block.branches {
             if branch.allowed == 0 {
@@ -120,7 +120,7 @@ impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
     /// What is known of drafts, at most eight.
     pub(crate) fn seen(&self, drafts: &[ArmDraft]) -> Vec<DraftCheck> {
         let look = || {
-            let mut eight = self.figure.eight();
+            let mut batch = self.batch_model.batch();
             let mut joints = self.still.joints.clone();
             let first = drafts.first()?;
             for lane in 0..LANES {
@@ -129,12 +129,12 @@ impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
                     *joints.get_mut(*at)? = value;
                 }
                 let [x, y] = draft.base;
-                let is_within = self.figure.set(&mut eight, lane, [x, y, draft.yaw], &joints);
+                let is_within = self.batch_model.set(&mut batch, lane, [x, y, draft.yaw], &joints);
                 if !is_within || !self.checker.holds_off(draft.base) {
                     return None;
                 }
             }
-            self.checker.near_to(self.figure, &eight, self.allowed)
+            self.checker.near_to(self.batch_model, &batch, self.allowed)
         };
         let Some(near) = look() else { return drafts.iter().map(|_| DraftCheck::Open).collect() };
         let seen = |lane: usize| match near.iter().find(|near| near.sure >> lane & 1 == 1) {

@@ -1,7 +1,7 @@
 //! RRT-Connect (Kuffner and LaValle 2000) for the arm with the base still, or for both: two trees of certified edges towards samples of
 //! a low-discrepancy sequence, so that the same question has the same answer.
 
-use crate::kinematics::{Variable, spread_over};
+use crate::kinematics::{Dof, quasi_random_in};
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
@@ -81,21 +81,21 @@ impl<'a> SampleSequence<'a> {
         moving: PlannedJoints,
         from: &'a Configuration,
         to: &'a Configuration,
-        arm: &'a [Variable],
+        arm: &'a [Dof],
         joints: &'a [usize],
     ) -> Self {
         let between = |one: f64, other: f64, aside: f64| (one.min(other) - aside, one.max(other) + aside);
         let base = from.base.iter().zip(to.base).zip([ASIDE, ASIDE, std::f64::consts::PI]);
         let base = base.map(|((one, other), aside)| between(*one, other, aside));
         let base: Vec<(f64, f64)> = if moving == PlannedJoints::All { base.collect() } else { vec![] };
-        let ranges = base.into_iter().chain(arm.iter().map(Variable::span)).collect();
+        let ranges = base.into_iter().chain(arm.iter().map(Dof::sampling_range)).collect();
         Self { moving, from, to, ranges, joints }
     }
 
     /// A state to grow towards. In the open the arm need not move, and often not while the base does.
     fn aim(&self, sample: usize) -> Option<Configuration> {
         let mut aim = self.to.clone();
-        let values = spread_over(self.ranges.iter().copied(), sample);
+        let values = quasi_random_in(self.ranges.iter().copied(), sample);
         let (base, arm) = values.split_at(values.len().checked_sub(self.joints.len())?);
         aim.base.iter_mut().zip(base).for_each(|(slot, value)| *slot = *value);
         match (self.moving, sample / 2 % 4) {
@@ -121,7 +121,7 @@ impl CollisionChecker<'_, '_> {
         effort: RrtEffort,
     ) -> Option<Vec<Configuration>> {
         let chain = self.context.model.hand()?.solver.chain();
-        let samples = SampleSequence::new(moving, from, to, &chain.variables, &chain.in_tree);
+        let samples = SampleSequence::new(moving, from, to, &chain.dofs, &chain.in_tree);
         let mut trees = [RrtTree(vec![(from.clone(), 0)]), RrtTree(vec![(to.clone(), 0)])];
         for sample in 0..effort.samples() {
             let aim = samples.aim(sample)?;

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Vector3};
 
 use crate::inverse::LiftArm;
-use crate::inverse::family::Drift;
+use crate::inverse::interval::DisplacementBound;
 use crate::planning::grasp::candidates::GraspCandidate;
 use crate::planning::motions::reach::certain;
 use crate::planning::query::answer::{InfeasibleReason, MotionAnswer};
@@ -34,10 +34,10 @@ impl QueryContext<'_> {
         let first = nalgebra::Point3::from(first.before.translation.vector);
         let shoulder = self.map_from_base(self.state.robot.base) * first;
         let links = chain.joints.iter().skip(1).map(|joint| joint.before.translation.vector.norm());
-        let slides = chain.joints.iter().filter(|joint| joint.slides).map(|joint| {
-            let limits = chain.variables.get(joint.driver.variable).and_then(|known| known.limits);
+        let slides = chain.joints.iter().filter(|joint| joint.is_prismatic).map(|joint| {
+            let limits = chain.dofs.get(joint.coupling.dof).and_then(|known| known.limits);
             limits.map_or(f64::INFINITY, |(lower, upper)| {
-                lower.abs().max(upper.abs()) * joint.driver.multiplier.abs() + joint.driver.offset.abs()
+                lower.abs().max(upper.abs()) * joint.coupling.multiplier.abs() + joint.coupling.offset.abs()
             })
         });
         let reach = links.chain(slides).sum::<f64>() + chain.last_from_tip.translation.vector.norm();
@@ -62,7 +62,7 @@ impl ReachEnvelope<'_> {
     }
 
     /// Whether all poses that are near to one, by no more than what is told of it, are out of reach for certain.
-    pub(crate) fn is_beyond(&self, map_from_tip: &Isometry3<f64>, drift: &Drift) -> bool {
+    pub(crate) fn is_beyond(&self, map_from_tip: &Isometry3<f64>, drift: &DisplacementBound) -> bool {
         match self {
             Self::Heights(arm, [least, greatest]) => {
                 let centre = arm.centre(map_from_tip).coords;

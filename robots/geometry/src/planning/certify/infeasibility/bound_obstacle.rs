@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
-use crate::inverse::family::Drift;
+use crate::inverse::interval::DisplacementBound;
 use crate::planning::certify::deflate::SLACK;
 use crate::planning::scene::contact::MIN_CLEARANCE;
 
@@ -34,7 +34,7 @@ pub(super) trait MotionExtent {
     fn stays_upright(&self) -> bool;
 }
 
-impl MotionExtent for Drift {
+impl MotionExtent for DisplacementBound {
     fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
         Self::along(self, point, direction)
     }
@@ -336,7 +336,7 @@ mod tests {
 
     use super::is_in;
     use crate::collision::{Shape, Solid};
-    use crate::inverse::family::Drift;
+    use crate::inverse::interval::DisplacementBound;
     use crate::planning::scene::contact::MIN_CLEARANCE;
 
     fn solid(at: [f64; 3], turn: [f64; 3], shape: Shape) -> Solid {
@@ -380,7 +380,7 @@ mod tests {
             let (slide, centre) = (Vector3::from(slide) * size, Vector3::from(centre));
             let (spin, bend) = (spin * size, if is_upright { 0.0 } else { bend * size });
             let axis = Vector3::new(lean, 1.0, 0.3).normalize();
-            let mut drift = Drift::none().slid(slide);
+            let mut drift = DisplacementBound::none().slid(slide);
             if !is_upright {
                 drift = drift.spun(axis, centre, bend);
             }
@@ -402,10 +402,10 @@ mod tests {
     fn an_arm_through_a_board_is_in_it() {
         let arm = solid([0.0; 3], [0.0; 3], Shape::Capsule { radius: 0.05, half: 0.3 });
         let board = solid([0.0; 3], [0.0; 3], Shape::Box(Vector3::new(1.0, 1.0, 0.005)));
-        let slid = |step: Vector3<f64>| is_in(&arm, &Drift::none().slid(step), &board);
+        let slid = |step: Vector3<f64>| is_in(&arm, &DisplacementBound::none().slid(step), &board);
         assert!(slid(Vector3::new(0.9, 0.0, 0.25)));
         assert!(!slid(Vector3::new(0.0, 0.0, 0.4)) && !slid(Vector3::new(1.2, 0.0, 0.0)));
-        let far = Drift::none().spun(Vector3::z(), Vector3::new(0.3, 0.0, 0.0), 3.0);
+        let far = DisplacementBound::none().spun(Vector3::z(), Vector3::new(0.3, 0.0, 0.0), 3.0);
         assert!(is_in(&arm, &far, &board));
     }
 }

@@ -161,13 +161,13 @@ impl CellModel<'_, '_, '_> {
             placing.own.frames.extend(placing.frames.iter().map(|(pose, _)| *pose));
         } else {
             placing.own.frames.push(Isometry3::identity());
-            for (joint, [position, _]) in self.rig.joints.iter().zip(&placing.steps) {
+            for (joint, [position, _]) in self.reduced.joints.iter().zip(&placing.steps) {
                 let parent = placing.own.frames.get(joint.parent).copied().unwrap_or_default();
                 placing.own.frames.push(parent * joint.before * joint.motion(*position));
             }
         }
         let offs: Vec<f64> = placing.steps.iter().map(|[_, off]| *off).collect();
-        placing.own.axes = RelativeChains::axes(&self.rig, &placing.own.frames, &offs);
+        placing.own.axes = RelativeChains::axes(&self.reduced, &placing.own.frames, &offs);
     }
 
     /// Puts two parts where the joints do.
@@ -237,7 +237,7 @@ impl CellModel<'_, '_, '_> {
                     relative.point(&(placing.own.frames[to] * nalgebra::Point3::from(ball)).coords, 0.0);
                 assert!(off <= drift + 1e-9 && pair_group.reach >= ball.norm());
                 let link = self.checker.context.body.parts()[usize::from(*part)].link;
-                let middle = placing.own.frames[from] * self.rig.links[link].1;
+                let middle = placing.own.frames[from] * self.reduced.links[link].1;
                 let (seen, is) = (other.solid.moved(&middle.inverse()), &solids[usize::from(*at)]);
                 let is = is.moved(&poses[link].inverse());
                 let along = |solid: &Solid| match solid.shape {

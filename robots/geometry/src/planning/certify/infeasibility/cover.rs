@@ -10,8 +10,8 @@ use super::bound_obstacle::{ScaledMotion, is_in};
 use super::bound_pair::RelativePlacement;
 use super::relative::RelativeChains;
 use crate::collision::Solid;
-use crate::inverse::family::{Drift, Stretch, Tips};
-use crate::kinematics::Rig;
+use crate::inverse::interval::{CellEnclosure, DisplacementBound, PoseSet};
+use crate::kinematics::ReducedModel;
 use crate::planning::certify::deflate::{DeflatedPart, SLACK, inner};
 use crate::planning::checking::collision_checker::{CollisionChecker, above_floor};
 use crate::planning::scene::contact::AllowedCollisions;
@@ -25,7 +25,7 @@ pub(super) struct CellModel<'a, 'r, 'w> {
     pub(super) hand: &'a HandModel,
     pub(super) family: ArmFamily<'a>,
     pub(super) allowed: AllowedCollisions,
-    pub(super) rig: Rig,
+    pub(super) reduced: ReducedModel,
     pub(super) pair_groups: RelativeChains,
     /// The robot's joints with the hand as it reaches.
     joints: Vec<f64>,
@@ -84,7 +84,7 @@ pub(super) const FAR: f64 = 0.8;
 /// The robot in a cell: the frames of the rig, and those of its parts that were asked for.
 #[derive(Default)]
 pub(super) struct CellPlacement {
-    pub(super) frames: Vec<(Isometry3<f64>, Drift)>,
+    pub(super) frames: Vec<(Isometry3<f64>, DisplacementBound)>,
     parts: Vec<Option<DeflatedPart>>,
     /// Of each joint of the rig its position, and how far its variable can be off; nothing where that is not known.
     pub(super) steps: Vec<[f64; 2]>,
@@ -119,11 +119,11 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         };
         let chain = hand.solver.chain();
         let joints = context.with(hand, [0.0; 3], &[]).joints;
-        let rig = model.tree().rig(&joints, |variable| chain.in_tree.contains(&variable))?;
-        let (last, frame_from_tip) = *rig.links.get(hand.tip)?;
+        let reduced = model.tree().reduced(&joints, |dof| chain.in_tree.contains(&dof))?;
+        let (last, frame_from_tip) = *reduced.links.get(hand.tip)?;
         // From the tip down to the base.
         let (mut frame, mut order) = (last, vec![]);
-        while let Some(joint) = frame.checked_sub(1).and_then(|at| rig.joints.get(at)) {
+        while let Some(joint) = frame.checked_sub(1).and_then(|at| reduced.joints.get(at)) {
             order.push(frame);
             frame = joint.parent;
         }
@@ -131,10 +131,10 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         if order.len() != chain.joints.len() {
             return None;
         }
-        let arm = (1..=rig.joints.len()).map(|at| order.iter().position(|frame| *frame == at)).collect();
+        let arm = (1..=reduced.joints.len()).map(|at| order.iter().position(|frame| *frame == at)).collect();
         let mut limbs = Vec::new();
         for part in context.body.parts() {
-            let (frame, pose) = rig.links.get(part.link)?;
+            let (frame, pose) = reduced.links.get(part.link)?;
             let solid = part.solid.moved(pose);
             limbs.push(CellPart { frame: *frame, solid, inner: inner(&solid), reach: solid.reach() });
         }
@@ -146,8 +146,8 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
             hand,
             family,
             allowed,
-            pair_groups: RelativeChains::new(&rig),
-            rig,
+            pair_groups: RelativeChains::new(&reduced),
+            reduced,
             joints,
             arm,
             last,
@@ -230,49 +230,49 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
     }
 
     /// Puts the hand alone where its tip is at any of some poses; what is elsewhere is not known to be anywhere.
-    pub(super) fn place_hand(&self, tips: &Tips, placing: &mut CellPlacement) {
+    pub(super) fn place_hand(&self, tips: &PoseSet, placing: &mut CellPlacement) {
         let pose = tips.map_from_tip * self.frame_from_tip.inverse();
         placing.frames.clear();
-        let unknown = Drift::unknown();
-        placing.frames.resize(self.rig.joints.len() + 1, (Isometry3::identity(), unknown));
-        placing.frames.get_mut(self.last).into_iter().for_each(|slot| *slot = (pose, tips.drift));
+        let unknown = DisplacementBound::unknown();
+        placing.frames.resize(self.reduced.joints.len() + 1, (Isometry3::identity(), unknown));
+        placing.frames.get_mut(self.last).into_iter().for_each(|slot| *slot = (pose, tips.displacement));
         placing.steps.clear();
         self.forget(placing);
     }
 
     /// Puts the robot where it is in a cell.
-    pub(super) fn place(&self, stretch: &Stretch, placing: &mut CellPlacement) {
+    pub(super) fn place(&self, enclosure: &CellEnclosure, placing: &mut CellPlacement) {
         let chain = self.hand.solver.chain();
-        let root = (self.checker.context.model.map_from_root(stretch.base), stretch.base_drift);
+        let root = (self.checker.context.model.map_from_root(enclosure.base), enclosure.base_displacement);
         placing.frames.clear();
         placing.frames.push(root);
         placing.steps.clear();
-        placing.is_joined = stretch.is_joined;
-        for (joint, arm) in self.rig.joints.iter().zip(&self.arm) {
-            let mut values = chain.in_tree.iter().zip(&stretch.values).zip(&chain.variables);
-            let known = values.find(|((at, _), _)| **at == joint.driver.variable);
+        placing.is_joined = enclosure.is_joined;
+        for (joint, arm) in self.reduced.joints.iter().zip(&self.arm) {
+            let mut values = chain.in_tree.iter().zip(&enclosure.values).zip(&chain.dofs);
+            let known = values.find(|((at, _), _)| **at == joint.coupling.dof);
             // Values that differ by full turns are one for the arm, and not for what follows it.
-            let turns = known.is_some_and(|(_, variable)| {
-                !variable.slides && variable.limits.is_none_or(|(lower, upper)| upper - lower > TAU)
+            let turns = known.is_some_and(|(_, dof)| {
+                !dof.is_prismatic && dof.limits.is_none_or(|(lower, upper)| upper - lower > TAU)
             });
             let known = known.map(|((_, value), _)| *value);
-            let still = self.joints.get(joint.driver.variable).copied().unwrap_or_default();
+            let still = self.joints.get(joint.coupling.dof).copied().unwrap_or_default();
             let [value, off] = known.unwrap_or([still, 0.0]);
-            let position = joint.driver.multiplier * value + joint.driver.offset;
+            let position = joint.coupling.multiplier * value + joint.coupling.offset;
             placing.steps.push([position, off]);
-            if let Some(frame) = arm.and_then(|at| stretch.frames.get(at)) {
+            if let Some(frame) = arm.and_then(|at| enclosure.frames.get(at)) {
                 placing.frames.push(*frame);
                 continue;
             }
             // What follows a joint of the arm elsewhere.
             let (parent, drift) = placing.frames.get(joint.parent).copied().unwrap_or(root);
-            let off = off * joint.driver.multiplier;
+            let off = off * joint.coupling.multiplier;
             let pose = parent * joint.before * joint.motion(position);
-            let drift = match (joint.slides, off == 0.0) {
-                _ if turns => Drift::unknown(),
+            let drift = match (joint.is_prismatic, off == 0.0) {
+                _ if turns => DisplacementBound::unknown(),
                 (true, _) => drift.slid(pose.rotation * joint.axis.into_inner() * off),
                 (false, true) => drift,
-                (false, false) => Drift::unknown(),
+                (false, false) => DisplacementBound::unknown(),
             };
             placing.frames.push((pose, drift));
         }

@@ -21,7 +21,7 @@ use std::rc::Rc;
 
 use nalgebra::Isometry3;
 
-use crate::inverse::family::{Cell, Over, Tips};
+use crate::inverse::interval::{IkCell, IntervalSolution, PoseSet};
 use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::grasp::candidates::GraspCandidate;
@@ -54,12 +54,12 @@ enum ArmFamily<'a> {
 }
 
 impl ArmFamily<'_> {
-    fn cells(self) -> Vec<Cell> {
+    fn cells(self) -> Vec<IkCell> {
         match self {
             Self::Lift(arm) => arm.cells(),
             Self::Parallel(arm, _) => arm.cells(),
             Self::Seven(arm, ..) => arm.cells(),
-            Self::Any => vec![Cell { way: 0, middle: [0.0; 3], half: [0.0; 3] }],
+            Self::Any => vec![IkCell { branch: 0, middle: [0.0; 3], half: [0.0; 3] }],
         }
     }
 
@@ -72,12 +72,12 @@ impl ArmFamily<'_> {
         }
     }
 
-    fn over(self, tips: &Tips, cell: &Cell) -> Over {
+    fn over(self, tips: &PoseSet, cell: &IkCell) -> IntervalSolution {
         match self {
-            Self::Lift(arm) => arm.over(tips, cell),
-            Self::Parallel(arm, height) => arm.over(tips, height, cell),
-            Self::Seven(arm, map_from_base, base) => arm.over(tips, &map_from_base, base, cell),
-            Self::Any => Over::Unclear,
+            Self::Lift(arm) => arm.enclose(tips, cell),
+            Self::Parallel(arm, height) => arm.enclose(tips, height, cell),
+            Self::Seven(arm, map_from_base, base) => arm.enclose(tips, &map_from_base, base, cell),
+            Self::Any => IntervalSolution::Unknown,
         }
     }
 }
@@ -96,7 +96,7 @@ pub(crate) enum Certificate {
 /// A cell, and what may touch in it.
 #[derive(Clone)]
 struct CellNode {
-    cell: Cell,
+    cell: IkCell,
     groups: Rc<[ContactGroup]>,
     pair_groups: Rc<[PairGroup]>,
 }

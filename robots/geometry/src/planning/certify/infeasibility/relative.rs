@@ -8,8 +8,8 @@ use nalgebra::{Isometry3, Vector3};
 use super::bound_obstacle::MotionExtent;
 use super::cover::BodyPair;
 use crate::collision::Solid;
-use crate::inverse::family::{Spin, farthest};
-use crate::kinematics::Rig;
+use crate::inverse::interval::{RotationBound, farthest};
+use crate::kinematics::ReducedModel;
 
 /// The joints between any two frames of a rig.
 pub(super) struct RelativeChains {
@@ -31,7 +31,7 @@ struct ChainJoint {
 pub(super) struct RelativeAxis {
     slides: bool,
     /// By which variable it is moved, and how far it goes for that.
-    variable: usize,
+    dof: usize,
     scale: f64,
     /// How far the variable can be off.
     off: f64,
@@ -40,16 +40,16 @@ pub(super) struct RelativeAxis {
 }
 
 impl RelativeChains {
-    pub(super) fn new(rig: &Rig) -> Self {
+    pub(super) fn new(reduced: &ReducedModel) -> Self {
         let up = |mut frame: usize| {
             let mut all = vec![];
             while let Some(joint) = frame.checked_sub(1) {
                 all.push(joint);
-                frame = rig.joints.get(joint).map_or(0, |joint| joint.parent);
+                frame = reduced.joints.get(joint).map_or(0, |joint| joint.parent);
             }
             all
         };
-        let ways: Vec<Vec<usize>> = (0..=rig.joints.len()).map(up).collect();
+        let ways: Vec<Vec<usize>> = (0..=reduced.joints.len()).map(up).collect();
         let path = |one: &Vec<usize>, other: &Vec<usize>| {
             let only = |all: &[usize], others: &[usize], sign: f64| {
                 let only = all.iter().filter(|joint| !others.contains(joint));
@@ -64,12 +64,12 @@ impl RelativeChains {
     }
 
     /// The joints of a rig where its frames are, with how far their variables can be off.
-    pub(super) fn axes(rig: &Rig, frames: &[Isometry3<f64>], offs: &[f64]) -> Vec<RelativeAxis> {
-        let joints = rig.joints.iter().zip(frames.iter().skip(1)).zip(offs);
+    pub(super) fn axes(reduced: &ReducedModel, frames: &[Isometry3<f64>], offs: &[f64]) -> Vec<RelativeAxis> {
+        let joints = reduced.joints.iter().zip(frames.iter().skip(1)).zip(offs);
         let axes = joints.map(|((joint, frame), off)| RelativeAxis {
-            slides: joint.slides,
-            variable: joint.driver.variable,
-            scale: joint.driver.multiplier,
+            slides: joint.is_prismatic,
+            dof: joint.coupling.dof,
+            scale: joint.coupling.multiplier,
             off: *off,
             direction: frame.rotation * joint.axis.into_inner(),
             at: frame.translation.vector,
@@ -97,7 +97,7 @@ pub(super) struct RelativeChain<'t> {
 
 /// What a joint, or some that slide by one variable, does.
 enum AxisMotion {
-    Turns(Spin),
+    Turns(RotationBound),
     /// By no more than this forwards or backwards.
     Slides(Vector3<f64>),
 }
@@ -113,14 +113,14 @@ impl RelativeChain<'_> {
             };
             if !axis.slides {
                 let angle = axis.off * axis.scale.abs();
-                return Some(AxisMotion::Turns(Spin { angle, axis: axis.direction, at: axis.at }));
+                return Some(AxisMotion::Turns(RotationBound { angle, axis: axis.direction, at: axis.at }));
             }
             // What one variable slides on both sides goes along with itself.
             let mut step = axis.direction * (axis.scale * first.sign);
             while let Some((next, more)) = rest.split_first()
                 && let Some(other) = self.axes.get(next.joint)
                 && other.slides
-                && other.variable == axis.variable
+                && other.dof == axis.dof
             {
                 step += other.direction * (other.scale * next.sign);
                 rest = more;

@@ -8,7 +8,7 @@ use super::cover::{BodyPair, CellModel, CellPlacement, ContactGroup};
 use super::relative::PairGroup;
 use super::split::{SplitCause, SplitGain, TRUSTED};
 use super::{ArmFamily, CellNode, OpenPatch};
-use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
+use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet};
 use crate::planning::grasp::candidates::GraspCandidate;
 use crate::planning::grasp::manifold::{GraspManifold, GraspPatch, widest};
 use crate::planning::scene::configuration::Configuration;
@@ -65,7 +65,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
             patches.map(|patch| (patch, Rc::clone(groups))).collect();
         while let Some((patch, groups)) = open.pop() {
             let Some((map_from_tip, drift)) = self.manifold.over(&patch) else { continue };
-            self.cover.place_hand(&Tips::new(map_from_tip, drift), &mut self.placing);
+            self.cover.place_hand(&PoseSet::new(map_from_tip, drift), &mut self.placing);
             let Some(groups) = self.left_of(&groups) else { continue };
             let (size, across) = self.manifold.widest(&patch);
             if size < FINE || self.is_spent() {
@@ -82,7 +82,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
             return PatchOutcome::Unclear;
         }
         let Some((map_from_tip, drift)) = self.manifold.over(&patch) else { return PatchOutcome::Done };
-        let tips = Tips::new(map_from_tip, drift);
+        let tips = PoseSet::new(map_from_tip, drift);
         let (size, across) = self.manifold.widest(&patch);
         self.cover.place_hand(&tips, &mut self.placing);
         let Some(hand) = self.left_of(&hand) else { return PatchOutcome::Done };
@@ -140,7 +140,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
 
     /// Whether the hand alone is free, of what it may touch.
     fn is_hand_free(&mut self, hold: &GraspCandidate, groups: &[ContactGroup]) -> bool {
-        let tips = Tips::new(hold.map_from_tip, Drift::none());
+        let tips = PoseSet::new(hold.map_from_tip, DisplacementBound::none());
         self.cover.place_hand(&tips, &mut self.placing);
         !self.cover.is_stuck_in_middle(&mut self.placing, groups)
     }
@@ -149,7 +149,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
     /// free.
     fn left(
         &mut self,
-        tips: &Tips,
+        tips: &PoseSet,
         hold: Option<&GraspCandidate>,
         enough: f64,
         all: &[CellNode],
@@ -182,21 +182,21 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
     /// What is known of a cell, with what was to blame for it before.
     fn seen(
         &mut self,
-        tips: &Tips,
+        tips: &PoseSet,
         hold: Option<&GraspCandidate>,
         enough: f64,
         CellNode { cell, groups, pair_groups }: CellNode,
         split_gain: Option<SplitGain>,
     ) -> CellOutcome {
-        let stretch = match self.cover.family.over(tips, &cell) {
-            Over::Nothing => return CellOutcome::Closed,
-            Over::Unclear => return CellOutcome::Unclear,
-            Over::Near(stretch) => stretch,
+        let enclosure = match self.cover.family.over(tips, &cell) {
+            IntervalSolution::Empty => return CellOutcome::Closed,
+            IntervalSolution::Unknown => return CellOutcome::Unclear,
+            IntervalSolution::Enclosed(enclosure) => enclosure,
         };
-        self.cover.place(&stretch, &mut self.placing);
+        self.cover.place(&enclosure, &mut self.placing);
         // What will close its parts soon needs no look at anything else.
         if let Some(split_gain) = split_gain
-            && self.cover.closes(&mut self.placing, &stretch, split_gain.split_cause, TRUSTED)
+            && self.cover.closes(&mut self.placing, &enclosure, split_gain.split_cause, TRUSTED)
         {
             return match split_gain.split_cause {
                 SplitCause::BodyPair(pair) if self.cover.touches(&mut self.placing, pair, 1.0) => {
@@ -215,22 +215,22 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
             && let Some(hold) = hold
             && !self.cover.is_stuck_in_middle(&mut self.placing, &groups)
             && !self.cover.is_folded_in_middle(&mut self.placing, &pair_groups)
-            && let Some(configuration) = self.free_in(&hold.map_from_tip, &stretch, &cell)
+            && let Some(configuration) = self.free_in(&hold.map_from_tip, &enclosure, &cell)
         {
             return CellOutcome::Free(configuration);
         }
         let Self { cover, placing, aside, .. } = self;
         let known = split_gain
-            .filter(|split_gain| cover.closes(placing, &stretch, split_gain.split_cause, split_gain.share));
+            .filter(|split_gain| cover.closes(placing, &enclosure, split_gain.split_cause, split_gain.share));
         let split_gain = known.or_else(|| {
-            let (split_cause, share) = cover.split_cause(placing, &stretch, &groups, &pair_groups)?;
+            let (split_cause, share) = cover.split_cause(placing, &enclosure, &groups, &pair_groups)?;
             Some(cover.split_gain(aside, tips, &cell, split_cause, share))
         });
         CellOutcome::OpenPatch(CellNode { cell, groups, pair_groups }, split_gain)
     }
 
     /// Across which parameter a cell is to be cut; nothing where the patch is.
-    fn across(&self, cell: &Cell, split_gain: Option<&SplitGain>, enough: f64) -> Option<usize> {
+    fn across(&self, cell: &IkCell, split_gain: Option<&SplitGain>, enough: f64) -> Option<usize> {
         let sizes = self.sizes(cell);
         let (size, wide) = widest(&sizes);
         let Some(split_gain) = split_gain.filter(|split_gain| split_gain.tells()) else {
@@ -248,7 +248,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
     }
 
     /// How far something goes for the half of each side of a cell, about, in m.
-    fn sizes(&self, cell: &Cell) -> [f64; 3] {
+    fn sizes(&self, cell: &IkCell) -> [f64; 3] {
         let weights = self.cover.family.weights();
         std::array::from_fn(|at: usize| {
             weights.get(at).zip(cell.half.get(at)).map_or(0.0, |(weight, half)| weight * half)
@@ -256,7 +256,12 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
     }
 
     /// A free state in the middle of a cell, or with the base there.
-    fn free_in(&self, tip: &Isometry3<f64>, stretch: &Stretch, cell: &Cell) -> Option<Configuration> {
+    fn free_in(
+        &self,
+        tip: &Isometry3<f64>,
+        enclosure: &CellEnclosure,
+        cell: &IkCell,
+    ) -> Option<Configuration> {
         let CellModel { checker, hand, family, allowed, .. } = &self.cover;
         let context = checker.context;
         let configurations: Vec<_> = match family {
@@ -266,8 +271,8 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
                 placed.map(|placed| context.with(hand, placed.base, &placed.values)).collect()
             }
             ArmFamily::Parallel(arm, _) => {
-                let found = arm.solve(&(context.map_from_base(stretch.base).inverse() * tip)).into_iter();
-                found.map(|values| context.with(hand, stretch.base, &values)).collect()
+                let found = arm.solve(&(context.map_from_base(enclosure.base).inverse() * tip)).into_iter();
+                found.map(|values| context.with(hand, enclosure.base, &values)).collect()
             }
             ArmFamily::Seven(arm, map_from_base, base) => {
                 let [last, ..] = cell.middle;

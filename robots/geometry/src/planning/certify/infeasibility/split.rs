@@ -6,7 +6,7 @@
 
 use super::cover::{BodyPair, CellModel, CellPlacement, ContactGroup};
 use super::relative::PairGroup;
-use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
+use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet};
 
 /// The shares by which all may go for a culprit to be one, the farthest from closing a cell first.
 const SHARES: [f64; 4] = [0.0625, 0.125, 0.25, 0.5];
@@ -59,21 +59,21 @@ impl CellModel<'_, '_, '_> {
     pub(super) fn closes(
         &self,
         placing: &mut CellPlacement,
-        stretch: &Stretch,
+        enclosure: &CellEnclosure,
         split_cause: SplitCause,
         share: f64,
     ) -> bool {
         let is_beyond = |beyond: f64, off: f64| beyond > BEYOND && beyond >= share * off;
         match split_cause {
             SplitCause::Joint(at) => {
-                let variable = self.hand.solver.chain().variables.get(at);
-                let limits = variable.and_then(|variable| variable.limits).zip(stretch.values.get(at));
+                let dof = self.hand.solver.chain().dofs.get(at);
+                let limits = dof.and_then(|dof| dof.limits).zip(enclosure.values.get(at));
                 limits.is_some_and(|((lower, upper), [value, off])| {
                     is_beyond((lower - value).max(value - upper), *off)
                 })
             }
             SplitCause::Short => {
-                let [short, off] = stretch.short;
+                let [short, off] = enclosure.short;
                 is_beyond(short, off)
             }
             SplitCause::BodyPair(pair) => self.touches(placing, pair, share),
@@ -84,11 +84,11 @@ impl CellModel<'_, '_, '_> {
     pub(super) fn split_cause(
         &self,
         placing: &mut CellPlacement,
-        stretch: &Stretch,
+        enclosure: &CellEnclosure,
         groups: &[ContactGroup],
         pair_groups: &[PairGroup],
     ) -> Option<(SplitCause, f64)> {
-        let limits = (0..stretch.values.len()).map(SplitCause::Joint).chain([SplitCause::Short]);
+        let limits = (0..enclosure.values.len()).map(SplitCause::Joint).chain([SplitCause::Short]);
         let pairs =
             groups.iter().flat_map(ContactGroup::pairs).chain(pair_groups.iter().flat_map(PairGroup::pairs));
         let mut best: Option<(SplitCause, f64)> = None;
@@ -97,7 +97,7 @@ impl CellModel<'_, '_, '_> {
                 if best.is_some_and(|(_, most)| share <= most) {
                     continue;
                 }
-                if !self.closes(placing, stretch, split_cause, share) {
+                if !self.closes(placing, enclosure, split_cause, share) {
                     break;
                 }
                 best = Some((split_cause, share));
@@ -110,13 +110,13 @@ impl CellModel<'_, '_, '_> {
     pub(super) fn split_gain(
         &self,
         placing: &mut CellPlacement,
-        tips: &Tips,
-        cell: &Cell,
+        tips: &PoseSet,
+        cell: &IkCell,
         split_cause: SplitCause,
         share: f64,
     ) -> SplitGain {
-        let none = Cell { half: [0.0; 3], ..*cell };
-        let still = Tips::new(tips.map_from_tip, Drift::none());
+        let none = IkCell { half: [0.0; 3], ..*cell };
+        let still = PoseSet::new(tips.map_from_tip, DisplacementBound::none());
         let mut split_gain = SplitGain {
             split_cause,
             share,
@@ -126,20 +126,26 @@ impl CellModel<'_, '_, '_> {
         for ((slot, half), at) in split_gain.cell.iter_mut().zip(cell.half).zip(0..) {
             if half > 0.0 {
                 let only = std::array::from_fn(|other: usize| if other == at { half } else { 0.0 });
-                *slot = self.off(placing, &still, &Cell { half: only, ..*cell }, split_cause);
+                *slot = self.off(placing, &still, &IkCell { half: only, ..*cell }, split_cause);
             }
         }
         split_gain
     }
 
     /// How far a culprit can be off in a cell, whatever the limits of joints; 0 where that is not known, so that nothing is cut for it.
-    fn off(&self, placing: &mut CellPlacement, tips: &Tips, cell: &Cell, split_cause: SplitCause) -> f64 {
-        let Over::Near(stretch) = self.family.over(&tips.any(), cell) else { return 0.0 };
+    fn off(
+        &self,
+        placing: &mut CellPlacement,
+        tips: &PoseSet,
+        cell: &IkCell,
+        split_cause: SplitCause,
+    ) -> f64 {
+        let IntervalSolution::Enclosed(enclosure) = self.family.over(&tips.any(), cell) else { return 0.0 };
         match split_cause {
-            SplitCause::Joint(at) => stretch.values.get(at).map_or(0.0, |[_, off]| *off),
-            SplitCause::Short => stretch.short[1],
+            SplitCause::Joint(at) => enclosure.values.get(at).map_or(0.0, |[_, off]| *off),
+            SplitCause::Short => enclosure.short[1],
             SplitCause::BodyPair(pair) => {
-                self.place(&stretch, placing);
+                self.place(&enclosure, placing);
                 self.off_by(placing, pair)
             }
         }

@@ -1,6 +1,6 @@
 //! What cells say of a robot holds for every one of its states, and what is covered has no free one.
 
-use motet_robots::scene::{Entity, Placement, Scene, Shape as Listed};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 
@@ -9,7 +9,7 @@ use super::relative::PairGroup;
 use super::split::SplitCause;
 use super::{ArmFamily, Certificate, GraspManifold};
 use crate::collision::{Shape, Solid};
-use crate::inverse::family::{Cell, Drift, Over, Tips};
+use crate::inverse::interval::{DisplacementBound, IkCell, IntervalSolution, PoseSet};
 use crate::planning::certify::deflate::DeflatedPart;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
@@ -27,12 +27,12 @@ fn configuration(
     base: [f64; 3],
     shares: &[f64],
 ) -> (Configuration, Vec<f64>) {
-    let variables = &hand.solver.chain().variables;
-    let values: Vec<f64> = variables
+    let dofs = &hand.solver.chain().dofs;
+    let values: Vec<f64> = dofs
         .iter()
         .zip(shares)
-        .map(|(variable, share)| {
-            let (lower, upper) = variable.limits.unwrap();
+        .map(|(dof, share)| {
+            let (lower, upper) = dof.limits.unwrap();
             lower + share * (upper - lower)
         })
         .collect();
@@ -89,21 +89,23 @@ fn a_state_is_in_its_cell(
     let at = about + turned * (tip.translation.vector - about) + axis * (0.2 * tilt);
     let map_from_tip = Isometry3::from_parts(at.into(), turned * tip.rotation);
     // Along the axis about which it is turned, so that the order does not matter.
-    let still = Drift::none();
+    let still = DisplacementBound::none();
     let drift = match x > 0.0 {
         true => still.shifted(0.2 * tilt).turned(about, tilt),
         false => still.slid(axis * (0.2 * tilt)).spun(axis, about, tilt),
     };
-    let tips = Tips::new(map_from_tip, drift);
+    let tips = PoseSet::new(map_from_tip, drift);
     let mut nearest = (f64::INFINITY, String::new());
     for root in &roots {
         let half = root.half.map(|half| half * size);
         let middle = [0, 1, 2].map(|at: usize| middle[at] + (2.0 * places[at] - 1.0) * half[at]);
-        let Over::Near(stretch) = cover.family.over(&tips, &Cell { way: root.way, middle, half }) else {
+        let IntervalSolution::Enclosed(enclosure) =
+            cover.family.over(&tips, &IkCell { branch: root.branch, middle, half })
+        else {
             continue;
         };
         let mut placing = CellPlacement::default();
-        cover.place(&stretch, &mut placing);
+        cover.place(&enclosure, &mut placing);
         let parts = 0..context.body.parts().len() as u16;
         let placed: Vec<DeflatedPart> = parts.map(|part| *cover.part(&mut placing, part).unwrap()).collect();
         let poses = model.map_from_links(&configuration);
@@ -113,15 +115,15 @@ fn a_state_is_in_its_cell(
             off(placed, &there) - placed.drift
         });
         let beyond = beyond.fold(f64::NEG_INFINITY, f64::max);
-        let joints = stretch.values.iter().zip(&values).zip(&hand.solver.chain().variables);
-        let joints = joints.map(|(([middle, far], value), variable)| {
-            let off = if variable.name.contains("lift") { value - middle } else { wrapped(value - middle) };
+        let joints = enclosure.values.iter().zip(&values).zip(&hand.solver.chain().dofs);
+        let joints = joints.map(|(([middle, far], value), dof)| {
+            let off = if dof.name.contains("lift") { value - middle } else { wrapped(value - middle) };
             off.abs() - far
         });
         let beyond = beyond.max(joints.fold(f64::NEG_INFINITY, f64::max));
         let beyond = beyond.max(cover.beyond_ties(&mut placing, &solids, &poses));
         if beyond < nearest.0 {
-            nearest = (beyond, format!("way {}", root.way));
+            nearest = (beyond, format!("way {}", root.branch));
         }
     }
     assert!(nearest.0 < 1e-5, "{name}, {values:?}: {} m or rad beyond, {}", nearest.0, nearest.1);
@@ -130,23 +132,28 @@ fn a_state_is_in_its_cell(
 /// A can in a box without a front: walls, a floor and a ceiling, so wide, high and deep inside, and so high above the floor.
 fn niche([wide, high, deep]: [f64; 3], [ahead, up]: [f64; 2], [x, y]: [f64; 2]) -> Scene {
     let mut scene = Scene::default();
-    let mut add = |id: &str, kind: &str, xyz: [f64; 3], shape: Listed| {
+    let mut add = |id: &str, kind: &str, xyz: [f64; 3], shape: EntityShape| {
         let mut entity = Entity::place(id.into(), Placement { xyz, rpy: [0.0; 3] });
         entity.kind = kind.into();
         entity.shape = Some(shape);
         scene.entities.insert(id.into(), entity);
     };
     let middle = ahead + deep / 2.0;
-    add("below", "Place", [middle, 0.0, up / 2.0], Listed::Box([deep, wide + 0.3, up]));
-    add("above", "Place", [middle, 0.0, up + high + 0.1], Listed::Box([deep, wide + 0.3, 0.2]));
-    add("back", "Place", [ahead + deep + 0.1, 0.0, up + high / 2.0], Listed::Box([0.2, wide + 0.3, high]));
+    add("below", "Place", [middle, 0.0, up / 2.0], EntityShape::Box([deep, wide + 0.3, up]));
+    add("above", "Place", [middle, 0.0, up + high + 0.1], EntityShape::Box([deep, wide + 0.3, 0.2]));
+    add(
+        "back",
+        "Place",
+        [ahead + deep + 0.1, 0.0, up + high / 2.0],
+        EntityShape::Box([0.2, wide + 0.3, high]),
+    );
     for (id, side) in [("left", 0.5), ("right", -0.5)] {
         let aside = side * (wide + 0.15);
-        add(id, "Place", [middle, aside, up + high / 2.0], Listed::Box([deep, 0.15, high]));
+        add(id, "Place", [middle, aside, up + high / 2.0], EntityShape::Box([deep, 0.15, high]));
     }
     let (radius, height) = (0.03, 0.1);
     let at = [ahead + 0.04 + x * (deep - 0.08), (y - 0.5) * (wide - 0.08), up + height / 2.0 + 0.001];
-    add("can", "Object", at, Listed::Cylinder { radius, height });
+    add("can", "Object", at, EntityShape::Cylinder { radius, height });
     scene
 }
 
@@ -314,20 +321,20 @@ fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: 
     let cover = CellModel::new(&checker, hand, allowed).unwrap();
     let ([_, groups], pair_groups) = (cover.groups(), cover.pair_groups());
     let Some(tip) = tips.first() else { return false };
-    let tips = Tips::new(*tip, Drift::none().shifted(0.1 * size));
+    let tips = PoseSet::new(*tip, DisplacementBound::none().shifted(0.1 * size));
     let root = cover.family.cells()[0];
     let half = root.half.map(|half| half * size);
     let middle = [0, 1, 2].map(|at: usize| root.middle[at] + (2.0 * places[at] - 1.0) * root.half[at]);
-    let cell = Cell { way: root.way, middle, half };
-    let Over::Near(stretch) = cover.family.over(&tips, &cell) else { return false };
+    let cell = IkCell { branch: root.branch, middle, half };
+    let IntervalSolution::Enclosed(enclosure) = cover.family.over(&tips, &cell) else { return false };
     let (mut placing, mut aside) = (CellPlacement::default(), CellPlacement::default());
-    cover.place(&stretch, &mut placing);
-    let found = cover.split_cause(&mut placing, &stretch, &groups, &pair_groups);
+    cover.place(&enclosure, &mut placing);
+    let found = cover.split_cause(&mut placing, &enclosure, &groups, &pair_groups);
     let pairs =
         groups.iter().flat_map(ContactGroup::pairs).chain(pair_groups.iter().flat_map(PairGroup::pairs));
-    let limits = (0..stretch.values.len()).map(SplitCause::Joint).chain([SplitCause::Short]);
+    let limits = (0..enclosure.values.len()).map(SplitCause::Joint).chain([SplitCause::Short]);
     for split_cause in limits.chain(pairs.map(SplitCause::BodyPair)) {
-        let mut closes = |share: f64| cover.closes(&mut placing, &stretch, split_cause, share);
+        let mut closes = |share: f64| cover.closes(&mut placing, &enclosure, split_cause, share);
         let shares = [1.0, 0.5, 0.25, 0.125, 0.0625];
         assert!(shares.windows(2).all(|pair| !closes(pair[0]) || closes(pair[1])), "{name}: {split_cause:?}");
         let most = shares[1..].iter().find(|share| closes(**share));
@@ -339,8 +346,8 @@ fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: 
     let Some((split_cause, share)) = found else { return false };
     let split_gain = cover.split_gain(&mut aside, &tips, &cell, split_cause, share);
     let all = match split_cause {
-        SplitCause::Joint(at) => stretch.values[at][1],
-        SplitCause::Short => stretch.short[1],
+        SplitCause::Joint(at) => enclosure.values[at][1],
+        SplitCause::Short => enclosure.short[1],
         SplitCause::BodyPair(pair) => cover.off_by(&mut placing, pair),
     };
     assert!(

@@ -6,7 +6,7 @@ use std::ops::{ControlFlow, Range};
 
 use nalgebra::{Isometry3, Vector3};
 
-use crate::inverse::manifold::LANES;
+use crate::inverse::batch::LANES;
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::checking::hand_check::HandChecker;
 use crate::planning::grasp::candidates::GraspCandidate;

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::inverse::family::Drift;
+use crate::inverse::interval::DisplacementBound;
 use crate::planning::grasp::candidates::grasp_candidates;
 use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::query::answer::GraspSide;
@@ -42,7 +42,7 @@ fn a_grip_is_in_its_patch() {
             }
             let tips: Vec<_> = patches.iter().filter_map(|patch| manifold.over(patch)).collect();
             for hold in &holds {
-                let is_in = |(tip, drift): &(Isometry3<f64>, Drift)| {
+                let is_in = |(tip, drift): &(Isometry3<f64>, DisplacementBound)| {
                     [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()].iter().all(|at| {
                         let at = nalgebra::Point3::from(at * 0.2);
                         let (one, other) = (hold.map_from_tip * at, tip * at);

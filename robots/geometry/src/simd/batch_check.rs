@@ -1,0 +1,239 @@
+//! Which pairs of solids cannot be told to be apart in eight states.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::TOLD;
+use super::aabb::Aabb;
+use super::batch_model::{Batch8, BatchModel, bit};
+use super::obb::ObbSet;
+use super::posed_batch::{Lane8, PosedBatch};
+
+/// There is room for so many pairs from the beginning.
+const MET: usize = 16;
+
+/// What a part may touch.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum PairTarget {
+    /// A thing, by its index.
+    Obb(usize),
+    /// Another part, and how many joints from the root on move both.
+    Part(usize, usize),
+    /// The floor.
+    Floor,
+}
+
+/// A pair of solids.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct BatchPair {
+    pub(crate) part: usize,
+    pub(crate) target: PairTarget,
+}
+
+/// A pair that may touch.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct NearPair {
+    pub(crate) pair: BatchPair,
+    /// A bit for each state: whether they are not known to stay apart while the robot goes as far as it does.
+    pub(crate) lanes: u8,
+    /// The same while it stays where it is.
+    pub(crate) still: u8,
+    /// Of these, whether they are known to be no farther apart than wanted.
+    pub(crate) sure: u8,
+}
+
+/// Eight states to look at.
+pub(crate) struct BatchCheck<'a, F> {
+    pub(crate) batch_model: &'a BatchModel,
+    pub(crate) batch: &'a Batch8,
+    pub(crate) obbs: &'a ObbSet,
+    /// How far apart all has to be in each state, in m.
+    pub(crate) gaps: [f32; 8],
+    /// Whether parts are looked at among each other, where all pairs are.
+    pub(crate) is_own: bool,
+    /// Whether no more has to be known as soon as something is touched for certain: in all states, or in one on a way.
+    pub(crate) is_first: bool,
+    /// Pairs to look at, each with a bit for the states that count; all where there are none.
+    pub(crate) pairs: Option<&'a [(BatchPair, u8)]>,
+    /// Where the robot is placed.
+    pub(crate) posed: &'a mut PosedBatch,
+    /// Whether a part counts against an entity, and against the floor, where all pairs are looked at.
+    pub(crate) counts: F,
+}
+
+impl<F: Fn(usize, Option<usize>) -> bool> BatchCheck<'_, F> {
+    /// The pairs, in a fixed order.
+    pub(crate) fn near_pairs(self) -> Vec<NearPair> {
+        self.near_pairs_on(Arch::new())
+    }
+
+    /// The same on a processor that can do no more than is said.
+    pub(crate) fn near_pairs_on(self, arch: Arch) -> Vec<NearPair> {
+        arch.dispatch(self)
+    }
+}
+
+impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for BatchCheck<'_, F> {
+    type Output = Vec<NearPair>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<NearPair> {
+        match self.pairs {
+            None => self.posed.set(simd, self.batch_model, self.batch, |_| true, true),
+            Some(pairs) => {
+                let mut needed = 0;
+                for (BatchPair { part, target }, _) in pairs {
+                    needed |= bit(*part);
+                    if let PairTarget::Part(at, _) = target {
+                        needed |= bit(*at);
+                    }
+                }
+                self.posed.set(simd, self.batch_model, self.batch, |part| needed & bit(part) != 0, false);
+            }
+        }
+        let mut looked = BatchChecker {
+            batch_model: self.batch_model,
+            batch: self.batch,
+            obbs: self.obbs,
+            gaps: self.gaps,
+            is_first: self.is_first,
+            posed: self.posed,
+        };
+        let mut near_pairs = Vec::with_capacity(MET);
+        match self.pairs {
+            Some(pairs) => {
+                for (pair, lanes) in pairs {
+                    looked.look(simd, *pair, *lanes, &mut near_pairs);
+                }
+            }
+            None => looked.all(simd, self.counts, self.is_own, &mut near_pairs),
+        }
+        near_pairs
+    }
+}
+
+pub(super) struct BatchChecker<'a> {
+    pub(super) batch_model: &'a BatchModel,
+    pub(super) batch: &'a Batch8,
+    pub(super) obbs: &'a ObbSet,
+    pub(super) gaps: Lane8,
+    pub(super) is_first: bool,
+    pub(super) posed: &'a mut PosedBatch,
+}
+
+impl BatchChecker<'_> {
+    #[inline(always)]
+    fn all<S: Simd>(
+        &mut self,
+        simd: S,
+        counts: impl Fn(usize, Option<usize>) -> bool,
+        is_own: bool,
+        near_pairs: &mut Vec<NearPair>,
+    ) {
+        // More than what may be off of any two parts.
+        let wide = self.gaps.iter().fold(0.0, |most: f32, gap| most.max(*gap))
+            + self.batch_model.parts.iter().fold(0.0, |most: f32, part| most.max(2.0 * part.slack))
+            + TOLD;
+        let PosedBatch { parts, bounds, .. } = &mut *self.posed;
+        let mut all = Aabb::NOWHERE;
+        for (place, at) in parts.iter().zip(0..) {
+            bounds.set(at, &place.bound);
+            all.add(&place.bound);
+        }
+        let posed = &*self.posed;
+        let obbs = &self.obbs.bounds;
+        let mut rows = 0;
+        for row in 0..obbs.rows() {
+            rows |= if obbs.near(simd, row, &all, wide) == 0 { 0 } else { bit(row) };
+        }
+        let mut touched = 0;
+        for (place, part) in posed.parts.iter().zip(0..) {
+            if self.batch.is_way && !place.moves {
+                continue;
+            }
+            for row in 0..obbs.rows() {
+                if rows & bit(row) == 0 {
+                    continue;
+                }
+                for lane in ones(obbs.near(simd, row, &place.bound, wide)) {
+                    let at = 8 * row + lane;
+                    if self.obbs.all.get(at).is_some_and(|obb| counts(part, Some(obb.entity))) {
+                        touched |= self.look(
+                            simd,
+                            BatchPair { part, target: PairTarget::Obb(at) },
+                            u8::MAX,
+                            near_pairs,
+                        );
+                        if self.is_told(touched) {
+                            return;
+                        }
+                    }
+                }
+            }
+            let [_, _, lowest] = place.bound.low;
+            if lowest <= wide && counts(part, None) {
+                touched |=
+                    self.look(simd, BatchPair { part, target: PairTarget::Floor }, u8::MAX, near_pairs);
+                if self.is_told(touched) {
+                    return;
+                }
+            }
+        }
+        if !is_own {
+            return;
+        }
+        let moving = if self.batch.is_way { self.batch.moving() } else { u64::MAX };
+        let figures = self.batch_model.parts.iter().zip(&self.batch_model.beside);
+        for ((place, (own, beside)), part) in posed.parts.iter().zip(figures).zip(0..) {
+            for (row, others) in beside.iter().enumerate().filter(|(_, others)| others.parts != 0) {
+                for lane in ones(others.parts & posed.bounds.near(simd, row, &place.bound, wide)) {
+                    let at = 8 * row + lane;
+                    let Some(other) = self.batch_model.parts.get(at) else { continue };
+                    // What moves both, or none, leaves them as far apart as they were.
+                    if !own.is_moved_against(other, moving) {
+                        continue;
+                    }
+                    let common = others.common.get(lane).copied().unwrap_or_default();
+                    touched |= self.look(
+                        simd,
+                        BatchPair { part, target: PairTarget::Part(at, common) },
+                        u8::MAX,
+                        near_pairs,
+                    );
+                    if self.is_told(touched) {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether no more has to be known, by the states in which something is touched: all of them, or one on a way.
+    #[inline(always)]
+    fn is_told(&self, touched: u8) -> bool {
+        self.is_first && (touched == u8::MAX || (self.batch.is_way && touched != 0))
+    }
+
+    /// Looks at one pair in some states, closer and closer: those of them in which it is known to be near.
+    #[inline(always)]
+    fn look<S: Simd>(&self, simd: S, pair: BatchPair, wanted: u8, near_pairs: &mut Vec<NearPair>) -> u8 {
+        let (mut lanes, mut still, mut sure) = (0, 0, 0);
+        for chunk in 0..8 / S::F32_LANES {
+            let [going, standing, touching] = self.chunk(simd, pair, chunk);
+            lanes |= going << (chunk * S::F32_LANES);
+            still |= standing << (chunk * S::F32_LANES);
+            sure |= touching << (chunk * S::F32_LANES);
+        }
+        (lanes, still, sure) = (lanes & wanted, still & wanted, sure & wanted);
+        if lanes != 0 {
+            near_pairs.push(NearPair { pair, lanes, still, sure });
+        }
+        sure
+    }
+}
+
+/// The bits that are set, the lowest first.
+fn ones(bits: u8) -> impl Iterator<Item = usize> {
+    let rest = |bits: &u8| Some(bits & bits.wrapping_sub(1));
+    let left = std::iter::successors(Some(bits), rest).take_while(|bits| *bits != 0);
+    left.map(|bits| bits.trailing_zeros() as usize)
+}
