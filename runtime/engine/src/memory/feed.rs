@@ -155,9 +155,9 @@ impl Memory {
                     // Its number means a failure of the policy before.
                     self.cut(&open.kind.unwrap_or_else(|| own_kind(cause).to_owned()))
                 };
-                StepEnd::Failure { kind, cause: cause.into() }
+                StepEnd::Failure { kind, cause }
             }
-            NodeEnding::Interrupted => StepEnd::Interrupted(cause.into()),
+            NodeEnding::Interrupted => StepEnd::Interrupted(cause),
         };
         let took_secs = at.since(open.since).secs();
         let step = MemoryEvent::Step { call: open.call, path: open.path, took_secs, ended };
@@ -193,13 +193,10 @@ impl Memory {
         let (path, kind) = (self.path(node), self.kind(kind, None, cause));
         let call = self.graph.as_ref().and_then(|graph| called(graph, node));
         let what = match call {
-            Some(call) => MemoryEvent::Step {
-                call,
-                path,
-                took_secs: 0.0,
-                ended: StepEnd::Failure { kind, cause: cause.into() },
-            },
-            None => MemoryEvent::Stuck { path, kind, cause: cause.into() },
+            Some(call) => {
+                MemoryEvent::Step { call, path, took_secs: 0.0, ended: StepEnd::Failure { kind, cause } }
+            }
+            None => MemoryEvent::Stuck { path, kind, cause },
         };
         let entry = self.entry(at, what);
         self.push(entry);
