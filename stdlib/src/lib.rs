@@ -1,9 +1,6 @@
-//! The standard library: kinds, fluents, measures, failures, primitives and policies, as Motet text.
-//!
-//! The texts are the whole of it: no crate knows a primitive by name. They are compiled once, before the
-//! robot's own declarations and those of a domain, which replace declarations of the same name.
+#![doc = include_str!("../README.md")]
 
-/// The files, in the order in which they are read: name and text.
+/// Files of the library in reading order: name and text of each.
 pub const FILES: &[(&str, &str)] = &[
     ("stdlib/world.motet", include_str!("../motet/world.motet")),
     ("stdlib/motion.motet", include_str!("../motet/motion.motet")),

@@ -7,8 +7,8 @@ use smol_str::SmolStr;
 use crate::MAX_ARITY;
 use crate::actions::{self, Action};
 use crate::errors::{Unsupported, WrongName};
-use crate::tree::Tree;
-use crate::typed::{self, Typed, Types, Wanted};
+use crate::s_expression::SExpr;
+use crate::typed::{self, ListItem, TypeHierarchy, TypedName};
 
 /// Requirements that the import supports.
 const REQUIREMENTS: [&str; 5] =
@@ -16,47 +16,49 @@ const REQUIREMENTS: [&str; 5] =
 
 /// Declarations that the formulas of a domain and its problems refer to.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Vocabulary {
-    pub(crate) types: Types,
-    pub(crate) predicates: IndexMap<SmolStr, Vec<Typed>>,
-    pub(crate) constants: Vec<Typed>,
+pub(crate) struct DomainNames {
+    pub(crate) types: TypeHierarchy,
+    pub(crate) predicates: IndexMap<SmolStr, Vec<TypedName>>,
+    pub(crate) constants: Vec<TypedName>,
 }
 
 /// A domain after reading.
 #[derive(Clone, Debug)]
 pub(crate) struct Domain {
     pub(crate) name: SmolStr,
-    pub(crate) words: Vocabulary,
+    pub(crate) words: DomainNames,
     pub(crate) actions: IndexMap<SmolStr, Action>,
 }
 
 /// Reads a definition `(define (domain NAME) …)`.
-pub(crate) fn read(tree: &Tree, said: &mut Vec<Diagnostic>) -> Option<Domain> {
-    let (name, sections) = define(tree, "domain", said)?;
-    let mut domain = Domain { name, words: Vocabulary::default(), actions: IndexMap::new() };
+pub(crate) fn read(tree: &SExpr, diagnostics: &mut Vec<Diagnostic>) -> Option<Domain> {
+    let (name, sections) = define(tree, "domain", diagnostics)?;
+    let mut domain = Domain { name, words: DomainNames::default(), actions: IndexMap::new() };
     for section in sections {
         let Some((head, parts)) = section.form() else {
-            said.push(section.not("a section such as `(:predicates …)`").into());
+            diagnostics.push(section.not("a section such as `(:predicates …)`").into());
             continue;
         };
         let words = &mut domain.words;
         match head.as_str() {
-            ":requirements" => requirements(parts, said),
-            ":types" => words.types = typed::hierarchy(&typed::read(parts, Wanted::Names, said), said),
-            ":constants" => {
-                words.constants = typed::read(parts, Wanted::Names, said);
-                typed::check(&words.constants, &words.types, said);
+            ":requirements" => requirements(parts, diagnostics),
+            ":types" => {
+                words.types = typed::hierarchy(&typed::read(parts, ListItem::Names, diagnostics), diagnostics)
             }
-            ":predicates" => parts.iter().for_each(|part| predicate(part, words, said)),
+            ":constants" => {
+                words.constants = typed::read(parts, ListItem::Names, diagnostics);
+                typed::check(&words.constants, &words.types, diagnostics);
+            }
+            ":predicates" => parts.iter().for_each(|part| predicate(part, words, diagnostics)),
             ":action" => {
-                let Some(action) = actions::read(section, parts, words, said) else { continue };
+                let Some(action) = actions::read(section, parts, words, diagnostics) else { continue };
                 let (name, span) = (action.name.clone(), action.span);
                 if domain.actions.insert(name.clone(), action).is_some() {
                     let what = format!("the action `{name}` is declared twice");
-                    said.push(WrongName { span, what, help: None }.into());
+                    diagnostics.push(WrongName { span, what, help: None }.into());
                 }
             }
-            _ => said.push(refused_section(section, head)),
+            _ => diagnostics.push(refused_section(section, head)),
         }
     }
     Some(domain)
@@ -64,24 +66,24 @@ pub(crate) fn read(tree: &Tree, said: &mut Vec<Diagnostic>) -> Option<Domain> {
 
 /// Splits a definition into its name and its sections.
 pub(crate) fn define<'t>(
-    tree: &'t Tree,
+    tree: &'t SExpr,
     what: &str,
-    said: &mut Vec<Diagnostic>,
-) -> Option<(SmolStr, &'t [Tree])> {
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<(SmolStr, &'t [SExpr])> {
     let inside = tree.form().filter(|(head, _)| *head == "define").map(|(_, rest)| rest);
-    let (head, sections) = inside.and_then(<[Tree]>::split_first).unzip();
-    let name = match head.and_then(Tree::form) {
+    let (head, sections) = inside.and_then(<[SExpr]>::split_first).unzip();
+    let name = match head.and_then(SExpr::form) {
         Some((word, [name])) if word == what => name.word(),
         _ => None,
     };
     if name.is_none() {
-        said.push(tree.not(format!("`(define ({what} NAME) …)`")).into());
+        diagnostics.push(tree.not(format!("`(define ({what} NAME) …)`")).into());
     }
     name.cloned().zip(sections)
 }
 
 /// Reports an unsupported section by the name that PDDL authors know.
-pub(crate) fn refused_section(section: &Tree, head: &str) -> Diagnostic {
+pub(crate) fn refused_section(section: &SExpr, head: &str) -> Diagnostic {
     let name = match head {
         ":durative-action" => "a durative action",
         ":functions" => "numeric functions",
@@ -98,31 +100,32 @@ pub(crate) fn refused_section(section: &Tree, head: &str) -> Diagnostic {
     Unsupported { span: section.span, what: format!("{name}, `{head}`,") }.into()
 }
 
-pub(crate) fn requirements(parts: &[Tree], said: &mut Vec<Diagnostic>) {
+pub(crate) fn requirements(parts: &[SExpr], diagnostics: &mut Vec<Diagnostic>) {
     for part in parts {
         match part.word() {
             Some(word) if REQUIREMENTS.contains(&word.as_str()) => {}
             Some(word) if word.starts_with(':') => {
-                said.push(Unsupported { span: part.span, what: format!("the requirement `{word}`") }.into());
+                diagnostics
+                    .push(Unsupported { span: part.span, what: format!("the requirement `{word}`") }.into());
             }
-            _ => said.push(part.not("a requirement such as `:typing`").into()),
+            _ => diagnostics.push(part.not("a requirement such as `:typing`").into()),
         }
     }
 }
 
-fn predicate(tree: &Tree, words: &mut Vocabulary, said: &mut Vec<Diagnostic>) {
+fn predicate(tree: &SExpr, words: &mut DomainNames, diagnostics: &mut Vec<Diagnostic>) {
     let Some((name, params)) = tree.form() else {
-        said.push(tree.not("a predicate such as `(on ?a ?b)`").into());
+        diagnostics.push(tree.not("a predicate such as `(on ?a ?b)`").into());
         return;
     };
-    let params = typed::read(params, Wanted::Variables, said);
-    typed::check(&params, &words.types, said);
+    let params = typed::read(params, ListItem::Variables, diagnostics);
+    typed::check(&params, &words.types, diagnostics);
     if params.len() > MAX_ARITY {
         let what = format!("a predicate with more than {MAX_ARITY} parameters");
-        said.push(Unsupported { span: tree.span, what }.into());
+        diagnostics.push(Unsupported { span: tree.span, what }.into());
     }
     if words.predicates.insert(name.clone(), params).is_some() {
         let what = format!("the predicate `{name}` is declared twice");
-        said.push(WrongName { span: tree.span, what, help: None }.into());
+        diagnostics.push(WrongName { span: tree.span, what, help: None }.into());
     }
 }

@@ -3,14 +3,14 @@
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use crate::domain::Vocabulary;
+use crate::domain::DomainNames;
 use crate::errors::{Unsupported, WrongName, unknown};
-use crate::tree::Tree;
-use crate::typed::{Typed, is_type};
+use crate::s_expression::SExpr;
+use crate::typed::{TypedName, is_type};
 
 /// An argument of a predicate.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum Arg {
+pub(crate) enum Argument {
     /// Without its `?`.
     Variable(SmolStr),
     /// A constant or an object.
@@ -22,7 +22,7 @@ pub(crate) enum Arg {
 pub(crate) struct Atom {
     /// `None` for `=`.
     pub(crate) predicate: Option<SmolStr>,
-    pub(crate) args: Vec<Arg>,
+    pub(crate) args: Vec<Argument>,
     pub(crate) span: Span,
 }
 
@@ -36,34 +36,40 @@ pub(crate) struct Literal {
 /// The names that a formula may use.
 #[derive(Clone, Copy)]
 pub(crate) struct Scope<'a> {
-    pub(crate) words: &'a Vocabulary,
-    pub(crate) variables: &'a [Typed],
-    pub(crate) objects: &'a [Typed],
+    pub(crate) words: &'a DomainNames,
+    pub(crate) variables: &'a [TypedName],
+    pub(crate) objects: &'a [TypedName],
 }
 
 /// Collects the literals of a conjunction. `place` names it in messages: "a precondition".
 pub(crate) fn literals(
-    tree: &Tree,
+    tree: &SExpr,
     scope: Scope<'_>,
     place: &str,
-    said: &mut Vec<Diagnostic>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Literal> {
     let mut found = Vec::new();
-    collect(tree, scope, place, &mut found, said);
+    collect(tree, scope, place, &mut found, diagnostics);
     found
 }
 
 // Nesting was bounded when the tree was read.
-fn collect(tree: &Tree, scope: Scope<'_>, place: &str, found: &mut Vec<Literal>, said: &mut Vec<Diagnostic>) {
+fn collect(
+    tree: &SExpr,
+    scope: Scope<'_>,
+    place: &str,
+    found: &mut Vec<Literal>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     match tree.form() {
-        None if tree.list().is_some_and(<[Tree]>::is_empty) => {}
+        None if tree.list().is_some_and(<[SExpr]>::is_empty) => {}
         Some((head, parts)) if head == "and" => {
-            parts.iter().for_each(|part| collect(part, scope, place, found, said));
+            parts.iter().for_each(|part| collect(part, scope, place, found, diagnostics));
         }
         Some((head, _)) if is_refused(head) => {
-            said.push(Unsupported { span: tree.span, what: format!("`{head}` in {place}") }.into());
+            diagnostics.push(Unsupported { span: tree.span, what: format!("`{head}` in {place}") }.into());
         }
-        _ => found.extend(literal(tree, scope, place, said)),
+        _ => found.extend(literal(tree, scope, place, diagnostics)),
     }
 }
 
@@ -92,62 +98,62 @@ fn is_refused(head: &str) -> bool {
 
 /// An atom, perhaps under one `not`.
 pub(crate) fn literal(
-    tree: &Tree,
+    tree: &SExpr,
     scope: Scope<'_>,
     place: &str,
-    said: &mut Vec<Diagnostic>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Literal> {
     if let Some((head, inner)) = tree.form()
         && head == "not"
     {
         let [inner] = inner else {
-            said.push(tree.not("one condition under `not`").into());
+            diagnostics.push(tree.not("one condition under `not`").into());
             return None;
         };
         if let Some((head, _)) = inner.form()
             && (matches!(head.as_str(), "and" | "not") || is_refused(head))
         {
-            said.push(
+            diagnostics.push(
                 Unsupported { span: inner.span, what: format!("`{head}` under `not` in {place}") }.into(),
             );
             return None;
         }
-        return Some(Literal { atom: atom(inner, scope, place, said)?, truth: false });
+        return Some(Literal { atom: atom(inner, scope, place, diagnostics)?, truth: false });
     }
-    Some(Literal { atom: atom(tree, scope, place, said)?, truth: true })
+    Some(Literal { atom: atom(tree, scope, place, diagnostics)?, truth: true })
 }
 
-fn atom(tree: &Tree, scope: Scope<'_>, place: &str, said: &mut Vec<Diagnostic>) -> Option<Atom> {
+fn atom(tree: &SExpr, scope: Scope<'_>, place: &str, diagnostics: &mut Vec<Diagnostic>) -> Option<Atom> {
     let Some((head, parts)) = tree.form() else {
-        said.push(tree.not(format!("a predicate in {place}")).into());
+        diagnostics.push(tree.not(format!("a predicate in {place}")).into());
         return None;
     };
     if parts.iter().any(|part| part.list().is_some()) {
         let what = format!("a numeric or object fluent in `{head}`");
-        said.push(Unsupported { span: tree.span, what }.into());
+        diagnostics.push(Unsupported { span: tree.span, what }.into());
         return None;
     }
-    let before = said.len();
-    let args: Vec<_> = parts.iter().filter_map(|part| arg(part, scope, said)).collect();
-    if said.len() > before {
+    let before = diagnostics.len();
+    let args: Vec<_> = parts.iter().filter_map(|part| arg(part, scope, diagnostics)).collect();
+    if diagnostics.len() > before {
         return None;
     }
     let span = tree.span;
     if head == "=" {
         if args.len() != 2 {
-            said.push(tree.not("`=` with two arguments").into());
+            diagnostics.push(tree.not("`=` with two arguments").into());
             return None;
         }
         return Some(Atom { predicate: None, args: args.into_iter().map(|(arg, _)| arg).collect(), span });
     }
     let Some(params) = scope.words.predicates.get(head) else {
         let known = scope.words.predicates.keys().map(SmolStr::as_str);
-        said.push(unknown(tree.span, "predicate", head, known).into());
+        diagnostics.push(unknown(tree.span, "predicate", head, known).into());
         return None;
     };
     if params.len() != args.len() {
         let what = format!("`{head}` takes {} arguments, and here are {}", params.len(), args.len());
-        said.push(WrongName { span, what, help: None }.into());
+        diagnostics.push(WrongName { span, what, help: None }.into());
         return None;
     }
     for ((_, ty), param) in args.iter().zip(params) {
@@ -156,7 +162,7 @@ fn atom(tree: &Tree, scope: Scope<'_>, place: &str, said: &mut Vec<Diagnostic>) 
         if !is_type(&scope.words.types, ty, &param.ty) {
             let what =
                 format!("`{head}` takes {} `{}`, and this is {} `{ty}`", a(&param.ty), param.ty, a(ty));
-            said.push(WrongName { span, what, help: None }.into());
+            diagnostics.push(WrongName { span, what, help: None }.into());
             return None;
         }
     }
@@ -168,7 +174,7 @@ fn a(word: &str) -> &'static str {
 }
 
 /// An argument and its type.
-fn arg(tree: &Tree, scope: Scope<'_>, said: &mut Vec<Diagnostic>) -> Option<(Arg, SmolStr)> {
+fn arg(tree: &SExpr, scope: Scope<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<(Argument, SmolStr)> {
     let word = tree.word()?;
     let (name, among, kind) = match word.strip_prefix('?') {
         Some(name) => (SmolStr::new(name), scope.variables, "variable"),
@@ -176,9 +182,9 @@ fn arg(tree: &Tree, scope: Scope<'_>, said: &mut Vec<Diagnostic>) -> Option<(Arg
     };
     // An inner variable hides an outer one.
     let Some(found) = among.iter().rev().find(|one| one.name == name) else {
-        said.push(unknown(tree.span, kind, word, among.iter().map(|one| one.name.as_str())).into());
+        diagnostics.push(unknown(tree.span, kind, word, among.iter().map(|one| one.name.as_str())).into());
         return None;
     };
-    let arg = if kind == "variable" { Arg::Variable(name) } else { Arg::Name(name) };
+    let arg = if kind == "variable" { Argument::Variable(name) } else { Argument::Name(name) };
     Some((arg, found.ty.clone()))
 }

@@ -1,9 +1,4 @@
-//! PDDL in, Motet out: a STRIPS domain and a problem become declarations, a plan becomes a policy.
-//!
-//! What is taken is `:strips`, `:typing`, `:negative-preconditions`, `:equality` and `:conditional-effects`
-//! of PDDL 2.1 (Fox and Long 2003, <https://doi.org/10.1613/jair.1129>); the rest is refused by name, at its
-//! place. The stages are `tree` (brackets), `domain` and `problem` (what they say), `write` (the AST, which
-//! the canonical printer prints). Nothing here reads a file, and no text panics.
+#![doc = include_str!("../README.md")]
 
 mod actions;
 mod domain;
@@ -12,7 +7,7 @@ mod formula;
 mod name;
 mod plan;
 mod problem;
-mod tree;
+mod s_expression;
 mod typed;
 mod write;
 
@@ -68,12 +63,17 @@ pub fn import(
     problem: PddlSource<'_>,
     plan: Option<PddlSource<'_>>,
 ) -> (Option<Translation>, Vec<Diagnostic>) {
-    let mut said = Vec::new();
-    let domain = tree::read(domain, &mut said).and_then(|tree| domain::read(&tree, &mut said));
-    let problem = tree::read(problem, &mut said)
-        .and_then(|tree| domain.as_ref().and_then(|domain| problem::read(&tree, domain, &mut said)));
-    let plan = plan.map(|plan| plan::read(plan, domain.as_ref(), problem.as_ref(), &mut said));
-    let is_refused = said.iter().any(|said: &Diagnostic| said.severity == Severity::Error);
+    let mut diagnostics = Vec::new();
+    let domain =
+        s_expression::read(domain, &mut diagnostics).and_then(|tree| domain::read(&tree, &mut diagnostics));
+    let problem = s_expression::read(problem, &mut diagnostics)
+        .and_then(|tree| domain.as_ref().and_then(|domain| problem::read(&tree, domain, &mut diagnostics)));
+    let plan = plan.map(|plan| plan::read(plan, domain.as_ref(), problem.as_ref(), &mut diagnostics));
+    let is_refused =
+        diagnostics.iter().any(|diagnostics: &Diagnostic| diagnostics.severity == Severity::Error);
     let imported = domain.zip(problem).filter(|_| !is_refused);
-    (imported.map(|(domain, problem)| write::imported(&domain, &problem, plan.unwrap_or_default())), said)
+    (
+        imported.map(|(domain, problem)| write::imported(&domain, &problem, plan.unwrap_or_default())),
+        diagnostics,
+    )
 }

@@ -9,13 +9,13 @@ use motet_syntax::words::is_json_key;
 use motet_syntax::{FileId, Source, Span};
 use smol_str::{SmolStr, format_smolstr};
 
-use crate::typed::Typed;
+use crate::typed::TypedName;
 
 /// Entities that always exist, and the word for all of them.
 const ENTITY_TAKEN: [&str; 6] = ["robot", "user", "start", "any", "true", "false"];
 
 /// Name of a parameter. `on` is free in Motet, yet `result` is not.
-pub(crate) fn param(text: &str, span: Span, constants: &[Typed]) -> Name {
+pub(crate) fn param(text: &str, span: Span, constants: &[TypedName]) -> Name {
     if constants.iter().any(|constant| constant.name == text) {
         // In PDDL `?depot` and `depot` are two names.
         return Name { text: format_smolstr!("{text}__"), span };

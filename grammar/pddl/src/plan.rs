@@ -8,7 +8,7 @@ use crate::PddlSource;
 use crate::domain::Domain;
 use crate::errors::{WrongName, unknown};
 use crate::problem::Problem;
-use crate::tree::{self, Tree};
+use crate::s_expression::{self, SExpr};
 
 /// A step of a plan.
 #[derive(Clone, Debug)]
@@ -18,18 +18,19 @@ pub(crate) struct PlanStep {
     pub(crate) span: Span,
 }
 
-/// Reads a plan. Whether its steps can be done is the prover's affair; that they exist is said here.
+/// Reads a plan. Whether its steps can be done is the prover's affair; that they exist is diagnostics here.
 pub(crate) fn read(
     input: PddlSource<'_>,
     domain: Option<&Domain>,
     problem: Option<&Problem>,
-    said: &mut Vec<Diagnostic>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<PlanStep> {
     let text = without_times(&input.source.text);
     let bare = Source::new(input.source.name.clone(), text);
-    let trees = tree::read_all(PddlSource { source: &bare, ..input }, said).unwrap_or_default();
+    let trees =
+        s_expression::read_all(PddlSource { source: &bare, ..input }, diagnostics).unwrap_or_default();
     let (Some(domain), Some(problem)) = (domain, problem) else { return Vec::new() };
-    trees.iter().filter_map(|tree| step(tree, domain, problem, said)).collect()
+    trees.iter().filter_map(|tree| step(tree, domain, problem, diagnostics)).collect()
 }
 
 /// Times and durations blanked out, so that offsets stay.
@@ -56,30 +57,36 @@ fn without_times(text: &str) -> String {
         .collect()
 }
 
-fn step(tree: &Tree, domain: &Domain, problem: &Problem, said: &mut Vec<Diagnostic>) -> Option<PlanStep> {
+fn step(
+    tree: &SExpr,
+    domain: &Domain,
+    problem: &Problem,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<PlanStep> {
     let Some((name, parts)) = tree.form() else {
-        said.push(tree.not("a step `(action argument …)`").into());
+        diagnostics.push(tree.not("a step `(action argument …)`").into());
         return None;
     };
     let Some(action) = domain.actions.get(name) else {
-        said.push(unknown(tree.span, "action", name, domain.actions.keys().map(SmolStr::as_str)).into());
+        diagnostics
+            .push(unknown(tree.span, "action", name, domain.actions.keys().map(SmolStr::as_str)).into());
         return None;
     };
     let mut args = Vec::with_capacity(parts.len());
     for part in parts {
         let Some(word) = part.word() else {
-            said.push(part.not("an object").into());
+            diagnostics.push(part.not("an object").into());
             return None;
         };
         if !problem.objects.iter().any(|object| object.name == *word) {
             let known = problem.objects.iter().map(|object| object.name.as_str());
-            said.push(unknown(part.span, "object", word, known).into());
+            diagnostics.push(unknown(part.span, "object", word, known).into());
         }
         args.push((word.clone(), part.span));
     }
     if args.len() != action.params.len() {
         let what = format!("`{name}` takes {} arguments, and here are {}", action.params.len(), args.len());
-        said.push(WrongName { span: tree.span, what, help: None }.into());
+        diagnostics.push(WrongName { span: tree.span, what, help: None }.into());
     }
     Some(PlanStep { action: name.clone(), args, span: tree.span })
 }

@@ -1,41 +1,41 @@
-//! Typed lists: `a b - block c - table d`.
+//! TypedName lists: `a b - block c - table d`.
 
 use indexmap::IndexMap;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
 use crate::errors::{Unsupported, WrongName, unknown};
-use crate::tree::Tree;
+use crate::s_expression::SExpr;
 
 /// The type above all others, which what has no type is of.
 pub(crate) const OBJECT: SmolStr = SmolStr::new_static("object");
 
 /// A name, its type, and where the name stands.
 #[derive(Clone, Debug)]
-pub(crate) struct Typed {
+pub(crate) struct TypedName {
     pub(crate) name: SmolStr,
     pub(crate) ty: SmolStr,
     pub(crate) span: Span,
 }
 
 /// A type to the one above it. All but `object` have one, and `object` is above them all.
-pub(crate) type Types = IndexMap<SmolStr, SmolStr>;
+pub(crate) type TypeHierarchy = IndexMap<SmolStr, SmolStr>;
 
 /// Reads a typed list. Variables lose their `?`, and only they may stand where `variables` is asked for.
-pub(crate) fn read(items: &[Tree], wanted: Wanted, said: &mut Vec<Diagnostic>) -> Vec<Typed> {
-    let mut found: Vec<Typed> = Vec::new();
+pub(crate) fn read(items: &[SExpr], wanted: ListItem, diagnostics: &mut Vec<Diagnostic>) -> Vec<TypedName> {
+    let mut found: Vec<TypedName> = Vec::new();
     let mut typed = 0;
     let mut items = items.iter();
     while let Some(item) = items.next() {
         let Some(word) = item.word() else {
-            said.push(item.not(wanted.word()).into());
+            diagnostics.push(item.not(wanted.word()).into());
             continue;
         };
         if word == "-" {
             let ty = match items.next() {
-                Some(ty) => type_name(ty, said),
+                Some(ty) => type_name(ty, diagnostics),
                 None => {
-                    said.push(item.not("a type behind the dash").into());
+                    diagnostics.push(item.not("a type behind the dash").into());
                     OBJECT
                 }
             };
@@ -46,26 +46,26 @@ pub(crate) fn read(items: &[Tree], wanted: Wanted, said: &mut Vec<Diagnostic>) -
             continue;
         }
         match (wanted, word.strip_prefix('?')) {
-            (Wanted::Variables, Some(name)) if !name.is_empty() => {
-                found.push(Typed { name: name.into(), ty: OBJECT, span: item.span });
+            (ListItem::Variables, Some(name)) if !name.is_empty() => {
+                found.push(TypedName { name: name.into(), ty: OBJECT, span: item.span });
             }
-            (Wanted::Names, None) if !word.starts_with(':') => {
-                found.push(Typed { name: word.clone(), ty: OBJECT, span: item.span });
+            (ListItem::Names, None) if !word.starts_with(':') => {
+                found.push(TypedName { name: word.clone(), ty: OBJECT, span: item.span });
             }
-            _ => said.push(item.not(wanted.word()).into()),
+            _ => diagnostics.push(item.not(wanted.word()).into()),
         }
     }
     found
 }
 
-/// Kind of the items of a typed list.
+/// SExprKind of the items of a typed list.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Wanted {
+pub(crate) enum ListItem {
     Variables,
     Names,
 }
 
-impl Wanted {
+impl ListItem {
     fn word(self) -> &'static str {
         match self {
             Self::Variables => "a variable `?…`",
@@ -74,27 +74,28 @@ impl Wanted {
     }
 }
 
-fn type_name(tree: &Tree, said: &mut Vec<Diagnostic>) -> SmolStr {
+fn type_name(tree: &SExpr, diagnostics: &mut Vec<Diagnostic>) -> SmolStr {
     if let Some(word) = tree.word() {
         return word.clone();
     }
     if tree.form().is_some_and(|(head, _)| head == "either") {
-        said.push(Unsupported { span: tree.span, what: "a union of types, `(either …)`,".into() }.into());
+        diagnostics
+            .push(Unsupported { span: tree.span, what: "a union of types, `(either …)`,".into() }.into());
     } else {
-        said.push(tree.not("a type").into());
+        diagnostics.push(tree.not("a type").into());
     }
     OBJECT
 }
 
 /// The tree of types that a `:types` section declares. A parent that is not declared itself lies below
 /// `object`.
-pub(crate) fn hierarchy(declared: &[Typed], said: &mut Vec<Diagnostic>) -> Types {
-    let mut types = Types::new();
-    for Typed { name, ty, span } in declared.iter().filter(|one| one.name != OBJECT) {
+pub(crate) fn hierarchy(declared: &[TypedName], diagnostics: &mut Vec<Diagnostic>) -> TypeHierarchy {
+    let mut types = TypeHierarchy::new();
+    for TypedName { name, ty, span } in declared.iter().filter(|one| one.name != OBJECT) {
         match types.get(name) {
             Some(before) if before != ty => {
                 let what = format!("the type `{name}` below two others, `{before}` and `{ty}`,");
-                said.push(Unsupported { span: *span, what }.into());
+                diagnostics.push(Unsupported { span: *span, what }.into());
             }
             _ => {
                 types.insert(name.clone(), ty.clone());
@@ -103,12 +104,12 @@ pub(crate) fn hierarchy(declared: &[Typed], said: &mut Vec<Diagnostic>) -> Types
     }
     let implied: Vec<_> = types.values().filter(|ty| !types.contains_key(*ty)).cloned().collect();
     types.extend(implied.into_iter().filter(|ty| *ty != OBJECT).map(|ty| (ty, OBJECT)));
-    for Typed { name, span, .. } in declared {
+    for TypedName { name, span, .. } in declared {
         // A chain that is longer than there are types goes round.
         let chain = std::iter::successors(types.get(name), |ty| types.get(*ty));
         if chain.take(types.len() + 1).count() > types.len() {
             let what = format!("the type `{name}` lies below itself");
-            said.push(WrongName { span: *span, what, help: None }.into());
+            diagnostics.push(WrongName { span: *span, what, help: None }.into());
             return types;
         }
     }
@@ -116,17 +117,17 @@ pub(crate) fn hierarchy(declared: &[Typed], said: &mut Vec<Diagnostic>) -> Types
 }
 
 /// Says which types of a list are not declared.
-pub(crate) fn check(list: &[Typed], types: &Types, said: &mut Vec<Diagnostic>) {
-    for Typed { ty, span, .. } in list {
+pub(crate) fn check(list: &[TypedName], types: &TypeHierarchy, diagnostics: &mut Vec<Diagnostic>) {
+    for TypedName { ty, span, .. } in list {
         if *ty != OBJECT && !types.contains_key(ty) {
             let known = types.keys().map(SmolStr::as_str).chain(["object"]);
-            said.push(unknown(*span, "type", ty, known).into());
+            diagnostics.push(unknown(*span, "type", ty, known).into());
         }
     }
 }
 
 /// Checks if `ty` is `ancestor` or a subtype of it. The hierarchy has no cycle.
-pub(crate) fn is_type(types: &Types, ty: &SmolStr, ancestor: &SmolStr) -> bool {
+pub(crate) fn is_type(types: &TypeHierarchy, ty: &SmolStr, ancestor: &SmolStr) -> bool {
     *ancestor == OBJECT
         || std::iter::successors(Some(ty), |ty| types.get(*ty)).take(types.len() + 1).any(|ty| ty == ancestor)
 }

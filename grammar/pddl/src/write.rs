@@ -10,12 +10,12 @@ use smol_str::{SmolStr, format_smolstr};
 
 use crate::Translation;
 use crate::actions::{Action, Effect};
-use crate::domain::{Domain, Vocabulary};
-use crate::formula::{Arg, Literal};
+use crate::domain::{Domain, DomainNames};
+use crate::formula::{Argument, Literal};
 use crate::name;
 use crate::plan::PlanStep;
 use crate::problem::Problem;
-use crate::typed::{OBJECT, Typed};
+use crate::typed::{OBJECT, TypedName};
 
 /// All of it.
 pub(crate) fn imported(domain: &Domain, problem: &Problem, plan: Vec<PlanStep>) -> Translation {
@@ -52,12 +52,12 @@ fn kinds(domain: &Domain) -> Vec<Item> {
     items
 }
 
-fn typed(param: &Typed, constants: &[Typed]) -> Param {
+fn typed(param: &TypedName, constants: &[TypedName]) -> Param {
     let ty = TypeExpr::Named(name::kind(&param.ty, param.span));
     Param { name: name::param(&param.name, param.span, constants), ty, default: None }
 }
 
-fn fluent(name: &SmolStr, params: &[Typed]) -> Item {
+fn fluent(name: &SmolStr, params: &[TypedName]) -> Item {
     let span = Span::default();
     let mut written: Vec<Param> = Vec::with_capacity(params.len());
     for param in params {
@@ -75,7 +75,7 @@ fn fluent(name: &SmolStr, params: &[Typed]) -> Item {
     })
 }
 
-fn primitive(action: &Action, words: &Vocabulary) -> Item {
+fn primitive(action: &Action, words: &DomainNames) -> Item {
     let span = Span::default();
     let plain = |expr| Quantified { expr, each: None, when: None };
     let needs: Vec<_> = action.needs.iter().map(|need| plain(literal(need, &words.constants))).collect();
@@ -92,7 +92,7 @@ fn primitive(action: &Action, words: &Vocabulary) -> Item {
     })
 }
 
-fn quantified(effect: &Effect, words: &Vocabulary) -> Quantified {
+fn quantified(effect: &Effect, words: &DomainNames) -> Quantified {
     let each = effect.each.as_ref().map(|each| {
         (
             name::param(&each.name, each.span, &words.constants),
@@ -105,7 +105,7 @@ fn quantified(effect: &Effect, words: &Vocabulary) -> Quantified {
 }
 
 /// Objects of one type in a row, as they stand in the file.
-fn entities(objects: &[Typed]) -> Vec<Item> {
+fn entities(objects: &[TypedName]) -> Vec<Item> {
     objects
         .chunk_by(|one, other| one.ty == other.ty)
         .filter_map(|chunk| {
@@ -153,12 +153,12 @@ fn conjunction(mut parts: Vec<Expr>) -> Option<Expr> {
     }
 }
 
-fn literal(literal: &Literal, constants: &[Typed]) -> Expr {
+fn literal(literal: &Literal, constants: &[TypedName]) -> Expr {
     let span = literal.atom.span;
     let args = literal.atom.args.iter().map(|arg| {
         let name = match arg {
-            Arg::Variable(text) => name::param(text, span, constants),
-            Arg::Name(text) => name::entity(text, span),
+            Argument::Variable(text) => name::param(text, span, constants),
+            Argument::Name(text) => name::entity(text, span),
         };
         expr(ExprKind::Name(name.text), span)
     });

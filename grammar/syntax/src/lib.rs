@@ -1,7 +1,4 @@
-//! The front end of Motet: source text in, a spanned AST and diagnostics out.
-//!
-//! Two surfaces, text and JSON ([`json`]), give one AST ([`ast`]). This crate knows no declaration: what a
-//! name means is decided by the compiler's resolve stage, which is fed from here.
+#![doc = include_str!("../README.md")]
 
 #[cfg(feature = "arbitrary")]
 #[doc(hidden)]

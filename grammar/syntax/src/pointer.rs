@@ -13,9 +13,19 @@ use crate::source::Span;
 /// `/steps/2/try/0/object`; empty where none does. `parameter` names the parameter of a primitive or policy
 /// at a position, from 0, for arguments without a name; such an argument has the pointer of its call where
 /// there is none. O(nodes on the way).
+///
+/// ```
+/// use motet_syntax::{FileId, Source, Span, pointer, read};
+///
+/// let text = "policy p { go(table) done }";
+/// let policy = read(&Source::new("p.motet", text), FileId(0)).file.policies().next().cloned().unwrap();
+/// let table = Span::new(FileId(0), 14, 19);
+/// let parameter = |_: &str, _: usize| Some("to".into());
+/// assert_eq!(pointer::pointer_to(&policy, table, &parameter), "/steps/0/to");
+/// ```
 #[must_use]
 pub fn pointer_to(policy: &Policy, span: Span, parameter: &dyn Fn(&str, usize) -> Option<SmolStr>) -> String {
-    let mut walk = Walk { span, parameter, pointer: String::new() };
+    let mut walk = PointerWalk { span, parameter, pointer: String::new() };
     if let Some(goal) = &policy.achieves {
         walk.expr("achieves", goal);
     }
@@ -23,14 +33,14 @@ pub fn pointer_to(policy: &Policy, span: Span, parameter: &dyn Fn(&str, usize) -
     walk.pointer
 }
 
-struct Walk<'a> {
+struct PointerWalk<'a> {
     span: Span,
     parameter: &'a dyn Fn(&str, usize) -> Option<SmolStr>,
     pointer: String,
 }
 
 /// Each method appends its key and goes on inside, if its node contains the span, and returns true if it did.
-impl Walk<'_> {
+impl PointerWalk<'_> {
     fn key(&mut self, key: &str) {
         push_token(&mut self.pointer, key);
     }

@@ -7,7 +7,7 @@ use crate::words::DECLARATIONS;
 
 /// The document of a reply.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Found {
+pub(crate) struct FoundDocument {
     pub(crate) start: usize,
     pub(crate) end: usize,
     /// First lines of what is ignored around it, trimmed.
@@ -22,7 +22,7 @@ pub(crate) enum Reply {
     /// A document and nothing else, right or wrong.
     Whole,
     /// A document among other text.
-    Part(Found),
+    Part(FoundDocument),
     /// Prose without a document.
     Prose,
 }
@@ -139,7 +139,7 @@ fn part(text: &str, start: usize, end: usize, outer_start: usize, outer_end: usi
     for (from, to) in [(0, outer_start), (outer_end, text.len())] {
         ignored.extend(first_line(text, from, to));
     }
-    Reply::Part(Found { start, end, ignored, others: Vec::new() })
+    Reply::Part(FoundDocument { start, end, ignored, others: Vec::new() })
 }
 
 /// The first line of a part of a text that says anything, trimmed.
@@ -270,7 +270,7 @@ fn object_end(text: &str, start: usize) -> Option<usize> {
 }
 
 /// The text up to `found.end`, with everything before `found.start` blank.
-pub(crate) fn blanked(text: &str, found: &Found) -> String {
+pub(crate) fn blanked(text: &str, found: &FoundDocument) -> String {
     let mut blank = String::with_capacity(found.end);
     let before = text.bytes().take(found.start);
     blank.extend(before.map(|byte| if byte == b'\n' { '\n' } else { ' ' }));

@@ -98,6 +98,11 @@ impl Source {
     }
 
     /// Line and column, both from 1, of a byte offset; the column counts characters.
+    ///
+    /// ```
+    /// let source = motet_syntax::Source::new("p.motet", "policy p {\n  done\n}");
+    /// assert_eq!(source.line_column(13), (2, 3));
+    /// ```
     #[must_use]
     pub fn line_column(&self, offset: u32) -> (usize, usize) {
         let lines = self.lines.get_or_init(|| line_starts(&self.text));

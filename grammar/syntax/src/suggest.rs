@@ -5,6 +5,13 @@
 /// Case, `_`, `-` and spaces do not count, and a candidate that is a whole word of `name` (`pick` in
 /// `pick_up`) or with which it begins (`holding` and `hold`), or the other way round, is close. Ties go to
 /// the earlier candidate. O(candidates × length²).
+///
+/// ```
+/// use motet_syntax::suggest::closest;
+///
+/// assert_eq!(closest("pick_up", ["place", "pick"]), Some("pick"));
+/// assert_eq!(closest("fly", ["place", "pick"]), None);
+/// ```
 #[must_use]
 pub fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let folded = fold(name);
@@ -70,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_are_close_are_found() {
+    fn closest_finds_close_names() {
         check("pick_up", &["place", "pick", "push"], Some("pick"));
         check("Pick", &["place", "pick"], Some("pick"));
         check("hand_over", &["hold", "handover"], Some("handover"));
@@ -81,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_are_far_are_not() {
+    fn closest_ignores_far_names() {
         check("fly", &["place", "pick", "go"], None);
         check("x", &["y"], None);
         check("", &["a", "go"], None);

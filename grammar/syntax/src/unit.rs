@@ -218,6 +218,12 @@ impl Unit {
     }
 
     /// A number of this unit, in SI units (a percentage as a ratio).
+    ///
+    /// ```
+    /// use motet_syntax::unit::Unit;
+    ///
+    /// assert_eq!(Unit::Centimetre.to_si(7.0), 0.07);
+    /// ```
     #[must_use]
     pub fn to_si(self, value: f64) -> f64 {
         let (_, _, numerator, denominator) = self.row();

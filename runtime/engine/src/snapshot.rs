@@ -184,7 +184,7 @@ fn fact_text(query: &Query) -> Option<String> {
     Some(text)
 }
 
-/// The words of the language, which are never bare names.
+/// Reserved words, which are never bare names: a copy of `motet_syntax::words::RESERVED`, held by a test.
 const WORDS: [&str; 25] = [
     "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
     "repeat", "each", "parallel", "done", "fail", "replan", "and", "or", "not", "true", "false", "any", "",

@@ -36,7 +36,7 @@ fn judge(name: &str, plan: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn plans_are_decided() {
+fn import_lets_the_compiler_decide_plans() {
     for (name, wrong) in [
         ("blocks", &[("M0503", "/achieves"), ("M0501", "/steps/0")][..]),
         ("gripper", &[("M0503", "/achieves"), ("M0501", "/steps/1")]),
@@ -60,7 +60,7 @@ const PROBLEM: &str = "(define (problem one) (:domain d) (:objects o - t) (:init
 
 /// Replaces one part of the domain, the problem or the plan, and expects an error whose message has the words, at the part.
 #[test]
-fn what_is_not_taken_is_named_at_its_place() {
+fn import_names_unsupported_parts() {
     assert_eq!(run(DOMAIN, PROBLEM, Some("(a o)")).1, []);
     for (from, to, code, words, at) in [
         (":strips", ":strips :fluents", "M0132", "`:fluents`", ":fluents"),
@@ -109,7 +109,7 @@ fn what_is_not_taken_is_named_at_its_place() {
 }
 
 #[test]
-fn nesting_is_bounded() {
+fn import_limits_nesting() {
     let deep = "(".repeat(100_000);
     assert_eq!(run(&deep, PROBLEM, None).1.first().unwrap().code.0, "M0111");
 }

@@ -2,13 +2,13 @@
 
 use smol_str::SmolStr;
 
-use super::Maker;
+use super::TreeGenerator;
 use crate::ast::{
     Clause, EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl,
     MeasureDecl, Param, PrimitiveDecl, PrimitiveKind, Quantified, TypeExpr,
 };
 
-impl Maker<'_> {
+impl TreeGenerator<'_> {
     pub(super) fn file(&mut self) -> File {
         File { items: self.some(1, Self::item) }
     }
@@ -21,10 +21,10 @@ impl Maker<'_> {
             1 => Item::Kind(KindDecl {
                 doc: self.doc(),
                 name: self.choice.name(),
-                parent: self.maybe(|maker| maker.choice.name()),
-                fields: self.some(0, |maker| Param {
-                    name: maker.choice.word(),
-                    ty: maker.type_expr(2),
+                parent: self.maybe(|it| it.choice.name()),
+                fields: self.some(0, |it| Param {
+                    name: it.choice.word(),
+                    ty: it.type_expr(2),
                     default: None,
                 }),
                 span,
@@ -46,16 +46,16 @@ impl Maker<'_> {
             5 => Item::Enum(EnumDecl {
                 doc: self.doc(),
                 name: self.choice.name(),
-                cases: self.some(1, |maker| maker.choice.name()),
+                cases: self.some(1, |it| it.choice.name()),
                 span,
             }),
             6 => Item::Entities(EntitiesDecl {
                 doc: self.doc(),
-                names: self.some(1, |maker| maker.choice.name()),
+                names: self.some(1, |it| it.choice.name()),
                 kind: self.choice.name(),
                 span,
             }),
-            7 => Item::Initially(InitiallyDecl { facts: self.some(1, |maker| maker.condition(2)), span }),
+            7 => Item::Initially(InitiallyDecl { facts: self.some(1, |it| it.condition(2)), span }),
             8 | 9 => Item::Primitive(self.primitive()),
             _ => Item::Policy(self.policy()),
         }
@@ -64,15 +64,15 @@ impl Maker<'_> {
     /// Documentation of no, one or several lines.
     pub(super) fn doc(&mut self) -> SmolStr {
         const LINES: &[&str] = &["", "Says what it is.", "  indented `code`", "/ slash", "é"];
-        let lines: Vec<&str> = self.some(0, |maker| maker.choice.of(LINES, ""));
+        let lines: Vec<&str> = self.some(0, |it| it.choice.of(LINES, ""));
         SmolStr::from(lines.join("\n"))
     }
 
     pub(super) fn params(&mut self) -> Vec<Param> {
-        self.some(0, |maker| Param {
-            name: maker.choice.bound(),
-            ty: maker.type_expr(2),
-            default: maker.maybe(|maker| maker.term(1)),
+        self.some(0, |it| Param {
+            name: it.choice.bound(),
+            ty: it.type_expr(2),
+            default: it.maybe(|it| it.term(1)),
         })
     }
 
@@ -91,7 +91,7 @@ impl Maker<'_> {
             kind: if is_action { PrimitiveKind::Action } else { PrimitiveKind::Perception },
             name: self.choice.name(),
             params: self.params(),
-            result: self.maybe(|maker| maker.type_expr(1)),
+            result: self.maybe(|it| it.type_expr(1)),
             clauses: self.some(0, Self::clause),
             span: self.span(),
         }
@@ -99,22 +99,22 @@ impl Maker<'_> {
 
     fn clause(&mut self) -> Clause {
         match self.choice.below(8) {
-            0 => Clause::Uses(self.some(1, |maker| maker.choice.name())),
+            0 => Clause::Uses(self.some(1, |it| it.choice.name())),
             1 => Clause::Needs(self.some(1, Self::quantified)),
             2 => Clause::Makes(self.some(1, Self::quantified)),
             3 => Clause::Unsettles(self.some(1, Self::quantified)),
             4 => Clause::Motion(self.call(1)),
             5 => Clause::Takes { least: self.term(1), greatest: self.term(1) },
-            6 => Clause::Fails(self.some(1, |maker| maker.choice.name())),
-            _ => Clause::Lasts(self.some(1, |maker| maker.choice.name())),
+            6 => Clause::Fails(self.some(1, |it| it.choice.name())),
+            _ => Clause::Lasts(self.some(1, |it| it.choice.name())),
         }
     }
 
     fn quantified(&mut self) -> Quantified {
         Quantified {
             expr: self.condition(3),
-            each: self.maybe(|maker| (maker.choice.name(), maker.type_expr(1))),
-            when: self.maybe(|maker| maker.condition(2)),
+            each: self.maybe(|it| (it.choice.name(), it.type_expr(1))),
+            when: self.maybe(|it| it.condition(2)),
         }
     }
 }

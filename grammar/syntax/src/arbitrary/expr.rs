@@ -2,19 +2,19 @@
 
 use smol_str::{SmolStr, format_smolstr};
 
-use super::{Flavor, Maker};
+use super::{Flavor, TreeGenerator};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind};
 use crate::unit::{Dimension, Unit};
 
 /// Position of a term, which decides if it may be `any`.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum TermPosition {
     Term,
     /// An argument of a fluent or a measure, where `any` is a word of its own.
     FluentArg,
 }
 
-impl Maker<'_> {
+impl TreeGenerator<'_> {
     fn expr(&self, kind: ExprKind) -> Expr {
         Expr { kind, span: self.span() }
     }
@@ -30,8 +30,8 @@ impl Maker<'_> {
                 ExprKind::Field(of, self.choice.word())
             }
             4 => ExprKind::Not(Box::new(self.condition(depth - 1))),
-            5 => ExprKind::All(self.some(2, |maker| maker.condition(depth - 1))),
-            6 => ExprKind::AnyOf(self.some(2, |maker| maker.condition(depth - 1))),
+            5 => ExprKind::All(self.some(2, |it| it.condition(depth - 1))),
+            6 => ExprKind::AnyOf(self.some(2, |it| it.condition(depth - 1))),
             _ => {
                 use CompareOp::{AtLeast, AtMost, Equal, Less, More, Unequal};
                 let op = self.choice.of(&[Less, Equal, Unequal, AtMost, More, AtLeast], Less);
@@ -42,10 +42,10 @@ impl Maker<'_> {
     }
 
     pub(super) fn term(&mut self, depth: usize) -> Expr {
-        self.term_in(Place::Term, depth)
+        self.term_in(TermPosition::Term, depth)
     }
 
-    fn term_in(&mut self, place: Place, depth: usize) -> Expr {
+    fn term_in(&mut self, place: TermPosition, depth: usize) -> Expr {
         let leaf = depth == 0;
         let kind = match self.choice.below(if leaf { 7 } else { 11 }) {
             0 => self.name_in(place),
@@ -53,15 +53,15 @@ impl Maker<'_> {
             2 => self.quantity(),
             3 => self.literal(),
             4 => ExprKind::Bool(self.choice.is_heads()),
-            5 => self.bound_or_else(|maker| maker.name_in(place)),
-            6 if place == Place::FluentArg => ExprKind::Any,
+            5 => self.bound_or_else(|it| it.name_in(place)),
+            6 if place == TermPosition::FluentArg => ExprKind::Any,
             6 => self.name_in(place),
             7 => ExprKind::Call(self.fluent(depth - 1)),
             8 => {
                 let of = Box::new(self.term(depth - 1));
                 ExprKind::Field(of, self.choice.word())
             }
-            9 => ExprKind::List(self.some(0, |maker| maker.term(depth - 1))),
+            9 => ExprKind::List(self.some(0, |it| it.term(depth - 1))),
             _ => {
                 use ArithOp::{Add, Divide, Multiply, Subtract};
                 let op = self.choice.of(&[Add, Subtract, Multiply, Divide], Add);
@@ -72,7 +72,7 @@ impl Maker<'_> {
     }
 
     /// A name that nothing binds; in JSON never `any` where that is a word.
-    fn name_in(&mut self, _place: Place) -> ExprKind {
+    fn name_in(&mut self, _place: TermPosition) -> ExprKind {
         let name = self.choice.name_text();
         match self.flavor {
             Flavor::Text => ExprKind::Name(name),
@@ -115,21 +115,21 @@ impl Maker<'_> {
     }
 
     fn fluent(&mut self, depth: usize) -> Call {
-        self.call_with(Place::FluentArg, depth.saturating_sub(1))
+        self.call_with(TermPosition::FluentArg, depth.saturating_sub(1))
     }
 
     pub(super) fn call(&mut self, depth: usize) -> Call {
-        self.call_with(Place::Term, depth)
+        self.call_with(TermPosition::Term, depth)
     }
 
-    fn call_with(&mut self, place: Place, depth: usize) -> Call {
+    fn call_with(&mut self, place: TermPosition, depth: usize) -> Call {
         let name = self.choice.word();
         let count = self.choice.below(3);
         let args = (0..count).map(|index| self.arg(index, place, depth)).collect();
         Call { name, args, span: self.span() }
     }
 
-    fn arg(&mut self, index: usize, place: Place, depth: usize) -> Arg {
+    fn arg(&mut self, index: usize, place: TermPosition, depth: usize) -> Arg {
         const KEYS: &[&str] = &["object", "to the", "on"];
         let key = KEYS.get(index).map_or_else(SmolStr::default, SmolStr::new);
         let is_named = self.flavor == Flavor::Json || self.choice.is_heads();

@@ -2,12 +2,12 @@
 //! sequences are smaller trees, so what shrinks bytes shrinks trees. Every node kind comes up. The trees mean
 //! nothing: names are not declared and types do not fit. Only with the feature `arbitrary`.
 
-mod choice;
+mod byte_source;
 mod declaration;
 mod expr;
 mod step;
 
-use choice::Choice;
+use byte_source::ByteSource;
 
 use crate::ast::{File, Policy};
 use crate::source::Span;
@@ -24,35 +24,35 @@ enum Flavor {
 /// A tree as the text front end makes it: the printed text reads back as the same tree.
 #[must_use]
 pub fn file(bytes: &[u8]) -> File {
-    Maker::new(bytes, Flavor::Text).file()
+    TreeGenerator::new(bytes, Flavor::Text).file()
 }
 
 /// A policy as the text front end makes it.
 #[must_use]
 pub fn text_policy(bytes: &[u8]) -> Policy {
-    Maker::new(bytes, Flavor::Text).policy()
+    TreeGenerator::new(bytes, Flavor::Text).policy()
 }
 
 /// A policy as the JSON front end makes it: without parameters, every argument named, every binding in scope.
 /// The printed JSON reads back as the same tree, also by way of the text form.
 #[must_use]
 pub fn json_policy(bytes: &[u8]) -> Policy {
-    Maker::new(bytes, Flavor::Json).policy()
+    TreeGenerator::new(bytes, Flavor::Json).policy()
 }
 
 /// Depth of blocks and expressions in a generated tree.
 const DEPTH: usize = 5;
 
-struct Maker<'b> {
-    choice: Choice<'b>,
+struct TreeGenerator<'b> {
+    choice: ByteSource<'b>,
     flavor: Flavor,
     /// Names bound at the current point.
     scope: Vec<smol_str::SmolStr>,
 }
 
-impl<'b> Maker<'b> {
+impl<'b> TreeGenerator<'b> {
     fn new(bytes: &'b [u8], flavor: Flavor) -> Self {
-        Self { choice: Choice::new(bytes), flavor, scope: Vec::new() }
+        Self { choice: ByteSource::new(bytes), flavor, scope: Vec::new() }
     }
 
     /// Between `least` and three more of something; fewer when the bytes run out.

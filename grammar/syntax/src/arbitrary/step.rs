@@ -1,9 +1,9 @@
 //! Made policies and steps.
 
-use super::{DEPTH, Flavor, Maker};
+use super::{DEPTH, Flavor, TreeGenerator};
 use crate::ast::{Block, Catch, CatchOn, Do, End, EndKind, Policy, Reaction, Step, StepKind, When};
 
-impl Maker<'_> {
+impl TreeGenerator<'_> {
     pub(super) fn policy(&mut self) -> Policy {
         let params = match self.flavor {
             Flavor::Text => self.params(),
@@ -14,8 +14,8 @@ impl Maker<'_> {
             doc: if self.flavor == Flavor::Text { self.doc() } else { smol_str::SmolStr::default() },
             name: self.choice.name(),
             params,
-            robot: self.maybe(|maker| maker.choice.name()),
-            achieves: self.maybe(|maker| maker.condition(2)),
+            robot: self.maybe(|it| it.choice.name()),
+            achieves: self.maybe(|it| it.condition(2)),
             body: self.block(DEPTH),
             span: self.span(),
         }
@@ -23,7 +23,7 @@ impl Maker<'_> {
 
     fn block(&mut self, depth: usize) -> Block {
         let outer = self.scope.len();
-        let steps = self.some(0, |maker| maker.step(depth));
+        let steps = self.some(0, |it| it.step(depth));
         self.scope.truncate(outer);
         Block { steps, span: self.span() }
     }
@@ -44,7 +44,7 @@ impl Maker<'_> {
                 let call = self.call(2);
                 let within = self.maybe(Self::duration);
                 let retry = self.maybe(Self::count);
-                let bind = self.maybe(|maker| maker.choice.bound());
+                let bind = self.maybe(|it| it.choice.bound());
                 self.scope.extend(bind.as_ref().map(|bind| bind.text.clone()));
                 StepKind::Do(Do { call, bind, within, retry })
             }
@@ -57,16 +57,14 @@ impl Maker<'_> {
             1 => StepKind::If {
                 condition: self.condition(3),
                 then: self.block(depth),
-                otherwise: self.maybe(|maker| maker.block(depth)),
+                otherwise: self.maybe(|it| it.block(depth)),
             },
-            2 => {
-                StepKind::Monitor { whens: self.some(1, |maker| maker.when(depth)), body: self.block(depth) }
-            }
-            3 => StepKind::Try { body: self.block(depth), catches: self.some(1, |maker| maker.catch(depth)) },
+            2 => StepKind::Monitor { whens: self.some(1, |it| it.when(depth)), body: self.block(depth) },
+            3 => StepKind::Try { body: self.block(depth), catches: self.some(1, |it| it.catch(depth)) },
             4 => StepKind::Repeat {
                 times: self.count(),
                 body: self.block(depth),
-                until: self.maybe(|maker| maker.condition(3)),
+                until: self.maybe(|it| it.condition(3)),
             },
             5 => {
                 let (list, at_most) = (self.term(2), self.count());
@@ -76,7 +74,7 @@ impl Maker<'_> {
                 self.scope.pop();
                 StepKind::Each { item, list, at_most, body }
             }
-            6 => StepKind::Parallel { branches: self.some(1, |maker| maker.block(depth)) },
+            6 => StepKind::Parallel { branches: self.some(1, |it| it.block(depth)) },
             _ => self.leaf(),
         }
     }
@@ -98,7 +96,7 @@ impl Maker<'_> {
     fn catch(&mut self, depth: usize) -> Catch {
         let on = match self.choice.below(3) {
             0 => CatchOn::Any(self.span()),
-            _ => CatchOn::Kinds(self.some(1, |maker| maker.choice.name())),
+            _ => CatchOn::Kinds(self.some(1, |it| it.choice.name())),
         };
         Catch { on, body: self.block(depth), span: self.span() }
     }
@@ -107,7 +105,7 @@ impl Maker<'_> {
         let kind = self.choice.of(&[EndKind::Done, EndKind::Fail, EndKind::Replan], EndKind::Done);
         let why = match kind {
             EndKind::Done => None,
-            EndKind::Fail | EndKind::Replan => self.maybe(|maker| maker.term(1)),
+            EndKind::Fail | EndKind::Replan => self.maybe(|it| it.term(1)),
         };
         End { kind, why, span: self.span() }
     }

@@ -248,18 +248,22 @@ impl Serialize for Args {
 }
 
 /// Target type of an object with arguments among its keys.
-trait Applied: Sized {
+trait WithArguments: Sized {
     /// The keys that are no arguments, the one that names what is called first, and [`crate::located::OPEN`].
     const KEYS: &'static [&'static str];
     /// One key that is no argument.
-    fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error>;
+    fn take<'de, A: MapAccess<'de>>(
+        parts: &mut CallParts,
+        key: &str,
+        access: &mut A,
+    ) -> Result<bool, A::Error>;
     /// All parts together.
-    fn make(name: Spanned<SmolStr>, parts: Parts) -> Self;
+    fn make(name: Spanned<SmolStr>, parts: CallParts) -> Self;
 }
 
 /// The parts of a call, as they come.
 #[derive(Default)]
-struct Parts {
+struct CallParts {
     name: Option<Spanned<SmolStr>>,
     args: Vec<(Spanned<SmolStr>, Spanned<Term>)>,
     within: Option<Box<Duration>>,
@@ -274,9 +278,9 @@ struct Parts {
 #[serde(transparent)]
 struct Key<'s>(#[serde(borrow)] Cow<'s, str>);
 
-struct AppliedVisitor<T>(PhantomData<T>);
+struct WithArgumentsVisitor<T>(PhantomData<T>);
 
-impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
+impl<'de, T: WithArguments> Visitor<'de> for WithArgumentsVisitor<T> {
     type Value = T;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -285,7 +289,7 @@ impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
 
     fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<T, A::Error> {
         let head = T::KEYS.first().copied().unwrap_or("");
-        let mut parts = Parts::default();
+        let mut parts = CallParts::default();
         while let Some(Spanned { value: Key(key), span }) =
             access.next_key_seed(PhantomData::<Spanned<Key<'de>>>)?
         {
@@ -305,10 +309,14 @@ impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
     }
 }
 
-impl Applied for Do {
+impl WithArguments for Do {
     const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", crate::located::OPEN];
 
-    fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
+    fn take<'de, A: MapAccess<'de>>(
+        parts: &mut CallParts,
+        key: &str,
+        access: &mut A,
+    ) -> Result<bool, A::Error> {
         match key {
             "as" => parts.bind = access.next_value()?,
             "within" => parts.within = access.next_value()?,
@@ -318,26 +326,30 @@ impl Applied for Do {
         Ok(true)
     }
 
-    fn make(name: Spanned<SmolStr>, parts: Parts) -> Self {
-        let Parts { args, within, retry, bind, .. } = parts;
+    fn make(name: Spanned<SmolStr>, parts: CallParts) -> Self {
+        let CallParts { args, within, retry, bind, .. } = parts;
         Self { r#do: name, args: Args(args), within, retry, r#as: bind }
     }
 }
 
-impl Applied for Is {
+impl WithArguments for Is {
     const KEYS: &'static [&'static str] = &["is", crate::located::OPEN];
-    fn take<'de, A: MapAccess<'de>>(_: &mut Parts, _: &str, _: &mut A) -> Result<bool, A::Error> {
+    fn take<'de, A: MapAccess<'de>>(_: &mut CallParts, _: &str, _: &mut A) -> Result<bool, A::Error> {
         Ok(false)
     }
-    fn make(name: Spanned<SmolStr>, parts: Parts) -> Self {
+    fn make(name: Spanned<SmolStr>, parts: CallParts) -> Self {
         Self { is: name, args: Args(parts.args) }
     }
 }
 
-impl Applied for Get {
+impl WithArguments for Get {
     const KEYS: &'static [&'static str] = &["get", "is", "than", crate::located::OPEN];
 
-    fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
+    fn take<'de, A: MapAccess<'de>>(
+        parts: &mut CallParts,
+        key: &str,
+        access: &mut A,
+    ) -> Result<bool, A::Error> {
         match key {
             "is" => parts.is = access.next_value()?,
             // Without `is` before it, it is an argument like any other.
@@ -347,21 +359,21 @@ impl Applied for Get {
         Ok(true)
     }
 
-    fn make(name: Spanned<SmolStr>, parts: Parts) -> Self {
-        let Parts { args, is, than, .. } = parts;
+    fn make(name: Spanned<SmolStr>, parts: CallParts) -> Self {
+        let CallParts { args, is, than, .. } = parts;
         Self { get: name, args: Args(args), is, than }
     }
 }
 
-macro_rules! deserialize_applied {
+macro_rules! deserialize_with_arguments {
     ($($name:ident)*) => {$(
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let visitor = AppliedVisitor::<Self>(PhantomData);
-                deserializer.deserialize_struct(stringify!($name), <Self as Applied>::KEYS, visitor)
+                let visitor = WithArgumentsVisitor::<Self>(PhantomData);
+                deserializer.deserialize_struct(stringify!($name), <Self as WithArguments>::KEYS, visitor)
             }
         }
     )*};
 }
 
-deserialize_applied!(Do Is Get);
+deserialize_with_arguments!(Do Is Get);

@@ -10,7 +10,7 @@ use crate::words::is_bare_name;
 
 /// Precedence of an expression, in the order of the grammar.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Level {
+enum Precedence {
     Or,
     And,
     Not,
@@ -22,19 +22,19 @@ enum Level {
 
 /// Appends an expression.
 pub(super) fn write(text: &mut String, expr: &Expr) {
-    at(text, expr, Level::Or);
+    at(text, expr, Precedence::Or);
 }
 
-fn level(expr: &Expr) -> Level {
+fn level(expr: &Expr) -> Precedence {
     match &expr.kind {
-        ExprKind::AnyOf(members) if members.len() > 1 => Level::Or,
-        ExprKind::All(members) if members.len() > 1 => Level::And,
+        ExprKind::AnyOf(members) if members.len() > 1 => Precedence::Or,
+        ExprKind::All(members) if members.len() > 1 => Precedence::And,
         // A group of one is written as its member, an empty one as what it means.
-        ExprKind::AnyOf(members) | ExprKind::All(members) => members.first().map_or(Level::Atom, level),
-        ExprKind::Not(_) => Level::Not,
-        ExprKind::Compare(..) => Level::Compare,
-        ExprKind::Arith(ArithOp::Add | ArithOp::Subtract, ..) => Level::Sum,
-        ExprKind::Arith(ArithOp::Multiply | ArithOp::Divide, ..) => Level::Product,
+        ExprKind::AnyOf(members) | ExprKind::All(members) => members.first().map_or(Precedence::Atom, level),
+        ExprKind::Not(_) => Precedence::Not,
+        ExprKind::Compare(..) => Precedence::Compare,
+        ExprKind::Arith(ArithOp::Add | ArithOp::Subtract, ..) => Precedence::Sum,
+        ExprKind::Arith(ArithOp::Multiply | ArithOp::Divide, ..) => Precedence::Product,
         ExprKind::Bool(_)
         | ExprKind::Number(_)
         | ExprKind::Quantity(..)
@@ -46,12 +46,12 @@ fn level(expr: &Expr) -> Level {
         | ExprKind::Any
         | ExprKind::List(_)
         | ExprKind::Call(_)
-        | ExprKind::Field(..) => Level::Atom,
+        | ExprKind::Field(..) => Precedence::Atom,
     }
 }
 
 /// Appends an expression, in parentheses unless it holds together at least as tightly as `least`.
-fn at(text: &mut String, expr: &Expr, least: Level) {
+fn at(text: &mut String, expr: &Expr, least: Precedence) {
     let in_parentheses = level(expr) < least;
     if in_parentheses {
         text.push('(');
@@ -73,7 +73,7 @@ fn bare(text: &mut String, expr: &Expr) {
         ExprKind::Any => text.push_str("any"),
         ExprKind::List(members) => {
             text.push('[');
-            joined(text, members, ", ", Level::Or);
+            joined(text, members, ", ", Precedence::Or);
             text.push(']');
         }
         ExprKind::Call(value) => call(text, value),
@@ -99,7 +99,7 @@ fn bare(text: &mut String, expr: &Expr) {
             if is_number {
                 text.push('(');
             }
-            at(text, inner, Level::Atom);
+            at(text, inner, Precedence::Atom);
             if is_number {
                 text.push(')');
             }
@@ -109,23 +109,23 @@ fn bare(text: &mut String, expr: &Expr) {
         ExprKind::Not(inner) => {
             text.push_str("not ");
             // `not a < b` means the same as `not (a < b)`, but not to everyone.
-            let least = if level(inner) == Level::Not { Level::Not } else { Level::Atom };
+            let least = if level(inner) == Precedence::Not { Precedence::Not } else { Precedence::Atom };
             at(text, inner, least);
         }
         ExprKind::All(members) if members.is_empty() => text.push_str("true"),
         ExprKind::AnyOf(members) if members.is_empty() => text.push_str("false"),
-        ExprKind::All(members) if members.len() > 1 => joined(text, members, " and ", Level::Not),
-        ExprKind::AnyOf(members) if members.len() > 1 => joined(text, members, " or ", Level::And),
-        ExprKind::All(members) | ExprKind::AnyOf(members) => joined(text, members, "", Level::Or),
+        ExprKind::All(members) if members.len() > 1 => joined(text, members, " and ", Precedence::Not),
+        ExprKind::AnyOf(members) if members.len() > 1 => joined(text, members, " or ", Precedence::And),
+        ExprKind::All(members) | ExprKind::AnyOf(members) => joined(text, members, "", Precedence::Or),
         ExprKind::Compare(op, left, right) => {
-            at(text, left, Level::Sum);
+            at(text, left, Precedence::Sum);
             spaced(text, op.symbol());
-            at(text, right, Level::Sum);
+            at(text, right, Precedence::Sum);
         }
         ExprKind::Arith(op, left, right) => {
             let (left_least, right_least) = match op {
-                ArithOp::Add | ArithOp::Subtract => (Level::Sum, Level::Product),
-                ArithOp::Multiply | ArithOp::Divide => (Level::Product, Level::Atom),
+                ArithOp::Add | ArithOp::Subtract => (Precedence::Sum, Precedence::Product),
+                ArithOp::Multiply | ArithOp::Divide => (Precedence::Product, Precedence::Atom),
             };
             at(text, left, left_least);
             spaced(text, op.symbol());
@@ -134,7 +134,7 @@ fn bare(text: &mut String, expr: &Expr) {
     }
 }
 
-fn joined(text: &mut String, members: &[Expr], separator: &str, least: Level) {
+fn joined(text: &mut String, members: &[Expr], separator: &str, least: Precedence) {
     for (index, member) in members.iter().enumerate() {
         if index > 0 {
             text.push_str(separator);

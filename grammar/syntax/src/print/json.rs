@@ -25,21 +25,21 @@ pub fn policy_json(policy: &Policy) -> String {
 
 /// A call as a step, on one line.
 pub(super) fn call(step: &Do) -> String {
-    let mut lowering = Lowering { scope: Vec::new() };
-    layout::one_line(&serde_json::to_value(lowering.call_step(step)).unwrap_or_default())
+    let mut translation = WireTranslation { scope: Vec::new() };
+    layout::one_line(&serde_json::to_value(translation.call_step(step)).unwrap_or_default())
 }
 
 /// A policy as the wire types of the JSON form. Spans are left empty.
 #[must_use]
 fn policy_wire(policy: &Policy) -> wire::Document {
-    let mut lowering =
-        Lowering { scope: policy.params.iter().map(|param| param.name.text.clone()).collect() };
+    let mut translation =
+        WireTranslation { scope: policy.params.iter().map(|param| param.name.text.clone()).collect() };
     wire::Document {
         motet: 1.into(),
         policy: name(&policy.name),
         robot: policy.robot.as_ref().map(name),
-        achieves: policy.achieves.as_ref().map(|goal| lowering.condition(goal)),
-        steps: lowering.block(&policy.body),
+        achieves: policy.achieves.as_ref().map(|goal| translation.condition(goal)),
+        steps: translation.block(&policy.body),
     }
 }
 
@@ -48,11 +48,11 @@ fn name(name: &Name) -> Spanned<SmolStr> {
 }
 
 /// Translation to the wire types, with the names bound at the current point.
-struct Lowering {
+struct WireTranslation {
     scope: Vec<SmolStr>,
 }
 
-impl Lowering {
+impl WireTranslation {
     /// Translates a block. Its bindings end with it.
     fn block(&mut self, block: &Block) -> wire::Steps {
         let outer = self.scope.len();
@@ -109,7 +109,7 @@ impl Lowering {
     }
 
     fn call_step(&mut self, step: &Do) -> wire::Do {
-        let lowered = wire::Do {
+        let translated = wire::Do {
             r#do: name(&step.call.name),
             args: self.args(&step.call),
             within: step.within.as_ref().map(|within| Box::new(self.duration(within))),
@@ -117,7 +117,7 @@ impl Lowering {
             r#as: step.bind.as_ref().map(|bind| Box::new(name(bind))),
         };
         self.scope.extend(step.bind.as_ref().map(|bind| bind.text.clone()));
-        lowered
+        translated
     }
 
     fn when(&mut self, when: &When) -> wire::When {
@@ -181,7 +181,7 @@ impl Lowering {
             | ExprKind::All(_)
             | ExprKind::AnyOf(_)
             | ExprKind::Compare(..)
-            | ExprKind::Arith(..) => self.form(expr, Kind::Condition),
+            | ExprKind::Arith(..) => self.form(expr, ExprPosition::Condition),
             ExprKind::Number(_)
             | ExprKind::Quantity(..)
             | ExprKind::Text(_)
@@ -225,18 +225,18 @@ impl Lowering {
             | ExprKind::All(_)
             | ExprKind::AnyOf(_)
             | ExprKind::Compare(..)
-            | ExprKind::Arith(..) => self.form(expr, Kind::Term),
+            | ExprKind::Arith(..) => self.form(expr, ExprPosition::Term),
         }
     }
 
     /// An expression that is an object in JSON; a literal is [`Self::term`]'s.
-    fn form(&mut self, expr: &Expr, kind: Kind) -> Term {
+    fn form(&mut self, expr: &Expr, kind: ExprPosition) -> Term {
         let form = match &expr.kind {
             ExprKind::Call(call) => {
                 let (head, args) = (name(&call.name), self.args(call));
                 match kind {
-                    Kind::Condition => Form::Is(Is { is: head, args }),
-                    Kind::Term => Form::Get(Get { get: head, args, is: None, than: None }),
+                    ExprPosition::Condition => Form::Is(Is { is: head, args }),
+                    ExprPosition::Term => Form::Get(Get { get: head, args, is: None, than: None }),
                 }
             }
             ExprKind::Field(of, field) => {
@@ -296,7 +296,7 @@ impl Lowering {
 
 /// Position of an expression: a call is a fluent in a condition and a measure in a term.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum ExprPosition {
     Condition,
     Term,
 }

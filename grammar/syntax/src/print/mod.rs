@@ -52,6 +52,13 @@ pub fn call(step: &Do, form: Syntax) -> String {
 }
 
 /// A name in the text form, back-quoted where it has to be.
+///
+/// ```
+/// use motet_syntax::print::identifier;
+///
+/// assert_eq!(identifier("mug_1"), "mug_1");
+/// assert_eq!(identifier("red mug"), "`red mug`");
+/// ```
 #[must_use]
 pub fn identifier(name: &str) -> String {
     let mut text = String::new();

@@ -123,7 +123,7 @@ mod tests {
     use super::{shorter, step_label};
 
     #[test]
-    fn steps_have_numbers_from_one() {
+    fn llm_numbers_steps_from_one() {
         for (path, label) in [
             ("", None),
             ("/achieves", None),
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn long_sentences_end_at_a_word() {
+    fn llm_cuts_long_sentences_at_a_word() {
         assert_eq!(shorter("one two\nthree", 80), "one two three");
         assert_eq!(shorter("one two three", 9), "one two …");
         assert_eq!(shorter("abcdefghij", 6), "abcd …");

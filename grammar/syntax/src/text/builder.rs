@@ -23,9 +23,9 @@ pub(super) struct Builder {
 }
 
 /// Children of a pair without marks and most keywords.
-pub(super) struct Parts<'s>(Peekable<pest::iterators::Pairs<'s, Rule>>);
+pub(super) struct Children<'s>(Peekable<pest::iterators::Pairs<'s, Rule>>);
 
-impl<'s> Parts<'s> {
+impl<'s> Children<'s> {
     pub(super) fn of(pair: Pair<'s>) -> Self {
         Self(pair.into_inner().peekable())
     }
@@ -41,7 +41,7 @@ impl<'s> Parts<'s> {
     }
 }
 
-impl<'s> Iterator for Parts<'s> {
+impl<'s> Iterator for Children<'s> {
     type Item = Pair<'s>;
 
     fn next(&mut self) -> Option<Pair<'s>> {
@@ -123,12 +123,12 @@ impl Builder {
 
     /// The declarations of a `file` pair.
     pub(super) fn items(&mut self, file: Pair<'_>) -> File {
-        let items = Parts::of(file).filter_map(|pair| self.item(pair)).collect();
+        let items = Children::of(file).filter_map(|pair| self.item(pair)).collect();
         File { items }
     }
 
     fn item(&mut self, item: Pair<'_>) -> Option<Item> {
-        let mut parts = Parts::of(item);
+        let mut parts = Children::of(item);
         let mut lines: Vec<&str> = Vec::new();
         while let Some(line) = parts.next_of(Rule::doc) {
             let line = line.as_str().trim_start_matches("///");
@@ -138,7 +138,7 @@ impl Builder {
         let pair = parts.next()?;
         let span = self.span(&pair);
         let rule = pair.as_rule();
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         Some(match rule {
             Rule::kind => Item::Kind(KindDecl {
                 doc,
@@ -190,25 +190,25 @@ impl Builder {
         &mut self,
         doc: SmolStr,
         kind: PrimitiveKind,
-        mut parts: Parts<'_>,
+        mut parts: Children<'_>,
         span: Span,
     ) -> Option<PrimitiveDecl> {
         let name = self.name(parts.next()?);
         let params = self.params(parts.next()?);
         let result = match parts.next_of(Rule::result) {
-            Some(result) => self.type_name(Parts::of(result).next()?),
+            Some(result) => self.type_name(Children::of(result).next()?),
             None => None,
         };
         let clauses = parts.filter_map(|clause| self.clause(clause)).collect();
         Some(PrimitiveDecl { doc, kind, name, params, result, clauses, span })
     }
 
-    fn policy(&mut self, doc: SmolStr, mut parts: Parts<'_>, span: Span) -> Option<Policy> {
+    fn policy(&mut self, doc: SmolStr, mut parts: Children<'_>, span: Span) -> Option<Policy> {
         let name = self.name(parts.next()?);
         let params = parts.next_of(Rule::params).map(|params| self.params(params)).unwrap_or_default();
         let robot = parts
             .next_of(Rule::for_robot)
-            .and_then(|pair| Parts::of(pair).next())
+            .and_then(|pair| Children::of(pair).next())
             .map(|name| self.name(name));
         let achieves = self.expr_in(parts.next_of(Rule::achieves), 1);
         let body = self.block(parts.next()?, 1);
@@ -217,11 +217,11 @@ impl Builder {
 
     /// The parameters or fields between brackets.
     fn params(&mut self, pair: Pair<'_>) -> Vec<Param> {
-        Parts::of(pair).filter_map(|param| self.param(param)).collect()
+        Children::of(pair).filter_map(|param| self.param(param)).collect()
     }
 
     fn param(&mut self, pair: Pair<'_>) -> Option<Param> {
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         Some(Param {
             name: self.name(parts.next()?),
             ty: self.type_name(parts.next()?)?,
@@ -231,18 +231,18 @@ impl Builder {
 
     /// A type; at most as deep as brackets may nest.
     pub(super) fn type_name(&self, pair: Pair<'_>) -> Option<TypeExpr> {
-        let inner = Parts::of(pair).next()?;
+        let inner = Children::of(pair).next()?;
         if inner.as_rule() == Rule::name {
             return Some(TypeExpr::Named(self.name(inner)));
         }
         let span = self.span(&inner);
-        let element = Parts::of(inner).find(|part| part.as_rule() == Rule::type_name)?;
+        let element = Children::of(inner).find(|part| part.as_rule() == Rule::type_name)?;
         Some(TypeExpr::List(Box::new(self.type_name(element)?), span))
     }
 
     /// Names between commas, in brackets or not.
     pub(super) fn names(&self, pair: Pair<'_>) -> Vec<Name> {
-        Parts::of(pair).map(|name| self.name(name)).collect()
+        Children::of(pair).map(|name| self.name(name)).collect()
     }
 
     pub(super) fn name(&self, pair: Pair<'_>) -> Name {

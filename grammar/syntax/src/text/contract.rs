@@ -1,13 +1,13 @@
 //! Pairs to the clauses of a contract.
 
-use super::builder::{Builder, Parts};
+use super::builder::{Builder, Children};
 use super::{Pair, Rule};
 use crate::ast::{Clause, Quantified};
 
 impl Builder {
     pub(super) fn clause(&mut self, pair: Pair<'_>) -> Option<Clause> {
         let rule = pair.as_rule();
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         Some(match rule {
             Rule::needs => Clause::Needs(self.entries(parts)),
             Rule::makes => Clause::Makes(self.entries(parts)),
@@ -23,16 +23,16 @@ impl Builder {
         })
     }
 
-    fn entries(&mut self, parts: Parts<'_>) -> Vec<Quantified> {
+    fn entries(&mut self, parts: Children<'_>) -> Vec<Quantified> {
         parts.filter_map(|entry| self.quantified(entry)).collect()
     }
 
     fn quantified(&mut self, pair: Pair<'_>) -> Option<Quantified> {
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         let expr = self.expr(parts.next()?, 1);
         let each = match parts.next_of(Rule::for_each) {
             Some(pair) => {
-                let mut parts = Parts::of(pair);
+                let mut parts = Children::of(pair);
                 Some((self.name(parts.next()?), self.type_name(parts.next()?)?))
             }
             None => None,

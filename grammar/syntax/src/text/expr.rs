@@ -4,7 +4,7 @@
 
 use smol_str::SmolStr;
 
-use super::builder::{Builder, Parts};
+use super::builder::{Builder, Children};
 
 use super::{Pair, Rule};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
@@ -13,7 +13,7 @@ use crate::source::Span;
 use crate::unit::Unit;
 
 /// An expression while it is built.
-struct Built {
+struct PartialExpr {
     expr: Expr,
     /// With the parentheses around it.
     outer: Span,
@@ -22,16 +22,16 @@ struct Built {
 }
 
 /// Element of the flat list that the grammar gives.
-enum Part {
+enum Element {
     Not(Span),
     Infix(Rule),
-    Operand(Built),
+    Operand(PartialExpr),
 }
 
 impl Builder {
     /// The expression inside a pair such as `within 20 s`.
     pub(super) fn expr_in(&mut self, pair: Option<Pair<'_>>, depth: usize) -> Option<Expr> {
-        Parts::of(pair?).next().map(|inner| self.expr(inner, depth))
+        Children::of(pair?).next().map(|inner| self.expr(inner, depth))
     }
 
     /// An `expr` pair in a step that is in `depth` blocks.
@@ -51,36 +51,36 @@ impl Builder {
         Some(call)
     }
 
-    fn limit(&mut self, built: &Built, depth: usize) {
+    fn limit(&mut self, built: &PartialExpr, depth: usize) {
         if depth + built.height > MAX_NESTING {
             self.found.push(TooDeep { span: built.outer, limit: MAX_NESTING }.into());
         }
     }
 
-    fn build(&mut self, pair: Pair<'_>) -> Built {
+    fn build(&mut self, pair: Pair<'_>) -> PartialExpr {
         let span = self.span(&pair);
         let mut parts = Vec::with_capacity(1);
-        for part in Parts::of(pair) {
+        for part in Children::of(pair) {
             parts.push(match part.as_rule() {
-                Rule::operand => Part::Operand(self.operand(part)),
-                Rule::kw_not => Part::Not(self.span(&part)),
-                rule => Part::Infix(rule),
+                Rule::operand => Element::Operand(self.operand(part)),
+                Rule::kw_not => Element::Not(self.span(&part)),
+                rule => Element::Infix(rule),
             });
         }
         let mut parts = parts.into_iter().peekable();
-        self.alternatives(&mut parts).unwrap_or(Built {
+        self.alternatives(&mut parts).unwrap_or(PartialExpr {
             expr: Expr { kind: ExprKind::Any, span },
             outer: span,
             height: 1,
         })
     }
 
-    fn alternatives(&mut self, parts: &mut Flat) -> Option<Built> {
+    fn alternatives(&mut self, parts: &mut Flat) -> Option<PartialExpr> {
         let first = self.conjunction(parts)?;
         self.chain(first, parts, Rule::kw_or, Self::conjunction, ExprKind::AnyOf)
     }
 
-    fn conjunction(&mut self, parts: &mut Flat) -> Option<Built> {
+    fn conjunction(&mut self, parts: &mut Flat) -> Option<PartialExpr> {
         let first = self.negation(parts)?;
         self.chain(first, parts, Rule::kw_and, Self::negation, ExprKind::All)
     }
@@ -88,12 +88,12 @@ impl Builder {
     /// `a and b and c` as one node.
     fn chain(
         &mut self,
-        first: Built,
+        first: PartialExpr,
         parts: &mut Flat,
         operator: Rule,
-        operand: fn(&mut Self, &mut Flat) -> Option<Built>,
+        operand: fn(&mut Self, &mut Flat) -> Option<PartialExpr>,
         make: fn(Vec<Expr>) -> ExprKind,
-    ) -> Option<Built> {
+    ) -> Option<PartialExpr> {
         if next_infix(parts, |rule| rule == operator).is_none() {
             return Some(first);
         }
@@ -108,12 +108,12 @@ impl Builder {
                 break;
             }
         }
-        Some(Built { expr: Expr { kind: make(members), span: outer }, outer, height: height + 1 })
+        Some(PartialExpr { expr: Expr { kind: make(members), span: outer }, outer, height: height + 1 })
     }
 
-    fn negation(&mut self, parts: &mut Flat) -> Option<Built> {
+    fn negation(&mut self, parts: &mut Flat) -> Option<PartialExpr> {
         let mut nots = Vec::new();
-        while let Some(Part::Not(span)) = parts.next_if(|part| matches!(part, Part::Not(_))) {
+        while let Some(Element::Not(span)) = parts.next_if(|part| matches!(part, Element::Not(_))) {
             nots.push(span);
         }
         let mut inner = self.comparison(parts)?;
@@ -125,7 +125,7 @@ impl Builder {
         Some(inner)
     }
 
-    fn comparison(&mut self, parts: &mut Flat) -> Option<Built> {
+    fn comparison(&mut self, parts: &mut Flat) -> Option<PartialExpr> {
         let left = self.sum(parts)?;
         let Some(rule) = next_infix(parts, |rule| compare_op(rule).is_some()) else { return Some(left) };
         let right = self.right_side(parts, Self::sum)?;
@@ -146,7 +146,7 @@ impl Builder {
         Some(built)
     }
 
-    fn sum(&mut self, parts: &mut Flat) -> Option<Built> {
+    fn sum(&mut self, parts: &mut Flat) -> Option<PartialExpr> {
         let mut left = self.product(parts)?;
         while let Some(rule) = next_infix(parts, |rule| matches!(rule, Rule::plus | Rule::minus)) {
             let op = if rule == Rule::plus { ArithOp::Add } else { ArithOp::Subtract };
@@ -156,7 +156,7 @@ impl Builder {
         Some(left)
     }
 
-    fn product(&mut self, parts: &mut Flat) -> Option<Built> {
+    fn product(&mut self, parts: &mut Flat) -> Option<PartialExpr> {
         let mut left = self.atom_of(parts)?;
         while let Some(rule) = next_infix(parts, |rule| matches!(rule, Rule::times | Rule::over)) {
             let op = if rule == Rule::times { ArithOp::Multiply } else { ArithOp::Divide };
@@ -166,7 +166,7 @@ impl Builder {
         Some(left)
     }
 
-    fn arithmetic(&mut self, op: ArithOp, left: Built, right: Built) -> Built {
+    fn arithmetic(&mut self, op: ArithOp, left: PartialExpr, right: PartialExpr) -> PartialExpr {
         if left.height.max(right.height) > MAX_NESTING {
             return left;
         }
@@ -178,31 +178,31 @@ impl Builder {
     fn right_side(
         &mut self,
         parts: &mut Flat,
-        operand: fn(&mut Self, &mut Flat) -> Option<Built>,
-    ) -> Option<Built> {
-        let Some(Part::Not(span)) = parts.peek() else { return operand(self, parts) };
+        operand: fn(&mut Self, &mut Flat) -> Option<PartialExpr>,
+    ) -> Option<PartialExpr> {
+        let Some(Element::Not(span)) = parts.peek() else { return operand(self, parts) };
         let span = *span;
         let message = "`not` stands after an operator that binds tighter".into();
         self.found.push(TextSyntax::new(span, message, "write it in parentheses: `(not a)`").into());
-        while parts.next_if(|part| matches!(part, Part::Not(_))).is_some() {}
+        while parts.next_if(|part| matches!(part, Element::Not(_))).is_some() {}
         operand(self, parts)
     }
 
-    fn atom_of(&mut self, parts: &mut Flat) -> Option<Built> {
+    fn atom_of(&mut self, parts: &mut Flat) -> Option<PartialExpr> {
         match parts.next()? {
-            Part::Operand(built) => Some(built),
-            Part::Not(_) | Part::Infix(_) => None,
+            Element::Operand(built) => Some(built),
+            Element::Not(_) | Element::Infix(_) => None,
         }
     }
 
     /// An atom and the fields taken of it.
-    fn operand(&mut self, pair: Pair<'_>) -> Built {
+    fn operand(&mut self, pair: Pair<'_>) -> PartialExpr {
         let span = self.span(&pair);
-        let mut parts = Parts::of(pair);
-        let nothing = Built { expr: Expr { kind: ExprKind::Any, span }, outer: span, height: 1 };
+        let mut parts = Children::of(pair);
+        let nothing = PartialExpr { expr: Expr { kind: ExprKind::Any, span }, outer: span, height: 1 };
         let Some(mut built) = parts.next().and_then(|atom| self.atom(atom)) else { return nothing };
         for field in parts {
-            let Some(name) = Parts::of(field).next().map(|name| self.name(name)) else { continue };
+            let Some(name) = Children::of(field).next().map(|name| self.name(name)) else { continue };
             let outer = built.outer.to(name.span);
             built = self.wrap(built, outer, |expr| ExprKind::Field(Box::new(expr), name));
         }
@@ -210,16 +210,16 @@ impl Builder {
     }
 
     /// One level more, unless there are too many already.
-    fn wrap(&mut self, inner: Built, outer: Span, make: impl FnOnce(Expr) -> ExprKind) -> Built {
+    fn wrap(&mut self, inner: PartialExpr, outer: Span, make: impl FnOnce(Expr) -> ExprKind) -> PartialExpr {
         if inner.height > MAX_NESTING {
             return inner;
         }
-        Built { expr: Expr { kind: make(inner.expr), span: outer }, outer, height: inner.height + 1 }
+        PartialExpr { expr: Expr { kind: make(inner.expr), span: outer }, outer, height: inner.height + 1 }
     }
 
-    fn atom(&mut self, pair: Pair<'_>) -> Option<Built> {
+    fn atom(&mut self, pair: Pair<'_>) -> Option<PartialExpr> {
         let outer = self.span(&pair);
-        let leaf = |kind| Built { expr: Expr { kind, span: outer }, outer, height: 1 };
+        let leaf = |kind| PartialExpr { expr: Expr { kind, span: outer }, outer, height: 1 };
         Some(match pair.as_rule() {
             Rule::quantity => leaf(self.quantity(pair, outer)?),
             Rule::text => leaf(ExprKind::Text(self.text(pair, outer))),
@@ -227,20 +227,20 @@ impl Builder {
             Rule::kw_false => leaf(ExprKind::Bool(false)),
             Rule::kw_any => leaf(ExprKind::Any),
             Rule::name => leaf(ExprKind::Name(self.name_text(&pair))),
-            Rule::group => Built { outer, ..self.build(Parts::of(pair).next()?) },
+            Rule::group => PartialExpr { outer, ..self.build(Children::of(pair).next()?) },
             Rule::list => {
                 let mut height = 0;
                 let mut members = Vec::new();
-                for member in Parts::of(pair) {
+                for member in Children::of(pair) {
                     let built = self.build(member);
                     height = height.max(built.height);
                     members.push(built.expr);
                 }
-                Built { height: height + 1, ..leaf(ExprKind::List(members)) }
+                PartialExpr { height: height + 1, ..leaf(ExprKind::List(members)) }
             }
             Rule::call => {
                 let (call, height) = self.call_of(pair)?;
-                Built { height, ..leaf(ExprKind::Call(call)) }
+                PartialExpr { height, ..leaf(ExprKind::Call(call)) }
             }
             _ => return None,
         })
@@ -249,13 +249,13 @@ impl Builder {
     /// A call and its height.
     fn call_of(&mut self, pair: Pair<'_>) -> Option<(Call, usize)> {
         let span = self.span(&pair);
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         let name = self.name(parts.next()?);
         let mut height = 0;
         let mut args = Vec::new();
-        for arg in Parts::of(parts.next()?) {
+        for arg in Children::of(parts.next()?) {
             let span = self.span(&arg);
-            let mut parts = Parts::of(arg);
+            let mut parts = Children::of(arg);
             let name = parts.next_of(Rule::name).map(|name| self.name(name));
             let built = self.build(parts.next()?);
             height = height.max(built.height);
@@ -265,7 +265,7 @@ impl Builder {
     }
 
     fn quantity(&mut self, pair: Pair<'_>, span: Span) -> Option<ExprKind> {
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         let number = parts.next()?;
         let mut value: f64 = number.as_str().parse().unwrap_or(f64::INFINITY);
         if !value.is_finite() {
@@ -279,7 +279,7 @@ impl Builder {
 
     /// The text between the quotes, escapes resolved.
     fn text(&mut self, pair: Pair<'_>, span: Span) -> SmolStr {
-        let inner = Parts::of(pair).next().map_or("", |inner| inner.as_str());
+        let inner = Children::of(pair).next().map_or("", |inner| inner.as_str());
         if !inner.contains('\\') {
             return SmolStr::new(inner);
         }
@@ -312,20 +312,28 @@ impl Builder {
     }
 }
 
-type Flat = std::iter::Peekable<std::vec::IntoIter<Part>>;
+type Flat = std::iter::Peekable<std::vec::IntoIter<Element>>;
 
 /// The operator that comes next, if it is one of these.
 fn next_infix(parts: &mut Flat, is: impl Fn(Rule) -> bool) -> Option<Rule> {
-    match parts.next_if(|part| matches!(part, Part::Infix(rule) if is(*rule)))? {
-        Part::Infix(rule) => Some(rule),
-        Part::Not(_) | Part::Operand(_) => None,
+    match parts.next_if(|part| matches!(part, Element::Infix(rule) if is(*rule)))? {
+        Element::Infix(rule) => Some(rule),
+        Element::Not(_) | Element::Operand(_) => None,
     }
 }
 
-fn join(left: Built, right: Built, make: impl FnOnce(Box<Expr>, Box<Expr>) -> ExprKind) -> Built {
+fn join(
+    left: PartialExpr,
+    right: PartialExpr,
+    make: impl FnOnce(Box<Expr>, Box<Expr>) -> ExprKind,
+) -> PartialExpr {
     let outer = left.outer.to(right.outer);
     let height = left.height.max(right.height) + 1;
-    Built { expr: Expr { kind: make(Box::new(left.expr), Box::new(right.expr)), span: outer }, outer, height }
+    PartialExpr {
+        expr: Expr { kind: make(Box::new(left.expr), Box::new(right.expr)), span: outer },
+        outer,
+        height,
+    }
 }
 
 fn compare_op(rule: Rule) -> Option<CompareOp> {

@@ -115,7 +115,7 @@ mod tests {
     use super::{TokenKind, tokens};
 
     #[test]
-    fn any_text_has_tokens() {
+    fn tokens_cover_any_text() {
         let text = "let m = a(\"x\\\"y\") // c\n  `7up` 1.5e3 cm 1..2 /// d\n é \"open\n";
         let found: Vec<_> = tokens(text, 0).map(|token| token.text).collect();
         let expected = [

@@ -64,7 +64,15 @@ pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<as
     }
 }
 
-/// Parses one condition that stands by itself, such as a fact of a state: `on(cup, table)`.
+/// Parses one condition without a policy around it, such as a fact of a state: `on(cup, table)`.
+///
+/// ```
+/// use motet_syntax::{print, text};
+///
+/// let fact = text::parse_condition("on( cup,table )").unwrap();
+/// assert_eq!(print::expression(&fact), "on(cup, table)");
+/// assert!(text::parse_condition("on(cup").is_err());
+/// ```
 ///
 /// # Errors
 ///

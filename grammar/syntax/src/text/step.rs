@@ -1,7 +1,7 @@
 //! Pairs to steps. `depth` is how many blocks a step is in, counted as braces: a branch of `parallel` and the
 //! block of a `resume` are in two.
 
-use super::builder::{Builder, Parts};
+use super::builder::{Builder, Children};
 use super::{Pair, Rule};
 use crate::ast::{
     Block, Catch, CatchOn, Do, End, EndKind, Expr, MAX_NESTING, MAX_STEPS, Reaction, Step, StepKind, When,
@@ -12,7 +12,7 @@ use crate::source::Span;
 impl Builder {
     pub(super) fn block(&mut self, pair: Pair<'_>, depth: usize) -> Block {
         let span = self.span(&pair);
-        let steps = Parts::of(pair).filter_map(|step| self.step(step, depth)).collect();
+        let steps = Children::of(pair).filter_map(|step| self.step(step, depth)).collect();
         Block { steps, span }
     }
 
@@ -26,7 +26,7 @@ impl Builder {
             return None;
         }
         let rule = pair.as_rule();
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         let kind = match rule {
             Rule::do_step => self.do_step(parts, depth)?,
             Rule::sequence => StepKind::Sequence {
@@ -70,7 +70,7 @@ impl Builder {
         Some(Step { kind, span })
     }
 
-    fn do_step(&mut self, mut parts: Parts<'_>, depth: usize) -> Option<StepKind> {
+    fn do_step(&mut self, mut parts: Children<'_>, depth: usize) -> Option<StepKind> {
         let bind = parts.next_of(Rule::name).map(|name| self.name(name));
         let call = self.call(parts.next()?, depth)?;
         let mut step = Do { call, bind, within: None, retry: None };
@@ -85,7 +85,7 @@ impl Builder {
 
     /// `if a { } else if b { } else { }`: each `else if` is an `if` alone in a block of its own. The braces
     /// of that block are not written; its span is that of the inner `if`.
-    fn if_else(&mut self, parts: Parts<'_>, depth: usize, whole: Span) -> Option<StepKind> {
+    fn if_else(&mut self, parts: Children<'_>, depth: usize, whole: Span) -> Option<StepKind> {
         let mut arms: Vec<(Expr, Block, Span)> = Vec::with_capacity(1);
         let mut otherwise = None;
         let mut parts = parts.peekable();
@@ -117,7 +117,7 @@ impl Builder {
 
     fn when(&mut self, pair: Pair<'_>, depth: usize) -> Option<When> {
         let span = self.span(&pair);
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         let condition = self.expr(parts.next()?, depth);
         let hold = self.expr_in(parts.next_of(Rule::hold), depth);
         let reaction = self.reaction(parts.next()?, depth)?;
@@ -127,7 +127,7 @@ impl Builder {
     fn reaction(&mut self, pair: Pair<'_>, depth: usize) -> Option<Reaction> {
         let span = self.span(&pair);
         let rule = pair.as_rule();
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         Some(match rule {
             Rule::pause => Reaction::Pause { within: self.expr_in(parts.next_of(Rule::within), depth), span },
             Rule::restart => Reaction::Restart { at_most: self.expr_in(parts.next(), depth)?, span },
@@ -143,7 +143,7 @@ impl Builder {
 
     fn catch(&mut self, pair: Pair<'_>, depth: usize) -> Option<Catch> {
         let span = self.span(&pair);
-        let mut parts = Parts::of(pair);
+        let mut parts = Children::of(pair);
         let on = parts.next()?;
         let on = match on.as_rule() {
             Rule::kw_any => CatchOn::Any(self.span(&on)),
@@ -152,7 +152,7 @@ impl Builder {
         Some(Catch { on, body: self.block(parts.next()?, depth + 1), span })
     }
 
-    fn end(&mut self, mut parts: Parts<'_>, span: Span, depth: usize) -> Option<End> {
+    fn end(&mut self, mut parts: Children<'_>, span: Span, depth: usize) -> Option<End> {
         let kind = match parts.next()?.as_rule() {
             Rule::kw_done => EndKind::Done,
             Rule::kw_fail => EndKind::Fail,

@@ -97,7 +97,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_bytes_are_survived(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+    fn read_survives_random_bytes(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
         if let Ok(text) = decode(&bytes, FileId(0)) {
             torture(&text);
         }
@@ -105,7 +105,7 @@ proptest! {
     }
 
     #[test]
-    fn random_tokens_are_survived(words in proptest::collection::vec("[a-z]{1,3}|[{}()\\[\\],:.=<>+*/-]|policy|not|\"x\"|[0-9]", 0..60)) {
+    fn read_survives_random_tokens(words in proptest::collection::vec("[a-z]{1,3}|[{}()\\[\\],:.=<>+*/-]|policy|not|\"x\"|[0-9]", 0..60)) {
         torture(&words.join(" "));
         torture(&words.concat());
         torture(&format!("policy p {{ {} }}", words.join(" ")));
@@ -113,7 +113,7 @@ proptest! {
     }
 
     #[test]
-    fn mutated_documents_are_survived(
+    fn read_survives_mutated_documents(
         bytes in proptest::collection::vec(any::<u8>(), 0..200),
         edits in proptest::collection::vec(any::<(u16, u8)>(), 1..6),
     ) {
@@ -125,7 +125,7 @@ proptest! {
 }
 
 #[test]
-fn nesting_is_limited_in_every_construct() {
+fn read_limits_nesting_in_every_construct() {
     let many = 100_000;
     let text = |inside: &str| format!("policy p {{ {inside} }}");
     for (name, document) in [
@@ -178,7 +178,7 @@ fn json_step(step: &str) -> String {
 
 /// Documents as deep as they may be are read, printed and read again, on the stack of a test thread.
 #[test]
-fn the_deepest_documents_are_read() {
+fn read_accepts_the_deepest_documents() {
     let blocks = MAX_NESTING - 3;
     for (open, close, levels) in [
         ("sequence a { ", " }", 1),
@@ -207,7 +207,7 @@ fn the_deepest_documents_are_read() {
 }
 
 #[test]
-fn large_documents_are_refused_by_a_named_limit() {
+fn read_names_the_limit_of_large_documents() {
     assert_eq!(code(&" ".repeat(64 << 20)), "M0112");
     assert_eq!(code(&format!("{{{}", " ".repeat(64 << 20))), "M0112");
     let steps = |count: usize| "done ".repeat(count);
@@ -221,7 +221,7 @@ fn large_documents_are_refused_by_a_named_limit() {
 }
 
 #[test]
-fn odd_characters_are_told() {
+fn read_reports_odd_characters() {
     for (document, expected) in [
         ("policy p { go(\u{0}) }", "M0101"),
         ("policy p { say(\"a\u{0}b\") }", "M0101"),

@@ -39,7 +39,7 @@ policy p achieves near(to: user) {
 "#;
 
 #[test]
-fn places_have_pointers() {
+fn pointer_names_each_place() {
     for (needle, expected) in [
         ("user", "/achieves/to"),
         ("pick(object: mug, from: `1`)", "/steps/0/try/0"),
@@ -69,7 +69,7 @@ fn places_have_pointers() {
 }
 
 #[test]
-fn pointers_lead_to_the_same_place_in_json() {
+fn pointer_leads_to_the_same_place_in_json() {
     let json = print::policy_json(&policy(TEXT));
     let value: serde_json::Value = serde_json::from_str(&json).unwrap();
     for (needle, key) in [("door", "to"), ("\"low\"", "why"), ("7", "at_most"), ("mug", "object")] {
@@ -80,12 +80,12 @@ fn pointers_lead_to_the_same_place_in_json() {
 }
 
 #[test]
-fn json_is_laid_out_for_people() {
+fn policy_json_is_laid_out_for_people() {
     insta::assert_snapshot!(print::policy_json(&policy(TEXT)));
 }
 
 #[test]
-fn the_schema_is_that_of_the_types() {
+fn schemas_are_as_recorded() {
     insta::assert_snapshot!(serde_json::to_string_pretty(&motet_syntax::json::policy_schema()).unwrap());
     insta::assert_snapshot!(
         serde_json::to_string_pretty(&schemars::schema_for!(render::DiagnosticRecord)).unwrap()
@@ -96,7 +96,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_printed_fits_the_schema(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+    fn policy_json_fits_the_schema(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
         let schema = serde_json::to_value(motet_syntax::json::policy_schema()).unwrap();
         let validator = jsonschema::validator_for(&schema).unwrap();
         let json = print::policy_json(&arbitrary::json_policy(&bytes));
@@ -107,7 +107,7 @@ proptest! {
 }
 
 #[test]
-fn diagnostics_are_written_for_tools() {
+fn render_writes_diagnostics_for_tools() {
     let mut sources = Sources::default();
     let source = Source::new(
         "a,b:c%.json",

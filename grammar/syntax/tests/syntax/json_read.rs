@@ -74,7 +74,7 @@ fn check(text: &str, expected: &[&str]) {
 }
 
 #[test]
-fn a_whole_document_is_read() {
+fn json_read_reads_a_whole_document() {
     let text = r#"{"version": 1, "name": "lab\n", "things": [
         {"id": "a", "shape": {"box": [1, 2.5, -3e0]}, "step": {"steps": ["x"], "repeat": 3.0}},
         {"id": "b", "shape": {"cylinder": {"radius": 1, "height": 2}}},
@@ -97,7 +97,7 @@ fn a_whole_document_is_read() {
 }
 
 #[test]
-fn one_bad_element_does_not_hide_the_others() {
+fn lenient_element_does_not_hide_its_neighbours() {
     check(
         r#"{"version": 1, "things": [{"id": 5}, {"shape": "point"}, {"id": "x", "shap": 1}, {"id": "y", "shape": {"bax": [1]}}]}"#,
         &[
@@ -110,7 +110,7 @@ fn one_bad_element_does_not_hide_the_others() {
 }
 
 #[test]
-fn values_of_wrong_types_are_named() {
+fn schema_check_names_wrong_types() {
     check(
         r#"{"version": -1}"#,
         &[
@@ -141,7 +141,7 @@ fn values_of_wrong_types_are_named() {
 }
 
 #[test]
-fn two_forms_in_one_object_are_refused() {
+fn schema_check_refuses_two_forms() {
     check(
         r#"{"version": 1, "things": [{"id": "a", "step": {"repeat": 1, "steps": [], "if": true}}]}"#,
         &[
@@ -151,7 +151,7 @@ fn two_forms_in_one_object_are_refused() {
 }
 
 #[test]
-fn duplicate_keys_are_refused_and_the_first_counts() {
+fn parser_reports_duplicate_keys_and_keeps_the_first() {
     check(
         r#"{"version": 1, "version": {"deep": [1]}}"#,
         &["M0104 /version `\"version\"`: the key `version` stands twice in one object (keep one of the two)"],
@@ -167,7 +167,7 @@ fn duplicate_keys_are_refused_and_the_first_counts() {
 }
 
 #[test]
-fn strings_end_where_serde_json_ends_them() {
+fn parser_ends_strings_as_serde_json_does() {
     for before in 0..20 {
         for after in [0, 1, 7, 8, 9] {
             for mark in ["", "\\n", "\\\"", "é", "!", "#", "[", "]", "\u{7f}", "\u{1f}", "\n", " "] {
@@ -181,7 +181,7 @@ fn strings_end_where_serde_json_ends_them() {
 }
 
 #[test]
-fn broken_syntax_is_explained() {
+fn parser_explains_broken_syntax() {
     let message = |text: &str| findings(text).join("\n");
     for (text, expected) in [
         ("", "M0115"),
@@ -217,14 +217,14 @@ fn broken_syntax_is_explained() {
 }
 
 #[test]
-fn depth_is_limited() {
+fn parser_limits_depth() {
     for text in ["[".repeat(100_000), "{\"a\":".repeat(100_000)] {
         assert!(findings(&text)[0].starts_with("M0111"), "{}", findings(&text)[0]);
     }
 }
 
 #[test]
-fn a_comparison_can_be_written_in_one_object() {
+fn conversion_accepts_a_comparison_in_one_object() {
     let flat = r#"{"motet": 1, "policy": "p", "steps": [
         {"wait": {"get": "distance", "to": "user", "is": "less", "than": 0.5}},
         {"wait": {"field": "mass", "of": "mug", "is": "at_least", "than": "1 kg"}}]}"#;

@@ -181,7 +181,7 @@ fn check(document: &str, expected: &[(&str, &str)]) {
 }
 
 #[test]
-fn help_says_what_was_meant() {
+fn help_names_the_intended_word() {
     check("policy p {\n    pick mug\n}\n", &[("M0101", "`pick(mug)`")]);
     check(
         "policy p {\n    pick(mug) retry 3 within 20 s retry 2\n}\n",
@@ -194,7 +194,7 @@ fn help_says_what_was_meant() {
 }
 
 #[test]
-fn arrays_of_a_fixed_length_have_no_element_more() {
+fn schema_check_compares_lengths_of_arrays() {
     let steps = r#"{"if": {"less": [1, 2, 3]}, "then": []}, {"wait": {"more": [{"add": [1]}, 2]}}"#;
     check(
         &format!(r#"{{"motet": 1, "policy": "p", "steps": [{steps}]}}"#),
@@ -206,7 +206,7 @@ fn arrays_of_a_fixed_length_have_no_element_more() {
 }
 
 #[test]
-fn durations_are_of_time() {
+fn duration_has_a_unit_of_time() {
     for (written, help) in [
         ("20 m", "did you mean `\"20 min\"`?"),
         ("20", "did you mean `\"20 s\"`?"),
@@ -218,7 +218,7 @@ fn durations_are_of_time() {
 }
 
 #[test]
-fn the_depth_of_brackets_is_told_alike() {
+fn too_deep_is_the_same_in_both_syntaxes() {
     let document = format!(r#"{{"motet": 1, "policy": "p", "steps": {}"#, "[".repeat(300));
     check(&document, &[("M0111", "more than 264 levels deep; brackets nest at most 264 deep")]);
 }

@@ -50,7 +50,7 @@ fn parse(text: &str) -> Parsed {
 }
 
 #[test]
-fn both_forms_of_the_first_policy_are_read() {
+fn read_reads_both_syntaxes_alike() {
     for (document, form) in [(TEXT, Syntax::Text), (JSON, Syntax::Json)] {
         let parsed = parse(document);
         assert_eq!(parsed.diagnostics, []);
@@ -63,7 +63,7 @@ fn both_forms_of_the_first_policy_are_read() {
 }
 
 #[test]
-fn the_standard_library_is_read() {
+fn read_reads_the_standard_library() {
     for name in ["world", "motion", "manipulation", "perception", "people", "policies"] {
         let path = format!("{}/../../stdlib/motet/{name}.motet", env!("CARGO_MANIFEST_DIR"));
         #[expect(clippy::disallowed_methods, reason = "a test of files")]

@@ -25,7 +25,7 @@ const JSON: &str = r#"{"motet": 1, "policy": "p", "steps": [{"do": "go", "to": "
 const TEXT: &str = "policy p { go(a) }";
 
 #[test]
-fn a_fenced_document_is_found() {
+fn reply_finds_a_fenced_document() {
     check(&format!("```json\n{JSON}\n```"), Some("p"), &[]);
     check(&format!("```\n{TEXT}\n```\n"), Some("p"), &[]);
     check(
@@ -42,7 +42,7 @@ fn a_fenced_document_is_found() {
 }
 
 #[test]
-fn a_bare_document_in_prose_is_found() {
+fn reply_finds_a_bare_document_in_prose() {
     check(
         &format!("The plan {{as asked}} is {JSON}. Good luck!"),
         Some("p"),
@@ -58,7 +58,7 @@ fn a_bare_document_in_prose_is_found() {
 }
 
 #[test]
-fn a_fence_may_open_behind_words_and_close_behind_its_content() {
+fn reply_accepts_fences_within_lines() {
     check(&format!("First ```json\n{JSON}\n```"), Some("p"), &["M0116 First"]);
     check(
         &format!("First ```json\n{{\"a\": 1}}\n```\nand then\n```motet\n{TEXT}\n```"),
@@ -69,7 +69,7 @@ fn a_fence_may_open_behind_words_and_close_behind_its_content() {
 }
 
 #[test]
-fn braces_of_prose_are_no_part_of_a_policy() {
+fn reply_ignores_braces_of_prose() {
     check(&format!("{TEXT}\nIt says }} and {{ x."), Some("p"), &["M0116 It says } and { x."]);
     check(&format!("{TEXT}\nIt drives (see {{x}})."), Some("p"), &["M0116 It drives (see {x})."]);
     check(
@@ -82,13 +82,13 @@ fn braces_of_prose_are_no_part_of_a_policy() {
 }
 
 #[test]
-fn a_second_policy_is_told() {
+fn reply_reports_a_second_policy() {
     let reply = format!("```motet\n{TEXT}\n```\nor\n```motet\npolicy q {{ go(b) }}\n```");
     check(&reply, Some("p"), &["M0116 or", "M0116 policy q { go(b) }"]);
 }
 
 #[test]
-fn what_is_broken_is_no_prose() {
+fn reply_does_not_take_broken_documents_for_prose() {
     check(&format!("{JSON} {JSON}"), None, &["M0102 {"]);
     check("```json\n{\"motet\": 1, \"policy\": \"p\", \"steps\": [{\"do\": \"go\"", None, &["M0102 "]);
     check(
@@ -105,7 +105,7 @@ fn what_is_broken_is_no_prose() {
 }
 
 #[test]
-fn bytes_are_decoded() {
+fn decode_reads_utf8_and_byte_order_marks() {
     assert_eq!(decode(b"\xef\xbb\xbf{}", FileId(0)).unwrap(), "   {}");
     let error = decode(b"policy \xff", FileId(0)).unwrap_err();
     assert_eq!((error.code.0, error.span.start, error.severity), ("M0114", 7, Severity::Error));

@@ -28,7 +28,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 800, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn text_to_tree_to_text(bytes in bytes()) {
+    fn text_round_trips(bytes in bytes()) {
         let file = arbitrary::file(&bytes);
         let text = print::text(&file);
         let again = parse(&text);
@@ -37,7 +37,7 @@ proptest! {
     }
 
     #[test]
-    fn json_to_tree_to_json(bytes in bytes()) {
+    fn json_round_trips(bytes in bytes()) {
         let policy = arbitrary::json_policy(&bytes);
         let json = print::policy_json(&policy);
         let again = parse_policy(&json);
@@ -46,7 +46,7 @@ proptest! {
     }
 
     #[test]
-    fn json_to_text_to_json(bytes in bytes()) {
+    fn json_round_trips_through_text(bytes in bytes()) {
         let json = print::policy_json(&arbitrary::json_policy(&bytes));
         let text = print::text(&parse(&json));
         let again = parse_policy(&text);
@@ -56,7 +56,7 @@ proptest! {
     }
 
     #[test]
-    fn formatting_twice_is_formatting_once(bytes in bytes(), marks in proptest::collection::vec(any::<u16>(), 0..12)) {
+    fn format_is_idempotent(bytes in bytes(), marks in proptest::collection::vec(any::<u16>(), 0..12)) {
         let text = with_comments(&print::text(&arbitrary::file(&bytes)), &marks);
         let before = parse(&text);
         let once = print::format(&Source::new("test", text.as_str())).unwrap();

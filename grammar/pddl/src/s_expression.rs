@@ -11,35 +11,35 @@ use crate::errors::Malformed;
 
 /// A word or a list.
 #[derive(Clone, Debug)]
-pub(crate) struct Tree {
-    pub(crate) kind: Kind,
+pub(crate) struct SExpr {
+    pub(crate) kind: SExprKind,
     pub(crate) span: Span,
 }
 
 #[derive(Clone, Debug)]
-pub(crate) enum Kind {
+pub(crate) enum SExprKind {
     /// A word in lower case: PDDL ignores case.
     Word(SmolStr),
-    List(Vec<Tree>),
+    List(Vec<SExpr>),
 }
 
-impl Tree {
+impl SExpr {
     pub(crate) fn word(&self) -> Option<&SmolStr> {
         match &self.kind {
-            Kind::Word(word) => Some(word),
-            Kind::List(_) => None,
+            SExprKind::Word(word) => Some(word),
+            SExprKind::List(_) => None,
         }
     }
 
-    pub(crate) fn list(&self) -> Option<&[Tree]> {
+    pub(crate) fn list(&self) -> Option<&[SExpr]> {
         match &self.kind {
-            Kind::Word(_) => None,
-            Kind::List(items) => Some(items),
+            SExprKind::Word(_) => None,
+            SExprKind::List(items) => Some(items),
         }
     }
 
     /// The word that a list begins with, and what follows it.
-    pub(crate) fn form(&self) -> Option<(&SmolStr, &[Tree])> {
+    pub(crate) fn form(&self) -> Option<(&SmolStr, &[SExpr])> {
         let (head, rest) = self.list()?.split_first()?;
         Some((head.word()?, rest))
     }
@@ -47,8 +47,8 @@ impl Tree {
     /// Text of the tree in a message.
     pub(crate) fn shown(&self) -> String {
         match &self.kind {
-            Kind::Word(word) => format!("`{word}`"),
-            Kind::List(items) => match items.first().and_then(Tree::word) {
+            SExprKind::Word(word) => format!("`{word}`"),
+            SExprKind::List(items) => match items.first().and_then(SExpr::word) {
                 Some(head) => format!("`({head} …)`"),
                 None if items.is_empty() => "`()`".to_owned(),
                 None => "a list".to_owned(),
@@ -63,26 +63,27 @@ impl Tree {
 }
 
 /// The one tree of a file.
-pub(crate) fn read(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Option<Tree> {
-    let mut trees = read_all(input, said)?.into_iter();
+pub(crate) fn read(input: PddlSource<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<SExpr> {
+    let mut trees = read_all(input, diagnostics)?.into_iter();
     let Some(first) = trees.next() else {
         let span = Span::new(input.file, 0, 0);
-        said.push(Malformed { span, wanted: "`(define …)`".into(), found: "an empty file".into() }.into());
+        diagnostics
+            .push(Malformed { span, wanted: "`(define …)`".into(), found: "an empty file".into() }.into());
         return None;
     };
     if let Some(second) = trees.next() {
-        said.push(second.not("the end of the file").into());
+        diagnostics.push(second.not("the end of the file").into());
         return None;
     }
     Some(first)
 }
 
-/// All trees of a file; none after an error, which is said. O(bytes), without recursion.
-pub(crate) fn read_all(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Option<Vec<Tree>> {
+/// All trees of a file; none after an error, which is diagnostics. O(bytes), without recursion.
+pub(crate) fn read_all(input: PddlSource<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Vec<SExpr>> {
     let text: &str = &input.source.text;
     let span = |start, end| Span::new(input.file, start, end);
     // The lists that are open: where each began, and what is in it.
-    let mut open: Vec<(usize, Vec<Tree>)> = Vec::new();
+    let mut open: Vec<(usize, Vec<SExpr>)> = Vec::new();
     let mut top = Vec::new();
     let mut chars = text.char_indices().peekable();
     while let Some((at, char)) = chars.next() {
@@ -93,7 +94,7 @@ pub(crate) fn read_all(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Opt
             }
             _ if char.is_whitespace() => continue,
             '(' if open.len() >= MAX_NESTING => {
-                said.push(too_deep(span(at, at + 1), MAX_NESTING));
+                diagnostics.push(too_deep(span(at, at + 1), MAX_NESTING));
                 return None;
             }
             '(' => {
@@ -101,10 +102,10 @@ pub(crate) fn read_all(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Opt
                 continue;
             }
             ')' => match open.pop() {
-                Some((start, items)) => Tree { kind: Kind::List(items), span: span(start, at + 1) },
+                Some((start, items)) => SExpr { kind: SExprKind::List(items), span: span(start, at + 1) },
                 None => {
                     let (wanted, found) = ("the end of the file".into(), "`)`".into());
-                    said.push(Malformed { span: span(at, at + 1), wanted, found }.into());
+                    diagnostics.push(Malformed { span: span(at, at + 1), wanted, found }.into());
                     return None;
                 }
             },
@@ -114,11 +115,11 @@ pub(crate) fn read_all(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Opt
                     end = at + char.len_utf8();
                 }
                 let word = text.get(at..end).unwrap_or_default().to_lowercase();
-                Tree { kind: Kind::Word(word.into()), span: span(at, end) }
+                SExpr { kind: SExprKind::Word(word.into()), span: span(at, end) }
             }
             _ => {
                 let (span, found) = (span(at, at + char.len_utf8()), format!("`{}`", char.escape_default()));
-                said.push(Malformed { span, wanted: "a name or a bracket".into(), found }.into());
+                diagnostics.push(Malformed { span, wanted: "a name or a bracket".into(), found }.into());
                 return None;
             }
         };
@@ -129,7 +130,7 @@ pub(crate) fn read_all(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Opt
     }
     if let Some((start, _)) = open.pop() {
         let (wanted, found) = ("`)`".into(), "a list that is never closed".into());
-        said.push(Malformed { span: span(start, start + 1), wanted, found }.into());
+        diagnostics.push(Malformed { span: span(start, start + 1), wanted, found }.into());
         return None;
     }
     Some(top)

@@ -5,7 +5,7 @@ use smol_str::SmolStr;
 use crate::ast::Name;
 use crate::source::Span;
 
-pub(super) struct Choice<'b> {
+pub(super) struct ByteSource<'b> {
     bytes: std::slice::Iter<'b, u8>,
 }
 
@@ -39,7 +39,7 @@ const NAMES: &[&str] = &[
 const BOUND: &[&str] = &["b0", "b1", "retry", "until", "b 4", "entity"];
 const WORDS: &[&str] = &["pick", "holding", "open", "kind", "go", "if", "t 5", "at"];
 
-impl<'b> Choice<'b> {
+impl<'b> ByteSource<'b> {
     pub(super) fn new(bytes: &'b [u8]) -> Self {
         Self { bytes: bytes.iter() }
     }
