@@ -8,7 +8,8 @@
 use std::collections::BTreeMap;
 
 use motet_compiler::Options as CheckOptions;
-use motet_planner::conversation::{Builtin, Conversation, Nobody, Outcome, Setting, Watcher};
+use motet_planner::Builtin;
+use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator, Outcome};
 use motet_runtime::{DriverEvent, Effect, Event, GoalId, Outcome as Ending, RunEnd, Time};
 use motet_sim::{Faults, Sim, SimOptions};
 use serde::Serialize;
@@ -102,7 +103,7 @@ struct Observer {
     orphaned: Vec<String>,
 }
 
-impl Watcher for Observer {
+impl DialogueObserver for Observer {
     fn request(&mut self, now: Time) -> Option<String> {
         self.says.take_if(|(at, _)| *at <= now).map(|(_, says)| says.to_owned())
     }
@@ -157,7 +158,7 @@ pub fn run(task: &Task, robot: &str, wording: usize, draw: f64) -> Trial {
 fn play(task: &Task, robot: &str, wording: usize, change_at: Option<f64>) -> (Trial, Time) {
     let wording = wording % task.wordings.len().max(1);
     let (request, instead) = task.wordings.get(wording).copied().unwrap_or_default();
-    let setting = Setting {
+    let setting = DialogueSetup {
         robot: setup::robot(robot),
         scene: setup::scene(task.scene),
         domains: Vec::new(),
@@ -179,7 +180,7 @@ fn play(task: &Task, robot: &str, wording: usize, change_at: Option<f64>) -> (Tr
     };
     let mut talk = Conversation::new(&setting);
     let (outcome, end) =
-        talk.carry_out(request, &mut Builtin, &mut sim, &mut Nobody, &mut observer, Time::ZERO);
+        talk.carry_out(request, &mut Builtin, &mut sim, &mut NoOperator, &mut observer, Time::ZERO);
     let goal = task.goals.get(wording);
     let is_goal = goal.is_none_or(|(fluent, args, wanted)| sim.holds(fluent, args) == Some(*wanted));
     let dropped = setting.scene.entities.values().filter(|entity| entity.kind == "Object");

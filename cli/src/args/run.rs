@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
-use motet_planner::guard::Verifies;
+use motet_planner::runtime_check::CheckMode;
 
 use super::input::WorldArgs;
 
@@ -90,10 +90,10 @@ pub(crate) enum Speed {
 
 impl Speed {
     /// When motions are searched for that were left to the run: where time is virtual a run is the same each time.
-    pub(crate) const fn verifies(self) -> Verifies {
+    pub(crate) const fn verifies(self) -> CheckMode {
         match self {
-            Self::Max => Verifies::AtOnce,
-            Self::Times(_) => Verifies::Beside,
+            Self::Max => CheckMode::AtOnce,
+            Self::Times(_) => CheckMode::Beside,
         }
     }
 }

@@ -12,7 +12,8 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use motet_compiler::Options;
-use motet_planner::conversation::{Conversation, Outcome, Planner, Setting};
+use motet_planner::Planner;
+use motet_planner::dialogue::{Conversation, DialogueSetup, Outcome};
 use motet_runtime::{Driver, Time};
 use motet_sim::Sim;
 use motet_syntax::Sources;
@@ -57,7 +58,7 @@ fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Troub
     let simulator = run::simulator((&robot, &setting.session), &real, eye, &args.simulated, report)?;
     let asked = Rc::new(Asked::read(&args.ask)?);
     let recorder = args.record.as_deref().map(Recorder::create).transpose()?;
-    let setting = Setting {
+    let setting = DialogueSetup {
         robot,
         scene,
         domains,
@@ -84,7 +85,7 @@ fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Troub
 fn carry_out(
     args: &DoArgs,
     colors: Colors,
-    setting: &Setting,
+    setting: &DialogueSetup,
     planner: &mut dyn Planner,
     simulator: Sim,
     asked: &Rc<Asked>,

@@ -4,9 +4,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use motet_planner::builtin;
-use motet_planner::conversation::Problem;
 use motet_planner::dialect::actions;
 use motet_planner::dialect::exchange::{self, Exchange};
+use motet_planner::dialogue::Problem;
 use motet_planner::prompt;
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;

@@ -1,7 +1,7 @@
 //! `motet plan`: a policy for a request or a goal, by the planner that needs no model.
 
 use motet_compiler::plan::{Goal, Lasts, NoPlan};
-use motet_planner::builtin::{self, Unplanned};
+use motet_planner::builtin::{self, PlanError};
 use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
 use motet_syntax::ast::File;
@@ -40,7 +40,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, Trouble> {
             })
         }
         None => goals(&args.goal)
-            .map_err(Unplanned::from)
+            .map_err(PlanError::from)
             .and_then(|aims| builtin::plan(&setting.session, robot, "plan", &aims)),
     };
     match planned {
@@ -57,7 +57,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, Trouble> {
             }
             Ok(Exit::Clean)
         }
-        Err(Unplanned::NoPlan(NoPlan::Wrong { diagnostics })) => {
+        Err(PlanError::NoPlan(NoPlan::Wrong { diagnostics })) => {
             for said in &diagnostics {
                 note(&format!("{}: {}", said.code, said.message));
             }

@@ -1,6 +1,6 @@
 //! `motet prompt`: what a model would see of a request.
 
-use motet_planner::prompt::{self, Lasting, Prompt};
+use motet_planner::prompt::{self, Prompt, StaticPrompt};
 use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_runtime::memory::{Memory, MemoryLimits};
@@ -40,7 +40,7 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, Trouble> {
         scene: &scene,
         situation: &situation,
         memory: &memory,
-        lasting: &Lasting::new(&setting.session, robot, &scene),
+        lasting: &StaticPrompt::new(&setting.session, robot, &scene),
         tokens: args.tokens,
         time: prompt::TIME,
     };

@@ -21,7 +21,7 @@ use std::path::Path;
 
 use motet_compiler::Session;
 use motet_graph::Graph;
-use motet_planner::guard::Guard;
+use motet_planner::runtime_check::Guard;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, EngineSettings, Event, StartState, Time};

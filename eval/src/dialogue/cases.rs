@@ -1,6 +1,6 @@
 //! The cases: every wording in every room, with every kind of failure that it can have.
 
-use motet_planner::conversation::Kind;
+use motet_planner::dialogue::Kind;
 use motet_robots::scene::Scene;
 
 use super::room::{Named, ROOMS, Room};

@@ -11,10 +11,9 @@ mod tables;
 use std::time::{Duration, Instant};
 
 use motet_compiler::Options as CheckOptions;
-use motet_planner::builtin::{Answered, Unplanned};
-use motet_planner::conversation::{
-    Ask, Builtin, Conversation, Kind, Outcome, Person, Planner, Problem, Setting,
-};
+use motet_planner::builtin::{PlanError, PlannedRequest};
+use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
+use motet_planner::{Builtin, PlanRequest, Planner};
 use motet_runtime::Time;
 use motet_sim::{Faults, Sim, SimOptions};
 
@@ -69,7 +68,7 @@ struct Timed {
 }
 
 impl Planner for Timed {
-    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         let begin = Instant::now();
         let _ = motet_requests::understand(ask.request, ask.situation);
         self.words += begin.elapsed();
@@ -96,8 +95,13 @@ pub fn run(case: Case) -> Trial {
     let real = case.real(&told);
     let faults = Faults::from_json(&case.faults()).unwrap_or_default();
     let mut sim = Sim::new(&robot, &real, SimOptions { faults, ..SimOptions::default() });
-    let setting =
-        Setting { robot, scene: told, domains: Vec::new(), geometry: None, options: CheckOptions::default() };
+    let setting = DialogueSetup {
+        robot,
+        scene: told,
+        domains: Vec::new(),
+        geometry: None,
+        options: CheckOptions::default(),
+    };
     let mut talk = Conversation::new(&setting);
     let mut person = Scripted { answers: case.answers(), asked: Vec::new(), questions: Vec::new() };
     let mut planner = Timed::default();

@@ -1,6 +1,6 @@
 //! The trials added up, in the layout of InteLiPlan's tables.
 
-use motet_planner::conversation::Kind;
+use motet_planner::dialogue::Kind;
 use serde::Serialize;
 
 use super::Trial;

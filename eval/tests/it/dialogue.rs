@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use motet_eval::dialogue;
-use motet_planner::conversation::Kind;
+use motet_planner::dialogue::Kind;
 
 /// Of the cases of twenty equal wordings and some lines behind them: what is asked for, and what is answered to questions of
 /// each kind.

@@ -20,9 +20,9 @@ use motet_client::{Client, ClientSettings};
 use motet_compiler::{Session, State};
 use motet_decode::export::{Dialect, Offer, request_constraint};
 use motet_decode::{AcceptorFactory as Acceptors, Subset};
-use motet_planner::conversation::{Conversation, Nobody, Setting, Watcher};
-use motet_planner::model::{self, Judged, ModelPlanner, Reading, Start, judge};
-use motet_planner::prompt::{Lasting, Prompt, TIME, TOKENS};
+use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator};
+use motet_planner::model::{self, ModelPlanner, ReplyVerdict, Start, StreamReader, judge};
+use motet_planner::prompt::{Prompt, StaticPrompt, TIME, TOKENS};
 use motet_requests::RequestContext;
 use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_runtime::{Effect, Engine, PreparedSwap, StartState, Time};
@@ -94,19 +94,19 @@ fn overhead() {
 /// State that is built once for a robot in a room.
 struct Kept {
     session: Session,
-    lasting: Lasting,
+    lasting: StaticPrompt,
     offer: Offer,
     constraint: String,
     acceptors: Acceptors,
 }
 
 impl Kept {
-    fn new(setting: &Setting) -> Self {
+    fn new(setting: &DialogueSetup) -> Self {
         let session = session(setting);
         let offer = Offer::new(&session.signatures(), Subset::default());
         let constraint = request_constraint(Dialect::Vllm, &offer).unwrap().to_string();
         Self {
-            lasting: Lasting::new(&session, &setting.robot, &setting.scene),
+            lasting: StaticPrompt::new(&session, &setting.robot, &setting.scene),
             acceptors: Acceptors::new(&session, Subset::default()),
             session,
             offer,
@@ -115,13 +115,13 @@ impl Kept {
     }
 }
 
-fn session(setting: &Setting) -> Session {
+fn session(setting: &DialogueSetup) -> Session {
     let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
     Session::new(robot, &[], scene, None, setting.options, &mut Sources::default()).0
 }
 
 /// Everything between a request and the new policy, with its times.
-fn once(setting: &Setting, kept: &Kept, request: &str, reply: &str) -> Vec<(&'static str, Duration)> {
+fn once(setting: &DialogueSetup, kept: &Kept, request: &str, reply: &str) -> Vec<(&'static str, Duration)> {
     let mut laps = Vec::new();
     let mut from = Instant::now();
     let mut lap = |name| {
@@ -150,7 +150,7 @@ fn once(setting: &Setting, kept: &Kept, request: &str, reply: &str) -> Vec<(&'st
     // As a client does before it sends what it made for the same offer.
     assert!(kept.offer == kept.offer.clone() && !kept.constraint.is_empty());
     lap("constraint");
-    let mut reading = Reading::new(&session, kept.acceptors.elsewhere(&session).acceptor(16_000));
+    let mut reading = StreamReader::new(&session, kept.acceptors.elsewhere(&session).acceptor(16_000));
     let letters: Vec<char> = reply.chars().collect();
     let (before, last) = letters.split_at(letters.len() - 4);
     for piece in before.chunks(4) {
@@ -160,8 +160,8 @@ fn once(setting: &Setting, kept: &Kept, request: &str, reply: &str) -> Vec<(&'st
     let _ = reading.push(&last.iter().collect::<String>());
     lap("read the last piece");
     let judged = judge(&session, reading.policy());
-    assert!(matches!(judged, Judged::Good { .. }), "{judged:?}");
-    let Judged::Good { planned, .. } = judged else { return laps };
+    assert!(matches!(judged, ReplyVerdict::Good { .. }), "{judged:?}");
+    let ReplyVerdict::Good { planned, .. } = judged else { return laps };
     lap("check, motions, compile");
     let graph = planned.compiled.graph.unwrap();
     let entities = setting.scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
@@ -185,7 +185,7 @@ fn rank(laps: &mut [Duration], percent: usize) -> Duration {
 /// Notes when the robot is first told to do something.
 struct First(Instant, Option<Duration>);
 
-impl Watcher for First {
+impl DialogueObserver for First {
     fn effect(&mut self, _: Time, effect: &Effect) {
         if matches!(effect, Effect::Start { .. }) {
             self.1.get_or_insert(self.0.elapsed());
@@ -211,7 +211,7 @@ fn first_action() {
                 request,
                 &mut planner,
                 &mut sim,
-                &mut Nobody,
+                &mut NoOperator,
                 &mut first,
                 Time::ZERO,
             );

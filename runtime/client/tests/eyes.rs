@@ -9,8 +9,8 @@ use common::server::{Act, Server};
 use common::world::{Heard, brisk, planner, right, session, setting};
 use motet_client::Client;
 use motet_graph::{Pose, Value};
-use motet_planner::conversation::{Conversation, Nobody, Outcome};
-use motet_planner::vision::Pointing;
+use motet_planner::dialogue::{Conversation, NoOperator, Outcome};
+use motet_planner::vision::GroundingDriver;
 use motet_runtime::{
     CameraImage, CameraModel, DepthImage, Detection, Engine, Perception, RgbdView, RunEnd, StartState, Time,
 };
@@ -49,7 +49,7 @@ fn a_fresh_picture_goes_with_every_plan() {
     let mut talk = Conversation::new(&setting).with_eyes(Head);
     let heard = Heard::default();
     let mut planner = planner(brisk(&server), &heard);
-    let (outcome, _) = talk.carry_out(COKE, &mut planner, &mut sim, &mut Nobody, &mut (), Time::ZERO);
+    let (outcome, _) = talk.carry_out(COKE, &mut planner, &mut sim, &mut NoOperator, &mut (), Time::ZERO);
     assert_eq!(outcome, Outcome::Done, "{:?}", heard.0.borrow());
     let shown = |index: usize| {
         let content = server.heard()[index].body["messages"][1]["content"].clone();
@@ -97,7 +97,7 @@ fn point(server: &Server, within: &str) -> (RunEnd, Option<Value>) {
     let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let pointer = Box::new(Client::new(brisk(server)).unwrap());
     let mut sight = Wall;
-    let mut driver = Pointing::new(&mut sim, &mut sight, &setting.scene, pointer);
+    let mut driver = GroundingDriver::new(&mut sim, &mut sight, &setting.scene, pointer);
     let end = motet_runtime::run(&mut engine, &mut driver, &mut (), Time::ZERO);
     let found = engine.snapshot().bindings.into_iter().find(|(name, _)| name == "handle");
     (end, found.map(|(_, value)| value))

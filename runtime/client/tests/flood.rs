@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use common::server::{Act, Server};
 use common::world::{Heard, brisk, carry_out, planner, right, setting};
 use motet_client::ClientSettings;
-use motet_planner::conversation::Outcome;
+use motet_planner::dialogue::Outcome;
 
 const REQUESTS: &[&str] = &["bring me the coke", "open the fridge", "put the red mug in the cupboard"];
 

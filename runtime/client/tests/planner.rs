@@ -11,10 +11,11 @@ use common::world::{Heard, brisk, carry_out, carry_out_with, planner, right, ses
 use motet_client::Client;
 use motet_decode::export::Offer;
 use motet_decode::{AcceptorFactory, Subset};
-use motet_planner::builtin::{self, Answered};
-use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Problem, Watcher};
+use motet_planner::builtin::{self, PlannedRequest};
+use motet_planner::dialogue::{Conversation, DialogueObserver, NoOperator, Outcome, Person, Problem};
 use motet_planner::model::{
-    Finish, Message, Model, ModelError, ModelPlanner, News, Reading, Reply, Settings, Start, Verdict,
+    Finish, Message, Model, ModelError, ModelPlanner, News, Reply, Settings, Start, StreamReader,
+    StreamVerdict,
 };
 use motet_requests::RequestContext;
 use motet_runtime::{Effect, SwapRefusal, Time};
@@ -152,9 +153,9 @@ fn a_reply_that_is_wrong_is_read_no_further_than_the_value_that_is() {
     for (key, name) in [("what", "umbrella_stand"), ("object", "umbrella_stand"), ("object", "user")] {
         let from = right.find(&format!("\"{key}\":\"coke\"")).unwrap() + key.len() + 4;
         let wrong = right.replacen(&format!("\"{key}\":\"coke\""), &format!("\"{key}\":\"{name}\""), 1);
-        let mut reading = Reading::new(&session, prepared.acceptor(4_000));
+        let mut reading = StreamReader::new(&session, prepared.acceptor(4_000));
         let verdict = reading.push(&wrong);
-        let Verdict::Wrong(found) = verdict else { panic!("{name}: {verdict:?}") };
+        let StreamVerdict::Wrong(found) = verdict else { panic!("{name}: {verdict:?}") };
         assert!((from..from + name.len()).contains(&found.at), "{name}: {found:?}");
         assert!(reading.reply().len() <= from + name.len() + 60, "{name}: {}", reading.reply());
     }
@@ -170,14 +171,14 @@ fn a_right_reply_is_never_stopped_however_it_is_cut() {
     {
         let right = right(&setting, request);
         for each in [1, 5, 400] {
-            let mut reading = Reading::new(&session, prepared.acceptor(16_000));
+            let mut reading = StreamReader::new(&session, prepared.acceptor(16_000));
             let letters: Vec<char> = right.chars().collect();
-            let mut last = Verdict::GoOn;
+            let mut last = StreamVerdict::GoOn;
             for piece in letters.chunks(each) {
                 last = reading.push(&piece.iter().collect::<String>());
-                assert!(!matches!(last, Verdict::Wrong(_)), "{request}: {last:?}");
+                assert!(!matches!(last, StreamVerdict::Wrong(_)), "{request}: {last:?}");
             }
-            assert_eq!(last, Verdict::Whole, "{request}");
+            assert_eq!(last, StreamVerdict::Whole, "{request}");
         }
     }
 }
@@ -209,8 +210,8 @@ fn an_answer_in_any_words_reaches_the_model() {
 #[derive(Default)]
 struct Steps(Vec<String>, Vec<usize>);
 
-impl Watcher for Steps {
-    fn planned(&mut self, answered: &Answered, _: &std::sync::Arc<motet_graph::Graph>) {
+impl DialogueObserver for Steps {
+    fn planned(&mut self, answered: &PlannedRequest, _: &std::sync::Arc<motet_graph::Graph>) {
         let policy = answered.planned.parsed.file.policies().next().unwrap();
         self.1.push(policy.body.steps.len());
     }
@@ -229,7 +230,8 @@ fn steps(script: Vec<Act>, start: Start, request: &str) -> (Outcome, Steps, Vec<
     let mut planner = ModelPlanner::new(Client::new(brisk(&server)).unwrap(), heard.clone(), how);
     let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (mut talk, mut steps) = (Conversation::new(&setting), Steps::default());
-    let (outcome, _) = talk.carry_out(request, &mut planner, &mut sim, &mut Nobody, &mut steps, Time::ZERO);
+    let (outcome, _) =
+        talk.carry_out(request, &mut planner, &mut sim, &mut NoOperator, &mut steps, Time::ZERO);
     let heard = heard.0.borrow().clone();
     (outcome, steps, heard, sim)
 }
@@ -303,7 +305,7 @@ struct Impatient {
     swaps: usize,
 }
 
-impl Watcher for Impatient {
+impl DialogueObserver for Impatient {
     fn at_least_every(&self) -> Time {
         Time::from_secs(0.02)
     }
@@ -328,7 +330,8 @@ fn a_request_made_meanwhile_is_planned_without_making_the_robot_wait() {
     let mut planner = ModelPlanner::new(told, heard.clone(), Settings::default());
     let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (mut talk, mut watcher) = (Conversation::new(&setting), Impatient::default());
-    let (outcome, _) = talk.carry_out(COKE, &mut planner, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
+    let (outcome, _) =
+        talk.carry_out(COKE, &mut planner, &mut sim, &mut NoOperator, &mut watcher, Time::ZERO);
     assert_eq!((outcome, watcher.swaps), (Outcome::Done, 1), "{:?}", heard.0.borrow());
     assert_eq!(*heard.0.borrow(), ["asked 0", "taken", "asked 0", "taken"]);
     assert_eq!(sim.holds("open", &["fridge_1"]), Some(true), "{:?}", heard.0.borrow());

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use common::world::setting;
 use motet_graph::Value;
-use motet_planner::vision::{Pointer, Pointing};
+use motet_planner::vision::{GroundingDriver, Pointer};
 use motet_runtime::conformance::{ConformanceSubject, Law, check};
 use motet_runtime::{CameraImage, Command, Driver, Query, Time};
 use motet_sim::{Sim, SimOptions};
@@ -24,11 +24,11 @@ impl Pointer for Slow {
 }
 
 /// A fresh driver in the kitchen that lives as long as the test.
-fn pointing(after: Duration) -> Pointing<'static> {
+fn pointing(after: Duration) -> GroundingDriver<'static> {
     let setting = Box::leak(Box::new(setting()));
     let sim = || Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (driver, eyes) = (Box::leak(Box::new(sim())), Box::leak(Box::new(sim())));
-    Pointing::new(driver, eyes, &setting.scene, Box::new(Slow(after)))
+    GroundingDriver::new(driver, eyes, &setting.scene, Box::new(Slow(after)))
 }
 
 /// The laws that it breaks, by a command that is started.

@@ -1,6 +1,6 @@
 //! Cases: a request in words for something in a room, what shall come of it, and what goes wrong on the way.
 
-use motet_planner::conversation::Kind;
+use motet_planner::dialogue::Kind;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
 use motet_sim::{CallFault, CallFaultKind, Faults};
@@ -10,28 +10,27 @@ use crate::random::Draw;
 use crate::scenery::is_bin;
 use crate::wordings::{Task, Wordings};
 
-/// A case.
+/// One conversation to record: a request, and the failures on its way.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// What is asked for.
     pub task: Task,
     /// In which words.
     pub request: String,
     /// A fact, and whether it shall hold at the end.
     pub goal: (&'static str, Vec<SmolStr>, bool),
-    /// What goes wrong, in order.
+    /// Failures in their order.
     pub failures: Vec<Kind>,
     /// The room as it is, where that is not as the robot was told.
     pub real: Scene,
-    /// What goes wrong with steps.
+    /// Injected faults of steps.
     pub faults: Faults,
-    /// What the person answers to the question of each kind.
+    /// Answers of the person to questions of each kind.
     pub answers: Vec<(Kind, String)>,
-    /// Whether the person gives it up: what is asked for cannot be done.
+    /// The person gives up, since the request cannot be carried out.
     pub is_given_up: bool,
 }
 
-/// What goes wrong, with its weight: nothing, each kind by itself, two after each other.
+/// Weights of the failure sequences: none, each kind alone, two in a row.
 const TROUBLES: &[(usize, &[Kind])] = &[
     (9, &[]),
     (2, &[Kind::NotFound]),
@@ -43,7 +42,7 @@ const TROUBLES: &[(usize, &[Kind])] = &[
     (1, &[Kind::NotFound, Kind::ActionFailed]),
     (1, &[Kind::AmbiguousTask, Kind::NotReachable]),
 ];
-/// How often a step that merely failed is tried before somebody is asked, and once more.
+/// Number of attempts of a step that merely failed, before a question and once more.
 const SLIPS: u32 = 3;
 
 /// Draws a case for a robot in a room; none where the room has nothing for what was drawn. O(things²).
@@ -158,7 +157,7 @@ fn drawn_failures(draw: &mut Draw) -> &'static [Kind] {
     &[]
 }
 
-/// What goes wrong with the steps that pick up.
+/// Faults of the steps that pick up.
 fn faults(failures: &[Kind]) -> Faults {
     let fails = |nth: u32, kind: &'static str| CallFault {
         primitive: SmolStr::new_static("pick"),
@@ -208,7 +207,7 @@ fn other_place<'r>(room: &'r Scene, kind: &str, thing: &Entity, draw: &mut Draw)
     draw.pick(&places).copied()
 }
 
-/// Whether something is a container that the robot can open and close.
+/// Returns `true` for a container that the robot can open and close.
 fn is_closet(entity: &Entity) -> bool {
     entity.kind == "Container" && entity.travel.is_some() && entity.locked != Some(true)
 }
@@ -220,7 +219,7 @@ fn can_carry(robot: &Robot, thing: &Entity) -> bool {
     })
 }
 
-/// What people call something, with its article: one of the names that nothing else here has.
+/// Name of an entity in speech, with its article: one of the names that nothing else in the room has.
 fn the(room: &Scene, entity: &Entity, draw: &mut Draw) -> Option<String> {
     let own = entity.names.iter().chain([&entity.class]).filter(|name| !name.is_empty());
     let names: Vec<&SmolStr> = own.filter(|name| room.matches(name).len() == 1).collect();

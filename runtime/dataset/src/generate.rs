@@ -20,34 +20,33 @@ use crate::scenery;
 use crate::stage::{Body, Stage};
 use crate::wordings::Wordings;
 
-/// What is to be made.
+/// Order for a dataset.
 #[derive(Clone, Debug)]
 pub struct Order {
     /// The same seed gives the same dataset.
     pub seed: u64,
-    /// The robots.
     pub bodies: Vec<Body>,
     /// Rooms by name, to be varied in turn.
     pub rooms: Vec<(SmolStr, Scene)>,
     /// Things that may stand in them beside their own.
     pub things: Scene,
-    /// How people speak.
+    /// Wordings of requests and answers.
     pub wordings: Wordings,
-    /// How many varied rooms.
+    /// Number of varied rooms.
     pub scenes: usize,
-    /// How many cases for each robot in each of them.
+    /// Number of cases for each robot in each room.
     pub cases: usize,
-    /// Which share of the varied rooms is kept for tests, between 0 and 1.
+    /// Share of the varied rooms that is kept for tests, between 0 and 1.
     pub test: f64,
-    /// How long motions are looked for; not at all where there is none.
+    /// Budget of a motion search; without one, no motion is searched.
     pub effort: Option<SearchBudget>,
     /// In which form the rows will be written: what that cannot say is left out.
     pub form: Form,
-    /// Whether rows have pictures; in InteLiPlan's form none has.
+    /// Images of the rows. The form of InteLiPlan has none.
     pub pictures: Pictures,
 }
 
-/// What came of one varied room.
+/// Rows of one varied room.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
     rows: Vec<Row>,
@@ -56,7 +55,7 @@ pub struct Part {
     dropped: BTreeMap<&'static str, usize>,
 }
 
-/// A dataset.
+/// A dataset in memory, before it is written.
 #[derive(Clone, Debug, Default)]
 pub struct Dataset {
     /// To learn from.
@@ -67,12 +66,12 @@ pub struct Dataset {
     pub scenes: IndexMap<SmolStr, Scene>,
     /// The picture of each row that has one, by its path: PNGs.
     pub pictures: BTreeMap<SmolStr, Arc<[u8]>>,
-    /// How many cases and turns were left out, and why.
+    /// Number of dropped cases and turns by reason.
     pub dropped: BTreeMap<&'static str, usize>,
 }
 
 impl Order {
-    /// What pictures the rows can have.
+    /// Images that the form allows.
     const fn shown(&self) -> Pictures {
         match self.form {
             Form::InteLiPlan => Pictures::None,
@@ -81,7 +80,7 @@ impl Order {
     }
 }
 
-/// How often a case is drawn anew where a room has nothing for the first.
+/// Number of draws of a case in a room that has nothing for the first one.
 const DRAWS: usize = 8;
 
 /// Makes the rows of one varied room, by its number below [`Order::scenes`]. Each number by itself gives the same, so they
@@ -220,7 +219,7 @@ pub fn gather(order: &Order, parts: Vec<Part>) -> Dataset {
     dataset
 }
 
-/// Which varied rooms are kept for tests. At least one is where a share is asked for, and one is always left to learn from.
+/// Chooses the rooms that are kept for tests: at least one if the share is above 0, and never all.
 fn tested(order: &Order) -> Vec<bool> {
     let wanted = (order.test.clamp(0.0, 1.0) * order.scenes as f64).round() as usize;
     let least = usize::from(order.test > 0.0);

@@ -1,5 +1,5 @@
-//! What is wrong with files of rows: rows that cannot be read, plans that cannot run on their robot, other answers to the
-//! same input, the same row twice, rooms that are in more than one file, and pictures that are not there.
+//! Faults in files of rows: unreadable rows, plans that cannot run on their robot, different replies to one
+//! input, repeated rows, rooms in more than one file, and missing images.
 
 use indexmap::IndexMap;
 use motet_geometry::planning::SearchBudget;
@@ -12,7 +12,7 @@ use smol_str::SmolStr;
 use crate::form::{self, Read, Target};
 use crate::stage::{Body, Stage};
 
-/// What is wrong.
+/// Fault of a row.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Fault {
     /// It is no row in any of the forms.
@@ -59,9 +59,7 @@ pub struct Place {
 /// Something that is wrong with a row.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Finding {
-    /// Which row.
     pub at: Place,
-    /// What is wrong.
     pub fault: Fault,
     /// The same in words.
     pub message: String,
@@ -80,13 +78,13 @@ pub struct Worlds {
     pub robot: Option<SmolStr>,
     /// The room of rows that name none.
     pub scene: Option<SmolStr>,
-    /// How long motions are looked for; not at all where there is none.
+    /// Budget of a motion search; without one, no motion is searched.
     pub effort: Option<SearchBudget>,
 }
 
 /// Looks after the pictures that rows refer to.
 pub trait Shelf {
-    /// What is wrong with a picture that a row of a file refers to by a path.
+    /// Checks the image at a path that a row of `file` names, and returns its fault.
     fn fault(&mut self, file: &str, path: &str) -> Option<String>;
 }
 
@@ -123,7 +121,7 @@ impl<'w> Linter<'w> {
         Self { shelf: Some(shelf), ..self }
     }
 
-    /// What is wrong with a line of a file, its number from 1; nothing with an empty one.
+    /// Checks line `number` of a file, counted from 1. An empty line has no fault.
     pub fn line(&mut self, file: &str, number: usize, line: &str) -> Vec<Finding> {
         if line.trim().is_empty() {
             return Vec::new();
@@ -174,7 +172,7 @@ impl<'w> Linter<'w> {
         found
     }
 
-    /// Where the room of a row is in another file, told once for each room and file.
+    /// Finds the room of a row in another file. Reports each room and file once.
     fn leak(&mut self, row: &Read, at: &Place) -> Option<(Place, SmolStr)> {
         let scene = row.scene.clone()?;
         let room = SmolStr::from(family(&scene));
@@ -183,7 +181,7 @@ impl<'w> Linter<'w> {
         is_new.then_some((first, scene))
     }
 
-    /// Why the plan of a row cannot run.
+    /// Checks that the plan of a row can run, and returns its fault.
     ///
     /// # Errors
     ///
@@ -213,7 +211,7 @@ impl<'w> Linter<'w> {
     }
 }
 
-/// Why an answer cannot be carried out on a stage; none where it can, or asks something.
+/// Checks that a reply can be carried out on a stage, or asks something, and returns its fault.
 #[must_use]
 pub fn fault(stage: &Stage, target: &Target) -> Option<String> {
     match target {

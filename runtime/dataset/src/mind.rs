@@ -5,11 +5,12 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use motet_decode::{Subset, canonical};
-use motet_planner::builtin::{Answered, Unplanned};
-use motet_planner::conversation::{Ask, Builtin, Planner, Problem};
+use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::dialect::{actions, exchange};
+use motet_planner::dialogue::Problem;
 use motet_planner::model;
 use motet_planner::prompt;
+use motet_planner::{Builtin, PlanRequest, Planner};
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Perception as _, Time};
 use motet_sim::Sim;
@@ -25,7 +26,7 @@ pub(crate) struct Turn {
     pub(crate) scene: Scene,
     pub(crate) system: String,
     pub(crate) user: String,
-    /// What the camera sees then.
+    /// Camera image at that moment.
     pub(crate) picture: Option<Picture>,
     pub(crate) request: String,
     pub(crate) history: String,
@@ -49,7 +50,7 @@ pub(crate) struct Mind {
 }
 
 impl Planner for Mind {
-    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         let answer = Builtin.plan(ask);
         let mut chat = model::chat(ask, prompt::TOKENS).into_iter().map(|message| message.text);
         let (system, user) = (chat.next().unwrap_or_default(), chat.next().unwrap_or_default());
@@ -107,7 +108,7 @@ impl Mind {
     }
 
     /// The room as it is known: what is believed of things counts where it is not the case.
-    fn scene_now(&self, ask: &Ask<'_>) -> Scene {
+    fn scene_now(&self, ask: &PlanRequest<'_>) -> Scene {
         let sim = self.sim.borrow();
         let mut scene = self.told.clone();
         let base = sim.base();
@@ -151,7 +152,7 @@ impl Mind {
 }
 
 /// The robot as it stands, in the words of the dialect.
-fn stance(ask: &Ask<'_>, now: &Scene) -> String {
+fn stance(ask: &PlanRequest<'_>, now: &Scene) -> String {
     let mut text = format!("robot: {}", ask.robot.name);
     if let Some(place) = &now.robot.at {
         text.push_str(&format!(", at {place}"));
@@ -162,7 +163,7 @@ fn stance(ask: &Ask<'_>, now: &Scene) -> String {
     text
 }
 
-/// What is known of a thing, in the words of the dialect: `coke: not seen, in fridge_1 (closed)`.
+/// Knowledge of a thing in the words of the dialect: `coke: not seen, in fridge_1 (closed)`.
 fn sight(now: &Scene, id: &str) -> Option<String> {
     let entity = now.entities.get(id)?;
     let word = match entity.visible {
@@ -184,14 +185,14 @@ fn sight(now: &Scene, id: &str) -> Option<String> {
 }
 
 /// A policy as a model writes it.
-fn surfaced(ask: &Ask<'_>, text: &str) -> Result<String, String> {
+fn surfaced(ask: &PlanRequest<'_>, text: &str) -> Result<String, String> {
     let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
     let policy = parsed.file.policies().next().ok_or_else(|| "there is no policy".to_owned())?;
     canonical(policy, &ask.session.signatures(), Subset::default()).map_err(|outside| outside.why)
 }
 
 /// A policy that asks a question, whose answer goes into the next plan.
-fn asking(ask: &Ask<'_>, question: &str) -> String {
+fn asking(ask: &PlanRequest<'_>, question: &str) -> String {
     let plain: String =
         question.chars().map(|letter| if letter == '"' || letter == '\\' { '\'' } else { letter }).collect();
     let robot = print::identifier(&ask.robot.name);

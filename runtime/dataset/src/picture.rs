@@ -9,17 +9,16 @@ use smol_str::{SmolStr, format_smolstr};
 /// The folder of pictures, beside the files of rows.
 pub const FOLDER: &str = "images";
 
-/// Whether rows have pictures.
+/// Images of rows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Pictures {
-    /// None has.
     #[default]
     None,
     /// Each has one.
     EachRow,
 }
 
-/// A PNG.
+/// Bytes of a PNG image.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Picture(pub(crate) Arc<[u8]>);
 
@@ -32,8 +31,8 @@ impl Picture {
     }
 }
 
-/// Why the bytes of a file are no picture that a trainer reads; none where they are. A PNG is decoded, of the other kinds the
-/// first bytes are looked at.
+/// Checks that trainers can read the bytes of an image file, and returns the fault. A PNG is decoded; of
+/// other formats the first bytes are compared.
 #[must_use]
 pub fn fault(bytes: &[u8]) -> Option<String> {
     match bytes {

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use motet_compiler::Options as CheckOptions;
-use motet_planner::conversation::{Conversation, Kind, Outcome, Person, Problem, Setting};
+use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
 use motet_runtime::Time;
 use motet_sim::{Sim, SimOptions};
 
@@ -30,7 +30,7 @@ pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec
     let options = SimOptions { faults: case.faults.clone(), eye, ..SimOptions::default() };
     let mut driver = Rc::new(RefCell::new(Sim::new(&stage.robot, &case.real, options)));
     let mut mind = Mind { told: stage.scene.clone(), sim: driver.clone(), pictures, turns: Vec::new() };
-    let setting = Setting {
+    let setting = DialogueSetup {
         robot: stage.robot.clone(),
         scene: stage.scene.clone(),
         domains: Vec::new(),

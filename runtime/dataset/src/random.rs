@@ -5,7 +5,7 @@
 pub struct Draw(u64);
 
 impl Draw {
-    /// A source.
+    /// Starts the stream of a seed.
     #[must_use]
     pub const fn new(seed: u64) -> Self {
         Self(seed)
@@ -44,7 +44,7 @@ impl Draw {
         usize::try_from(self.bits() % count).unwrap_or_default()
     }
 
-    /// Whether something of this probability happens.
+    /// Draws an event of this probability.
     pub fn chance(&mut self, probability: f64) -> bool {
         self.unit() < probability
     }

@@ -16,7 +16,7 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, render};
 /// A robot with its body.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Its card.
+    /// Robot card.
     pub robot: Robot,
     /// Its links and joints; without them no motion is looked for.
     pub urdf: Option<Urdf>,
@@ -25,13 +25,11 @@ pub struct Body {
 /// A robot in a room.
 #[derive(Debug)]
 pub struct Stage {
-    /// What plans are checked against.
+    /// Session that checks the plans.
     pub session: Session,
     /// The robot's body in the room, where motions are looked for.
     pub geometry: Option<Arc<Geometry>>,
-    /// The robot.
     pub robot: Robot,
-    /// The room.
     pub scene: Scene,
 }
 
@@ -63,8 +61,8 @@ impl Stage {
         Ok(Self { session, geometry, robot: robot.clone(), scene: scene.clone() })
     }
 
-    /// Why a plan cannot be carried out here, in either form of the language; none where it can: it passes the check,
-    /// motions included, and a simulated run of it comes to its end, or to the question that it asks.
+    /// Carries a plan out in either syntax and returns its fault. A plan without one passes the check with
+    /// its motions, and a simulated run reaches the end, or the question that the plan asks.
     #[must_use]
     pub fn fault(&self, plan: &str) -> Option<String> {
         let parsed = motet_syntax::read(&Source::new("plan", plan), FileId(0));
@@ -111,7 +109,7 @@ impl Stage {
     }
 }
 
-/// What stands in a document, for people.
+/// Description of a document's item, for messages.
 fn what(item: &Item) -> String {
     let text = motet_syntax::print::text(&File { items: vec![item.clone()] });
     let line = text.lines().find(|line| !line.trim_start().starts_with("//")).unwrap_or_default();

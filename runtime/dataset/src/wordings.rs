@@ -5,7 +5,7 @@ use thiserror::Error;
 /// The wordings that come with Motet.
 pub const OWN: &str = include_str!("../data/wordings.txt");
 
-/// What is asked for.
+/// Kind of request.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Task {
     /// A thing to the person who asks.
@@ -46,7 +46,7 @@ impl Task {
         }
     }
 
-    /// Whether it is about a thing that is carried.
+    /// Returns `true` if the task moves a thing.
     #[must_use]
     pub const fn carries(self) -> bool {
         match self {
@@ -55,7 +55,7 @@ impl Task {
         }
     }
 
-    /// What its wordings have a hole for.
+    /// Slots of the task's wordings.
     const fn holes(self) -> &'static [&'static str] {
         match self {
             Self::Bring | Self::Throw | Self::Pick => &["{thing}"],
@@ -65,12 +65,12 @@ impl Task {
     }
 }
 
-/// What people say, by what it is for.
+/// Wordings by purpose.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Wordings {
     /// Requests; `{thing}` and `{place}` are names with their articles.
     pub requests: Vec<(Task, String)>,
-    /// Where something is; `{at}` is a place with its preposition.
+    /// Statements of a location; `{at}` is a place with its preposition.
     pub places: Vec<String>,
     /// To try again.
     pub again: Vec<String>,
@@ -84,9 +84,8 @@ pub struct Wordings {
 #[derive(Error, Clone, PartialEq, Eq, Debug)]
 #[error("line {line}: {why}")]
 pub struct NoWording {
-    /// From 1.
+    /// Line of the file, from 1.
     pub line: usize,
-    /// What is wrong.
     pub why: String,
 }
 

@@ -8,9 +8,13 @@
 //! one model was trained on it; [`vision`] is what is seen. [`guard`] checks in a run what the compiler left to it.
 
 pub mod builtin;
-pub mod conversation;
+
 pub mod dialect;
-pub mod guard;
+pub mod dialogue;
 pub mod model;
+mod planner;
 pub mod prompt;
+pub mod runtime_check;
 pub mod vision;
+
+pub use planner::{Builtin, PlanRequest, Planner, RemainingSteps, Wait};

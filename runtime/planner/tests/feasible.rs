@@ -5,7 +5,7 @@ mod common;
 
 use common::{hsr, kitchen, session, walled};
 use motet_compiler::{Options, Session};
-use motet_planner::prompt::{self, Feasible};
+use motet_planner::prompt::{self, Reachability};
 use motet_robots::scene::{EntityShape, Scene};
 use motet_syntax::Sources;
 use std::time::Duration;
@@ -13,7 +13,7 @@ use std::time::Duration;
 /// Long enough for any search within its budget.
 const LONG: Duration = Duration::from_secs(600);
 
-fn feasible(session: &Session, scene: &Scene, id: &str, time: Duration) -> Feasible {
+fn feasible(session: &Session, scene: &Scene, id: &str, time: Duration) -> Reachability {
     prompt::seen(session, &hsr(), scene, &[id.into()], time).remove(0).feasible
 }
 
@@ -29,14 +29,14 @@ fn what_there_is_a_way_and_a_motion_to_is_feasible() {
     let scene = kitchen();
     let session = session(&scene);
     for id in ["mug_1", "coke", "kitchen_table", "drawer_1", "user"] {
-        assert_eq!(feasible(&session, &scene, id, LONG), Feasible::Yes, "{id}");
+        assert_eq!(feasible(&session, &scene, id, LONG), Reachability::Yes, "{id}");
     }
 }
 
 #[test]
 fn what_is_walled_in_out_of_reach_or_cannot_be_held_is_not_and_the_reason_is_told() {
     let reason = |scene: &Scene| match feasible(&session(scene), scene, "mug_1", LONG) {
-        Feasible::No(why) => why,
+        Reachability::No(why) => why,
         other => panic!("{other:?}"),
     };
     assert!(reason(&walled()).contains("way"), "{}", reason(&walled()));
@@ -51,16 +51,16 @@ fn what_is_walled_in_out_of_reach_or_cannot_be_held_is_not_and_the_reason_is_tol
 fn what_is_shut_in_is_not_known() {
     let scene = with_mug(|mug| (mug.on, mug.inside, mug.pose) = (None, Some("fridge_1".into()), None));
     let found = feasible(&session(&scene), &scene, "mug_1", LONG);
-    assert!(matches!(&found, Feasible::Unknown(why) if why.contains("fridge_1")), "{found:?}");
+    assert!(matches!(&found, Reachability::Unknown(why) if why.contains("fridge_1")), "{found:?}");
 }
 
 #[test]
 fn without_motions_or_time_for_them_only_the_numbers_tell() {
     let scene = walled();
-    assert_eq!(feasible(&session(&scene), &scene, "mug_1", Duration::ZERO), Feasible::AsFarAsNumbersTell);
+    assert_eq!(feasible(&session(&scene), &scene, "mug_1", Duration::ZERO), Reachability::AsFarAsNumbersTell);
     let plain =
         Session::new(Some(&hsr()), &[], Some(&scene), None, Options::default(), &mut Sources::default()).0;
-    assert_eq!(feasible(&plain, &scene, "mug_1", LONG), Feasible::AsFarAsNumbersTell);
+    assert_eq!(feasible(&plain, &scene, "mug_1", LONG), Reachability::AsFarAsNumbersTell);
     let heavy = with_mug(|mug| mug.mass_kg = Some(5.0));
-    assert!(matches!(feasible(&plain, &heavy, "mug_1", Duration::ZERO), Feasible::No(_)));
+    assert!(matches!(feasible(&plain, &heavy, "mug_1", Duration::ZERO), Reachability::No(_)));
 }

@@ -8,7 +8,7 @@ mod common;
 use common::{hsr, kitchen, session, walled};
 use motet_compiler::Session;
 use motet_graph::Graph;
-use motet_planner::guard::{Guard, Verifies, WITHIN};
+use motet_planner::runtime_check::{CheckMode, Guard, WITHIN};
 use motet_robots::scene::Scene;
 use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead, StepEntry};
 use motet_runtime::{
@@ -93,11 +93,11 @@ impl Observer for Host {
 
 /// Runs a policy in simulation, sees that a replay of its journal gives the same, and returns what happened.
 fn play(scene: &Scene, policy: &str) -> (RunEnd, Vec<String>) {
-    play_with(scene, policy, Verifies::AtOnce)
+    play_with(scene, policy, CheckMode::AtOnce)
 }
 
 /// The same, where motions are searched for as one likes.
-fn play_with(scene: &Scene, policy: &str, verifies: Verifies) -> (RunEnd, Vec<String>) {
+fn play_with(scene: &Scene, policy: &str, verifies: CheckMode) -> (RunEnd, Vec<String>) {
     let session = session(scene);
     let graph = compile(&session, policy);
     let entities = scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
@@ -156,7 +156,7 @@ fn what_can_be_done_is_done() {
 #[test]
 fn on_a_thread_of_its_own_a_guard_comes_to_the_same() {
     for scene in [walled(), kitchen()] {
-        let (end, told) = play_with(&scene, CHOSEN, Verifies::Beside);
+        let (end, told) = play_with(&scene, CHOSEN, CheckMode::Beside);
         assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
         assert_eq!(told, play(&scene, CHOSEN).1);
     }
@@ -218,7 +218,7 @@ fn the_loop_goes_on_while_a_verdict_is_awaited() {
     let entities = kitchen().entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
     let start = StartState { entities, ..StartState::default() };
     let mut engine = Engine::new(compile(&session, CHOSEN), &start).unwrap().with_settings(settings);
-    let guard = Guard::new(session.course().unwrap(), Verifies::AtOnce);
+    let guard = Guard::new(session.course().unwrap(), CheckMode::AtOnce);
     let host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
     let mut patient = Patient { host, is_asked: false, glances: 0 };
     let end = run(&mut engine, &mut sim, &mut patient, Time::ZERO);

@@ -1,20 +1,21 @@
 //! The loop around the planner: questions and their answers, tries after a failure, and requests that come in between.
 use motet_compiler::Options as CheckOptions;
-use motet_planner::conversation::{
-    Builtin, Conversation, Kind, Nobody, Outcome, Person, Problem, Setting, Watcher,
+use motet_planner::Builtin;
+use motet_planner::dialogue::{
+    Conversation, DialogueObserver, DialogueSetup, Kind, NoOperator, Outcome, Person, Problem,
 };
 use motet_runtime::memory::Memory;
 use motet_runtime::{Effect, Time};
 use motet_sim::{Faults, Sim, SimOptions};
 use motet_tests::setup;
 
-fn setting(robot: &str) -> Setting {
+fn setting(robot: &str) -> DialogueSetup {
     let (robot, scene) = (setup::robot(robot), setup::scene("kitchen"));
-    Setting { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
+    DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
 }
 
 /// The robot in a kitchen where the coke is in the cupboard, whatever it was told.
-fn coke_in_cupboard(setting: &Setting) -> Sim {
+fn coke_in_cupboard(setting: &DialogueSetup) -> Sim {
     let mut real = setting.scene.clone();
     let coke = real.entities.get_mut("coke").unwrap();
     (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
@@ -32,7 +33,7 @@ impl Person for Answers {
 }
 
 fn talk(
-    setting: &Setting,
+    setting: &DialogueSetup,
     sim: &mut Sim,
     request: &str,
     answers: &[&'static str],
@@ -141,7 +142,7 @@ fn where_nobody_answers_the_problem_is_the_outcome() {
     let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(&setting);
     let (outcome, _) =
-        talk.carry_out("wash the dishes", &mut Builtin, &mut sim, &mut Nobody, &mut (), Time::ZERO);
+        talk.carry_out("wash the dishes", &mut Builtin, &mut sim, &mut NoOperator, &mut (), Time::ZERO);
     assert!(matches!(outcome, Outcome::Failed(problem) if problem.kind == Kind::AmbiguousTask));
 }
 
@@ -153,7 +154,7 @@ struct Interrupts {
     picked: usize,
 }
 
-impl Watcher for Interrupts {
+impl DialogueObserver for Interrupts {
     fn request(&mut self, now: Time) -> Option<String> {
         if now < self.at {
             return None;
@@ -189,7 +190,7 @@ fn a_request_in_between_takes_over() {
             "bring me the coke",
             &mut Builtin,
             &mut sim,
-            &mut Nobody,
+            &mut NoOperator,
             &mut watcher,
             Time::ZERO,
         );
@@ -207,7 +208,8 @@ fn changes(robot: &str, request: &str, (at, says): (f64, &'static str), goal: (&
     let mut talk = Conversation::new(&setting);
     let at = Time::from_secs(at);
     let mut watcher = Interrupts { at, says: Some(says), swapped: 0, picked: 0 };
-    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
+    let (outcome, _) =
+        talk.carry_out(request, &mut Builtin, &mut sim, &mut NoOperator, &mut watcher, Time::ZERO);
     assert_eq!(outcome, Outcome::Done, "{robot}: {request} {at:?}");
     assert_eq!(sim.holds(goal.0, &goal.1), Some(true), "{robot}: {request} {at:?}");
 }
@@ -254,7 +256,7 @@ fn what_was_taken_is_put_back_where_it_was() {
 }
 
 /// A picking hand that slips each time.
-fn slipping(setting: &Setting) -> Sim {
+fn slipping(setting: &DialogueSetup) -> Sim {
     let faults = r#"{"calls": [{"primitive": "pick", "then": {"fails": "slipped"}}]}"#;
     let faults = Faults::from_json(faults).unwrap();
     Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() })
@@ -317,7 +319,8 @@ fn a_fact_that_is_said_meanwhile_changes_the_plan_and_not_the_request() {
     let line = Some("the coke is in the cupboard");
     let mut watcher = Interrupts { at: Time::ZERO, says: line, swapped: 0, picked: 0 };
     let request = "bring me the coke";
-    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
+    let (outcome, _) =
+        talk.carry_out(request, &mut Builtin, &mut sim, &mut NoOperator, &mut watcher, Time::ZERO);
     assert_eq!(outcome, Outcome::Done);
     assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
 }

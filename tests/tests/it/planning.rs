@@ -1,13 +1,13 @@
 //! Plans by search: what is asked for is reached in simulation, on either robot, and what cannot be is said.
 use motet_compiler::plan::{Goal, Lasts, NoPlan};
-use motet_planner::builtin::{self, Planned, Unplanned};
+use motet_planner::builtin::{self, PlanError, Planned};
 use motet_requests::Aim;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_syntax::{Severity, Sources};
 use motet_tests::setup;
 
-fn plan(robot: &str, scene: &str, goals: &[&str]) -> Result<Planned, Unplanned> {
+fn plan(robot: &str, scene: &str, goals: &[&str]) -> Result<Planned, PlanError> {
     let (robot, scene) = (setup::robot(robot), setup::scene(scene));
     let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
     let aims: Vec<Aim> = goals
@@ -78,7 +78,7 @@ fn what_a_plan_opens_it_closes() {
 #[test]
 fn what_cannot_be_reached_is_said_with_the_reason() {
     let why = |goal| match plan("hsr", "lab", &[goal]) {
-        Err(Unplanned::NoPlan(NoPlan::Unreachable { blocker, .. })) => blocker.unwrap_or_default(),
+        Err(PlanError::NoPlan(NoPlan::Unreachable { blocker, .. })) => blocker.unwrap_or_default(),
         other => panic!("{other:?}"),
     };
     assert!(why("on(vise, desk)").contains("mass"), "{}", why("on(vise, desk)"));
@@ -91,5 +91,5 @@ fn what_cannot_be_reached_is_said_with_the_reason() {
 fn wrong_goals_are_told_apart() {
     assert!(matches!(Goal::read("on(", Lasts::ToTheEnd), Err(NoPlan::NoCondition { .. })));
     let wrong = plan("hsr", "kitchen", &["on(mug_9, shelf)"]);
-    assert!(matches!(wrong, Err(Unplanned::NoPlan(NoPlan::Wrong { .. }))));
+    assert!(matches!(wrong, Err(PlanError::NoPlan(NoPlan::Wrong { .. }))));
 }

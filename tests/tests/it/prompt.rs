@@ -2,7 +2,7 @@
 use std::time::Duration;
 
 use motet_compiler::Session;
-use motet_planner::prompt::{Lasting, Prompt, TOKENS, Written};
+use motet_planner::prompt::{Prompt, StaticPrompt, TOKENS, Written};
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_runtime::memory::{Memory, MemoryLimits};
@@ -17,7 +17,7 @@ fn write(session: &Session, robot: &Robot, situation: &RequestContext<'_>) -> Wr
         scene,
         situation,
         memory: &Memory::new(MemoryLimits::default()),
-        lasting: &Lasting::new(session, robot, scene),
+        lasting: &StaticPrompt::new(session, robot, scene),
         tokens: TOKENS,
         time: Duration::ZERO,
     };

@@ -1,6 +1,6 @@
 //! What the robot's camera shows the model: `ground` goes to it with a picture.
 
-use motet_planner::vision::{Pointed, Pointing};
+use motet_planner::vision::{GroundedPoint, GroundingDriver};
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, Perception};
 use serde_json::json;
@@ -28,13 +28,14 @@ pub(super) fn pointing<'d>(
     eyes: &'d mut dyn Perception,
     scene: &'d Scene,
     told: Told,
-) -> Result<Pointing<'d>, Trouble> {
+) -> Result<GroundingDriver<'d>, Trouble> {
     let client = model::client(asking)?;
-    Ok(Pointing::new(driver, eyes, scene, Box::new(client)).with_listener(move |pointed| told.hear(pointed)))
+    Ok(GroundingDriver::new(driver, eyes, scene, Box::new(client))
+        .with_listener(move |pointed| told.hear(pointed)))
 }
 
 impl Told {
-    fn hear(&self, Pointed { object, used_for, found }: Pointed<'_>) {
+    fn hear(&self, GroundedPoint { object, used_for, found }: GroundedPoint<'_>) {
         let used_for = model::printable(used_for);
         let (words, more) = match found {
             Ok(pose) => {

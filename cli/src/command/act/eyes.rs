@@ -5,9 +5,9 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use motet_graph::Graph;
-use motet_planner::builtin::Answered;
-use motet_planner::conversation::{Outcome, Problem, Scribe, Watcher};
-use motet_planner::guard::Verifies;
+use motet_planner::builtin::PlannedRequest;
+use motet_planner::dialogue::{DialogueObserver, Outcome, Problem, RunRecorder};
+use motet_planner::runtime_check::CheckMode;
 use motet_runtime::{Effect, Engine, Observer as _, RunControl, RunEnd, StartState, SwapRefusal, Time};
 use serde_json::json;
 
@@ -102,13 +102,13 @@ impl<'a> Eyes<'a> {
     }
 }
 
-impl Watcher for Eyes<'_> {
-    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn Scribe>> {
+impl DialogueObserver for Eyes<'_> {
+    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
         let recorder = self.recorder.clone()?;
         Some(Box::new(Journal::new(recorder, engine, start, &self.request)))
     }
 
-    fn planned(&mut self, answered: &Answered, graph: &Arc<Graph>) {
+    fn planned(&mut self, answered: &PlannedRequest, graph: &Arc<Graph>) {
         if let Some(recorder) = &self.recorder {
             recorder.policy(&answered.planned.text);
         }
@@ -148,7 +148,7 @@ impl Watcher for Eyes<'_> {
         self.pace.as_ref().map_or(own, |pace| pace.at_least_every().min(own))
     }
 
-    fn verifies(&self) -> Verifies {
+    fn verifies(&self) -> CheckMode {
         self.args.simulated.speed.verifies()
     }
 

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use motet_client::{Client, ClientSettings, EncodedImage, Notation, ServerUrl};
 use motet_decode::export::Dialect;
-use motet_planner::builtin::{Answered, Unplanned};
-use motet_planner::conversation::{Ask, Builtin, Planner, Rest, Wait};
-use motet_planner::model::{self, Happening, Listener, ModelPlanner, Role, Start};
+use motet_planner::builtin::{PlanError, PlannedRequest};
+use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner, Role, Start};
+use motet_planner::{Builtin, PlanRequest, Planner, RemainingSteps, Wait};
 use serde_json::json;
 
 use super::record::Recorder;
@@ -116,9 +116,9 @@ fn settings(args: &ModelArgs) -> Result<ClientSettings, Trouble> {
 struct Fallback(ModelPlanner<'static>);
 
 impl Planner for Fallback {
-    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         match self.0.plan(ask) {
-            Err(why @ (Unplanned::NoModel { .. } | Unplanned::Refused { .. })) => {
+            Err(why @ (PlanError::NoModel { .. } | PlanError::Refused { .. })) => {
                 note(&format!("planned without a model, since {why}"));
                 Builtin.plan(ask)
             }
@@ -130,11 +130,11 @@ impl Planner for Fallback {
         self.0.reads_answers()
     }
 
-    fn begin(&mut self, ask: &Ask<'_>) -> bool {
+    fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
         self.0.begin(ask)
     }
 
-    fn rest(&mut self, wait: Wait) -> Rest {
+    fn rest(&mut self, wait: Wait) -> RemainingSteps {
         self.0.rest(wait)
     }
 }
@@ -179,10 +179,10 @@ impl Screen {
     }
 }
 
-impl Listener for Screen {
-    fn hear(&mut self, happening: &Happening<'_>) {
+impl ModelObserver for Screen {
+    fn hear(&mut self, happening: &ModelEvent<'_>) {
         match *happening {
-            Happening::Asked { round, model, chat } => {
+            ModelEvent::Asked { round, model, chat } => {
                 let again = if round == 0 { String::new() } else { format!(", repair {round}") };
                 self.say("1", &format!("asking {model}{again}"));
                 let message = |message: &model::Message| {
@@ -196,41 +196,41 @@ impl Listener for Screen {
                 let chat: Vec<_> = chat.iter().map(message).collect();
                 self.keep("asked", json!({"round": round, "model": model, "chat": chat}));
             }
-            Happening::Retrying { why, after } => {
+            ModelEvent::Retrying { why, after } => {
                 self.say("33", &format!("  again in {:.1} s: {why}", after.as_secs_f64()));
                 self.keep("retrying", json!({"why": why, "after": after.as_secs_f64()}));
             }
-            Happening::Wrote(piece) => {
+            ModelEvent::Wrote(piece) => {
                 if self.is_shown && self.is_live {
                     // Nothing can be done where that fails.
                     let _ = write!(io::stderr().lock(), "{}", self.paint("2", &printable(piece)));
                     self.in_line = true;
                 }
             }
-            Happening::Stopped { at } => {
+            ModelEvent::Stopped { at } => {
                 self.say("31", &format!("  stopped at byte {at}"));
                 self.keep("stopped", json!({"at": at}));
             }
-            Happening::Mended { titles } => {
+            ModelEvent::Mended { titles } => {
                 self.say("33", &format!("  mended: {}", titles.join(", ")));
                 self.keep("mended", json!({"titles": titles}));
             }
-            Happening::Refused { round, reply, findings } => {
+            ModelEvent::Refused { round, reply, findings } => {
                 self.reply(reply);
                 findings.lines().for_each(|line| self.say("31", &format!("  {line}")));
                 self.keep("refused", json!({"round": round, "reply": reply, "findings": findings}));
             }
-            Happening::Failed { round, reply, why } => {
+            ModelEvent::Failed { round, reply, why } => {
                 self.reply(reply);
                 self.say("31", &format!("  {why}"));
                 self.keep("failed", json!({"round": round, "reply": reply, "why": why.to_string()}));
             }
-            Happening::Taken { round, reply } => {
+            ModelEvent::Taken { round, reply } => {
                 self.reply(reply);
                 self.say("32", "  it passes the check");
                 self.keep("taken", json!({"round": round, "reply": reply}));
             }
-            Happening::Begun { reply } => {
+            ModelEvent::Begun { reply } => {
                 self.say("32", "  the first step begins");
                 self.keep("begun", json!({"reply": reply}));
             }

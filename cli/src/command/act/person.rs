@@ -9,7 +9,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::thread;
 use std::time::Duration;
 
-use motet_planner::conversation::{Kind, Person, Problem};
+use motet_planner::dialogue::{Kind, Person, Problem};
 
 use crate::command::run;
 use crate::exit::Trouble;
@@ -25,7 +25,7 @@ pub(super) enum Asked {
     Terminal { lines: RefCell<Receiver<String>>, is_live: bool },
     /// Lines of a file, in order.
     Script(RefCell<VecDeque<String>>),
-    /// Nobody.
+    /// NoOperator.
     Never,
 }
 

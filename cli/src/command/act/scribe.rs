@@ -1,7 +1,7 @@
 //! Writes the journal of each run of a conversation, which `motet replay` reads.
 
 use motet_host::journal::{self, JournalWriter};
-use motet_planner::conversation::Scribe;
+use motet_planner::dialogue::RunRecorder;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Driver, Effect, Engine, Observer, RunControl, RunEnd, StartState, Time};
 
@@ -21,7 +21,7 @@ impl Journal {
     }
 }
 
-impl Scribe for Journal {
+impl RunRecorder for Journal {
     fn run(
         self: Box<Self>,
         engine: &mut Engine,

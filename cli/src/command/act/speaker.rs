@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 use motet_graph::Value;
-use motet_planner::conversation::{Kind, Person as _, Problem};
+use motet_planner::dialogue::{Kind, Person as _, Problem};
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
 
 use super::model::printable;

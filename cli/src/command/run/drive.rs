@@ -2,7 +2,7 @@
 
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
-use motet_planner::guard::{Guard, Verifies};
+use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_runtime::{Driver, EngineSettings, Event, Time};
 
 use super::pace::Pace;
@@ -36,7 +36,7 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     };
     let start = start(setting.scene.as_ref());
     let mut driver = connect(&args.driver, Hello::of(&graph), Time::ZERO)?;
-    let guard = setting.session.course().map(|course| Guard::new(course, Verifies::Beside));
+    let guard = setting.session.course().map(|course| Guard::new(course, CheckMode::Beside));
     let engine = play::engine(graph, &start, driver.capabilities(), guard.as_ref(), settings())?;
     let journal = match &args.record {
         Some(folder) => {

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use motet_planner::guard::Guard;
+use motet_planner::runtime_check::Guard;
 use motet_runtime::{Effect, Event, Observer, RunControl, RunEnd, Time, Verifier};
 
 use super::view::View;

@@ -7,7 +7,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use motet_graph::Graph;
 use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
-use motet_planner::guard::{Guard, WITHIN};
+use motet_planner::runtime_check::{Guard, WITHIN};
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Capabilities, Driver, Engine, EngineSettings, Event, RunEnd, StartState, Time, resume};
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
-use motet_planner::guard::{Guard, Verifies};
+use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
@@ -46,7 +46,7 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
     let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
     let verifies = match &saved {
         Saved::Simulator(_) => args.simulated.speed.verifies(),
-        Saved::Process { .. } => Verifies::Beside,
+        Saved::Process { .. } => CheckMode::Beside,
     };
     let guard = saved.guard().filter(|_| head.settings.verify_within.is_some());
     let mut guard = guard.and_then(|guard| guard.make(colors)).map(|course| Guard::new(course, verifies));

@@ -9,9 +9,10 @@ use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::{Geometry, Options as CheckOptions, Session};
 use motet_decode::{Subset, canonical};
 use motet_geometry::planning::SearchBudget;
+use motet_planner::Planner;
 use motet_planner::builtin;
-use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Planner, Setting};
-use motet_planner::model::{self, Happening, Listener, ModelPlanner};
+use motet_planner::dialogue::{Conversation, DialogueSetup, NoOperator, Outcome, Person};
+use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner};
 use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_sim::{Sim, SimOptions};
@@ -20,7 +21,7 @@ use motet_syntax::{Source, Sources};
 use super::server::Server;
 
 /// The HSR in the kitchen.
-pub(crate) fn setting() -> Setting {
+pub(crate) fn setting() -> DialogueSetup {
     let cards = motet_robots::card::embedded();
     let (name, toml, declarations) = cards.iter().find(|row| row.0 == "hsr").unwrap();
     let mut sources = Sources::default();
@@ -32,16 +33,16 @@ pub(crate) fn setting() -> Setting {
     let source = Source::new(*name, *json);
     let id = sources.add(source.clone());
     let scene = motet_robots::scene::read(&source, id).0.unwrap();
-    Setting { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
+    DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
 }
 
-pub(crate) fn session(setting: &Setting) -> Session {
+pub(crate) fn session(setting: &DialogueSetup) -> Session {
     let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
     Session::new(robot, &[], scene, None, setting.options, &mut Sources::default()).0
 }
 
 /// The robot's body in the scene of a setting.
-pub(crate) fn geometry(setting: &Setting) -> Arc<Geometry> {
+pub(crate) fn geometry(setting: &DialogueSetup) -> Arc<Geometry> {
     let text = motet_robots::card::embedded_urdf("hsr").unwrap();
     let mut sources = Sources::default();
     let source = Source::new("hsr.urdf", text);
@@ -51,7 +52,7 @@ pub(crate) fn geometry(setting: &Setting) -> Arc<Geometry> {
 }
 
 /// What a model that knows the right policy would write for a request.
-pub(crate) fn right(setting: &Setting, request: &str) -> String {
+pub(crate) fn right(setting: &DialogueSetup, request: &str) -> String {
     let session = session(setting);
     let situation = RequestContext::new(&setting.scene);
     let answered = builtin::answer(&session, Some(&setting.robot), request, &situation).unwrap();
@@ -78,18 +79,18 @@ pub(crate) fn brisk(server: &Server) -> ClientSettings {
 #[derive(Clone, Default)]
 pub(crate) struct Heard(pub(crate) Rc<RefCell<Vec<String>>>);
 
-impl Listener for Heard {
-    fn hear(&mut self, happening: &Happening<'_>) {
+impl ModelObserver for Heard {
+    fn hear(&mut self, happening: &ModelEvent<'_>) {
         let line = match happening {
-            Happening::Asked { round, .. } => format!("asked {round}"),
-            Happening::Retrying { .. } => "retrying".to_owned(),
-            Happening::Wrote(_) => return,
-            Happening::Stopped { at } => format!("stopped {at}"),
-            Happening::Mended { titles } => format!("mended {}", titles.join("; ")),
-            Happening::Refused { findings, .. } => format!("refused {}", findings.trim()),
-            Happening::Failed { why, .. } => format!("failed {why}"),
-            Happening::Taken { .. } => "taken".to_owned(),
-            Happening::Begun { .. } => "begun".to_owned(),
+            ModelEvent::Asked { round, .. } => format!("asked {round}"),
+            ModelEvent::Retrying { .. } => "retrying".to_owned(),
+            ModelEvent::Wrote(_) => return,
+            ModelEvent::Stopped { at } => format!("stopped {at}"),
+            ModelEvent::Mended { titles } => format!("mended {}", titles.join("; ")),
+            ModelEvent::Refused { findings, .. } => format!("refused {}", findings.trim()),
+            ModelEvent::Failed { why, .. } => format!("failed {why}"),
+            ModelEvent::Taken { .. } => "taken".to_owned(),
+            ModelEvent::Begun { .. } => "begun".to_owned(),
         };
         self.0.borrow_mut().push(line);
     }
@@ -101,13 +102,13 @@ pub(crate) fn planner(settings: ClientSettings, heard: &Heard) -> ModelPlanner<'
 }
 
 /// Carries a request out with nobody to ask.
-pub(crate) fn carry_out(setting: &Setting, planner: &mut dyn Planner, request: &str) -> (Outcome, Sim) {
-    carry_out_with(setting, planner, &mut Nobody, request)
+pub(crate) fn carry_out(setting: &DialogueSetup, planner: &mut dyn Planner, request: &str) -> (Outcome, Sim) {
+    carry_out_with(setting, planner, &mut NoOperator, request)
 }
 
 /// Carries a request out.
 pub(crate) fn carry_out_with(
-    setting: &Setting,
+    setting: &DialogueSetup,
     planner: &mut dyn Planner,
     person: &mut dyn Person,
     request: &str,

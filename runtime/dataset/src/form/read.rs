@@ -4,7 +4,7 @@ use motet_planner::dialect::exchange;
 use serde_json::Value;
 use smol_str::SmolStr;
 
-/// Where a picture stands in a text.
+/// Mark of an image in a text.
 const TAG: &str = "<image>";
 
 /// A row as it stands in a file.
@@ -18,25 +18,24 @@ pub struct Read {
     pub input: String,
     /// The paths of its pictures, as seen from the folder of its file.
     pub images: Vec<String>,
-    /// How many places for pictures its messages have, where they say.
+    /// Number of image marks in the messages, if the format has them.
     pub places: Option<usize>,
-    /// What it shall answer.
+    /// Wanted reply.
     pub target: Target,
 }
 
-/// What a model shall answer.
+/// Wanted reply of a model.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Target {
     /// A policy, in either form of the language.
     Policy(String),
     /// A list of actions in InteLiPlan's dialect.
     Actions(String),
-    /// A question.
     Question(String),
 }
 
 impl Target {
-    /// Its text.
+    /// Text of the reply.
     #[must_use]
     pub fn text(&self) -> &str {
         match self {
@@ -124,7 +123,8 @@ impl Keys {
         Self { who: "from", text: "value", system: "system", user: "human", assistant: "gpt" };
 }
 
-/// What comes before the last message, and that. Who asks and who answers take turns, behind a system part or none.
+/// Splits a chat into the messages before the last one, and the last one. User and assistant alternate,
+/// after at most one system message.
 fn chat(messages: &Value, keys: Keys) -> Result<(String, Target), String> {
     let messages = messages.as_array().ok_or("its messages are no list")?;
     let mut input = String::new();
@@ -176,7 +176,7 @@ fn said(value: &Value) -> Option<String> {
     texts.map(|texts| texts.join("\n"))
 }
 
-/// What a message says: a text, or the texts of its parts.
+/// Text of a message: a string, or the joined texts of its parts.
 fn content(value: &Value) -> Option<String> {
     if let Some(text) = value.as_str() {
         return Some(text.to_owned());

@@ -52,14 +52,15 @@ const fn column(form: Form) -> Option<&'static str> {
     }
 }
 
-/// Whether a message has the picture of its row before its text.
+/// Place of a row's image in a message.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shown {
     Text,
     Picture,
 }
 
-/// What a message of TRL's says: a text, or parts in all messages of a row with a picture, so that a column has one type.
+/// Content of a TRL message: a string, or parts in all messages of a row with an image, so that a column has
+/// one type.
 fn content(row: &Row, text: &str, shown: Shown) -> Value {
     let said = json!({"type": "text", "text": text});
     match (&row.image, shown) {

@@ -15,20 +15,20 @@ use crate::random::Draw;
 /// The catalogue that comes with Motet, as the text of a scene.
 pub const THINGS: &str = include_str!("../../data/things.json");
 
-/// How many things stand about.
+/// Least number of things in a room.
 const LEAST: usize = 5;
 const MOST: usize = 10;
-/// How likely it is that a piece of furniture is missing.
+/// Probability that a piece of furniture is missing.
 const MISSING: f64 = 0.2;
-/// How likely it is that a room has two things of a class.
+/// Probability that a room has two things of a class.
 const TWINS: f64 = 0.6;
-/// How likely a thing is in a container, where the room has any.
+/// Probability that a thing is in a container, if the room has any.
 const INSIDE: f64 = 0.25;
-/// How likely a container stands open.
+/// Probability that a container is open.
 const OPEN: f64 = 0.2;
-/// How likely the robot begins at one of the room's places.
+/// Probability that the robot begins at one of the room's places.
 const ELSEWHERE: f64 = 0.4;
-/// What most hands do not lift.
+/// Mass that most hands cannot lift, in kg.
 const HEAVY_KG: f64 = 1.0;
 /// The furniture that is always left.
 const KEPT: usize = 3;
@@ -69,7 +69,7 @@ pub fn vary(room: &Scene, catalogue: &Scene, draw: &mut Draw) -> Scene {
     scene
 }
 
-/// What of a room is not a thing that is carried about, some of it left out.
+/// Entities of a room that nobody carries about, without a random few.
 fn furniture(room: &Scene, draw: &mut Draw) -> indexmap::IndexMap<SmolStr, Entity> {
     let stays = |entity: &&Entity| entity.kind != "Object";
     let mut kept: Vec<&Entity> = room.entities.values().filter(stays).collect();
@@ -90,18 +90,18 @@ fn furniture(room: &Scene, draw: &mut Draw) -> indexmap::IndexMap<SmolStr, Entit
     kept.into_iter().map(|entity| (entity.id.clone(), entity.clone())).collect()
 }
 
-/// Whether what is thrown away goes there.
+/// Returns `true` for a bin.
 pub(crate) fn is_bin(entity: &Entity) -> bool {
     entity.kind == "Container" && entity.categories.iter().any(|category| category == "bin")
 }
 
-/// What the camera sees things on where the robot begins.
+/// Surfaces in view of the camera where the robot begins.
 fn in_view(room: &Scene) -> Vec<SmolStr> {
     let seen = room.entities.values().filter(|entity| entity.visible == Some(true));
     seen.filter_map(|entity| entity.on.clone()).collect()
 }
 
-/// Which things there are: at random, some with another of their class.
+/// Draws the things of a room, some with a second one of their class.
 fn chosen(room: &Scene, catalogue: &Scene, draw: &mut Draw) -> Vec<Entity> {
     let own = room.entities.values().filter(|entity| entity.kind == "Object" && !entity.fixed);
     let mut pool: Vec<&Entity> = own.chain(catalogue.entities.values()).collect();

@@ -5,10 +5,10 @@ use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use super::is_bin;
 use crate::random::Draw;
 
-/// How often a spot is tried.
+/// Number of attempts to find a spot.
 const TRIES: usize = 24;
-/// How far the middle of a thing is from the edge of what it stands on, in m: at least beside its own half width, and at
-/// most where there is that much room.
+/// Distance in m from the middle of a thing to the edge of its surface: at least, beside half its own width,
+/// and at most, where the surface is large enough.
 const EDGE: [f64; 2] = [0.03, 0.1];
 /// Between two things, in m: room for fingers.
 const BETWEEN: f64 = 0.12;
@@ -72,7 +72,7 @@ fn near_edge(free_x: f64, free_y: f64, draw: &mut Draw) -> (f64, f64) {
     }
 }
 
-/// Whether a thing is too near to a spot for one of this radius.
+/// Returns `true` if an entity is too close to a spot for a thing of this radius.
 fn near(other: &Entity, [x, y, _]: [f64; 3], radius: f64) -> bool {
     let (Some(pose), Some([wide, deep, _])) = (other.pose, other.shape.as_ref().and_then(extents)) else {
         return false;

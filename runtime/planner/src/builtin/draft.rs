@@ -6,8 +6,8 @@ use motet_robots::card::Robot;
 use motet_syntax::ast::Expr;
 use motet_syntax::{Syntax, print};
 
-/// How near a person may be to a base that moves, in m. Closer than where a robot stands to hand something over: from
-/// there it has to be able to leave.
+/// Distance in m below which a monitor pauses a moving base in front of a person. Smaller than the distance
+/// of a handover, so that the robot can leave afterwards.
 const CLEARANCE_M: f64 = 0.3;
 
 /// The policy as text, not yet in its canonical layout.
@@ -42,7 +42,7 @@ pub(super) fn policy(name: &str, robot: Option<&Robot>, aims: &[Aim], plan: &Pla
     text
 }
 
-/// What ends the steps of an aim.
+/// Closing text of an aim's steps.
 fn close(open: Option<usize>, aims: &[Aim]) -> &'static str {
     match open.map(|index| aims.get(index).is_some_and(|aim| aim.only_if.is_some())) {
         Some(true) => "}\n}\n",

@@ -17,42 +17,40 @@ pub struct Planned {
     pub text: String,
     /// The same, read.
     pub parsed: Parsed,
-    /// What the compiler made of it and says of it: a graph, and no error.
+    /// Result of compiling the policy: a graph, and no error.
     pub compiled: Compiled,
-    /// How many states the search looked at.
+    /// Number of states that the search expanded.
     pub looked_at: usize,
 }
 
 /// A request that was understood, and the policy for it.
 #[derive(Clone, Debug)]
-pub struct Answered {
-    /// What it was taken to mean.
+pub struct PlannedRequest {
+    /// Intent that the request was read as.
     pub understood: Intent,
-    /// The policy.
     pub planned: Planned,
 }
 
-/// Why there is no policy.
+/// Reasons for which a request gets no policy.
 #[derive(Error, Clone, Debug)]
-pub enum Unplanned {
-    /// What was asked for is not clear.
+pub enum PlanError {
+    /// The request is unclear.
     #[error(transparent)]
     RequestError(#[from] RequestError),
     /// The search found nothing.
     #[error(transparent)]
     NoPlan(#[from] NoPlan),
-    /// What it found does not pass the check: the contracts ask for more than a plan can give.
+    /// The plan does not pass the check: a contract needs more than the planner can establish.
     #[error("the plan does not pass the check: {}", first(diagnostics))]
     Refused {
-        /// The policy.
         text: String,
-        /// What the compiler says.
+        /// Diagnostics of the compiler.
         diagnostics: Vec<Diagnostic>,
     },
     /// The model that is asked gives no reply, and asking somebody else will not change that.
     #[error("{why}")]
     NoModel {
-        /// Which model, and why.
+        /// Name of the model, and the reason.
         why: String,
     },
     /// A person stopped it.
@@ -60,7 +58,7 @@ pub enum Unplanned {
     Stopped,
 }
 
-/// How many times as many states are looked at where the first search came to the end of its budget.
+/// Factor on the state budget of a second search, after the first one used up its budget.
 const LAST_RESORT: usize = 6;
 
 /// Plans for aims, one after the other, and has the policy checked. The same session and aims give the same policy.
@@ -73,7 +71,7 @@ pub fn plan(
     robot: Option<&Robot>,
     name: &str,
     aims: &[Aim],
-) -> Result<Planned, Unplanned> {
+) -> Result<Planned, PlanError> {
     let goals: Vec<Goal> = aims.iter().map(|aim| aim.goal.clone()).collect();
     let plan = match session.plan(&goals, PLAN_BUDGET) {
         Err(NoPlan::Budget { .. }) => session.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
@@ -85,7 +83,7 @@ pub fn plan(
     let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
     let compiled = session.compile(&parsed, None);
     if compiled.graph.is_none() {
-        return Err(Unplanned::Refused { text, diagnostics: compiled.diagnostics });
+        return Err(PlanError::Refused { text, diagnostics: compiled.diagnostics });
     }
     Ok(Planned { text, parsed, compiled, looked_at: plan.looked_at })
 }
@@ -100,7 +98,7 @@ pub fn answer(
     robot: Option<&Robot>,
     request: &str,
     situation: &RequestContext<'_>,
-) -> Result<Answered, Unplanned> {
+) -> Result<PlannedRequest, PlanError> {
     let understood = motet_requests::understand(request, situation)?;
     if understood.aims.is_empty() {
         let question = "I take note of that. What shall I do?".to_owned();
@@ -108,7 +106,7 @@ pub fn answer(
     }
     let name = understood.aims.first().map_or("plan", |aim| aim.name.as_str());
     let planned = plan(session, robot, name, &understood.aims)?;
-    Ok(Answered { understood, planned })
+    Ok(PlannedRequest { understood, planned })
 }
 
 fn first(diagnostics: &[Diagnostic]) -> &str {

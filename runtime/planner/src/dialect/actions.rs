@@ -16,11 +16,11 @@ use motet_requests::RequestContext;
 pub struct Loose {
     /// The policy in the text form, not yet checked.
     pub policy: String,
-    /// What was taken to mean something else, or filled in.
+    /// Words that were read as something else, and arguments that were filled in.
     pub warnings: Vec<String>,
 }
 
-/// Why a list of actions is no policy.
+/// Reasons for which a list of actions is no policy.
 #[derive(Error, Clone, PartialEq, Eq, Debug)]
 pub enum NoPolicy {
     /// There is nothing in it.
@@ -29,34 +29,32 @@ pub enum NoPolicy {
     /// An action that no word of the dialect stands for: a sentence, mostly.
     #[error("action {number}, `{action}`: no action is called so")]
     Unknown {
-        /// From 1.
+        /// Position in the list, from 1.
         number: usize,
-        /// As written.
         action: String,
     },
     /// The robot has no such primitive.
     #[error("action {number}, `{action}`: the robot has no `{primitive}`")]
     Lacking {
-        /// From 1.
+        /// Position in the list, from 1.
         number: usize,
-        /// As written.
         action: String,
-        /// What it would be.
+        /// Primitive that the robot would need.
         primitive: &'static str,
     },
     /// It is not clear which thing is meant, or there is none.
     #[error("action {number}, `{action}`: {what}")]
     Unclear {
-        /// From 1.
+        /// Position in the list, from 1.
         number: usize,
-        /// As written.
         action: String,
-        /// What is not clear.
+        /// Description of the unclear part.
         what: String,
     },
 }
 
-/// What words stand for which primitive. Of two that fit the longer one counts; the first of each is the one that is written.
+/// Words and their primitives. Of two matches the longer one counts; the writer uses the first word of each
+/// primitive.
 const WORDS: &[(&str, &str)] = &[
     ("go to", "go"),
     ("go", "go"),
@@ -96,7 +94,7 @@ const WORDS: &[(&str, &str)] = &[
     ("say", "say"),
     ("ask", "ask"),
 ];
-/// What stands between a thing and where it is put.
+/// Prepositions between a thing and its destination.
 const BETWEEN: &[&str] =
     &[" on top of ", " onto ", " into ", " inside ", " on ", " in ", " at ", " to ", ", "];
 
@@ -131,7 +129,7 @@ pub fn read(
     Ok(Loose { policy, warnings: reader.warnings })
 }
 
-/// What is known while a list is read.
+/// State of reading a list.
 struct Reader<'a> {
     session: &'a Session,
     situation: &'a RequestContext<'a>,
@@ -214,7 +212,7 @@ impl Reader<'_> {
         })
     }
 
-    /// What is put where: `coke on table`, `on table`, `coke`, `table`.
+    /// Object and destination of a `place`: `coke on table`, `on table`, `coke`, `table`.
     fn placed(&mut self, number: usize, rest: &str) -> Result<(SmolStr, SmolStr), String> {
         const HOLDERS: &[&str] = &["Surface", "Container", "Object"];
         let padded = format!(" {rest}");

@@ -4,41 +4,39 @@ use std::fmt::Write as _;
 
 use thiserror::Error;
 
-use crate::prompt::{Feasible, Seen};
+use crate::prompt::{Reachability, Sighting};
 
 /// One exchange between a person and a robot. Each part is what stands behind its tag, without blanks around it; empty where
 /// the tag is missing.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Exchange {
-    /// What was said and done before.
+    /// Text of `<history>`: earlier turns.
     pub history: String,
-    /// What the person says.
+    /// Text of `<user>`: words of the person.
     pub user: String,
-    /// What is seen of the things that the person names.
+    /// Text of `<vision>`: visibility of the things that the person names.
     pub vision: String,
-    /// Whether they can be reached for.
+    /// Text of `<feasibility>`: reachability of these things.
     pub feasibility: String,
-    /// What the robot answers: a list of actions, or a sentence.
+    /// Text of `<robot>`: a list of actions, or a sentence.
     pub robot: String,
 }
 
-/// Why a text is no dialogue.
+/// Reasons for which a text is no dialogue.
 #[derive(Error, Clone, PartialEq, Eq, Debug)]
 pub enum NoDialogue {
     /// Something stands before the first tag.
     #[error("line {line}: `{text}` stands before the first tag")]
     BeforeTag {
-        /// From 1.
+        /// Line of the text, from 1.
         line: usize,
-        /// Its beginning.
         text: String,
     },
     /// A part comes twice where nothing begins a new exchange.
     #[error("line {line}: `<{tag}>` comes twice; an exchange begins with `<history>` or `<user>`")]
     Twice {
-        /// From 1.
+        /// Line of the text, from 1.
         line: usize,
-        /// Its name.
         tag: &'static str,
     },
     /// There is nothing in it.
@@ -48,7 +46,7 @@ pub enum NoDialogue {
 
 /// The tags, in the order in which they are written.
 const TAGS: [&str; 5] = ["history", "user", "vision", "feasibility", "robot"];
-/// How much of a text a message quotes, in characters.
+/// Length of a quotation in a message, in characters.
 const QUOTED: usize = 40;
 
 /// Reads all exchanges of a text. Tags stand in either case, closing tags may stand behind their parts, and the parts of an
@@ -133,9 +131,9 @@ fn next_tag(text: &str) -> Option<(&str, usize, bool, &str)> {
     }
 }
 
-/// What stands behind `<vision>` and behind `<feasibility>` for what a request names.
+/// Texts of `<vision>` and `<feasibility>` for the things that a request names.
 #[must_use]
-pub fn sight(seen: &[Seen]) -> (String, String) {
+pub fn sight(seen: &[Sighting]) -> (String, String) {
     let vision = seen.iter().map(|one| {
         let word = match one.seen {
             Some(true) => "seen",
@@ -145,9 +143,9 @@ pub fn sight(seen: &[Seen]) -> (String, String) {
         format!("{}: {word}", one.id)
     });
     let feasibility = seen.iter().map(|one| match &one.feasible {
-        Feasible::Yes | Feasible::AsFarAsNumbersTell => format!("{}: feasible", one.id),
-        Feasible::No(why) | Feasible::Hardly(why) => format!("{}: infeasible ({why})", one.id),
-        Feasible::Unknown(why) => format!("{}: unknown ({why})", one.id),
+        Reachability::Yes | Reachability::AsFarAsNumbersTell => format!("{}: feasible", one.id),
+        Reachability::No(why) | Reachability::Hardly(why) => format!("{}: infeasible ({why})", one.id),
+        Reachability::Unknown(why) => format!("{}: unknown ({why})", one.id),
     });
     (vision.collect::<Vec<_>>().join(", "), feasibility.collect::<Vec<_>>().join(", "))
 }
@@ -159,13 +157,13 @@ impl Exchange {
             .nth(tag)
     }
 
-    /// Whether the robot asks something, instead of planning.
+    /// Returns `true` if the robot asks a question instead of planning.
     #[must_use]
     pub fn asks(&self) -> bool {
         self.robot.ends_with('?')
     }
 
-    /// As a text, a line a part. An empty history, vision or feasibility is left out. Reading it gives the same exchange
+    /// As a text, a line a part. An empty history, vision or feasibility is left out. StreamReader it gives the same exchange
     /// where no part has a tag of its own in it.
     #[must_use]
     pub fn write(&self) -> String {

@@ -7,25 +7,23 @@ use motet_decode::export::Offer;
 use motet_runtime::CameraImage;
 use thiserror::Error;
 
-/// Who says something.
+/// Author of a message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Role {
-    /// What the model is told to be.
+    /// Instructions to the model.
     System,
-    /// Who asks.
+    /// Requests and findings.
     User,
-    /// The model.
+    /// Replies of the model.
     Assistant,
 }
 
 /// A message of a chat.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Message {
-    /// Who says it.
     pub role: Role,
-    /// What is said.
     pub text: String,
-    /// What is shown with it.
+    /// Images shown with the text.
     pub images: Vec<Arc<CameraImage>>,
 }
 
@@ -37,7 +35,7 @@ impl Message {
     }
 }
 
-/// Answers chats.
+/// A language or vision-language model that answers chats.
 pub trait Model {
     /// Sends a chat. The reply is to keep to what `constraint` offers, where whoever answers can be held to that; nobody
     /// relies on it. Does not wait.
@@ -47,26 +45,25 @@ pub trait Model {
     /// The chat cannot be sent like that.
     fn ask(&mut self, chat: &[Message], constraint: &Offer) -> Result<Box<dyn Reply>, ModelError>;
 
-    /// What to call it: its name, and where it is.
+    /// Display name: the model's name and address.
     fn name(&self) -> String;
 }
 
 /// A reply on its way. To drop it is to hang up.
 pub trait Reply {
-    /// What has come, waiting for it at most so long. After [`News::End`] and [`News::Failed`] nothing more comes.
+    /// Waits at most `wait` for the next piece of the reply. After [`News::End`] and [`News::Failed`]
+    /// nothing follows.
     fn next(&mut self, wait: Duration) -> News;
 }
 
-/// What has come of a reply.
+/// Progress of a reply.
 #[derive(Clone, PartialEq, Debug)]
 pub enum News {
-    /// Nothing yet.
     Nothing,
     /// The next piece of its text.
     Piece(String),
     /// Something went wrong before the first piece, and is tried again after a while.
     Retrying {
-        /// What.
         why: String,
         /// After how long.
         after: Duration,
@@ -77,7 +74,7 @@ pub enum News {
     Failed(ModelError),
 }
 
-/// How a reply finished.
+/// Ending of a reply.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Finish {
     /// The model had no more to say.
@@ -86,15 +83,12 @@ pub enum Finish {
     Length,
 }
 
-/// Why there is no reply, or not a whole one.
+/// Reasons for a missing or incomplete reply.
 #[derive(Error, Clone, PartialEq, Debug)]
 pub enum ModelError {
     /// There is no connection.
     #[error("it cannot be reached: {why}")]
-    Unreachable {
-        /// Why.
-        why: String,
-    },
+    Unreachable { why: String },
     /// The request was refused: no key, no such model, a grammar that it does not take.
     #[error("it refuses the request: {why}")]
     Refused {
@@ -110,34 +104,28 @@ pub enum ModelError {
     /// It took too long.
     #[error("it did not answer within {secs} s")]
     TimedOut {
-        /// How long it was waited for, in s.
+        /// Waiting time in s.
         secs: f64,
     },
     /// It wrote more than is read.
     #[error("its reply is longer than {bytes} bytes")]
     TooLong {
-        /// How much is read.
+        /// Limit in bytes.
         bytes: usize,
     },
     /// The reply broke off.
     #[error("its reply broke off: {why}")]
-    CutOff {
-        /// Why.
-        why: String,
-    },
-    /// What came is no reply to a chat.
+    CutOff { why: String },
+    /// The response is not a reply to a chat.
     #[error("its answer is no reply: {why}")]
-    Malformed {
-        /// What is wrong.
-        why: String,
-    },
+    Malformed { why: String },
     /// The reply was given up here.
     #[error("the reply was cancelled")]
     Cancelled,
 }
 
 impl ModelError {
-    /// Whether asking again is of no use: what keeps it from answering lasts.
+    /// Returns `true` if another attempt cannot succeed.
     #[must_use]
     pub const fn is_lasting(&self) -> bool {
         match self {

@@ -9,18 +9,18 @@ use motet_decode::{AcceptorFactory, Subset};
 use motet_syntax::ast::Expr;
 use motet_syntax::{Diagnostic, Sources, render};
 
+use super::background::{Came, Later, first_step};
 use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
-use super::judge::{Judged, judge};
-use super::later::{Came, Later, first_step};
-use super::listen::{Happening, Listener};
-use super::purpose;
-use super::reading::{Reading, Verdict, Wrong};
-use crate::builtin::{Answered, Planned, Unplanned};
-use crate::conversation::{Ask, Planner, Rest, Wait};
-use crate::prompt::{self, Lasting, Prompt};
+use super::goal_check;
+use super::observer::{ModelEvent, ModelObserver};
+use super::reply_verdict::{ReplyVerdict, judge};
+use super::stream_reader::{StreamReader, StreamVerdict, Wrong};
+use crate::builtin::{PlanError, Planned, PlannedRequest};
+use crate::planner::{PlanRequest, Planner, RemainingSteps, Wait};
+use crate::prompt::{self, Prompt, StaticPrompt};
 use motet_requests::Intent;
 
-/// How long a piece of a reply is waited for until somebody is asked whether to stop.
+/// Waiting time for a piece of a reply between two looks at the stop request.
 const SLICE: Duration = Duration::from_millis(50);
 /// The most bytes of a policy for which room is kept by the acceptor.
 const POLICY_BYTES: usize = 16 << 10;
@@ -37,14 +37,14 @@ pub enum Start {
     FirstStep,
 }
 
-/// How a model is asked.
+/// Settings of the exchange with a model.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Settings {
-    /// How often a reply that is wrong goes back to the model with the reason.
+    /// Number of times that a wrong reply goes back to the model with the reason.
     pub repairs: u32,
     /// The most tokens of a prompt, as far as bytes tell.
     pub tokens: usize,
-    /// What the model is held to.
+    /// Canonical subset that constrains the model.
     pub surface: Subset,
     /// When a policy begins to run.
     pub start: Start,
@@ -59,31 +59,31 @@ impl Default for Settings {
 /// Plans by asking a model.
 pub struct ModelPlanner<'m> {
     model: Box<dyn Model + 'm>,
-    listener: Box<dyn Listener + 'm>,
+    listener: Box<dyn ModelObserver + 'm>,
     settings: Settings,
     /// The rest of the policy of which the first step was given out.
     later: Option<Later>,
-    ready: Option<Ready>,
+    ready: Option<KeptParts>,
 }
 
-/// What depends on the robot and the room alone, kept from one request to the next.
+/// Parts that depend on robot and room only, kept between requests.
 #[derive(Clone)]
-struct Ready {
+struct KeptParts {
     signatures: Arc<Signatures>,
-    lasting: Arc<Lasting>,
+    lasting: Arc<StaticPrompt>,
     offer: Arc<Offer>,
     acceptors: AcceptorFactory,
 }
 
-/// How far a reply was read.
+/// StreamReader position in a reply.
 enum Read {
     /// To its end, or to where this ends it.
-    Ended(Verdict),
+    Ended(StreamVerdict),
     /// To the end of its first step, which may begin.
     First(Box<Planned>),
 }
 
-/// What one round came to.
+/// Result of one round.
 enum Round {
     Good(Box<Planned>),
     /// The reply as far as it was read, and what is wrong with it.
@@ -95,18 +95,18 @@ enum Round {
 impl<'m> ModelPlanner<'m> {
     /// A planner that asks a model.
     #[must_use]
-    pub fn new(model: impl Model + 'm, listener: impl Listener + 'm, settings: Settings) -> Self {
+    pub fn new(model: impl Model + 'm, listener: impl ModelObserver + 'm, settings: Settings) -> Self {
         Self { model: Box::new(model), listener: Box::new(listener), settings, later: None, ready: None }
     }
 
-    /// What is kept, for the session of a request: made anew where robot or things are others.
-    fn ready(&mut self, ask: &Ask<'_>) -> Ready {
+    /// Returns the kept parts for a request's session, and rebuilds them after a change of robot or things.
+    fn ready(&mut self, ask: &PlanRequest<'_>) -> KeptParts {
         let signatures = ask.session.signatures();
         let kept = self.ready.take().filter(|kept| Arc::ptr_eq(&kept.signatures, &signatures));
         let ready = match kept {
-            Some(kept) => Ready { acceptors: kept.acceptors.elsewhere(ask.session), ..kept },
-            None => Ready {
-                lasting: Arc::new(Lasting::new(ask.session, ask.robot, ask.situation.scene)),
+            Some(kept) => KeptParts { acceptors: kept.acceptors.elsewhere(ask.session), ..kept },
+            None => KeptParts {
+                lasting: Arc::new(StaticPrompt::new(ask.session, ask.robot, ask.situation.scene)),
                 offer: Arc::new(Offer::new(&signatures, self.settings.surface)),
                 acceptors: AcceptorFactory::new(ask.session, self.settings.surface),
                 signatures,
@@ -120,29 +120,29 @@ impl<'m> ModelPlanner<'m> {
     fn rounds(
         &mut self,
         session: &Session,
-        ready: &Ready,
+        ready: &KeptParts,
         first: &[Message],
         mut goal: Option<Expr>,
-    ) -> Result<Planned, Unplanned> {
+    ) -> Result<Planned, PlanError> {
         let mut chat = first.to_vec();
-        let mut last = Unplanned::NoModel { why: String::new() };
+        let mut last = PlanError::NoModel { why: String::new() };
         for round in 0..=self.settings.repairs {
             let name = self.model.name();
-            self.listener.hear(&Happening::Asked { round, model: &name, chat: &chat });
+            self.listener.hear(&ModelEvent::Asked { round, model: &name, chat: &chat });
             match self.round(session, ready, (&chat, &mut goal), round) {
                 Round::Good(planned) => return Ok(*planned),
                 Round::Bad(reply, findings) => {
                     let words = render::llm(&findings, &Sources::default());
-                    self.listener.hear(&Happening::Refused { round, reply: &reply, findings: &words });
+                    self.listener.hear(&ModelEvent::Refused { round, reply: &reply, findings: &words });
                     chat = first.to_vec();
                     chat.push(Message::new(Role::User, again(&words)));
                     chat.insert(first.len(), Message::new(Role::Assistant, reply.as_str()));
-                    last = Unplanned::Refused { text: reply, diagnostics: findings };
+                    last = PlanError::Refused { text: reply, diagnostics: findings };
                 }
-                Round::Failed(ModelError::Cancelled) => return Err(Unplanned::Stopped),
+                Round::Failed(ModelError::Cancelled) => return Err(PlanError::Stopped),
                 Round::Failed(why) => {
                     let is_lasting = why.is_lasting();
-                    last = Unplanned::NoModel { why: format!("{name}: {why}") };
+                    last = PlanError::NoModel { why: format!("{name}: {why}") };
                     if is_lasting {
                         break;
                     }
@@ -155,46 +155,46 @@ impl<'m> ModelPlanner<'m> {
     fn round(
         &mut self,
         session: &Session,
-        ready: &Ready,
+        ready: &KeptParts,
         (chat, goal): (&[Message], &mut Option<Expr>),
         round: u32,
     ) -> Round {
-        let mut reading = Reading::new(session, ready.acceptors.acceptor(POLICY_BYTES));
+        let mut reading = StreamReader::new(session, ready.acceptors.acceptor(POLICY_BYTES));
         let mut reply = match self.model.ask(chat, &ready.offer) {
             Ok(reply) => reply,
             Err(why) => return self.failed(round, "", why),
         };
         match self.read(&mut reading, &mut *reply, session) {
             Ok(Read::First(planned)) => {
-                self.listener.hear(&Happening::Begun { reply: reading.reply() });
+                self.listener.hear(&ModelEvent::Begun { reply: reading.reply() });
                 self.later = Some(Later { reply, reading: reading.into_owned(), round });
                 Round::Good(planned)
             }
-            Ok(Read::Ended(Verdict::Wrong(Wrong { at, findings }))) => {
-                self.listener.hear(&Happening::Stopped { at });
+            Ok(Read::Ended(StreamVerdict::Wrong(Wrong { at, findings }))) => {
+                self.listener.hear(&ModelEvent::Stopped { at });
                 Round::Bad(reading.reply().to_owned(), findings)
             }
             Ok(Read::Ended(verdict)) => {
-                let whole = if verdict == Verdict::Whole { reading.policy() } else { reading.reply() };
+                let whole = if verdict == StreamVerdict::Whole { reading.policy() } else { reading.reply() };
                 match judge(session, whole) {
-                    Judged::Good { planned, mended, changed } => {
+                    ReplyVerdict::Good { planned, mended, changed } => {
                         // Other steps than were written are the model's to write, as long as it may.
                         if !changed.is_empty() && round < self.settings.repairs {
                             return Round::Bad(reading.reply().to_owned(), changed);
                         }
                         // A model is told once that this is not what was asked for; it may know better what was meant.
                         let wanted = goal.take().filter(|_| round < self.settings.repairs);
-                        let findings = wanted.map(|goal| purpose::missed(session, &planned, &goal));
+                        let findings = wanted.map(|goal| goal_check::missed(session, &planned, &goal));
                         if let Some(findings) = findings.filter(|findings| !findings.is_empty()) {
                             return Round::Bad(reading.reply().to_owned(), findings);
                         }
                         if !mended.is_empty() {
-                            self.listener.hear(&Happening::Mended { titles: &mended });
+                            self.listener.hear(&ModelEvent::Mended { titles: &mended });
                         }
-                        self.listener.hear(&Happening::Taken { round, reply: reading.reply() });
+                        self.listener.hear(&ModelEvent::Taken { round, reply: reading.reply() });
                         Round::Good(planned)
                     }
-                    Judged::Bad { findings } => Round::Bad(reading.reply().to_owned(), findings),
+                    ReplyVerdict::Bad { findings } => Round::Bad(reading.reply().to_owned(), findings),
                 }
             }
             Err(why) => self.failed(round, reading.reply(), why),
@@ -202,14 +202,14 @@ impl<'m> ModelPlanner<'m> {
     }
 
     fn failed(&mut self, round: u32, reply: &str, why: ModelError) -> Round {
-        self.listener.hear(&Happening::Failed { round, reply, why: &why });
+        self.listener.hear(&ModelEvent::Failed { round, reply, why: &why });
         Round::Failed(why)
     }
 
     /// Reads until the reply is complete, wrong, or ends. To return is to hang up.
     fn read(
         &mut self,
-        reading: &mut Reading<'_>,
+        reading: &mut StreamReader<'_>,
         reply: &mut dyn Reply,
         session: &Session,
     ) -> Result<Read, ModelError> {
@@ -221,25 +221,27 @@ impl<'m> ModelPlanner<'m> {
             match reply.next(SLICE) {
                 News::Nothing => {}
                 News::Retrying { why, after } => {
-                    self.listener.hear(&Happening::Retrying { why: &why, after });
+                    self.listener.hear(&ModelEvent::Retrying { why: &why, after });
                 }
                 News::Piece(piece) => {
-                    self.listener.hear(&Happening::Wrote(&piece));
+                    self.listener.hear(&ModelEvent::Wrote(&piece));
                     if reading.reply().len() + piece.len() > REPLY_BYTES {
                         return Err(ModelError::TooLong { bytes: REPLY_BYTES });
                     }
                     match reading.push(&piece) {
-                        Verdict::Steps(_) if std::mem::take(&mut begins) => {
+                        StreamVerdict::Steps(_) if std::mem::take(&mut begins) => {
                             let first = reading.first().and_then(|first| first_step(session, &first));
                             if let Some(planned) = first {
                                 return Ok(Read::First(planned));
                             }
                         }
-                        Verdict::GoOn | Verdict::Steps(_) => {}
-                        end @ (Verdict::Whole | Verdict::Wrong(_)) => return Ok(Read::Ended(end)),
+                        StreamVerdict::GoOn | StreamVerdict::Steps(_) => {}
+                        end @ (StreamVerdict::Whole | StreamVerdict::Wrong(_)) => {
+                            return Ok(Read::Ended(end));
+                        }
                     }
                 }
-                News::End(Finish::Stop) => return Ok(Read::Ended(Verdict::GoOn)),
+                News::End(Finish::Stop) => return Ok(Read::Ended(StreamVerdict::GoOn)),
                 News::End(Finish::Length) => {
                     let why = "it had written as much as it may".to_owned();
                     return Err(ModelError::CutOff { why });
@@ -251,78 +253,78 @@ impl<'m> ModelPlanner<'m> {
 }
 
 impl Planner for ModelPlanner<'_> {
-    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         self.later = None;
         let ready = self.ready(ask);
         let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
-        let goal = purpose::goal(ask.request, ask.situation);
+        let goal = goal_check::goal(ask.request, ask.situation);
         let planned = self.rounds(ask.session, &ready, &chat, goal)?;
         let mut spoken_of = ask.situation.spoken_of.clone();
         spoken_of.extend(motet_requests::named(ask.request, ask.situation));
-        Ok(Answered { understood: Intent { spoken_of, ..Intent::default() }, planned })
+        Ok(PlannedRequest { understood: Intent { spoken_of, ..Intent::default() }, planned })
     }
 
     fn reads_answers(&self) -> bool {
         true
     }
 
-    fn begin(&mut self, ask: &Ask<'_>) -> bool {
+    fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
         self.later = None;
         let ready = self.ready(ask);
         let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
         let name = self.model.name();
-        self.listener.hear(&Happening::Asked { round: 0, model: &name, chat: &chat });
+        self.listener.hear(&ModelEvent::Asked { round: 0, model: &name, chat: &chat });
         let Ok(reply) = self.model.ask(&chat, &ready.offer) else { return false };
         let acceptor = ready.acceptors.acceptor(POLICY_BYTES);
-        let reading = Reading::new(ask.session, acceptor).into_owned();
+        let reading = StreamReader::new(ask.session, acceptor).into_owned();
         self.later = Some(Later { reply, reading, round: 0 });
         true
     }
 
-    fn rest(&mut self, wait: Wait) -> Rest {
+    fn rest(&mut self, wait: Wait) -> RemainingSteps {
         loop {
-            let Some(later) = &mut self.later else { return Rest::Nothing };
+            let Some(later) = &mut self.later else { return RemainingSteps::Nothing };
             if self.listener.is_stopped() {
                 self.later = None;
-                return Rest::Stopped;
+                return RemainingSteps::Stopped;
             }
             let came = later.next(if wait == Wait::ToTheEnd { SLICE } else { Duration::ZERO });
             let (round, reply) = (later.round, later.reading.reply());
             match came {
-                Came::Some(piece) => self.listener.hear(&Happening::Wrote(&piece)),
+                Came::Some(piece) => self.listener.hear(&ModelEvent::Wrote(&piece)),
                 Came::Nothing if wait == Wait::ToTheEnd => {}
-                Came::Nothing => return Rest::Coming,
+                Came::Nothing => return RemainingSteps::Coming,
                 Came::Whole(policy) => {
-                    self.listener.hear(&Happening::Taken { round, reply });
+                    self.listener.hear(&ModelEvent::Taken { round, reply });
                     self.later = None;
-                    return Rest::Whole(policy);
+                    return RemainingSteps::Whole(policy);
                 }
                 Came::Wrong(findings) => {
                     let findings = render::llm(&findings, &Sources::default());
-                    self.listener.hear(&Happening::Refused { round, reply, findings: &findings });
+                    self.listener.hear(&ModelEvent::Refused { round, reply, findings: &findings });
                     self.later = None;
-                    return Rest::Broken;
+                    return RemainingSteps::Broken;
                 }
                 Came::Failed(why) => {
-                    self.listener.hear(&Happening::Failed { round, reply, why: &why });
+                    self.listener.hear(&ModelEvent::Failed { round, reply, why: &why });
                     self.later = None;
-                    return Rest::Broken;
+                    return RemainingSteps::Broken;
                 }
             }
         }
     }
 }
 
-/// What a model is told and asked first, in at most so many tokens as far as bytes tell. No motion is looked for, so that the same
-/// question gives the same chat.
+/// First messages to a model, within `tokens` as estimated from bytes. No motion is searched, so that the
+/// same question gives the same chat.
 #[must_use]
-pub fn chat(ask: &Ask<'_>, tokens: usize) -> Vec<Message> {
-    let lasting = Lasting::new(ask.session, ask.robot, ask.situation.scene);
+pub fn chat(ask: &PlanRequest<'_>, tokens: usize) -> Vec<Message> {
+    let lasting = StaticPrompt::new(ask.session, ask.robot, ask.situation.scene);
     written(ask, &lasting, (tokens, Duration::ZERO))
 }
 
 /// The same with what is kept, and with what is seen at the moment.
-fn written(ask: &Ask<'_>, lasting: &Lasting, (tokens, time): (usize, Duration)) -> Vec<Message> {
+fn written(ask: &PlanRequest<'_>, lasting: &StaticPrompt, (tokens, time): (usize, Duration)) -> Vec<Message> {
     let prompt = Prompt {
         session: ask.session,
         robot: ask.robot,
@@ -340,7 +342,7 @@ fn written(ask: &Ask<'_>, lasting: &Lasting, (tokens, time): (usize, Duration)) 
 }
 
 /// The request, with what was found out that its words mean.
-fn asked(ask: &Ask<'_>) -> String {
+fn asked(ask: &PlanRequest<'_>) -> String {
     let mut request = ask.request.to_owned();
     for (said, id) in &ask.situation.meant {
         request.push_str(&format!("\n(\"{said}\" is {id}.)"));
@@ -348,7 +350,7 @@ fn asked(ask: &Ask<'_>) -> String {
     request
 }
 
-/// What the model is told of a reply that is wrong.
+/// Message to the model about a wrong reply.
 fn again(findings: &str) -> String {
     format!(
         "That policy cannot be carried out:\n{findings}\nAnswer the request again with one whole policy that mends this, \

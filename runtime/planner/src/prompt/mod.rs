@@ -1,9 +1,9 @@
-//! What a model sees: the robot's primitives, the room in words, what is known, what was asked and done, two examples, and
-//! the request. The same inputs give the same text, within a budget of tokens; only where looking for motions takes longer
-//! than it may is less said of them.
+//! The prompt: primitives of the robot, the room in words, knowledge, earlier requests, two examples, and
+//! the request. The same inputs give the same text within a token budget; only a motion search that takes
+//! too long leaves something out.
 
-mod lasting;
-mod seen;
+mod sighting;
+mod static_prompt;
 
 use std::time::Duration;
 
@@ -13,8 +13,8 @@ use motet_robots::scene::Scene;
 use motet_runtime::memory::Memory;
 use smol_str::SmolStr;
 
-pub use lasting::Lasting;
-pub use seen::{Feasible, Seen, seen};
+pub use sighting::{Reachability, Sighting, seen};
+pub use static_prompt::StaticPrompt;
 
 use motet_requests::RequestContext;
 
@@ -22,27 +22,25 @@ use motet_requests::RequestContext;
 const BYTES_PER_TOKEN: usize = 4;
 /// The budget where nothing else is said, in tokens.
 pub const TOKENS: usize = 6_000;
-/// How long motions are looked for where nothing else is said, where that was not done before.
+/// Default time limit for motion searches whose answers are not cached.
 pub const TIME: Duration = Duration::from_millis(500);
 
 /// The most entries of the memory.
 const LATEST: usize = 24;
 
-/// What a prompt is made from.
+/// Input of a prompt.
 #[derive(Clone, Copy, Debug)]
 pub struct Prompt<'a> {
-    /// What policies are checked against.
+    /// Session that checks the policies.
     pub session: &'a Session,
-    /// The robot.
     pub robot: &'a Robot,
-    /// The room.
     pub scene: &'a Scene,
-    /// What is known of it.
+    /// Context in which the request is read.
     pub situation: &'a RequestContext<'a>,
-    /// What was asked and done.
+    /// Earlier requests and their endings.
     pub memory: &'a Memory,
-    /// What does not change from one prompt to the next.
-    pub lasting: &'a Lasting,
+    /// Parts that all prompts of a robot in a room share.
+    pub lasting: &'a StaticPrompt,
     /// The most tokens, as far as bytes tell.
     pub tokens: usize,
     /// After how long no further motion is looked for.
@@ -58,7 +56,7 @@ pub struct Written {
     pub user: String,
     /// About how many tokens both are.
     pub tokens: usize,
-    /// What was left out to stay within the budget.
+    /// Sections that the budget left out.
     pub left_out: Vec<&'static str>,
 }
 
@@ -83,7 +81,7 @@ impl Prompt<'_> {
         let fixed = [
             self.lasting.rules.clone(),
             room(&|id| named.contains(id)),
-            seen::told(&seen(self.session, self.robot, self.scene, &named, self.time)),
+            sighting::told(&seen(self.session, self.robot, self.scene, &named, self.time)),
             format!("# Request\n{}\n", request.trim()),
         ];
         let fixed_bytes: usize = fixed.iter().map(String::len).sum();

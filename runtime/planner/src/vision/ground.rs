@@ -1,5 +1,5 @@
-//! Where to act on a thing, by a model that sees: its answer `{"point": [u, v]}` in pixels, lifted by the depth image and the
-//! camera's pose to a pose in the room.
+//! Grounding of a point on a thing by a model that sees: its answer `{"point": [u, v]}` in pixels, lifted by
+//! the depth image and the camera's pose to a pose in the frame `map`.
 
 use motet_graph::Pose;
 use motet_runtime::{CameraImage, CameraModel, DepthImage, RgbdView};
@@ -7,7 +7,7 @@ use thiserror::Error;
 
 /// The longest answer that is read, in bytes: a point takes twenty.
 const MAX_REPLY: usize = 4_096;
-/// How far from the point depth is looked for where it has none, in pixels: along edges a depth camera has holes.
+/// Radius in pixels of the search for a depth value, since depth cameras leave holes along edges.
 const NEIGHBOURHOOD: i64 = 3;
 /// The depth that a camera of a robot can tell, in m.
 const RANGE_M: std::ops::RangeInclusive<f64> = 0.05..=20.0;
@@ -22,13 +22,13 @@ pub trait Pointer {
     fn ask(&mut self, image: &CameraImage, question: &str) -> Result<String, String>;
 }
 
-/// Why there is no point.
+/// Reasons for which there is no point.
 #[derive(Error, Clone, PartialEq, Debug)]
 pub enum NoPoint {
     /// No camera sees what is asked about.
     #[error("no camera sees it")]
     Unseen,
-    /// Nobody answered.
+    /// The model gave no answer.
     #[error("no answer: {0}")]
     Silent(String),
     /// The answer is no point.
@@ -39,24 +39,10 @@ pub enum NoPoint {
     Several,
     /// The point is not in the image.
     #[error("the point ({u:.1}, {v:.1}) is outside of the image of {width} x {height} pixels")]
-    Outside {
-        /// Column.
-        u: f64,
-        /// Row.
-        v: f64,
-        /// Columns.
-        width: usize,
-        /// Rows.
-        height: usize,
-    },
+    Outside { u: f64, v: f64, width: usize, height: usize },
     /// The depth image has nothing there.
     #[error("there is no depth within {NEIGHBOURHOOD} pixels of ({u:.1}, {v:.1})")]
-    NoDepth {
-        /// Column.
-        u: f64,
-        /// Row.
-        v: f64,
-    },
+    NoDepth { u: f64, v: f64 },
     /// The camera cannot be used.
     #[error("the camera cannot be used: {0}")]
     Camera(&'static str),

@@ -1,9 +1,9 @@
-//! What is seen, for who plans: detections taken into the scene, and points of an image that a model gives lifted into it.
+//! Perception for the planner: detections in the scene, and image points of a model lifted into it.
 
+mod detections;
 mod ground;
-mod pointing;
-mod seen;
+mod grounding_driver;
 
+pub use detections::with_detections;
 pub use ground::{NoPoint, Pointer, ground, lift, point};
-pub use pointing::{Pointed, Pointing};
-pub use seen::with_detections;
+pub use grounding_driver::{GroundedPoint, GroundingDriver};

@@ -1,15 +1,16 @@
-//! Whether a policy that a model wrote does what was asked for, as far as the request is understood without a model.
+//! Comparison of a model's policy with the goal of the request, as far as the request can be read without a
+//! model.
 
 use motet_compiler::Session;
 use motet_compiler::plan::Lasts;
 use motet_syntax::ast::{Expr, ExprKind, File, Item};
 use motet_syntax::{Diagnostic, FileId, Source, Span, print};
 
-use super::judge::errors;
+use super::reply_verdict::errors;
 use crate::builtin::Planned;
 use motet_requests::RequestContext;
 
-/// What a request asks for that lasts; none where it is not understood, or asks for something under a condition.
+/// StaticPrompt goal of a request. `None` if the request cannot be read or depends on a condition.
 pub(super) fn goal(request: &str, situation: &RequestContext<'_>) -> Option<Expr> {
     let understood = motet_requests::understand(request, situation).ok()?;
     if understood.aims.iter().any(|aim| aim.only_if.is_some()) {
@@ -23,7 +24,7 @@ pub(super) fn goal(request: &str, situation: &RequestContext<'_>) -> Option<Expr
     Some(Expr { kind: ExprKind::All(parts), span: Span::default() })
 }
 
-/// What is wrong with a policy that passes the check, where it cannot come to what was asked for.
+/// Errors of a policy that passes the check and cannot reach the goal of the request.
 pub(super) fn missed(session: &Session, planned: &Planned, goal: &Expr) -> Vec<Diagnostic> {
     let mut file = File { items: planned.parsed.file.items.clone() };
     for item in &mut file.items {

@@ -1,28 +1,28 @@
-//! What is known between two policies: what a run believed at its end, and what people said. From it come the scene and the
-//! state that the next policy is checked against, and the start of the next run.
+//! Knowledge between two policies: the beliefs at the end of a run, and statements of people. The scene and
+//! the state of the next check, and the start of the next run, come from it.
 
-mod taken_in;
-mod world;
+mod locations;
+mod statements;
 
 use motet_compiler::{Given, Session};
 use motet_graph::Graph;
 use motet_runtime::{Engine, Pattern, Query, Snapshot, Truth};
 use smol_str::SmolStr;
 
-/// What is known beside a scene.
+/// Knowledge beyond a scene.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
+pub struct Knowledge {
     /// In order: a later fact wins, and one with `any` is meant of every entity.
     facts: Vec<(Query, Truth)>,
     some: Vec<Query>,
-    /// What was spoken of, the latest last.
+    /// Entities that were mentioned, the latest last.
     pub(super) spoken_of: Vec<SmolStr>,
-    /// Where things were before they were taken from there, the latest last.
+    /// Earlier locations of moved things, the latest last.
     came_from: Vec<(SmolStr, SmolStr)>,
 }
 
-impl Known {
-    /// Whether nothing is known but what the scene says.
+impl Knowledge {
+    /// Returns `true` if nothing is known beyond the scene.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.facts.is_empty()

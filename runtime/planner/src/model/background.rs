@@ -12,28 +12,26 @@ use serde_json::{Map, Value as Json};
 use smol_str::SmolStr;
 
 use super::chat::{Finish, ModelError, News, Reply};
-use super::judge::{Judged, judge};
-use super::reading::{Reading, Verdict};
+use super::reply_verdict::{ReplyVerdict, judge};
+use super::stream_reader::{StreamReader, StreamVerdict};
 use crate::builtin::Planned;
 
 /// The rest of a policy whose first step was given out.
 pub(super) struct Later {
     pub(super) reply: Box<dyn Reply>,
-    pub(super) reading: Reading<'static>,
+    pub(super) reading: StreamReader<'static>,
     pub(super) round: u32,
 }
 
-/// What has come of it.
+/// Progress of the remaining policy.
 pub(super) enum Came {
     /// Something, and not yet all.
     Some(String),
-    /// Nothing yet.
     Nothing,
     /// The whole policy.
     Whole(String),
     /// Nothing that can be used.
     Wrong(Vec<motet_syntax::Diagnostic>),
-    /// No more.
     Failed(ModelError),
 }
 
@@ -43,9 +41,9 @@ impl Later {
         match self.reply.next(wait) {
             News::Nothing | News::Retrying { .. } => Came::Nothing,
             News::Piece(piece) => match self.reading.push(&piece) {
-                Verdict::GoOn | Verdict::Steps(_) => Came::Some(piece),
-                Verdict::Whole => Came::Whole(self.reading.policy().to_owned()),
-                Verdict::Wrong(wrong) => Came::Wrong(wrong.findings),
+                StreamVerdict::GoOn | StreamVerdict::Steps(_) => Came::Some(piece),
+                StreamVerdict::Whole => Came::Whole(self.reading.policy().to_owned()),
+                StreamVerdict::Wrong(wrong) => Came::Wrong(wrong.findings),
             },
             // A reply in the text form is no object that could be followed.
             News::End(Finish::Stop) if self.reading.policy().is_empty() => {
@@ -66,15 +64,15 @@ pub(super) fn first_step(session: &Session, policy: &str) -> Option<Box<Planned>
     // What the whole policy reaches, one step need not.
     policy.remove("achieves");
     match judge(session, &Json::Object(policy).to_string()) {
-        Judged::Good { planned, mended, .. } if mended.is_empty() => {
+        ReplyVerdict::Good { planned, mended, .. } if mended.is_empty() => {
             let graph = planned.compiled.graph.as_ref()?;
             is_certain(graph).then_some(planned)
         }
-        Judged::Good { .. } | Judged::Bad { .. } => None,
+        ReplyVerdict::Good { .. } | ReplyVerdict::Bad { .. } => None,
     }
 }
 
-/// Whether it does something, and nothing that it does is left to be found out.
+/// Returns `true` if the graph acts, and no guard or motion is deferred.
 fn is_certain(graph: &Graph) -> bool {
     let mut calls = 0;
     let certain = graph.nodes.iter().all(|node| match &node.kind {

@@ -15,21 +15,20 @@ use motet_syntax::Sources;
 use motet_syntax::ast::File;
 use smol_str::SmolStr;
 
-use super::known::Known;
-use super::planner::{Ask, Planner};
+use super::knowledge::Knowledge;
+use super::manager::Pursuit;
+use super::observer::{DialogueObserver, Person};
 use super::problem::{Kind, Problem};
-use super::pursuit::Pursuit;
-use super::watcher::{Person, Watcher};
-use crate::builtin::{Answered, Unplanned};
-use crate::guard::WITHIN;
+use crate::builtin::{PlanError, PlannedRequest};
+use crate::runtime_check::WITHIN;
+use crate::{PlanRequest, Planner};
 use motet_requests::RequestContext;
 
 /// In which world requests are carried out.
 #[derive(Clone, Debug)]
-pub struct Setting {
-    /// The robot.
+pub struct DialogueSetup {
     pub robot: Robot,
-    /// What is known of the room at the start.
+    /// Scene at the start.
     pub scene: Scene,
     /// Declarations on top of the library.
     pub domains: Vec<File>,
@@ -39,10 +38,10 @@ pub struct Setting {
     pub options: Options,
 }
 
-/// How a conversation about one request ended.
+/// Ending of a conversation about one request.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Outcome {
-    /// What was asked for is done.
+    /// The request is done.
     Done,
     /// A person gave it up.
     GivenUp,
@@ -54,10 +53,10 @@ pub enum Outcome {
 
 /// Carries out requests, one after the other, in a world that lasts.
 pub struct Conversation<'a> {
-    pub(super) setting: &'a Setting,
-    /// What is known beside the setting.
-    pub known: Known,
-    /// What was asked and done.
+    pub(super) setting: &'a DialogueSetup,
+    /// Knowledge beyond the given scene.
+    pub known: Knowledge,
+    /// Earlier requests and their endings.
     pub memory: Memory,
     /// The library, read once.
     base: OnceCell<Session>,
@@ -67,8 +66,8 @@ pub struct Conversation<'a> {
 impl<'a> Conversation<'a> {
     /// A conversation in a setting.
     #[must_use]
-    pub fn new(setting: &'a Setting) -> Self {
-        let (known, memory) = (Known::default(), Memory::new(MemoryLimits::default()));
+    pub fn new(setting: &'a DialogueSetup) -> Self {
+        let (known, memory) = (Knowledge::default(), Memory::new(MemoryLimits::default()));
         Self { setting, known, memory, base: OnceCell::new(), eyes: None }
     }
 
@@ -85,7 +84,7 @@ impl<'a> Conversation<'a> {
         planner: &mut dyn Planner,
         driver: &mut dyn Driver,
         person: &mut dyn Person,
-        watcher: &mut dyn Watcher,
+        watcher: &mut dyn DialogueObserver,
         from: Time,
     ) -> (Outcome, Time) {
         self.hear(request);
@@ -112,7 +111,7 @@ impl<'a> Conversation<'a> {
     }
 
     /// A session in what is known; with motions where it is known where everything is.
-    pub(super) fn session(&self, scene: &Scene, known: &Known, base: Option<[f64; 3]>) -> Session {
+    pub(super) fn session(&self, scene: &Scene, known: &Knowledge, base: Option<[f64; 3]>) -> Session {
         let (session, _) = self.base().elsewhere(Some(scene), Some(&known.state()));
         let Some(geometry) = &self.setting.geometry else { return session };
         if known.is_empty() {
@@ -126,7 +125,7 @@ impl<'a> Conversation<'a> {
 
     /// The library, in the scene as the setting has it.
     pub(super) fn base(&self) -> &Session {
-        let Setting { robot, domains, options, scene, .. } = self.setting;
+        let DialogueSetup { robot, domains, options, scene, .. } = self.setting;
         self.base.get_or_init(|| {
             Session::new(Some(robot), domains, Some(scene), None, *options, &mut Sources::default()).0
         })
@@ -137,10 +136,10 @@ impl<'a> Conversation<'a> {
         (request, image): (&str, Option<&CameraImage>),
         meant: &[(String, SmolStr)],
         planner: &mut dyn Planner,
-        (session, scene, known): (&Session, &Scene, &Known),
-    ) -> Result<Answered, Unplanned> {
+        (session, scene, known): (&Session, &Scene, &Knowledge),
+    ) -> Result<PlannedRequest, PlanError> {
         let situation = RequestContext { meant: meant.to_vec(), ..known.situation(scene) };
-        planner.plan(&Ask { image, ..self.ask(session, request, &situation) })
+        planner.plan(&PlanRequest { image, ..self.ask(session, request, &situation) })
     }
 
     pub(super) fn ask<'s>(
@@ -148,8 +147,15 @@ impl<'a> Conversation<'a> {
         session: &'s Session,
         request: &'s str,
         situation: &'s RequestContext<'s>,
-    ) -> Ask<'s> {
-        Ask { session, robot: &self.setting.robot, request, situation, memory: &self.memory, image: None }
+    ) -> PlanRequest<'s> {
+        PlanRequest {
+            session,
+            robot: &self.setting.robot,
+            request,
+            situation,
+            memory: &self.memory,
+            image: None,
+        }
     }
 
     /// An engine for a policy, in the state that is known, with that state.

@@ -1,4 +1,4 @@
-//! Who is there beside the robot: somebody who answers, and somebody who looks on.
+//! People and observers beside the robot: an operator who answers, and observers who record.
 
 use std::sync::Arc;
 
@@ -8,33 +8,33 @@ use motet_runtime::{
 };
 
 use super::problem::Problem;
-use crate::builtin::Answered;
-use crate::guard::Verifies;
+use crate::builtin::PlannedRequest;
+use crate::runtime_check::CheckMode;
 
-/// Answers questions.
+/// A person who answers the robot's questions.
 pub trait Person {
     /// Asks a question. None where nobody answers.
     fn ask(&mut self, problem: &Problem) -> Option<String>;
 }
 
-/// Nobody is there.
+/// NoOperator is there.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Nobody;
+pub struct NoOperator;
 
-impl Person for Nobody {
+impl Person for NoOperator {
     fn ask(&mut self, _problem: &Problem) -> Option<String> {
         None
     }
 }
 
 /// Looks on, and brings new requests.
-pub trait Watcher {
-    /// Who writes down the run that is about to begin, where somebody does. The engine has not taken in anything yet.
-    fn scribe(&mut self, _engine: &Engine, _start: &StartState) -> Option<Box<dyn Scribe>> {
+pub trait DialogueObserver {
+    /// Recorder of the run that is about to begin, if there is one. The engine has handled no event yet.
+    fn scribe(&mut self, _engine: &Engine, _start: &StartState) -> Option<Box<dyn RunRecorder>> {
         None
     }
     /// A policy is about to run, or to take over.
-    fn planned(&mut self, _answered: &Answered, _graph: &Arc<Graph>) {}
+    fn planned(&mut self, _answered: &PlannedRequest, _graph: &Arc<Graph>) {}
     /// An event is about to be handled.
     fn event(&mut self, _now: Time, _event: &Event) {}
     /// An effect is about to be carried out.
@@ -48,14 +48,14 @@ pub trait Watcher {
         Time::NEVER
     }
     /// When motions are searched for that were left to the run.
-    fn verifies(&self) -> Verifies {
-        Verifies::AtOnce
+    fn verifies(&self) -> CheckMode {
+        CheckMode::AtOnce
     }
     /// A new request that somebody has made meanwhile.
     fn request(&mut self, _now: Time) -> Option<String> {
         None
     }
-    /// Whether a person stops it all, at a question too.
+    /// Returns `true` once a person wants everything to stop, also during a question.
     fn is_stopped(&self) -> bool {
         false
     }
@@ -68,10 +68,10 @@ pub trait Watcher {
 }
 
 /// Looks on without a word.
-impl Watcher for () {}
+impl DialogueObserver for () {}
 
 /// Writes down one run.
-pub trait Scribe {
+pub trait RunRecorder {
     /// Runs an engine to its end as [`motet_runtime::run`] does, and writes down what it takes in and gives out.
     fn run(
         self: Box<Self>,

@@ -6,21 +6,19 @@
 //! the next.
 
 mod answer;
-mod first;
-mod known;
-mod live;
-mod planner;
+mod conversation;
+mod early_start;
+mod knowledge;
+mod live_run;
+mod manager;
+mod observer;
 mod polarity;
 mod problem;
-mod pursuit;
-mod sense;
-mod talk;
-mod watcher;
+mod proprioception;
 
 pub use answer::Answer;
-pub use known::Known;
-pub use planner::{Ask, Builtin, Planner, Rest, Wait};
+pub use conversation::{Conversation, DialogueSetup, Outcome};
+pub use knowledge::Knowledge;
+pub use observer::{DialogueObserver, NoOperator, Person, RunRecorder};
 pub(crate) use problem::called;
 pub use problem::{Kind, Problem};
-pub use talk::{Conversation, Outcome, Setting};
-pub use watcher::{Nobody, Person, Scribe, Watcher};

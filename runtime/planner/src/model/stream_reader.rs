@@ -11,8 +11,8 @@ use motet_compiler::Session;
 use motet_decode::Acceptor;
 use motet_syntax::Diagnostic;
 
-use super::judge::{errors, mend, read};
-use super::scan::{Mark, Scan};
+use super::reply_verdict::{errors, mend, read};
+use super::scanner::{Mark, Scan};
 
 /// Behind the steps so far, where a policy is checked that is not complete: what it leaves undone is not held against it.
 const UNFINISHED: &str = r#"{"end":"fail","why":"unfinished"}"#;
@@ -22,35 +22,35 @@ const COMING_BACK: &[&str] = &["\"repeat\"", "\"each\"", "\"react\"", "\"paralle
 
 /// A reply that is being read.
 #[derive(Debug)]
-pub struct Reading<'s> {
+pub struct StreamReader<'s> {
     session: Cow<'s, Session>,
     /// As long as the reply keeps to the model surface.
     acceptor: Option<Acceptor>,
     scan: Scan,
     reply: String,
-    /// Where it left the surface, as long as it is not known why.
+    /// Place where the reply left the canonical subset, until the reason is known.
     suspect: Option<Suspect>,
     steps: usize,
-    /// Where the step begins, in the scanned text, that is being written.
+    /// Offset of the current step in the scanned text.
     step_from: usize,
-    /// Where the first step ends.
+    /// Offset of the first step's end.
     first_to: Option<usize>,
 }
 
-/// Where a reply left the model surface.
+/// Place where a reply left the canonical subset.
 #[derive(Clone, Copy, Debug)]
 struct Suspect {
     /// Byte of the reply.
     at: usize,
-    /// Where the string begins in which that was, in the scanned text.
+    /// Offset of the surrounding string in the scanned text, if there is one.
     string: Option<usize>,
-    /// Where the innermost object or array begins in which that was.
+    /// Offset of the innermost surrounding object or array.
     object: usize,
 }
 
-/// What is known of a reply after a piece of it.
+/// State of a reply after one more piece.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Verdict {
+pub enum StreamVerdict {
     /// Nothing speaks against it so far.
     GoOn,
     /// The same, and this many of its steps are complete and checked.
@@ -61,16 +61,16 @@ pub enum Verdict {
     Wrong(Wrong),
 }
 
-/// Why a reply was stopped.
+/// Reason to stop a reply.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Wrong {
     /// The first byte of the reply that is wrong.
     pub at: usize,
-    /// What is wrong: errors only.
+    /// Errors that stopped the reply.
     pub findings: Vec<Diagnostic>,
 }
 
-impl<'s> Reading<'s> {
+impl<'s> StreamReader<'s> {
     /// Begins to read a reply: the acceptor is that of the session, or none.
     #[must_use]
     pub fn new(session: &'s Session, acceptor: Option<Acceptor>) -> Self {
@@ -89,10 +89,10 @@ impl<'s> Reading<'s> {
 
     /// The same with a session of its own. Costs a copy of the session.
     #[must_use]
-    pub fn into_owned(self) -> Reading<'static> {
+    pub fn into_owned(self) -> StreamReader<'static> {
         let session = Cow::Owned(self.session.into_owned());
         let Self { acceptor, scan, reply, suspect, steps, step_from, first_to, .. } = self;
-        Reading { session, acceptor, scan, reply, suspect, steps, step_from, first_to }
+        StreamReader { session, acceptor, scan, reply, suspect, steps, step_from, first_to }
     }
 
     /// The policy with its first step only, once that is complete.
@@ -102,7 +102,7 @@ impl<'s> Reading<'s> {
         Some(format!("{written}]}}"))
     }
 
-    /// What has come, with all that surrounds the policy.
+    /// Text so far, including everything around the policy.
     #[must_use]
     pub fn reply(&self) -> &str {
         &self.reply
@@ -115,8 +115,8 @@ impl<'s> Reading<'s> {
     }
 
     /// Takes a piece in. What stands in it behind a verdict that ends the reading is not read.
-    pub fn push(&mut self, piece: &str) -> Verdict {
-        let mut verdict = Verdict::GoOn;
+    pub fn push(&mut self, piece: &str) -> StreamVerdict {
+        let mut verdict = StreamVerdict::GoOn;
         for letter in piece.chars() {
             let at = self.reply.len();
             self.reply.push(letter);
@@ -126,9 +126,9 @@ impl<'s> Reading<'s> {
             }
             self.follow(letter, at);
             match self.judge(mark) {
-                Verdict::GoOn => {}
-                Verdict::Steps(steps) => verdict = Verdict::Steps(steps),
-                end @ (Verdict::Whole | Verdict::Wrong(_)) => return end,
+                StreamVerdict::GoOn => {}
+                StreamVerdict::Steps(steps) => verdict = StreamVerdict::Steps(steps),
+                end @ (StreamVerdict::Whole | StreamVerdict::Wrong(_)) => return end,
             }
         }
         verdict
@@ -145,14 +145,14 @@ impl<'s> Reading<'s> {
         }
     }
 
-    fn judge(&mut self, mark: Mark) -> Verdict {
+    fn judge(&mut self, mark: Mark) -> StreamVerdict {
         match mark {
-            Mark::Nothing | Mark::Kept => Verdict::GoOn,
-            Mark::End => Verdict::Whole,
+            Mark::Nothing | Mark::Kept => StreamVerdict::GoOn,
+            Mark::End => StreamVerdict::Whole,
             Mark::StepEnd => self.step(),
             Mark::StringEnd { from } => match self.suspect {
                 Some(suspect) if suspect.string == Some(from) => self.ask(suspect, from),
-                _ => Verdict::GoOn,
+                _ => StreamVerdict::GoOn,
             },
             Mark::Closed { from } => match self.suspect {
                 Some(suspect) if suspect.object == from => {
@@ -160,14 +160,14 @@ impl<'s> Reading<'s> {
                     self.suspect = None;
                     verdict
                 }
-                _ => Verdict::GoOn,
+                _ => StreamVerdict::GoOn,
             },
         }
     }
 
     /// Asks the checker about what began at `from` and is complete now. What is found elsewhere is found because the rest
     /// is missing.
-    fn ask(&mut self, suspect: Suspect, from: usize) -> Verdict {
+    fn ask(&mut self, suspect: Suspect, from: usize) -> StreamVerdict {
         let text = self.closed();
         let to = self.scan.text.len();
         let inside = |said: &Diagnostic| said.span.start as usize >= from && said.span.end as usize <= to;
@@ -179,9 +179,9 @@ impl<'s> Reading<'s> {
             errors(if comes_back { self.session.check_names(&parsed) } else { self.session.check(&parsed) });
         found.retain(inside);
         if found.is_empty() || found.iter().any(|said| said.fix.is_some()) {
-            return Verdict::GoOn;
+            return StreamVerdict::GoOn;
         }
-        Verdict::Wrong(Wrong { at: suspect.at, findings: found })
+        StreamVerdict::Wrong(Wrong { at: suspect.at, findings: found })
     }
 
     /// The policy so far with all that is open closed. Of one without steps nothing would be said.
@@ -196,14 +196,14 @@ impl<'s> Reading<'s> {
     }
 
     /// A step is complete: it is checked with those before it.
-    fn step(&mut self) -> Verdict {
+    fn step(&mut self) -> StreamVerdict {
         self.steps += 1;
         let to = self.scan.text.len();
         // The acceptor asked the same of the step as it was written, motions aside.
         if self.acceptor.is_some() && !self.session.has_geometry() {
             self.step_from = to;
             self.first_to.get_or_insert(to);
-            return Verdict::Steps(self.steps);
+            return StreamVerdict::Steps(self.steps);
         }
         let text = format!("{},{UNFINISHED}{}", self.scan.text, self.scan.closers());
         let mut found = errors(self.session.check(&read(&text)));
@@ -212,11 +212,11 @@ impl<'s> Reading<'s> {
         self.first_to.get_or_insert(to);
         let suspect = self.suspect.take();
         if found.is_empty() || mend(&self.session, &text).is_some() {
-            return Verdict::Steps(self.steps);
+            return StreamVerdict::Steps(self.steps);
         }
         let first = found.iter().map(|said| said.span.start as usize).min().unwrap_or(to);
         let at = suspect.map_or_else(|| self.in_reply(first), |suspect| suspect.at);
-        Verdict::Wrong(Wrong { at, findings: found })
+        StreamVerdict::Wrong(Wrong { at, findings: found })
     }
 
     /// The byte of the reply at which a byte of the scanned text stood. O(reply).

@@ -10,22 +10,23 @@ use motet_runtime::{
 };
 use smol_str::SmolStr;
 
-use super::first::First;
+use super::early_start::First;
 use super::polarity;
 use super::problem::named_entity;
-use super::sense::sense;
-use super::{Ask, Conversation, Planner, Problem, Rest, Wait, Watcher};
-use crate::builtin::Answered;
-use crate::guard::Guard;
-use crate::model::{Judged, judge};
+use super::proprioception::sense;
+use super::{Conversation, DialogueObserver, Problem};
+use crate::builtin::PlannedRequest;
+use crate::model::{ReplyVerdict, judge};
+use crate::runtime_check::Guard;
+use crate::{PlanRequest, Planner, RemainingSteps, Wait};
 use motet_requests::{Intent, ReportedLocation, RequestContext};
 
-/// Why a run is stopped before its end.
+/// Reason to stop a run before its end.
 pub(super) enum Pending {
     /// A new request, which cannot take over as it stands.
     Request(String),
     /// Something is elsewhere than was thought, so that the same has to be planned anew.
-    Told(Vec<ReportedLocation>),
+    Statement(Vec<ReportedLocation>),
     /// A person says so.
     Stop,
 }
@@ -34,38 +35,38 @@ pub(super) enum Pending {
 pub(super) struct Live<'r, 'a> {
     talk: &'r mut Conversation<'a>,
     planner: &'r mut dyn Planner,
-    watcher: &'r mut dyn Watcher,
+    watcher: &'r mut dyn DialogueObserver,
     meant: Vec<(String, SmolStr)>,
     /// The latest time.
     pub(super) now: Time,
-    /// What the run is stopped for.
+    /// Reason for which the run is being stopped.
     pub(super) pending: Option<Pending>,
-    /// What the run is for.
+    /// Request that the run carries out.
     task: String,
     /// The request that took over.
     pub(super) request: Option<String>,
     /// A request for which a policy is being written.
     awaited: Option<String>,
     /// A policy that waits to take over, with its request.
-    next: Option<(Answered, Option<String>)>,
-    /// Where what runs is only the first step of a policy that is still being written.
+    next: Option<(PlannedRequest, Option<String>)>,
+    /// State of an early start, while the rest of the policy is still being written.
     pub(super) first: Option<First>,
     /// The steps of the running policy that were started.
     started: Vec<NodeId>,
-    /// Who checks motions that were left to the run.
+    /// Checker of motions that the compiler deferred.
     guard: Option<Guard>,
 }
 
-/// How a run ended.
+/// Ending of a run.
 pub(super) struct Ran {
     pub(super) end: RunEnd,
-    /// What ran last.
+    /// Graph that ran last.
     pub(super) graph: Arc<Graph>,
-    /// What its names were bound to.
+    /// Bindings of that graph at the end.
     pub(super) bound: Vec<(SmolStr, Value)>,
-    /// Whether it ended at a guard: the step was not even begun, since something was not as it was believed to be.
+    /// The run ended at a guard: a belief was wrong, and the step never started.
     pub(super) was_refused: bool,
-    /// Whether the first thing that was tried could not be reached from where the robot happened to stand.
+    /// The first step failed because the robot stood in the wrong place.
     pub(super) stood_wrong: bool,
 }
 
@@ -73,7 +74,7 @@ impl<'r, 'a> Live<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
         planner: &'r mut dyn Planner,
-        watcher: &'r mut dyn Watcher,
+        watcher: &'r mut dyn DialogueObserver,
         (task, meant): (String, Vec<(String, SmolStr)>),
         now: Time,
     ) -> Self {
@@ -121,7 +122,7 @@ impl<'r, 'a> Live<'r, 'a> {
     /// Runs a policy to its end, and learns from it.
     pub(super) fn run(
         &mut self,
-        answered: Answered,
+        answered: PlannedRequest,
         driver: &mut dyn Driver,
         scene: &Scene,
     ) -> Result<Ran, Problem> {
@@ -139,9 +140,11 @@ impl<'r, 'a> Live<'r, 'a> {
             self.talk.engine(graph, scene, driver.capabilities(), self.guard.is_some())?;
         self.talk.memory.policy(self.now, 0, shared);
         self.first = match self.planner.rest(Wait::Not) {
-            Rest::Nothing => None,
-            Rest::Coming => Some(First::new(None, &answered)),
-            rest @ (Rest::Whole(_) | Rest::Broken | Rest::Stopped) => Some(First::new(Some(rest), &answered)),
+            RemainingSteps::Nothing => None,
+            RemainingSteps::Coming => Some(First::new(None, &answered)),
+            rest @ (RemainingSteps::Whole(_) | RemainingSteps::Broken | RemainingSteps::Stopped) => {
+                Some(First::new(Some(rest), &answered))
+            }
         };
         let from = self.now;
         let end = match self.watcher.scribe(&engine, &start) {
@@ -178,21 +181,21 @@ impl<'r, 'a> Live<'r, 'a> {
 }
 
 impl Live<'_, '_> {
-    /// What has been written meanwhile, ready to take over: the policy for a new request, or that of which the first step
-    /// runs.
+    /// Returns a policy that has been written meanwhile and can take over: for a new request, or the rest of
+    /// an early start.
     fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
         if let Some(request) = self.awaited.take() {
             let prepared = match self.planner.rest(Wait::Not) {
-                Rest::Coming => {
+                RemainingSteps::Coming => {
                     self.awaited = Some(request);
                     return None;
                 }
-                Rest::Whole(policy) => {
+                RemainingSteps::Whole(policy) => {
                     let understood =
                         Intent { spoken_of: self.talk.known.spoken_of.clone(), ..Intent::default() };
                     self.prepared(&policy, understood, Some(request.clone()), engine)
                 }
-                Rest::Nothing | Rest::Broken | Rest::Stopped => None,
+                RemainingSteps::Nothing | RemainingSteps::Broken | RemainingSteps::Stopped => None,
             };
             if prepared.is_none() {
                 self.pending = Some(Pending::Request(request));
@@ -201,12 +204,12 @@ impl Live<'_, '_> {
         }
         let first = self.first.as_mut().filter(|first| first.rest.is_none())?;
         let rest = self.planner.rest(Wait::Not);
-        if rest == Rest::Coming {
+        if rest == RemainingSteps::Coming {
             return None;
         }
         first.rest = Some(rest.clone());
         let understood = first.understood.clone();
-        let Rest::Whole(policy) = rest else { return None };
+        let RemainingSteps::Whole(policy) = rest else { return None };
         self.prepared(&policy, understood, None, engine)
     }
 
@@ -224,12 +227,12 @@ impl Live<'_, '_> {
         // Where the base is while it moves nobody knows beforehand.
         let judged = judge(&self.talk.session(&scene, &known, None), policy);
         // Other steps than were written are not slipped in: the request is planned anew.
-        let Judged::Good { planned, changed, .. } = judged else { return None };
+        let ReplyVerdict::Good { planned, changed, .. } = judged else { return None };
         if !changed.is_empty() {
             return None;
         }
         let prepared = PreparedSwap::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
-        self.next = Some((Answered { understood, planned: *planned }, request));
+        self.next = Some((PlannedRequest { understood, planned: *planned }, request));
         Some(prepared)
     }
 }
@@ -247,7 +250,7 @@ fn is_call(graph: &Graph, node: NodeId, name: &str) -> bool {
     graph.primitives.get(call.primitive.index()).is_some_and(|primitive| primitive.name == name)
 }
 
-/// What a line says of where things are, where it asks for nothing.
+/// Reads locations from a line that states them and requests nothing.
 fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedLocation>> {
     let understood = motet_requests::understand(said, situation).ok()?;
     (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
@@ -302,14 +305,14 @@ impl Observer for Live<'_, '_> {
         if !self.planner.reads_answers()
             && let Some(told) = statement(&request, &known.situation(&scene))
         {
-            self.pending = Some(Pending::Told(told));
+            self.pending = Some(Pending::Statement(told));
             return None;
         }
         let meant = std::mem::take(&mut self.meant);
         let session = self.talk.session(&scene, &known, None);
         let situation = RequestContext { meant: meant.clone(), ..known.situation(&scene) };
         let image = self.talk.look(now);
-        let ask = Ask { image: image.as_ref(), ..self.talk.ask(&session, &request, &situation) };
+        let ask = PlanRequest { image: image.as_ref(), ..self.talk.ask(&session, &request, &situation) };
         if self.planner.begin(&ask) {
             (self.awaited, self.first) = (Some(request), None);
             return None;

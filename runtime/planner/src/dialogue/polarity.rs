@@ -2,7 +2,7 @@
 
 use motet_requests::token::{self, Token};
 
-/// What the first words of an answer say, with what is said behind them.
+/// Polarity of the first words of an answer, with the remaining words.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Polarity<'a> {
     /// Yes; what follows may say more.
@@ -11,7 +11,7 @@ pub(super) enum Polarity<'a> {
     No(&'a str),
     /// No, whatever follows: "don't try again", "stop, that is dangerous".
     Stop,
-    /// That the person does not know.
+    /// The person does not know.
     Ignorant,
     /// None of these.
     Neither,
@@ -99,7 +99,7 @@ const STOP_ALONE: &[&str] = &[
     "i'll do it",
     "i will do it",
 ];
-/// What a robot that moves is told so that it does not.
+/// Phrases that ask a moving robot to hold still.
 const HOLD: &[&str] = &["wait", "hold on", "hold it", "freeze", "pause", "careful", "watch out", "look out"];
 /// Words for not knowing.
 const IGNORANT: &[&str] = &[
@@ -115,7 +115,7 @@ const IGNORANT: &[&str] = &[
 /// Politeness, which says nothing.
 const COURTESY: &[&str] =
     &["please", "thanks", "thank you", "oh", "well", "hm", "hmm", "then", "so", "just", "actually"];
-/// Who asks for it begins so: "could you stop that".
+/// Openings of a polite request to stop: "could you stop that".
 const ASKING: &[&str] = &[
     "would you",
     "could you",
@@ -162,7 +162,7 @@ pub(super) fn polarity(said: &str) -> Polarity<'_> {
     Polarity::Neither
 }
 
-/// Whether somebody tells a robot that moves to stop.
+/// Returns `true` if the words ask a moving robot to stop.
 pub(super) fn stops(said: &str) -> bool {
     let rest = skip_all(said, COURTESY);
     skip(rest, HOLD).is_some_and(|left| !begins_place(left))
@@ -173,7 +173,7 @@ pub(super) fn stops(said: &str) -> bool {
         }
 }
 
-/// What is left where an addition begins: "also bring me the apple".
+/// Request inside an addition: "also bring me the apple".
 pub(super) fn added(said: &str) -> Option<&str> {
     let rest = skip(said, &["also", "and also", "and then", "after that", "afterwards", "then", "and"])?;
     let rest = rest.trim_start_matches([',', ' ']);
@@ -184,12 +184,12 @@ fn begins_place(said: &str) -> bool {
     words(said).next().is_some_and(|(word, _)| PLACES.contains(&word.as_str()))
 }
 
-/// Whether nothing is left to be read.
+/// Returns `true` if no word is left to read.
 pub(super) fn is_done(said: &str) -> bool {
     words(said).next().is_none()
 }
 
-/// What stands behind the longest of some phrases at the beginning.
+/// Strips the longest matching phrase from the beginning.
 fn skip<'a>(said: &'a str, phrases: &[&str]) -> Option<&'a str> {
     let behind = |phrase: &&str| {
         let mut said_words = words(said);

@@ -1,4 +1,4 @@
-//! What an answer to a question means for the task at hand.
+//! Meaning of an answer to a question, for the task at hand.
 
 use smol_str::SmolStr;
 
@@ -6,23 +6,19 @@ use super::polarity::{Polarity, is_done, polarity};
 use super::problem::{Kind, Problem, called};
 use motet_requests::{ReportedLocation, RequestContext, RequestError};
 
-/// What an answer means.
+/// Meaning of an answer.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Answer {
-    /// Try again.
     Again,
-    /// Leave it.
     GiveUp,
     /// These words mean this thing, or all of these.
     Means {
-        /// The words.
         said: String,
         /// The thing, or the things.
         ids: Vec<SmolStr>,
     },
     /// Something is somewhere else than was thought.
     ReportedLocation(Vec<ReportedLocation>),
-    /// Another request.
     Request(String),
     /// Nothing that helps: the question is asked again.
     NotUnderstood,
@@ -120,7 +116,7 @@ fn meaning(answer: &str, problem: &Problem, request: &str, situation: &RequestCo
     }
 }
 
-/// What the problem is about is what `it` means.
+/// Names of the problem's subject, as antecedents of `it`.
 fn spoken(problem: &Problem, situation: &RequestContext<'_>) -> Vec<SmolStr> {
     situation.spoken_of.iter().cloned().chain(problem.about.clone()).collect()
 }
@@ -147,7 +143,7 @@ fn completed(request: &str, answer: &str, situation: &RequestContext<'_>) -> Opt
     tries.into_iter().find(|request| motet_requests::understand(request, situation).is_ok())
 }
 
-/// What a question offers to do: "Shall I bring you something to drink?" is "bring me something to drink".
+/// Request that a question offers: "Shall I bring you something to drink?" is "bring me something to drink".
 fn offered(question: &str) -> Option<String> {
     let offer = question.strip_prefix("Shall I ")?.strip_suffix('?')?;
     Some(offer.replace(" you ", " me "))

@@ -1,5 +1,5 @@
-//! What a prompt says of the robot alone, and two requests of the room with the policies for them: made once, for every
-//! prompt of the same robot in the same room.
+//! Parts of a prompt about the robot alone, and two example requests with their policies: built once for all
+//! prompts of one robot in one room.
 
 use motet_compiler::{Session, settle};
 use motet_robots::card::Robot;
@@ -12,8 +12,8 @@ use motet_requests::RequestContext;
 
 /// The parts of a prompt that do not change.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Lasting {
-    /// How a policy is written.
+pub struct StaticPrompt {
+    /// Rules of writing a policy.
     pub(super) rules: String,
     /// The robot's primitives with what they need and make.
     pub(super) contracts: String,
@@ -23,7 +23,7 @@ pub struct Lasting {
     pub(super) examples: Vec<String>,
 }
 
-impl Lasting {
+impl StaticPrompt {
     /// Writes them; the examples are planned in the session.
     #[must_use]
     pub fn new(session: &Session, robot: &Robot, scene: &Scene) -> Self {
@@ -82,7 +82,7 @@ fn examples(session: &Session, robot: &Robot, scene: &Scene) -> Vec<String> {
     written.collect()
 }
 
-/// How much is said of a primitive.
+/// Amount of detail about a primitive.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Detail {
     /// Signature, first sentence, what it needs, makes and how it fails.

@@ -10,21 +10,21 @@ use crate::builtin::Planned;
 /// The most fixes to one reply.
 const MOST_FIXES: usize = 8;
 
-/// What a reply came to.
+/// StreamVerdict on a reply.
 #[derive(Clone, Debug)]
-pub enum Judged {
-    /// A policy.
+pub enum ReplyVerdict {
+    /// The reply holds a policy that passes the check.
     Good {
         /// The policy, with its graph.
         planned: Box<Planned>,
         /// The fixes that were made first.
         mended: Vec<String>,
-        /// What was wrong, where a fix did more than spell what was written: the steps are then not those of the reply.
+        /// Diagnostics whose fixes changed the steps, not only their spelling.
         changed: Vec<Diagnostic>,
     },
-    /// None.
+    /// The reply holds no policy that passes the check.
     Bad {
-        /// What is wrong: errors only.
+        /// Errors of the reply.
         findings: Vec<Diagnostic>,
     },
 }
@@ -32,7 +32,7 @@ pub enum Judged {
 /// Judges a reply. It may have prose, thoughts or a fence around the policy, which may be in either form. What else it
 /// declares is left out, or a reply could say of its own steps what they need.
 #[must_use]
-pub fn judge(session: &Session, reply: &str) -> Judged {
+pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
     let document = without_thoughts(reply);
     let mut parsed = read(document);
     if parsed.file.items.iter().any(|item| !matches!(item, Item::Policy(_))) {
@@ -42,7 +42,7 @@ pub fn judge(session: &Session, reply: &str) -> Judged {
     let findings = errors(session.compile(&parsed, None).diagnostics);
     let (mut mended, mut changed) = (Vec::new(), Vec::new());
     if !findings.is_empty() {
-        let Some((text, fixes)) = mend(session, &parsed.text) else { return Judged::Bad { findings } };
+        let Some((text, fixes)) = mend(session, &parsed.text) else { return ReplyVerdict::Bad { findings } };
         if !fixes.iter().all(is_spelling) {
             changed = findings;
         }
@@ -59,12 +59,16 @@ pub fn judge(session: &Session, reply: &str) -> Judged {
     let compiled = session.compile(&parsed, None);
     if compiled.graph.is_none() {
         // Motions are looked at only where nothing else is wrong, and no fix is known for them.
-        return Judged::Bad { findings: errors(compiled.diagnostics) };
+        return ReplyVerdict::Bad { findings: errors(compiled.diagnostics) };
     }
-    Judged::Good { planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }), mended, changed }
+    ReplyVerdict::Good {
+        planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }),
+        mended,
+        changed,
+    }
 }
 
-/// Whether a fix leaves the steps as they were meant: of syntax, names and types.
+/// Returns `true` if a fix keeps the steps: fixes of syntax, names and types.
 fn is_spelling(fix: &Applied) -> bool {
     ["M01", "M02", "M03"].iter().any(|stage| fix.code.0.starts_with(stage))
 }
@@ -91,7 +95,7 @@ fn name(document: &str) -> &'static str {
     if document.trim_start().starts_with('{') { "reply.json" } else { "reply.motet" }
 }
 
-/// What stands behind the thoughts of a model that writes them down.
+/// Strips the thoughts that some models write before the reply.
 fn without_thoughts(reply: &str) -> &str {
     if !reply.trim_start().starts_with("<think>") {
         return reply;

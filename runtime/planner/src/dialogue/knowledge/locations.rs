@@ -8,11 +8,11 @@ use motet_runtime::{Pattern, Query, StartState, Truth};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
-use super::{Known, query};
+use super::{Knowledge, query};
 use motet_requests::{ReportedLocation, RequestContext};
 
-impl Known {
-    /// Where the objects are, as far as that is known.
+impl Knowledge {
+    /// Knowledge locations of objects.
     #[must_use]
     pub fn places(&self, scene: &Scene) -> Vec<ReportedLocation> {
         let told = self.situation(scene).supports;
@@ -139,8 +139,8 @@ impl Known {
         State { facts }
     }
 
-    /// What the next run begins with, where its policy was checked in a session: what the session was given, of which a graph
-    /// says only what it says of single entities, then what is known.
+    /// Start of the next run, whose policy was checked in `session`: the session's facts, of which a graph
+    /// only carries those about single entities, then everything known since.
     #[must_use]
     pub fn start(&self, scene: &Scene, session: &Session) -> StartState {
         let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
@@ -156,7 +156,7 @@ impl Known {
         }
     }
 
-    /// What the hand holds.
+    /// Object in the hand, if it is known.
     #[must_use]
     pub fn holding(&self, scene: &Scene) -> Option<SmolStr> {
         let mut held = scene.robot.holding.clone().flatten();

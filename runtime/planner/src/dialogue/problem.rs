@@ -1,5 +1,5 @@
-//! What keeps a request from being carried out, in the kinds of InteLiPlan's table of failures, and the one question that
-//! each becomes.
+//! Obstacles to a request, by the kinds of InteLiPlan's table of failures, and the one question that each
+//! leads to.
 
 use motet_graph::{Graph, NodeKind, Term, Value};
 use motet_robots::scene::Scene;
@@ -7,13 +7,13 @@ use motet_runtime::RunEnd;
 use motet_syntax::render::capital;
 use smol_str::SmolStr;
 
-use crate::builtin::Unplanned;
+use crate::builtin::PlanError;
 use motet_requests::RequestError;
 
 /// The kinds of failure.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Kind {
-    /// What is asked for is not there, or not where it was thought to be.
+    /// The requested thing is missing, or not where it was believed to be.
     NotFound,
     /// No motion leads there, or something is in the way.
     NotReachable,
@@ -28,11 +28,10 @@ pub enum Kind {
 /// A problem with its question.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Problem {
-    /// Its kind.
     pub kind: Kind,
-    /// What happened, and what to do about it.
+    /// Description of the problem, and a question about the next step.
     pub question: String,
-    /// What could be answered; empty where anything could.
+    /// Possible answers; empty if any answer is possible.
     pub options: Vec<SmolStr>,
     /// The thing that it is about.
     pub about: Option<SmolStr>,
@@ -55,29 +54,29 @@ impl Kind {
 }
 
 impl Problem {
-    /// What keeps a request from becoming a policy.
+    /// Problem behind a request that got no policy.
     #[must_use]
-    pub fn of_planning(why: &Unplanned, scene: &Scene) -> Self {
+    pub fn of_planning(why: &PlanError, scene: &Scene) -> Self {
         let bare =
             |kind, question: String| Self { kind, question, options: Vec::new(), about: None, said: None };
         match why {
-            Unplanned::RequestError(RequestError::NotUnderstood { part }) => Self {
+            PlanError::RequestError(RequestError::NotUnderstood { part }) => Self {
                 said: Some(part.clone()),
                 ..bare(Kind::AmbiguousTask, format!("I do not understand \"{part}\". What shall I do?"))
             },
-            Unplanned::RequestError(RequestError::NotFound { what }) => Self {
+            PlanError::RequestError(RequestError::NotFound { what }) => Self {
                 said: Some(what.clone()),
                 ..bare(Kind::NotFound, format!("I know of no {} here. What do you mean?", bare_noun(what)))
             },
-            Unplanned::RequestError(RequestError::Unfit { why }) => {
+            PlanError::RequestError(RequestError::Unfit { why }) => {
                 bare(Kind::AmbiguousTask, format!("{}. What shall I do?", capital(why)))
             }
-            Unplanned::RequestError(RequestError::Elsewhere { why, thing }) => Self {
+            PlanError::RequestError(RequestError::Elsewhere { why, thing }) => Self {
                 options: holders(scene),
                 about: Some(thing.clone()),
                 ..bare(Kind::NotFound, format!("{}. Where shall I look for it?", capital(why)))
             },
-            Unplanned::RequestError(RequestError::AmbiguousReference { what, options }) => {
+            PlanError::RequestError(RequestError::AmbiguousReference { what, options }) => {
                 let seen: Vec<_> = options.iter().map(|id| described(scene, id)).collect();
                 let noun = bare_noun(what);
                 let question = format!(
@@ -91,17 +90,18 @@ impl Problem {
                     ..bare(Kind::AmbiguousReference, question)
                 }
             }
-            Unplanned::RequestError(RequestError::AmbiguousTask { question, options }) => {
+            PlanError::RequestError(RequestError::AmbiguousTask { question, options }) => {
                 Self { options: options.clone(), ..bare(Kind::AmbiguousTask, question.clone()) }
             }
-            Unplanned::NoModel { .. } | Unplanned::Stopped => bare(Kind::ActionFailed, why.to_string()),
-            Unplanned::NoPlan(_) | Unplanned::Refused { .. } => {
+            PlanError::NoModel { .. } | PlanError::Stopped => bare(Kind::ActionFailed, why.to_string()),
+            PlanError::NoPlan(_) | PlanError::Refused { .. } => {
                 bare(Kind::NotReachable, format!("I cannot do that: {why}. What shall I do instead?"))
             }
         }
     }
 
-    /// What a run ended in, with what its names were bound to; none where it is done, or a person stopped it.
+    /// Problem behind the ending of a run, named with its bindings. `None` if the run is done or a person
+    /// stopped it.
     #[must_use]
     pub fn of_run(
         end: &RunEnd,
@@ -200,7 +200,7 @@ fn failed(
     Problem { kind, question, options, about, said: None }
 }
 
-/// Where a thing can be.
+/// Surfaces and containers that can hold a thing.
 fn holders(scene: &Scene) -> Vec<SmolStr> {
     let holds =
         scene.entities.values().filter(|entity| matches!(entity.kind.as_str(), "Surface" | "Container"));
@@ -217,7 +217,7 @@ fn believed(scene: &Scene, id: Option<&SmolStr>) -> String {
     }
 }
 
-/// What people call a thing: its first other name, else its id in words.
+/// Name of a thing in speech: its first other name, or its id in words.
 #[must_use]
 pub(crate) fn called(scene: &Scene, id: &str) -> String {
     let entity = scene.entities.get(id);
@@ -252,12 +252,12 @@ fn join(parts: &[String]) -> String {
 }
 
 impl Problem {
-    /// What was asked for in between is done, and what was asked for before it may not be.
+    /// The request made in between is done; the earlier request may not be.
     pub(super) fn half_done(before: &str) -> Self {
         Self::whether(format!("That is done. Shall I go on with \"{before}\"?"))
     }
 
-    /// What somebody said in between is not understood.
+    /// Words spoken in between could not be read.
     pub(super) fn interrupted(said: &str, before: &str) -> Self {
         Self::whether(format!(
             "I do not understand \"{said}\", so I have stopped. Shall I go on with \"{before}\"?"

@@ -15,19 +15,18 @@ use motet_runtime::{
 use smol_str::SmolStr;
 
 use super::ground::{NoPoint, Pointer, ground};
-use crate::conversation::called;
+use crate::dialogue::called;
 
-/// What is answered here and not by the driver.
+/// Primitive that is answered here and not by the driver.
 const GROUND: &str = "ground";
-/// How long an answer is waited for until the world goes on.
+/// Waiting time for an answer before the world advances.
 const SLICE: Duration = Duration::from_millis(5);
 
 /// A question for a point that was answered, or not.
 #[derive(Clone, Copy, Debug)]
-pub struct Pointed<'a> {
-    /// The entity.
+pub struct GroundedPoint<'a> {
     pub object: &'a SmolStr,
-    /// What it is to be used for.
+    /// Purpose of the point.
     pub used_for: &'a SmolStr,
     /// The pose, or why there is none.
     pub found: &'a Result<Pose, NoPoint>,
@@ -35,18 +34,18 @@ pub struct Pointed<'a> {
 
 /// A driver beside somebody who is asked for points. It keeps the laws of the driver within, with this exception to the
 /// sixth: when an answer comes only its giver knows.
-pub struct Pointing<'d> {
+pub struct GroundingDriver<'d> {
     driver: &'d mut dyn Driver,
     eyes: &'d mut dyn Perception,
     scene: &'d Scene,
-    listener: Box<dyn FnMut(Pointed<'_>) + 'd>,
+    listener: Box<dyn FnMut(GroundedPoint<'_>) + 'd>,
     questions: Sender<Question>,
     answers: Receiver<(u64, Result<Pose, NoPoint>)>,
-    /// By goal.
+    /// Open questions by goal.
     asked: BTreeMap<GoalId, Asked>,
     /// The goals that were never the driver's.
     own: BTreeSet<GoalId>,
-    /// How many questions there were.
+    /// Number of questions so far.
     count: u64,
     outbox: VecDeque<(Time, DriverEvent)>,
     now: Time,
@@ -78,7 +77,7 @@ impl Drop for Asked {
     }
 }
 
-impl<'d> Pointing<'d> {
+impl<'d> GroundingDriver<'d> {
     /// Puts somebody who points beside a driver. The thread on which they are asked ends after this, once its last question
     /// is answered.
     #[must_use]
@@ -119,7 +118,7 @@ impl<'d> Pointing<'d> {
 
     /// Tells somebody what becomes of each question that was waited for.
     #[must_use]
-    pub fn with_listener(self, listener: impl FnMut(Pointed<'_>) + 'd) -> Self {
+    pub fn with_listener(self, listener: impl FnMut(GroundedPoint<'_>) + 'd) -> Self {
         Self { listener: Box::new(listener), ..self }
     }
 
@@ -131,7 +130,7 @@ impl<'d> Pointing<'d> {
             return false;
         };
         let Some(view) = self.eyes.view(now, object) else {
-            (self.listener)(Pointed { object, used_for, found: &Err(NoPoint::Unseen) });
+            (self.listener)(GroundedPoint { object, used_for, found: &Err(NoPoint::Unseen) });
             return false;
         };
         self.count += 1;
@@ -159,7 +158,7 @@ impl<'d> Pointing<'d> {
         let waiting = self.asked.iter().find(|(_, asked)| asked.number == number);
         let Some((goal, asked)) = waiting.map(|(goal, asked)| (*goal, asked)) else { return };
         let at = self.now.max(asked.due());
-        (self.listener)(Pointed { object: &asked.object, used_for: &asked.used_for, found: &found });
+        (self.listener)(GroundedPoint { object: &asked.object, used_for: &asked.used_for, found: &found });
         let outcome = match found {
             Ok(pose) => Outcome::Success(Some(Value::Pose(pose))),
             Err(why) => Outcome::Failure(SmolStr::new_static(why.failure())),
@@ -167,7 +166,7 @@ impl<'d> Pointing<'d> {
         self.end(at, goal, outcome);
     }
 
-    /// What is to be reported by a time.
+    /// Next report that is due by a time.
     fn due(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
         let (at, event) = self.outbox.pop_front()?;
         // The clock is ahead of the world by the length of a slice at most.
@@ -187,13 +186,13 @@ impl<'d> Pointing<'d> {
 }
 
 impl Asked {
-    /// Where the world may be by now: as much later than the question as the clock is.
+    /// Time that the world may have reached: as much later than the question as the clock is.
     fn due(&self) -> Time {
         Time::from_secs(self.at.secs() + self.clock.elapsed().as_secs_f64())
     }
 }
 
-impl Driver for Pointing<'_> {
+impl Driver for GroundingDriver<'_> {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         if command.primitive != GROUND {
             return self.driver.start(now, goal, command);

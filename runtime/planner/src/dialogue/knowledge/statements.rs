@@ -1,13 +1,14 @@
-//! What is learnt beside runs: what the robot feels, what people say, and what is presumed until somebody has looked.
+//! Knowledge from outside of runs: proprioception, statements of people, and assumptions that hold until
+//! somebody has looked.
 
 use motet_graph::Value;
 use motet_runtime::{Pattern, Query, Truth};
 use smol_str::SmolStr;
 
-use super::Known;
+use super::Knowledge;
 use motet_requests::ReportedLocation;
 
-impl Known {
+impl Knowledge {
     /// After a step that failed it is unknown where the thing is that it was about. Until somebody looks it is taken to be
     /// where it was: a hand that slipped left it there. The next plan looks before it takes.
     pub fn presume(&mut self, before: &[ReportedLocation]) {
@@ -61,7 +62,7 @@ impl Known {
         }
     }
 
-    /// Where the robot stands no longer counts: from there something could not be reached.
+    /// Forgets the robot's place at an entity, since something could not be reached from there.
     pub fn doubt_standing(&mut self) {
         let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
         let args = vec![robot, Pattern::Any];
@@ -69,7 +70,7 @@ impl Known {
     }
 
     /// Keeps where things were that are not there any more, so that they can be put back.
-    pub(in crate::conversation) fn remember_moved(
+    pub(in crate::dialogue) fn remember_moved(
         &mut self,
         before: &[ReportedLocation],
         after: &[ReportedLocation],

@@ -5,31 +5,31 @@ use motet_runtime::{Driver, RunEnd, Time};
 use smol_str::SmolStr;
 
 use super::answer::{self, Answer};
-use super::first::After;
-use super::live::{Live, Pending, Ran};
-use super::planner::Planner;
+use super::conversation::{Conversation, Outcome};
+use super::early_start::After;
+use super::live_run::{Live, Pending, Ran};
+use super::observer::{DialogueObserver, Person};
 use super::polarity::{Polarity, polarity};
 use super::problem::{Kind, Problem};
-use super::talk::{Conversation, Outcome};
-use super::watcher::{Person, Watcher};
-use crate::builtin::{Answered, Unplanned};
+use crate::Planner;
+use crate::builtin::{PlanError, PlannedRequest};
 use motet_requests::{ReportedLocation, RequestError};
 
 /// The most policies for one request.
 const MAX_ROUNDS: usize = 12;
 /// The most questions for one request.
 const MAX_QUESTIONS: usize = 6;
-/// How often a step that failed is tried again, with a new plan, before somebody is asked.
+/// Number of new plans for a failed step before the robot asks a person.
 const TRIES: usize = 2;
 
-/// What one request has come to.
+/// Progress of one request.
 struct Task {
     request: String,
     /// The request that it took the place of, which may not be done.
     before: Option<String>,
-    /// What was meant by words that could mean several things.
+    /// Resolved meanings of ambiguous words.
     meant: Vec<(String, SmolStr)>,
-    /// Where else a thing may be, the next place first.
+    /// Further places to look for a thing, the next one first.
     elsewhere: Vec<ReportedLocation>,
     questions: usize,
     tries: usize,
@@ -44,13 +44,11 @@ impl Task {
     }
 }
 
-/// What follows from a round.
+/// Result of a round.
 enum Next {
-    /// Another round.
     Round,
-    /// Nothing.
     Over(Outcome),
-    /// What stands in the way; whether a guard or the place where the robot stood was the reason, which another plan may mend.
+    /// A problem. The flag is set if a guard or the robot's place caused it, which another plan may avoid.
     Problem(Problem, bool),
 }
 
@@ -59,18 +57,18 @@ pub(super) struct Pursuit<'r, 'a> {
     talk: &'r mut Conversation<'a>,
     planner: &'r mut dyn Planner,
     person: &'r mut dyn Person,
-    watcher: &'r mut dyn Watcher,
+    watcher: &'r mut dyn DialogueObserver,
     task: Task,
     /// The latest time.
     pub(super) now: Time,
     /// The rest of a policy of which the first step was run.
-    ready: Option<Answered>,
+    ready: Option<PlannedRequest>,
 }
 
 impl<'r, 'a> Pursuit<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
-        (planner, person, watcher): (&'r mut dyn Planner, &'r mut dyn Person, &'r mut dyn Watcher),
+        (planner, person, watcher): (&'r mut dyn Planner, &'r mut dyn Person, &'r mut dyn DialogueObserver),
         request: &str,
         now: Time,
     ) -> Self {
@@ -113,7 +111,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         Outcome::Failed(latest.unwrap_or_else(nothing))
     }
 
-    fn propose(&mut self, scene: &Scene, base: Option<[f64; 3]>) -> Result<Answered, Unplanned> {
+    fn propose(&mut self, scene: &Scene, base: Option<[f64; 3]>) -> Result<PlannedRequest, PlanError> {
         let session = self.talk.session(scene, &self.talk.known, base);
         let image = self.talk.look(self.now);
         let world = (&session, scene, &self.talk.known);
@@ -121,7 +119,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
     }
 
     /// Runs a policy, and sees what became of it.
-    fn run(&mut self, answered: Answered, driver: &mut dyn Driver, scene: &Scene) -> Next {
+    fn run(&mut self, answered: PlannedRequest, driver: &mut dyn Driver, scene: &Scene) -> Next {
         let told = (self.task.request.clone(), self.task.meant.clone());
         let mut live = Live::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
         let ran = live.run(answered, driver, scene);
@@ -142,7 +140,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
                 self.task = Task::new(request, Some(before));
                 return Next::Round;
             }
-            (Some(Pending::Told(located)), _) => {
+            (Some(Pending::Statement(located)), _) => {
                 located.iter().for_each(|one| self.talk.known.hear(one));
                 return Next::Round;
             }
@@ -183,7 +181,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         others
     }
 
-    /// Who names two places has a thing looked for in both: takes in the next one, where there is one.
+    /// Moves on to the next place where a person said the thing might be. Returns `false` if there is none.
     fn looks_elsewhere(&mut self, problem: &Problem) -> bool {
         let elsewhere = &mut self.task.elsewhere;
         let next = elsewhere.iter().position(|next| Some(&next.thing) == problem.about.as_ref());
@@ -199,14 +197,14 @@ impl<'r, 'a> Pursuit<'r, 'a> {
     }
 
     /// There is no policy.
-    fn unplanned(&mut self, why: &Unplanned, scene: &Scene) -> Next {
+    fn unplanned(&mut self, why: &PlanError, scene: &Scene) -> Next {
         let problem = Problem::of_planning(why, scene);
         match (why, self.task.before.clone()) {
-            (Unplanned::Stopped, _) => Next::Over(Outcome::Stopped),
+            (PlanError::Stopped, _) => Next::Over(Outcome::Stopped),
             // No answer of a person brings a model back.
-            (Unplanned::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
+            (PlanError::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
             // Something that is not understood was said in between.
-            (Unplanned::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
+            (PlanError::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
                 let question = Problem::interrupted(&self.task.request, &before);
                 self.goes_on(&question, before, Outcome::GivenUp)
             }

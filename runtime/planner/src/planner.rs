@@ -1,11 +1,11 @@
-//! Who makes policies of requests, and what they are asked.
+//! The planner trait: requests in, policies out.
 
 use motet_compiler::Session;
 use motet_robots::card::Robot;
 use motet_runtime::CameraImage;
 use motet_runtime::memory::Memory;
 
-use crate::builtin::{self, Answered, Unplanned};
+use crate::builtin::{self, PlanError, PlannedRequest};
 use motet_requests::RequestContext;
 
 /// Makes policies of requests.
@@ -15,26 +15,27 @@ pub trait Planner {
     /// # Errors
     ///
     /// Why there is none.
-    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned>;
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError>;
 
-    /// Whether it makes something of any answer. Else an answer that was not understood is asked for again.
+    /// Returns `true` if the planner can use any answer. Otherwise the dialogue repeats a question whose
+    /// answer it could not read.
     fn reads_answers(&self) -> bool {
         false
     }
 
     /// Begins to plan for a request while something runs, which nobody must keep waiting; [`Planner::rest`] gives what comes
     /// of it. False where [`Planner::plan`] answers at once.
-    fn begin(&mut self, _ask: &Ask<'_>) -> bool {
+    fn begin(&mut self, _ask: &PlanRequest<'_>) -> bool {
         false
     }
 
     /// The rest of the policy that was given last, where that was only its first step, or what was begun.
-    fn rest(&mut self, _wait: Wait) -> Rest {
-        Rest::Nothing
+    fn rest(&mut self, _wait: Wait) -> RemainingSteps {
+        RemainingSteps::Nothing
     }
 }
 
-/// Whether something is waited for.
+/// Decision to wait for more, or not.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Wait {
     /// No: what has come has come.
@@ -45,7 +46,7 @@ pub enum Wait {
 
 /// The rest of a policy that is still being written.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Rest {
+pub enum RemainingSteps {
     /// There is none: what was given was the whole.
     Nothing,
     /// It has not come yet.
@@ -58,20 +59,19 @@ pub enum Rest {
     Stopped,
 }
 
-/// What a planner is asked.
+/// Input of a planner.
 #[derive(Clone, Copy, Debug)]
-pub struct Ask<'a> {
-    /// What the policy is checked against.
+pub struct PlanRequest<'a> {
+    /// Session that checks the policy.
     pub session: &'a Session,
-    /// The robot.
     pub robot: &'a Robot,
     /// The request, as it stands after the answers that changed it.
     pub request: &'a str,
-    /// What is known.
+    /// Context in which the request is read: scene, knowledge, and recent mentions.
     pub situation: &'a RequestContext<'a>,
-    /// What was asked and done.
+    /// Earlier requests and their endings.
     pub memory: &'a Memory,
-    /// What the robot sees at the moment, where it has eyes.
+    /// Current camera image, if the robot has a camera.
     pub image: Option<&'a CameraImage>,
 }
 
@@ -80,7 +80,7 @@ pub struct Ask<'a> {
 pub struct Builtin;
 
 impl Planner for Builtin {
-    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         builtin::answer(ask.session, Some(ask.robot), ask.request, ask.situation)
     }
 }

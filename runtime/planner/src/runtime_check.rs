@@ -12,7 +12,7 @@ use motet_runtime::{
     Time, Verification, Verifier,
 };
 
-/// How long the engine waits for a verdict: longer than any search within its budget.
+/// Time that the engine waits for a verdict: longer than any search within its budget.
 pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
 
 /// Checks motions along the way that a run takes.
@@ -22,14 +22,14 @@ pub struct Guard(How);
 #[derive(Debug)]
 enum How {
     /// In the calls themselves.
-    AtOnce { way: Way, verdicts: VecDeque<(CheckId, Verification)> },
+    AtOnce { way: SearchPath, verdicts: VecDeque<(CheckId, Verification)> },
     /// On a thread of its own, which is told everything in order and ends once nobody tells it any more.
-    Beside { thread: Sender<Told>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
+    Beside { thread: Sender<GuardMessage>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
 }
 
 /// When motions are searched for that were left to a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Verifies {
+pub enum CheckMode {
     /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
     AtOnce,
     /// On a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor by what follows from a
@@ -37,9 +37,9 @@ pub enum Verifies {
     Beside,
 }
 
-/// What a guard hears of.
+/// Message to a guard's thread.
 #[derive(Debug)]
-enum Told {
+enum GuardMessage {
     Reported(DriverEvent),
     Began(GoalId, Arc<Command>),
     Asked(CheckId, Arc<DeferredMotion>),
@@ -48,13 +48,13 @@ enum Told {
 impl Guard {
     /// For a run that begins where a course does.
     #[must_use]
-    pub fn new(course: Course, verifies: Verifies) -> Self {
+    pub fn new(course: Course, verifies: CheckMode) -> Self {
         match verifies {
-            Verifies::AtOnce => {
-                let way = Way { course, live: BTreeMap::new() };
+            CheckMode::AtOnce => {
+                let way = SearchPath { course, live: BTreeMap::new() };
                 Self(How::AtOnce { way, verdicts: VecDeque::new() })
             }
-            Verifies::Beside => Self::beside(course),
+            CheckMode::Beside => Self::beside(course),
         }
     }
 
@@ -62,7 +62,7 @@ impl Guard {
         let (thread, told) = mpsc::channel();
         let (answers, verdicts) = mpsc::channel();
         std::thread::spawn(move || {
-            let mut way = Way { course, live: BTreeMap::new() };
+            let mut way = SearchPath { course, live: BTreeMap::new() };
             for one in told {
                 if let Some(verdict) = way.hear(one)
                     && answers.send(verdict).is_err()
@@ -74,11 +74,11 @@ impl Guard {
         Self(How::Beside { thread, verdicts, awaited: 0 })
     }
 
-    fn tell(&mut self, told: Told) {
+    fn tell(&mut self, told: GuardMessage) {
         match &mut self.0 {
             How::AtOnce { way, verdicts } => verdicts.extend(way.hear(told)),
             How::Beside { thread, awaited, .. } => {
-                *awaited += usize::from(matches!(told, Told::Asked(..)));
+                *awaited += usize::from(matches!(told, GuardMessage::Asked(..)));
                 // A thread that is gone gives no verdicts; the engine does not wait for them for ever.
                 let _ = thread.send(told);
             }
@@ -89,18 +89,18 @@ impl Guard {
 impl Verifier for Guard {
     fn event(&mut self, event: &Event) {
         if let Event::Driver(event) = event {
-            self.tell(Told::Reported(event.clone()));
+            self.tell(GuardMessage::Reported(event.clone()));
         }
     }
 
     fn effect(&mut self, effect: &Effect) {
         if let Effect::Start { goal, command, .. } | Effect::Update { goal, command, .. } = effect {
-            self.tell(Told::Began(*goal, Arc::clone(command)));
+            self.tell(GuardMessage::Began(*goal, Arc::clone(command)));
         }
     }
 
     fn ask(&mut self, check: CheckId, motion: &Arc<DeferredMotion>) {
-        self.tell(Told::Asked(check, Arc::clone(motion)));
+        self.tell(GuardMessage::Asked(check, Arc::clone(motion)));
     }
 
     fn verdict(&mut self) -> Option<(CheckId, Verification)> {
@@ -128,18 +128,18 @@ impl Verifier for Guard {
 
 /// The way of a run, followed from what is told of it.
 #[derive(Debug)]
-struct Way {
+struct SearchPath {
     course: Course,
     live: BTreeMap<GoalId, Arc<Command>>,
 }
 
-impl Way {
+impl SearchPath {
     /// Takes something in; gives the verdict where that is a question.
-    fn hear(&mut self, told: Told) -> Option<(CheckId, Verification)> {
+    fn hear(&mut self, told: GuardMessage) -> Option<(CheckId, Verification)> {
         match told {
-            Told::Reported(event) => self.report(&event),
-            Told::Began(goal, command) => self.began(goal, command),
-            Told::Asked(check, motion) => return Some((check, self.motion(&motion))),
+            GuardMessage::Reported(event) => self.report(&event),
+            GuardMessage::Began(goal, command) => self.began(goal, command),
+            GuardMessage::Asked(check, motion) => return Some((check, self.motion(&motion))),
         }
         None
     }

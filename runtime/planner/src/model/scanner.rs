@@ -1,7 +1,7 @@
 //! The JSON object in a reply, followed character by character: what stands before it is skipped, and white space that
 //! says nothing is left out, so that an indented reply is read like one on a single line.
 
-/// Where the text of a reply has come to.
+/// Position in the text of a reply.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Mark {
     /// Outside of the object, or white space between its parts.
@@ -24,14 +24,13 @@ pub(super) enum Mark {
     End,
 }
 
-/// What stands before the object: of it only what tells something is kept.
+/// Text before the object, reduced to the parts that decide its meaning.
 #[derive(Clone, Debug, Default)]
 struct Before {
-    /// How it begins.
     head: String,
-    /// How the line begins that is being written.
+    /// Beginning of the current line.
     line: String,
-    /// How it ends, as long as it is a thought.
+    /// End of the text, while it is inside a thought.
     tail: String,
     is_thought: bool,
 }
@@ -70,14 +69,14 @@ pub(super) struct Scan {
     /// The object so far, without white space between its parts.
     pub(super) text: String,
     before: Before,
-    /// What is open: the closing character and where it was opened.
+    /// Open brackets: the closing character and the offset of the opening one.
     open: Vec<(char, usize)>,
     string: Option<usize>,
     is_escaped: bool,
     /// The last string among the object's own keys and values.
     key: String,
     in_steps: bool,
-    /// Where the steps begin, behind the bracket.
+    /// Offset of the steps, after the bracket.
     pub(super) steps_from: Option<usize>,
     is_over: bool,
     /// The reply is in the text form: nothing is followed.
@@ -117,17 +116,17 @@ impl Scan {
         Mark::Kept
     }
 
-    /// What closes everything that is open, as text behind it.
+    /// Text that would close everything open.
     pub(super) fn closers(&self) -> String {
         self.open.iter().rev().map(|(closer, _)| *closer).collect()
     }
 
-    /// Where the innermost thing that is open begins.
+    /// Offset of the innermost open bracket.
     pub(super) fn innermost(&self) -> usize {
         self.open.last().map_or(0, |(_, from)| *from)
     }
 
-    /// Where the string begins that is open.
+    /// Offset of the open string.
     pub(super) fn string_from(&self) -> Option<usize> {
         self.string
     }
