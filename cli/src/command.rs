@@ -1,13 +1,16 @@
-//! The commands, one file each.
+//! Subcommands, one file each: flags, help and implementation; a folder of the same name holds the parts of
+//! a large one.
 
-pub(crate) mod act;
 pub(crate) mod check;
 pub(crate) mod compile;
 pub(crate) mod completions;
 pub(crate) mod dataset;
 pub(crate) mod decode;
 pub(crate) mod dialog;
+pub(crate) mod r#do;
+pub(crate) mod drive;
 pub(crate) mod explain;
+pub(crate) mod export;
 pub(crate) mod feasible;
 pub(crate) mod fmt;
 pub(crate) mod grammar;

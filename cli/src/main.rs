@@ -1,61 +1,129 @@
-//! The `motet` command: reads the command line, calls the command, turns what it came to into an exit code.
+//! The `motet` command: reads the command line, calls the subcommand, and turns its result into an exit code.
 
-mod args;
 mod command;
-mod document;
-mod exit;
-mod form;
-mod graph;
-mod input;
-mod out;
+mod convert;
+mod documents;
+mod error;
+mod flags;
+mod output;
 mod progress;
 mod report;
-mod workbench;
+mod run_view;
+mod runner;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{Parser, Subcommand, ValueEnum};
 
-use args::{Cli, Command};
-use exit::{Exit, Trouble};
-use out::{Colors, note};
+use error::{CliError, Exit};
+use output::{Colors, note};
+
+/// Check, format, compile, plan and run robot policies written in Motet
+#[derive(Parser, Debug)]
+#[command(
+    name = "motet",
+    version,
+    propagate_version = true,
+    disable_help_subcommand = true,
+    after_help = "Exit codes: 0 success, 1 errors found (or a file would be reformatted), 2 could not run.\n\
+                  `motet run`: 0 done, 1 refused by the check, 3 failed, 130 interrupted."
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Colours; `auto` uses them in a terminal, unless NO_COLOR is set
+    #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
+    color: ColorChoice,
+}
+
+/// Colours of the output.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub(crate) enum ColorChoice {
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
+
+/// Subcommands; each has a file of its name in `command`.
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Check policies before a robot moves
+    Check(command::check::CheckArgs),
+    /// Format policies, or convert them between text and JSON
+    Fmt(command::fmt::FmtArgs),
+    /// Compile a policy to its execution graph or a drawing of it
+    Compile(command::compile::CompileArgs),
+    /// Import files of another planning language
+    Import(command::import::ImportArgs),
+    /// Carry out a request in simulation: plan, check, run, ask, and replan
+    Do(command::r#do::DoArgs),
+    /// Plan a policy for a request or a goal, without a model
+    Plan(command::plan::PlanArgs),
+    /// Print the prompt that a model would get for a request
+    Prompt(command::prompt::PromptArgs),
+    /// Convert plans in the dialect of InteLiPlan to policies, or write an exchange in it
+    Dialog(command::dialog::DialogArgs),
+    /// Generate instruction and policy pairs for fine-tuning, or lint a file of them
+    Dataset(Box<command::dataset::DatasetArgs>),
+    /// Check a policy and run it in simulation
+    Run(command::run::RunArgs),
+    /// Check a policy and run it on a driver in another process
+    Drive(command::drive::DriveArgs),
+    /// Replay the journal of a run and report the first difference
+    Replay(command::replay::ReplayArgs),
+    /// Export the journal of a run to another format
+    Export(command::export::ExportArgs),
+    /// Decide which motions are feasible for a robot in a scene
+    Feasible(command::feasible::FeasibleArgs),
+    /// List, show and check robots, or write the card of a new one
+    Robots(command::robots::RobotsArgs),
+    /// Explain a diagnostic code
+    Explain(command::explain::ExplainArgs),
+    /// Print the grammar of policies for constrained decoding, or a request that uses it
+    Grammar(Box<command::grammar::GrammarArgs>),
+    /// Show the possible continuations of a policy prefix
+    Decode(Box<command::decode::DecodeArgs>),
+    /// Print the JSON Schema of a file format
+    Schema(command::schema::SchemaArgs),
+    /// Print completions for a shell
+    Completions(command::completions::CompletionsArgs),
+}
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
-            // Help that nobody reads is no mistake.
+            // Nobody reads the help: a closed pipe is no error.
             let _ = error.print();
-            return if error.use_stderr() { Exit::CouldNotRun.into() } else { Exit::Clean.into() };
+            return if error.use_stderr() { Exit::CouldNotRun.into() } else { Exit::Success.into() };
         }
     };
     let colors = Colors::new(cli.color);
     match dispatch(&cli.command, colors) {
         Ok(exit) => exit.into(),
-        Err(trouble) => {
-            say(&trouble, colors);
+        Err(error) => {
+            print_error(&error, colors);
             Exit::CouldNotRun.into()
         }
     }
 }
 
-fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
+fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
     match command {
         Command::Check(args) => command::check::run(args, colors),
         Command::Fmt(args) => command::fmt::run(args, colors),
         Command::Compile(args) => command::compile::run(args, colors),
         Command::Import(args) => command::import::run(args, colors),
-        Command::Do(args) => command::act::run(args, colors),
+        Command::Do(args) => command::r#do::run(args, colors),
         Command::Prompt(args) => command::prompt::run(args, colors),
         Command::Dialog(args) => command::dialog::run(args, colors),
         Command::Dataset(args) => command::dataset::run(args, colors),
         Command::Plan(args) => command::plan::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
-        Command::Drive(args) => command::run::drive(args, colors),
-        Command::Replay(args) => command::replay::run(args, colors),
-        Command::Export(args) => match &args.command {
-            args::ExportCommand::Mcap(args) => command::run::mcap(args),
-        },
+        Command::Drive(args) => command::drive::run(args, colors),
+        Command::Replay(args) => command::replay::run(args),
+        Command::Export(args) => command::export::run(args),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Explain(args) => command::explain::run(args),
@@ -66,10 +134,10 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
     }
 }
 
-fn say(trouble: &Trouble, colors: Colors) {
-    let error = if colors.stderr { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };
-    note(&format!("{error}: {trouble}"));
-    if let Some(help) = trouble.help() {
+fn print_error(error: &CliError, colors: Colors) {
+    let label = if colors.stderr { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };
+    note(&format!("{label}: {error}"));
+    if let Some(help) = error.help() {
         note(&format!("  help: {help}"));
     }
 }

@@ -1,24 +1,23 @@
-//! The progress bar of a batch, on a terminal.
+//! Progress bar of a batch of documents, on a terminal.
 
 use std::io::{self, IsTerminal};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// From so many inputs on, a bar is shown.
+/// Number of inputs above which a bar is shown.
 const BATCH: usize = 8;
 
-/// A bar over the bytes of the inputs; nothing where there are few, or where nobody looks.
+/// Progress bar over the bytes of the inputs; hidden for a few inputs, or without a terminal.
 #[derive(Debug)]
 pub(crate) struct Progress {
     bar: ProgressBar,
 }
 
 impl Progress {
-    /// A bar for so many inputs of so many bytes in all.
-    #[must_use]
+    /// Bar for `inputs` documents with `bytes` in total.
     pub(crate) fn new(inputs: usize, bytes: u64, verb: &'static str) -> Self {
         let is_batch = inputs > BATCH || bytes > 1 << 20;
-        // On a terminal that also shows the findings the bar would tear them apart.
+        // On the terminal that shows the findings too, the bar would tear them apart.
         if !is_batch || !io::stderr().is_terminal() || io::stdout().is_terminal() && inputs <= BATCH {
             return Self { bar: ProgressBar::hidden() };
         }
@@ -31,12 +30,12 @@ impl Progress {
         Self { bar }
     }
 
-    /// So many bytes more are done.
+    /// Advances the bar by a document of this size.
     pub(crate) fn advance(&self, bytes: usize) {
         self.bar.inc(bytes as u64);
     }
 
-    /// Takes the bar away while something is printed.
+    /// Hides the bar while `print` runs.
     pub(crate) fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
         self.bar.suspend(print)
     }

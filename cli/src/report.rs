@@ -1,125 +1,94 @@
-//! What is said about documents: printed on standard output in the form that was asked for, and counted.
+//! Diagnostics of a command: printed to stdout in the chosen format, and counted.
 
-mod gather;
-
+use std::collections::HashMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use motet_syntax::{Diagnostic, Severity, Sources, render};
+use motet_project::DiagnosticSink;
+use motet_syntax::{Diagnostic, FileId, Severity, Sources, Span, render};
 
-use crate::args::Format;
-use crate::exit::{Exit, Trouble};
-use crate::out::{Colors, Out, count, note};
-use gather::Gathered;
+use crate::error::{CliError, Exit};
+use crate::flags::DiagnosticFormat;
+use crate::output::{Colors, Output, count, note};
 
 /// Prints and counts diagnostics.
 #[derive(Debug)]
 pub(crate) struct Report {
-    format: Format,
+    format: DiagnosticFormat,
     colors: Colors,
-    /// Standard output.
-    pub(crate) out: Out,
-    gathered: Gathered,
+    /// Stdout.
+    pub(crate) out: Output,
+    collected: Collected,
     is_held: bool,
     errors: usize,
     warnings: usize,
 }
 
 impl Report {
-    /// A report in a format.
-    #[must_use]
-    pub(crate) fn new(format: Format, colors: Colors) -> Self {
+    /// Report in a format.
+    pub(crate) fn new(format: DiagnosticFormat, colors: Colors) -> Self {
         Self {
             format,
             colors,
-            out: Out::default(),
-            gathered: Gathered::default(),
+            out: Output::default(),
+            collected: Collected::default(),
             is_held: false,
             errors: 0,
             warnings: 0,
         }
     }
 
-    /// A report that says nothing: for what is said elsewhere.
-    #[must_use]
-    pub(crate) fn silent() -> Self {
-        Self { is_held: true, ..Self::new(Format::Human, Colors { stdout: false, stderr: false }) }
-    }
-
-    /// Counts warnings that are no diagnostics.
-    pub(crate) fn warned(&mut self, count: usize) {
+    /// Counts warnings that are not diagnostics.
+    pub(crate) fn count_warnings(&mut self, count: usize) {
         self.warnings += count;
     }
 
-    /// Keeps what is said until the end: then it goes to standard output, or to standard error where something else was
-    /// written to standard output.
+    /// Holds the diagnostics back until the end. They go to stdout, or to stderr if the command has written
+    /// a result to stdout.
     pub(crate) fn hold(&mut self) {
         self.is_held = true;
     }
 
-    /// Says diagnostics: at once for people, at the end where the format is one document.
-    pub(crate) fn say(&mut self, diagnostics: &[Diagnostic], sources: &Sources) {
-        for said in diagnostics {
-            match said.severity {
+    /// Prints diagnostics now, or collects them if the report is held or its format is one document.
+    pub(crate) fn print(&mut self, diagnostics: &[Diagnostic], sources: &Sources) {
+        for found in diagnostics {
+            match found.severity {
                 Severity::Error => self.errors += 1,
                 Severity::Warning => self.warnings += 1,
                 Severity::Note => {}
             }
         }
-        match self.format {
-            Format::Human | Format::Github | Format::Json | Format::Llm if !self.is_held => {
-                let text = self.text(diagnostics, sources);
-                let gap = if self.format == Format::Human && self.out.is_used() && !text.is_empty() {
-                    "\n"
-                } else {
-                    ""
-                };
-                self.out.text(&format!("{gap}{text}"));
-            }
-            Format::Human | Format::Github | Format::Json | Format::Sarif | Format::Llm => {
-                self.gathered.add(diagnostics, sources)
-            }
+        if self.is_held || self.format == DiagnosticFormat::Sarif {
+            self.collected.add(diagnostics, sources);
+            return;
         }
+        let text = self.text(diagnostics, sources);
+        let needs_gap = self.format == DiagnosticFormat::Human && self.out.is_used() && !text.is_empty();
+        let gap = if needs_gap { "\n" } else { "" };
+        self.out.text(&format!("{gap}{text}"));
     }
 
     fn text(&self, diagnostics: &[Diagnostic], sources: &Sources) -> String {
-        let is_apart = self.is_held && self.out.is_used();
-        let is_colored = if is_apart { self.colors.stderr } else { self.colors.stdout };
+        let goes_to_stderr = self.is_held && self.out.is_used();
+        let is_colored = if goes_to_stderr { self.colors.stderr } else { self.colors.stdout };
         match self.format {
-            Format::Human => {
+            DiagnosticFormat::Human => {
                 let color = if is_colored { render::ColorChoice::On } else { render::ColorChoice::Off };
                 render::human(diagnostics, sources, color, width())
             }
-            Format::Github => render::github(diagnostics, sources),
-            Format::Json => render::json(diagnostics, sources),
-            Format::Sarif => render::sarif(diagnostics, sources, &help),
-            Format::Llm => render::llm(diagnostics, sources),
+            DiagnosticFormat::Github => render::github(diagnostics, sources),
+            DiagnosticFormat::Json => render::json(diagnostics, sources),
+            DiagnosticFormat::Sarif => render::sarif(diagnostics, sources, &help),
+            DiagnosticFormat::Llm => render::llm(diagnostics, sources),
         }
     }
 
-    /// Says what there is to say about a file that everything rests on.
-    ///
-    /// # Errors
-    ///
-    /// There is an error in it.
-    pub(crate) fn usable(
-        &mut self,
-        what: &'static str,
-        said: &[Diagnostic],
-        sources: &Sources,
-    ) -> Result<(), Trouble> {
-        self.say(said, sources);
-        let is_broken = said.iter().any(|said| said.severity == Severity::Error);
-        if is_broken { Err(Trouble::Diagnosed(what)) } else { Ok(()) }
-    }
-
-    /// How many errors there were.
-    #[must_use]
+    /// Number of errors so far.
     pub(crate) fn errors(&self) -> usize {
         self.errors
     }
 
     /// `2 errors, 1 warning`, or `no errors`.
-    #[must_use]
     pub(crate) fn tally(&self) -> String {
         match (self.errors, self.warnings) {
             (0, 0) => "no errors".to_owned(),
@@ -129,16 +98,16 @@ impl Report {
         }
     }
 
-    /// Prints what was gathered, whatever the command came to.
+    /// Prints the collected diagnostics, and passes on the result of the command.
     ///
     /// # Errors
     ///
-    /// What the command came to, and a standard output that cannot be written.
-    pub(crate) fn close(mut self, result: Result<Exit, Trouble>) -> Result<Exit, Trouble> {
-        if self.is_held || self.format == Format::Sarif {
-            let text = self.text(&self.gathered.diagnostics, &self.gathered.sources);
+    /// Those of the result, or stdout cannot be written.
+    pub(crate) fn close(mut self, result: Result<Exit, CliError>) -> Result<Exit, CliError> {
+        if self.is_held || self.format == DiagnosticFormat::Sarif {
+            let text = self.text(&self.collected.diagnostics, &self.collected.sources);
             if self.is_held && self.out.is_used() {
-                if !self.gathered.diagnostics.is_empty() {
+                if !self.collected.diagnostics.is_empty() {
                     note(text.trim_end());
                 }
             } else {
@@ -149,28 +118,74 @@ impl Report {
     }
 }
 
-/// Columns of the terminal, within reason; 100 where there is none.
+impl DiagnosticSink for Report {
+    fn report(&mut self, diagnostics: &[Diagnostic], sources: &Sources) {
+        self.print(diagnostics, sources);
+    }
+}
+
+/// Columns of the terminal, from 60 to 140; 100 without a terminal.
 fn width() -> usize {
     let (_, columns) = console::Term::stdout().size_checked().unwrap_or((0, 100));
     usize::from(columns).clamp(60, 140)
 }
 
-/// What a command came to, unless standard output could not be written.
+/// Result of a command, or the error of writing stdout.
 ///
 /// # Errors
 ///
-/// Those of the result, and a standard output that cannot be written.
-pub(crate) fn close(out: &mut Out, result: Result<Exit, Trouble>) -> Result<Exit, Trouble> {
+/// Those of the result, or stdout cannot be written.
+pub(crate) fn close(out: &mut Output, result: Result<Exit, CliError>) -> Result<Exit, CliError> {
     match out.take_error() {
-        Some(source) => Err(Trouble::Write { path: PathBuf::from("standard output"), source }),
+        Some(source) => Err(CliError::Write { path: PathBuf::from("stdout"), source }),
         None => result,
     }
 }
 
-/// The title and the text of a code's page.
+/// Title and text of the page of a diagnostic code.
 fn help(code: &str) -> Option<render::CodePage<'static>> {
     let page = motet_compiler::codes::page(code)?;
     let title =
         page.text.lines().next().and_then(|line| line.split_once(": ")).map_or("", |(_, title)| title);
     Some(render::CodePage { title, markdown: page.text })
+}
+
+/// Diagnostics of many documents under one set of sources. Each document comes with sources in which it is
+/// the first file; here files are told apart by name.
+#[derive(Debug, Default)]
+struct Collected {
+    diagnostics: Vec<Diagnostic>,
+    sources: Sources,
+    known: HashMap<Arc<str>, FileId>,
+}
+
+impl Collected {
+    /// Adds diagnostics whose spans are places in `sources`.
+    fn add(&mut self, diagnostics: &[Diagnostic], sources: &Sources) {
+        for found in diagnostics {
+            let mut found = found.clone();
+            self.renumber(&mut found.span, sources);
+            for related in &mut found.related {
+                if let Some(span) = &mut related.span {
+                    self.renumber(span, sources);
+                }
+            }
+            for edit in found.fix.iter_mut().flat_map(|fix| &mut fix.edits) {
+                self.renumber(&mut edit.span, sources);
+            }
+            self.diagnostics.push(found);
+        }
+    }
+
+    fn renumber(&mut self, span: &mut Span, sources: &Sources) {
+        let Some(source) = sources.get(span.file) else { return };
+        span.file = match self.known.get(&source.name) {
+            Some(known) => *known,
+            None => {
+                let file = self.sources.add(source.clone());
+                self.known.insert(Arc::clone(&source.name), file);
+                file
+            }
+        };
+    }
 }

@@ -1,29 +1,50 @@
-//! `motet check`: what is wrong with policies, before a robot moves.
+//! `motet check`: finds the errors of policies before a robot moves.
 
 use std::path::PathBuf;
 
+use clap::Args;
 use motet_compiler::fix::fix;
+use motet_graph::{Graph, NodeKind, Verdict};
+use motet_project::files::Bytes;
+use motet_project::{DOCUMENT, Project, named_robot};
 
-use crate::args::CheckArgs;
-use crate::document;
-use crate::exit::{Exit, Trouble};
-use crate::input::{self, Bytes, Document, Flow};
-use crate::out::{Colors, count, note};
+use crate::documents::{self, Document, Flow, is_reply};
+use crate::error::{CliError, Exit};
+use crate::flags::{DocumentArgs, FormatArgs, SessionArgs};
+use crate::output::{Colors, count, count_irregular, note};
 use crate::progress::Progress;
 use crate::report::Report;
-use crate::workbench::{DOCUMENT, Workbench, wanted_robot};
 
-/// The most fixes that are made to one document.
-const MOST_FIXES: usize = 100;
+/// Flags of `motet check`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet check fetch_mug.motet --robot hsr --scene kitchen\n  \
+    motet check policies/ --format sarif > findings.sarif\n  \
+    motet check --fix reply.json --robot hsr --scene kitchen\n  \
+    cat reply.txt | motet check - --robot hsr")]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    documents: DocumentArgs,
+    #[command(flatten)]
+    session: SessionArgs,
+    /// Apply fixes in place; for stdin, print the fixed document
+    #[arg(long)]
+    fix: bool,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Maximum number of fixes that are applied to one document.
+const MAX_FIXES: usize = 100;
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// An input cannot be read, or what it is checked against cannot be used.
-pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, Trouble> {
+/// A document cannot be read, or the robot, the scene or another input cannot be used.
+pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, CliError> {
     let mut report = Report::new(args.format.format, colors);
-    // The mended document takes standard output.
+    // The fixed document goes to stdout.
     if args.fix && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
         report.hold();
     }
@@ -31,72 +52,72 @@ pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, Trouble> {
     report.close(result)
 }
 
-fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let inputs = input::collect(&args.documents.paths)?;
-    let mut bench = Workbench::open(&args.world, report)?;
+fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let inputs = documents::collect(&args.documents.paths)?;
+    let mut project = args.session.project().open_with(report)?;
     let progress = Progress::new(inputs.inputs.len(), inputs.size, "checking");
     let mut tally = Tally::default();
     for input in &inputs.inputs {
         let flow = input.documents(&mut |found| {
-            let found = if args.fix { tally.mend(found, &mut bench, report)? } else { found };
-            tally.add(&found, &mut bench, report, &progress)?;
-            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::GoOn })
+            let found = if args.fix { tally.fix(found, &mut project, report)? } else { found };
+            tally.add(&found, &mut project, report, &progress)?;
+            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue })
         })?;
         if flow == Flow::Stop {
             break;
         }
     }
     drop(progress);
-    tally.tell(&bench, &inputs.skipped);
+    tally.print(&project, &inputs.skipped);
     if args.fix {
-        note(&format!("made {} fix{}", tally.fixed, if tally.fixed == 1 { "" } else { "es" }));
+        note(&format!("applied {}", count_irregular(tally.fixed, "fix", "fixes")));
     }
     note(&format!("checked {}: {}", count(tally.documents, "document"), report.tally()));
-    Ok(if report.errors() > 0 { Exit::Findings } else { Exit::Clean })
+    Ok(if report.errors() > 0 { Exit::Findings } else { Exit::Success })
 }
 
-/// What the last lines say, beside the number of errors.
+/// Numbers for the summary, besides those of errors and warnings.
 #[derive(Default)]
 struct Tally {
     documents: usize,
-    /// Fixes that were made.
+    /// Applied fixes.
     fixed: usize,
-    /// Documents of which only a line could be rewritten.
+    /// Documents that are lines of a .jsonl file.
     lines: usize,
-    /// Documents with text beside the policy, which a rewrite would lose.
+    /// Documents with prose around the policy, which a rewrite would lose.
     replies: usize,
-    /// Motions whose geometry nobody looked at.
+    /// Deferred motions.
     motions: usize,
-    /// The same of documents with errors.
+    /// Motions that were not checked because of earlier errors.
     unseen: usize,
-    /// Documents that were checked against no robot.
+    /// Documents that were checked without a robot.
     without_robot: usize,
 }
 
 impl Tally {
-    /// Mends a document where it lies, and gives what it then is.
-    fn mend(
+    /// Fixes a document in place. Returns the fixed document.
+    fn fix(
         &mut self,
         mut found: Document,
-        bench: &mut Workbench,
+        project: &mut Project,
         report: &mut Report,
-    ) -> Result<Document, Trouble> {
+    ) -> Result<Document, CliError> {
         let is_stdin = found.name == "-";
         if found.path.is_none() && !is_stdin {
             self.lines += 1;
             return Ok(found);
         }
-        let (source, parsed) = document::read(&found);
+        let (source, parsed) = found.parse();
         let is_text = matches!(&found.bytes, Bytes::All(bytes) if std::str::from_utf8(bytes).is_ok());
-        let is_reply = document::is_reply(&parsed);
+        let is_reply = is_reply(&parsed);
         self.replies += usize::from(is_reply);
         if is_text && !is_reply {
-            let setting = bench.setting(&parsed.file, report)?;
-            let fixed = fix(&setting.session, &source, DOCUMENT, MOST_FIXES);
+            let opened = project.session_for(&parsed.file, report)?;
+            let fixed = fix(&opened.session, &source, DOCUMENT, MAX_FIXES);
             self.fixed += fixed.applied.len();
             if !fixed.applied.is_empty() {
                 if let Some(path) = &found.path {
-                    let fail = |source| Trouble::Write { path: path.clone(), source };
+                    let fail = |source| CliError::Write { path: path.clone(), source };
                     std::fs::write(path, &fixed.text).map_err(fail)?;
                 }
                 found.bytes = Bytes::All(fixed.text.into_bytes());
@@ -111,83 +132,74 @@ impl Tally {
     fn add(
         &mut self,
         found: &Document,
-        bench: &mut Workbench,
+        project: &mut Project,
         report: &mut Report,
         progress: &Progress,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), CliError> {
         self.documents += 1;
-        let (source, parsed) = document::read(found);
-        let setting = bench.setting(&parsed.file, report)?;
+        let (source, parsed) = found.parse();
+        let opened = project.session_for(&parsed.file, report)?;
         let runnable = parsed.file.runnable();
-        if setting.robot.is_none() && parsed.file.runnable().next().is_some() {
-            self.without_robot += usize::from(wanted_robot(&parsed.file).is_none());
+        if opened.robot.is_none() && parsed.file.runnable().next().is_some() {
+            self.without_robot += usize::from(named_robot(&parsed.file).is_none());
         }
-        // A document that is one policy is checked by compiling it, which also tells of its motions.
-        let said = if parsed.file.items.len() == 1 && parsed.file.runnable().count() == 1 {
-            let compiled = setting.session.compile(&parsed, None);
+        // Compiling checks too, and counts the motions. A document with one policy is only compiled.
+        let diagnostics = if parsed.file.items.len() == 1 && parsed.file.runnable().count() == 1 {
+            let compiled = opened.session.compile(&parsed, None);
             self.unseen += compiled.unseen;
-            self.motions += compiled.graph.as_ref().map_or(0, crate::graph::deferred_motions);
+            self.motions += compiled.graph.as_ref().map_or(0, deferred_motions);
             compiled.diagnostics
         } else {
             for policy in runnable {
-                let compiled = setting.session.compile(&parsed, Some(&policy.name.text));
+                let compiled = opened.session.compile(&parsed, Some(&policy.name.text));
                 self.unseen += compiled.unseen;
-                self.motions += compiled.graph.as_ref().map_or(0, crate::graph::deferred_motions);
+                self.motions += compiled.graph.as_ref().map_or(0, deferred_motions);
             }
-            setting.session.check(&parsed)
+            opened.session.check(&parsed)
         };
         if let Bytes::All(bytes) = &found.bytes {
             progress.advance(bytes.len());
         }
-        if !said.is_empty() {
-            let sources = setting.sources(source);
-            progress.suspend(|| report.say(&said, &sources));
+        if !diagnostics.is_empty() {
+            let sources = opened.sources(source);
+            progress.suspend(|| report.print(&diagnostics, &sources));
         }
         Ok(())
     }
 
-    fn tell(&self, bench: &Workbench, skipped: &[PathBuf]) {
+    fn print(&self, project: &Project, skipped: &[PathBuf]) {
         if self.documents == 0 {
-            note("warning: there was nothing to check: no .motet file, no policy in JSON");
+            note("warning: nothing to check: found no .motet file and no policy in JSON");
         }
         if !skipped.is_empty() {
-            let files = if skipped.len() == 1 {
-                "1 JSON file that is no policy".to_owned()
-            } else {
-                format!("{} JSON files that are no policies", skipped.len())
-            };
+            let (one, several) = ("JSON file that is not a policy", "JSON files that are not policies");
+            let files = count_irregular(skipped.len(), one, several);
             let named = skipped.iter().take(3).map(|path| format!("`{}`", path.display()));
             let rest = if skipped.len() > 3 { ", …" } else { "" };
             note(&format!("note: skipped {files}: {}{rest}", named.collect::<Vec<_>>().join(", ")));
         }
         if self.replies > 0 {
-            note(
-                "note: text beside a policy (M0116) is left as it is, and the policy with it: take the text out for --fix",
-            );
+            note("note: --fix skipped replies that contain prose (M0116); extract the policy first");
         }
         if self.lines > 0 {
-            note(
-                "note: a .jsonl file keeps a policy a line and is left as it is: --fix rewrites whole files",
-            );
+            note("note: --fix skipped the .jsonl files: it rewrites whole files only");
         }
         if self.without_robot > 0 {
-            note(
-                "note: no robot was given, so all that the standard library declares was allowed (--robot NAME)",
-            );
+            note("note: without a robot, every primitive of the standard library is allowed (--robot NAME)");
         }
-        // Without a scene nothing was looked at, errors or not.
-        let (motions, unseen) = match bench.has_scene() {
+        // Without a scene no motion was checked, with or without errors.
+        let (motions, unseen) = match project.has_scene() {
             true => (self.motions, self.unseen),
             false => (self.motions + self.unseen, 0),
         };
         if unseen > 0 {
-            note(&format!("note: {} not checked geometrically, because of the errors", were(unseen)));
+            note(&format!("note: {} not checked because of earlier errors", were(unseen)));
         }
         if motions > 0 {
-            let (what, why) = match (bench.has_scene(), bench.has_geometry()) {
-                (false, _) => ("not checked geometrically", ", because no scene was given (--scene NAME)"),
-                (true, false) => ("not checked geometrically", ""),
-                (true, true) => ("left to the run", " (`motet compile --emit tree` says why)"),
+            let (what, why) = match (project.has_scene(), project.has_geometry()) {
+                (false, _) => ("not checked", ", because no scene was given (--scene NAME)"),
+                (true, false) => ("not checked", ""),
+                (true, true) => ("deferred to the run", " (`motet compile --emit tree` shows the reasons)"),
             };
             note(&format!("note: {} {what}{why}", were(motions)));
         }
@@ -196,4 +208,13 @@ impl Tally {
 
 fn were(motions: usize) -> String {
     if motions == 1 { "1 motion was".to_owned() } else { format!("{motions} motions were") }
+}
+
+/// Number of motions that the compiler deferred to the run.
+fn deferred_motions(graph: &Graph) -> usize {
+    let is_deferred = |kind: &NodeKind| {
+        let NodeKind::Call(call) = kind else { return false };
+        call.motion.as_ref().is_some_and(|motion| motion.verdict == Verdict::Deferred)
+    };
+    graph.nodes.iter().filter(|node| is_deferred(&node.kind)).count()
 }

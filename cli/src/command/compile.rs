@@ -1,25 +1,67 @@
-//! `motet compile`: a policy's execution graph, a drawing of it, or the policy in either form.
+//! `motet compile`: the execution graph of a policy, a drawing of it, or the policy in either syntax.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::{Args, ValueEnum};
 use motet_graph::draw;
 use motet_syntax::Syntax;
 
-use crate::args::{CompileArgs, Emit};
-use crate::document;
-use crate::exit::{Exit, Trouble};
-use crate::form;
-use crate::input::one_document;
-use crate::out::{Colors, note};
+use crate::convert;
+use crate::documents::one_document;
+use crate::error::{CliError, Exit};
+use crate::flags::{FormatArgs, SessionArgs};
+use crate::output::{Colors, note};
 use crate::report::Report;
-use crate::workbench::Workbench;
+
+/// Flags of `motet compile`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet compile fetch_mug.motet --robot hsr -o fetch_mug.graph.json\n  \
+    motet compile fetch_mug.json --emit text\n  \
+    motet compile fetch_mug.motet --emit dot | dot -Tsvg > fetch_mug.svg")]
+pub(crate) struct CompileArgs {
+    /// Policy file, or `-` for stdin
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Output to write
+    #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
+    emit: Emit,
+    /// File to write [default: stdout]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Policy to compile; required if the file has several
+    #[arg(long, value_name = "NAME")]
+    policy: Option<String>,
+    #[command(flatten)]
+    session: SessionArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Output of `motet compile`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+enum Emit {
+    /// Execution graph in its versioned JSON encoding
+    #[default]
+    Graph,
+    /// Policy as JSON
+    Json,
+    /// Policy as text
+    Text,
+    /// Graph as an indented tree with guards, effects and durations
+    Tree,
+    /// Graph as a Mermaid flowchart
+    Mermaid,
+    /// Graph for Graphviz
+    Dot,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// The file cannot be read, or what it is compiled against cannot be used.
-pub(crate) fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, Trouble> {
+/// The policy cannot be read, or the robot, the scene or another input cannot be used.
+pub(crate) fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, CliError> {
     let mut report = Report::new(args.format.format, colors);
     if args.output.is_none() {
         report.hold();
@@ -28,24 +70,24 @@ pub(crate) fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, Trouble> {
     report.close(result)
 }
 
-fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let (source, parsed) = document::read(&one_document(&args.file)?);
-    let mut bench = Workbench::open(&args.world, report)?;
-    let setting = bench.setting(&parsed.file, report)?;
+fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let (source, parsed) = one_document(&args.file)?.parse();
+    let mut project = args.session.project().open_with(report)?;
+    let opened = project.session_for(&parsed.file, report)?;
     let policy = args.policy.as_deref();
-    let compiled = setting.session.compile(&parsed, policy);
-    report.say(&compiled.diagnostics, &setting.sources(source));
+    let compiled = opened.session.compile(&parsed, policy);
+    report.print(&compiled.diagnostics, &opened.sources(source));
     let Some(graph) = compiled.graph else {
         return Ok(Exit::Findings);
     };
-    let library = setting.session.library();
+    let library = opened.session.library();
     let written = match args.emit {
         Emit::Graph => Ok(motet_graph::encode(&graph)),
         Emit::Tree => Ok(draw::text(&graph)),
         Emit::Mermaid => Ok(draw::mermaid(&graph)),
         Emit::Dot => Ok(draw::dot(&graph)),
-        Emit::Json => form::write(&parsed, policy, library, Syntax::Json),
-        Emit::Text => form::write(&parsed, policy, library, Syntax::Text),
+        Emit::Json => convert::write(&parsed, policy, library, Syntax::Json),
+        Emit::Text => convert::write(&parsed, policy, library, Syntax::Text),
     };
     let mut text = match written {
         Ok(text) => text,
@@ -61,9 +103,9 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, Trouble> {
         Some(path) if path.as_os_str() != "-" => write(path, &text)?,
         Some(_) | None => report.out.text(&text),
     }
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }
 
-fn write(path: &Path, text: &str) -> Result<(), Trouble> {
-    std::fs::write(path, text).map_err(|source| Trouble::Write { path: path.to_owned(), source })
+fn write(path: &Path, text: &str) -> Result<(), CliError> {
+    std::fs::write(path, text).map_err(|source| CliError::Write { path: path.to_owned(), source })
 }

@@ -1,21 +1,31 @@
 //! `motet completions`: completions for a shell.
 
-use clap::CommandFactory;
+use clap::{Args, CommandFactory};
 
-use crate::args::{Cli, CompletionsArgs};
-use crate::exit::{Exit, Trouble};
-use crate::out::Out;
+use crate::Cli;
+use crate::error::{CliError, Exit};
+use crate::output::Output;
 use crate::report;
+
+/// Flags of `motet completions`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Example:\n  motet completions bash > ~/.local/share/bash-completion/completions/motet"
+)]
+pub(crate) struct CompletionsArgs {
+    #[arg(value_enum)]
+    shell: clap_complete::Shell,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// Standard output cannot be written.
-pub(crate) fn run(args: &CompletionsArgs) -> Result<Exit, Trouble> {
+/// Stdout cannot be written.
+pub(crate) fn run(args: &CompletionsArgs) -> Result<Exit, CliError> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "motet", &mut script);
-    let mut out = Out::default();
+    let mut out = Output::default();
     out.text(&String::from_utf8_lossy(&script));
-    report::close(&mut out, Ok(Exit::Clean))
+    report::close(&mut out, Ok(Exit::Success))
 }

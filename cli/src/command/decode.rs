@@ -1,86 +1,117 @@
-//! `motet decode`: what may follow in a policy that has been begun, in words, as bytes or as tokens.
+//! `motet decode`: the continuations of a policy prefix, as words, bytes or tokens.
 
 mod next;
 mod place;
 mod refused;
 mod tokens;
 
-use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use motet_compiler::Session;
 use motet_decode::{Acceptor, AcceptorFactory, Modifiers, Subset};
-use motet_syntax::ast::{File, MAX_BYTES};
+use motet_project::files::{Bytes, read_small};
+use motet_syntax::ast::MAX_BYTES;
 use motet_syntax::{Sources, Syntax, render};
 
-use crate::args::{DecodeArgs, DecodeForm, Format, WorldArgs};
-use crate::exit::{Exit, Trouble};
-use crate::input::{Bytes, read_small, read_stdin};
-use crate::out::Colors;
+use crate::documents::read_stdin;
+use crate::error::{CliError, Exit};
+use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
+use crate::output::Colors;
 use crate::report::Report;
-use crate::workbench::Workbench;
+
+/// Flags of `motet decode`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    printf '{\"motet\":1,' | motet decode - --robot hsr --scene kitchen\n  \
+    motet decode prefix.json --robot hsr --scene kitchen --explain\n  \
+    motet decode prefix.json --robot hsr --scene kitchen --tokenizer o200k\n\n\
+    The prefix is written in the canonical subset, without white space; a final line break is ignored.\n\
+    Exit codes: 0 some policy starts with the prefix, 1 none does, 2 the command could not run.")]
+pub(crate) struct DecodeArgs {
+    /// File with the policy prefix (`-` for stdin)
+    #[arg(value_name = "FILE", default_value = "-")]
+    path: PathBuf,
+    #[command(flatten)]
+    environment: EnvironmentArgs,
+    /// Describe the possible words, and why other words are refused
+    #[arg(long)]
+    explain: bool,
+    /// Show the possible tokens of a vocabulary: `cl100k`, `o200k`, or a file (tokenizer.json, a JSON list,
+    /// or base64 lines)
+    #[arg(long, value_name = "NAME|FILE")]
+    tokenizer: Option<String>,
+    /// Token that ends a sequence, by name or number; required if the file does not define it
+    #[arg(long, value_name = "TOKEN", requires = "tokenizer")]
+    end: Option<String>,
+    /// Syntax of the prefix
+    #[arg(long, value_enum, default_value = "json", value_name = "SYNTAX")]
+    surface: SyntaxArg,
+    /// Allow deadlines and retries
+    #[arg(long)]
+    modifiers: bool,
+    /// Maximum size of the whole policy, in bytes
+    #[arg(long, default_value_t = 20_000, value_name = "BYTES")]
+    budget: usize,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// The beginning, the robot, the scene, the state, a domain or the tokenizer cannot be read.
-pub(crate) fn run(args: &DecodeArgs, colors: Colors) -> Result<Exit, Trouble> {
-    let mut report = Report::new(Format::Human, colors);
+/// The prefix, the tokenizer or another input cannot be read.
+pub(crate) fn run(args: &DecodeArgs, colors: Colors) -> Result<Exit, CliError> {
+    let mut report = Report::new(DiagnosticFormat::Human, colors);
     report.hold();
     let result = decode(args, &mut report);
     report.close(result)
 }
 
-fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let world = WorldArgs::from(args.known.clone());
-    let mut bench = Workbench::open(&world, report)?;
-    let session = bench.setting(&File::default(), report)?.session.clone();
-    let mut begun = read(&args.path)?;
-    let form = match args.surface {
-        DecodeForm::Json => Syntax::Json,
-        DecodeForm::Text => Syntax::Text,
-    };
+fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let mut project = args.environment.without_motions().open_with(report)?;
+    let session = project.session(report)?.session.clone();
+    let mut prefix = read(&args.path)?;
+    let syntax = args.surface.into();
     let modifiers = if args.modifiers { Modifiers::Written } else { Modifiers::Default };
-    let prepared = AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
+    let prepared = AcceptorFactory::new(&session, Subset { syntax, modifiers, ..Subset::default() });
     let mut acceptor = prepared
         .acceptor(args.budget)
-        .ok_or_else(|| Trouble::Other(format!("no policy has at most {} bytes", args.budget)))?;
-    // What editors and shells put at the end of a file; any other space belongs to the beginning.
-    if begun.last() == Some(&b'\n') {
-        begun.pop();
-        begun.pop_if(|last| *last == b'\r');
+        .ok_or_else(|| CliError::Message(format!("no policy fits into {} bytes", args.budget)))?;
+    // Editors and shells end a file with a line break; any other white space belongs to the prefix.
+    if prefix.last() == Some(&b'\n') {
+        prefix.pop();
+        prefix.pop_if(|last| *last == b'\r');
     }
-    let taken = acceptor.accept(&begun);
-    let rest = begun.split_off(taken);
+    let taken = acceptor.accept(&prefix);
+    let rest = prefix.split_off(taken);
     if !rest.is_empty() {
-        report.out.text(&refusal(&mut acceptor, (&session, form), &rest));
+        report.out.text(&refusal(&mut acceptor, (&session, syntax), &rest));
         return Ok(Exit::Findings);
     }
     let tokens = args.tokenizer.as_ref().map(|name| {
         let vocabulary = tokens::vocabulary(name, args.end.as_deref())?;
-        tokens::told(&prepared, &vocabulary, &begun, args.budget)
+        tokens::describe(&prepared, &vocabulary, &prefix, args.budget)
     });
-    report.out.text(&told(&mut acceptor, (&session, form), args.explain));
+    report.out.text(&continuations(&mut acceptor, (&session, syntax), args.explain));
     report.out.text(&tokens.transpose()?.unwrap_or_default());
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }
 
-/// What may follow.
-fn told(acceptor: &mut Acceptor, (session, form): (&Session, Syntax), explain: bool) -> String {
-    let mut text = format!("taken: {}\n", crate::out::count(acceptor.bytes().len(), "byte"));
+/// Describes the continuations.
+fn continuations(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax), explain: bool) -> String {
+    let mut text = format!("accepted: {}\n", crate::output::count(acceptor.bytes().len(), "byte"));
     let forced = acceptor.forced();
     if !forced.is_empty() {
         text.push_str(&format!("must follow: {}\n", quoted(&forced)));
         acceptor.accept(&forced);
     }
     if acceptor.is_accepting() {
-        text.push_str("the policy is whole: nothing may follow but the end\n");
+        text.push_str("the policy is complete: only the end may follow\n");
     } else if explain {
-        let next = next::next(acceptor, form);
-        text.push_str(&next.told(&session.signatures(), acceptor));
-        // Which words of the text form names and types alone would allow is not told.
-        if form == Syntax::Json {
+        let next = next::next(acceptor, syntax);
+        text.push_str(&next.describe(&session.signatures(), acceptor));
+        // The text syntax has no list of the words that names and types alone would allow.
+        if syntax == Syntax::Json {
             text.push_str(&refused::refused(acceptor, &session.signatures(), &next));
         }
     } else {
@@ -89,8 +120,8 @@ fn told(acceptor: &mut Acceptor, (session, form): (&Session, Syntax), explain: b
     text
 }
 
-/// Where what was begun is refused, and why.
-fn refusal(acceptor: &mut Acceptor, (session, form): (&Session, Syntax), rest: &[u8]) -> String {
+/// Describes the place where the prefix is refused, and the reason.
+fn refusal(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax), rest: &[u8]) -> String {
     let before = acceptor.bytes();
     let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
     let from = before.len().saturating_sub(40);
@@ -106,36 +137,29 @@ fn refusal(acceptor: &mut Acceptor, (session, form): (&Session, Syntax), rest: &
     let why = acceptor.why_not(rest);
     if why.is_empty() {
         text.push_str(
-            "why: only the spelling; the model surface has one for each policy (docs/decoding.md)\n",
+            "why: only the spelling; the canonical subset has one for each policy (docs/decoding.md)\n",
         );
     } else {
         for line in render::llm(&why, &Sources::default()).lines() {
             text.push_str(&format!("why: {line}\n"));
         }
     }
-    let next = next::next(acceptor, form);
-    text.push_str(&next.told(&session.signatures(), acceptor));
+    let next = next::next(acceptor, syntax);
+    text.push_str(&next.describe(&session.signatures(), acceptor));
     text
 }
 
-/// Bytes between quotes, escaped as in JSON.
+/// Bytes as a JSON string.
 pub(super) fn quoted(bytes: &[u8]) -> String {
     serde_json::Value::from(String::from_utf8_lossy(bytes)).to_string()
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Trouble> {
+fn read(path: &Path) -> Result<Vec<u8>, CliError> {
     if path.as_os_str() != "-" {
-        return read_small(path);
+        return Ok(read_small(path)?);
     }
-    match read_stdin() {
-        Ok(Bytes::All(bytes)) => Ok(bytes),
-        Ok(Bytes::TooMany(_)) => {
-            Err(Trouble::Other(format!("standard input is larger than {} MiB", MAX_BYTES >> 20)))
-        }
-        Err(source) => Err(unread(path, source)),
+    match read_stdin()? {
+        Bytes::All(bytes) => Ok(bytes),
+        Bytes::TooMany(_) => Err(CliError::Message(format!("stdin is larger than {} MiB", MAX_BYTES >> 20))),
     }
-}
-
-fn unread(path: &Path, source: io::Error) -> Trouble {
-    Trouble::Read { path: path.to_owned(), source }
 }

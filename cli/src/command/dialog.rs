@@ -1,50 +1,69 @@
-//! `motet dialog`: plans in InteLiPlan's dialect read as policies, and exchanges in it written.
+//! `motet dialog`: converts plans in the dialect of InteLiPlan to policies, and writes exchanges in it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use clap::Args;
 use motet_planner::builtin;
 use motet_planner::dialect::actions;
 use motet_planner::dialect::exchange::{self, Exchange};
 use motet_planner::dialogue::Problem;
 use motet_planner::prompt;
+use motet_project::files::read_small;
+use motet_project::{DOCUMENT, ProjectSession};
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
-use motet_syntax::ast::File;
-use motet_syntax::{Severity, Source, Syntax};
+use motet_syntax::{Severity, Source};
 
-use crate::args::{DialogArgs, DialogForm, Format};
-use crate::exit::{Exit, Trouble};
-use crate::form;
-use crate::input::read_small;
-use crate::out::{Colors, note};
+use crate::convert;
+use crate::error::{CliError, Exit};
+use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
+use crate::output::{Colors, note};
 use crate::report::Report;
-use crate::workbench::{DOCUMENT, Setting, Workbench};
+
+/// Flags of `motet dialog`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet dialog exchange.txt --robot hsr --scene kitchen\n  \
+    motet dialog --write 'bring me the coke' --robot hsr --scene kitchen")]
+pub(crate) struct DialogArgs {
+    /// Text with `<user>` and `<robot>` tags, or a bare list of actions
+    #[arg(value_name = "FILE", required_unless_present = "write")]
+    file: Option<PathBuf>,
+    /// Write the exchange for a request instead, with the plan of the built-in planner
+    #[arg(long, value_name = "REQUEST", conflicts_with = "file")]
+    write: Option<String>,
+    #[command(flatten)]
+    session: SessionArgs,
+    /// Syntax of the printed policy
+    #[arg(long, value_enum, default_value = "text", value_name = "SYNTAX", conflicts_with = "write")]
+    to: SyntaxArg,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
 /// The file, the robot or the scene cannot be used.
-pub(crate) fn run(args: &DialogArgs, colors: Colors) -> Result<Exit, Trouble> {
-    let mut report = Report::new(Format::Human, colors);
+pub(crate) fn run(args: &DialogArgs, colors: Colors) -> Result<Exit, CliError> {
+    let mut report = Report::new(DiagnosticFormat::Human, colors);
     report.hold();
     let result = converse(args, &mut report);
     report.close(result)
 }
 
-fn converse(args: &DialogArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let mut bench = Workbench::open(&args.world, report)?;
-    let setting = bench.setting(&File::default(), report)?;
+fn converse(args: &DialogArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let mut project = args.session.project().open_with(report)?;
+    let opened = project.session(report)?;
     match (&args.write, &args.file) {
-        (Some(request), _) => write(request, setting, report),
-        (None, Some(path)) => read(path, args.to, setting, report),
-        (None, None) => Err(Trouble::Other("a file or --write REQUEST is needed".to_owned())),
+        (Some(request), _) => write(request, opened, report),
+        (None, Some(path)) => read(path, args.to, opened, report),
+        (None, None) => Err(CliError::Message("give a file or --write REQUEST".to_owned())),
     }
 }
 
-/// Every plan of a dialogue as a policy, checked. What the robot only asks is said.
-fn read(path: &Path, to: DialogForm, setting: &Setting, report: &mut Report) -> Result<Exit, Trouble> {
+/// Converts each plan of a dialogue to a policy and checks it. Questions of the robot are printed as notes.
+fn read(path: &Path, to: SyntaxArg, opened: &ProjectSession, report: &mut Report) -> Result<Exit, CliError> {
     let bytes = read_small(path)?;
     let text = String::from_utf8_lossy(&bytes);
     let exchanges = if text.contains('<') {
@@ -56,34 +75,34 @@ fn read(path: &Path, to: DialogForm, setting: &Setting, report: &mut Report) -> 
         Vec::new()
     };
     if exchanges.is_empty() {
-        return Ok(plan(&text, "plan", "", true, to, setting, report));
+        return Ok(plan(&text, "plan", "", true, to, opened, report));
     }
     let is_only = exchanges.len() == 1;
-    let mut exit = Exit::Clean;
+    let mut exit = Exit::Success;
     for (index, exchange) in exchanges.iter().enumerate() {
         let (name, place) = (format!("exchange_{}", index + 1), format!("exchange {}", index + 1));
         if exchange.asks() {
             note(&format!("{place}: the robot asks: {}", exchange.robot));
-        } else if plan(&exchange.robot, &name, &place, is_only, to, setting, report) != Exit::Clean {
+        } else if plan(&exchange.robot, &name, &place, is_only, to, opened, report) != Exit::Success {
             exit = Exit::Findings;
         }
     }
     Ok(exit)
 }
 
-/// One list of actions as a policy; `place` says where it stands, for people.
+/// Converts one list of actions to a policy. `place` names its exchange for people.
 fn plan(
     list: &str,
     name: &str,
     place: &str,
     is_only: bool,
-    to: DialogForm,
-    setting: &Setting,
+    to: SyntaxArg,
+    opened: &ProjectSession,
     report: &mut Report,
 ) -> Exit {
-    let nothing = Scene::default();
-    let situation = RequestContext::new(setting.scene.as_ref().unwrap_or(&nothing));
-    let loose = match actions::read(list, name, &setting.session, setting.robot.as_ref(), &situation) {
+    let empty = Scene::default();
+    let situation = RequestContext::new(opened.scene.as_ref().unwrap_or(&empty));
+    let loose = match actions::read(list, name, &opened.session, opened.robot.as_ref(), &situation) {
         Ok(loose) => loose,
         Err(why) => return refuse(place, &why),
     };
@@ -91,42 +110,39 @@ fn plan(
     loose.warnings.iter().for_each(|text| note(&format!("warning: {place}{comma}{text}")));
     let source = Source::new("dialog.motet", loose.policy.as_str());
     let parsed = motet_syntax::read(&source, DOCUMENT);
-    let said = setting.session.check(&parsed);
-    let is_wrong = said.iter().any(|said| said.severity == Severity::Error);
-    report.say(&said, &setting.sources(source));
-    let form = match to {
-        DialogForm::Text => Syntax::Text,
-        DialogForm::Json => Syntax::Json,
-    };
-    match form::write(&parsed, None, setting.session.library(), form) {
-        // Of several JSON documents each is a line.
-        Ok(text) if to == DialogForm::Json && !is_only => {
+    let diagnostics = opened.session.check(&parsed);
+    let is_wrong = diagnostics.iter().any(|found| found.severity == Severity::Error);
+    report.print(&diagnostics, &opened.sources(source));
+    match convert::write(&parsed, None, opened.session.library(), to.into()) {
+        // Several JSON documents are printed on one line each.
+        Ok(text) if to == SyntaxArg::Json && !is_only => {
             report.out.line(&text.lines().map(str::trim).collect::<Vec<_>>().join(" "));
         }
         Ok(text) => report.out.line(text.trim_end()),
         Err(why) => return refuse(place, &why),
     }
-    if is_wrong { Exit::Findings } else { Exit::Clean }
+    if is_wrong { Exit::Findings } else { Exit::Success }
 }
 
-/// The exchange of a request: what is seen and feasible of what it names, and the plan for it, or the question that it raises.
-fn write(request: &str, setting: &Setting, report: &mut Report) -> Result<Exit, Trouble> {
-    let Some(robot) = &setting.robot else {
-        return Err(Trouble::Other("a robot is needed to plan: give --robot NAME".to_owned()));
+/// Writes the exchange for a request: the visible and the feasible of the objects that it names, and the
+/// plan or a question.
+fn write(request: &str, opened: &ProjectSession, report: &mut Report) -> Result<Exit, CliError> {
+    let Some(robot) = &opened.robot else {
+        return Err(CliError::Message("a plan needs a robot: give --robot NAME".to_owned()));
     };
-    let scene = setting.scene.clone().unwrap_or_default();
+    let scene = opened.scene.clone().unwrap_or_default();
     let situation = RequestContext::new(&scene);
     let named = motet_requests::named(request, &situation);
-    // The dialect's texts tell what numbers tell, and no more than that.
-    let seen = prompt::seen(&setting.session, robot, &scene, &named, Duration::ZERO);
+    // The texts of the dialect express exactly what the numbers do.
+    let seen = prompt::seen(&opened.session, robot, &scene, &named, Duration::ZERO);
     let (vision, feasibility) = exchange::sight(&seen);
-    let answer = builtin::answer(&setting.session, Some(robot), request, &situation);
+    let answer = builtin::answer(&opened.session, Some(robot), request, &situation);
     let said = match answer {
         Ok(answered) => {
             let policy = answered.planned.parsed.file.policies().next();
             let (list, left_out) = policy.map(|policy| actions::write(policy, &scene)).unwrap_or_default();
             for what in left_out {
-                note(&format!("left out of the list: {what}"));
+                note(&format!("the list leaves out {what}"));
             }
             list
         }
@@ -135,7 +151,7 @@ fn write(request: &str, setting: &Setting, report: &mut Report) -> Result<Exit, 
     let exchange =
         Exchange { history: String::new(), user: request.to_owned(), vision, feasibility, robot: said };
     report.out.line(exchange.write().trim_end());
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }
 
 fn refuse(place: &str, why: &impl std::fmt::Display) -> Exit {

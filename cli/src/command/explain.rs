@@ -1,42 +1,51 @@
-//! `motet explain`: the page behind a diagnostic code.
+//! `motet explain`: the page of a diagnostic code.
 
+use clap::Args;
 use motet_compiler::codes;
 use motet_syntax::suggest;
 
-use crate::args::ExplainArgs;
-use crate::exit::{Exit, Trouble};
-use crate::out::Out;
+use crate::error::{CliError, Exit};
+use crate::output::Output;
 use crate::report;
+
+/// Flags of `motet explain`.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  motet explain M0501")]
+pub(crate) struct ExplainArgs {
+    /// Code such as M0501; without one, all codes are listed
+    #[arg(value_name = "CODE")]
+    code: Option<String>,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// There is no such code.
-pub(crate) fn run(args: &ExplainArgs) -> Result<Exit, Trouble> {
-    let mut out = Out::default();
+/// No diagnostic has this code.
+pub(crate) fn run(args: &ExplainArgs) -> Result<Exit, CliError> {
+    let mut out = Output::default();
     let result = match &args.code {
         Some(code) => explain(code, &mut out),
         None => {
             list(&mut out);
-            Ok(Exit::Clean)
+            Ok(Exit::Success)
         }
     };
     report::close(&mut out, result)
 }
 
-fn explain(code: &str, out: &mut Out) -> Result<Exit, Trouble> {
+fn explain(code: &str, out: &mut Output) -> Result<Exit, CliError> {
     match codes::page(code.trim()) {
         Some(page) => {
             out.line(page.text.trim_end());
-            Ok(Exit::Clean)
+            Ok(Exit::Success)
         }
         None => Err(unknown(code)),
     }
 }
 
-/// Every code with the title of its page.
-fn list(out: &mut Out) {
+/// Lists each code with the title of its page.
+fn list(out: &mut Output) {
     for page in codes::PAGES {
         let title = page.text.lines().find(|line| line.starts_with('#')).unwrap_or_default();
         let title = title.trim_start_matches('#').trim();
@@ -46,12 +55,12 @@ fn list(out: &mut Out) {
     }
 }
 
-fn unknown(code: &str) -> Trouble {
+fn unknown(code: &str) -> CliError {
     let upper = code.trim().to_ascii_uppercase();
     let near = suggest::closest(&upper, codes::PAGES.iter().map(|page| page.code));
     let help = match near {
-        Some(near) => format!("did you mean `{near}`? `motet explain` lists every code"),
-        None => "a code is written M0501; `motet explain` lists every code".to_owned(),
+        Some(near) => format!("did you mean `{near}`? `motet explain` lists all codes"),
+        None => "a code looks like M0501; `motet explain` lists all codes".to_owned(),
     };
-    Trouble::Unknown { what: "diagnostic code", name: code.to_owned(), help }
+    CliError::Unknown { what: "diagnostic code", name: code.to_owned(), help }
 }

@@ -1,59 +1,96 @@
-//! `motet feasible`: whether a robot can do a motion in a scene, with the path or the reason.
+//! `motet feasible`: decides which motions are feasible for a robot in a scene, with the path or the reason.
 
 mod drawing;
 mod wire;
 
+use std::path::PathBuf;
+
+use clap::{Args, value_parser};
 use motet_compiler::{Options, Session};
 use motet_geometry::planning::{
     InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
     UnknownReason,
 };
+use motet_project::{open_robot, read_scene, require};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{Diagnostic, FileId, Source, Sources, Span, suggest};
 use smol_str::SmolStr;
 
-use crate::args::{FeasibleArgs, FeasibleFormat, Format};
-use crate::exit::{Exit, Trouble};
-use crate::out::{Colors, count};
+use crate::error::{CliError, Exit};
+use crate::flags::OutputFormat;
+use crate::output::{Colors, count};
 use crate::report::Report;
-use crate::workbench::{Card, read_scene};
+
+/// Flags of `motet feasible`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet feasible --robot hsr --scene kitchen --for 'reach(mug_1)'\n  \
+    motet feasible --robot hsr --scene kitchen --for 'reach(coke, top)' --svg coke.svg\n  \
+    motet feasible --robot hsr --scene kitchen --all --format json\n\n\
+    A motion is go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY),\n\
+    offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME). The scene defines the object in the hand:\n\
+    \"robot\": {\"holding\": …}.\n\
+    Exit codes: 0 all motions of --for are feasible, 1 one is not or is unknown, 2 could not run.")]
+pub(crate) struct FeasibleArgs {
+    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml
+    #[arg(long, value_name = "NAME|FOLDER")]
+    robot: String,
+    /// Scene: a built-in name, or a JSON file
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// Motion to decide; repeatable
+    #[arg(long = "for", value_name = "MOTION", required_unless_present = "all")]
+    motions: Vec<String>,
+    /// Decide go_to for all entities, reach for all objects, pull or push for all doors, and all postures,
+    /// each from the start; the exit code is 0
+    #[arg(long, conflicts_with = "motions")]
+    all: bool,
+    /// Search budget of a motion: 4 tries four times as often
+    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = value_parser!(u16).range(1..=1000))]
+    effort: u16,
+    /// Format of the answers
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    format: OutputFormat,
+    /// Draw the scene from above with the robot and the paths
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// The robot, the scene or a motion cannot be read, or the drawing not be written.
-pub(crate) fn run(args: &FeasibleArgs, colors: Colors) -> Result<Exit, Trouble> {
-    let format = match args.format {
-        FeasibleFormat::Human => Format::Human,
-        FeasibleFormat::Json => Format::Json,
-    };
-    let mut report = Report::new(format, colors);
+/// The robot, the scene or a motion has errors, or the drawing cannot be written.
+pub(crate) fn run(args: &FeasibleArgs, colors: Colors) -> Result<Exit, CliError> {
+    let mut report = Report::new(args.format.into(), colors);
     let result = answer(args, &mut report);
     report.close(result)
 }
 
-fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
+fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
     let mut sources = Sources::default();
-    let card = Card::find(&args.robot)?;
-    let robot = card.read(&mut sources, report)?;
-    let Some(urdf) = card.body(&robot, &mut sources, report)? else {
-        return Err(Trouble::Other(format!("the card of `{}` names no URDF under [model]", robot.name)));
+    let (robot, urdf) = open_robot(&args.robot, &mut sources, report)?;
+    let Some(urdf) = urdf else {
+        return Err(CliError::Message(format!("the card of `{}` names no URDF under [model]", robot.name)));
     };
     let scene = read_scene(&args.scene, &mut sources, report)?;
-    report.usable("scene", &scene::fit(&scene, &urdf), &sources)?;
+    require("scene", &scene::fit(&scene, &urdf), &sources, report)?;
     let machine = RobotModel::new(&robot, &urdf);
-    let queries = if args.all { all(&machine, &scene) } else { asked(&args.motions, &machine, &scene)? };
-    let (session, said) =
+    let queries = if args.all {
+        all_motions(&machine, &scene)
+    } else {
+        parse_motions(&args.motions, &machine, &scene)?
+    };
+    let (session, diagnostics) =
         Session::new(Some(&robot), &[], Some(&scene), None, Options::default(), &mut sources);
-    report.usable("robot or scene", &said, &sources)?;
-    let said: Vec<Diagnostic> =
-        args.motions.iter().flat_map(|motion| kinds(motion, &session, &mut sources)).collect();
-    report.usable("motion", &said, &sources)?;
+    require("robot or scene", &diagnostics, &sources, report)?;
+    let diagnostics: Vec<Diagnostic> =
+        args.motions.iter().flat_map(|motion| check_kinds(motion, &session, &mut sources)).collect();
+    require("motion", &diagnostics, &sources, report)?;
     let world = SceneState::new(&machine, &scene);
     let room = QueryContext::new(&machine, &scene, &world);
     let mut answers = Vec::new();
-    let mut exit = Exit::Clean;
+    let mut exit = Exit::Success;
     for query in queries {
         let budget = SearchBudget::default().times(usize::from(args.effort));
         let mut answer = room.answer(&query, budget);
@@ -61,8 +98,8 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
             *why = room.explain(&query, why, budget);
         }
         match args.format {
-            FeasibleFormat::Human => report.out.text(&told(&query, &answer)),
-            FeasibleFormat::Json => report.out.line(&wire::line(&machine, &query, &answer)),
+            OutputFormat::Human => report.out.text(&describe(&query, &answer)),
+            OutputFormat::Json => report.out.line(&wire::line(&machine, &query, &answer)),
         }
         if !args.all && !matches!(answer, MotionAnswer::Feasible(_)) {
             exit = Exit::Findings;
@@ -71,30 +108,39 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
     }
     if let Some(path) = &args.svg {
         let drawing = drawing::top_view(&room, &scene, &world, &answers);
-        std::fs::write(path, drawing).map_err(|source| Trouble::Write { path: path.clone(), source })?;
+        std::fs::write(path, drawing).map_err(|source| CliError::Write { path: path.clone(), source })?;
     }
     Ok(exit)
 }
 
-fn asked(motions: &[String], machine: &RobotModel, scene: &Scene) -> Result<Vec<MotionQuery>, Trouble> {
+fn parse_motions(
+    motions: &[String],
+    machine: &RobotModel,
+    scene: &Scene,
+) -> Result<Vec<MotionQuery>, CliError> {
     let parsed = motions.iter().map(|motion| {
-        let query = MotionQuery::parse(motion).ok_or_else(|| Trouble::Unknown {
+        let query = MotionQuery::parse(motion).ok_or_else(|| CliError::Unknown {
             what: "motion",
             name: motion.clone(),
-            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME)"
+            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), \
+                   put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME)"
                 .to_owned(),
         })?;
         let entities = || scene.entities.keys().map(SmolStr::as_str);
         match &query {
             MotionQuery::Put(object, other) | MotionQuery::Offer(object, other) => {
-                known("entity", object, entities)?;
-                known("entity", other, entities)?;
+                require_known("entity", object, entities)?;
+                require_known("entity", other, entities)?;
             }
-            MotionQuery::GoTo(id) | MotionQuery::Reach(id, _) | MotionQuery::Look(id) | MotionQuery::Pull(id) | MotionQuery::Push(id) => {
-                known("entity", id, entities)?;
+            MotionQuery::GoTo(id)
+            | MotionQuery::Reach(id, _)
+            | MotionQuery::Look(id)
+            | MotionQuery::Pull(id)
+            | MotionQuery::Push(id) => {
+                require_known("entity", id, entities)?;
             }
             MotionQuery::Posture(name) => {
-                known("posture", name, || machine.card().postures.keys().map(SmolStr::as_str))?;
+                require_known("posture", name, || machine.card().postures.keys().map(SmolStr::as_str))?;
             }
             MotionQuery::Other(_) => {}
         }
@@ -103,8 +149,8 @@ fn asked(motions: &[String], machine: &RobotModel, scene: &Scene) -> Result<Vec<
     parsed.collect()
 }
 
-/// What is wrong with the kinds of the things that a motion names.
-fn kinds(motion: &str, session: &Session, sources: &mut Sources) -> Vec<Diagnostic> {
+/// Type-checks the entities of a motion.
+fn check_kinds(motion: &str, session: &Session, sources: &mut Sources) -> Vec<Diagnostic> {
     let Some((name, listed)) = motion.split_once('(') else { return vec![] };
     let file = FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX));
     sources.add(Source::new("--for", motion));
@@ -116,32 +162,32 @@ fn kinds(motion: &str, session: &Session, sources: &mut Sources) -> Vec<Diagnost
         args.push((SmolStr::new(bare), Span::new(file, start, start + bare.len())));
         at += arg.len() + 1;
     }
-    // From which side is no thing.
+    // The side of a reach is not an entity.
     if name.trim() == "reach" {
         args.truncate(1);
     }
     session.check_motion(name.trim(), &args)
 }
 
-/// That there is something of a name.
-fn known<'a, I: Iterator<Item = &'a str>>(
+/// Requires that a name is known.
+fn require_known<'a, I: Iterator<Item = &'a str>>(
     what: &'static str,
     name: &str,
     names: impl Fn() -> I,
-) -> Result<(), Trouble> {
+) -> Result<(), CliError> {
     if names().any(|known| known == name) {
         return Ok(());
     }
     let help = match suggest::closest(name, names()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None if names().next().is_none() => format!("no {what} is known here"),
-        None => format!("known here: {}", suggest::one_of(names())),
+        None if names().next().is_none() => format!("the robot or scene has no {what}"),
+        None => format!("known: {}", suggest::one_of(names())),
     };
-    Err(Trouble::Unknown { what, name: name.to_owned(), help })
+    Err(CliError::Unknown { what, name: name.to_owned(), help })
 }
 
-/// Every motion that can be asked for in a scene.
-fn all(machine: &RobotModel, scene: &Scene) -> Vec<MotionQuery> {
+/// All motions of a scene.
+fn all_motions(machine: &RobotModel, scene: &Scene) -> Vec<MotionQuery> {
     let drives = scene.entities.keys().filter(|_| machine.drives()).cloned().map(MotionQuery::GoTo);
     let objects = scene.entities.iter().filter(|(_, entity)| entity.kind == "Object");
     let reaches = objects.map(|(id, _)| MotionQuery::Reach(id.clone(), None));
@@ -153,7 +199,7 @@ fn all(machine: &RobotModel, scene: &Scene) -> Vec<MotionQuery> {
     drives.chain(reaches).chain(doors).chain(postures).collect()
 }
 
-fn told(query: &MotionQuery, answer: &MotionAnswer) -> String {
+fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
     match answer {
         MotionAnswer::Feasible(witness) => {
             let [x, y, yaw] = witness.path.last().map_or([0.0; 3], |state| state.base);
@@ -172,25 +218,26 @@ fn told(query: &MotionQuery, answer: &MotionAnswer) -> String {
             line + "\n"
         }
         MotionAnswer::Infeasible(why) => {
-            let proof = if why.certified { "proven" } else { "the search ended" };
+            let proof = if why.certified { "proven" } else { "the search ended without one" };
             let help = why.change.as_ref().map_or_else(String::new, |change| format!("  help: {change}\n"));
             format!("{query}: {}, {} ({proof})\n{help}", why.reason.name(), why.reason)
         }
         MotionAnswer::Unknown(UnknownReason::Budget) => format!(
-            "{query}: unknown, the search was cut short\n  help: `--effort 4` searches four times as long\n"
+            "{query}: unknown, the search ran out of its budget\n  \
+             help: `--effort 4` tries four times as often\n"
         ),
         MotionAnswer::Unknown(UnknownReason::Because(why)) => format!("{query}: unknown, {why}\n"),
     }
 }
 
-/// An angle in degrees within a half turn to either side: along a path a base may turn further than that.
+/// Angle in degrees from -180 (exclusive) to 180: along a path a base may turn further.
 fn degrees(angle: f64) -> f64 {
     let rounded = angle.to_degrees().round();
     let within = (rounded + 180.0).rem_euclid(360.0) - 180.0;
     if within == -180.0 { 180.0 } else { within }
 }
 
-/// The numbers of a reason, by name.
+/// Numbers of a reason with their names.
 fn numbers(reason: &InfeasibleReason) -> Vec<(&'static str, f64)> {
     match reason {
         InfeasibleReason::OutOfReach { needs, reach, .. } => vec![("needs", *needs), ("reach", *reach)],
@@ -211,9 +258,9 @@ fn numbers(reason: &InfeasibleReason) -> Vec<(&'static str, f64)> {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn angles_are_told_within_a_half_turn() {
-        for (angle, told) in [(-3.16, 179.0), (3.15, 180.0), (0.0, 0.0), (7.0, 41.0), (-1.57, -90.0)] {
-            assert_eq!(super::degrees(angle), told, "{angle}");
+    fn degrees_are_within_a_half_turn() {
+        for (angle, shown) in [(-3.16, 179.0), (3.15, 180.0), (0.0, 0.0), (7.0, 41.0), (-1.57, -90.0)] {
+            assert_eq!(super::degrees(angle), shown, "{angle}");
         }
     }
 }

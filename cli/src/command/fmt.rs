@@ -1,26 +1,54 @@
-//! `motet fmt`: the canonical layout, or the other form. Comments of a text are kept.
+//! `motet fmt`: formats policies in the canonical layout, or converts them between text and JSON. Comments
+//! of a text stay.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use motet_syntax::{Parsed, Severity, Syntax, print};
+use clap::Args;
+use motet_project::Project;
+use motet_project::files::Bytes;
+use motet_syntax::{Parsed, Severity, print};
 
-use crate::args::{FmtArgs, Form as To, KnownArgs, WorldArgs};
-use crate::document;
-use crate::exit::{Exit, Trouble};
-use crate::form;
-use crate::input::{self, Bytes, Document, Flow, Input};
-use crate::out::{Colors, count, note};
+use crate::convert;
+use crate::documents::{self, Document, Flow, Input, is_reply};
+use crate::error::{CliError, Exit};
+use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, SyntaxArg};
+use crate::output::{Colors, count, note};
 use crate::report::Report;
-use crate::workbench::Workbench;
+
+/// Flags of `motet fmt`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet fmt .                       format all policies in this folder\n  \
+    motet fmt --check .               list files that would change; exit 1 if there are any\n  \
+    motet fmt --to json a.motet       print the policy as JSON\n  \
+    motet fmt --to text reply.json    print the policy as text")]
+pub(crate) struct FmtArgs {
+    #[command(flatten)]
+    documents: DocumentArgs,
+    /// List the files that would change, without changing them
+    #[arg(long)]
+    check: bool,
+    /// Print the policies in this syntax, and leave the files as they are
+    #[arg(long, value_enum, value_name = "SYNTAX", conflicts_with = "check")]
+    to: Option<SyntaxArg>,
+    /// Robot whose signatures name and order the arguments: a built-in name, or a folder with a robot.toml
+    #[arg(long, value_name = "NAME|FOLDER")]
+    robot: Option<String>,
+    /// File with further declarations; repeatable
+    #[arg(long, value_name = "FILE")]
+    domain: Vec<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
 /// A file cannot be read or written.
-pub(crate) fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, CliError> {
     let mut report = Report::new(args.format.format, colors);
-    // The documents themselves take standard output where they go there.
+    // The documents go to stdout.
     if args.to.is_some() || args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
         report.hold();
     }
@@ -28,73 +56,70 @@ pub(crate) fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, Trouble> {
     report.close(result)
 }
 
-fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let inputs = input::collect(&args.documents.paths)?;
-    let known = KnownArgs { robot: args.robot.clone(), domain: args.domain.clone(), ..KnownArgs::default() };
-    let world = WorldArgs::from(known);
-    let mut bench = Workbench::open(&world, report)?;
+fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let inputs = documents::collect(&args.documents.paths)?;
+    let (robot, domain) = (args.robot.clone(), args.domain.clone());
+    let environment = EnvironmentArgs { robot, domain, ..EnvironmentArgs::default() };
+    let mut project = environment.without_motions().open_with(report)?;
     let mut tally = Tally { is_batch: is_batch(&inputs.inputs), ..Tally::default() };
     for input in &inputs.inputs {
         let flow = input.documents(&mut |found| {
             match args.to {
-                Some(to) => tally.convert(&found, to, &mut bench, report)?,
-                None => tally.format(&found, args.check, &mut bench, report)?,
+                Some(to) => tally.convert(&found, to, &mut project, report)?,
+                None => tally.format(&found, args.check, &mut project, report)?,
             }
-            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::GoOn })
+            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue })
         })?;
         if flow == Flow::Stop {
             break;
         }
     }
-    tally.tell(args);
+    tally.print(args);
     let is_clean = tally.failed + tally.replies == 0 && !(args.check && tally.changed > 0);
-    Ok(if is_clean { Exit::Clean } else { Exit::Findings })
+    Ok(if is_clean { Exit::Success } else { Exit::Findings })
 }
 
 fn is_batch(inputs: &[Input]) -> bool {
     inputs.len() > 1 || inputs.iter().any(|input| matches!(input, Input::Lines(_)))
 }
 
+/// Numbers for the summary.
 #[derive(Default)]
 struct Tally {
-    /// Whether there may be several documents.
+    /// Is `true` if there may be several documents.
     is_batch: bool,
     written: usize,
     changed: usize,
     unchanged: usize,
     failed: usize,
-    /// Files with text beside the policy, which formatting would lose.
+    /// Documents with prose around the policy, which formatting would lose.
     replies: usize,
     lines: usize,
 }
 
 impl Tally {
-    /// Prints a document in a form: of several, JSON a line each, text with an empty line between.
+    /// Prints a document in a syntax: of several, JSON on one line each, text with an empty line between.
     fn convert(
         &mut self,
         found: &Document,
-        to: To,
-        bench: &mut Workbench,
+        to: SyntaxArg,
+        project: &mut Project,
         report: &mut Report,
-    ) -> Result<(), Trouble> {
-        let (source, parsed) = document::read(found);
-        let setting = bench.setting(&parsed.file, report)?;
-        let sources = setting.sources(source);
-        report.say(&parsed.diagnostics, &sources);
+    ) -> Result<(), CliError> {
+        let (source, parsed) = found.parse();
+        let opened = project.session_for(&parsed.file, report)?;
+        let sources = opened.sources(source);
+        report.print(&parsed.diagnostics, &sources);
         if is_broken(&parsed) {
             self.failed += 1;
             return Ok(());
         }
-        let form = match to {
-            To::Text => Syntax::Text,
-            To::Json => Syntax::Json,
-        };
-        match form::write(&parsed, None, setting.session.library(), form) {
+        match convert::write(&parsed, None, opened.session.library(), to.into()) {
             Ok(text) => {
                 let text = match to {
-                    To::Json if self.is_batch => one_line(&text),
-                    To::Text if self.written > 0 => format!("\n{text}"),
-                    To::Json | To::Text => text,
+                    SyntaxArg::Json if self.is_batch => one_line(&text),
+                    SyntaxArg::Text if self.written > 0 => format!("\n{text}"),
+                    SyntaxArg::Json | SyntaxArg::Text => text,
                 };
                 report.out.line(text.trim_end_matches('\n'));
                 self.written += 1;
@@ -111,19 +136,19 @@ impl Tally {
         &mut self,
         found: &Document,
         only_check: bool,
-        bench: &mut Workbench,
+        project: &mut Project,
         report: &mut Report,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), CliError> {
         let is_stdin = found.name == "-";
         if found.path.is_none() && !is_stdin {
             self.lines += 1;
             return Ok(());
         }
-        let (source, parsed) = document::read(found);
-        let is_reply = document::is_reply(&parsed);
+        let (source, parsed) = found.parse();
+        let is_reply = is_reply(&parsed);
         if is_broken(&parsed) || is_reply {
-            let sources = bench.setting(&parsed.file, report)?.sources(source);
-            report.say(&parsed.diagnostics, &sources);
+            let sources = project.session_for(&parsed.file, report)?.sources(source);
+            report.print(&parsed.diagnostics, &sources);
             self.failed += usize::from(!is_reply);
             self.replies += usize::from(is_reply);
             if let (true, None, Bytes::All(bytes)) = (is_reply, &found.path, &found.bytes) {
@@ -151,10 +176,10 @@ impl Tally {
         Ok(())
     }
 
-    fn tell(&self, args: &FmtArgs) {
+    fn print(&self, args: &FmtArgs) {
         if self.lines > 0 {
             note(
-                "note: a .jsonl file keeps a policy a line and is left as it is (--to text|json prints its policies)",
+                "note: skipped the .jsonl files: fmt rewrites whole files only (--to prints their policies)",
             );
         }
         if args.to.is_none() {
@@ -162,10 +187,10 @@ impl Tally {
             let mut parts = vec![format!("{} {verb}", count(self.changed, "file"))];
             parts.push(format!("{} unchanged", self.unchanged));
             if self.failed > 0 {
-                parts.push(format!("{} with errors left alone", self.failed));
+                parts.push(format!("{} with errors skipped", self.failed));
             }
             if self.replies > 0 {
-                parts.push(format!("{} with text beside the policy left alone", self.replies));
+                parts.push(format!("{} with prose skipped", self.replies));
             }
             note(&parts.join(", "));
         }
@@ -176,12 +201,12 @@ fn is_broken(parsed: &Parsed) -> bool {
     parsed.diagnostics.iter().any(|said| said.severity == Severity::Error)
 }
 
-/// JSON without line breaks; what is no JSON stays.
+/// JSON on one line; other text stays as it is.
 fn one_line(text: &str) -> String {
     serde_json::from_str::<serde_json::Value>(text)
         .map_or_else(|_| text.to_owned(), |value| value.to_string())
 }
 
-fn write(path: &Path, text: &str) -> Result<(), Trouble> {
-    std::fs::write(path, text).map_err(|source| Trouble::Write { path: path.to_owned(), source })
+fn write(path: &Path, text: &str) -> Result<(), CliError> {
+    std::fs::write(path, text).map_err(|source| CliError::Write { path: path.to_owned(), source })
 }

@@ -1,52 +1,157 @@
-//! `motet grammar`: a grammar of what a model may write, or a request that holds it to one.
+//! `motet grammar`: the grammar of policies for constrained decoding, or a chat request that uses it.
 
 mod probe;
 
 pub(super) use probe::key;
 
+use clap::{Args, Subcommand, ValueEnum};
 use motet_decode::export::{self, Dialect, Format as Notation, Header, Offer, Prompt, request_body};
 use motet_decode::{Modifiers, Subset};
-use motet_syntax::ast::File;
 
-use crate::args::{Form, Format, GrammarArgs, GrammarCommand, GrammarFormat, Server, WorldArgs};
-use crate::exit::{Exit, Trouble};
-use crate::out::{Colors, note};
+use crate::error::{CliError, Exit};
+use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
+use crate::output::{Colors, note};
 use crate::report::Report;
-use crate::workbench::Workbench;
 
-/// What a model is told where a request is printed.
-const SYSTEM: &str = "You write a policy for a robot: the steps that do what you are asked. Write the policy and nothing else.";
+/// Flags of `motet grammar`.
+#[derive(Args, Debug)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_help_heading = "Subcommands",
+    after_help = "Examples:\n  \
+    motet grammar --robot hsr --scene kitchen > policy.schema.json\n  \
+    motet grammar --robot hsr --scene kitchen --format gbnf --surface text > policy.gbnf\n  \
+    motet grammar --robot hsr --scene kitchen --request vllm --model NAME |\n    \
+    curl -H 'Content-Type: application/json' -d @- http://localhost:8000/v1/chat/completions\n  \
+    motet grammar probe http://localhost:8000 --dialect vllm --model NAME"
+)]
+pub(crate) struct GrammarArgs {
+    #[command(subcommand)]
+    command: Option<GrammarCommand>,
+    #[command(flatten)]
+    environment: EnvironmentArgs,
+    /// Notation of the grammar [default: json-schema, or gbnf for the text syntax]
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    format: Option<GrammarFormat>,
+    /// Syntax that the model writes
+    #[arg(long, value_enum, default_value = "json", value_name = "SYNTAX")]
+    surface: SyntaxArg,
+    /// Allow deadlines and retries
+    #[arg(long)]
+    modifiers: bool,
+    /// Maximum nesting of blocks inside the policy's own block
+    #[arg(long, default_value_t = motet_decode::subset::DEFAULT_DEPTH, value_name = "N",
+          value_parser = depth)]
+    depth: usize,
+    /// Start a Lark grammar with the header line of llguidance
+    #[arg(long)]
+    llguidance: bool,
+    /// Print the body of a chat request with the grammar, in the dialect of a server
+    #[arg(long, value_enum, value_name = "SERVER", conflicts_with = "format")]
+    request: Option<Server>,
+    /// Model of the request
+    #[arg(long, default_value = "MODEL", value_name = "NAME")]
+    model: String,
+    /// Instruction of the request
+    #[arg(long, default_value = "Bring me the red mug.", value_name = "TEXT")]
+    ask: String,
+}
+
+/// Subcommands of `motet grammar`.
+#[derive(Subcommand, Debug)]
+enum GrammarCommand {
+    /// Ask a server for a reply that its grammar forbids, and report whether the server enforces the grammar
+    Probe(ProbeArgs),
+}
+
+/// Flags of `motet grammar probe`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Exit codes: 0 the server enforces the grammar, 1 it does not, 2 the server cannot be asked."
+)]
+struct ProbeArgs {
+    /// Address of the server, such as http://localhost:8000; the dialect adds the path if there is none
+    #[arg(value_name = "URL")]
+    url: String,
+    /// Dialect of the server
+    #[arg(long, value_enum, default_value = "openai", value_name = "SERVER")]
+    dialect: Server,
+    /// Model to ask
+    #[arg(long, default_value = "default", value_name = "NAME")]
+    model: String,
+    /// Environment variable with the server's key
+    #[arg(long, value_name = "VARIABLE")]
+    key_from: Option<String>,
+    /// Maximum time to wait for an answer, in seconds
+    #[arg(long, default_value_t = 120, value_name = "SECONDS")]
+    timeout: u64,
+}
+
+/// Notation of a grammar.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum GrammarFormat {
+    /// JSON Schema in the subset of OpenAI, vLLM, llama.cpp, Ollama and SGLang; for the JSON syntax only
+    JsonSchema,
+    /// GBNF of llama.cpp, vLLM and xgrammar
+    Gbnf,
+    /// Lark of llguidance
+    Lark,
+    /// EBNF of ISO/IEC 14977, without character classes
+    RegexFreeEbnf,
+}
+
+/// Dialect of a server.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum Server {
+    /// vLLM 0.12 and later
+    Vllm,
+    /// Server of llama.cpp
+    Llamacpp,
+    /// Ollama
+    Ollama,
+    /// SGLang
+    Sglang,
+    /// OpenAI
+    Openai,
+}
+
+/// Reads a nesting depth. A document nests at most 64 deep, and each block with its conditions takes several
+/// levels.
+fn depth(text: &str) -> Result<usize, String> {
+    let depth: usize = text.parse().map_err(|_| "write a whole number".to_owned())?;
+    if depth <= 8 { Ok(depth) } else { Err("write a number from 0 to 8".to_owned()) }
+}
+
+/// System message of a printed request.
+const SYSTEM: &str = "You write a policy for a robot: the steps that do what you are asked. \
+                      Write the policy and nothing else.";
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// The robot, the scene, the state or a domain cannot be read; the server cannot be asked.
-pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, Trouble> {
+/// The robot, the scene or another input cannot be used, or the server cannot be asked.
+pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, CliError> {
     if let Some(GrammarCommand::Probe(probe)) = &args.command {
         return probe::run(probe);
     }
-    let mut report = Report::new(Format::Human, colors);
+    let mut report = Report::new(DiagnosticFormat::Human, colors);
     report.hold();
     let result = print(args, &mut report);
     report.close(result)
 }
 
-fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let world = WorldArgs::from(args.known.clone());
-    let mut bench = Workbench::open(&world, report)?;
-    let signatures = bench.setting(&File::default(), report)?.session.signatures();
+fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let mut project = args.environment.without_motions().open_with(report)?;
+    let signatures = project.session(report)?.session.signatures();
     let surface = Subset {
-        syntax: match args.surface {
-            Form::Text => motet_syntax::Syntax::Text,
-            Form::Json => motet_syntax::Syntax::Json,
-        },
+        syntax: args.surface.into(),
         modifiers: if args.modifiers { Modifiers::Written } else { Modifiers::Default },
         depth: args.depth,
     };
     let offer = Offer::new(&signatures, surface);
     if args.llguidance && (args.request.is_some() || notation(args) != Notation::Lark) {
-        return Err(Trouble::Other("`--llguidance` is of Lark alone: give `--format lark` too".to_owned()));
+        return Err(CliError::Message("`--llguidance` needs `--format lark`".to_owned()));
     }
     for warning in export::warnings(&offer).iter().filter(|warning| concerns(args, warning.server)) {
         note(&format!("warning: {}", warning.text));
@@ -55,20 +160,20 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, Trouble> {
         Some(server) => {
             let prompt = Prompt { model: &args.model, system: SYSTEM, user: &args.ask };
             let body = request_body(dialect(server), &offer, prompt)
-                .ok_or_else(|| text_form("this server takes"))?;
+                .ok_or_else(|| needs_json("this server takes"))?;
             format!("{body}\n")
         }
         None => {
             let header = if args.llguidance { Header::Llguidance } else { Header::None };
             export::export(&signatures, surface, notation(args), header)
-                .ok_or_else(|| text_form("`--format json-schema` is"))?
+                .ok_or_else(|| needs_json("`--format json-schema` is"))?
         }
     };
     report.out.text(&text);
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }
 
-/// Whether who reads what is printed may be a server.
+/// Is `true` if the output may be meant for a server.
 fn concerns(args: &GrammarArgs, server: Option<Dialect>) -> bool {
     let Some(server) = server else { return true };
     match (args.request, notation(args)) {
@@ -79,16 +184,16 @@ fn concerns(args: &GrammarArgs, server: Option<Dialect>) -> bool {
     }
 }
 
-fn text_form(who: &str) -> Trouble {
-    Trouble::Other(format!(
-        "{who} a JSON Schema, which describes the JSON form only: leave out `--surface text`"
+fn needs_json(who: &str) -> CliError {
+    CliError::Message(format!(
+        "{who} a JSON Schema, which describes the JSON syntax only: leave out `--surface text`"
     ))
 }
 
 fn notation(args: &GrammarArgs) -> Notation {
     match (args.format, args.surface) {
-        (Some(GrammarFormat::JsonSchema), _) | (None, Form::Json) => Notation::JsonSchema,
-        (Some(GrammarFormat::Gbnf), _) | (None, Form::Text) => Notation::Gbnf,
+        (Some(GrammarFormat::JsonSchema), _) | (None, SyntaxArg::Json) => Notation::JsonSchema,
+        (Some(GrammarFormat::Gbnf), _) | (None, SyntaxArg::Text) => Notation::Gbnf,
         (Some(GrammarFormat::Lark), _) => Notation::Lark,
         (Some(GrammarFormat::RegexFreeEbnf), _) => Notation::RegexFreeEbnf,
     }

@@ -1,65 +1,79 @@
-//! `motet plan`: a policy for a request or a goal, by the planner that needs no model.
+//! `motet plan`: a policy for a request or a goal, by the built-in planner.
 
+use clap::Args;
 use motet_compiler::plan::{Goal, Lasts, NoPlan};
 use motet_planner::builtin::{self, PlanError};
 use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
-use motet_syntax::ast::File;
-use motet_syntax::{Source, Syntax};
+use motet_syntax::Source;
 
-use crate::args::{Format, PlanArgs, PlanForm};
-use crate::exit::{Exit, Trouble};
-use crate::form;
-use crate::out::{Colors, note};
+use crate::convert;
+use crate::error::{CliError, Exit};
+use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
+use crate::output::{Colors, note};
 use crate::report::Report;
-use crate::workbench::Workbench;
+
+/// Flags of `motet plan`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet plan --goal 'on(mug_1, shelf)' --robot hsr --scene kitchen\n  \
+    motet plan 'bring me the coke and close the fridge' --robot hsr --scene kitchen")]
+pub(crate) struct PlanArgs {
+    /// Request in English
+    #[arg(value_name = "REQUEST", required_unless_present = "goal")]
+    request: Option<String>,
+    /// Condition that holds at the end; repeatable, for goals that are reached one after the other
+    #[arg(long, value_name = "CONDITION", conflicts_with = "request")]
+    goal: Vec<String>,
+    #[command(flatten)]
+    session: SessionArgs,
+    /// Syntax of the printed policy
+    #[arg(long, value_enum, default_value = "text", value_name = "SYNTAX")]
+    to: SyntaxArg,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// What it plans for cannot be used.
-pub(crate) fn run(args: &PlanArgs, colors: Colors) -> Result<Exit, Trouble> {
-    let mut report = Report::new(Format::Human, colors);
+/// The robot, the scene or another input cannot be used.
+pub(crate) fn run(args: &PlanArgs, colors: Colors) -> Result<Exit, CliError> {
+    let mut report = Report::new(DiagnosticFormat::Human, colors);
     report.hold();
     let result = plan(args, &mut report);
     report.close(result)
 }
 
-fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let mut bench = Workbench::open(&args.world, report)?;
-    let setting = bench.setting(&File::default(), report)?;
-    let robot = setting.robot.as_ref();
+fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let mut project = args.session.project().open_with(report)?;
+    let opened = project.session(report)?;
+    let robot = opened.robot.as_ref();
     let planned = match &args.request {
         Some(request) => {
-            let nothing = Scene::default();
-            let situation = RequestContext::new(setting.scene.as_ref().unwrap_or(&nothing));
-            builtin::answer(&setting.session, robot, request, &situation).map(|answered| {
+            let empty = Scene::default();
+            let situation = RequestContext::new(opened.scene.as_ref().unwrap_or(&empty));
+            builtin::answer(&opened.session, robot, request, &situation).map(|answered| {
                 answered.understood.notes.iter().for_each(|text| note(text));
                 answered.planned
             })
         }
         None => goals(&args.goal)
             .map_err(PlanError::from)
-            .and_then(|aims| builtin::plan(&setting.session, robot, "plan", &aims)),
+            .and_then(|aims| builtin::plan(&opened.session, robot, "plan", &aims)),
     };
     match planned {
         Ok(planned) => {
-            let sources = setting.sources(Source::new("plan.motet", planned.text.as_str()));
-            report.say(&planned.compiled.diagnostics, &sources);
-            let form = match args.to {
-                PlanForm::Text => Syntax::Text,
-                PlanForm::Json => Syntax::Json,
-            };
-            match form::write(&planned.parsed, None, setting.session.library(), form) {
+            let sources = opened.sources(Source::new("plan.motet", planned.text.as_str()));
+            report.print(&planned.compiled.diagnostics, &sources);
+            match convert::write(&planned.parsed, None, opened.session.library(), args.to.into()) {
                 Ok(text) => report.out.line(text.trim_end()),
                 Err(why) => return Ok(refuse(&why.to_string())),
             }
-            Ok(Exit::Clean)
+            Ok(Exit::Success)
         }
         Err(PlanError::NoPlan(NoPlan::Wrong { diagnostics })) => {
-            for said in &diagnostics {
-                note(&format!("{}: {}", said.code, said.message));
+            for found in &diagnostics {
+                note(&format!("{}: {}", found.code, found.message));
             }
             Ok(Exit::Findings)
         }

@@ -1,46 +1,59 @@
-//! `motet prompt`: what a model would see of a request.
+//! `motet prompt`: the prompt that a model would get for a request.
 
+use clap::Args;
 use motet_planner::prompt::{self, Prompt, StaticPrompt};
 use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_runtime::memory::{Memory, MemoryLimits};
-use motet_syntax::ast::File;
 
-use crate::args::{Format, PromptArgs};
-use crate::exit::{Exit, Trouble};
-use crate::out::{Colors, note};
+use crate::error::{CliError, Exit};
+use crate::flags::{DiagnosticFormat, SessionArgs};
+use crate::output::{Colors, note};
 use crate::report::Report;
-use crate::workbench::Workbench;
+
+/// Flags of `motet prompt`.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  motet prompt 'bring me the coke' --robot hsr --scene kitchen")]
+pub(crate) struct PromptArgs {
+    /// Request in English
+    #[arg(value_name = "REQUEST")]
+    request: String,
+    #[command(flatten)]
+    session: SessionArgs,
+    /// Maximum number of tokens, counted as four bytes each
+    #[arg(long, default_value_t = motet_planner::prompt::TOKENS, value_name = "NUMBER")]
+    tokens: usize,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// What it is written for cannot be used.
-pub(crate) fn run(args: &PromptArgs, colors: Colors) -> Result<Exit, Trouble> {
-    let mut report = Report::new(Format::Human, colors);
+/// The robot, the scene or another input cannot be used.
+pub(crate) fn run(args: &PromptArgs, colors: Colors) -> Result<Exit, CliError> {
+    let mut report = Report::new(DiagnosticFormat::Human, colors);
     report.hold();
     let result = write(args, &mut report);
     report.close(result)
 }
 
-fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let mut bench = Workbench::open(&args.world, report)?;
-    let setting = bench.setting(&File::default(), report)?;
-    let Some(robot) = &setting.robot else {
-        return Err(Trouble::Other("a robot is needed for a prompt: give --robot NAME".to_owned()));
+fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let mut project = args.session.project().open_with(report)?;
+    let opened = project.session(report)?;
+    let Some(robot) = &opened.robot else {
+        return Err(CliError::Message("a prompt needs a robot: give --robot NAME".to_owned()));
     };
-    let scene = setting.scene.clone().unwrap_or_default();
+    let scene = opened.scene.clone().unwrap_or_default();
     let situation = RequestContext::new(&scene);
     let mut memory = Memory::new(MemoryLimits::default());
     memory.instruct(Time::ZERO, &args.request);
     let prompt = Prompt {
-        session: &setting.session,
+        session: &opened.session,
         robot,
         scene: &scene,
         situation: &situation,
         memory: &memory,
-        lasting: &StaticPrompt::new(&setting.session, robot, &scene),
+        lasting: &StaticPrompt::new(&opened.session, robot, &scene),
         tokens: args.tokens,
         time: prompt::TIME,
     };
@@ -52,5 +65,5 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, Trouble> {
         note(&format!("left out to stay within {} tokens: {part}", args.tokens));
     }
     note(&format!("about {} tokens", written.tokens));
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }

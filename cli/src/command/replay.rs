@@ -1,50 +1,105 @@
-//! `motet replay`: steps the engine through a journal again.
+//! `motet replay`: replays a journal through the engine and compares the effects.
 
 use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::str::FromStr;
 
+use clap::Args;
 use motet_runtime::journal::{EffectMismatch, EngineReplay, JournalEntry, ReplayError};
 use motet_runtime::{Snapshot, Time};
 
-use super::run::journal_trouble;
-use crate::args::{Moment, ReplayArgs};
-use crate::exit::{Exit, Trouble};
-use crate::out::{Colors, Out, count, note};
+use crate::error::{CliError, Exit};
+use crate::flags::duration;
+use crate::output::{Output, count, count_irregular, note};
 use crate::report;
+use crate::runner::journal_error;
+
+/// Flags of `motet replay`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet replay run/                 compare the whole run\n  \
+    motet replay run/ --until 40      compare up to entry 40, and show the state there\n  \
+    motet replay run/ --at 12.5s      show the state 12.5 s into the run")]
+pub(crate) struct ReplayArgs {
+    /// Folder of the journal
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    /// Stop after an entry, given by number or time, and show the state there
+    #[arg(long, value_name = "NUMBER|TIME")]
+    until: Option<Moment>,
+    /// Show the state after an entry, given by number or time
+    #[arg(long, value_name = "NUMBER|TIME", conflicts_with = "until")]
+    at: Option<Moment>,
+    /// Print the state and the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Position in a journal.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Moment {
+    /// After the entry with this number.
+    Entry(u64),
+    /// After all entries up to this time.
+    Time(Time),
+}
+
+impl FromStr for Moment {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Ok(number) = text.parse() {
+            return Ok(Self::Entry(number));
+        }
+        let wrong = || "write the number of an entry, or a time such as 12.5s".to_owned();
+        duration(text).map(|secs| Self::Time(Time::from_secs(secs))).map_err(|_| wrong())
+    }
+}
+
+impl Moment {
+    /// Is `true` if the entry comes after this position.
+    fn is_before(self, seq: u64, at: Time) -> bool {
+        match self {
+            Self::Entry(last) => seq > last,
+            Self::Time(last) => at > last,
+        }
+    }
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
 /// The journal cannot be read, or is damaged.
-pub(crate) fn run(args: &ReplayArgs, _colors: Colors) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &ReplayArgs) -> Result<Exit, CliError> {
     let mut player = Player::default();
     let last = args.until.or(args.at);
     let tail = motet_host::journal::read(&args.folder, &mut |seq, entry| player.take(seq, &entry, last));
-    let tail = tail.map_err(journal_trouble)?;
+    let tail = tail.map_err(journal_error)?;
     if let Some((seq, error)) = &player.stuck {
-        return Err(Trouble::Other(format!("entry {seq}: {error}")));
+        return Err(CliError::Message(format!("entry {seq}: {error}")));
     }
     let Some(replay) = &player.replay else {
-        return Err(Trouble::Other("the journal holds no run".to_owned()));
+        return Err(CliError::Message("the journal holds no run".to_owned()));
     };
     if tail.torn_bytes > 0 && last.is_none() {
-        note(&format!("the last {} bytes are of an entry that was not written to its end", tail.torn_bytes));
+        note(&format!("the last {} bytes belong to an unfinished entry", tail.torn_bytes));
     }
-    let mut out = Out::default();
+    let mut out = Output::default();
     let state = last.map(|_| replay.engine().snapshot());
     if args.json {
         out.line(&player.json(state.as_ref()));
     } else {
         if let Some(state) = &state {
-            out.text(&told(state));
+            out.text(&describe(state));
         }
         out.line(&player.verdict());
     }
-    let exit = if player.difference.is_some() { Exit::Findings } else { Exit::Clean };
+    let exit = if player.difference.is_some() { Exit::Findings } else { Exit::Success };
     report::close(&mut out, Ok(exit))
 }
 
-/// Goes through the entries, up to a moment or the first difference.
+/// EngineReplay up to a moment or to the first difference.
 #[derive(Debug, Default)]
 struct Player {
     replay: Option<EngineReplay>,
@@ -84,12 +139,13 @@ impl Player {
 
     fn verdict(&self) -> String {
         let Some((seq, EffectMismatch { index, journal, replay })) = &self.difference else {
-            let (entries, effects) = (many(self.entries, "entry", "entries"), count(self.effects, "effect"));
-            return format!("replayed {entries}, {effects}, to {}: the same to the byte", self.now());
+            let (entries, effects) =
+                (count_irregular(self.entries, "entry", "entries"), count(self.effects, "effect"));
+            return format!("replayed {entries}, {effects}, to {}: identical", self.now());
         };
-        let side = |effect: &Option<String>| effect.clone().unwrap_or_else(|| "nothing".to_owned());
+        let side = |effect: &Option<String>| effect.clone().unwrap_or_else(|| "no effect".to_owned());
         format!(
-            "entry {seq}, at {}, differs at effect {index}:\n  journal: {}\n  replay:  {}",
+            "entry {seq} at {} differs at effect {index}:\n  journal: {}\n  replay:  {}",
             self.now(),
             side(journal),
             side(replay)
@@ -116,10 +172,10 @@ impl Player {
     }
 }
 
-/// The state for people.
-fn told(state: &Snapshot) -> String {
+/// State of the engine, for people.
+fn describe(state: &Snapshot) -> String {
     let mut text = String::new();
-    // Writing to a string does not fail.
+    // Writing to a string cannot fail.
     let _ = writeln!(text, "`{}` at {}, revision {}", state.policy, state.at, state.revision);
     for (fact, holds) in state.state() {
         let word = match holds {
@@ -139,8 +195,4 @@ fn told(state: &Snapshot) -> String {
         let _ = writeln!(text, "  runs {} {} ({})", live.goal, live.command, live.path);
     }
     text
-}
-
-fn many(number: usize, one: &str, several: &str) -> String {
-    format!("{number} {}", if number == 1 { one } else { several })
 }

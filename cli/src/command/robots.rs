@@ -1,27 +1,68 @@
-//! `motet robots`: the robots that are built in, what one of them can do, and cards of one's own.
+//! `motet robots`: lists and shows robots, checks their files, and writes the card of a new one.
 
 mod add;
 mod check;
-mod stance;
 
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use motet_project::{RobotFiles, robot_names};
 use motet_robots::card::{Drive, Range, Robot};
 use motet_syntax::ast::{Item, PrimitiveDecl, TypeExpr};
 use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Source, Sources};
 
-use crate::args::{Format, RobotsArgs, RobotsCommand};
-use crate::exit::{Exit, Trouble};
-use crate::out::Colors;
+use crate::error::{CliError, Exit};
+use crate::flags::DiagnosticFormat;
+use crate::output::Colors;
 use crate::report::Report;
-use crate::workbench::{Card, robot_names};
+
+/// Flags of `motet robots`.
+#[derive(Args, Debug)]
+pub(crate) struct RobotsArgs {
+    /// Action [default: list]
+    #[command(subcommand)]
+    command: Option<RobotsCommand>,
+}
+
+/// Subcommands of `motet robots`.
+#[derive(Subcommand, Debug)]
+enum RobotsCommand {
+    /// List the built-in robots
+    List,
+    /// Show a robot: its body, its observations, and the signature of each primitive
+    Show {
+        /// Built-in name, or folder with a robot.toml
+        #[arg(value_name = "NAME|FOLDER")]
+        name: String,
+    },
+    /// Check that a robot's card and URDF are correct and fit each other
+    Check {
+        /// Built-in name, or folder with a robot.toml
+        #[arg(value_name = "NAME|FOLDER")]
+        name: String,
+    },
+    /// Write a first card for a robot from its URDF
+    Add {
+        /// URDF of the robot
+        #[arg(value_name = "URDF")]
+        urdf: PathBuf,
+        /// Folder for the robot.toml [default: folder of the URDF]
+        #[arg(long, value_name = "FOLDER")]
+        to: Option<PathBuf>,
+        /// SRDF of the robot [default: the one beside the URDF]
+        #[arg(long, value_name = "SRDF")]
+        srdf: Option<PathBuf>,
+    },
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// There is no such robot, or its card has a mistake.
-pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, Trouble> {
-    let mut report = Report::new(Format::Human, colors);
+/// There is no such robot, or its card has errors.
+pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, CliError> {
+    let mut report = Report::new(DiagnosticFormat::Human, colors);
     let result = match &args.command {
         None | Some(RobotsCommand::List) => list(&mut report),
         Some(RobotsCommand::Show { name }) => show(name, &mut report),
@@ -33,21 +74,21 @@ pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, Trouble> {
     report.close(result)
 }
 
-fn list(report: &mut Report) -> Result<Exit, Trouble> {
+fn list(report: &mut Report) -> Result<Exit, CliError> {
     let width = robot_names().map(str::len).max().unwrap_or_default();
     for name in robot_names() {
-        let robot = Card::find(name)?.read(&mut Sources::default(), report)?;
+        let robot = RobotFiles::find(name)?.card(&mut Sources::default(), report)?;
         let hands = robot.hands.first().map_or_else(String::new, |(_, hand)| {
             format!(", carries {} kg, reaches {} m", hand.payload_kg, hand.reach_m)
         });
         let primitives = robot.primitives.len();
         report.out.line(&format!("{name:width$}  {}: {primitives} primitives{hands}", robot.title));
     }
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }
 
-fn show(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
-    let robot = Card::find(name)?.read(&mut Sources::default(), report)?;
+fn show(name: &str, report: &mut Report) -> Result<Exit, CliError> {
+    let robot = RobotFiles::find(name)?.card(&mut Sources::default(), report)?;
     body(&robot, report);
     let declared = signatures(&robot);
     for (primitive, bounds) in &robot.primitives {
@@ -56,16 +97,16 @@ fn show(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
             None => report.out.line(&format!("\n// {primitive}: not declared")),
         }
     }
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }
 
 fn body(robot: &Robot, report: &mut Report) {
     let base = &robot.base;
     let drive = match base.drive {
-        Drive::Fixed => "bolted down".to_owned(),
+        Drive::Fixed => "fixed".to_owned(),
         Drive::Omnidirectional => format!("omnidirectional, {} m/s", base.speed_m_per_s),
         Drive::Differential => format!("differential drive, {} m/s", base.speed_m_per_s),
-        Drive::Legged => format!("on legs, {} m/s", base.speed_m_per_s),
+        Drive::Legged => format!("legged, {} m/s", base.speed_m_per_s),
     };
     report.out.line(&format!("{} ({})", robot.title, robot.name));
     report.out.line(&format!("  base      {drive}, radius {} m", base.radius_m));
@@ -91,7 +132,7 @@ fn body(robot: &Robot, report: &mut Report) {
     }
 }
 
-/// Every declaration of a primitive, the later ones in force, with its text.
+/// Declarations of primitives with their texts; a later one overrides an earlier one.
 fn signatures(robot: &Robot) -> Vec<(PrimitiveDecl, String)> {
     let own = ("primitives.motet", robot.declarations.as_str());
     let files = motet_stdlib::FILES.iter().copied().chain([own]);
@@ -127,14 +168,14 @@ fn signature(
     written
 }
 
-/// The SI unit of a quantity type; empty where it has none.
+/// SI unit of a quantity type; empty for other types.
 fn unit(ty: &TypeExpr) -> &'static str {
     let TypeExpr::Named(name) = ty else { return "" };
     Dimension::of_type(&name.text).map_or("", Dimension::si_symbol)
 }
 
 fn range(range: &Range, unit: &str) -> String {
-    // Bounds such as a full turn are no round numbers; three decimals are enough to read.
+    // Bounds such as a full turn are not round numbers; three decimals are enough for people.
     let round = |value: f64| (value * 1000.0).round() / 1000.0;
     let space = if unit.is_empty() { "" } else { " " };
     format!("{} .. {}{space}{unit}", round(range.least), round(range.greatest))

@@ -1,182 +1,184 @@
 //! `motet run`: checks a policy and runs it in simulation, with or without a journal.
 
-mod branch;
-mod drive;
-mod events;
-mod export;
-mod faults;
-mod lines;
-mod made_up;
-mod pace;
-mod play;
 mod resume;
-mod saved;
-mod saved_guard;
-mod screen;
-mod tree;
-mod view;
-mod world;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
+use motet::run::{create_journal, engine, start_state};
 use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_planner::runtime_check::Guard;
+use motet_project::{Project, ProjectSession, SavedDriver, SavedProject, SimulationInputs, named_robot};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::{Driver, EngineSettings, Event, StartState, Time};
-use motet_sim::{Faults, Sim, SimOptions};
+use motet_runtime::{Driver, EngineSettings, Event, Time};
+use motet_sim::Sim;
 use motet_syntax::{Parsed, Severity};
 
-use crate::args::{Format, RunArgs, RunFormat, SimulatedArgs, Speed};
-use crate::document;
-use crate::exit::{Exit, Trouble};
-use crate::input::one_document;
-use crate::out::{Colors, note};
+use crate::documents::one_document;
+use crate::error::{CliError, Exit};
+use crate::flags::{OutputFormat, SessionArgs, SimulationArgs};
+use crate::output::{Colors, count, note};
 use crate::report::Report;
-use crate::workbench::{Setting, Workbench, wanted_robot};
-use play::Play;
-use saved::Saved;
-use saved_guard::SavedGuard;
-use view::Clock;
-use world::Choices;
+use crate::run_view::{Clock, events, view};
+use crate::runner::{PacedView, Runner};
 
-pub(crate) use drive::run as drive;
-pub(crate) use export::mcap;
-pub(crate) use pace::{Pace, catch_interrupts, is_interrupted};
-pub(super) use play::{head, journal_trouble};
+/// Flags of `motet run`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet run fetch_mug.motet --robot hsr --scene kitchen --speed max\n  \
+    motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json\n  \
+    motet run fetch_mug.motet --scene kitchen --record run/    write a journal for `motet replay run/`\n  \
+    motet run --resume run/                                    continue after a crash")]
+pub(crate) struct RunArgs {
+    /// Policy file, or `-` for stdin
+    #[arg(value_name = "FILE", required_unless_present = "resume")]
+    file: Option<PathBuf>,
+    /// Policy to run; required if the file has several
+    #[arg(long, value_name = "NAME")]
+    policy: Option<String>,
+    #[command(flatten)]
+    session: SessionArgs,
+    #[command(flatten)]
+    simulation: SimulationArgs,
+    /// JSON file with the answers of the simulated person
+    #[arg(long, value_name = "FILE")]
+    answers: Option<PathBuf>,
+    /// Write a journal of the run into this folder, which must be empty or not exist
+    #[arg(long, value_name = "FOLDER")]
+    record: Option<PathBuf>,
+    /// Continue the run whose journal is in this folder
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        conflicts_with_all = [
+            "file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain",
+        ]
+    )]
+    resume: Option<PathBuf>,
+    /// View of the run: a tree of steps, or JSON events
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    format: OutputFormat,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// The file cannot be read, or what it runs against cannot be used.
-pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
-    let mut report = Report::new(form_of(args.format), colors);
+/// The policy or another input cannot be read.
+pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, CliError> {
+    let mut report = Report::new(args.format.into(), colors);
     let result = match (&args.resume, &args.file) {
-        (Some(folder), _) => resume::resume(folder, args, colors),
+        (Some(folder), _) => resume::resume(folder, args, colors, &mut report),
         (None, Some(file)) => check_and_run(file, args, colors, &mut report),
-        (None, None) => Err(Trouble::Other("a policy is needed".to_owned())),
+        (None, None) => Err(CliError::Message("a policy is needed".to_owned())),
     };
     report.close(result)
 }
 
-fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, Trouble> {
-    let mut bench = Workbench::open(&args.world, report)?;
-    let choices = Choices::read(args, report)?;
+fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
+    let mut project = args.session.project().open_with(report)?;
+    let simulation = &args.simulation;
+    let inputs = SimulationInputs::read(
+        simulation.seed,
+        simulation.faults.as_deref(),
+        args.answers.as_deref(),
+        report,
+    )?;
     let policy = args.policy.as_deref();
-    let Some((graph, parsed, setting)) = compile(file, policy, args.format, &mut bench, report)? else {
+    let Some((graph, parsed, opened)) = compile(file, policy, args.format, &mut project, report)? else {
         return Ok(Exit::Findings);
     };
-    let (Some(robot), Some(card)) = (&setting.robot, &setting.card) else {
-        return Err(no_robot(wanted_robot(&parsed.file)));
+    let (Some(robot), Some(files)) = (&opened.robot, &opened.files) else {
+        return Err(no_robot(named_robot(&parsed.file)));
     };
-    choices.fit(&setting.session.signatures())?;
-    let files: Vec<_> = setting.domains.iter().chain([&parsed.file]).collect();
-    let options = choices.options(&graph, &files);
-    let start = start(setting.scene.as_ref());
-    let scene = setting.scene.clone().unwrap_or_default();
+    inputs.check_names(&opened.session.signatures())?;
+    let declarations: Vec<_> = opened.domains.iter().chain([&parsed.file]).collect();
+    let options = inputs.for_policy(&graph, &declarations);
+    let start = start_state(opened.scene.as_ref());
+    let scene = opened.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
-    let verifies = args.simulated.speed.verifies();
-    let guard = setting.session.course().map(|course| Guard::new(course, verifies));
-    let engine =
-        play::engine(graph, &start, simulator.capabilities(), guard.as_ref(), EngineSettings::default())?;
+    let guard = opened.session.course().map(|course| Guard::new(course, simulation.speed.verifies()));
+    let engine = engine(graph, &start, simulator.capabilities(), guard.as_ref(), EngineSettings::default())?;
     let journal = match &args.record {
         Some(folder) => {
-            let saved = Saved::simulator(
-                card,
-                setting.scene_text.clone(),
-                &options,
-                SavedGuard::of(&args.world, setting),
-            );
-            Some(play::journal(folder, &engine, &start, &saved)?)
+            let scene_text = opened.scene_text.clone();
+            let saved = SavedDriver::simulator(files, scene_text, &options, SavedProject::of(opened));
+            Some(create_journal(folder, &engine, &start, &saved)?)
         }
         None => None,
     };
-    let view = play::view(args.format, engine.graph(), colors, Clock::Simulated);
-    let pace = Pace::new(view, args.simulated.speed).with_guard(guard);
-    let play = Play { engine, driver: &mut simulator, journal, from: Time::ZERO, events: vec![Event::Begin] };
-    Ok(play::exit(&play.run(pace)?))
+    let view = view(args.format, engine.graph(), colors, Clock::Simulated);
+    let paced = PacedView::new(view, simulation.speed).with_guard(guard);
+    let events = vec![Event::Begin];
+    Runner { engine, driver: &mut simulator, journal, from: Time::ZERO, events }.run(paced)
 }
 
-/// Reads and compiles a policy, and says what the check says. None where it is refused.
-fn compile<'b>(
+/// Reads and compiles a policy, and reports the diagnostics. `None` if the check refuses it.
+pub(super) fn compile<'p>(
     file: &Path,
     policy: Option<&str>,
-    format: RunFormat,
-    bench: &'b mut Workbench,
+    format: OutputFormat,
+    project: &'p mut Project,
     report: &mut Report,
-) -> Result<Option<(Graph, Parsed, &'b Setting)>, Trouble> {
-    let (source, parsed) = document::read(&one_document(file)?);
-    let setting = bench.setting(&parsed.file, report)?;
-    let compiled = setting.session.compile(&parsed, policy);
-    let sources = setting.sources(source);
+) -> Result<Option<(Graph, Parsed, &'p ProjectSession)>, CliError> {
+    let (source, parsed) = one_document(file)?.parse();
+    let opened = project.session_for(&parsed.file, report)?;
+    let compiled = opened.session.compile(&parsed, policy);
+    let sources = opened.sources(source);
     match format {
-        RunFormat::Human => report.say(&compiled.diagnostics, &sources),
-        RunFormat::Json => events::diagnostics(&compiled.diagnostics, &sources, &mut report.out),
+        OutputFormat::Human => report.print(&compiled.diagnostics, &sources),
+        OutputFormat::Json => events::diagnostics(&compiled.diagnostics, &sources, &mut report.out),
     }
     if let Some(graph) = compiled.graph {
-        return Ok(Some((graph, parsed, setting)));
+        return Ok(Some((graph, parsed, opened)));
     }
-    let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error).count();
-    note(&format!("refused: {}, nothing has moved", crate::out::count(errors, "error")));
+    let errors = compiled.diagnostics.iter().filter(|found| found.severity == Severity::Error).count();
+    note(&format!("refused: {}; nothing has moved", count(errors, "error")));
     Ok(None)
 }
 
-/// The form of diagnostics that goes with the form of a run.
-const fn form_of(format: RunFormat) -> Format {
-    match format {
-        RunFormat::Human => Format::Human,
-        RunFormat::Json => Format::Json,
-    }
-}
-
-/// What is known at the start beside what stands in the graph: which entities there are.
-fn start(scene: Option<&Scene>) -> StartState {
-    let entities = scene.iter().flat_map(|scene| &scene.entities);
-    StartState {
-        entities: entities.map(|(id, entity)| (id.clone(), entity.kind.clone())).collect(),
-        ..StartState::default()
-    }
-}
-
-fn no_robot(wanted: Option<String>) -> Trouble {
+fn no_robot(wanted: Option<String>) -> CliError {
     match wanted {
-        Some(name) => Trouble::Unknown {
+        Some(name) => CliError::Unknown {
             what: "built-in robot",
             name,
             help: "give the folder of its card with --robot FOLDER".to_owned(),
         },
-        None => Trouble::Other(
-            "a robot is needed to run a policy: give --robot NAME, or write `for NAME` after the policy's name".to_owned(),
+        None => CliError::Message(
+            "a run needs a robot: give --robot NAME, or write `for NAME` after the policy's name".to_owned(),
         ),
     }
 }
 
-/// What shows and paces the run of a graph, for other commands that run policies.
-pub(super) fn stage(format: RunFormat, graph: &Graph, colors: Colors, speed: Speed) -> Pace {
-    Pace::new(play::view(format, graph, colors, Clock::Simulated), speed)
+/// Observer that shows and paces the simulated run of a graph.
+pub(super) fn paced_view(
+    format: OutputFormat,
+    graph: &Graph,
+    colors: Colors,
+    simulation: &SimulationArgs,
+) -> PacedView {
+    PacedView::new(view(format, graph, colors, Clock::Simulated), simulation.speed)
 }
 
-/// A simulated room, for other commands that run policies, with the camera in the base's frame where that is known. Faults
-/// may name what a session of the robot knows in that room.
+/// Simulator for policies that are not known yet. `eye` is the camera's position in the base's frame, in m.
 ///
 /// # Errors
 ///
-/// The faults cannot be read, have a mistake, or name what is not there.
+/// The file of faults cannot be read, has errors, or names something that the robot or the scene does not
+/// have.
 pub(super) fn simulator(
     (robot, session): (&Robot, &Session),
     scene: &Scene,
     eye: Option<[f64; 3]>,
-    args: &SimulatedArgs,
+    args: &SimulationArgs,
     report: &mut Report,
-) -> Result<Sim, Trouble> {
-    let faults = match &args.faults {
-        Some(path) => {
-            let (there, _) = session.elsewhere(Some(scene), None);
-            world::fitting_faults(path, &there.signatures(), report)?
-        }
-        None => Faults::default(),
-    };
-    Ok(Sim::new(robot, scene, SimOptions { seed: args.seed, faults, eye, ..SimOptions::default() }))
+) -> Result<Sim, CliError> {
+    let inputs = SimulationInputs::read(args.seed, args.faults.as_deref(), None, report)?;
+    if args.faults.is_some() {
+        let (there, _) = session.elsewhere(Some(scene), None);
+        inputs.check_names(&there.signatures())?;
+    }
+    Ok(Sim::new(robot, scene, inputs.without_policy(eye)))
 }

@@ -1,28 +1,57 @@
-//! `motet schema`: the JSON Schema of a file format, generated from the types that read it.
+//! `motet schema`: the JSON Schema of a file format, derived from the types that read it.
 
-use crate::args::{SchemaArgs, SchemaOf};
-use crate::exit::{Exit, Trouble};
-use crate::out::Out;
+use clap::{Args, ValueEnum};
+
+use crate::error::{CliError, Exit};
+use crate::output::Output;
 use crate::report;
+
+/// Flags of `motet schema`.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  motet schema policy > policy.schema.json")]
+pub(crate) struct SchemaArgs {
+    /// File format
+    #[arg(value_enum, value_name = "FORMAT")]
+    of: FileFormat,
+}
+
+/// File formats with a schema.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum FileFormat {
+    /// Policy in JSON
+    Policy,
+    /// Scene
+    Scene,
+    /// Robot card (robot.toml, as JSON)
+    Robot,
+    /// Diagnostic, as `--format json` prints it
+    Diagnostic,
+    /// Message between host and driver (docs/drivers.md)
+    Driver,
+    /// Line of a journal (docs/journal.md)
+    Journal,
+    /// File for `motet run --faults` (docs/runtime.md)
+    Faults,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// Standard output cannot be written.
-pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, Trouble> {
+/// Stdout cannot be written.
+pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, CliError> {
     let schema = match args.of {
-        SchemaOf::Policy => motet_syntax::json::policy_schema(),
-        SchemaOf::Scene => motet_robots::scene::schema(),
-        SchemaOf::Robot => motet_robots::card::schema(),
-        SchemaOf::Diagnostic => schemars::schema_for!(motet_syntax::render::DiagnosticRecord),
-        SchemaOf::Driver => motet_host::remote::protocol::schema(),
-        SchemaOf::Journal => schemars::schema_for!(motet_runtime::journal::JournalEntry),
-        SchemaOf::Faults => schemars::schema_for!(motet_sim::Faults),
+        FileFormat::Policy => motet_syntax::json::policy_schema(),
+        FileFormat::Scene => motet_robots::scene::schema(),
+        FileFormat::Robot => motet_robots::card::schema(),
+        FileFormat::Diagnostic => schemars::schema_for!(motet_syntax::render::DiagnosticRecord),
+        FileFormat::Driver => motet_host::remote::protocol::schema(),
+        FileFormat::Journal => schemars::schema_for!(motet_runtime::journal::JournalEntry),
+        FileFormat::Faults => schemars::schema_for!(motet_sim::Faults),
     };
     let text = serde_json::to_string_pretty(&schema)
-        .map_err(|error| Trouble::Other(format!("the schema cannot be written: {error}")))?;
-    let mut out = Out::default();
+        .map_err(|error| CliError::Message(format!("cannot write the schema: {error}")))?;
+    let mut out = Output::default();
     out.line(&text);
-    report::close(&mut out, Ok(Exit::Clean))
+    report::close(&mut out, Ok(Exit::Success))
 }

@@ -15,9 +15,9 @@ fn answers() {
         ("robots list", 0, &["out:hsr"]),
         ("robots show hsr", 0, &["out:action pick(", "out:/// ", "out:perception detect("]),
         ("robots show anymal_z1", 0, &["out:wake_up", "out:contains camera"]),
-        ("robots check hsr", 0, &["out:no errors", "out:closed form, a lift"]),
+        ("robots check hsr", 0, &["out:no errors", "out:closed form: a lift"]),
         ("robots check hsr", 0, &["out:home      touches neither itself nor the floor"]),
-        ("robots check anymal_z1", 0, &["out:closed form, six joints"]),
+        ("robots check anymal_z1", 0, &["out:closed form: six joints"]),
         (
             "feasible --robot hsr --scene kitchen --for reach(mug_1)",
             0,
@@ -69,7 +69,7 @@ fn answers() {
             0,
             &["out:{\"query\":\"go_to(sink)\",\"answer\":\"feasible\"", "out:\"margins\""],
         ),
-        ("robots check panda", 0, &["out:7 joints: closed form, seven joints with a shoulder"]),
+        ("robots check panda", 0, &["out:7 joints: closed form: seven joints with a shoulder"]),
         ("robots show hs", 2, &["err:did you mean `hsr`?"]),
         ("explain", 0, &["out:M0501"]),
         ("explain M0501", 0, &["out:M0501"]),
@@ -91,7 +91,7 @@ fn answers() {
 fn a_room_without_things_has_nothing_to_suggest() {
     let place = Place::new("bare").file("bare.json", r#"{"motet_scene": 1, "entities": []}"#);
     let ran = place.run("feasible --robot hsr --scene bare.json --for reach(cup)");
-    ran.check(2, &["err:there is no entity `cup`", "err:no entity is known here"]);
+    ran.check(2, &["err:there is no entity `cup`", "err:the robot or scene has no entity"]);
 }
 
 /// The value of an attribute in a line of a drawing.
@@ -178,7 +178,7 @@ fn writes_a_first_card_and_checks_it() {
     place.run("robots add crane/crane.urdf").check(0, &["out:guesses", "out:motet robots check crane"]);
     assert!(place.read("crane/robot.toml").contains("urdf = \"crane.urdf\""));
     place.run("robots check crane").check(0, &["out:Crane (crane): no errors", "out:2 links"]);
-    place.run("robots add crane/crane.urdf").check(2, &["err:is there already"]);
+    place.run("robots add crane/crane.urdf").check(2, &["err:exists already"]);
     place.run("robots add crane/crane.urdf --to other").check(0, &[]);
     place.run("robots check other").check(0, &["out:2 links"]);
     place.run("robots add broken/robot.urdf").check(1, &["out:M0461"]);
@@ -244,7 +244,8 @@ fn reads_what_a_card_says_of_the_body() {
         .check(0, &["out:no errors\n", "out:touches neither itself nor the floor"]);
 }
 
-/// An arm of three joints, the last link of which is in the base where every joint is at 0, and something else that moves.
+/// An arm of three joints, the last link of which is in the base where every joint is at 0, and something
+/// else that moves.
 const FOLDED: &str = "<robot name='folded'>
   <link name='base'><collision><origin xyz='0 0 0.5'/><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>
   <link name='one'/><link name='two'/>
@@ -265,7 +266,7 @@ const FOLDED: &str = "<robot name='folded'>
 fn a_first_card_has_a_posture_that_touches_nothing() {
     let place = Place::new("robots_posture").file("folded/robot.urdf", FOLDED);
     let ran = place.run("robots add folded/robot.urdf");
-    ran.check(0, &["out:folded/robot.toml: written"]);
+    ran.check(0, &["out:wrote folded/robot.toml"]);
     assert!(!ran.stdout.contains("warning"), "{ran:#?}");
     assert!(
         !place.read("folded/robot.toml").contains("\"bend\" = 0\n"),
@@ -277,13 +278,15 @@ fn a_first_card_has_a_posture_that_touches_nothing() {
         .check(0, &["out:no errors\n", "out:home      touches neither itself nor the floor"]);
     // What the arm does not move is in the way in every posture.
     let place = place.file("shut/robot.urdf", FOLDED.replace("xyz='0 0 0.7'", "xyz='0 0 0.5'"));
-    place.run("robots add shut/robot.urdf").check(0, &["out:warning: `", "out:no posture was found"]);
+    place
+        .run("robots add shut/robot.urdf")
+        .check(0, &["out:warning: `", "out:no posture without contact was found"]);
     assert!(place.read("shut/robot.toml").contains("# In it `"));
     place.run("robots check shut").check(0, &["out:no errors, 2 warnings\n", "out:touches `"]);
     // A shape of the arm that is below the floor wherever its joints are raises the base.
     let low = "<link name='one'><collision><origin xyz='0 0 -0.59'/><geometry><sphere radius='0.02'/></geometry></collision></link>";
     let place = place.file("low/robot.urdf", FOLDED.replace("<link name='one'/>", low));
-    place.run("robots add low/robot.urdf").check(0, &["out:low/robot.toml: written"]);
+    place.run("robots add low/robot.urdf").check(0, &["out:wrote low/robot.toml"]);
     assert!(place.read("low/robot.toml").contains("height = \"0.11"), "{}", place.read("low/robot.toml"));
     place.run("robots check low").check(0, &["out:no errors\n", "out:home      touches neither"]);
 }
@@ -305,7 +308,7 @@ fn a_first_card_stands_on_its_wheels() {
     let said = [
         "out:no errors, 2 warnings\n",
         "out:`wheel` is 0.12 m below the floor",
-        "out:with 0.150 m this part",
+        "out:0.150 m puts this part",
     ];
     place.run("robots check cart").check(0, &said);
 }
@@ -316,7 +319,7 @@ fn a_first_card_is_made_with_the_srdf_beside_the_urdf() {
       <group name='hand'><link name='tool0'/></group><end_effector name='hand' group='hand' parent_link='tool0'/>
       <disable_collisions link1='base' link2='tool0'/></robot>";
     let place = Place::new("robots_srdf").file("a/robot.urdf", FOLDED).file("a/moveit.srdf", srdf);
-    place.run("robots add a/robot.urdf").check(0, &["out:read with its SRDF, moveit.srdf"]);
+    place.run("robots add a/robot.urdf").check(0, &["out:used the SRDF moveit.srdf"]);
     let card = place.read("a/robot.toml");
     assert!(card.contains("\nsrdf = \"moveit.srdf\"\n"), "{card}");
     assert!(card.contains("\ntip = \"tool0\"  # from the SRDF: the end effector `hand`\n"), "{card}");
@@ -327,7 +330,7 @@ fn a_first_card_is_made_with_the_srdf_beside_the_urdf() {
     let place = place.file("b/robot.urdf", FOLDED).file("b/x.srdf", srdf).file("b/y.srdf", srdf);
     place.run("robots add b/robot.urdf --to b1").check(0, &[]);
     assert!(!place.read("b1/robot.toml").contains("srdf ="));
-    place.run("robots add b/robot.urdf --to b2 --srdf b/y.srdf").check(0, &["out:read with its SRDF"]);
+    place.run("robots add b/robot.urdf --to b2 --srdf b/y.srdf").check(0, &["out:used the SRDF"]);
     place.run("robots check b2").check(0, &["out:no errors\n"]);
     let place = place.file("b/robot.srdf", srdf.replace("'two'", "'too'"));
     place.run("robots add b/robot.urdf --to b3").check(1, &["out:M0472", "out:did you mean `two`?"]);

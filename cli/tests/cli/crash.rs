@@ -6,7 +6,7 @@ use crate::drive::{AWAY, has_python, odd, recorded};
 use crate::support::{Place, eventually};
 use std::process::{Child, Command, Stdio};
 
-/// What most drivers do: a start is accepted, and is over at once.
+/// Replies of a simple driver: it accepts each start and ends it at once.
 const AT_ONCE: &str = "    if m['method'] == 'start':\n        say({'id': m['id'], 'result': {}})\n        say({'method': 'ended', \
      'params': {'goal': m['params']['goal'], 'outcome': {'success': None}}})\n";
 
@@ -52,7 +52,7 @@ fn a_safe_stop_is_asked_for_again_after_a_crash() {
     first.wait().unwrap();
     let place = place.file("good", "");
     place.run("run --resume run").check(3, &["out:failed with `timeout`"]);
-    place.run("replay run").check(0, &["out:the same to the byte"]);
+    place.run("replay run").check(0, &["out:identical"]);
 }
 
 #[test]
@@ -102,5 +102,5 @@ fn what_is_nested_too_deep_for_a_journal_is_refused() {
     );
     let ran = place.run_args(&line());
     ran.check(3, &["err:it is nested more than 32 deep", "out:failed with"]);
-    place.run("replay run").check(0, &["out:the same to the byte"]);
+    place.run("replay run").check(0, &["out:identical"]);
 }

@@ -13,7 +13,7 @@ fn a_dataset_is_made_and_passes_lint() {
             .check(0, &["out:train.jsonl: ", "out: in 2 rooms", "out:test.jsonl: "]);
         place
             .run(&format!("dataset lint {form}/train.jsonl {form}/test.jsonl --no-geometry"))
-            .check(0, &["err: rows, 0 with something wrong"]);
+            .check(0, &["err: rows, 0 with findings"]);
     }
     assert!(place.read("llamafactory/dataset_info.json").contains("motet_train"));
     place.run(&format!("{MAKE} --out again")).check(0, &[]);
@@ -33,7 +33,7 @@ fn images_are_beside_the_rows_and_linted_with_them() {
     let making = "dataset --robot hsr --room kitchen --scenes 2 --cases 2 --no-geometry --seed 3 --images";
     place.run(&format!("{making} --out d --form qwen-vl")).check(0, &["out:images: ", "out: picture"]);
     let lint = "dataset lint d/train.jsonl --no-geometry";
-    place.run(lint).check(0, &["err:, 0 with something wrong"]);
+    place.run(lint).check(0, &["err:, 0 with findings"]);
     let names = place.read("d/train.jsonl");
     let (_, rest) = names.split_once("\"image\":[\"images/").unwrap();
     let (name, _) = rest.split_once('"').unwrap();
@@ -41,7 +41,7 @@ fn images_are_beside_the_rows_and_linted_with_them() {
     place
         .run(lint)
         .check(1, &["out:image: its image `images/", "out:d/images/moved.png: image: no row refers to it"]);
-    place.run(&format!("{making} --out t --form inteliplan")).check(2, &["err:have no images"]);
+    place.run(&format!("{making} --out t --form inteliplan")).check(2, &["err:without images"]);
 }
 
 #[test]
@@ -55,10 +55,9 @@ fn rows_of_others_are_linted_in_the_room_that_is_given() {
     place
         .run(lint)
         .check(1, &["out:rows.jsonl:2: no_world: it does not say for which robot it is: give --robot NAME"]);
-    place.run(&format!("{lint} --robot hsr --scene kitchen")).check(
-        1,
-        &["out:rows.jsonl:2: cannot_run: ", "out:pick(coke)", "err:2 rows, 1 with something wrong"],
-    );
+    place
+        .run(&format!("{lint} --robot hsr --scene kitchen"))
+        .check(1, &["out:rows.jsonl:2: cannot_run: ", "out:pick(coke)", "err:2 rows, 1 with findings"]);
     place
         .run(&format!("{lint} --robot hsr --scene kitchen --format json"))
         .check(1, &["out:{\"file\":\"rows.jsonl\",\"row\":2,\"fault\":\"cannot_run\""]);

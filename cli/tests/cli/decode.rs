@@ -12,14 +12,16 @@ fn decode(name: &str, flags: &str, begun: &str) -> crate::support::Ran {
 #[test]
 fn what_must_follow_and_what_may() {
     let ran = decode("decode_bytes", "", "{\"mo\n");
-    ran.check(0, &["out:taken: 4 bytes\nmust follow: \"tet\\\":1,\\\"policy\\\":\\\"\"\nmay follow: \"ABC"]);
+    ran.check(
+        0,
+        &["out:accepted: 4 bytes\nmust follow: \"tet\\\":1,\\\"policy\\\":\\\"\"\nmay follow: \"ABC"],
+    );
     // Only the end of a line is left out: a space belongs to what was begun.
-    decode("decode_space", "--surface text", "policy p ").check(0, &["out:taken: 9 bytes"]);
-    decode("decode_break", "--surface text", "policy p \r\n").check(0, &["out:taken: 9 bytes"]);
+    decode("decode_space", "--surface text", "policy p ").check(0, &["out:accepted: 9 bytes"]);
+    decode("decode_break", "--surface text", "policy p \r\n").check(0, &["out:accepted: 9 bytes"]);
     decode("decode_white", "", "{\"motet\":1, ").check(1, &["out:refused: \" \" at byte 11"]);
     let whole = format!("{HEAD}{{\"end\":\"done\"}}]}}");
-    decode("decode_whole", "", &whole)
-        .check(0, &["out:the policy is whole: nothing may follow but the end\n"]);
+    decode("decode_whole", "", &whole).check(0, &["out:the policy is complete: only the end may follow\n"]);
     Place::new("decode_file")
         .file("begun.json", "{")
         .run("decode begun.json --robot hsr --scene kitchen")
@@ -28,7 +30,7 @@ fn what_must_follow_and_what_may() {
 
 #[test]
 fn an_encoding_has_an_end_of_its_own() {
-    decode("decode_end", "--tokenizer cl100k --end x", "{").check(2, &["err:`--end` is of a file"]);
+    decode("decode_end", "--tokenizer cl100k --end x", "{").check(2, &["err:`--end` is only for files"]);
 }
 
 #[test]
@@ -80,6 +82,6 @@ fn tokens_are_shown() {
         .check(2, &["err:`tokens.json`: the vocabulary has no token 4 to end"]);
     place
         .run_with("decode - --robot hsr --tokenizer none.json", b"", &[])
-        .check(2, &["err:cannot read `none.json`: there is no such file"]);
+        .check(2, &["err:cannot read `none.json`: no such file"]);
     place.run_with("decode - --robot hsr --tokenizer cl100k", b"{\"mo", &[]).check(0, &["out: of 100277\n"]);
 }

@@ -83,7 +83,7 @@ fn the_exchange_of_a_request_is_written_and_read_again() {
             "out:<feasibility> coke: feasible",
             "out:<robot> go to counter, pick coke, go to user, ",
             "out:hand over coke to user",
-            "err:left out of the list: a monitor",
+            "err:the list leaves out a monitor",
         ],
     );
     write("bring me the mug")

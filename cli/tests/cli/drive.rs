@@ -18,7 +18,7 @@ use std::time::Duration;
 pub(crate) const AWAY: &str = "policy away for hsr {\n    go(kitchen_table)\n}\n";
 const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/drivers/echo.py");
 
-/// Whether there is a Python to run drivers with.
+/// Checks that Python is installed, which runs the drivers.
 pub(crate) fn has_python() -> bool {
     let found = Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success());
     if !found {
@@ -163,7 +163,7 @@ fn killed_and_resumed_the_driver_in_another_process_does_nothing_twice() {
     first.kill().unwrap();
     first.wait().unwrap();
     place.run("run --resume run").check(0, &["out:✓ tidy: done", "err:resumed at"]);
-    place.run("replay run").check(0, &["out:the same to the byte"]);
+    place.run("replay run").check(0, &["out:identical"]);
     assert_eq!(starts(), 5, "five steps, five starts");
     let text = std::fs::read_to_string(&journal).unwrap();
     assert_eq!(text.matches("{\"ended\":{\"goal\":").count(), 5, "five ends");

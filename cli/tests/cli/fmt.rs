@@ -14,7 +14,7 @@ fn rewrites_only_what_differs() {
     place.run("fmt a.motet b.motet").check(0, &["err:1 file reformatted, 1 unchanged"]);
     assert_eq!(place.read("a.motet"), TIGHT);
     place.run("fmt --check a.motet b.motet").check(0, &[]);
-    place.run("fmt .").check(1, &["out:c.motet", "err:1 with errors left alone"]);
+    place.run("fmt .").check(1, &["out:c.motet", "err:1 with errors skipped"]);
     assert_eq!(place.read("c.motet"), "policy {");
     place.run("fmt absent.motet").check(2, &[]);
     place.run("fmt --check --to json a.motet").check(2, &["err:cannot be used with"]);
@@ -51,7 +51,7 @@ fn writes_a_batch_of_json_a_line_each() {
     let place = place.file("all.jsonl", &ran.stdout);
     let texts = place.run("fmt --to text all.jsonl");
     assert_eq!(texts.check(0, &[]).stdout, format!("{GOOD}\n{}", GOOD.replace("tidy", "again")));
-    place.run("fmt all.jsonl").check(0, &["err:left as it is"]);
+    place.run("fmt all.jsonl").check(0, &["err:skipped the .jsonl files"]);
 }
 
 #[test]
@@ -99,8 +99,8 @@ fn compiles() {
 fn leaves_a_reply_with_text_beside_the_policy_alone() {
     let reply = format!("Here it is:\n\n```motet\n{}```\nGood luck!\n", GOOD.replace("    go", "  go"));
     let place = Place::new("fmt_reply").file("reply.motet", &reply);
-    place.run("fmt reply.motet").check(1, &["out:M0116", "err:1 with text beside the policy left alone"]);
-    place.run("fmt --check reply.motet").check(1, &["err:left alone"]);
+    place.run("fmt reply.motet").check(1, &["out:M0116", "err:1 with prose skipped"]);
+    place.run("fmt --check reply.motet").check(1, &["err:skipped"]);
     assert_eq!(place.run_with("fmt -", reply.as_bytes(), &[]).check(1, &["err:M0116"]).stdout, reply);
     assert_eq!(place.read("reply.motet"), reply);
     // What it prints elsewhere is the policy.
@@ -109,6 +109,6 @@ fn leaves_a_reply_with_text_beside_the_policy_alone() {
     let place = Place::new("fix_reply").file("reply.motet", &wrong);
     place
         .run("check --fix reply.motet --scene kitchen")
-        .check(1, &["out:M0201", "err:left as it is", "err:made 0 fixes"]);
+        .check(1, &["out:M0201", "err:--fix skipped replies", "err:applied 0 fixes"]);
     assert_eq!(place.read("reply.motet"), wrong);
 }

@@ -1,4 +1,5 @@
-//! `motet grammar` and `motet grammar probe`, against a server on the loopback that obeys, and one that does not.
+//! `motet grammar` and `motet grammar probe`, against a server on the loopback that obeys, and one that does
+//! not.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
@@ -52,7 +53,7 @@ fn what_a_server_cannot_take_is_said() {
     // Of the limits of others nothing is said to who asks one server.
     let ran = place.run("grammar --robot hsr --domain many.motet --request vllm");
     assert!(ran.code == Some(0) && !ran.stderr.contains("OpenAI takes"), "{}", ran.stderr);
-    place.run("grammar --robot hsr --llguidance").check(2, &["err:give `--format lark` too"]);
+    place.run("grammar --robot hsr --llguidance").check(2, &["err:needs `--format lark`"]);
 }
 
 /// A server that answers one request with a chat message; its address.
@@ -60,7 +61,8 @@ pub(crate) fn server(status: &'static str, message: &'static str) -> String {
     scripted(status, vec![message.to_owned()]).0
 }
 
-/// A server that answers one request after the other, each with a message; its address, and the bodies of the requests.
+/// A server that answers one request after the other, each with a message; its address, and the bodies of
+/// the requests.
 pub(crate) fn scripted(status: &'static str, messages: Vec<String>) -> (String, Arc<Mutex<Vec<Value>>>) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = format!("http://{}", listener.local_addr().unwrap());
@@ -103,7 +105,7 @@ fn a_probe_tells_a_server_that_obeys_from_one_that_does_not() {
     let place = Place::new("grammar_probe");
     let held = r#"{"choices": [{"message": {"role": "assistant", "content": "{\"probe\": \"held\"}"}}]}"#;
     let ran = place.run(&format!("grammar probe {} --dialect vllm", server("200 OK", held)));
-    assert_eq!((ran.code, ran.stdout.contains("is held to the grammar")), (Some(0), true), "{}", ran.stderr);
+    assert_eq!((ran.code, ran.stdout.contains("enforces the grammar")), (Some(0), true), "{}", ran.stderr);
     let free = r#"{"message": {"role": "assistant", "content": "free"}}"#;
     let ran = place.run(&format!("grammar probe {} --dialect ollama", server("200 OK", free)));
     assert_eq!(
@@ -117,7 +119,7 @@ fn a_probe_tells_a_server_that_obeys_from_one_that_does_not() {
     let cut = r#"{"choices": [{"finish_reason": "length", "message": {"content": "{ \"prob"}}]}"#;
     place
         .run(&format!("grammar probe {} --dialect vllm", server("200 OK", cut)))
-        .check(2, &["err:broke its answer off at `{ \"prob`"]);
+        .check(2, &["err:cut its answer off at `{ \"prob`"]);
     let ran = place
         .run(&format!("grammar probe {}/v1", server("400 Bad Request", r#"{"error": "no such field"}"#)));
     assert_eq!((ran.code, ran.stderr.contains("no such field")), (Some(2), true), "{}", ran.stderr);

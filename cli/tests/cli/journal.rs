@@ -1,4 +1,5 @@
-//! `motet run --record`, `motet replay` and `motet run --resume` from outside, also after a kill at a random moment.
+//! `motet run --record`, `motet replay` and `motet run --resume` from outside, also after a kill at a random
+//! moment.
 
 #![allow(
     clippy::unwrap_used,
@@ -52,7 +53,7 @@ fn records_replays_and_resumes() {
     let place = Place::new("journal").file("good.motet", GOOD).file("asks.motet", ASKS);
     let world = "--robot hsr --scene kitchen --speed max";
     place.run(&format!("run good.motet {world} --record run")).check(0, &["out:✓ tidy: done"]);
-    place.run("replay run").check(0, &["out:the same to the byte"]);
+    place.run("replay run").check(0, &["out:identical"]);
     place.run("replay run --until 3").check(0, &["out:replayed 4 entries"]);
     place.run("replay run --at 9s").check(0, &["out:`tidy` at ", "out:standing(robot): true", "out:runs #"]);
     let ran = place.run("replay run --at 9s --json");
@@ -65,7 +66,7 @@ fn records_replays_and_resumes() {
     place.run("run").check(2, &["err:FILE"]);
     place.run(&format!("run asks.motet {world} --record asks")).check(0, &[]);
     place.run("replay asks --at 100s").check(0, &["out:let answer = \"yes\""]);
-    place.run("replay asks --until 100s").check(0, &["out:let answer = \"yes\"", "out:the same to the byte"]);
+    place.run("replay asks --until 100s").check(0, &["out:let answer = \"yes\"", "out:identical"]);
 }
 
 #[test]
@@ -160,7 +161,7 @@ fn killed_at_any_moment_a_run_goes_on_as_if_nothing_had_been() {
         }
         place.run(&format!("run --resume {folder} --speed max")).check(0, &[]);
         assert_eq!(deeds(&place.path(&folder)), expected, "{folder}: as without a crash");
-        place.run(&format!("replay {folder}")).check(0, &["out:the same to the byte"]);
+        place.run(&format!("replay {folder}")).check(0, &["out:identical"]);
         once_each(&place.path(&folder));
     }
     println!("{kills} kills in {runs} runs, {late} of them ended by themselves");
@@ -170,7 +171,8 @@ fn was_begun(place: &Place, folder: &str) -> bool {
     std::fs::read(journal(&place.path(folder))).is_ok_and(|bytes| bytes.contains(&b'\n'))
 }
 
-/// Runs the command and kills it after a while. Whether it was still running, and how many starts it had shown.
+/// Runs the command and kills it after a while. Whether it was still running, and how many starts it had
+/// shown.
 fn run_and_kill(place: &Place, line: &str, delay: Duration) -> (bool, usize) {
     let shown = place.path("shown.jsonl");
     let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))
@@ -222,12 +224,12 @@ fn a_conversation_is_recorded_and_replays() {
     let lines: Vec<Value> = kept.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert!(lines.iter().any(|line| line["what"] == "swap"), "{kept}");
     let run = lines.iter().find(|line| line["what"] == "run").unwrap()["journal"].as_str().unwrap();
-    place.run(&format!("replay talk/{run}")).check(0, &["out:the same to the byte"]);
+    place.run(&format!("replay talk/{run}")).check(0, &["out:identical"]);
     let entries = entries(&place.path(&format!("talk/{run}")));
     assert_eq!(entries[0]["head"]["instruction"], "bring me the coke");
     assert_eq!(entries.iter().filter(|entry| entry.get("swap").is_some()).count(), 1, "{entries:?}");
     let ran = place.run(&format!("replay talk/{run} --at 1000s"));
     ran.check(0, &["out:revision 1"]);
-    place.run(&format!("run --resume talk/{run}")).check(2, &["err:can be replayed and not resumed"]);
+    place.run(&format!("run --resume talk/{run}")).check(2, &["err:can be replayed but not resumed"]);
     place.run_args(&words).check(2, &["err:talk.jsonl"]);
 }

@@ -1,4 +1,5 @@
-//! The command from outside: the built binary is run as a user runs it. One program, so that it is linked once.
+//! The command from outside: the built binary is run as a user runs it. One program, so that it is linked
+//! once.
 
 mod check;
 mod commands;

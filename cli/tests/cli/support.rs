@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
-/// What a run of the command left behind.
+/// Result of a run of the command.
 #[derive(Debug)]
 pub(crate) struct Ran {
     /// The exit code.
@@ -56,7 +56,7 @@ impl Place {
         std::fs::read_to_string(self.folder.join(name)).expect("the file is there")
     }
 
-    /// Whether a file is there and says something.
+    /// Checks that a file exists and is not empty.
     pub(crate) fn says(&self, name: &str, word: &str) -> bool {
         std::fs::read_to_string(self.folder.join(name)).is_ok_and(|text| text.contains(word))
     }

@@ -3,11 +3,10 @@
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use crate::domain::DomainNames;
 use crate::errors::{Unsupported, WrongName};
 use crate::formula::{Literal, Scope, literal, literals};
 use crate::s_expression::SExpr;
-use crate::typed::{self, ListItem, TypedName};
+use crate::typed::{self, DomainNames, ListItem, TypedName};
 
 /// An action of a domain.
 #[derive(Clone, Debug)]

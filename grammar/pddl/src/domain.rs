@@ -8,19 +8,11 @@ use crate::MAX_ARITY;
 use crate::actions::{self, Action};
 use crate::errors::{Unsupported, WrongName};
 use crate::s_expression::SExpr;
-use crate::typed::{self, ListItem, TypeHierarchy, TypedName};
+use crate::typed::{self, DomainNames, ListItem};
 
 /// Requirements that the import supports.
 const REQUIREMENTS: [&str; 5] =
     [":strips", ":typing", ":negative-preconditions", ":equality", ":conditional-effects"];
-
-/// Declarations that the formulas of a domain and its problems refer to.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct DomainNames {
-    pub(crate) types: TypeHierarchy,
-    pub(crate) predicates: IndexMap<SmolStr, Vec<TypedName>>,
-    pub(crate) constants: Vec<TypedName>,
-}
 
 /// A domain after reading.
 #[derive(Clone, Debug)]

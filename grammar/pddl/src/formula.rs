@@ -3,10 +3,9 @@
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use crate::domain::DomainNames;
 use crate::errors::{Unsupported, WrongName, unknown};
 use crate::s_expression::SExpr;
-use crate::typed::{TypedName, is_type};
+use crate::typed::{DomainNames, TypedName, is_type};
 
 /// An argument of a predicate.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -49,7 +49,6 @@ impl Translation {
 /// A source with its place among the files of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct PddlSource<'s> {
-    /// The text.
     pub source: &'s Source,
     /// Its id in the diagnostics.
     pub file: FileId,

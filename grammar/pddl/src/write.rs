@@ -10,12 +10,12 @@ use smol_str::{SmolStr, format_smolstr};
 
 use crate::Translation;
 use crate::actions::{Action, Effect};
-use crate::domain::{Domain, DomainNames};
+use crate::domain::Domain;
 use crate::formula::{Argument, Literal};
 use crate::name;
 use crate::plan::PlanStep;
 use crate::problem::Problem;
-use crate::typed::{OBJECT, TypedName};
+use crate::typed::{DomainNames, OBJECT, TypedName};
 
 /// All of it.
 pub(crate) fn imported(domain: &Domain, problem: &Problem, plan: Vec<PlanStep>) -> Translation {

@@ -117,8 +117,8 @@ mod tests {
 
     /// Words between double quotes in the definition of a rule.
     fn words_of(rule: &str) -> Vec<&'static str> {
-        let start = GRAMMAR.find(&format!("\n{rule} = ")).unwrap();
-        let body = GRAMMAR[start..].split_once('{').unwrap().1.split_once("\n}").unwrap().0;
+        let (_, start) = GRAMMAR.split_once(&format!("\n{rule} = _{{")).unwrap();
+        let (body, _) = start.split_once("\n}").unwrap();
         body.split('"').skip(1).step_by(2).collect()
     }
 

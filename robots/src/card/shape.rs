@@ -2,7 +2,7 @@
 //! types, so that every wrong key is reported at once and at its place. Numbers and names are checked later,
 //! by the reader.
 
-use motet_syntax::located::{Located, LocatedValue, Mismatch, Number, Problem, check_schema};
+use motet_syntax::located::{Located, LocatedValue, Mismatch, MismatchKind, Number, check_schema};
 use motet_syntax::{Diagnostic, FileId, Span, suggest};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -46,34 +46,34 @@ fn span<T>(value: &Spanned<T>, file: FileId) -> Span {
 }
 
 fn diagnostic(mismatch: Mismatch<'_>) -> Diagnostic {
-    let Mismatch { node, pointer, problem } = mismatch;
+    let Mismatch { node, pointer, kind } = mismatch;
     let (span, key) = (node.span, dotted(&pointer));
     let text = || node.text().unwrap_or("").to_owned();
     let owned = |words: Vec<&str>| words.into_iter().map(str::to_owned).collect();
     let near = |known: &[&str]| suggest::closest(&text(), known.iter().copied()).map(str::to_owned);
     let wrong =
-        |wanted: String| WrongType { span, key: key.clone(), found: kind(node).to_owned(), wanted }.into();
-    match problem {
-        Problem::UnknownKey { object, mut known } => {
+        |wanted: String| WrongType { span, key: key.clone(), found: kind_of(node).to_owned(), wanted }.into();
+    match kind {
+        MismatchKind::UnknownKey { object, mut known } => {
             let near = near(&known);
             known.retain(|key| !object.members().iter().any(|(written, _)| written.text() == Some(*key)));
             UnknownKey { span, key: text(), near, known: owned(known) }.into()
         }
-        Problem::MissingKey { key: missing } => {
+        MismatchKind::MissingKey { key: missing } => {
             MissingKey { span, key: missing.to_owned(), section: key }.into()
         }
-        Problem::UnknownWord { known } => {
+        MismatchKind::UnknownWord { known } => {
             UnknownWord { span, word: text(), near: near(&known), known: owned(known) }.into()
         }
-        Problem::WrongType { types, words, .. } if types.is_empty() => wrong(suggest::one_of(words)),
-        Problem::WrongType { types, .. } => {
+        MismatchKind::WrongType { types, words, .. } if types.is_empty() => wrong(suggest::one_of(words)),
+        MismatchKind::WrongType { types, .. } => {
             let types: Vec<&str> = types.into_iter().map(kind_of_type).collect();
             wrong(types.join(" or "))
         }
-        Problem::WrongLength { expected, .. } => wrong(format!("a list of {expected} elements")),
-        Problem::OutOfRange { least, .. } => wrong(format!("a whole number from {least}")),
-        Problem::NoForm { forms } => wrong(format!("a section with {}", suggest::one_of(forms))),
-        Problem::TwoForms { .. } => wrong("a section of one form".to_owned()),
+        MismatchKind::WrongLength { expected, .. } => wrong(format!("a list of {expected} elements")),
+        MismatchKind::OutOfRange { least, .. } => wrong(format!("a whole number from {least}")),
+        MismatchKind::NoForm { forms } => wrong(format!("a section with {}", suggest::one_of(forms))),
+        MismatchKind::TwoForms { .. } => wrong("a section of one form".to_owned()),
     }
 }
 
@@ -84,7 +84,7 @@ fn dotted(pointer: &str) -> String {
     keys.join(".")
 }
 
-fn kind(node: &Located<'_>) -> &'static str {
+fn kind_of(node: &Located<'_>) -> &'static str {
     match &node.value {
         LocatedValue::Text(_) => "a text",
         LocatedValue::Number(Number::Float(_)) => "a number",

@@ -1,4 +1,4 @@
-//! Pictures of rows on disk: whether each that a row refers to is there, and which nobody refers to.
+//! Images of rows on disk: finds the missing and the unused ones.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,13 +9,13 @@ use motet_dataset::lint::{Fault, Finding, Place, Shelf};
 use motet_dataset::picture;
 
 use super::lint::{ROOMS, lines};
-use crate::exit::Trouble;
-use crate::input::Flow;
+use crate::documents::Flow;
+use crate::error::CliError;
 
-/// How the names of pictures end.
-const ENDINGS: &[&str] = &["png", "jpg", "jpeg", "webp", "gif"];
+/// Extensions of images.
+const EXTENSIONS: &[&str] = &["png", "jpg", "jpeg", "webp", "gif"];
 
-/// The pictures that rows refer to, with what is wrong with each.
+/// Images that rows refer to, each with its fault.
 #[derive(Debug, Default)]
 pub(super) struct Images(BTreeMap<PathBuf, Option<String>>);
 
@@ -32,57 +32,57 @@ impl Shelf for Images {
 }
 
 impl Images {
-    /// The pictures beside files of rows that no row refers to, of these files or of others in their folders.
+    /// Images beside files of rows to which no row refers, in these files or in others of their folders.
     ///
     /// # Errors
     ///
-    /// One of the others is too long for a file of rows.
-    pub(super) fn lost(mut self, files: &[PathBuf]) -> Result<Vec<Finding>, Trouble> {
+    /// A line of another file is too long for a row.
+    pub(super) fn unused(mut self, files: &[PathBuf]) -> Result<Vec<Finding>, CliError> {
         let folders: BTreeSet<PathBuf> = files.iter().map(|file| folder(file)).collect();
-        let mut places: BTreeSet<PathBuf> = self.0.keys().map(|path| folder(path)).collect();
+        let mut folders_with_images: BTreeSet<PathBuf> = self.0.keys().map(|path| folder(path)).collect();
         for folder in &folders {
-            places.insert(folder.join(picture::FOLDER));
+            folders_with_images.insert(folder.join(picture::FOLDER));
             for other in listed(folder, &["jsonl"]) {
                 if !files.contains(&other) && !other.ends_with(ROOMS) {
                     self.refer(&other)?;
                 }
             }
         }
-        let pictures = places.iter().flat_map(|place| listed(place, ENDINGS));
-        let lost = pictures.filter(|path| !self.0.contains_key(path)).map(|path| Finding {
+        let pictures = folders_with_images.iter().flat_map(|place| listed(place, EXTENSIONS));
+        let unused = pictures.filter(|path| !self.0.contains_key(path)).map(|path| Finding {
             at: Place { file: path.display().to_string(), row: 0 },
             fault: Fault::Image,
             message: "no row refers to it".to_owned(),
             other: None,
         });
-        Ok(lost.collect())
+        Ok(unused.collect())
     }
 
-    /// Takes in what the rows of another file refer to.
-    fn refer(&mut self, file: &Path) -> Result<(), Trouble> {
+    /// Adds the images of the rows in another file.
+    fn refer(&mut self, file: &Path) -> Result<(), CliError> {
         lines(file, &mut |_, line| {
             let images = form::read(line).map(|row| row.images).unwrap_or_default();
             self.0.extend(images.into_iter().map(|image| (folder(file).join(image), None)));
-            Ok(Flow::GoOn)
+            Ok(Flow::Continue)
         })
     }
 }
 
-/// The folder of a file.
+/// Folder of a file.
 fn folder(file: &Path) -> PathBuf {
     file.parent().unwrap_or(Path::new("")).to_owned()
 }
 
-/// The files of a folder with such an ending, in order; none where it is no folder.
-fn listed(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+/// Files of a folder with one of these extensions, in order; none if it is not a folder.
+fn listed(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     let place = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let names =
         fs::read_dir(place).into_iter().flatten().flatten().map(|entry| folder.join(entry.file_name()));
-    let has_ending = |path: &PathBuf| {
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        ending.is_some_and(|ending| endings.contains(&ending.as_str()))
+    let has_extension = |path: &PathBuf| {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        extension.is_some_and(|extension| extensions.contains(&extension.as_str()))
     };
-    let mut found: Vec<PathBuf> = names.filter(has_ending).collect();
+    let mut found: Vec<PathBuf> = names.filter(has_extension).collect();
     found.sort();
     found
 }

@@ -1,32 +1,33 @@
-//! Lints files of rows.
+//! `motet dataset lint`: finds faults in files of rows.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use motet_dataset::lint::{Finding, Linter, Worlds};
-use motet_robots::card;
+use motet_project::files::Bytes;
+use motet_project::{read_scene, robot_names};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Severity, Source, Sources};
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 
+use super::LintArgs;
 use super::images::Images;
-use crate::args::{LintArgs, LintFormat};
-use crate::exit::{Exit, Trouble};
-use crate::input::{Bytes, Flow, Input};
-use crate::out::{count, note};
+use crate::documents::{Flow, Input};
+use crate::error::{CliError, Exit};
+use crate::flags::OutputFormat;
+use crate::output::{count, note};
 use crate::report::Report;
-use crate::workbench::read_scene;
 
-/// The file beside rows that has their rooms.
+/// File with the rooms of the rows beside it.
 pub(super) const ROOMS: &str = "scenes.jsonl";
 
-/// Lints files.
+/// Lints files of rows.
 ///
 /// # Errors
 ///
-/// A file cannot be read, or a robot or a room cannot be used.
-pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, Trouble> {
+/// A file cannot be read, or a robot or a room has errors.
+pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliError> {
     let worlds = worlds(args, report)?;
     let mut shelf = Images::default();
     let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);
@@ -39,30 +40,30 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, Trouble
                 wrong.insert((file.clone(), number));
                 report.out.line(&shown(&finding, args.format));
             }
-            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::GoOn })
+            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue })
         })?;
     }
-    let lost = shelf.lost(&args.files)?;
-    for finding in &lost {
+    let unused = shelf.unused(&args.files)?;
+    for finding in &unused {
         report.out.line(&shown(finding, args.format));
     }
     if rows == 0 {
-        note("there is no row to look at");
+        note("the files hold no rows");
         return Ok(Exit::Findings);
     }
-    note(&format!("{}, {} with something wrong", count(rows, "row"), wrong.len()));
-    Ok(if wrong.is_empty() && lost.is_empty() { Exit::Clean } else { Exit::Findings })
+    note(&format!("{}, {} with findings", count(rows, "row"), wrong.len()));
+    Ok(if wrong.is_empty() && unused.is_empty() { Exit::Success } else { Exit::Findings })
 }
 
-fn shown(finding: &Finding, format: LintFormat) -> String {
+fn shown(finding: &Finding, format: OutputFormat) -> String {
     let Finding { at, fault, message, other } = finding;
     match format {
-        LintFormat::Human => {
+        OutputFormat::Human => {
             let other = other.as_ref().map(|other| format!(": {}:{}", other.file, other.row));
             let row = if at.row > 0 { format!(":{}", at.row) } else { String::new() };
             format!("{}{row}: {}: {message}{}", at.file, fault.name(), other.unwrap_or_default())
         }
-        LintFormat::Json => {
+        OutputFormat::Json => {
             let other = other.as_ref().map(|other| json!({"file": other.file, "row": other.row}));
             json!({"file": at.file, "row": at.row, "fault": fault.name(), "message": message, "other": other})
                 .to_string()
@@ -70,10 +71,10 @@ fn shown(finding: &Finding, format: LintFormat) -> String {
     }
 }
 
-/// All robots and rooms that rows may name.
-fn worlds(args: &LintArgs, report: &mut Report) -> Result<Worlds, Trouble> {
+/// Robots and rooms that rows may name.
+fn worlds(args: &LintArgs, report: &mut Report) -> Result<Worlds, CliError> {
     let mut worlds = Worlds { effort: super::effort(&args.motions), ..Worlds::default() };
-    let own = card::embedded().iter().map(|(name, _, _)| (*name).to_owned());
+    let own = robot_names().map(str::to_owned);
     for name in own.chain(args.robot.clone()) {
         let body = super::body(&name, report)?;
         let known = SmolStr::from(body.robot.name.as_str());
@@ -95,41 +96,44 @@ fn worlds(args: &LintArgs, report: &mut Report) -> Result<Worlds, Trouble> {
         let path = folder.join(ROOMS);
         if path.is_file() {
             lines(&path, &mut |number, line| {
-                let (name, room) = room(line)
-                    .map_err(|why| Trouble::Other(format!("`{}`, line {number}: {why}", path.display())))?;
+                let (name, room) = room(line).map_err(|why| {
+                    CliError::Message(format!("`{}`, line {number}: {why}", path.display()))
+                })?;
                 worlds.scenes.insert(name, room);
-                Ok(Flow::GoOn)
+                Ok(Flow::Continue)
             })?;
         }
     }
     Ok(worlds)
 }
 
-/// A room with its name.
+/// Reads a line of `scenes.jsonl`: a room with its name.
 fn room(line: &str) -> Result<(SmolStr, Scene), String> {
     let row: Value = serde_json::from_str(line).map_err(|error| format!("it is not JSON: {error}"))?;
     let name = row.get("name").and_then(Value::as_str).ok_or("it has no `name`")?;
     let text = row.get("scene").ok_or("it has no `scene`")?.to_string();
-    let (scene, said) = scene::read(&Source::new(name, text), FileId(0));
-    let error = said.iter().find(|said| said.severity == Severity::Error);
+    let (scene, diagnostics) = scene::read(&Source::new(name, text), FileId(0));
+    let error = diagnostics.iter().find(|found| found.severity == Severity::Error);
     match (scene, error) {
         (Some(scene), None) => Ok((name.into(), scene)),
-        (_, error) => Err(error.map_or_else(|| "it is no scene".to_owned(), |error| error.message.clone())),
+        (_, error) => {
+            Err(error.map_or_else(|| "it is not a scene".to_owned(), |error| error.message.clone()))
+        }
     }
 }
 
-/// The lines of a file with their numbers, from 1; empty ones are passed over.
+/// Passes each line of a file that is not empty with its number, from 1.
 pub(super) fn lines(
     path: &Path,
-    each: &mut dyn FnMut(usize, &str) -> Result<Flow, Trouble>,
-) -> Result<(), Trouble> {
+    each: &mut dyn FnMut(usize, &str) -> Result<Flow, CliError>,
+) -> Result<(), CliError> {
     let input = Input::Lines(path.to_owned());
     input.documents(&mut |document| {
         let number =
             document.name.rsplit(':').next().and_then(|number| number.parse().ok()).unwrap_or_default();
         match &document.bytes {
             Bytes::All(bytes) => each(number, &String::from_utf8_lossy(bytes)),
-            Bytes::TooMany(_) => Err(Trouble::Other(format!("`{}` is too long for a row", document.name))),
+            Bytes::TooMany(_) => Err(CliError::Message(format!("`{}` is too long for a row", document.name))),
         }
     })?;
     Ok(())

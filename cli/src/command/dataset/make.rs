@@ -1,4 +1,4 @@
-//! Makes a dataset and writes its files.
+//! `motet dataset`: generates a dataset and writes its files.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write as _};
@@ -11,33 +11,33 @@ use motet_dataset::generate::{self, Dataset, Order, Part};
 use motet_dataset::lint::family;
 use motet_dataset::picture::{FOLDER, Pictures};
 use motet_dataset::{Row, scenery, wordings};
+use motet_project::files::read_small;
+use motet_project::read_scene;
 use motet_robots::scene;
 use motet_syntax::Sources;
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 
-use crate::args::{MakeArgs, RowForm};
-use crate::exit::{Exit, Trouble};
-use crate::input::read_small;
-use crate::out::{count, note};
+use super::{MakeArgs, RowFormat};
+use crate::error::{CliError, Exit};
+use crate::output::{count, note};
 use crate::report::Report;
-use crate::workbench::read_scene;
 
-/// Makes a dataset.
+/// Generates a dataset.
 ///
 /// # Errors
 ///
-/// A file cannot be read or written, or what it says cannot be used.
-pub(super) fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, Trouble> {
+/// A file cannot be read or written, or has errors.
+pub(super) fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
     let Some(folder) = &args.out else {
-        return Err(Trouble::Other("a folder is needed: give --out FOLDER".to_owned()));
+        return Err(CliError::Message("give a folder with --out FOLDER".to_owned()));
     };
-    if args.images && args.form == RowForm::Inteliplan {
-        return Err(Trouble::Other("rows in the form `inteliplan` are texts and have no images".to_owned()));
+    if args.images && args.form == RowFormat::Inteliplan {
+        return Err(CliError::Message("rows in the format `inteliplan` are texts without images".to_owned()));
     }
     let order = order(args, report)?;
     let dataset = generate::gather(&order, parts(&order));
-    fs::create_dir_all(folder).map_err(|source| Trouble::Write { path: folder.clone(), source })?;
+    fs::create_dir_all(folder).map_err(|source| CliError::Write { path: folder.clone(), source })?;
     for (name, rows) in [("train", &dataset.train), ("test", &dataset.test)] {
         let lines = rows.iter().map(|row| form::write(row, order.form));
         write(&folder.join(format!("{name}.jsonl")), lines)?;
@@ -63,19 +63,19 @@ pub(super) fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, Trouble
         note(&format!("left out {dropped}: {why}"));
     }
     if dataset.train.is_empty() {
-        return Err(Trouble::Other("no row came of it".to_owned()));
+        return Err(CliError::Message("the dataset is empty".to_owned()));
     }
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }
 
-fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, Trouble> {
+fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, CliError> {
     let wordings = match &args.wordings {
         Some(path) => {
             let bytes = read_small(path)?;
             wordings::read(&String::from_utf8_lossy(&bytes))
-                .map_err(|wrong| Trouble::Other(format!("`{}`, {wrong}", path.display())))?
+                .map_err(|wrong| CliError::Message(format!("`{}`, {wrong}", path.display())))?
         }
-        None => wordings::read(wordings::OWN).map_err(|wrong| Trouble::Other(wrong.to_string()))?,
+        None => wordings::read(wordings::OWN).map_err(|wrong| CliError::Message(wrong.to_string()))?,
     };
     let things = match &args.things {
         Some(name) => read_scene(name, &mut Sources::default(), report)?,
@@ -100,16 +100,16 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, Trouble> {
         test: args.test,
         effort: super::effort(&args.motions),
         form: match args.form {
-            RowForm::Trl => Form::Trl,
-            RowForm::Llamafactory => Form::LlamaFactory,
-            RowForm::QwenVl => Form::QwenVl,
-            RowForm::Inteliplan => Form::InteLiPlan,
+            RowFormat::Trl => Form::Trl,
+            RowFormat::Llamafactory => Form::LlamaFactory,
+            RowFormat::QwenVl => Form::QwenVl,
+            RowFormat::Inteliplan => Form::InteLiPlan,
         },
         pictures: if args.images { Pictures::EachRow } else { Pictures::None },
     })
 }
 
-/// The parts of a dataset, made on all cores, in their order.
+/// Parts of a dataset in order, generated on all cores.
 fn parts(order: &Order) -> Vec<Part> {
     let workers = std::thread::available_parallelism().map_or(1, usize::from).min(order.scenes);
     let next = AtomicUsize::new(0);
@@ -133,18 +133,18 @@ fn parts(order: &Order) -> Vec<Part> {
     parts.into_iter().map(|(_, part)| part).collect()
 }
 
-/// `, of which 12 are behind a failure`
+/// Suffix with the number of rows after a failure.
 fn kinds(rows: &[Row]) -> String {
     let later = rows.iter().filter(|row| row.about.turn > 0).count();
-    if later == 0 { String::new() } else { format!(", {later} of them after something went wrong") }
+    if later == 0 { String::new() } else { format!(", {later} of them after a failure") }
 }
 
-/// Writes the pictures of rows.
-fn pictures(folder: &Path, dataset: &Dataset) -> Result<(), Trouble> {
+/// Writes the images of the rows.
+fn pictures(folder: &Path, dataset: &Dataset) -> Result<(), CliError> {
     let place = folder.join(FOLDER);
     let cannot = |path: &Path| {
         let path = path.to_owned();
-        move |source| Trouble::Write { path, source }
+        move |source| CliError::Write { path, source }
     };
     fs::create_dir_all(&place).map_err(cannot(&place))?;
     for (name, bytes) in &dataset.pictures {
@@ -161,8 +161,8 @@ fn scenes(dataset: &Dataset) -> impl Iterator<Item = String> + '_ {
     })
 }
 
-fn write(path: &Path, lines: impl Iterator<Item = String>) -> Result<(), Trouble> {
-    let cannot = |source| Trouble::Write { path: path.to_owned(), source };
+fn write(path: &Path, lines: impl Iterator<Item = String>) -> Result<(), CliError> {
+    let cannot = |source| CliError::Write { path: path.to_owned(), source };
     let mut file = BufWriter::new(File::create(path).map_err(cannot)?);
     for line in lines {
         writeln!(file, "{line}").map_err(cannot)?;

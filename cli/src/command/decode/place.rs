@@ -1,26 +1,25 @@
-//! Where in a policy a beginning breaks off, and what the words that may stand there are.
+//! Position in a policy at which a prefix ends, and descriptions of the words that may follow there.
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::Type;
 
-/// The innermost object, and the key whose value comes next in it.
+/// Innermost JSON object of a prefix, and the key whose value comes next.
 #[derive(Debug, Default)]
-pub(super) struct Place {
-    /// What the object is, by its first key: `do`, `is`, `end`.
+pub(super) struct PrefixEnd {
+    /// First key of the object, such as `do`, `is` or `end`.
     kind: String,
-    /// The value of that key, where it is written already.
+    /// Value of the first key; empty if it is not written yet.
     pub(super) name: String,
-    /// The key.
     pub(super) key: String,
-    /// What of the word is written already.
-    pub(super) begun: String,
+    /// Part of the word that is written already.
+    pub(super) started: String,
 }
 
-impl Place {
-    /// Of a beginning in JSON without white space.
-    pub(super) fn of(begun: &[u8]) -> Self {
-        let begun = String::from_utf8_lossy(begun);
-        let Some((_, object)) = begun.rsplit_once("{\"") else { return Self::default() };
+impl PrefixEnd {
+    /// End of a prefix in JSON without white space.
+    pub(super) fn of(prefix: &[u8]) -> Self {
+        let prefix = String::from_utf8_lossy(prefix);
+        let Some((_, object)) = prefix.rsplit_once("{\"") else { return Self::default() };
         let parts: Vec<&str> = object.split('"').collect();
         let at = |index: usize| parts.get(index).copied().unwrap_or_default().to_owned();
         let value = parts.iter().rposition(|part| part.starts_with(':'));
@@ -29,11 +28,11 @@ impl Place {
             kind: at(0),
             name: if parts.len() > 3 { at(2) } else { String::new() },
             key: value.and_then(|value| value.checked_sub(1)).map(at).unwrap_or_default(),
-            begun: if in_string { at(parts.len() - 1) } else { String::new() },
+            started: if in_string { at(parts.len() - 1) } else { String::new() },
         }
     }
 
-    /// The words that names and types alone would allow here; none where it is not about names.
+    /// Words that names and types alone would allow here; none if no name is expected.
     pub(super) fn words<'s>(&self, signatures: &'s Signatures) -> Vec<&'s str> {
         let mut words: Vec<&str> = match (self.kind.as_str(), self.key.as_str()) {
             ("do", "do") => signatures.callables.iter().map(|callable| callable.name.as_str()).collect(),
@@ -48,16 +47,16 @@ impl Place {
                 _ => Vec::new(),
             },
         };
-        words.retain(|word| word.starts_with(&self.begun));
+        words.retain(|word| word.starts_with(&self.started));
         words
     }
 
-    /// Whether a callable is to be named here.
+    /// Is `true` if the name of a callable comes next.
     pub(super) fn is_call(&self) -> bool {
         self.kind == "do" && self.key == "do"
     }
 
-    /// Whether an argument of a callable is to be given here.
+    /// Is `true` if an argument of a call comes next.
     pub(super) fn is_argument(&self) -> bool {
         self.kind == "do" && self.key != "do"
     }
@@ -78,10 +77,10 @@ impl Place {
     }
 }
 
-/// What a word is.
-pub(super) fn describe(signatures: &Signatures, place: &Place, word: &str) -> String {
+/// Describes a word.
+pub(super) fn describe(signatures: &Signatures, place: &PrefixEnd, word: &str) -> String {
     let bare = word.trim_start_matches(['{', '[', '"']);
-    let whole = format!("{}{bare}", place.begun);
+    let whole = format!("{}{bare}", place.started);
     let params = |params: &mut dyn Iterator<Item = (&str, &Type)>| {
         let written: Vec<String> =
             params.map(|(name, ty)| format!("{name}: {}", signatures.type_name(ty))).collect();
@@ -118,38 +117,38 @@ pub(super) fn describe(signatures: &Signatures, place: &Place, word: &str) -> St
     structure(word, bare).to_owned()
 }
 
-/// What a word of the text form is, wherever it stands.
+/// Describes a word of the text syntax at any position.
 pub(super) fn describe_text(signatures: &Signatures, word: &str) -> String {
     let bare = word.trim();
-    let at = |kind: &str, key: &str| Place { kind: kind.into(), key: key.into(), ..Place::default() };
+    let at = |kind: &str, key: &str| PrefixEnd { kind: kind.into(), key: key.into(), ..PrefixEnd::default() };
     let places = [at("do", "do"), at("is", "is"), at("get", "get")];
-    let mut said = places.iter().map(|place| describe(signatures, place, bare));
-    said.find(|said| !said.is_empty()).unwrap_or_default()
+    let mut found = places.iter().map(|place| describe(signatures, place, bare));
+    found.find(|text| !text.is_empty()).unwrap_or_default()
 }
 
-/// What the words of the surface itself are.
+/// Describes a word of the syntax itself.
 fn structure(word: &str, bare: &str) -> &'static str {
     match (word, bare) {
-        (",", _) => "goes on",
+        (",", _) => "continues the list",
         ("]" | "}", _) => "closes",
-        ("\"", _) => "ends the name or the text",
+        ("\"", _) => "ends the name or text",
         (_, "do") => "a call",
         (_, "let") => "a call with a result",
         (_, "end") => "an ending: done, fail or replan",
         (_, "sequence") => "a named group of steps",
         (_, "if") => "steps under a condition",
         (_, "wait") => "waits until a condition holds",
-        (_, "monitor") => "steps with conditions that are watched meanwhile",
+        (_, "monitor") => "steps with conditions that are monitored",
         (_, "try") => "steps with handlers of failures",
         (_, "repeat") => "a loop",
         (_, "each") => "a loop over a list",
-        (_, "parallel") => "branches at once",
+        (_, "parallel") => "parallel branches",
         (_, "is") => "a fluent",
         (_, "get") => "a comparison of a measure",
         (_, "field") => "a comparison of a field",
-        (_, "not" | "all" | "any") => "a condition of conditions",
+        (_, "not" | "all" | "any") => "a combined condition",
         (_, "react") => "a reaction: pause, restart or resume",
-        (_, "null") => "nothing is said",
+        (_, "null") => "no value",
         _ => "",
     }
 }

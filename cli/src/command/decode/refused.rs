@@ -1,4 +1,4 @@
-//! Why words that names and types alone would allow may not follow: the checker is asked about them.
+//! Reasons of the checker against words that names and types alone would allow.
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::{ParamSignature, Type};
@@ -6,16 +6,16 @@ use motet_decode::Acceptor;
 use motet_syntax::Diagnostic;
 
 use super::next::Next;
-use super::place::Place;
+use super::place::PrefixEnd;
 
-/// So many arguments of a call are tried for a reason.
+/// Maximum number of argument lists that are tried for a reason.
 const ATTEMPTS: usize = 8;
 
-/// The words that may not follow, with the reason of each.
+/// Describes the refused words, each with a reason.
 pub(super) fn refused(acceptor: &Acceptor, signatures: &Signatures, next: &Next) -> String {
-    let place = Place::of(acceptor.bytes());
+    let place = PrefixEnd::of(acceptor.bytes());
     let offered = |word: &str| {
-        let rest = word.strip_prefix(place.begun.as_str()).unwrap_or(word);
+        let rest = word.strip_prefix(place.started.as_str()).unwrap_or(word);
         next.words.iter().any(|offered| offered.trim_start_matches(['{', '[', '"']) == rest)
     };
     let words: Vec<&str> = place.words(signatures).into_iter().filter(|word| !offered(word)).collect();
@@ -30,37 +30,37 @@ pub(super) fn refused(acceptor: &Acceptor, signatures: &Signatures, next: &Next)
     text
 }
 
-fn reason(acceptor: &Acceptor, signatures: &Signatures, place: &Place, word: &str) -> String {
+fn reason(acceptor: &Acceptor, signatures: &Signatures, place: &PrefixEnd, word: &str) -> String {
     if place.is_call() || place.is_argument() {
         let callable = if place.is_call() { word } else { place.name.as_str() };
-        let rest = word.strip_prefix(place.begun.as_str()).unwrap_or(word);
+        let rest = word.strip_prefix(place.started.as_str()).unwrap_or(word);
         for attempt in attempts(signatures, place, callable) {
             let why = acceptor.why_not(format!("{rest}\"{attempt}").as_bytes());
-            if let Some(said) = about(&why, callable) {
-                return format!("{}: {}", said.code, said.message);
+            if let Some(found) = about(&why, callable) {
+                return format!("{}: {}", found.code, found.message);
             }
         }
-        return "no argument that there is would do".to_owned();
+        return "no argument makes it valid".to_owned();
     }
     let fluent = signatures.fluent(word).filter(|fluent| !fluent.is_observable);
     let measure = signatures.measure(word).filter(|measure| !measure.is_observable);
     if place.key == "is" && fluent.is_some() || place.key == "get" && measure.is_some() {
         return "the robot does not observe it".to_owned();
     }
-    "no argument that there is would do".to_owned()
+    "no argument makes it valid".to_owned()
 }
 
-/// The finding that is about a call, else the first.
+/// Diagnostic about a call, or else the first one.
 fn about<'w>(why: &'w [Diagnostic], callable: &str) -> Option<&'w Diagnostic> {
-    let is_about = |said: &&Diagnostic| {
-        said.about.as_ref().and_then(|about| about.primitive.as_deref()) == Some(callable)
-            || said.message.contains(&format!("`{callable}`"))
+    let is_about = |found: &&Diagnostic| {
+        found.about.as_ref().and_then(|about| about.primitive.as_deref()) == Some(callable)
+            || found.message.contains(&format!("`{callable}`"))
     };
     why.iter().find(is_about).or_else(|| why.first())
 }
 
-/// What could follow the word in the rest of the call.
-fn attempts(signatures: &Signatures, place: &Place, callable: &str) -> Vec<String> {
+/// Possible rests of the call after the word.
+fn attempts(signatures: &Signatures, place: &PrefixEnd, callable: &str) -> Vec<String> {
     let Some(callable) = signatures.callable(callable) else { return Vec::new() };
     let given = callable.params.iter().position(|param| param.name == place.key).map_or(0, |given| given + 1);
     let params = callable.params.get(given..).unwrap_or_default();
@@ -78,7 +78,7 @@ fn attempts(signatures: &Signatures, place: &Place, callable: &str) -> Vec<Strin
     written.iter().map(|arguments| format!("{arguments}{bound}}}")).collect()
 }
 
-/// Values of a parameter, as written.
+/// Sample values of a parameter, as JSON.
 fn values(signatures: &Signatures, param: &ParamSignature) -> Vec<String> {
     let quoted = |name: &smol_str::SmolStr| format!("\"{name}\"");
     match &param.ty {

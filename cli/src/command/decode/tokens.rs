@@ -1,4 +1,4 @@
-//! The tokens of a vocabulary that may follow.
+//! Tokens of a vocabulary that may continue a policy prefix.
 
 use std::io::Read;
 use std::path::Path;
@@ -7,21 +7,21 @@ use motet_decode::vocabulary::{Encoding, MAX_FILE_BYTES};
 use motet_decode::{AcceptorFactory, EndToken, Vocabulary};
 
 use super::quoted;
-use crate::exit::Trouble;
+use crate::error::CliError;
 
-/// So many are shown, of many the first.
+/// Maximum number of tokens that are shown.
 const SHOWN: usize = 32;
 
-/// The vocabulary of an encoding or a file.
+/// Reads the vocabulary of an encoding or a file.
 ///
 /// # Errors
 ///
-/// The file cannot be read, or is no vocabulary.
-pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, Trouble> {
-    let wrong = |error: motet_decode::VocabularyError| Trouble::Other(format!("`{name}`: {error}"));
+/// The file cannot be read, or is not a vocabulary.
+pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, CliError> {
+    let wrong = |error: motet_decode::VocabularyError| CliError::Message(format!("`{name}`: {error}"));
     if let Some(encoding) = Encoding::named(name) {
         if end.is_some() {
-            return Err(Trouble::Other(format!("`{name}` has an end of its own: `--end` is of a file")));
+            return Err(CliError::Message(format!("`{name}` defines its end; `--end` is only for files")));
         }
         return Vocabulary::of_encoding(encoding).map_err(wrong);
     }
@@ -30,29 +30,29 @@ pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, Tr
         Some(end) => end.parse().map_or(EndToken::Named(end), EndToken::Number),
     };
     let path = Path::new(name);
-    let unread = |source| Trouble::Read { path: path.to_owned(), source };
+    let unread = |source| CliError::read(path, source);
     let file = std::fs::File::open(path).map_err(unread)?;
     let mut bytes = Vec::new();
-    // One byte more is enough for the vocabulary to say that it is too large.
+    // One byte above the limit shows that the file is too large.
     file.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(unread)?;
     Vocabulary::from_file(&bytes, end).map_err(wrong)
 }
 
-/// The tokens that may follow after a beginning, which may.
+/// Describes the tokens that may follow an accepted prefix.
 ///
 /// # Errors
 ///
-/// No policy fits the budget.
-pub(super) fn told(
+/// No policy fits into the budget.
+pub(super) fn describe(
     prepared: &AcceptorFactory,
     vocabulary: &Vocabulary,
-    begun: &[u8],
+    prefix: &[u8],
     budget: usize,
-) -> Result<String, Trouble> {
+) -> Result<String, CliError> {
     let decoder = prepared.decoder(vocabulary, budget);
     let mut decoder =
-        decoder.ok_or_else(|| Trouble::Other(format!("no policy has at most {budget} bytes")))?;
-    decoder.acceptor().accept(begun);
+        decoder.ok_or_else(|| CliError::Message(format!("no policy fits into {budget} bytes")))?;
+    decoder.acceptor().accept(prefix);
     let mask = decoder.mask();
     let may = |token: &u32| mask.get(*token as usize / 32).is_some_and(|word| word >> (token % 32) & 1 == 1);
     let count = u32::try_from(vocabulary.len()).unwrap_or(u32::MAX);
@@ -64,7 +64,7 @@ pub(super) fn told(
         text.push_str(&format!("  {token} {shown}\n"));
     }
     if tokens.len() > SHOWN {
-        text.push_str(&format!("  and {} more\n", tokens.len() - SHOWN));
+        text.push_str(&format!("  … {} more\n", tokens.len() - SHOWN));
     }
     Ok(text)
 }

@@ -1,5 +1,5 @@
-//! The room from above: what stands in it, the robot at the start and at the end of each path, the way of its base, what it opens or
-//! closes, and a legend of all answers.
+//! Drawing of a scene from above: its entities, the robot at the start and at the end of each path, the path
+//! of its base, the doors that it moves, and a legend of all answers.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -9,29 +9,29 @@ use motet_geometry::planning::{
 };
 use motet_robots::scene::Scene;
 
-/// Pixels a metre.
+/// Pixels per metre.
 const SCALE: f64 = 120.0;
-/// Room around everything, in m.
+/// Margin around the drawing, in m.
 const MARGIN: f64 = 0.5;
-/// Width of the legend, and height of a line of it, in pixels.
+/// Width of the legend and height of its lines, in pixels.
 const LEGEND: [f64; 2] = [330.0, 18.0];
 const STYLE: &str = ".thing{fill:#d9d4c7;stroke:#8a8576}.start{fill:#8a8a8a;fill-opacity:.35}\
                      .end{fill-opacity:.18;stroke-opacity:.5}.way{fill:none;stroke-width:2.5}\
                      .moved{fill-opacity:.12;stroke-width:1.5}.mark{fill:none;stroke:#444;stroke-width:1.5}\
                      .number{font-weight:bold;text-anchor:middle}.none{fill:#777}";
-/// Colours that people tell apart whatever colours they see (Okabe and Ito 2008), without the yellow, which is faint on white.
+/// Colours for all kinds of colour vision (Okabe and Ito 2008), without the yellow, which is faint on white.
 const COLOURS: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"];
-/// Of more paths than there are colours those with the same one are dashed differently.
+/// Dashes of the paths that share a colour.
 const DASHES: [&str; 5] = ["none", "8 4", "2 3", "12 3 2 3", "5 2 1 2 1 2"];
 
-/// A polygon with its class and how it is drawn.
+/// Polygon with its CSS class and its line style.
 struct Patch {
     class: &'static str,
     ink: Option<Ink>,
     points: Vec<[f64; 2]>,
 }
 
-/// How what belongs to an answer is drawn.
+/// Line style of an answer.
 #[derive(Clone, Copy)]
 struct Ink {
     colour: &'static str,
@@ -39,7 +39,7 @@ struct Ink {
 }
 
 impl Ink {
-    /// Of the so many-th answer that has a path.
+    /// Style of the answer with this index among those with a path.
     fn of(at: usize) -> Self {
         let colour = COLOURS.get(at % COLOURS.len()).copied().unwrap_or("#000000");
         let dash = DASHES.get(at / COLOURS.len() % DASHES.len()).copied().unwrap_or("none");
@@ -51,7 +51,8 @@ impl Ink {
     }
 }
 
-/// The drawing as SVG: 120 pixels a metre, x to the right, y up; answers are numbered from 1 in their order.
+/// Draws the scene as SVG: 120 pixels per metre, x to the right, y up, answers numbered from 1 in their
+/// order.
 pub(super) fn top_view(
     room: &QueryContext<'_>,
     scene: &Scene,
@@ -111,7 +112,7 @@ pub(super) fn top_view(
     svg + "</svg>\n"
 }
 
-/// How each answer is drawn, where it has a path.
+/// Line style of each answer; `None` without a path.
 fn inks(answers: &[(MotionQuery, MotionAnswer)]) -> Vec<Option<Ink>> {
     let mut next = 0..;
     let ink =
@@ -148,7 +149,7 @@ fn patches(
     patches
 }
 
-/// Where the entities without a shape are.
+/// Positions of the entities without a shape.
 fn marks(room: &QueryContext<'_>, scene: &Scene, world: &SceneState) -> Vec<(String, [f64; 2])> {
     let solid: BTreeSet<_> = room.obstacles().map(|(id, _)| id).collect();
     let others = scene.entities.values().filter(|it| !solid.contains(&it.id) && !world.holds(&it.id));
@@ -159,7 +160,7 @@ fn marks(room: &QueryContext<'_>, scene: &Scene, world: &SceneState) -> Vec<(Str
     others.filter_map(place).collect()
 }
 
-/// The way of the base, with its number where it ends.
+/// Path of the base, with the number of its answer at the end.
 fn path(
     svg: &mut String,
     frame: &Frame,
@@ -186,7 +187,7 @@ fn path(
     }
 }
 
-/// The legend: of each answer its number, a piece of its line, the motion and the verdict.
+/// Legend: number, line sample, motion and verdict of each answer.
 fn listed(svg: &mut String, left: f64, answers: &[(MotionQuery, MotionAnswer)], inks: &[Option<Ink>]) {
     let [_, row] = LEGEND;
     for (((query, answer), ink), number) in answers.iter().zip(inks).zip(1..) {
@@ -218,7 +219,7 @@ fn listed(svg: &mut String, left: f64, answers: &[(MotionQuery, MotionAnswer)], 
     }
 }
 
-/// From the map to the drawing.
+/// Transforms a point from the map to the drawing.
 struct Frame {
     low: [f64; 2],
     high: [f64; 2],

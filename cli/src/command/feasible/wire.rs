@@ -1,11 +1,11 @@
-//! An answer as a line of JSON. Lengths in m, angles in rad, masses in kg; keys in a fixed order.
+//! Answers as lines of JSON. Lengths are in m, angles in rad, masses in kg; keys have a fixed order.
 
 use motet_geometry::planning::{
     Configuration, GraspSide, MotionAnswer, MotionQuery, MotionWitness, RobotModel, UnknownReason, components,
 };
 use serde_json::{Map, Value, json};
 
-/// One answer.
+/// MotionAnswer as a line of JSON.
 pub(super) fn line(machine: &RobotModel, query: &MotionQuery, answer: &MotionAnswer) -> String {
     let mut object = Map::new();
     object.insert("query".into(), query.to_string().into());
@@ -27,7 +27,7 @@ pub(super) fn line(machine: &RobotModel, query: &MotionQuery, answer: &MotionAns
         MotionAnswer::Unknown(unknown) => {
             object.insert("answer".into(), "unknown".into());
             let why = match unknown {
-                UnknownReason::Budget => "the search was cut short",
+                UnknownReason::Budget => "the search ran out of its budget",
                 UnknownReason::Because(why) => why.as_str(),
             };
             object.insert("says".into(), why.into());

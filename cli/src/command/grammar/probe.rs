@@ -1,4 +1,4 @@
-//! `motet grammar probe`: whether a server holds a model to a grammar, or only seems to.
+//! `motet grammar probe`: tests whether a server enforces a grammar.
 
 use std::time::Duration;
 
@@ -6,55 +6,54 @@ use motet_client::{ApiKey, Client, ClientSettings, ServerUrl, content};
 use motet_decode::export::probe_body;
 use serde_json::Value;
 
-use super::dialect;
-use crate::args::ProbeArgs;
-use crate::exit::{Exit, Trouble};
-use crate::out::Out;
+use super::{ProbeArgs, dialect};
+use crate::error::{CliError, Exit};
+use crate::output::Output;
 
-/// How much of an answer is shown.
+/// Number of characters of an answer that are shown.
 const SHOWN_CHARS: usize = 80;
 
 /// Runs the command.
 ///
 /// # Errors
 ///
-/// The server cannot be reached, refuses the request, or answers with something that is no chat answer.
-pub(super) fn run(args: &ProbeArgs) -> Result<Exit, Trouble> {
+/// The server cannot be reached, refuses the request, or does not answer with a chat message.
+pub(super) fn run(args: &ProbeArgs) -> Result<Exit, CliError> {
     let dialect = dialect(args.dialect);
-    let url = ServerUrl::new(&args.url, Some(dialect)).map_err(Trouble::Other)?;
+    let url = ServerUrl::new(&args.url, Some(dialect)).map_err(CliError::Message)?;
     let (body, demanded) = probe_body(dialect, &args.model);
     let answer = ask(args, url.clone(), &body)?;
     let said = content(&answer)
-        .ok_or_else(|| Trouble::Other(format!("`{url}` did not answer with a chat message")))?;
+        .ok_or_else(|| CliError::Message(format!("`{url}` did not answer with a chat message")))?;
     let is_held = serde_json::from_str::<Value>(said.trim()).is_ok_and(|answer| answer == demanded);
     if !is_held && is_cut(said, &demanded) {
-        return Err(Trouble::Other(format!(
-            "`{url}` broke its answer off at `{}`: whether it holds the model to the grammar cannot be told",
+        return Err(CliError::Message(format!(
+            "`{url}` cut its answer off at `{}`, so the test is inconclusive",
             said.trim()
         )));
     }
-    let mut out = Out::default();
+    let mut out = Output::default();
     let exit = if is_held {
-        out.line(&format!("{url}: the model is held to the grammar"));
-        Exit::Clean
+        out.line(&format!("{url}: the server enforces the grammar"));
+        Exit::Success
     } else {
         let shown: String = said.trim().chars().take(SHOWN_CHARS).collect();
         out.line(&format!(
-            "{url}: the grammar is ignored: asked for {demanded} and nothing else, it answered `{shown}`"
+            "{url}: the server ignores the grammar: restricted to {demanded}, it answered `{shown}`"
         ));
         Exit::Findings
     };
     crate::report::close(&mut out, Ok(exit))
 }
 
-/// Whether an answer is the beginning of what the grammar demands, and no more.
+/// Is `true` if an answer is a proper prefix of the one that the grammar demands.
 fn is_cut(said: &str, demanded: &Value) -> bool {
     let bare = |text: &str| text.chars().filter(|letter| !letter.is_whitespace()).collect::<String>();
     bare(&demanded.to_string()).starts_with(&bare(said))
 }
 
-fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, Trouble> {
-    let trouble = |why: String| Trouble::Other(format!("cannot ask `{address}`: {why}"));
+fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliError> {
+    let failed = |why: String| CliError::Message(format!("cannot ask `{address}`: {why}"));
     let timeout = Duration::from_secs(args.timeout);
     let key = args.key_from.as_deref().map(key).transpose()?;
     let settings = ClientSettings {
@@ -64,15 +63,15 @@ fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, Trou
         ..ClientSettings::new(address.clone(), &args.model)
     };
     let answer = Client::new(settings).and_then(|client| client.once(body));
-    answer.map_err(|why| trouble(why.to_string()))
+    answer.map_err(|why| failed(why.to_string()))
 }
 
-/// The key in a variable of the environment.
+/// Reads the server's key from an environment variable.
 ///
 /// # Errors
 ///
-/// There is none.
-pub(in crate::command) fn key(variable: &str) -> Result<ApiKey, Trouble> {
+/// The variable is not set.
+pub(in crate::command) fn key(variable: &str) -> Result<ApiKey, CliError> {
     ApiKey::from_variable(variable)
-        .ok_or_else(|| Trouble::Other(format!("there is no variable `{variable}` with a key in it")))
+        .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }

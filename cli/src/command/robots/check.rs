@@ -1,63 +1,64 @@
-//! `motet robots check`: whether a card, its declarations and its URDF are sound and fit each other, and what they come to.
+//! `motet robots check`: checks that a card, its declarations and its URDF are correct and fit each other,
+//! and describes the body.
 
 use motet_compiler::{Options, Session};
 use motet_geometry::kinematics::KinematicChain;
 use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
+use motet_project::{ProjectError, RobotFiles, require};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
 use motet_syntax::Sources;
 
-use crate::exit::{Exit, Trouble};
-use crate::out::count;
+use crate::error::{CliError, Exit};
+use crate::output::count;
 use crate::report::Report;
-use crate::workbench::Card;
 
 /// Runs the command.
 ///
 /// # Errors
 ///
 /// There is no such robot, or its files cannot be read.
-pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
-    let card = Card::find(name)?;
+pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, CliError> {
+    let files = RobotFiles::find(name)?;
     let mut sources = Sources::default();
-    let found = card.read(&mut sources, report).and_then(|robot| {
-        // Both are looked at, so that all there is to mend is told at once.
-        let (_, said) = Session::new(Some(&robot), &[], None, None, Options::default(), &mut sources);
-        let declared = report.usable("robot card", &said, &sources);
-        let urdf = card.body(&robot, &mut sources, report)?;
+    let found = files.card(&mut sources, report).and_then(|robot| {
+        // Both are checked, so that one run reports all errors.
+        let (_, diagnostics) = Session::new(Some(&robot), &[], None, None, Options::default(), &mut sources);
+        let declared = require("robot card", &diagnostics, &sources, report);
+        let urdf = files.body(&robot, &mut sources, report)?;
         declared.map(|()| (robot, urdf))
     });
     match found {
         Ok((robot, urdf)) => {
-            let told = urdf.map_or_else(
-                || Told { lines: vec![NO_BODY.to_owned()], warnings: 0 },
-                |urdf| told(&robot, &urdf),
+            let described = urdf.map_or_else(
+                || BodyReport { lines: vec![NO_BODY.to_owned()], warnings: 0 },
+                |urdf| describe(&robot, &urdf),
             );
-            report.warned(told.warnings);
+            report.count_warnings(described.warnings);
             let title = robot.title.escape_debug();
             report.out.line(&format!("{title} ({}): {}", robot.name, report.tally()));
-            for line in told.lines {
+            for line in described.lines {
                 report.out.line(&format!("  {line}"));
             }
-            Ok(Exit::Clean)
+            Ok(Exit::Success)
         }
-        // What is wrong has been printed.
-        Err(Trouble::Diagnosed(_)) => Ok(Exit::Findings),
-        Err(other) => Err(other),
+        // The errors have been printed.
+        Err(ProjectError::Invalid { .. }) => Ok(Exit::Findings),
+        Err(other) => Err(other.into()),
     }
 }
 
 const NO_BODY: &str = "the card names no URDF under [model], so no motion can be computed";
 
-/// What a body comes to.
-struct Told {
+/// Description of a body.
+struct BodyReport {
     lines: Vec<String>,
-    /// How many of the lines warn.
+    /// Number of warnings among the lines.
     warnings: usize,
 }
 
-impl Told {
+impl BodyReport {
     fn warn(&mut self, posture: &str, what: &str, help: &str) {
         self.warnings += 1;
         self.lines.push(format!("{posture:8}  warning: {what}"));
@@ -65,12 +66,12 @@ impl Told {
     }
 }
 
-fn told(robot: &Robot, urdf: &Urdf) -> Told {
+fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
     let machine = RobotModel::new(robot, urdf);
     let tree = machine.tree();
     let solids: usize = urdf.links.iter().map(|link| link.collisions.len()).sum();
     let mut lines = vec![format!(
-        "body      {}, {}, of which {} by themselves, {} for collision",
+        "body      {}, {} ({} independently), {} for collision",
         count(urdf.links.len(), "link"),
         count(urdf.joints.len(), "joint"),
         match tree.dofs().len() {
@@ -84,29 +85,29 @@ fn told(robot: &Robot, urdf: &Urdf) -> Told {
     for (name, hand) in &robot.hands {
         let tip = hand.tip.as_deref().and_then(|tip| tree.link(tip).ok());
         let Some(chain) = tip.and_then(|tip| KinematicChain::new(tree, base, tip)) else {
-            lines.push(format!("{name:8}  not carried by the base's link"));
+            lines.push(format!("{name:8}  not connected to the base link"));
             continue;
         };
-        // How high the base's link is does not tell which solver it is.
+        // The height of the base does not change the solver.
         let found = IkSolver::of(&chain, robot.base.drive, 0.0);
         lines.push(format!("{name:8}  {}: {}", count(chain.dofs.len(), "joint"), solver(&found)));
     }
     lines.extend(machine.body().uncovered_links().iter().filter_map(|link| {
         Some(format!(
-            "`{}` has a mesh that is not read, so no motion is computed",
+            "the mesh of `{}` was not read, so no motion is computed",
             tree.links().get(*link)?.escape_debug()
         ))
     }));
-    let mut told = Told { lines, warnings: 0 };
-    postures(&machine, &mut told);
-    told
+    let mut described = BodyReport { lines, warnings: 0 };
+    postures(&machine, &mut described);
+    described
 }
 
-/// How far a part may be below the floor: less is how a foot was measured, in m.
-const SUNK: f64 = 0.01;
+/// Tolerance of a part below the floor, in m: the accuracy of a foot's height.
+const FLOOR_TOLERANCE: f64 = 0.01;
 
-/// What the robot touches in its postures, and what of it is below the floor.
-fn postures(machine: &RobotModel, told: &mut Told) {
+/// Describes contacts and parts below the floor in each posture.
+fn postures(machine: &RobotModel, described: &mut BodyReport) {
     let scene = Scene::default();
     let mut world = SceneState::new(machine, &scene);
     for posture in machine.card().postures.keys() {
@@ -115,40 +116,42 @@ fn postures(machine: &RobotModel, told: &mut Told) {
         let room = QueryContext::new(machine, &scene, &world);
         let name = posture.escape_debug().to_string();
         let touch = room.contact(&world.robot, AllowedCollisions::default());
-        let sunk = machine.lowest(&world.robot, |_| true).filter(|(_, height)| *height < -SUNK);
+        let sunk = machine.lowest(&world.robot, |_| true).filter(|(_, height)| *height < -FLOOR_TOLERANCE);
         if touch.is_none() && sunk.is_none() {
-            told.lines.push(format!("{name:8}  touches neither itself nor the floor"));
+            described.lines.push(format!("{name:8}  touches neither itself nor the floor"));
         }
         if let Some(Contact { link, other, is_own }) = touch {
             let (link, other) = (link.escape_debug(), other.escape_debug());
             let instead = format!("give joints other positions under `[postures.{name}]`");
             let help = if is_own {
                 format!(
-                    "{instead}, or an SRDF as `srdf` in `[model]` that lets the two touch: `<disable_collisions link1=\"{link}\" link2=\"{other}\"/>`"
+                    "{instead}, or allow the contact by an SRDF, named as `srdf` in `[model]`: \
+                     `<disable_collisions link1=\"{link}\" link2=\"{other}\"/>`"
                 )
             } else {
                 format!("{instead}, or a greater `height` in `[model]`")
             };
-            told.warn(&name, &format!("`{link}` touches `{other}`"), &help);
+            described.warn(&name, &format!("`{link}` touches `{other}`"), &help);
         }
         if let Some((link, height)) = sunk {
             let base = machine.card().model.as_ref().map_or(0.0, |model| model.height_m);
             let what = format!("`{}` is {:.2} m below the floor", link.escape_debug(), -height);
             let help = format!(
-                "`height` in `[model]` is how high the base's link is above the floor; with {:.3} m this part is on it",
+                "`height` in `[model]` is the height of the base link above the floor; \
+                 {:.3} m puts this part on the floor",
                 base - height
             );
-            told.warn(&name, &what, &help);
+            described.warn(&name, &what, &help);
         }
     }
 }
 
-/// How joint positions for a pose of a hand are found.
+/// Name of the inverse kinematics of a hand.
 fn solver(solver: &IkSolver) -> &'static str {
     match solver {
-        IkSolver::Lift(_) => "closed form, a lift and a wrist whose axes meet",
-        IkSolver::Parallel(_) => "closed form, six joints of which three are parallel",
-        IkSolver::Seven(_) => "closed form, seven joints with a shoulder, an elbow and a wrist",
-        IkSolver::Steps(_) => "solved in steps",
+        IkSolver::Lift(_) => "closed form: a lift and a wrist with intersecting axes",
+        IkSolver::Parallel(_) => "closed form: six joints, three of them parallel",
+        IkSolver::Seven(_) => "closed form: seven joints with shoulder, elbow and wrist",
+        IkSolver::Steps(_) => "numeric",
     }
 }

@@ -1,69 +1,76 @@
-//! `motet run --resume`: goes on with a run whose process ended before it did.
+//! `motet run --resume`: continues a run whose process ended before it did.
 
 use std::path::Path;
 
+use motet::run::unix_ns;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
 use motet_planner::runtime_check::{CheckMode, Guard};
+use motet_project::{SavedDriver, SavedProject};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
 use motet_runtime::{Driver, Event, Time, Verifier as _};
 
-use super::drive;
-use super::pace::Pace;
-use super::play::{self, Play, journal_trouble};
-use super::saved::Saved;
-use super::view::Clock;
-use crate::args::RunArgs;
-use crate::exit::{Exit, Trouble};
-use crate::out::{Colors, note};
+use super::RunArgs;
+use crate::command::drive::connect;
+use crate::error::{CliError, Exit};
+use crate::output::{Colors, count, note};
+use crate::report::Report;
+use crate::run_view::{Clock, view};
+use crate::runner::{PacedView, Runner, exit_of, journal_error};
 
-/// Rebuilds the engine and the world from a journal, and goes on.
+/// Rebuilds the engine and the simulator from a journal, and continues.
 ///
 /// # Errors
 ///
-/// The journal cannot be read, is damaged, or the engine or the world does not do the same again.
-pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
+/// The journal cannot be read or is damaged, or the replay differs from it.
+pub(super) fn resume(
+    folder: &Path,
+    args: &RunArgs,
+    colors: Colors,
+    report: &mut Report,
+) -> Result<Exit, CliError> {
     let mut entries = Vec::new();
     let (mut writer, tail) =
-        JournalWriter::open(folder, &mut |_, entry| entries.push(entry)).map_err(journal_trouble)?;
+        JournalWriter::open(folder, &mut |_, entry| entries.push(entry)).map_err(journal_error)?;
     let Some(JournalEntry::Head(head)) = entries.first() else {
-        return Err(Trouble::Other("the journal has no head".to_owned()));
+        return Err(CliError::Message("the journal has no head".to_owned()));
     };
-    let mut replay = EngineReplay::new(head).map_err(|error| Trouble::Other(error.to_string()))?;
-    let saved = Saved::of(&head.driver)?;
-    let mut world = match &saved {
-        Saved::Simulator(saved) => Some(saved.make()?),
-        Saved::Process { .. } => None,
+    let mut replay = EngineReplay::new(head).map_err(|error| CliError::Message(error.to_string()))?;
+    let saved = SavedDriver::from_json(&head.driver)?;
+    let mut simulator = match &saved {
+        SavedDriver::Simulator(saved) => Some(saved.open()?),
+        SavedDriver::Process { .. } => None,
     };
     let clock = match &saved {
-        Saved::Simulator(_) => Clock::Simulated,
-        Saved::Process { .. } => Clock::Wall,
+        SavedDriver::Simulator(_) => Clock::Simulated,
+        SavedDriver::Process { .. } => Clock::Wall,
     };
-    let view = play::view(args.format, replay.engine().graph(), colors, clock);
-    let mut pace = Pace::new(view, args.simulated.speed);
+    let view = view(args.format, replay.engine().graph(), colors, clock);
+    let mut paced = PacedView::new(view, args.simulation.speed);
     let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
     let verifies = match &saved {
-        Saved::Simulator(_) => args.simulated.speed.verifies(),
-        Saved::Process { .. } => CheckMode::Beside,
+        SavedDriver::Simulator(_) => args.simulation.speed.verifies(),
+        SavedDriver::Process { .. } => CheckMode::Beside,
     };
-    let guard = saved.guard().filter(|_| head.settings.verify_within.is_some());
-    let mut guard = guard.and_then(|guard| guard.make(colors)).map(|course| Guard::new(course, verifies));
+    let checked = saved.project().filter(|_| head.settings.verify_within.is_some());
+    let course = checked.and_then(|checked| open_course(checked, report));
+    let mut guard = course.map(|course| Guard::new(course, verifies));
     let mut begun = false;
     for (number, entry) in entries.iter().enumerate() {
-        let differs = |what: String| Trouble::Other(format!("entry {number} of the journal: {what}"));
+        let differs = |why: String| CliError::Message(format!("entry {number} of the journal: {why}"));
         match replay.take(entry) {
             Ok(None) => {}
             Ok(Some(_)) => {
                 return Err(differs(
-                    "the engine does something else now; `motet replay` shows what".to_owned(),
+                    "the engine acts differently now; `motet replay` shows the difference".to_owned(),
                 ));
             }
             Err(error) => return Err(differs(error.to_string())),
         }
-        if let Some(world) = &mut world {
-            retrace.take(world, entry).map_err(|astray| differs(astray.to_string()))?;
+        if let Some(simulator) = &mut simulator {
+            retrace.take(simulator, entry).map_err(|astray| differs(astray.to_string()))?;
         }
         if let Some(guard) = &mut guard {
             if let JournalEntry::Step(StepEntry { event: Some(event), .. }) = entry {
@@ -72,53 +79,69 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
             replay.effects().iter().for_each(|effect| guard.effect(effect));
         }
         ledger.take(entry);
-        pace.past(replay.now(), replay.effects());
+        paced.past(replay.now(), replay.effects());
         begun |= matches!(entry, JournalEntry::Step(step) if step.event == Some(Event::Begin));
     }
     if ledger.is_over {
-        note("the run is over, nothing is left to do");
+        note("the run is over; nothing is left to do");
         let end = replay.effects().iter().find_map(|effect| match effect {
-            motet_runtime::Effect::Finished(end) => Some(play::exit(end)),
+            motet_runtime::Effect::Finished(end) => Some(exit_of(end)),
             _ => None,
         });
-        return Ok(end.unwrap_or(Exit::Clean));
+        return Ok(end.unwrap_or(Exit::Success));
     }
     let from = now(head, &saved, replay.now());
     let mut events = if begun { Vec::new() } else { vec![Event::Begin] };
-    let unix_ns = play::unix_ns();
+    let unix_ns = unix_ns();
     let resumed = JournalEntry::Resumed(ResumeEntry { unix_ns, cut_bytes: tail.torn_bytes });
-    writer.append(|chain| chain.line(resumed)).and_then(|()| writer.sync()).map_err(journal_trouble)?;
+    writer.append(|chain| chain.line(resumed)).and_then(|()| writer.sync()).map_err(journal_error)?;
     let cut = match tail.torn_bytes {
         0 => String::new(),
-        bytes => format!("; {bytes} bytes of an unfinished entry were cut off"),
+        bytes => format!("; cut off {bytes} bytes of an unfinished entry"),
     };
-    let goals = crate::out::count(ledger.goals.len(), "goal");
+    let goals = count(ledger.goals.len(), "goal");
     note(&format!("resumed at {} after {} entries, {goals} open{cut}", replay.now(), entries.len()));
-    let pace = pace.with_guard(guard);
-    let driver: Box<dyn Driver> = match (saved, world) {
-        (Saved::Process { address, instance, .. }, _) => {
+    let paced = paced.with_guard(guard);
+    let driver: Box<dyn Driver> = match (saved, simulator) {
+        (SavedDriver::Process { address, instance, .. }, _) => {
             let hello = Hello::of(replay.engine().graph());
-            let mut driver = drive::connect(&address.into(), hello, from)?;
+            let mut driver = connect(&address.into(), hello, from)?;
             let caught_up = driver.catch_up(&ledger, &instance, from);
-            events.extend(caught_up.map_err(|breakage| Trouble::Other(breakage.to_string()))?);
+            events.extend(caught_up.map_err(|breakage| CliError::Message(breakage.to_string()))?);
             Box::new(driver)
         }
-        (Saved::Simulator(_), Some(world)) => Box::new(world),
-        (Saved::Simulator(saved), None) => Box::new(saved.make()?),
+        (SavedDriver::Simulator(_), Some(simulator)) => Box::new(simulator),
+        (SavedDriver::Simulator(saved), None) => Box::new(saved.open()?),
     };
     let mut driver = driver;
     let engine = replay.into_engine();
-    let play = Play { engine, driver: &mut *driver, journal: Some(writer), from, events };
-    Ok(play::exit(&play.run(pace)?))
+    Runner { engine, driver: &mut *driver, journal: Some(writer), from, events }.run(paced)
 }
 
-/// The time at which the run goes on. A world of its own has stood still meanwhile; for a robot the time went on.
-fn now(head: &JournalHead, saved: &Saved, last: Time) -> Time {
+/// Time at which the run continues. Simulated time has stood still since the crash; the time of a robot has
+/// not.
+fn now(head: &JournalHead, saved: &SavedDriver, last: Time) -> Time {
     match saved {
-        Saved::Simulator(_) => last,
-        Saved::Process { .. } => {
-            let passed = play::unix_ns().saturating_sub(head.began_unix_ns);
+        SavedDriver::Simulator(_) => last,
+        SavedDriver::Process { .. } => {
+            let passed = unix_ns().saturating_sub(head.began_unix_ns);
             head.from.after(Time::from_nanos(passed)).max(last)
+        }
+    }
+}
+
+/// World tracker at the beginning of the run; `None`, with a note, if the files of the project are gone or
+/// have changed.
+fn open_course(saved: &SavedProject, report: &mut Report) -> Option<motet_compiler::Course> {
+    match saved.open(report) {
+        Ok(Some(course)) => Some(course),
+        Ok(None) => {
+            note("the scene has changed since the run began: deferred motions are left to the driver");
+            None
+        }
+        Err(error) => {
+            note(&format!("deferred motions are left to the driver: {}", CliError::from(error)));
+            None
         }
     }
 }

@@ -112,7 +112,7 @@ impl Converter {
         }
     }
 
-    fn call_step(&mut self, mut step: wire::Do, span: Span, depth: usize) -> Do {
+    fn call_step(&mut self, mut step: super::term::Do, span: Span, depth: usize) -> Do {
         // A key of another step is no argument, not even one that does not exist.
         step.args.0.retain(|(key, _)| {
             let is_reserved = words::json_key_owner(&key.value).is_some();

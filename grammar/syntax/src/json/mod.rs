@@ -32,20 +32,16 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use smol_str::{SmolStr, format_smolstr};
 
-pub use crate::located::{Lenient, Spanned};
+pub use crate::located::{Lenient, MAX_BRACKETS, Spanned};
 
-use crate::ast::{File, Item, MAX_BYTES, MAX_NESTING};
+use crate::ast::{File, Item, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
 use crate::errors::{
     BadValue, DocumentKind, Empty, MissingKey, NoForm, NumberRange, TooLarge, TwoForms, UnknownKey, WrongType,
 };
-use crate::located::{self, Fault, Located, LocatedValue, Mismatch, Problem};
+use crate::located::{self, Fault, Located, LocatedValue, Mismatch, MismatchKind};
 use crate::source::{FileId, Source, Span};
 use crate::suggest;
-
-/// Greatest depth of brackets in a JSON document. One block of a policy takes up to four: the handlers of a
-/// `try` are an object in an array in an object in an array.
-pub const MAX_BRACKETS: usize = 4 * MAX_NESTING + 8;
 
 /// Reads a document as a `T`, with all its mistakes.
 ///
@@ -122,36 +118,38 @@ fn explain<T: JsonSchema>(tree: &Located<'_>, faults: Vec<Fault>) -> Vec<Diagnos
 }
 
 fn diagnostic(mismatch: Mismatch<'_>) -> Diagnostic {
-    let Mismatch { node, pointer, problem } = mismatch;
+    let Mismatch { node, pointer, kind } = mismatch;
     let span = node.span;
     let text = || SmolStr::new(node.text().unwrap_or(""));
     let owned = |words: Vec<&str>| -> Vec<SmolStr> { words.into_iter().map(SmolStr::new).collect() };
-    let mut diagnostic: Diagnostic = match problem {
-        Problem::UnknownKey { known, .. } => UnknownKey { key: text(), span, expected: owned(known) }.into(),
-        Problem::MissingKey { key } => MissingKey { key: key.into(), span: node.head() }.into(),
-        Problem::WrongType { types, words, name } => {
+    let mut diagnostic: Diagnostic = match kind {
+        MismatchKind::UnknownKey { known, .. } => {
+            UnknownKey { key: text(), span, expected: owned(known) }.into()
+        }
+        MismatchKind::MissingKey { key } => MissingKey { key: key.into(), span: node.head() }.into(),
+        MismatchKind::WrongType { types, words, name } => {
             let expected = match name {
                 Some(name) => format!("an object that is a {}", name.to_lowercase()),
                 None => located::phrase(&types, &words),
             };
             WrongType { span, expected: expected.into(), found: phrase(node) }.into()
         }
-        Problem::WrongLength { expected, found } => {
+        MismatchKind::WrongLength { expected, found } => {
             let found = if found == 1 { "one".into() } else { format_smolstr!("{found}") };
             WrongType { span, expected: format_smolstr!("an array of {expected} elements"), found }.into()
         }
-        Problem::OutOfRange { least, greatest } => {
+        MismatchKind::OutOfRange { least, greatest } => {
             let expected = match greatest {
                 Some(greatest) => format_smolstr!("a whole number from {least} to {greatest}"),
                 None => format_smolstr!("a whole number from {least}"),
             };
             NumberRange { span, found: number(node), expected: Some(expected) }.into()
         }
-        Problem::UnknownWord { known } => {
+        MismatchKind::UnknownWord { known } => {
             let message = format!("`{}` is not known here", text());
             BadValue { expected: owned(known), found: text(), ..BadValue::new(span, message) }.into()
         }
-        Problem::NoForm { forms } => {
+        MismatchKind::NoForm { forms } => {
             let meant = node.members().iter().find_map(|(key, _)| {
                 let meant = suggest::closest(key.text()?, forms.iter().copied())?;
                 Some((key.span, (SmolStr::new(key.text()?), SmolStr::new(meant))))
@@ -159,7 +157,7 @@ fn diagnostic(mismatch: Mismatch<'_>) -> Diagnostic {
             let span = meant.as_ref().map_or(node.head(), |(span, _)| *span);
             NoForm { span, forms: owned(forms), meant: meant.map(|(_, meant)| meant) }.into()
         }
-        Problem::TwoForms { first } => TwoForms {
+        MismatchKind::TwoForms { first } => TwoForms {
             span,
             first: first.text().unwrap_or("").into(),
             first_span: first.span,

@@ -1,4 +1,4 @@
-//! Conditions and terms in JSON, as they are read, written and described. Part of [`super::wire`].
+//! Wire types of calls, conditions and terms in JSON, as they are read, written and described. [`super::wire`] builds on them.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -11,7 +11,6 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smol_str::SmolStr;
 
 use super::Spanned;
-use super::wire::Do;
 use crate::located::{MIXED, Number};
 
 /// A literal, a binding, or a form.
@@ -67,6 +66,25 @@ pub(crate) enum Form {
     /// A field of an entity.
     #[schemars(untagged)]
     Field(Field),
+}
+
+/// Runs one primitive or sub-policy. Every other key is an argument, under the name of its parameter.
+#[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
+pub(crate) struct Do {
+    /// The primitive or sub-policy.
+    pub(crate) r#do: Spanned<SmolStr>,
+    /// Arguments by parameter.
+    #[serde(flatten)]
+    pub(crate) args: Args,
+    /// Deadline of the call.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) within: Option<Box<Duration>>,
+    /// Number of retries after a failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) retry: Option<Box<Count>>,
+    /// The name that its result is bound to; `"$name"` stands for it afterwards.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) r#as: Option<Box<Spanned<SmolStr>>>,
 }
 
 /// The two sides of a comparison or a calculation.

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-use super::term::{Args, Condition, Count, Duration, Term};
+use super::term::{Condition, Count, Do, Duration, Term};
 use super::{Lenient, Spanned};
 
 /// A Motet policy.
@@ -65,25 +65,6 @@ pub(crate) enum Step {
     Parallel(Parallel),
     /// An ending of the policy.
     End(End),
-}
-
-/// Runs one primitive or sub-policy. Every other key is an argument, under the name of its parameter.
-#[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
-pub(crate) struct Do {
-    /// The primitive or sub-policy.
-    pub(crate) r#do: Spanned<SmolStr>,
-    /// Arguments by parameter.
-    #[serde(flatten)]
-    pub(crate) args: Args,
-    /// Deadline of the call.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) within: Option<Box<Duration>>,
-    /// Number of retries after a failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) retry: Option<Box<Count>>,
-    /// The name that its result is bound to; `"$name"` stands for it afterwards.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) r#as: Option<Box<Spanned<SmolStr>>>,
 }
 
 /// A named group of steps.

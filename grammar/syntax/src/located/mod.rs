@@ -14,9 +14,10 @@ mod spanned;
 use std::borrow::Cow;
 
 pub(crate) use de::{Fault, MIXED, OPEN, deserialize};
+pub use parse::MAX_BRACKETS;
 pub(crate) use parse::parse_json;
 pub(crate) use schema::phrase;
-pub use schema::{Mismatch, Problem, check_schema};
+pub use schema::{Mismatch, MismatchKind, check_schema};
 pub use spanned::{Lenient, Spanned};
 
 use crate::source::Span;

@@ -8,11 +8,14 @@ use std::borrow::Cow;
 use rustc_hash::FxHashSet;
 
 use super::{Located, LocatedValue, Number};
-use crate::ast::MAX_TOKENS;
+use crate::ast::{MAX_NESTING, MAX_TOKENS};
 use crate::diagnostic::Diagnostic;
 use crate::errors::{DuplicateKey, JsonSyntax, NumberRange, SyntaxFault, TooDeep, TooManyTokens};
-use crate::json::MAX_BRACKETS;
 use crate::source::{FileId, Span};
+
+/// Greatest depth of brackets in a JSON document. One block of a policy takes up to four: the handlers of a
+/// `try` are an object in an array in an object in an array.
+pub const MAX_BRACKETS: usize = 4 * MAX_NESTING + 8;
 
 /// Objects with more keys than this look for duplicates in a hash set.
 const FEW_KEYS: usize = 16;

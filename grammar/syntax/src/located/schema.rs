@@ -15,12 +15,12 @@ pub struct Mismatch<'t> {
     pub node: &'t Located<'t>,
     /// JSON Pointer of the part.
     pub pointer: String,
-    pub problem: Problem<'t>,
+    pub kind: MismatchKind<'t>,
 }
 
 /// Ways in which a part of a document does not fit its schema.
 #[derive(Clone, Debug)]
-pub enum Problem<'t> {
+pub enum MismatchKind<'t> {
     /// The object does not know the key. Lists the keys that it knows.
     UnknownKey { object: &'t Located<'t>, known: Vec<&'t str> },
     /// The object lacks a required key.
@@ -100,7 +100,7 @@ impl<'t> SchemaCheck<'t> {
                     known.extend(words);
                 }
                 if !known.contains(&text.as_ref()) {
-                    self.report(node, Problem::UnknownWord { known });
+                    self.report(node, MismatchKind::UnknownWord { known });
                 }
             }
             (LocatedValue::Number(number), [leaf, ..]) => {
@@ -118,7 +118,7 @@ impl<'t> SchemaCheck<'t> {
         let Some((first, form)) = node.members().iter().find_map(|(key, _)| Some((key, form_of(key)?)))
         else {
             let heads = forms.iter().filter_map(|form| head(form.schema)).collect();
-            return self.report(node, Problem::NoForm { forms: heads });
+            return self.report(node, MismatchKind::NoForm { forms: heads });
         };
         let second = node.members().iter().map(|(key, _)| key).find(|key| {
             let is_key = |key: &str| property(form.schema, key).is_some() || is_open(form.schema).is_some();
@@ -127,7 +127,7 @@ impl<'t> SchemaCheck<'t> {
         match second {
             Some(second) => {
                 let key = second.text().unwrap_or("");
-                self.inside(key, |check| check.report(second, Problem::TwoForms { first }));
+                self.inside(key, |check| check.report(second, MismatchKind::TwoForms { first }));
             }
             None => self.object(node, form.schema),
         }
@@ -141,14 +141,14 @@ impl<'t> SchemaCheck<'t> {
                 Some(inner) => check.value(value, inner),
                 None => {
                     let known = properties(schema).collect();
-                    check.report(key, Problem::UnknownKey { object: node, known });
+                    check.report(key, MismatchKind::UnknownKey { object: node, known });
                 }
             });
         }
         let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
         for key in required.filter_map(Json::as_str) {
             if !node.members().iter().any(|(known, _)| known.text() == Some(key)) {
-                self.report(node, Problem::MissingKey { key });
+                self.report(node, MismatchKind::MissingKey { key });
             }
         }
     }
@@ -158,7 +158,7 @@ impl<'t> SchemaCheck<'t> {
         if let Some(expected) = bound("maxItems").filter(|most| bound("minItems") == Some(*most))
             && items.len() as u64 != expected
         {
-            return self.report(node, Problem::WrongLength { expected, found: items.len() });
+            return self.report(node, MismatchKind::WrongLength { expected, found: items.len() });
         }
         let Some(inner) = schema.get("items") else { return };
         for (index, item) in items.iter().enumerate() {
@@ -173,8 +173,8 @@ impl<'t> SchemaCheck<'t> {
         self.pointer.truncate(length);
     }
 
-    fn report(&mut self, node: &'t Located<'t>, problem: Problem<'t>) {
-        self.found.push(Mismatch { node, pointer: self.pointer.clone(), problem });
+    fn report(&mut self, node: &'t Located<'t>, kind: MismatchKind<'t>) {
+        self.found.push(Mismatch { node, pointer: self.pointer.clone(), kind });
     }
 
     /// Collects the alternatives of a schema, through `$ref`.
@@ -247,11 +247,11 @@ fn head(schema: &Json) -> Option<&str> {
     schema.get("required").and_then(Json::as_array).and_then(|keys| keys.first()).and_then(Json::as_str)
 }
 
-fn wrong_type<'t>(leaves: &[Leaf<'t>]) -> Problem<'t> {
+fn wrong_type<'t>(leaves: &[Leaf<'t>]) -> MismatchKind<'t> {
     let mut kinds: Vec<&str> = Vec::new();
     let known: Option<Vec<Vec<&str>>> = leaves.iter().map(|leaf| words(leaf.schema)).collect();
     if let Some(known) = known {
-        return Problem::WrongType { types: kinds, words: known.concat(), name: None };
+        return MismatchKind::WrongType { types: kinds, words: known.concat(), name: None };
     }
     for leaf in leaves {
         for kind in types(leaf.schema).into_iter().filter(|kind| *kind != "null") {
@@ -262,14 +262,14 @@ fn wrong_type<'t>(leaves: &[Leaf<'t>]) -> Problem<'t> {
         }
     }
     let name = leaves.first().and_then(|leaf| leaf.name).filter(|_| leaves.len() > 1 && kinds == ["object"]);
-    Problem::WrongType { types: kinds, words: Vec::new(), name }
+    MismatchKind::WrongType { types: kinds, words: Vec::new(), name }
 }
 
 fn is_unsigned(schema: &Json) -> bool {
     schema.get("minimum").and_then(Json::as_f64) == Some(0.0)
 }
 
-fn out_of_range<'t>(number: Number, schema: &Json) -> Option<Problem<'t>> {
+fn out_of_range<'t>(number: Number, schema: &Json) -> Option<MismatchKind<'t>> {
     let least = schema.get("minimum").and_then(Json::as_f64).filter(|least| *least >= 0.0)?;
     let greatest = match schema.get("format").and_then(Json::as_str)? {
         "uint8" => u64::from(u8::MAX),
@@ -284,11 +284,11 @@ fn out_of_range<'t>(number: Number, schema: &Json) -> Option<Problem<'t>> {
     )]
     let least = least as u64;
     match number {
-        Number::Unsigned(value) if value < least => Some(Problem::OutOfRange { least, greatest: None }),
+        Number::Unsigned(value) if value < least => Some(MismatchKind::OutOfRange { least, greatest: None }),
         Number::Unsigned(value) if value > greatest => {
-            Some(Problem::OutOfRange { least, greatest: Some(greatest) })
+            Some(MismatchKind::OutOfRange { least, greatest: Some(greatest) })
         }
-        Number::Signed(_) => Some(Problem::OutOfRange { least, greatest: None }),
+        Number::Signed(_) => Some(MismatchKind::OutOfRange { least, greatest: None }),
         Number::Unsigned(_) | Number::Float(_) => None,
     }
 }

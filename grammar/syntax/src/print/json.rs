@@ -11,7 +11,7 @@ use crate::ast::{
     Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Name, Policy, Reaction, Step,
     StepKind, When,
 };
-use crate::json::term::{Args, Condition, Count, Duration, Field, Form, Get, Is, Term};
+use crate::json::term::{self, Args, Condition, Count, Duration, Field, Form, Get, Is, Term};
 use crate::json::{Lenient, Spanned, wire};
 use crate::unit::{Dimension, Unit};
 
@@ -108,8 +108,8 @@ impl WireTranslation {
         }
     }
 
-    fn call_step(&mut self, step: &Do) -> wire::Do {
-        let translated = wire::Do {
+    fn call_step(&mut self, step: &Do) -> term::Do {
+        let translated = term::Do {
             r#do: name(&step.call.name),
             args: self.args(&step.call),
             within: step.within.as_ref().map(|within| Box::new(self.duration(within))),

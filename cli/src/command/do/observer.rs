@@ -1,0 +1,188 @@
+//! Observer of a conversation: shows and paces its runs, brings typed requests, and writes the record.
+
+use std::cmp::Reverse;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use motet_graph::Graph;
+use motet_planner::builtin::PlannedRequest;
+use motet_planner::dialogue::{DialogueObserver, Outcome, Problem, RunRecorder};
+use motet_planner::runtime_check::CheckMode;
+use motet_runtime::{Effect, Engine, Observer as _, RunControl, RunEnd, StartState, SwapRefusal, Time};
+use serde_json::json;
+
+use super::operator::OperatorInput;
+use super::planner::printable;
+use super::record::{ConversationRecord, RunJournal};
+use super::{DoArgs, ScheduledRequest};
+use crate::command::run::paced_view;
+use crate::error::CliError;
+use crate::flags::OutputFormat;
+use crate::output::{Colors, note};
+use crate::runner::{PacedView, is_interrupted};
+
+/// Interval at which scheduled requests are checked.
+const REQUEST_INTERVAL: Time = Time::from_nanos(100_000_000);
+
+/// Observer of a conversation.
+pub(super) struct RunObserver<'a> {
+    args: &'a DoArgs,
+    colors: Colors,
+    operator: Rc<OperatorInput>,
+    record: Option<ConversationRecord>,
+    /// Latest request.
+    request: String,
+    /// Scheduled requests, the latest first.
+    scheduled: Vec<ScheduledRequest>,
+    view: Option<PacedView>,
+    /// Revision of the shown policy within its run.
+    revision: u32,
+    /// Policy that takes over; shown once the engine reports its first trace event.
+    next: Option<(String, Arc<Graph>)>,
+    /// View of the policy before.
+    older: Option<PacedView>,
+    is_swapping: bool,
+}
+
+impl<'a> RunObserver<'a> {
+    pub(super) fn new(
+        args: &'a DoArgs,
+        colors: Colors,
+        operator: Rc<OperatorInput>,
+        record: Option<ConversationRecord>,
+    ) -> Self {
+        let mut scheduled = args.say.clone();
+        scheduled.reverse();
+        scheduled.sort_by_key(|request| Reverse(request.at));
+        Self {
+            args,
+            colors,
+            operator,
+            record,
+            request: String::new(),
+            scheduled,
+            view: None,
+            revision: 0,
+            next: None,
+            older: None,
+            is_swapping: false,
+        }
+    }
+
+    fn write(&mut self, what: &str, more: serde_json::Value) {
+        if let Some(record) = &self.record {
+            record.write(what, more);
+        }
+    }
+
+    /// Shows a policy from now on.
+    fn show(&mut self, text: &str, graph: &Graph) {
+        if self.args.format == OutputFormat::Human {
+            note(&printable(text.trim_end()));
+        }
+        let view = paced_view(self.args.format, graph, self.colors, &self.args.simulation);
+        self.older = self.view.replace(view);
+    }
+
+    /// Notes a request.
+    pub(super) fn requested(&mut self, request: &str) {
+        self.write("request", json!({"text": request}));
+        request.clone_into(&mut self.request);
+    }
+
+    /// Notes the outcome of the conversation.
+    pub(super) fn finish(mut self, outcome: &Outcome) -> Result<(), CliError> {
+        let word = match outcome {
+            Outcome::Done => "done",
+            Outcome::GivenUp => "given_up",
+            Outcome::Stopped => "stopped",
+            Outcome::Failed(_) => "failed",
+        };
+        self.write("outcome", json!({"outcome": word}));
+        self.record.map_or(Ok(()), ConversationRecord::finish)
+    }
+}
+
+impl DialogueObserver for RunObserver<'_> {
+    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
+        let record = self.record.clone()?;
+        Some(Box::new(RunJournal::new(record, engine, start, &self.request)))
+    }
+
+    fn planned(&mut self, answered: &PlannedRequest, graph: &Arc<Graph>) {
+        if let Some(record) = &self.record {
+            record.policy(&answered.planned.text);
+        }
+        answered.understood.notes.iter().for_each(|text| note(text));
+        let text = answered.planned.text.clone();
+        if std::mem::take(&mut self.is_swapping) {
+            self.next = Some((text, Arc::clone(graph)));
+        } else {
+            (self.revision, self.view, self.older) = (0, None, None);
+            self.show(&text, graph);
+        }
+    }
+
+    fn effect(&mut self, now: Time, effect: &Effect) {
+        if let Effect::Report(event) = effect {
+            if event.revision < self.revision {
+                return self.older.iter_mut().for_each(|older| older.late(now, effect));
+            }
+            let is_newer = event.revision > self.revision;
+            self.revision = event.revision;
+            if let Some((text, graph)) = self.next.take_if(|_| is_newer) {
+                self.view.iter_mut().for_each(|view| view.leave(now));
+                self.show(&text, &graph);
+            }
+        }
+        if let Some(view) = &mut self.view {
+            view.effect(now, effect);
+        }
+    }
+
+    fn reached(&mut self, now: Time) -> RunControl {
+        self.view.as_mut().map_or(RunControl::Continue, |view| view.reached(now))
+    }
+
+    fn at_least_every(&self) -> Time {
+        let own = if self.scheduled.is_empty() { Time::NEVER } else { REQUEST_INTERVAL };
+        self.view.as_ref().map_or(own, |view| view.at_least_every().min(own))
+    }
+
+    fn verifies(&self) -> CheckMode {
+        self.args.simulation.speed.verifies()
+    }
+
+    fn is_stopped(&self) -> bool {
+        is_interrupted()
+    }
+
+    fn request(&mut self, now: Time) -> Option<String> {
+        let due = self.scheduled.pop_if(|request| request.at <= now).map(|request| request.text);
+        let line = due.or_else(|| self.operator.typed())?;
+        self.requested(&line);
+        Some(line)
+    }
+
+    fn swapped(&mut self, _now: Time, refusal: Option<&SwapRefusal>) {
+        match refusal {
+            None => {
+                self.is_swapping = true;
+                self.write("swap", json!({}));
+            }
+            Some(refusal) => self.write("swap_refused", json!({"why": refusal.to_string()})),
+        }
+    }
+
+    fn ended(&mut self, _now: Time, end: &RunEnd) {
+        if let Some(mut view) = self.view.take() {
+            view.finish(end);
+        }
+        self.write("ended", json!({"how": end.to_string()}));
+    }
+
+    fn asked(&mut self, problem: &Problem, answer: Option<&str>) {
+        let (kind, question) = (problem.kind.name(), problem.question.clone());
+        self.write("question", json!({"kind": kind, "question": question, "answer": answer}));
+    }
+}

@@ -1,0 +1,201 @@
+//! Operator of a conversation: a person at the terminal, a script, or nobody. Answers questions of the
+//! dialogue manager and of `ask` steps.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::io::{self, BufRead, IsTerminal};
+use std::path::Path;
+use std::rc::Rc;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
+use std::thread;
+use std::time::Duration;
+
+use motet_graph::Value;
+use motet_planner::dialogue::{Kind, Person, Problem};
+use motet_project::files::read_small;
+use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
+
+use super::planner::printable;
+use crate::error::CliError;
+use crate::output::note;
+use crate::runner::is_interrupted;
+
+/// Interval at which a waiting question checks for an interrupt.
+const SLICE: Duration = Duration::from_millis(50);
+
+/// Source of answers.
+pub(super) enum OperatorInput {
+    /// A person; a thread reads their lines from stdin.
+    Terminal {
+        lines: RefCell<Receiver<String>>,
+        is_live: bool,
+    },
+    /// Lines of a file, in order.
+    Script(RefCell<VecDeque<String>>),
+    Never,
+}
+
+impl OperatorInput {
+    /// Reads the flag `--ask`.
+    ///
+    /// # Errors
+    ///
+    /// The flag has another value, or its file cannot be read.
+    pub(super) fn read(words: &[String]) -> Result<Self, CliError> {
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        match words.as_slice() {
+            [] | ["terminal"] => Ok(Self::terminal()),
+            ["never"] => Ok(Self::Never),
+            ["script", file] => {
+                let text = String::from_utf8_lossy(&read_small(Path::new(file))?).into_owned();
+                let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+                Ok(Self::Script(RefCell::new(lines.map(ToOwned::to_owned).collect())))
+            }
+            ["script"] => {
+                Err(CliError::Message("`--ask script` needs a file with one answer per line".to_owned()))
+            }
+            _ => Err(CliError::Message(format!(
+                "`--ask {}`: write `terminal`, `never`, or `script FILE`",
+                words.join(" ")
+            ))),
+        }
+    }
+
+    fn terminal() -> Self {
+        let (sender, lines) = mpsc::channel();
+        thread::spawn(move || {
+            for line in io::stdin().lock().lines() {
+                let Ok(line) = line else { return };
+                if sender.send(line).is_err() {
+                    return;
+                }
+            }
+        });
+        Self::Terminal { lines: RefCell::new(lines), is_live: io::stdin().is_terminal() }
+    }
+
+    /// Line that was typed without a question.
+    pub(super) fn typed(&self) -> Option<String> {
+        let Self::Terminal { lines, is_live: true } = self else { return None };
+        match lines.borrow().try_recv() {
+            Ok(line) => Some(line).filter(|line| !line.trim().is_empty()),
+            Err(TryRecvError::Empty | TryRecvError::Disconnected) => None,
+        }
+    }
+
+    fn answer(&self) -> Option<String> {
+        match self {
+            Self::Never => None,
+            Self::Script(answers) => answers.borrow_mut().pop_front(),
+            Self::Terminal { lines, .. } => loop {
+                match lines.borrow().recv_timeout(SLICE) {
+                    Ok(line) if line.trim().is_empty() => {}
+                    Ok(line) => return Some(line),
+                    Err(RecvTimeoutError::Disconnected) => return None,
+                    Err(RecvTimeoutError::Timeout) if is_interrupted() => return None,
+                    Err(RecvTimeoutError::Timeout) => {}
+                }
+            },
+        }
+    }
+}
+
+/// Question with its options.
+fn question(problem: &Problem) -> String {
+    let mut text = format!("? {}", problem.question);
+    // An ambiguous reference names its options in the question already, in everyday words.
+    if !problem.options.is_empty() && problem.kind != Kind::AmbiguousReference {
+        let options: Vec<&str> = problem.options.iter().map(|option| option.as_str()).collect();
+        text.push_str(&format!("\n  ({})", options.join(", ")));
+    }
+    text
+}
+
+/// Prompt that shows questions to the operator.
+pub(super) struct OperatorPrompt(pub(super) Rc<OperatorInput>);
+
+impl Person for OperatorPrompt {
+    fn ask(&mut self, problem: &Problem) -> Option<String> {
+        note(&question(problem));
+        let answer = self.0.answer();
+        if let (OperatorInput::Script(_), Some(answer)) = (&*self.0, &answer) {
+            note(&format!("> {answer}"));
+        }
+        answer
+    }
+}
+
+/// Driver that answers `ask` by the operator, and leaves everything else to the robot's driver.
+pub(super) struct AskingDriver<'a> {
+    driver: &'a mut dyn Driver,
+    operator: OperatorPrompt,
+    /// Events of questions, which are answered at once.
+    outbox: VecDeque<(Time, DriverEvent)>,
+}
+
+impl<'a> AskingDriver<'a> {
+    pub(super) fn new(driver: &'a mut dyn Driver, operator: Rc<OperatorInput>) -> Self {
+        Self { driver, operator: OperatorPrompt(operator), outbox: VecDeque::new() }
+    }
+}
+
+impl Driver for AskingDriver<'_> {
+    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
+        let question = match command.arg("question") {
+            Some(Value::Text(question)) if command.primitive == "ask" => printable(question),
+            _ => return self.driver.start(now, goal, command),
+        };
+        let problem =
+            Problem { kind: Kind::AmbiguousTask, question, options: Vec::new(), about: None, said: None };
+        let outcome = match self.operator.ask(&problem) {
+            Some(answer) => Outcome::Success(Some(Value::Text(answer.into()))),
+            None => Outcome::Failure("refused".into()),
+        };
+        self.outbox.push_back((now, DriverEvent::Acknowledged { goal }));
+        self.outbox.push_back((now, DriverEvent::Ended { goal, outcome }));
+    }
+
+    fn cancel(&mut self, now: Time, goal: GoalId) {
+        self.driver.cancel(now, goal);
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        self.driver.capabilities()
+    }
+
+    fn base(&self) -> Option<[f64; 3]> {
+        self.driver.base()
+    }
+
+    fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.driver.update(now, goal, command);
+    }
+
+    fn hold(&mut self, now: Time, goal: GoalId) {
+        self.driver.hold(now, goal);
+    }
+
+    fn proceed(&mut self, now: Time, goal: GoalId) {
+        self.driver.proceed(now, goal);
+    }
+
+    fn safe_stop(&mut self, now: Time, goal: GoalId) {
+        self.driver.safe_stop(now, goal);
+    }
+
+    fn observe(&mut self, now: Time, query: &Query) {
+        self.driver.observe(now, query);
+    }
+
+    fn watch(&mut self, now: Time, query: &Query) {
+        self.driver.watch(now, query);
+    }
+
+    fn unwatch(&mut self, now: Time, query: &Query) {
+        self.driver.unwatch(now, query);
+    }
+
+    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        self.outbox.pop_front().or_else(|| self.driver.advance(until))
+    }
+}

@@ -1,0 +1,250 @@
+//! Planner of a conversation: the built-in one, or a model on a server with a log of its replies.
+
+use std::io::{self, IsTerminal, Write as _};
+use std::time::Duration;
+
+use motet_client::{Client, ClientSettings, EncodedImage, Notation, ServerUrl};
+use motet_decode::export::Dialect;
+use motet_planner::builtin::{PlanError, PlannedRequest};
+use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner, Role, Start};
+use motet_planner::{Builtin, PlanRequest, Planner, RemainingSteps, Wait};
+use motet_project::files::read_small;
+use serde_json::json;
+
+use super::record::ConversationRecord;
+use super::{DoArgs, GrammarDialect, ModelArgs};
+use crate::command::grammar;
+use crate::error::CliError;
+use crate::flags::OutputFormat;
+use crate::output::{Colors, note};
+use crate::runner::is_interrupted;
+
+/// Planner of the flags.
+///
+/// # Errors
+///
+/// The address, an image or the key cannot be used.
+pub(super) fn planner(
+    args: &DoArgs,
+    colors: Colors,
+    record: Option<ConversationRecord>,
+) -> Result<Box<dyn Planner>, CliError> {
+    let flags = &args.model;
+    if flags.planner == "builtin" {
+        if flags.camera {
+            let why = "--camera needs a model: give one with --planner URL, or leave --camera out";
+            return Err(CliError::Message(why.to_owned()));
+        }
+        let unused = [
+            ("--model", flags.model != "default"),
+            ("--dialect", flags.dialect != GrammarDialect::None),
+            ("--image", !flags.image.is_empty()),
+            ("--key-from", flags.key_from.is_some()),
+            ("--eager", flags.eager),
+            ("--lark", flags.lark),
+            ("--fallback", flags.fallback),
+        ];
+        if let Some((flag, _)) = unused.iter().find(|(_, is_given)| *is_given) {
+            let why = format!("{flag} needs a model: give one with --planner URL, or leave {flag} out");
+            return Err(CliError::Message(why));
+        }
+        return Ok(Box::new(Builtin));
+    }
+    let client = client(flags)?;
+    let log = ModelLog {
+        record,
+        is_shown: args.format == OutputFormat::Human,
+        is_live: io::stderr().is_terminal(),
+        is_colored: colors.stderr,
+        in_line: false,
+    };
+    // The first step alone does not show whether the whole policy keeps the maximum duration.
+    let start =
+        if flags.eager && args.session.max_duration.is_none() { Start::FirstStep } else { Start::Whole };
+    let settings = model::Settings { repairs: flags.repair, start, ..model::Settings::default() };
+    let planner = ModelPlanner::new(client, log, settings);
+    Ok(if flags.fallback { Box::new(FallbackPlanner(planner)) } else { Box::new(planner) })
+}
+
+/// Connection to the server of the flags.
+///
+/// # Errors
+///
+/// The address, an image or the key cannot be used.
+pub(super) fn client(flags: &ModelArgs) -> Result<Client, CliError> {
+    let settings = settings(flags)?;
+    let name = settings.address.to_string();
+    Client::new(settings).map_err(|why| CliError::Message(format!("cannot ask `{name}`: {why}")))
+}
+
+fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
+    let dialect = match args.dialect {
+        GrammarDialect::None => None,
+        GrammarDialect::Vllm => Some(Dialect::Vllm),
+        GrammarDialect::Llamacpp => Some(Dialect::LlamaCpp),
+        GrammarDialect::Ollama => Some(Dialect::Ollama),
+        GrammarDialect::Sglang => Some(Dialect::Sglang),
+        GrammarDialect::Openai => Some(Dialect::OpenAi),
+    };
+    let takes_lark = matches!(dialect, Some(Dialect::Vllm | Dialect::Sglang | Dialect::LlamaCpp));
+    if args.lark && !takes_lark {
+        let why = "--lark is for servers with llguidance: give --dialect vllm, sglang or llamacpp";
+        return Err(CliError::Message(why.to_owned()));
+    }
+    let notation = if args.lark { Notation::Lark } else { Notation::Usual };
+    let address = ServerUrl::new(&args.planner, dialect).map_err(CliError::Message)?;
+    let mut images = Vec::new();
+    for path in &args.image {
+        let image = EncodedImage::new(&read_small(path)?).map_err(|why| {
+            CliError::Message(format!("`{}` is not an image for a model: {why}", path.display()))
+        })?;
+        images.push(image);
+    }
+    let key = args.key_from.as_deref().map(grammar::key).transpose()?;
+    let timeout = Duration::from_secs(args.timeout);
+    let new = ClientSettings::new(address, &args.model);
+    Ok(ClientSettings {
+        dialect,
+        notation,
+        key,
+        images,
+        timeout,
+        idle_timeout: new.idle_timeout.min(timeout),
+        ..new
+    })
+}
+
+/// Model planner with the built-in planner behind it.
+struct FallbackPlanner(ModelPlanner<'static>);
+
+impl Planner for FallbackPlanner {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
+        match self.0.plan(ask) {
+            Err(why @ (PlanError::NoModel { .. } | PlanError::Refused { .. })) => {
+                note(&format!("planned without the model: {why}"));
+                Builtin.plan(ask)
+            }
+            other => other,
+        }
+    }
+
+    fn reads_answers(&self) -> bool {
+        self.0.reads_answers()
+    }
+
+    fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
+        self.0.begin(ask)
+    }
+
+    fn rest(&mut self, wait: Wait) -> RemainingSteps {
+        self.0.rest(wait)
+    }
+}
+
+/// Log of a model's replies: on stderr for people, and in the record.
+struct ModelLog {
+    record: Option<ConversationRecord>,
+    is_shown: bool,
+    /// Shows replies piece by piece as they arrive.
+    is_live: bool,
+    is_colored: bool,
+    /// Is `true` if the cursor is behind a piece of a reply.
+    in_line: bool,
+}
+
+impl ModelLog {
+    fn show(&mut self, color: &str, text: &str) {
+        if !self.is_shown {
+            return;
+        }
+        if std::mem::take(&mut self.in_line) {
+            note("");
+        }
+        note(&self.paint(color, &printable(text)));
+    }
+
+    fn paint(&self, color: &str, text: &str) -> String {
+        if self.is_colored { format!("\u{1b}[{color}m{text}\u{1b}[0m") } else { text.to_owned() }
+    }
+
+    /// Shows a reply at once, unless it was shown as it arrived.
+    fn reply(&mut self, reply: &str) {
+        if !self.is_live && !reply.trim().is_empty() {
+            self.show("2", reply.trim());
+        }
+    }
+
+    fn keep(&self, what: &str, more: serde_json::Value) {
+        if let Some(record) = &self.record {
+            record.write(what, more);
+        }
+    }
+}
+
+impl ModelObserver for ModelLog {
+    fn hear(&mut self, happening: &ModelEvent<'_>) {
+        match *happening {
+            ModelEvent::Asked { round, model, chat } => {
+                let again = if round == 0 { String::new() } else { format!(", repair {round}") };
+                self.show("1", &format!("asking {model}{again}"));
+                let message = |message: &model::Message| {
+                    let role = match message.role {
+                        Role::System => "system",
+                        Role::User => "user",
+                        Role::Assistant => "assistant",
+                    };
+                    json!({"role": role, "text": message.text})
+                };
+                let chat: Vec<_> = chat.iter().map(message).collect();
+                self.keep("asked", json!({"round": round, "model": model, "chat": chat}));
+            }
+            ModelEvent::Retrying { why, after } => {
+                self.show("33", &format!("  retrying in {:.1} s: {why}", after.as_secs_f64()));
+                self.keep("retrying", json!({"why": why, "after": after.as_secs_f64()}));
+            }
+            ModelEvent::Wrote(piece) => {
+                if self.is_shown && self.is_live {
+                    // An error of stderr cannot be reported.
+                    let _ = write!(io::stderr().lock(), "{}", self.paint("2", &printable(piece)));
+                    self.in_line = true;
+                }
+            }
+            ModelEvent::Stopped { at } => {
+                self.show("31", &format!("  stopped at byte {at}"));
+                self.keep("stopped", json!({"at": at}));
+            }
+            ModelEvent::Mended { titles } => {
+                self.show("33", &format!("  fixed: {}", titles.join(", ")));
+                self.keep("mended", json!({"titles": titles}));
+            }
+            ModelEvent::Refused { round, reply, findings } => {
+                self.reply(reply);
+                findings.lines().for_each(|line| self.show("31", &format!("  {line}")));
+                self.keep("refused", json!({"round": round, "reply": reply, "findings": findings}));
+            }
+            ModelEvent::Failed { round, reply, why } => {
+                self.reply(reply);
+                self.show("31", &format!("  {why}"));
+                self.keep("failed", json!({"round": round, "reply": reply, "why": why.to_string()}));
+            }
+            ModelEvent::Taken { round, reply } => {
+                self.reply(reply);
+                self.show("32", "  passes the check");
+                self.keep("taken", json!({"round": round, "reply": reply}));
+            }
+            ModelEvent::Begun { reply } => {
+                self.show("32", "  starting the first step");
+                self.keep("begun", json!({"reply": reply}));
+            }
+        }
+    }
+
+    fn is_stopped(&self) -> bool {
+        is_interrupted()
+    }
+}
+
+/// Text of a model without control characters.
+pub(super) fn printable(text: &str) -> String {
+    text.chars().filter(|letter| !letter.is_control() || *letter == '\n').collect()
+}

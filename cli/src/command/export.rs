@@ -1,0 +1,137 @@
+//! `motet export`: the journal of a run as an MCAP file, with the simulated scene if the run was a
+//! simulation.
+
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use motet_host::mcap::{McapBody, McapExporter, McapScene, McapSolid};
+use motet_project::SavedDriver;
+use motet_robots::scene::{EntityShape, Scene};
+use motet_runtime::journal::{DriverReplay, JournalEntry};
+use motet_sim::Sim;
+
+use crate::error::{CliError, Exit};
+use crate::output::note;
+use crate::runner::journal_error;
+
+/// Flags of `motet export`.
+#[derive(Args, Debug)]
+pub(crate) struct ExportArgs {
+    #[command(subcommand)]
+    command: ExportCommand,
+}
+
+/// Formats of an export.
+#[derive(Subcommand, Debug)]
+enum ExportCommand {
+    /// Export a journal as an MCAP file, for Foxglove and other viewers
+    Mcap(McapArgs),
+}
+
+/// Flags of `motet export mcap`.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  motet export mcap run/ -o run.mcap")]
+struct McapArgs {
+    /// Folder of the journal
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    /// File to write
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// The journal cannot be read, or the file cannot be written.
+pub(crate) fn run(args: &ExportArgs) -> Result<Exit, CliError> {
+    let ExportCommand::Mcap(args) = &args.command;
+    // An earlier file, which may be the journal itself, stays until the new one is complete.
+    let mut partial = args.output.clone().into_os_string();
+    partial.push(".partial");
+    let partial = PathBuf::from(partial);
+    let written = write(&args.folder, &partial);
+    let renamed = written.and_then(|entries| match fs::rename(&partial, &args.output) {
+        Ok(()) => Ok(entries),
+        Err(source) => Err(CliError::Write { path: args.output.clone(), source }),
+    });
+    if renamed.is_err() {
+        let _ = fs::remove_file(&partial);
+    }
+    note(&format!("wrote {} entries to {}", renamed?, args.output.display()));
+    Ok(Exit::Success)
+}
+
+/// Writes a journal as MCAP. Returns the number of its entries.
+fn write(folder: &Path, path: &Path) -> Result<u64, CliError> {
+    let file = File::create(path).map_err(|source| CliError::Write { path: path.to_owned(), source })?;
+    let wrong = |error: motet_host::mcap::ExportError| CliError::Message(error.to_string());
+    let mut exporter = McapExporter::new(BufWriter::new(file)).map_err(wrong)?;
+    let mut replay = None;
+    let (mut result, mut entries) = (Ok(()), 0);
+    let read = motet_host::journal::read(folder, &mut |seq, entry| {
+        if result.is_err() {
+            return;
+        }
+        if let JournalEntry::Head(head) = &entry {
+            replay = SceneReplay::of(&head.driver);
+        }
+        let picture = replay.as_mut().and_then(|replay: &mut SceneReplay| replay.after(&entry));
+        result = exporter.entry(seq, &entry, picture);
+        entries += 1;
+    });
+    read.map_err(journal_error)?;
+    result.and_then(|()| exporter.finish()).map_err(wrong)?;
+    Ok(entries)
+}
+
+/// Simulated scene along a journal.
+struct SceneReplay {
+    sim: Sim,
+    scene: Scene,
+    retrace: DriverReplay,
+}
+
+impl SceneReplay {
+    /// EngineReplay from the head of a journal; `None` if the run was not a simulation.
+    fn of(driver: &serde_json::Value) -> Option<Self> {
+        match SavedDriver::from_json(driver).ok()? {
+            SavedDriver::Simulator(saved) => {
+                let (sim, scene) = (saved.open().ok()?, saved.scene().ok()?);
+                Some(Self { sim, scene, retrace: DriverReplay::default() })
+            }
+            SavedDriver::Process { .. } => None,
+        }
+    }
+
+    /// Scene after an entry; `None` once the replay differs from the journal.
+    fn after(&mut self, entry: &JournalEntry) -> Option<McapScene> {
+        self.retrace.take(&mut self.sim, entry).ok()?;
+        let base = self.sim.base();
+        let bodies = self.scene.entities.values().filter_map(|entity| {
+            let pose = entity.pose?;
+            let solid = match entity.shape.as_ref()? {
+                EntityShape::Box(size) => McapSolid::Box(*size),
+                EntityShape::Cylinder { radius, height } => {
+                    McapSolid::Cylinder { radius: *radius, height: *height }
+                }
+                EntityShape::Capsule { radius, height } => {
+                    McapSolid::Cylinder { radius: *radius, height: height + 2.0 * radius }
+                }
+                EntityShape::Sphere { radius } => McapSolid::Sphere { radius: *radius },
+                EntityShape::Mesh { .. } => return None,
+            };
+            let mut xyz = self.sim.position(&entity.id)?;
+            if let (true, McapSolid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {
+                // A person's pose is that of the feet.
+                xyz[2] = 0.5 * height;
+            }
+            let heading = pose.rpy[2];
+            Some(McapBody { id: entity.id.to_string(), xyz, heading, solid })
+        });
+        Some(McapScene { base: [base.x, base.y, base.heading], bodies: bodies.collect() })
+    }
+}

@@ -1,0 +1,290 @@
+//! Documents on the command line: files, folders, stdin, and `.jsonl` files with one policy per line. The
+//! front ends of the language decide what the bytes mean.
+
+use std::collections::{BTreeMap, HashSet};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use ignore::WalkBuilder;
+use motet_project::files::{Bytes, decode, read_bounded, read_file};
+use motet_project::{DOCUMENT, ProjectError};
+use motet_syntax::ast::{self, MAX_BYTES};
+use motet_syntax::errors::too_large;
+use motet_syntax::{Diagnostic, Parsed, Source, Span, Syntax};
+use serde::de::IgnoredAny;
+
+use crate::error::CliError;
+
+/// Reads stdin.
+///
+/// # Errors
+///
+/// Stdin cannot be read.
+pub(crate) fn read_stdin() -> Result<Bytes, CliError> {
+    read_bounded(io::stdin().lock(), None).map_err(|source| CliError::read("-", source))
+}
+
+/// Source of documents.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Input {
+    /// Stdin, `-`.
+    Stdin,
+    File(PathBuf),
+    /// A file with one document per line.
+    Lines(PathBuf),
+}
+
+/// Document as it was read.
+#[derive(Debug)]
+pub(crate) struct Document {
+    /// Name in diagnostics: a path, `-`, or `file.jsonl:LINE`.
+    pub(crate) name: String,
+    /// File and number of the line that holds the document, from 1.
+    pub(crate) line_of: Option<(String, usize)>,
+    /// File that holds this document alone.
+    pub(crate) path: Option<PathBuf>,
+    pub(crate) bytes: Bytes,
+}
+
+/// Inputs that the arguments name.
+#[derive(Debug)]
+pub(crate) struct Inputs {
+    /// In the order of the arguments; within a folder sorted by path.
+    pub(crate) inputs: Vec<Input>,
+    /// Sum of the known sizes, for a progress bar.
+    pub(crate) size: u64,
+    /// JSON files in folders that are not policies.
+    pub(crate) skipped: Vec<PathBuf>,
+}
+
+/// Finds the inputs behind the paths of the command line.
+///
+/// # Errors
+///
+/// A path does not exist, or a folder cannot be listed.
+pub(crate) fn collect(paths: &[PathBuf]) -> Result<Inputs, CliError> {
+    let mut found = Inputs { inputs: Vec::new(), size: 0, skipped: Vec::new() };
+    for path in paths {
+        if path.as_os_str() == "-" {
+            found.inputs.push(Input::Stdin);
+            continue;
+        }
+        let metadata = path.metadata().map_err(|source| CliError::read(path, source))?;
+        if metadata.is_dir() {
+            add_folder(path, &mut found)?;
+        } else {
+            found.size += metadata.len();
+            found.inputs.push(of_file(path.clone()));
+        }
+    }
+    let mut seen = HashSet::new();
+    found.inputs.retain(|input| match input {
+        Input::Stdin => seen.insert(PathBuf::from("-")),
+        Input::File(path) | Input::Lines(path) => seen.insert(path.clone()),
+    });
+    Ok(found)
+}
+
+fn of_file(path: PathBuf) -> Input {
+    if has_extension(&path, "jsonl") { Input::Lines(path) } else { Input::File(path) }
+}
+
+fn has_extension(path: &Path, wanted: &str) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(wanted))
+}
+
+impl Input {
+    /// Reads the documents one after the other, until `each` stops it.
+    ///
+    /// # Errors
+    ///
+    /// The input cannot be read.
+    pub(crate) fn documents(
+        &self,
+        each: &mut dyn FnMut(Document) -> Result<Flow, CliError>,
+    ) -> Result<Flow, CliError> {
+        match self {
+            Self::Stdin => {
+                let bytes = read_stdin()?;
+                each(Document { name: "-".to_owned(), line_of: None, path: None, bytes })
+            }
+            Self::File(path) => {
+                let bytes = read_file(path)?;
+                let name = path.display().to_string();
+                each(Document { name, line_of: None, path: Some(path.clone()), bytes })
+            }
+            Self::Lines(path) => {
+                let fail = |source| CliError::read(path, source);
+                let mut reader = BufReader::new(File::open(path).map_err(fail)?);
+                let mut number = 0;
+                while let Some(bytes) = next_line(&mut reader).map_err(fail)? {
+                    number += 1;
+                    if matches!(&bytes, Bytes::All(line) if line.trim_ascii().is_empty()) {
+                        continue;
+                    }
+                    let file = path.display().to_string();
+                    let (name, line_of) = (format!("{file}:{number}"), Some((file, number)));
+                    if each(Document { name, line_of, path: None, bytes })? == Flow::Stop {
+                        return Ok(Flow::Stop);
+                    }
+                }
+                Ok(Flow::Continue)
+            }
+        }
+    }
+}
+
+/// Reads a file or stdin with one document.
+///
+/// # Errors
+///
+/// The path is a folder, or cannot be read.
+pub(crate) fn one_document(path: &Path) -> Result<Document, CliError> {
+    let input = if path.as_os_str() == "-" { Input::Stdin } else { Input::File(path.to_owned()) };
+    let mut found = None;
+    input.documents(&mut |document| {
+        found = Some(document);
+        Ok(Flow::Continue)
+    })?;
+    found.ok_or_else(|| ProjectError::Folder { path: path.to_owned() }.into())
+}
+
+impl Document {
+    /// Is `true` if the document is, byte for byte, this text.
+    pub(crate) fn is(&self, text: &str) -> bool {
+        matches!(&self.bytes, Bytes::All(bytes) if bytes == text.as_bytes())
+    }
+
+    /// Parses the document. Bytes that are not text, or are too many, are diagnostics.
+    pub(crate) fn parse(&self) -> (Source, Parsed) {
+        match &self.bytes {
+            Bytes::All(bytes) => {
+                let (source, diagnostics) = decode(&self.name, bytes, DOCUMENT);
+                let source = self.with_line(source);
+                let parsed = match diagnostics.is_empty() {
+                    true => motet_syntax::read(&source, DOCUMENT),
+                    false => unparsed(diagnostics),
+                };
+                (source, parsed)
+            }
+            Bytes::TooMany(bytes) => {
+                let mistake = too_large(Span::new(DOCUMENT, 0, 0), *bytes);
+                (self.with_line(Source::new(self.name.as_str(), "")), unparsed(vec![mistake]))
+            }
+        }
+    }
+
+    fn with_line(&self, source: Source) -> Source {
+        match &self.line_of {
+            Some((file, line)) => source.as_line(file.as_str(), *line),
+            None => source,
+        }
+    }
+}
+
+/// Result of parsing a document that is not text.
+fn unparsed(diagnostics: Vec<Diagnostic>) -> Parsed {
+    Parsed { file: ast::File::default(), syntax: Syntax::Text, text: Default::default(), diagnostics }
+}
+
+/// Is `true` for a reply with prose around its policy, which a rewritten document would lose.
+pub(crate) fn is_reply(parsed: &Parsed) -> bool {
+    parsed.diagnostics.iter().any(|found| found.code.0 == "M0116")
+}
+
+/// Continuation of a loop over documents.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Flow {
+    Continue,
+    /// Nobody reads the output any more.
+    Stop,
+}
+
+/// Next line without its line break, or the length of a line that is too long; `None` at the end.
+fn next_line(reader: &mut impl BufRead) -> io::Result<Option<Bytes>> {
+    let mut line = Vec::new();
+    let mut length = reader.by_ref().take(MAX_BYTES as u64 + 1).read_until(b'\n', &mut line)?;
+    if length == 0 {
+        return Ok(None);
+    }
+    if line.last() == Some(&b'\n') {
+        line.pop();
+        return Ok(Some(Bytes::All(line)));
+    }
+    if length <= MAX_BYTES {
+        return Ok(Some(Bytes::All(line)));
+    }
+    loop {
+        let (skipped, is_over) = {
+            let buffer = reader.fill_buf()?;
+            match buffer.iter().position(|byte| *byte == b'\n') {
+                Some(end) => (end + 1, true),
+                None => (buffer.len(), buffer.is_empty()),
+            }
+        };
+        reader.consume(skipped);
+        length += skipped;
+        if is_over {
+            return Ok(Some(Bytes::TooMany(length)));
+        }
+    }
+}
+
+/// Adds the .motet and .json files of a folder that Git does not ignore, sorted by path.
+fn add_folder(path: &Path, found: &mut Inputs) -> Result<(), CliError> {
+    let mut files = Vec::new();
+    for entry in WalkBuilder::new(path).require_git(false).build() {
+        let entry = entry.map_err(|error| {
+            let path = failed_path(&error).unwrap_or(path).to_owned();
+            let source = error.into_io_error();
+            CliError::read(path, source.unwrap_or_else(|| io::Error::other("the folder cannot be listed")))
+        })?;
+        let file = entry.path();
+        let is_file = entry.file_type().is_some_and(|kind| kind.is_file());
+        if !is_file || !(has_extension(file, "motet") || has_extension(file, "json")) {
+            continue;
+        }
+        if has_extension(file, "json") && !may_be_policy(file)? {
+            found.skipped.push(file.to_owned());
+            continue;
+        }
+        found.size += entry.metadata().map_or(0, |metadata| metadata.len());
+        files.push(file.to_owned());
+    }
+    files.sort();
+    found.inputs.extend(files.into_iter().map(Input::File));
+    Ok(())
+}
+
+/// Is `true` if a JSON file in a folder may be a policy: scenes, states and other data are there too. Broken
+/// JSON counts as one, so that its errors are reported.
+fn may_be_policy(path: &Path) -> Result<bool, CliError> {
+    let Bytes::All(bytes) = read_file(path)? else { return Ok(true) };
+    let has = |members: &Members, keys: &[&str]| keys.iter().any(|key| members.contains_key(*key));
+    Ok(match serde_json::from_slice::<Members>(&bytes) {
+        Ok(members) => has(&members, &["motet", "policy", "steps", "achieves", "do"]),
+        // A list of steps without the policy around it.
+        Err(error) if error.is_data() => serde_json::from_slice::<Vec<Members>>(&bytes).is_ok_and(|items| {
+            items.iter().any(|item| has(item, &["do", "sequence", "monitor", "parallel"]))
+        }),
+        Err(_) => true,
+    })
+}
+
+/// Members of an object, without their values.
+type Members = BTreeMap<String, IgnoredAny>;
+
+/// File or folder of an error in a walk.
+fn failed_path(error: &ignore::Error) -> Option<&Path> {
+    match error {
+        ignore::Error::WithPath { path, .. } => Some(path),
+        ignore::Error::WithDepth { err, .. } | ignore::Error::WithLineNumber { err, .. } => failed_path(err),
+        ignore::Error::Partial(errors) => errors.iter().find_map(failed_path),
+        ignore::Error::Loop { child, .. } => Some(child),
+        ignore::Error::Io(_)
+        | ignore::Error::Glob { .. }
+        | ignore::Error::UnrecognizedFileType(_)
+        | ignore::Error::InvalidDefinition => None,
+    }
+}

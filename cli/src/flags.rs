@@ -1,0 +1,240 @@
+//! Flags that several subcommands share: documents, the robot and its scene, the format of diagnostics, runs
+//! in simulation. The flags of one subcommand are in its own file in `command`.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum, value_parser};
+use motet_planner::runtime_check::CheckMode;
+use motet_project::{Project, ProjectBuilder};
+use motet_syntax::Syntax;
+use motet_syntax::unit::{Dimension, Unit};
+
+/// Documents to read.
+#[derive(Args, Debug)]
+pub(crate) struct DocumentArgs {
+    /// Files, folders (all .motet and .json files in them), .jsonl files with one policy per line, or `-`
+    /// for stdin
+    #[arg(value_name = "PATH", required = true)]
+    pub(crate) paths: Vec<PathBuf>,
+}
+
+/// Robot, scene, state and domains.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct EnvironmentArgs {
+    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml [default: the policy's
+    /// `for NAME`]
+    #[arg(long, value_name = "NAME|FOLDER")]
+    pub(crate) robot: Option<String>,
+    /// Scene: a built-in name, or a JSON file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) scene: Option<String>,
+    /// Facts at the start: a JSON object such as '{"holding(mug_1)": true, "free(hand)": false}', or a file
+    /// with one
+    #[arg(long, value_name = "FACTS|FILE")]
+    pub(crate) state: Option<PathBuf>,
+    /// File with further declarations; repeatable
+    #[arg(long, value_name = "FILE")]
+    pub(crate) domain: Vec<PathBuf>,
+}
+
+impl EnvironmentArgs {
+    /// Project of these inputs in which no motion is searched.
+    pub(crate) fn without_motions(&self) -> ProjectBuilder {
+        let mut project = Project::builder().without_motions();
+        if let Some(robot) = &self.robot {
+            project = project.robot(robot);
+        }
+        if let Some(scene) = &self.scene {
+            project = project.scene(scene);
+        }
+        if let Some(state) = &self.state {
+            project = project.state(state);
+        }
+        self.domain.iter().fold(project, ProjectBuilder::domain)
+    }
+}
+
+/// Environment and limits of a check.
+#[derive(Args, Debug)]
+pub(crate) struct SessionArgs {
+    #[command(flatten)]
+    pub(crate) environment: EnvironmentArgs,
+    /// Maximum duration of a policy, such as 90s or 10min
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) max_duration: Option<f64>,
+    #[command(flatten)]
+    pub(crate) motions: MotionArgs,
+}
+
+impl SessionArgs {
+    /// Project of these inputs.
+    pub(crate) fn project(&self) -> ProjectBuilder {
+        let mut project = self.environment.without_motions();
+        if let Some(secs) = self.max_duration {
+            project = project.max_duration(secs);
+        }
+        if self.motions.no_geometry { project } else { project.motion_effort(self.motions.effort) }
+    }
+}
+
+/// Search for motions.
+#[derive(Args, Debug)]
+pub(crate) struct MotionArgs {
+    /// Do not search motions: defer all of them to the run
+    #[arg(long)]
+    pub(crate) no_geometry: bool,
+    /// Search budget of a motion: 4 tries four times as often before the motion is deferred to the run
+    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = value_parser!(u16).range(1..=1000))]
+    pub(crate) effort: u16,
+}
+
+/// Format of diagnostics.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct FormatArgs {
+    /// Format of diagnostics
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(crate) format: DiagnosticFormat,
+}
+
+/// Format of diagnostics.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub(crate) enum DiagnosticFormat {
+    /// For people: with the source, in colour
+    #[default]
+    Human,
+    /// One JSON object per line (`motet schema diagnostic`)
+    Json,
+    /// SARIF 2.1.0, for code scanners
+    Sarif,
+    /// Workflow commands of GitHub Actions
+    Github,
+    /// Short sentences for the next prompt of a language model, the most useful first
+    Llm,
+}
+
+/// Format of results that are not diagnostics.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub(crate) enum OutputFormat {
+    /// For people
+    #[default]
+    Human,
+    /// One JSON object per line
+    Json,
+}
+
+impl From<OutputFormat> for DiagnosticFormat {
+    fn from(format: OutputFormat) -> Self {
+        match format {
+            OutputFormat::Human => Self::Human,
+            OutputFormat::Json => Self::Json,
+        }
+    }
+}
+
+/// Syntax of a policy.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum SyntaxArg {
+    /// Text, as in .motet files
+    Text,
+    /// JSON
+    Json,
+}
+
+impl From<SyntaxArg> for Syntax {
+    fn from(syntax: SyntaxArg) -> Self {
+        match syntax {
+            SyntaxArg::Text => Self::Text,
+            SyntaxArg::Json => Self::Json,
+        }
+    }
+}
+
+/// Simulated run.
+#[derive(Args, Debug)]
+pub(crate) struct SimulationArgs {
+    /// Speed relative to real time: a factor, or `max` for as fast as possible
+    #[arg(long, default_value = "1", value_name = "max|FACTOR", allow_negative_numbers = true)]
+    pub(crate) speed: Speed,
+    /// Seed of all randomness in the simulation
+    #[arg(long, default_value_t = 0, value_name = "NUMBER", value_parser = seed, allow_negative_numbers = true)]
+    pub(crate) seed: u64,
+    /// JSON file with faults to inject
+    #[arg(long, value_name = "FILE")]
+    pub(crate) faults: Option<PathBuf>,
+}
+
+/// Reads a seed.
+///
+/// # Errors
+///
+/// Advice for clap to print.
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
+    text.trim().parse().map_err(|_| format!("write a whole number from 0 to {}, such as 7", u64::MAX))
+}
+
+/// Speed of simulated time.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Speed {
+    /// As fast as possible.
+    Max,
+    /// Factor of real time.
+    Times(f64),
+}
+
+impl Speed {
+    /// Schedule of the checks of deferred motions. A run at full speed checks them in place and so is
+    /// reproducible.
+    pub(crate) const fn verifies(self) -> CheckMode {
+        match self {
+            Self::Max => CheckMode::AtOnce,
+            Self::Times(_) => CheckMode::Beside,
+        }
+    }
+}
+
+impl FromStr for Speed {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "max" {
+            return Ok(Self::Max);
+        }
+        let factor: Option<f64> = text.strip_suffix('x').unwrap_or(text).parse().ok();
+        match factor {
+            Some(factor) if factor.is_finite() && factor > 0.0 => Ok(Self::Times(factor)),
+            _ => Err("write `max`, or a factor above 0 such as 10".to_owned()),
+        }
+    }
+}
+
+/// Reads a duration such as `90s`, `10 min` or `1h`; in seconds.
+///
+/// # Errors
+///
+/// Advice for clap to print.
+pub(crate) fn duration(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
+    let wrong = || "write a number with ms, s, min or h, such as 90s or 10min".to_owned();
+    let unit =
+        Unit::parse(unit.trim()).filter(|unit| unit.dimension() == Dimension::DURATION).ok_or_else(wrong)?;
+    let secs = unit.to_si(number.parse().map_err(|_| wrong())?);
+    if secs.is_finite() && secs > 0.0 { Ok(secs) } else { Err("a duration is longer than 0 s".to_owned()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::duration;
+
+    #[test]
+    fn duration_reads_numbers_with_units() {
+        for (text, secs) in [("90s", 90.0), ("10min", 600.0), ("1.5 h", 5400.0), ("200ms", 0.2)] {
+            assert_eq!(duration(text), Ok(secs), "{text}");
+        }
+        for text in ["", "10", "s", "-5s", "0s", "1e9s", "10 weeks", "1.2.3s", "∞ s"] {
+            assert!(duration(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Stdout and stderr. A closed pipe is no error: the rest of the output is dropped.
+
+use std::io::{self, IsTerminal, Write};
+
+use crate::ColorChoice;
+
+/// Colours of the output streams.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Colors {
+    pub(crate) stdout: bool,
+    pub(crate) stderr: bool,
+}
+
+impl Colors {
+    /// Colours by the flag, `NO_COLOR`, `TERM` and the terminals.
+    pub(crate) fn new(choice: ColorChoice) -> Self {
+        let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
+            || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+        let decide = |is_terminal: bool| match choice {
+            ColorChoice::Auto => is_terminal && !plain,
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
+        };
+        Self { stdout: decide(io::stdout().is_terminal()), stderr: decide(io::stderr().is_terminal()) }
+    }
+}
+
+/// Stdout, until its reader goes away.
+#[derive(Debug, Default)]
+pub(crate) struct Output {
+    is_used: bool,
+    is_closed: bool,
+    error: Option<io::Error>,
+}
+
+impl Output {
+    /// Writes a text and flushes it.
+    pub(crate) fn text(&mut self, text: &str) {
+        if self.is_closed || text.is_empty() {
+            return;
+        }
+        self.is_used = true;
+        let mut stdout = io::stdout().lock();
+        if let Err(error) = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+            self.is_closed = true;
+            if error.kind() != io::ErrorKind::BrokenPipe {
+                self.error = Some(error);
+            }
+        }
+    }
+
+    /// Writes a text and a line break.
+    pub(crate) fn line(&mut self, text: &str) {
+        self.text(&format!("{text}\n"));
+    }
+
+    /// Is `true` after the first write.
+    pub(crate) fn is_used(&self) -> bool {
+        self.is_used
+    }
+
+    /// Is `true` once the reader is gone.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.is_closed
+    }
+
+    /// Error of a write, other than a closed pipe.
+    pub(crate) fn take_error(&mut self) -> Option<io::Error> {
+        self.error.take()
+    }
+}
+
+/// Writes a line to stderr. Errors are ignored: nobody is left to read of them.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+/// Maximum length of a shown text from another process, in characters.
+const MAX_SHOWN_CHARS: usize = 500;
+
+/// Text from another process as one line for a terminal. Control and bidirectional characters are escaped
+/// (`\u{1b}`), and a long text is cut.
+pub(crate) fn escape(text: &str) -> String {
+    let is_unsafe = |letter: char| {
+        letter.is_control()
+            || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    let mut shown = String::new();
+    for (index, letter) in text.chars().enumerate() {
+        if index == MAX_SHOWN_CHARS {
+            shown.push('…');
+            break;
+        }
+        if is_unsafe(letter) { shown.extend(letter.escape_default()) } else { shown.push(letter) }
+    }
+    shown
+}
+
+/// `1 error`, `2 errors`.
+pub(crate) fn count(number: usize, one: &str) -> String {
+    if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
+}
+
+/// `1 entry`, `2 entries`.
+pub(crate) fn count_irregular(number: usize, one: &str, several: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { several })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MAX_SHOWN_CHARS, escape};
+
+    #[test]
+    fn escape_escapes_control_characters_and_cuts() {
+        assert_eq!(escape("gripper 40 °C, ok"), "gripper 40 °C, ok");
+        assert_eq!(escape("a\u{1b}[2Jb\u{9b}c\nd\u{202e}e"), r"a\u{1b}[2Jb\u{9b}c\nd\u{202e}e");
+        assert_eq!(escape(&"x".repeat(900_000)).chars().count(), MAX_SHOWN_CHARS + 1);
+    }
+}

@@ -1,0 +1,162 @@
+//! Views of a run: redrawn in place on a terminal, line by line, or as JSON events.
+
+pub(crate) mod events;
+mod lines;
+mod screen;
+mod tree;
+
+use std::collections::BTreeMap;
+use std::io::{self, IsTerminal};
+use std::sync::Arc;
+
+use motet_graph::draw::Names;
+use motet_graph::{FailureId, Graph};
+use motet_runtime::{DriverEvent, Effect, Event, Outcome, RunEnd, Time};
+
+use crate::flags::OutputFormat;
+use crate::output::{Colors, escape};
+use tree::{Status, Tree};
+
+/// Clock of a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Clock {
+    /// Clock of the simulation, at any speed.
+    Simulated,
+    /// Wall clock.
+    Wall,
+}
+
+/// View of a run.
+pub(crate) trait View {
+    /// Takes an event before the engine handles it.
+    fn event(&mut self, _event: &Event) {}
+    /// Takes an effect before it is carried out.
+    fn effect(&mut self, now: Time, effect: &Effect);
+    /// Takes an effect from before this process began: it updates the state but prints nothing.
+    fn past(&mut self, now: Time, effect: &Effect);
+    /// Ends the view, since another view shows the policy that takes over.
+    fn leave(&mut self, _now: Time) {}
+    /// Takes an effect of this view's policy after the view has ended.
+    fn late(&mut self, now: Time, effect: &Effect) {
+        self.effect(now, effect);
+    }
+    /// Notices that the run has reached a time.
+    fn reached(&mut self, now: Time);
+    /// Is `true` once the reader of stdout is gone.
+    fn is_closed(&self) -> bool;
+    /// Prints how the run ended.
+    fn finish(&mut self, now: Time, end: &RunEnd);
+}
+
+/// View in a format: for people, a terminal gets a tree and a pipe gets lines.
+pub(crate) fn view(format: OutputFormat, graph: &Graph, colors: Colors, clock: Clock) -> Box<dyn View> {
+    let graph = Arc::new(graph.clone());
+    match format {
+        OutputFormat::Json => Box::new(events::Events::new(graph)),
+        OutputFormat::Human if io::stdout().is_terminal() => {
+            Box::new(screen::Screen::new(graph, colors.stdout, clock))
+        }
+        OutputFormat::Human => Box::new(lines::Lines::new(graph, colors.stdout, clock)),
+    }
+}
+
+/// Sign of a status.
+fn mark(status: Status) -> &'static str {
+    match status {
+        Status::Pending => "·",
+        Status::Running => "▶",
+        Status::Done => "✓",
+        Status::Failed => "✗",
+        Status::Interrupted => "■",
+    }
+}
+
+/// Text in the colour of a status.
+fn paint(text: &str, status: Status, is_colored: bool) -> String {
+    let color = match status {
+        Status::Pending => "2",
+        Status::Running => "1;36",
+        Status::Done => "32",
+        Status::Failed => "1;31",
+        Status::Interrupted => "33",
+    };
+    if is_colored { format!("\u{1b}[{color}m{text}\u{1b}[0m") } else { text.to_owned() }
+}
+
+/// Duration for people: `12.3 s`, `2 min 5.0 s`.
+fn duration(span: Time) -> String {
+    let secs = span.secs();
+    if secs < 60.0 {
+        return format!("{secs:.1} s");
+    }
+    let minutes = (secs / 60.0).floor();
+    format!("{minutes:.0} min {:.1} s", secs - minutes * 60.0)
+}
+
+/// Summary after a run: outcome, reason, duration, number of steps.
+fn summary(
+    graph: &Graph,
+    tree: &Tree,
+    (now, clock): (Time, Clock),
+    end: &RunEnd,
+    is_colored: bool,
+) -> String {
+    let (status, what, why) = match end {
+        RunEnd::Done { why } => (Status::Done, "done".to_owned(), why.clone()),
+        RunEnd::Failed { kind, why, node } => {
+            let place = graph.nodes.get(node.index());
+            let at = place.map_or_else(String::new, |node| {
+                format!(" in `{}` ({})", escape(&Names(graph).brief(&node.kind)), node.path)
+            });
+            (Status::Failed, format!("failed with `{}`{at}", escape(kind)), why.clone())
+        }
+        RunEnd::Replan { why } => (Status::Failed, "asks for a new plan".to_owned(), why.clone()),
+        RunEnd::Interrupted => (Status::Interrupted, "interrupted".to_owned(), None),
+        RunEnd::Fault(fault) => {
+            (Status::Failed, "stopped by a fault of the engine".to_owned(), Some(fault.to_string()))
+        }
+    };
+    let mut text = paint(&format!("{} {}: {what}", mark(status), graph.policy), status, is_colored);
+    if let Some(why) = why {
+        text.push_str(&format!("\n  why: {}", escape(&why)));
+    }
+    let steps = crate::output::count(tree.done, "step");
+    let clock = match clock {
+        Clock::Simulated => " of simulated time",
+        Clock::Wall => "",
+    };
+    text.push_str(&format!("\n  {}{clock}, {steps} done, {} failed", duration(now), tree.failed));
+    text
+}
+
+/// Names of the failure kinds that a driver invented: neither the graph nor the trace has them, but the
+/// events of the driver.
+#[derive(Debug, Default)]
+struct FailureNames {
+    last: Option<String>,
+    known: BTreeMap<usize, String>,
+}
+
+impl FailureNames {
+    /// Takes an event before the engine handles it.
+    fn event(&mut self, event: &Event) {
+        self.last = match event {
+            Event::Driver(
+                DriverEvent::Ended { outcome: Outcome::Failure(kind), .. }
+                | DriverEvent::Refused { failure: kind, .. },
+            ) => Some(kind.to_string()),
+            _ => None,
+        };
+    }
+
+    /// Name of a failure kind: that of the graph, or the driver's when its number first appeared.
+    fn name(&mut self, graph: &Graph, kind: FailureId) -> String {
+        if kind.index() < graph.failures.len() {
+            return Names(graph).failure(kind).to_owned();
+        }
+        match self.last.clone() {
+            Some(last) => self.known.entry(kind.index()).or_insert(last).clone(),
+            None => self.known.get(&kind.index()).map_or_else(|| "?".to_owned(), String::clone),
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! View of a run on a terminal: the tree of steps, redrawn in place.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use motet_graph::Graph;
+use motet_runtime::{Effect, Event, RunEnd, Time};
+
+use super::tree::{Row, Status, Tree};
+use super::{Clock, View, duration, mark, paint, summary};
+use crate::output::Output;
+
+/// Minimum time between two drawings.
+const FRAME: Duration = Duration::from_millis(60);
+
+/// View that redraws the tree of steps.
+pub(super) struct Screen {
+    graph: Arc<Graph>,
+    tree: Tree,
+    out: Output,
+    is_colored: bool,
+    clock: Clock,
+    /// Number of lines of the last drawing, above the cursor.
+    drawn: usize,
+    last: Option<Instant>,
+}
+
+impl Screen {
+    pub(super) fn new(graph: Arc<Graph>, is_colored: bool, clock: Clock) -> Self {
+        let tree = Tree::new(Arc::clone(&graph));
+        Self { graph, tree, out: Output::default(), is_colored, clock, drawn: 0, last: None }
+    }
+
+    fn draw(&mut self, now: Time) {
+        let (height, width) = console::Term::stdout().size();
+        let (height, width) = (usize::from(height).max(6), usize::from(width).max(20));
+        let shown = window(&self.tree.rows, height.saturating_sub(4));
+        let mut text = String::new();
+        if self.drawn > 0 {
+            // Moves to the first line of the last drawing, and clears everything below.
+            text.push_str(&format!("\u{1b}[{}A\u{1b}[J", self.drawn));
+        }
+        let mut lines = 0;
+        let mut push = |line: &str| {
+            text.push_str(&console::truncate_str(line, width, "…"));
+            text.push('\n');
+            lines += 1;
+        };
+        push(&format!("{} on {}  {}", self.graph.policy, robot(&self.graph), duration(now)));
+        let (before, after) = (shown.start, self.tree.rows.len().saturating_sub(shown.end));
+        if before > 0 {
+            push(&paint(&format!("  … {before} above"), Status::Pending, self.is_colored));
+        }
+        for row in self.tree.rows.get(shown).unwrap_or_default() {
+            push(&self.line(row, now));
+        }
+        if after > 0 {
+            push(&paint(&format!("  … {after} below"), Status::Pending, self.is_colored));
+        }
+        self.drawn = lines;
+        self.out.text(&text);
+        self.last = Some(Instant::now());
+    }
+
+    fn line(&self, row: &Row, now: Time) -> String {
+        let indent = "  ".repeat(row.depth);
+        let took = match row.status {
+            Status::Running => Some(now.since(row.since)),
+            Status::Pending | Status::Done | Status::Failed | Status::Interrupted => row.took,
+        };
+        let took = took.filter(|took| *took > Time::ZERO).map_or_else(String::new, |took| {
+            paint(&format!("  {}", duration(took)), Status::Pending, self.is_colored)
+        });
+        let note = if row.note.is_empty() { String::new() } else { format!("  {}", row.note) };
+        let sign = if row.node.is_some() { mark(row.status) } else { " " };
+        let head = paint(&format!("{sign} {}", row.label), row.status, self.is_colored);
+        format!("{indent}{head}{note}{took}")
+    }
+}
+
+fn robot(graph: &Graph) -> &str {
+    if graph.robot.is_empty() { "no robot" } else { &graph.robot }
+}
+
+/// Range of up to `height` rows around the running one.
+fn window(rows: &[Row], height: usize) -> std::ops::Range<usize> {
+    if rows.len() <= height {
+        return 0..rows.len();
+    }
+    let running = rows.iter().rposition(|row| row.status == Status::Running);
+    let last = running.or_else(|| rows.iter().rposition(|row| row.status != Status::Pending));
+    let start = last.unwrap_or(0).saturating_sub(height / 2).min(rows.len() - height);
+    start..start + height
+}
+
+impl View for Screen {
+    fn event(&mut self, event: &Event) {
+        self.tree.event(event);
+    }
+
+    fn effect(&mut self, now: Time, effect: &Effect) {
+        if let Effect::Report(record) = effect {
+            self.tree.take(record);
+        }
+        self.reached(now);
+    }
+
+    fn past(&mut self, _now: Time, effect: &Effect) {
+        if let Effect::Report(record) = effect {
+            let _ = self.tree.take(record);
+        }
+    }
+
+    fn leave(&mut self, now: Time) {
+        self.draw(now);
+    }
+
+    fn late(&mut self, _now: Time, _effect: &Effect) {
+        // The last drawing stays as it is, above the view of the other policy.
+    }
+
+    fn reached(&mut self, now: Time) {
+        if self.last.is_none_or(|last| last.elapsed() >= FRAME) {
+            self.draw(now);
+        }
+    }
+
+    fn is_closed(&self) -> bool {
+        self.out.is_closed()
+    }
+
+    fn finish(&mut self, now: Time, end: &RunEnd) {
+        self.draw(now);
+        let text = summary(&self.graph, &self.tree, (now, self.clock), end, self.is_colored);
+        self.out.line(&format!("\n{text}"));
+    }
+}

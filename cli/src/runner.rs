@@ -1,0 +1,175 @@
+//! Runs an engine on a driver: paced by the wall clock, shown by a view, recorded in a journal, stopped by
+//! Ctrl-C.
+
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
+use motet_planner::runtime_check::Guard;
+use motet_runtime::{Driver, Effect, Engine, Event, Observer, RunControl, RunEnd, Time, Verifier, resume};
+
+use crate::error::{CliError, Exit};
+use crate::flags::Speed;
+use crate::run_view::View;
+
+/// Interval at which a waiting run checks for an interrupt.
+const SLICE: Duration = Duration::from_millis(50);
+
+/// Number of presses of Ctrl-C.
+static PRESSED: AtomicU32 = AtomicU32::new(0);
+
+/// Turns Ctrl-C into a request to stop; the second one ends the process.
+///
+/// # Errors
+///
+/// The operating system refuses the handler.
+pub(crate) fn catch_interrupts() -> Result<(), CliError> {
+    ctrlc::set_handler(|| {
+        if PRESSED.fetch_add(1, Ordering::SeqCst) > 0 {
+            std::process::exit(130);
+        }
+    })
+    .map_err(|error| CliError::Message(format!("cannot handle Ctrl-C: {error}")))
+}
+
+/// Is `true` after Ctrl-C.
+pub(crate) fn is_interrupted() -> bool {
+    PRESSED.load(Ordering::SeqCst) > 0
+}
+
+/// Observer that shows a run, keeps it in step with the wall clock, and checks deferred motions.
+pub(crate) struct PacedView {
+    view: Box<dyn View>,
+    speed: Speed,
+    begun: Option<(Instant, Time)>,
+    now: Time,
+    guard: Option<Guard>,
+}
+
+impl PacedView {
+    /// Observer without a guard.
+    pub(crate) fn new(view: Box<dyn View>, speed: Speed) -> Self {
+        Self { view, speed, begun: None, now: Time::ZERO, guard: None }
+    }
+
+    /// The same with a guard, which checks deferred motions.
+    pub(crate) fn with_guard(self, guard: Option<Guard>) -> Self {
+        Self { guard, ..self }
+    }
+
+    /// Takes effects from before this process began.
+    pub(crate) fn past(&mut self, now: Time, effects: &[Effect]) {
+        self.now = now;
+        effects.iter().for_each(|effect| self.view.past(now, effect));
+    }
+
+    /// Ends the view, since another one shows the policy that takes over.
+    pub(crate) fn leave(&mut self, now: Time) {
+        self.view.leave(now);
+    }
+
+    /// Takes an effect of the policy after it was replaced.
+    pub(crate) fn late(&mut self, now: Time, effect: &Effect) {
+        self.view.late(now, effect);
+    }
+
+    /// Prints how the run ended.
+    pub(crate) fn finish(&mut self, end: &RunEnd) {
+        self.view.finish(self.now, end);
+    }
+
+    /// Waits until the wall clock has reached a time of the run.
+    fn wait(&mut self, now: Time) {
+        let Speed::Times(factor) = self.speed else { return };
+        let (begun, origin) = *self.begun.get_or_insert_with(|| (Instant::now(), now));
+        let due = Duration::try_from_secs_f64(now.since(origin).secs() / factor).unwrap_or(Duration::MAX);
+        while let Some(left) = due.checked_sub(begun.elapsed()).filter(|left| !left.is_zero()) {
+            if is_interrupted() {
+                return;
+            }
+            thread::sleep(left.min(SLICE));
+        }
+    }
+}
+
+impl Observer for PacedView {
+    fn event(&mut self, _now: Time, event: &Event) {
+        self.view.event(event);
+    }
+
+    fn effect(&mut self, now: Time, effect: &Effect) {
+        self.now = now;
+        if self.begun.is_none() {
+            self.begun = Some((Instant::now(), now));
+        }
+        self.view.effect(now, effect);
+    }
+
+    fn reached(&mut self, now: Time) -> RunControl {
+        self.now = now;
+        self.wait(now);
+        self.view.reached(now);
+        // A run stops once nobody watches it.
+        if is_interrupted() || self.view.is_closed() { RunControl::Stop } else { RunControl::Continue }
+    }
+
+    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
+        let guard: &mut dyn Verifier = self.guard.as_mut()?;
+        Some(guard)
+    }
+
+    fn at_least_every(&self) -> Time {
+        match self.speed {
+            Speed::Max => Time::NEVER,
+            Speed::Times(factor) => Time::from_secs(0.1 * factor),
+        }
+    }
+}
+
+/// Run that is ready to start or to resume.
+pub(crate) struct Runner<'a> {
+    pub(crate) engine: Engine,
+    pub(crate) driver: &'a mut dyn Driver,
+    pub(crate) journal: Option<JournalWriter>,
+    /// Present time of the driver.
+    pub(crate) from: Time,
+    /// First events of the engine.
+    pub(crate) events: Vec<Event>,
+}
+
+impl Runner<'_> {
+    /// Runs to the end.
+    ///
+    /// # Errors
+    ///
+    /// Ctrl-C cannot be handled, or the journal cannot be written, which stops the run.
+    pub(crate) fn run(mut self, mut paced: PacedView) -> Result<Exit, CliError> {
+        catch_interrupts()?;
+        let end = match self.journal {
+            None => resume(&mut self.engine, self.driver, &mut paced, self.from, self.events),
+            Some(writer) => {
+                let mut recorder = RunRecorder::new(writer, &mut paced);
+                let end = resume(&mut self.engine, self.driver, &mut recorder, self.from, self.events);
+                recorder.finish().map_err(journal_error)?;
+                end
+            }
+        };
+        paced.finish(&end);
+        Ok(exit_of(&end))
+    }
+}
+
+/// Exit code for the end of a run.
+pub(crate) const fn exit_of(end: &RunEnd) -> Exit {
+    match end {
+        RunEnd::Done { .. } => Exit::Success,
+        RunEnd::Failed { .. } | RunEnd::Replan { .. } | RunEnd::Fault(_) => Exit::Failed,
+        RunEnd::Interrupted => Exit::Interrupted,
+    }
+}
+
+/// Error of reading or writing a journal.
+pub(crate) fn journal_error(error: JournalError) -> CliError {
+    CliError::Message(error.to_string())
+}

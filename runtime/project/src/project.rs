@@ -1,0 +1,390 @@
+//! Robot, scene, state and domains by name or path, opened into compiler sessions.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+use motet_compiler::{Geometry, Options, Session, State};
+use motet_geometry::planning::SearchBudget;
+use motet_robots::card::Robot;
+use motet_robots::scene::{self, Scene};
+use motet_robots::urdf::Urdf;
+use motet_syntax::ast::File;
+use motet_syntax::json::{self, Spanned};
+use motet_syntax::{FileId, Source, Sources, suggest};
+
+use crate::error::{DiagnosticSink, Discard, ProjectError, invalid, require};
+use crate::files::{add_source, read_small};
+use crate::robot::RobotFiles;
+
+/// Id of the document in the sources of a [`ProjectSession`]. The files of the project follow it.
+pub const DOCUMENT: FileId = FileId(0);
+
+/// Inputs of a project, as names and paths.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ProjectBuilder {
+    pub(crate) robot: Option<String>,
+    pub(crate) scene: Option<String>,
+    pub(crate) state: Option<PathBuf>,
+    pub(crate) domains: Vec<PathBuf>,
+    pub(crate) max_duration_secs: Option<f64>,
+    /// Factor of the default search budget; `None` defers every motion.
+    pub(crate) effort: Option<u16>,
+}
+
+impl Default for ProjectBuilder {
+    fn default() -> Self {
+        Self {
+            robot: None,
+            scene: None,
+            state: None,
+            domains: Vec::new(),
+            max_duration_secs: None,
+            effort: Some(1),
+        }
+    }
+}
+
+impl ProjectBuilder {
+    /// Sets the robot: a built-in name, or a folder with a `robot.toml`. Without one, the `for NAME` of each
+    /// document names a built-in robot.
+    #[must_use]
+    pub fn robot(mut self, robot: impl Into<String>) -> Self {
+        self.robot = Some(robot.into());
+        self
+    }
+
+    /// Sets the scene: a built-in name, or a JSON file.
+    #[must_use]
+    pub fn scene(mut self, scene: impl Into<String>) -> Self {
+        self.scene = Some(scene.into());
+        self
+    }
+
+    /// Sets the facts at the start: a JSON object such as `{"holding(mug_1)": true}`, or a file with one.
+    /// `null` marks a fact as unknown.
+    #[must_use]
+    pub fn state(mut self, state: impl Into<PathBuf>) -> Self {
+        self.state = Some(state.into());
+        self
+    }
+
+    /// Adds a file of declarations.
+    #[must_use]
+    pub fn domain(mut self, path: impl Into<PathBuf>) -> Self {
+        self.domains.push(path.into());
+        self
+    }
+
+    /// Sets the maximum duration of a policy, in seconds.
+    #[must_use]
+    pub fn max_duration(mut self, secs: f64) -> Self {
+        self.max_duration_secs = Some(secs);
+        self
+    }
+
+    /// Multiplies the search budget of motions; 1 is the default.
+    #[must_use]
+    pub fn motion_effort(mut self, factor: u16) -> Self {
+        self.effort = Some(factor);
+        self
+    }
+
+    /// Defers every motion to the run.
+    #[must_use]
+    pub fn without_motions(mut self) -> Self {
+        self.effort = None;
+        self
+    }
+
+    /// Reads the files. Warnings about them are dropped; see [`ProjectBuilder::open_with`].
+    ///
+    /// # Errors
+    ///
+    /// A name is unknown, or a file cannot be read or has errors.
+    pub fn open(self) -> Result<Project, ProjectError> {
+        self.open_with(&mut Discard)
+    }
+
+    /// Reads the files, and reports all diagnostics about them.
+    ///
+    /// # Errors
+    ///
+    /// A name is unknown, or a file cannot be read or has errors.
+    pub fn open_with(self, sink: &mut dyn DiagnosticSink) -> Result<Project, ProjectError> {
+        let mut sources = Sources::default();
+        sources.add(Source::new("", ""));
+        let robot = match &self.robot {
+            Some(name) => {
+                let files = RobotFiles::find(name)?;
+                let robot = files.card(&mut sources, sink)?;
+                Some((files, robot))
+            }
+            None => None,
+        };
+        let mut domains = Vec::new();
+        for path in &self.domains {
+            domains.push(read_domain(path, &mut sources, sink)?);
+        }
+        let mut scene = None;
+        let mut scene_text = None;
+        if let Some(name) = &self.scene {
+            let file = FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX));
+            scene = Some(read_scene(name, &mut sources, sink)?);
+            scene_text = sources.get(file).map(|source| source.text.to_string());
+        }
+        let state = match &self.state {
+            Some(path) => Some(read_state(path, &mut sources, sink)?),
+            None => None,
+        };
+        let sessions = BTreeMap::new();
+        Ok(Project { inputs: Arc::new(self), robot, domains, scene, scene_text, state, sources, sessions })
+    }
+}
+
+/// Inputs shared by all documents, read once. A compiler session is built for each robot that documents ask
+/// for.
+#[derive(Debug)]
+pub struct Project {
+    inputs: Arc<ProjectBuilder>,
+    robot: Option<(RobotFiles, Robot)>,
+    domains: Vec<File>,
+    scene: Option<Scene>,
+    scene_text: Option<String>,
+    state: Option<State>,
+    /// An empty place for the document, then the files of the project.
+    sources: Sources,
+    /// By name of the robot; the empty name is no robot.
+    sessions: BTreeMap<String, ProjectSession>,
+}
+
+impl Project {
+    /// Builder of a project without any input, in which motions are searched with the default budget.
+    #[must_use]
+    pub fn builder() -> ProjectBuilder {
+        ProjectBuilder::default()
+    }
+
+    /// Session of the project's own robot, or of no robot.
+    ///
+    /// # Errors
+    ///
+    /// The scene, the state or a domain does not fit the robot, or the files of its body have errors.
+    pub fn session(&mut self, sink: &mut dyn DiagnosticSink) -> Result<&ProjectSession, ProjectError> {
+        self.session_for(&File::default(), sink)
+    }
+
+    /// Session of the project's own robot, without the project.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Project::session`].
+    pub fn into_session(self, sink: &mut dyn DiagnosticSink) -> Result<ProjectSession, ProjectError> {
+        let name = self.robot.as_ref().map(|(_, robot)| robot.name.to_string()).unwrap_or_default();
+        self.build(&name, sink)
+    }
+
+    /// Session for a document: with the project's own robot, or else with the built-in robot that the
+    /// document names.
+    ///
+    /// # Errors
+    ///
+    /// The scene, the state or a domain does not fit the robot, or the files of its body have errors.
+    pub fn session_for(
+        &mut self,
+        document: &File,
+        sink: &mut dyn DiagnosticSink,
+    ) -> Result<&ProjectSession, ProjectError> {
+        let wanted = match &self.robot {
+            Some((_, robot)) => robot.name.to_string(),
+            None => {
+                named_robot(document).filter(|name| RobotFiles::built_in(name).is_some()).unwrap_or_default()
+            }
+        };
+        if !self.sessions.contains_key(&wanted) {
+            let session = self.build(&wanted, sink)?;
+            self.sessions.insert(wanted.clone(), session);
+        }
+        let unknown = || ProjectError::Unknown { what: "robot", name: wanted.clone(), help: String::new() };
+        self.sessions.get(&wanted).ok_or_else(unknown)
+    }
+
+    /// Is `true` if the project has a scene.
+    #[must_use]
+    pub fn has_scene(&self) -> bool {
+        self.scene.is_some()
+    }
+
+    /// Is `true` if a session of the project searches motions.
+    #[must_use]
+    pub fn has_geometry(&self) -> bool {
+        self.sessions.values().any(|session| session.geometry.is_some())
+    }
+
+    fn build(&self, robot: &str, sink: &mut dyn DiagnosticSink) -> Result<ProjectSession, ProjectError> {
+        let mut sources = self.sources.clone();
+        let robot = match (&self.robot, robot) {
+            (Some(given), _) => Some(given.clone()),
+            (None, "") => None,
+            (None, name) => {
+                let files = RobotFiles::find(name)?;
+                let robot = files.card(&mut sources, sink)?;
+                Some((files, robot))
+            }
+        };
+        let (files, robot) = robot.unzip();
+        let (scene, state) = (self.scene.as_ref(), self.state.as_ref());
+        let options = Options { max_duration_secs: self.inputs.max_duration_secs };
+        let (mut session, found) =
+            Session::new(robot.as_ref(), &self.domains, scene, state, options, &mut sources);
+        require("robot, scene, state or domain", &found, &sources, sink)?;
+        let mut geometry = None;
+        if let (Some(effort), Some(files), Some(robot), Some(scene)) =
+            (self.inputs.effort, &files, &robot, scene)
+            && let Some(urdf) = files.body(robot, &mut sources, sink)?
+        {
+            require("scene", &scene::fit(scene, &urdf), &sources, sink)?;
+            let budget = SearchBudget::default().times(effort.into());
+            let shared = Arc::new(Geometry::new(robot, &urdf, scene, state, budget));
+            session = session.with_geometry(Arc::clone(&shared));
+            geometry = Some(shared);
+        }
+        Ok(ProjectSession {
+            session,
+            robot,
+            files,
+            scene: self.scene.clone(),
+            scene_text: self.scene_text.clone(),
+            geometry,
+            domains: self.domains.clone(),
+            inputs: Arc::clone(&self.inputs),
+            sources,
+        })
+    }
+}
+
+/// Compiler session with the robot, the scene and the files that it was opened from.
+#[derive(Debug)]
+pub struct ProjectSession {
+    pub session: Session,
+    pub robot: Option<Robot>,
+    pub files: Option<RobotFiles>,
+    pub scene: Option<Scene>,
+    /// Text of the scene.
+    pub scene_text: Option<String>,
+    /// Geometry of the robot in the scene; `None` if motions are deferred to the run.
+    pub geometry: Option<Arc<Geometry>>,
+    /// Declarations on top of the library.
+    pub domains: Vec<File>,
+    pub(crate) inputs: Arc<ProjectBuilder>,
+    sources: Sources,
+}
+
+impl ProjectSession {
+    /// Sources of the project with a document in its place, [`DOCUMENT`]: rendering diagnostics needs them.
+    #[must_use]
+    pub fn sources(&self, document: Source) -> Sources {
+        let mut all = Sources::default();
+        all.add(document);
+        let own = (1..self.sources.len()).filter_map(|index| u16::try_from(index).ok());
+        for source in own.filter_map(|index| self.sources.get(FileId(index))) {
+            all.add(source.clone());
+        }
+        all
+    }
+}
+
+/// Robot and, if its card names a URDF, its body.
+///
+/// # Errors
+///
+/// There is no such robot, or a file of it cannot be read or has errors.
+pub fn open_robot(
+    name: &str,
+    sources: &mut Sources,
+    sink: &mut dyn DiagnosticSink,
+) -> Result<(Robot, Option<Urdf>), ProjectError> {
+    let files = RobotFiles::find(name)?;
+    let robot = files.card(sources, sink)?;
+    let urdf = files.body(&robot, sources, sink)?;
+    Ok((robot, urdf))
+}
+
+/// Robot that the first policy of a document with a `for NAME` names.
+#[must_use]
+pub fn named_robot(document: &File) -> Option<String> {
+    document.policies().find_map(|policy| policy.robot.as_ref()).map(|name| name.text.to_string())
+}
+
+/// Reads a scene by a built-in name or from a JSON file.
+///
+/// # Errors
+///
+/// There is no such scene, or the file cannot be read or has errors.
+pub fn read_scene(
+    name: &str,
+    sources: &mut Sources,
+    sink: &mut dyn DiagnosticSink,
+) -> Result<Scene, ProjectError> {
+    let (name, bytes) = match scene::embedded().iter().find(|(known, _)| *known == name) {
+        Some((name, text)) => (format!("{name}.json"), text.as_bytes().to_vec()),
+        None if looks_like_file(name) => (name.to_owned(), read_small(Path::new(name))?),
+        None => return Err(unknown_scene(name)),
+    };
+    let (source, file, mut diagnostics) = add_source(&name, &bytes, sources);
+    let (scene, more) = scene::read(&source, file);
+    diagnostics.extend(more);
+    require("scene", &diagnostics, sources, sink)?;
+    scene.ok_or_else(|| invalid("scene", diagnostics, sources))
+}
+
+fn looks_like_file(name: &str) -> bool {
+    let path = Path::new(name);
+    path.exists() || path.extension().is_some() || path.components().count() > 1
+}
+
+fn unknown_scene(name: &str) -> ProjectError {
+    let names = || scene::embedded().iter().map(|(name, _)| *name);
+    let near = suggest::closest(name, names()).map(|near| format!("did you mean `{near}`? "));
+    let help = format!(
+        "{}built-in scenes: {}; your own scene is a JSON file",
+        near.unwrap_or_default(),
+        suggest::one_of(names())
+    );
+    ProjectError::Unknown { what: "scene", name: name.to_owned(), help }
+}
+
+fn read_domain(
+    path: &Path,
+    sources: &mut Sources,
+    sink: &mut dyn DiagnosticSink,
+) -> Result<File, ProjectError> {
+    let (source, file, mut diagnostics) =
+        add_source(&path.display().to_string(), &read_small(path)?, sources);
+    let parsed = motet_syntax::read(&source, file);
+    if diagnostics.is_empty() {
+        diagnostics = parsed.diagnostics;
+    }
+    require("domain", &diagnostics, sources, sink)?;
+    Ok(parsed.file)
+}
+
+/// Reads a state from a file, or from the argument itself if it is a JSON object.
+fn read_state(
+    path: &Path,
+    sources: &mut Sources,
+    sink: &mut dyn DiagnosticSink,
+) -> Result<State, ProjectError> {
+    let inline = path.to_str().filter(|text| text.trim_start().starts_with('{'));
+    let (name, bytes) = match inline {
+        Some(text) => ("--state".to_owned(), text.as_bytes().to_vec()),
+        None => (path.display().to_string(), read_small(path)?),
+    };
+    let (source, file, mut diagnostics) = add_source(&name, &bytes, sources);
+    let (facts, more) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
+    diagnostics.extend(more);
+    require("state", &diagnostics, sources, sink)?;
+    let facts = facts.ok_or_else(|| invalid("state", diagnostics, sources))?;
+    Ok(State { facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() })
+}

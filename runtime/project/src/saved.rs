@@ -1,0 +1,236 @@
+//! Description of a run's driver in the head of its journal: enough to open the run again, without the files
+//! it was opened from where they are small.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use indexmap::IndexMap;
+use motet_compiler::Course;
+use motet_host::remote::DriverAddress;
+use motet_robots::{card, scene};
+use motet_sim::{Faults, PersonScript, Sim, SimOptions};
+use motet_syntax::{FileId, Source};
+use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
+
+use crate::error::{DiagnosticSink, ProjectError};
+use crate::project::{Project, ProjectBuilder, ProjectSession};
+use crate::robot::RobotFiles;
+
+/// Driver of a run, as the head of its journal describes it.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum SavedDriver {
+    /// The simulator.
+    Simulator(Box<SavedSimulator>),
+    /// A driver in another process.
+    Process {
+        address: SavedAddress,
+        /// Name that the driver gave itself when it started.
+        instance: String,
+        #[serde(default)]
+        guard: Option<Box<SavedProject>>,
+    },
+}
+
+/// DriverAddress of a driver process.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SavedAddress {
+    /// Command with its arguments.
+    Command(Vec<String>),
+    /// TCP port of this machine.
+    Tcp(SocketAddr),
+}
+
+/// Simulator of a run with all of its inputs.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedSimulator {
+    /// Text of `robot.toml`.
+    card: String,
+    /// Text of `primitives.motet`.
+    declarations: Option<String>,
+    /// Text of the scene.
+    scene: Option<String>,
+    seed: u64,
+    faults: Faults,
+    answers: Vec<Option<String>>,
+    kinds: IndexMap<SmolStr, SmolStr>,
+    entities: Vec<(SmolStr, SmolStr)>,
+    told: Vec<(SmolStr, Vec<SmolStr>, bool)>,
+    #[serde(default)]
+    guard: Option<Box<SavedProject>>,
+}
+
+impl SavedDriver {
+    /// Description of a simulator. `project` is saved if motions are checked during the run.
+    #[must_use]
+    pub fn simulator(
+        robot: &RobotFiles,
+        scene: Option<String>,
+        options: &SimOptions,
+        project: Option<SavedProject>,
+    ) -> Self {
+        let (card, declarations) = robot.texts();
+        let told = options.initial_facts.iter();
+        Self::Simulator(Box::new(SavedSimulator {
+            card,
+            declarations,
+            scene,
+            seed: options.seed,
+            faults: options.faults.clone(),
+            answers: options.script.answers.clone(),
+            kinds: options.kinds.clone(),
+            entities: options.entities.clone(),
+            told: told.map(|((name, args), holds)| (name.clone(), args.clone(), *holds)).collect(),
+            guard: project.map(Box::new),
+        }))
+    }
+
+    /// Description of a driver process.
+    #[must_use]
+    pub fn process(address: &DriverAddress, instance: &str, project: Option<SavedProject>) -> Self {
+        let address = match address {
+            DriverAddress::Command(words) => SavedAddress::Command(words.clone()),
+            DriverAddress::Tcp(socket) => SavedAddress::Tcp(*socket),
+        };
+        Self::Process { address, instance: instance.to_owned(), guard: project.map(Box::new) }
+    }
+
+    /// Project in which motions are checked during the run.
+    #[must_use]
+    pub fn project(&self) -> Option<&SavedProject> {
+        match self {
+            Self::Simulator(saved) => saved.guard.as_deref(),
+            Self::Process { guard, .. } => guard.as_deref(),
+        }
+    }
+
+    /// JSON of the description, for the head of a journal.
+    ///
+    /// # Errors
+    ///
+    /// [`ProjectError::Journal`].
+    pub fn to_json(&self) -> Result<serde_json::Value, ProjectError> {
+        serde_json::to_value(self)
+            .map_err(|error| ProjectError::Journal(format!("cannot describe the driver as JSON: {error}")))
+    }
+
+    /// Reads the description in the head of a journal.
+    ///
+    /// # Errors
+    ///
+    /// [`ProjectError::Journal`] if the run was part of a conversation, or the journal was written by
+    /// another host.
+    pub fn from_json(json: &serde_json::Value) -> Result<Self, ProjectError> {
+        if json.is_null() {
+            let why = "the run was part of a conversation and started in a scene that earlier runs had \
+                       changed: it can be replayed but not resumed";
+            return Err(ProjectError::Journal(why.to_owned()));
+        }
+        Self::deserialize(json).map_err(|error| {
+            ProjectError::Journal(format!("the journal does not describe the driver of the run: {error}"))
+        })
+    }
+}
+
+fn unreadable(what: &str) -> ProjectError {
+    ProjectError::Journal(format!("cannot read the {what} in the journal"))
+}
+
+impl SavedSimulator {
+    /// Scene of the run; an empty one if none was given.
+    ///
+    /// # Errors
+    ///
+    /// This version cannot read the saved scene.
+    pub fn scene(&self) -> Result<scene::Scene, ProjectError> {
+        let Some(text) = &self.scene else { return Ok(scene::Scene::default()) };
+        let (scene, _) = scene::read(&Source::new("scene.json", text.as_str()), FileId(0));
+        scene.ok_or_else(|| unreadable("scene"))
+    }
+
+    /// Simulator in its state at the start of the run.
+    ///
+    /// # Errors
+    ///
+    /// This version cannot read the saved card or scene.
+    pub fn open(&self) -> Result<Sim, ProjectError> {
+        let source = Source::new("robot.toml", self.card.as_str());
+        let (robot, _) = card::read(&source, FileId(0), self.declarations.as_deref());
+        let robot = robot.ok_or_else(|| unreadable("robot card"))?;
+        let scene = self.scene()?;
+        let told = self.told.iter();
+        let options = SimOptions {
+            seed: self.seed,
+            faults: self.faults.clone(),
+            script: PersonScript { answers: self.answers.clone() },
+            kinds: self.kinds.clone(),
+            entities: self.entities.clone(),
+            initial_facts: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
+            eye: None,
+        };
+        Ok(Sim::new(&robot, &scene, options))
+    }
+}
+
+impl From<SavedAddress> for DriverAddress {
+    fn from(address: SavedAddress) -> Self {
+        match address {
+            SavedAddress::Command(words) => Self::Command(words),
+            SavedAddress::Tcp(socket) => Self::Tcp(socket),
+        }
+    }
+}
+
+/// Names and paths from which the geometry of a run was opened. A robot's body is too large for every
+/// journal, so its files are read again; the text of the scene tells whether it has changed since.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedProject {
+    /// Name or folder.
+    robot: String,
+    /// Name or file.
+    scene: String,
+    scene_text: Option<String>,
+    state: Option<PathBuf>,
+    domain: Vec<PathBuf>,
+    effort: u16,
+}
+
+impl SavedProject {
+    /// Inputs of a session; `None` if it does not search motions.
+    #[must_use]
+    pub fn of(opened: &ProjectSession) -> Option<Self> {
+        opened.geometry.as_ref()?;
+        let inputs = &opened.inputs;
+        Some(Self {
+            robot: inputs.robot.clone().or_else(|| Some(opened.robot.as_ref()?.name.to_string()))?,
+            scene: inputs.scene.clone()?,
+            scene_text: opened.scene_text.clone(),
+            state: inputs.state.clone(),
+            domain: inputs.domains.clone(),
+            effort: inputs.effort?,
+        })
+    }
+
+    /// World tracker at the beginning of the run; `None` if the scene has changed since then.
+    ///
+    /// # Errors
+    ///
+    /// A file is gone, or has errors now.
+    pub fn open(&self, sink: &mut dyn DiagnosticSink) -> Result<Option<Course>, ProjectError> {
+        let inputs = ProjectBuilder {
+            robot: Some(self.robot.clone()),
+            scene: Some(self.scene.clone()),
+            state: self.state.clone(),
+            domains: self.domain.clone(),
+            effort: Some(self.effort),
+            ..ProjectBuilder::default()
+        };
+        let mut project: Project = inputs.open_with(sink)?;
+        let opened = project.session(sink)?;
+        Ok(opened.session.course().filter(|_| opened.scene_text == self.scene_text))
+    }
+}
