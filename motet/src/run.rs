@@ -66,9 +66,9 @@ pub fn create_journal(
 pub fn journal_head(engine: &Engine, start: &StartState) -> JournalHead {
     JournalHead {
         began_unix_ns: unix_ns(),
-        start: start.into(),
-        settings: (*engine.settings()).into(),
-        capabilities: engine.capabilities().into(),
+        start: start.clone(),
+        settings: *engine.settings(),
+        capabilities: engine.capabilities().clone(),
         ..JournalHead::new(engine.graph())
     }
 }

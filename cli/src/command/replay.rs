@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use motet_runtime::journal::{EffectMismatch, EngineReplay, JournalEntry, ReplayError};
-use motet_runtime::{Snapshot, Time, wire};
+use motet_runtime::{Snapshot, Time};
 
 use crate::error::{CliError, Exit};
 use crate::flags::duration;
@@ -113,7 +113,7 @@ struct Player {
 impl Player {
     fn take(&mut self, seq: u64, entry: &JournalEntry, last: Option<Moment>) {
         let at = entry.happened().map(|(at, _)| at);
-        let now = at.map_or_else(|| self.now(), Time::from_nanos);
+        let now = at.unwrap_or_else(|| self.now());
         self.is_past |= last.is_some_and(|last| last.is_before(seq, now));
         if self.is_past || self.difference.is_some() || self.stuck.is_some() {
             return;
@@ -166,7 +166,7 @@ impl Player {
             "effects": self.effects,
             "at": self.now().nanos(),
             "difference": difference,
-            "state": state.map(wire::Snapshot::from),
+            "state": state,
         })
         .to_string()
     }
@@ -185,7 +185,7 @@ fn describe(state: &Snapshot) -> String {
         };
         let _ = writeln!(text, "  {fact}: {word}");
     }
-    for (query, value, at) in &state.readings {
+    for motet_runtime::Reading { query, value, at } in &state.readings {
         let _ = writeln!(text, "  {query} = {value}, read at {at}");
     }
     for (name, value) in &state.bindings {

@@ -1,17 +1,12 @@
-//! The execution graph: what the compiler makes of a policy, and all that a robot needs to run it.
-//!
-//! [`model`] is the graph in memory. It knows neither text nor compiler, and it trusts nothing: a graph that comes from
-//! elsewhere is decoded ([`decode`]) and validated ([`validate()`]) before an engine takes it. [`draw`] shows it to people.
+#![doc = include_str!("../README.md")]
 
 #[cfg(feature = "arbitrary")]
 pub mod arbitrary;
-mod display;
 pub mod draw;
 pub mod encode;
-mod fit;
 pub mod model;
 pub mod validate;
 
-pub use encode::{DecodeError, decode, encode, hash};
+pub use encode::{DecodeError, GraphDocument, decode, encode, hash};
 pub use model::*;
 pub use validate::{InvalidGraph, InvalidReason, validate};

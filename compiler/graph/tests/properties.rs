@@ -1,4 +1,5 @@
-//! Properties of graphs: they validate, round trip, hash and draw alike; mutated ones are refused or stay harmless.
+//! Properties of graphs: they validate, round trip, hash and draw alike; mutated ones are refused or stay
+//! harmless.
 
 #![allow(
     clippy::unwrap_used,

@@ -11,12 +11,12 @@
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{
-    BindingId, Comparison, Condition, Ending, Fact, FactArg, FailureId, FluentId, Graph, KindId, MeasureId,
-    NodeId, NodeKind, PrimitiveId, Reaction, RegionId, ResourceId, Term, Type, Value, validate,
+    BindingId, Comparison, Condition, Ending, Fact, FactArg, FailureId, FluentId, Graph, InitialFact, KindId,
+    MeasureId, NodeId, NodeKind, PrimitiveId, Reaction, RegionId, ResourceId, Term, Type, Value, validate,
 };
 
-/// Nodes: 0 detect, 1 try, 2 pick, 3 replan, 4 monitor, 5 go, 6 say (block), 7 policy, 8 done, 9 parallel, 10 go, 11 say,
-/// 12 each, 13 go.
+/// Nodes: 0 detect, 1 try, 2 pick, 3 replan, 4 monitor, 5 go, 6 say (block), 7 policy, 8 done, 9 parallel, 10
+/// go, 11 say, 12 each, 13 go.
 fn sound() -> Graph {
     let watch =
         WatchSketch { condition: v::nearer("user", 0.5), hold_secs: 0.2, react: ReactionSketch::Pause(60.0) };
@@ -85,7 +85,12 @@ fn tables() {
         "resources 128: 129 resources are more than the limit of 128",
     );
     check(
-        |g| g.initial.push((v::fact(v::HOLDING, vec![Term::Binding(BindingId(0))]), true)),
+        |g| {
+            g.initial.push(InitialFact {
+                fact: v::fact(v::HOLDING, vec![Term::Binding(BindingId(0))]),
+                value: true,
+            })
+        },
         "initial fact 1: what is known at the start must be made of literals",
     );
 }

@@ -39,7 +39,8 @@ pub(crate) fn lower(
     };
     lowering.region(&program.body, None);
     let initial = environment.given.iter().filter_map(|(fact, value)| {
-        Some((lowering.tables.fact(fact, &[], None)?, *value)).filter(|(fact, _)| !has_any(fact))
+        let fact = lowering.tables.fact(fact, &[], None)?;
+        (!has_any(&fact)).then_some(graph::InitialFact { fact, value: *value })
     });
     let initial = initial.collect();
     let Lowering { nodes, regions, tables, .. } = lowering;

@@ -146,7 +146,11 @@ impl<'a> Tables<'a> {
         let new = graph::PrimitiveId(next(&self.primitives));
         self.primitive_ids.insert(id, new);
         if let Some(def) = self.library.primitive(id) {
-            let params = def.params.iter().map(|param| (param.name.clone(), self.ty(param.ty))).collect();
+            let params = def
+                .params
+                .iter()
+                .map(|param| graph::Param { name: param.name.clone(), ty: self.ty(param.ty) });
+            let params = params.collect();
             let fails = def.fails.iter().map(|kind| self.failure(*kind)).collect();
             self.primitives.push(graph::Primitive {
                 name: def.name.clone(),

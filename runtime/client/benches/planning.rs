@@ -1,4 +1,4 @@
-//! What planning costs beside the model, part by part, and when the robot first moves on replayed replies.
+//! Cost of planning beside the model, part by part, and the time of the first motion on replayed replies.
 
 #![allow(
     clippy::unwrap_used,
@@ -31,7 +31,7 @@ use motet_syntax::Sources;
 
 const REQUESTS: &[&str] = &["bring me the coke", "put the red mug in the cupboard", "open the fridge"];
 const RUNS: usize = 50;
-/// What is done while a model is still writing: nobody waits for it.
+/// Work that is done while a model is still writing, so that it adds no waiting time.
 const AS_IT_ARRIVES: &str = "read as it arrives";
 
 fn main() {
@@ -91,7 +91,7 @@ fn overhead() {
     println!("  check, motions and compile where no motion has been asked for before: {fresh:.1?}");
 }
 
-/// What is made once for a robot in a room.
+/// State that is built once for a robot in a room.
 struct Kept {
     session: Session,
     lasting: StaticPrompt,
@@ -168,8 +168,8 @@ fn once(setting: &DialogueSetup, kept: &Kept, request: &str, reply: &str) -> Vec
     let start = StartState { entities: entities.collect(), ..StartState::default() };
     let mut engine = Engine::new(graph.clone(), &start).unwrap();
     let mut out = Vec::new();
-    // The engine was there before: only the swap counts. It is one before the first step, which takes from the facts that
-    // the policy was proved from.
+    // The engine was there before: only the swap counts. It is one before the first step, which takes from
+    // the facts that the policy was proved from.
     from = Instant::now();
     let prepared = PreparedSwap::new(graph, &engine.running()).unwrap();
     engine.swap(Time::ZERO, prepared, &mut out).unwrap();

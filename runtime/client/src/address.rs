@@ -1,4 +1,4 @@
-//! Where chat requests go.
+//! Address of a server for chat requests.
 
 use std::fmt;
 
@@ -10,7 +10,8 @@ use reqwest::Url;
 pub struct ServerUrl(Url);
 
 impl ServerUrl {
-    /// The address of chat requests, from that of a server: the path is that of the dialect where none is given.
+    /// The address of chat requests, from that of a server: the path is that of the dialect where none is
+    /// given.
     ///
     /// # Errors
     ///
@@ -39,7 +40,7 @@ impl ServerUrl {
         Ok(Self(url))
     }
 
-    /// Whether it is this machine.
+    /// True if it is this machine.
     #[must_use]
     pub fn is_loopback(&self) -> bool {
         matches!(self.0.host_str(), Some("localhost" | "127.0.0.1" | "[::1]"))

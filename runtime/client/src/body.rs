@@ -23,7 +23,8 @@ pub(crate) fn chat(
     Ok(Value::Object(body))
 }
 
-/// What holds a reply to an grammar, in the server's dialect; none where it has none.
+/// Parameters that constrain a reply to a grammar, in the server's dialect; none for a server without a
+/// dialect.
 pub(crate) fn constraint(
     settings: &ClientSettings,
     grammar: &Grammar,
@@ -55,7 +56,7 @@ fn messages(settings: &ClientSettings, chat: &[Message]) -> Result<Value, ModelE
     messages.collect()
 }
 
-/// What one says and shows.
+/// A message of one role with its images.
 fn said(settings: &ClientSettings, role: &str, text: &str, images: &[&EncodedImage]) -> Value {
     if images.is_empty() {
         return json!({"role": role, "content": text});

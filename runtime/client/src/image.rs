@@ -14,7 +14,7 @@ pub struct EncodedImage {
     base64: String,
 }
 
-/// Why a file is no image that can be sent.
+/// Error of [`EncodedImage::new`].
 #[derive(Error, Clone, PartialEq, Eq, Debug)]
 pub enum ImageError {
     /// Its first bytes are not those of an image.

@@ -1,8 +1,4 @@
-//! Asks models on servers that speak like OpenAI's, or like Ollama, for policies.
-//!
-//! [`Client`] sends a chat and hands the reply on as it arrives. It knows nothing of policies: what a reply is worth is
-//! judged by `motet_planner::model`. A server may be slow, refuse, break off, talk nonsense or never stop; each of these
-//! ends in a [`ModelError`] within the times and sizes of the [`ClientSettings`], and leaves nothing behind.
+#![doc = include_str!("../README.md")]
 
 mod address;
 mod body;

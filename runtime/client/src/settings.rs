@@ -1,4 +1,4 @@
-//! What a client is told once.
+//! Settings of a client.
 
 use std::time::Duration;
 
@@ -8,20 +8,19 @@ use crate::address::ServerUrl;
 use crate::image::EncodedImage;
 use crate::key::ApiKey;
 
-/// Which server and model, and how long and how much.
+/// Server, model, and limits of time and size.
 #[derive(Clone, Debug)]
 pub struct ClientSettings {
-    /// Where requests go.
     pub address: ServerUrl,
     /// The name of the model.
     pub model: String,
-    /// How the server takes a grammar; none where it is not told of any.
+    /// Dialect in which the server takes a grammar; without one, no grammar is sent.
     pub dialect: Option<Dialect>,
     /// In which notation it takes it.
     pub notation: Notation,
     /// The server's key.
     pub key: Option<ApiKey>,
-    /// What the model sees of the room, with the first message that is not the system's.
+    /// Images of the room, sent with the first message that is not the system's.
     pub images: Vec<EncodedImage>,
     /// The longest to wait for a connection.
     pub connect_timeout: Duration,
@@ -29,9 +28,10 @@ pub struct ClientSettings {
     pub idle_timeout: Duration,
     /// The longest for a whole reply, with all retries.
     pub timeout: Duration,
-    /// How often a request is sent again where the server cannot be reached, is busy (429) or fails (5xx).
+    /// Number of times a request is sent again where the server cannot be reached, is busy (429) or fails
+    /// (5xx).
     pub retries: u32,
-    /// What is waited before the first retry where the server does not say; twice as long before each further one, and
+    /// Delay before the first retry if the server does not state one; doubled before each further one, and
     /// never longer than [`ClientSettings::longest_back_off`].
     pub back_off: Duration,
     /// The longest wait before a retry, also where the server asks for a longer one.

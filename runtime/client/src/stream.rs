@@ -1,5 +1,5 @@
-//! A reply as it arrives: server-sent events, a JSON object a line (Ollama), or all at once from a server that does not
-//! stream. No more bytes are taken than the settings allow, and no silence longer.
+//! A reply as it arrives: server-sent events, a JSON object a line (Ollama), or all at once from a server
+//! that does not stream. No more bytes are taken than the settings allow, and no silence longer.
 
 use std::sync::mpsc::Sender;
 

@@ -11,7 +11,7 @@ use reqwest::{Response, StatusCode};
 use crate::settings::ClientSettings;
 use crate::stream;
 
-/// How much of what a server says about a refusal is shown.
+/// Number of characters of a server's refusal that are shown.
 const SHOWN_CHARS: usize = 320;
 
 /// Sends a body and passes on what comes, the ending last. Who no longer listens is not told.
@@ -74,20 +74,21 @@ pub(crate) async fn send(
     }
 }
 
-/// Whether a server that answers so may answer otherwise soon.
+/// True if a server that answers so may answer otherwise soon.
 fn is_passing(status: StatusCode) -> bool {
     status == StatusCode::TOO_MANY_REQUESTS
         || status == StatusCode::REQUEST_TIMEOUT
         || status.is_server_error() && status != StatusCode::NOT_IMPLEMENTED
 }
 
-/// How long the server asks to wait: in seconds. A date is not read, since two clocks seldom agree.
+/// Delay that the server asks for in the `Retry-After` header, in seconds. A date is not read, since two
+/// clocks seldom agree.
 fn retry_after(headers: &HeaderMap) -> Option<Duration> {
     let seconds: u64 = headers.get(RETRY_AFTER)?.to_str().ok()?.trim().parse().ok()?;
     Some(Duration::from_secs(seconds))
 }
 
-/// What the server says where it does not answer.
+/// Error for a response that is not a success, with the server's words.
 async fn refusal(response: Response, settings: &ClientSettings) -> ModelError {
     let status = response.status();
     // The words are a courtesy: what does not come soon is not waited for.
@@ -108,7 +109,7 @@ pub(crate) fn timed_out(after: Duration) -> ModelError {
     ModelError::TimedOut { secs: after.as_secs_f64() }
 }
 
-/// What went wrong, down to its cause, without the address, which the caller knows.
+/// Description of an error down to its cause, without the address, which the caller knows.
 pub(crate) fn reason(error: reqwest::Error) -> String {
     let error = error.without_url();
     let mut text = error.to_string();

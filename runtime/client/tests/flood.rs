@@ -1,7 +1,8 @@
-//! Many replies of a server with random faults: each ends in a run, a question or an error, and nothing leaks.
+//! Many replies of a server with random faults: each ends in a run, a question or an error, and nothing
+//! leaks.
 //!
-//! A few in the tests of every change; `MOTET_REPLIES=500 cargo test -p motet-client --test flood -- --nocapture` for as
-//! many as one likes.
+//! A few in the tests of every change; `MOTET_REPLIES=500 cargo test -p motet-client --test flood --
+//! --nocapture` for as many as one likes.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 mod common;

@@ -1,5 +1,5 @@
-//! A driver that asks a model for points keeps the laws of drivers: for the goals that it answers itself, and for those that it
-//! leaves to the driver within.
+//! A driver that asks a model for points keeps the laws of drivers: for the goals that it answers itself, and
+//! for those that it leaves to the driver within.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 mod common;

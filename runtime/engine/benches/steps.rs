@@ -1,5 +1,5 @@
-//! What a step, an idle event and a swap cost, beside `bonsai-bt`. The driver succeeds at once, the trace is on: each step is
-//! an event, its records and the next start.
+//! Cost of a step, an idle event and a swap, compared with `bonsai-bt`. The driver succeeds at once, the
+//! trace is on: each step is an event, its records and the next start.
 
 #[path = "steps/beside.rs"]
 mod beside;
@@ -90,7 +90,8 @@ fn nesting(c: &mut Criterion) {
     });
 }
 
-/// A thousand monitors over one call: a tick in which nothing happens, and an observation that one of them depends on.
+/// A thousand monitors over one call: a tick in which nothing happens, and an observation that one of them
+/// depends on.
 fn monitors(c: &mut Criterion) {
     let deep = (0..1_000).fold(StepSketch::go("table"), |inner, index| {
         let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity(&format!("mug_{index}"))]));

@@ -1,4 +1,5 @@
-//! A host of its own: runs a graph with a toy driver, and lets another policy take over in the middle of an action.
+//! A host of its own: runs a graph with a toy driver, and lets another policy take over in the middle of an
+//! action.
 //!
 //! `cargo run -p motet-runtime --example embed`
 
@@ -13,7 +14,7 @@ use motet_runtime::{
 /// A robot for which everything takes two seconds, and which can go somewhere else on the way.
 #[derive(Default)]
 struct Toy {
-    /// What it will report, in the order of their times.
+    /// Pending reports in the order of their times.
     reports: Vec<(Time, DriverEvent)>,
 }
 

@@ -1,48 +1,61 @@
 //! The driver: what moves the robot, or pretends to.
 
 use crate::effect::{Command, Effect};
-use crate::event::{DriverEvent, GoalId};
+use crate::event::DriverEvent;
+use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-/// What moves the robot. The host loop ([`crate::run`]) passes it the engine's effects and feeds the engine with what it
-/// reports.
+/// Interface to a robot or a simulator. The run loop ([`crate::run`]) passes it the engine's effects and
+/// feeds its reports to the engine.
+///
+/// A driver need not be `Send`: [`crate::run`] borrows it and calls it from one thread only. `Command::args`
+/// holds every parameter of the primitive by name ([`Command::arg`]): entities by id, numbers in SI units and
+/// radians, poses in the frame `map`.
 ///
 /// # Laws
 ///
-/// 1. Every goal that was started is answered by [`DriverEvent::Acknowledged`] or [`DriverEvent::Refused`], and an
-///    acknowledged one ends exactly once, by [`DriverEvent::Ended`] or [`DriverEvent::Stopped`]. After that the driver
-///    says nothing of it and uses none of its resources.
-/// 2. A cancelled goal ends soon, by its own end or as interrupted. A cancel of a goal that has ended is ignored.
+/// 1. Every goal that was started is answered by [`DriverEvent::Acknowledged`] or [`DriverEvent::Refused`],
+///    and an acknowledged one ends exactly once, by [`DriverEvent::Ended`] or [`DriverEvent::Stopped`]. After
+///    that the driver says nothing of it and uses none of its resources.
+/// 2. A cancelled goal ends soon, by its own end or as interrupted. A cancel of a goal that has ended is
+///    ignored.
 /// 3. A safe stop is always answered by [`DriverEvent::Stopped`], for a goal that has ended too.
-/// 4. While it is held a goal does not move the robot and does not end by itself, unless the world makes it fail.
-///    A driver that cannot hold it answers [`DriverEvent::NotHeld`] and goes on until it is cancelled.
-/// 5. Every observation is answered by one [`DriverEvent::Observed`], within the card's `observe_within`. A watch is
-///    answered at once and then whenever the answer differs from the last; watching twice is watching once.
-/// 6. Time never runs backwards, and with the same calls at the same times it reports the same events at the same times.
-/// 7. A goal is updated only where [`Driver::capabilities`] says so. From then on it pursues the new arguments, under the
-///    same number and deadline rules; where it cannot, it ends in a failure.
-/// 8. What it cannot answer for it reports as [`DriverEvent::Lost`], or [`DriverEvent::DriverLost`] for everything: an
-///    answer that never comes means unknown, not refused. A safe stop of a lost goal is answered like any other.
+/// 4. While it is held a goal does not move the robot and does not end by itself, unless the world makes it
+///    fail. A driver that cannot hold it answers [`DriverEvent::NotHeld`] and goes on until it is cancelled.
+/// 5. Every observation is answered by one [`DriverEvent::Observed`], within the card's `observe_within`. A
+///    watch is answered at once and then whenever the answer differs from the last; watching twice is
+///    watching once.
+/// 6. Time never runs backwards, and with the same calls at the same times it reports the same events at the
+///    same times.
+/// 7. A goal is updated only where [`Driver::capabilities`] says so. From then on it pursues the new
+///    arguments, under the same number and deadline rules; where it cannot, it ends in a failure.
+/// 8. What it cannot answer for it reports as [`DriverEvent::Lost`], or [`DriverEvent::DriverLost`] for
+///    everything: an answer that never comes means unknown, not refused. A safe stop of a lost goal is
+///    answered like any other.
 /// 9. It never reports from within a call: everything goes out through [`Driver::advance`].
 pub trait Driver {
     /// Starts a primitive.
     fn start(&mut self, now: Time, goal: GoalId, command: &Command);
     /// Ends a goal early.
     fn cancel(&mut self, now: Time, goal: GoalId);
-    /// What it can do beside starting and ending goals. The same all through a run.
+    /// Optional abilities of the driver, constant during a run.
     fn capabilities(&self) -> Capabilities {
         Capabilities::default()
     }
-    /// Where the base stands: x and y in m and the heading in rad in the frame `map`, where it knows.
+    /// Position where the base stands: x and y in m and the heading in rad in the frame `map`, where it
+    /// knows.
     fn base(&self) -> Option<[f64; 3]> {
         None
     }
-    /// Gives a running goal new arguments of the same primitive. Called only where [`Driver::capabilities`] says so.
+    /// Gives a running goal new arguments of the same primitive. Called only where [`Driver::capabilities`]
+    /// says so.
     fn update(&mut self, now: Time, goal: GoalId, command: &Command);
     /// Keeps a goal still until [`Driver::proceed`].
     fn hold(&mut self, now: Time, goal: GoalId);
@@ -56,13 +69,32 @@ pub trait Driver {
     fn watch(&mut self, now: Time, query: &Query);
     /// No longer watches a query.
     fn unwatch(&mut self, now: Time, query: &Query);
-    /// Lets the world go on to the next thing that it has to report, but no further than `until`. Returns that event
-    /// with its time, at most `until`, or nothing where `until` was reached without one. With [`Time::NEVER`], nothing
-    /// means that nothing will ever happen. A driver of a real robot blocks here.
+    /// Lets time pass until the next report, but not beyond `until`. Returns the report with its time, at
+    /// most `until`, or `None` if `until` was reached without one. With [`Time::NEVER`], `None` means that no
+    /// report will ever come.
+    ///
+    /// A simulator jumps in virtual time. A driver of a real robot blocks: the robot's thread or the
+    /// callbacks of a ROS action send reports into a channel, and `advance` waits for it.
+    ///
+    /// ```
+    /// use motet_runtime::{DriverEvent, Time};
+    /// use std::sync::mpsc::Receiver;
+    /// use std::time::{Duration, Instant};
+    ///
+    /// fn advance(reports: &Receiver<DriverEvent>, origin: Instant, until: Time) -> Option<(Time, DriverEvent)> {
+    ///     let now = || Time::from_nanos(origin.elapsed().as_nanos() as u64);
+    ///     let event = if until == Time::NEVER {
+    ///         reports.recv().ok()?
+    ///     } else {
+    ///         reports.recv_timeout(Duration::from_nanos(until.since(now()).nanos())).ok()?
+    ///     };
+    ///     Some((now().min(until), event))
+    /// }
+    /// ```
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)>;
 
-    /// Carries an effect out by the call that is meant by it. Records, verdicts and the end of the run are none of its
-    /// affair.
+    /// Carries an effect out by the call that is meant by it. Records, verdicts and the end of the run are
+    /// none of its affair.
     fn carry_out(&mut self, now: Time, effect: &Effect) {
         match effect {
             Effect::Start { goal, command, .. } => self.start(now, *goal, command),
@@ -130,12 +162,15 @@ impl<D: Driver> Driver for Rc<RefCell<D>> {
     }
 }
 
-/// What a driver can do beside starting and ending goals.
-#[derive(Clone, PartialEq, Eq, Debug)]
+/// Optional abilities of a driver.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Capabilities {
-    /// Primitives whose goals it can hold and let go on. Others are cancelled by a pause and start again after it.
+    /// Primitives whose goals it can hold and let go on. Others are cancelled by a pause and start again
+    /// after it.
     pub hold: PrimitiveSet,
-    /// Primitives whose goals take new arguments while they run. Others are cancelled by a swap that changes them.
+    /// Primitives whose goals take new arguments while they run. Others are cancelled by a swap that changes
+    /// them.
     pub update: PrimitiveSet,
 }
 
@@ -147,16 +182,16 @@ impl Default for Capabilities {
 }
 
 /// A choice of primitives.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum PrimitiveSet {
-    /// Every one.
     All,
     /// Those of these names.
     Only(BTreeSet<SmolStr>),
 }
 
 impl PrimitiveSet {
-    /// Whether a primitive is among them.
+    /// True if a primitive is among them.
     #[must_use]
     pub fn contains(&self, primitive: &str) -> bool {
         match self {

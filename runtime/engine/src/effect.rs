@@ -1,18 +1,22 @@
-//! What the engine wants done: its only way to act on the world.
+//! Effects: the engine's only way to act on the world.
 
-use crate::event::GoalId;
+use crate::ids::CheckId;
+use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
 use crate::trace::TraceEvent;
-use crate::verifier::{CheckId, DeferredMotion};
+use crate::verifier::DeferredMotion;
 use motet_graph::{NodeId, Value};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 use std::sync::Arc;
 
-/// One thing that the engine wants done. The effects of one event go out together, in order. The order of commands to a
-/// driver is the order in which they take effect.
-#[derive(Clone, PartialEq, Debug)]
+/// One thing that the engine wants done. The effects of one event go out together, in order. The order of
+/// commands to a driver is the order in which they take effect.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Effect {
     /// Start a primitive.
     Start {
@@ -20,79 +24,90 @@ pub enum Effect {
         goal: GoalId,
         /// The step that it is for.
         node: NodeId,
-        /// What to do.
         command: Arc<Command>,
-        /// When the engine will cancel it.
+        /// Time at which the engine will cancel it.
         deadline: Time,
     },
     /// End a goal early. Sent at most once a goal, never before it was acknowledged.
-    Cancel {
-        /// Which.
-        goal: GoalId,
-    },
-    /// Do this instead: the goal goes on under its old number with new arguments of the same primitive. Sent only for
-    /// primitives that the driver says it can update ([`crate::Capabilities`]), and only while the goal runs. Not
-    /// acknowledged; a driver that cannot after all ends the goal in a failure.
+    Cancel { goal: GoalId },
+    /// Do this instead: the goal goes on under its old number with new arguments of the same primitive. Sent
+    /// only for primitives that the driver says it can update ([`crate::Capabilities`]), and only while the
+    /// goal runs. Not acknowledged; a driver that cannot after all ends the goal in a failure.
     Update {
-        /// Which.
         goal: GoalId,
         /// The step that it is for from now on.
         node: NodeId,
-        /// What to do.
         command: Arc<Command>,
-        /// When the engine will cancel it.
+        /// Time at which the engine will cancel it.
         deadline: Time,
     },
     /// Keep still without ending, until [`Effect::Proceed`]. Not acknowledged; a driver that cannot says
     /// [`crate::DriverEvent::NotHeld`].
-    Hold {
-        /// Which.
-        goal: GoalId,
-    },
+    Hold { goal: GoalId },
     /// Go on after [`Effect::Hold`].
-    Proceed {
-        /// Which.
-        goal: GoalId,
-    },
-    /// A cancel was not answered in time: bring everything that the goal uses to a safe stop by whatever means, and
-    /// say [`crate::DriverEvent::Stopped`].
-    SafeStop {
-        /// Which.
-        goal: GoalId,
-    },
+    Proceed { goal: GoalId },
+    /// A cancel was not answered in time: bring everything that the goal uses to a safe stop by whatever
+    /// means, and say [`crate::DriverEvent::Stopped`].
+    SafeStop { goal: GoalId },
     /// Answer once, at once if possible.
-    Observe {
-        /// What.
-        query: Arc<Query>,
-    },
+    Observe { query: Arc<Query> },
     /// Answer now, and again whenever the answer changes.
-    Watch {
-        /// What.
-        query: Arc<Query>,
-    },
+    Watch { query: Arc<Query> },
     /// No longer watch.
-    Unwatch {
-        /// What.
-        query: Arc<Query>,
-    },
-    /// Say whether a motion has a solution, by [`crate::Event::Verified`]. Asked just before its step starts, and only where
-    /// [`crate::EngineSettings::verify_within`] says that somebody will answer.
+    Unwatch { query: Arc<Query> },
+    /// Say whether a motion has a solution, by [`crate::Event::Verified`]. Asked just before its step starts,
+    /// and only where [`crate::EngineSettings::verify_within`] says that somebody will answer.
+    #[serde(with = "verification")]
+    #[schemars(with = "verification::Verify")]
     Verify {
-        /// The question.
         check: CheckId,
         /// The step that waits for the verdict.
         node: NodeId,
-        /// What.
         motion: Arc<DeferredMotion>,
     },
-    /// What happened in the run, for people, traces and journals.
+    /// A trace event, for people, traces and journals.
     Report(TraceEvent),
     /// The run is over; the last effect of a run.
     Finished(Box<RunEnd>),
 }
 
+/// JSON form of [`Effect::Verify`]: the motion is written flat.
+mod verification {
+    use super::{Arc, CheckId, Command, DeferredMotion, NodeId, SmolStr, Value};
+    use schemars::JsonSchema;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize, JsonSchema)]
+    #[serde(deny_unknown_fields)]
+    pub(super) struct Verify {
+        check: CheckId,
+        node: NodeId,
+        query: SmolStr,
+        args: Vec<Value>,
+        command: Arc<Command>,
+    }
+
+    pub(super) fn serialize<S: Serializer>(
+        check: &CheckId,
+        node: &NodeId,
+        motion: &Arc<DeferredMotion>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let DeferredMotion { query, args, command } = DeferredMotion::clone(motion);
+        Verify { check: *check, node: *node, query, args, command }.serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<(CheckId, NodeId, Arc<DeferredMotion>), D::Error> {
+        let Verify { check, node, query, args, command } = Verify::deserialize(deserializer)?;
+        Ok((check, node, Arc::new(DeferredMotion { query, args, command })))
+    }
+}
+
 /// A primitive with its arguments.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Command {
     /// The primitive's name.
     pub primitive: SmolStr,
@@ -112,26 +127,27 @@ impl Command {
     }
 }
 
-/// How a run ended.
-#[derive(Clone, PartialEq, Debug)]
+/// Outcome of a run.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RunEnd {
     /// The policy reached `done`, or its end.
     Done {
-        /// What `done` said.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
     },
     /// The policy failed: by `fail`, or by a failure that nothing caught.
     Failed {
         /// The failure kind; `failed` for `fail`.
         kind: SmolStr,
-        /// What `fail` said.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
         /// The step in which it arose.
         node: NodeId,
     },
     /// The policy asks for a new policy.
     Replan {
-        /// What for.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
     },
     /// A person stopped it.
@@ -140,19 +156,18 @@ pub enum RunEnd {
     Fault(Fault),
 }
 
-/// Why the engine could not go on. Every live goal was told to stop safely before.
-#[derive(Clone, PartialEq, Debug)]
+/// Fault that ends a run early. Every live goal was told to stop safely before.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Fault {
     /// More transitions at one instant than the budget allows.
-    StepBudget {
-        /// The budget.
-        steps: u32,
-    },
+    StepBudget { steps: u32 },
     /// The driver answered neither a cancel nor a safe stop.
     NotStopped {
         /// The step whose goal is still live.
         node: NodeId,
         /// The number of the graph that the step belongs to.
+        #[serde(default)]
         revision: u32,
     },
     /// The run is not over, and neither the engine nor its driver has anything left to wait for.

@@ -3,6 +3,7 @@
 use crate::driver::Capabilities;
 use crate::effect::Effect;
 use crate::event::Event;
+use crate::ids::CheckId;
 use crate::prepared_graph::PreparedGraph;
 use crate::query::Pattern;
 use crate::settings::EngineSettings;
@@ -12,13 +13,13 @@ use crate::state::Run;
 use crate::time::Time;
 use crate::truth::Truth;
 use crate::turn::Turn;
-use crate::verifier::{CheckId, DeferredMotion};
+use crate::verifier::DeferredMotion;
 use motet_graph::{BindingId, FailureId, Graph, InvalidGraph, InvalidReason, Value};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
-/// Runs one graph. It reads no clock and does no input or output: the same graph and the same events give the same
-/// effects.
+/// Runs one graph. It reads no clock and does no input or output: the same graph and the same events give the
+/// same effects.
 #[derive(Clone, Debug)]
 pub struct Engine {
     pub(crate) plan: Arc<PreparedGraph>,
@@ -66,32 +67,34 @@ impl Engine {
         Self { settings, ..self }
     }
 
-    /// How patient it is.
+    /// The settings with which the engine runs.
     #[must_use]
     pub const fn settings(&self) -> &EngineSettings {
         &self.settings
     }
 
-    /// With what the driver can do. They are part of what the effects follow from, so a replay needs the same.
+    /// With what the driver can do. They are part of what the effects follow from, so a replay needs the
+    /// same.
     #[must_use]
     pub fn with_capabilities(self, capabilities: Capabilities) -> Self {
         Self { capabilities, ..self }
     }
 
-    /// What the driver can do.
+    /// Abilities of the driver, as the host stated them.
     #[must_use]
     pub const fn capabilities(&self) -> &Capabilities {
         &self.capabilities
     }
 
-    /// Takes in one event that happened at `now` and appends what is to be done about it to `out`. All transitions that
-    /// the event enables are made in document order, monitors first. What was due before `now` is done before it. A time
-    /// before that of the last event counts as that. After [`Effect::Finished`] nothing happens any more.
+    /// Takes in one event that happened at `now` and appends what is to be done about it to `out`. All
+    /// transitions that the event enables are made in document order, monitors first. What was due before
+    /// `now` is done before it. A time before that of the last event counts as that. After
+    /// [`Effect::Finished`] nothing happens any more.
     pub fn handle(&mut self, now: Time, event: Event, out: &mut Vec<Effect>) {
         self.turn(out).handle(now, event);
     }
 
-    /// When the engine wants to be woken by [`Event::Tick`], if nothing happens before.
+    /// Time at which the engine wants to be woken by [`Event::Tick`], if nothing happens before.
     #[must_use]
     pub fn wake_at(&self) -> Option<Time> {
         if self.run.over {
@@ -108,13 +111,14 @@ impl Engine {
         self.turn(out).fault(fault);
     }
 
-    /// Whether [`Effect::Finished`] went out.
+    /// True if [`Effect::Finished`] went out.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.run.over
     }
 
-    /// Motions that were asked for and have no verdict yet, by question: who goes on with a run asks for them again.
+    /// Motions that were asked for and have no verdict yet, by question: who goes on with a run asks for them
+    /// again.
     pub fn unverified(&self) -> impl Iterator<Item = (CheckId, &Arc<DeferredMotion>)> {
         let open = self.run.checks.iter().filter(|check| check.verdict.is_none());
         open.map(|check| (check.id, &check.motion))
@@ -148,7 +152,7 @@ impl Engine {
         plan.failures.get(failure.index())
     }
 
-    /// What is believed of a fact; with [`Pattern::Any`]: whether it holds of some entity.
+    /// Truth value of a fact in the engine's beliefs; with [`Pattern::Any`], of its existential closure.
     #[must_use]
     pub fn believes(&self, fluent: &str, args: &[Pattern]) -> Truth {
         self.run.beliefs.fact(fluent, args).0
@@ -160,8 +164,9 @@ impl Engine {
         Snapshot::of(&self.plan, &self.run)
     }
 
-    /// The state as it would be if all that runs were interrupted now: nothing is known of what running calls make or
-    /// unsettle. A policy that is to take over is proved from this, since what it does not go on with is cancelled. O(state).
+    /// The state as it would be if all that runs were interrupted now: nothing is known of what running calls
+    /// make or unsettle. A policy that is to take over is proved from this, since what it does not go on with
+    /// is cancelled. O(state).
     #[must_use]
     pub fn interrupted(&self) -> Snapshot {
         let mut stopped = self.clone();

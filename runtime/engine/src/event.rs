@@ -1,38 +1,17 @@
-//! What happens: everything that the engine learns, it learns from one of these.
+//! Events: the engine's only source of knowledge about the world.
 
+use crate::ids::{CheckId, GoalId};
 use crate::query::{Answer, Query};
-use crate::verifier::{CheckId, Verification};
+use crate::verifier::Verification;
 use motet_graph::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 
-/// One start of a primitive. The engine chooses it; it is never used twice in a run, also not by a retry.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct GoalId(pub(crate) u64);
-
-impl GoalId {
-    /// As a number, for a wire or a log.
-    #[must_use]
-    pub const fn number(self) -> u64 {
-        self.0
-    }
-
-    /// From its number. One that names no live goal is harmless: events about it are ignored.
-    #[must_use]
-    pub const fn from_number(number: u64) -> Self {
-        Self(number)
-    }
-}
-
-impl fmt::Display for GoalId {
-    /// The running number of the start, from 1.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "#{}", self.0 >> crate::goal_table::SLOT_BITS)
-    }
-}
-
-/// What the engine takes in.
-#[derive(Clone, PartialEq, Debug)]
+/// Input of the engine.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Event {
     /// The run begins. Events before it are ignored, and so is a second one.
     Begin,
@@ -41,72 +20,45 @@ pub enum Event {
     /// The driver reports.
     Driver(DriverEvent),
     /// The verdict on a motion, to [`crate::Effect::Verify`].
-    Verified {
-        /// The question.
-        check: CheckId,
-        /// The verdict.
-        verdict: Verification,
-    },
+    Verified { check: CheckId, verdict: Verification },
     /// A person stops the run: everything is interrupted, and the run ends as [`crate::RunEnd::Interrupted`].
     Stop,
 }
 
-/// What a driver reports. Events about a goal that is not live are ignored.
-#[derive(Clone, PartialEq, Debug)]
+/// Report of a driver. Events about a goal that is not live are ignored.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum DriverEvent {
     /// The goal was accepted and runs.
-    Acknowledged {
-        /// Which.
-        goal: GoalId,
-    },
+    Acknowledged { goal: GoalId },
     /// The goal was not accepted; nothing has moved. It ends in this failure.
     Refused {
-        /// Which.
         goal: GoalId,
         /// The failure kind.
         failure: SmolStr,
     },
-    /// The goal has ended and holds none of its resources any longer. Without an acknowledgement before it, it counts
-    /// as one too.
+    /// The goal has ended and holds none of its resources any longer. Without an acknowledgement before it,
+    /// it counts as one too.
     Ended {
-        /// Which.
         goal: GoalId,
-        /// How. A cancelled goal may still end in success or failure, and that is respected.
+        /// A cancelled goal may still end in success or failure, and that is respected.
         outcome: Outcome,
     },
     /// The driver cannot hold this goal: the engine cancels it and starts it again later.
-    NotHeld {
-        /// Which.
-        goal: GoalId,
-    },
-    /// How the goal is getting on, in words for people. It changes nothing.
-    Feedback {
-        /// Which.
-        goal: GoalId,
-        /// The words.
-        text: SmolStr,
-    },
+    NotHeld { goal: GoalId },
+    /// Progress of the goal in words for people; without effect on the run.
+    Feedback { goal: GoalId, text: SmolStr },
     /// Everything that the goal used stands still and is safe: the answer to a safe stop. The goal has ended.
-    Stopped {
-        /// Which.
-        goal: GoalId,
-    },
-    /// The driver does not know what became of the goal: a start or a cancel was never answered, or what carries it out
-    /// went silent. It may have moved, and may still. The engine asks for a safe stop; until that is acknowledged by
-    /// [`DriverEvent::Stopped`], nobody else gets its resources.
-    Lost {
-        /// Which.
-        goal: GoalId,
-    },
+    Stopped { goal: GoalId },
+    /// The driver does not know what became of the goal: a start or a cancel was never answered, or what
+    /// carries it out went silent. It may have moved, and may still. The engine asks for a safe stop; until
+    /// that is acknowledged by [`DriverEvent::Stopped`], nobody else gets its resources.
+    Lost { goal: GoalId },
     /// The driver itself is gone or speaks nonsense: every goal that is live is lost.
     DriverLost,
-    /// An answer to an observation or a watch, or something noticed in passing. It is true at the event's time.
-    Observed {
-        /// The question.
-        query: Query,
-        /// The answer.
-        answer: Answer,
-    },
+    /// An answer to an observation or a watch, or something noticed in passing. It is true at the event's
+    /// time.
+    Observed { query: Query, answer: Answer },
 }
 
 impl DriverEvent {
@@ -126,8 +78,9 @@ impl DriverEvent {
     }
 }
 
-/// How a goal ended.
-#[derive(Clone, PartialEq, Debug)]
+/// Outcome of a goal.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Outcome {
     /// It did what it was for; with its result where its primitive has one.
     Success(Option<Value>),

@@ -1,6 +1,7 @@
 //! A table that is total: a wrong index reads and writes a spare row instead of ending the program.
 //!
-//! A validated graph never has a wrong index; this keeps the promise of no panic without a branch in every caller.
+//! A validated graph never has a wrong index; this keeps the promise of no panic without a branch in every
+//! caller.
 
 /// Rows by index.
 #[derive(Clone, Debug)]

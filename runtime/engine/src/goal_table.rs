@@ -1,10 +1,7 @@
-//! Which goals are live, and for which step.
+//! Table of live goals and their steps.
 
-use crate::event::GoalId;
+use crate::ids::{GoalId, SLOT_BITS};
 use motet_graph::NodeId;
-
-/// Bits of a [`GoalId`] that hold its slot; above them stands the running number of the start.
-pub(crate) const SLOT_BITS: u32 = 24;
 
 /// The step of a goal that has none.
 const NOBODY: NodeId = NodeId(u32::MAX);

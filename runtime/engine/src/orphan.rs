@@ -1,7 +1,8 @@
-//! Goals that the present graph has no step for: a policy that was replaced started them, and they have not ended.
+//! Goals that the present graph has no step for: a policy that was replaced started them, and they have not
+//! ended.
 
 use crate::effect::Command;
-use crate::event::GoalId;
+use crate::ids::GoalId;
 use crate::prepared_graph::PreparedGraph;
 use crate::state::{GoalIntent, Phase};
 use crate::time::Time;
@@ -15,7 +16,7 @@ pub(crate) struct OrphanGoal {
     pub(crate) command: Arc<Command>,
     pub(crate) phase: Phase,
     pub(crate) wish: GoalIntent,
-    /// When its cancel or its safe stop will have taken too long.
+    /// Time at which its cancel or its safe stop will have taken too long.
     pub(crate) due: Time,
     /// Its resources, as bits of the present graph.
     pub(crate) uses: u128,
@@ -23,21 +24,20 @@ pub(crate) struct OrphanGoal {
     pub(crate) revision: u32,
     /// Its step in that graph.
     pub(crate) node: NodeId,
-    /// That graph.
     pub(crate) plan: Arc<PreparedGraph>,
-    /// What was bound when that graph was replaced.
+    /// Bindings at the time when that graph was replaced.
     pub(crate) bindings: Arc<Vec<Option<Value>>>,
 }
 
 impl OrphanGoal {
-    /// Whether it may go on for a step of the new graph: nothing has been said against it.
+    /// True if it may go on for a step of the new graph: nothing has been said against it.
     pub(crate) fn is_free(&self) -> bool {
         matches!(self.wish, GoalIntent::None | GoalIntent::Hold)
             && matches!(self.phase, Phase::Starting | Phase::Running | Phase::Held)
     }
 
-    /// Its resources as bits of another graph. Of one that the other does not know, what it contains and what contains it
-    /// counts: rather too much than too little.
+    /// Its resources as bits of another graph. Of one that the other does not know, what it contains and what
+    /// contains it counts: rather too much than too little.
     pub(crate) fn uses_in(&self, graph: &Graph) -> u128 {
         let own = &self.plan.graph.resources;
         let bit = |name: &str| {

@@ -1,5 +1,5 @@
-//! What is seen, for who plans: detections and images. The engine itself asks by [`crate::Driver::observe`]; this is for the
-//! prompt of the next plan.
+//! Perception for planners: detections and images. The engine itself asks by [`crate::Driver::observe`]; this
+//! is for the prompt of the next plan.
 
 use crate::time::Time;
 use motet_graph::Pose;
@@ -12,26 +12,26 @@ use std::rc::Rc;
 pub struct Detection {
     /// The entity of the scene that it is, where it was recognised.
     pub entity: Option<SmolStr>,
-    /// What it is, `mug`; empty where that is not known.
+    /// Class name such as `mug`; empty if unknown.
     pub class: SmolStr,
-    /// Where it is, in the frame `map`, in m; nothing where only the image tells.
+    /// Position where it is, in the frame `map`, in m; nothing where only the image tells.
     pub pose: Option<Pose>,
-    /// How sure the detector is, from 0 to 1.
+    /// Confidence of the detector from 0 to 1.
     pub confidence: f64,
-    /// When it was seen.
+    /// Time at which it was seen.
     pub at: Time,
 }
 
 /// A picture, as it goes to a model.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct CameraImage {
-    /// Which camera took it.
+    /// Name of the camera.
     pub camera: SmolStr,
     /// `image/png` or `image/jpeg`.
     pub media_type: SmolStr,
     /// The file's bytes.
     pub bytes: Vec<u8>,
-    /// When it was taken.
+    /// Time at which it was taken.
     pub at: Time,
 }
 
@@ -47,9 +47,7 @@ pub struct CameraModel {
 /// A depth image, row by row.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct DepthImage {
-    /// Columns.
     pub width: usize,
-    /// Rows.
     pub height: usize,
     /// Along the camera's z axis, in mm; 0 where there is none.
     pub millimetres: Vec<u16>,
@@ -58,7 +56,6 @@ pub struct DepthImage {
 /// A picture with its depth and the camera that took both.
 #[derive(Clone, PartialEq, Debug)]
 pub struct RgbdView {
-    /// The picture.
     pub image: CameraImage,
     /// Depth of the same view, pixel by pixel.
     pub depth: DepthImage,
@@ -77,12 +74,12 @@ pub struct RgbdView {
 ///
 /// [`crate::conformance::check_perception`] checks them.
 pub trait Perception {
-    /// What is in view now, or was at the last look, the surest first.
+    /// Detections in the current or latest view, in descending order of confidence.
     fn detections(&mut self, now: Time) -> Vec<Detection>;
     /// A fresh picture; none where there is no camera or it has nothing to show.
     fn image(&mut self, now: Time) -> Option<CameraImage>;
-    /// A fresh picture of an entity with depth, the camera turned towards it; none where no camera measures depth, or where
-    /// none gets to see the entity from here.
+    /// A fresh picture of an entity with depth, the camera turned towards it; none where no camera measures
+    /// depth, or where none gets to see the entity from here.
     fn view(&mut self, _now: Time, _of: &str) -> Option<RgbdView> {
         None
     }

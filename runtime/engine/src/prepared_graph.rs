@@ -1,7 +1,7 @@
 //! A graph made ready to be stepped: what can be worked out once is worked out here.
 
 use crate::effect::Command;
-use crate::event::GoalId;
+use crate::ids::GoalId;
 use crate::time::Time;
 use motet_graph::{
     CallNode, Ending, FailureId, Graph, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region, RegionId,
@@ -27,7 +27,7 @@ pub(crate) struct PreparedGraph {
     /// The regions that each node owns: a range of `owned`.
     ranges: Vec<(u32, u32)>,
     owned: Vec<RegionId>,
-    /// What every step needs at hand.
+    /// Prepared data of every node.
     steps: Vec<PreparedNode>,
     /// Of each primitive.
     means: Vec<PrimitiveResources>,
@@ -36,7 +36,7 @@ pub(crate) struct PreparedGraph {
     spare_region: Region,
 }
 
-/// What is looked up of a step each time it runs, apart from the graph so that it lies close together.
+/// Data of a node that each run looks up, stored compactly apart from the graph.
 #[derive(Clone, Debug)]
 pub(crate) struct PreparedNode {
     pub(crate) region: RegionId,
@@ -48,7 +48,7 @@ pub(crate) struct PreparedNode {
     /// Call: its command where its arguments are all literals.
     pub(crate) command: Option<Arc<Command>>,
     pub(crate) is_call: bool,
-    /// Whether it owns regions.
+    /// True if it owns regions.
     pub(crate) is_composite: bool,
     /// Call: whether nothing is to be checked or unsettled before it starts.
     pub(crate) is_ready: bool,
@@ -56,7 +56,7 @@ pub(crate) struct PreparedNode {
     pub(crate) is_silent: bool,
 }
 
-/// What the calls of a primitive have in common.
+/// Resources of a primitive.
 #[derive(Debug)]
 struct PrimitiveResources {
     mask: ResourceMask,
@@ -181,8 +181,8 @@ impl PreparedGraph {
     ) -> Option<Command> {
         let primitive = self.graph.primitives.get(call.primitive.index())?;
         let mut named = Vec::with_capacity(primitive.params.len());
-        for ((name, _), arg) in primitive.params.iter().zip(args) {
-            named.push((name.clone(), arg?));
+        for (param, arg) in primitive.params.iter().zip(args) {
+            named.push((param.name.clone(), arg?));
         }
         Some(Command {
             primitive: primitive.name.clone(),
@@ -198,7 +198,7 @@ impl PreparedGraph {
         self.owned.get(first as usize..end as usize).unwrap_or_default()
     }
 
-    /// What a step needs at hand.
+    /// Prepared data of a node.
     #[inline]
     pub(crate) fn step(&self, id: NodeId) -> &PreparedNode {
         self.steps.get(id.index()).unwrap_or(&self.spare_step)
@@ -241,18 +241,17 @@ impl PreparedGraph {
         if key < watches { Dependent::Watch(key) } else { Dependent::Node(NodeId(key - watches)) }
     }
 
-    /// How many keys there are.
+    /// Number of keys.
     pub(crate) fn keys(&self) -> usize {
         self.watches.len() + self.graph.nodes.len()
     }
 }
 
-/// Who can set a timer or depend on a belief.
+/// A part of the run that can set a timer or depend on a belief.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Dependent {
     /// A watch by its number.
     Watch(u32),
-    /// A step.
     Node(NodeId),
     /// A goal of a replaced policy.
     Orphan(GoalId),

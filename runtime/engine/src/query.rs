@@ -1,52 +1,49 @@
-//! What can be observed: ground questions about the world, and their answers.
+//! Queries: ground questions about the world, and their answers.
 
 use motet_graph::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 
 /// A question about the world with all names resolved. Two equal queries are the same question.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Query {
-    /// Whether a fluent holds. The answer is an [`Answer::Truth`].
+    /// Truth value of a fluent. The answer is an [`Answer::Truth`].
     Fact {
-        /// The fluent.
         fluent: SmolStr,
         /// Its arguments; with [`Pattern::Any`]: whether it holds of some entity.
         args: Vec<Pattern>,
     },
-    /// What a measure reads. The answer is an [`Answer::Value`].
-    Measure {
-        /// The measure.
-        measure: SmolStr,
-        /// Its arguments.
-        args: Vec<Value>,
-    },
-    /// What an entity's field reads. The answer is an [`Answer::Value`].
+    /// Reading of a measure. The answer is an [`Answer::Value`].
+    Measure { measure: SmolStr, args: Vec<Value> },
+    /// Reading of an entity's field. The answer is an [`Answer::Value`].
     Field {
         /// The entity's id.
         entity: SmolStr,
-        /// The field.
         field: SmolStr,
     },
 }
 
 /// An argument of a fluent in a query.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Pattern {
-    /// This value.
     Is(Value),
-    /// Some entity.
     Any,
 }
 
 /// The answer to a query.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Answer {
     /// It cannot be told now: nothing in view, no reading.
     Unknown,
     /// To a fact: whether it holds.
     Truth(bool),
-    /// To a measure or a field: its value, numbers in SI units. A number that is not finite counts as unknown.
+    /// To a measure or a field: its value, numbers in SI units. A number that is not finite counts as
+    /// unknown.
     Value(Value),
 }
 

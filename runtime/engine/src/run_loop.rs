@@ -4,15 +4,16 @@ use crate::driver::Driver;
 use crate::effect::{Effect, Fault, RunEnd};
 use crate::engine::Engine;
 use crate::event::{DriverEvent, Event};
+use crate::ids::CheckId;
 use crate::swap::{PreparedSwap, RetiredGraph, SwapRefusal};
 use crate::time::Time;
-use crate::verifier::{CheckId, DeferredMotion, Verification, Verifier};
+use crate::verifier::{DeferredMotion, Verification, Verifier};
 use motet_graph::Graph;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// How often it is looked whether a verdict has come that is waited for.
+/// Number of times it is looked whether a verdict has come that is waited for.
 const VERDICT_EVERY: Time = Time::from_nanos(20_000_000);
 
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
@@ -20,9 +21,9 @@ pub trait Observer {
     /// An event is about to be handled.
     fn event(&mut self, _now: Time, _event: &Event) {}
 
-    /// An event was handled, or else the engine gave up, and these effects are about to be carried out, all together. Who
-    /// keeps a journal writes here. Where this says [`RunControl::Stop`], nothing is started or changed any more: starts are
-    /// taken back as refused, what runs is stopped.
+    /// An event was handled, or else the engine gave up, and these effects are about to be carried out, all
+    /// together. Who keeps a journal writes here. Where this says [`RunControl::Stop`], nothing is started or
+    /// changed any more: starts are taken back as refused, what runs is stopped.
     fn commit(&mut self, _now: Time, _effects: &[Effect]) -> RunControl {
         RunControl::Continue
     }
@@ -36,21 +37,23 @@ pub trait Observer {
     }
 
     /// A policy to take over from the one that runs. Asked after each event, so at least as often as
-    /// [`Observer::at_least_every`] says. Of several the newest should be given: one that was never given was never there.
+    /// [`Observer::at_least_every`] says. Of several the newest should be given: one that was never given was
+    /// never there.
     fn swap(&mut self, _now: Time, _engine: &Engine) -> Option<PreparedSwap> {
         None
     }
 
-    /// What became of a swap, before its effects are carried out.
+    /// Called with the result of a swap, before its effects are carried out.
     fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, _result: Result<RetiredGraph, SwapRefusal>) {}
 
-    /// Who checks the motions that the compiler deferred, where somebody does. An engine that is to ask is told so by
-    /// [`crate::EngineSettings::verify_within`].
+    /// The verifier for motions that the compiler deferred, if there is one. The engine asks only if enabled
+    /// by [`crate::EngineSettings::verify_within`].
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
         None
     }
 
-    /// The longest span without a call of [`Observer::reached`], for a live display or to notice an interrupt.
+    /// The longest span without a call of [`Observer::reached`], for a live display or to notice an
+    /// interrupt.
     fn at_least_every(&self) -> Time {
         Time::NEVER
     }
@@ -59,7 +62,7 @@ pub trait Observer {
 /// Looks on without a word.
 impl Observer for () {}
 
-/// Whether a run shall go on.
+/// Decision of an observer about the run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum RunControl {
     /// It goes on.
@@ -73,7 +76,8 @@ pub fn run(engine: &mut Engine, driver: &mut dyn Driver, observer: &mut dyn Obse
     resume(engine, driver, observer, from, vec![Event::Begin])
 }
 
-/// Goes on with an engine that has begun, to its end: first with these events at `from`, then with what the driver reports.
+/// Goes on with an engine that has begun, to its end: first with these events at `from`, then with what the
+/// driver reports.
 pub fn resume(
     engine: &mut Engine,
     driver: &mut dyn Driver,

@@ -1,18 +1,22 @@
 //! Numbers that a host may choose.
 
 use crate::time::Time;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// How patient the engine is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// Time limits and budgets of the engine.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct EngineSettings {
-    /// How long a cancel may go unanswered before the engine asks for a safe stop.
+    /// Time limit for the answer to a cancel; after it the engine asks for a safe stop.
     pub cancel_within: Time,
-    /// How long a safe stop may go unanswered before the run ends with [`crate::Fault::NotStopped`].
+    /// Time limit for the answer to a safe stop; after it the run ends with [`crate::Fault::NotStopped`].
     pub safe_stop_within: Time,
     /// The least time for which a watched condition may be unknown before its monitor fires.
     pub unknown_for: Time,
-    /// How long a motion that the compiler deferred may go without a verdict before its step starts all the same. Nothing
-    /// where nobody is there to ask: such motions are left to the driver.
+    /// Time limit for the verdict on a deferred motion; after it the step starts without one. `None` without
+    /// a verifier: the driver then decides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verify_within: Option<Time>,
     /// The most transitions at one instant.
     pub step_budget: u32,

@@ -2,22 +2,25 @@
 
 use crate::belief::{Beliefs, Facts, truth_of};
 use crate::effect::Command;
-use crate::event::GoalId;
+use crate::ids::GoalId;
 use crate::prepared_graph::PreparedGraph;
 use crate::query::{Answer, Pattern, Query};
+use crate::rows;
 use crate::start::StartState;
 use crate::state::Run;
 use crate::time::Time;
 use crate::truth::Truth;
 use motet_graph::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
 /// A state between two events.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Snapshot {
-    /// Of when.
     pub at: Time,
     /// The number of the graph that runs.
     pub revision: u32,
@@ -25,27 +28,42 @@ pub struct Snapshot {
     pub policy: SmolStr,
     /// The robot that it is for.
     pub robot: SmolStr,
-    /// What is believed: in order, a later one wins, and one with `any` is meant of every entity. What stands in no line is
-    /// unknown.
+    /// Believed facts in order: a later one overrides an earlier one, and one with `any` holds for every
+    /// entity. Facts that are not listed are unknown.
+    #[serde(with = "rows::facts")]
+    #[schemars(with = "Vec<rows::FactRow>")]
     pub facts: Vec<(Query, Truth)>,
     /// Facts with `any` that hold of some entity, where it is not known of which.
     pub some: Vec<Query>,
     /// The last readings of measures and fields, with their times, by query.
-    pub readings: Vec<(Query, Value, Time)>,
+    pub readings: Vec<Reading>,
     /// Entities that the engine has heard of, with the name of their kind where it is known.
+    #[serde(with = "rows::entities")]
+    #[schemars(with = "Vec<rows::EntityRow>")]
     pub entities: Vec<(SmolStr, SmolStr)>,
     /// Names that are bound, in the order of the graph.
+    #[serde(with = "rows::bindings")]
+    #[schemars(with = "Vec<rows::BindingRow>")]
     pub bindings: Vec<(SmolStr, Value)>,
-    /// What runs, by start.
+    /// Live goals in the order of their starts.
     pub goals: Vec<LiveGoal>,
 }
 
+/// The last reading of a measure or a field.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reading {
+    pub query: Query,
+    pub value: Value,
+    /// Time of the observation.
+    pub at: Time,
+}
+
 /// A goal that has not ended.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct LiveGoal {
-    /// Its number.
     pub goal: GoalId,
-    /// What it does.
     pub command: Arc<Command>,
     /// The path of the step that started it, in the graph of its time.
     pub path: SmolStr,
@@ -63,8 +81,9 @@ impl Snapshot {
         }
     }
 
-    /// The facts in the text form, as a state file has them: what holds is true, what does not is false, what is unknown
-    /// though something before it says otherwise is none. Only facts about entities and cases can be said.
+    /// The facts in the text form, as a state file has them: what holds is true, what does not is false, what
+    /// is unknown though something before it says otherwise is none. Only facts about entities and cases can
+    /// be said.
     #[must_use]
     pub fn state(&self) -> Vec<(String, Option<bool>)> {
         let said = self.facts.iter().filter_map(|(query, truth)| Some((fact_text(query)?, known(*truth))));
@@ -88,7 +107,7 @@ impl Snapshot {
             fluents.iter().flat_map(|(_, own)| own.patterns.iter()).filter_map(|id| run.beliefs.cell(*id));
         let some = some.filter(|cell| cell.answer == Answer::Truth(true)).map(|cell| (*cell.query).clone());
         let mut readings: Vec<_> = run.beliefs.readings().collect();
-        readings.sort_by_cached_key(|(query, ..)| query.to_string());
+        readings.sort_by_cached_key(|reading| reading.query.to_string());
         let bindings = graph.bindings.iter().zip(&run.bindings);
         let mut goals: Vec<LiveGoal> = Vec::new();
         for (goal, node) in run.goals.live() {

@@ -1,25 +1,36 @@
-//! What is known when a run begins: what stands in the graph, and what a host adds.
+//! Knowledge at the beginning of a run: from the graph and from the host.
 
 use crate::belief::Beliefs;
 use crate::query::{Answer, Pattern, Query};
+use crate::rows;
 use crate::time::Time;
 use crate::truth::Truth;
-use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, NodeKind, Term, Type, Value};
+use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, InitialFact, NodeKind, Term, Type, Value};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-/// What a host knows at the start. Facts and kinds that the graph does not mention are left out.
-#[derive(Clone, PartialEq, Debug, Default)]
+/// Knowledge of the host at the start of a run. Facts and kinds that the graph does not mention are left out.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct StartState {
-    /// Facts with what is known of them, in order: a later one wins, and one with `any` is meant of every entity. Queries
-    /// that are no facts are ignored.
+    /// Facts with their truth values, in order: a later one overrides an earlier one, and one with `any`
+    /// holds for every entity. Queries that are not facts are ignored.
+    #[serde(with = "rows::facts")]
+    #[schemars(with = "Vec<rows::FactRow>")]
     pub facts: Vec<(Query, Truth)>,
-    /// Facts with `any` that hold of some entity, where it is not known of which.
+    /// Facts with `any` that hold for some entity, which one is not known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub some: Vec<Query>,
-    /// Values of names that the graph is to be given; others are ignored.
-    pub bindings: Vec<(SmolStr, Value)>,
-    /// Entities with the name of their kind. Effects that quantify over a kind range over these and over every entity
-    /// that a graph, a result or an observation names.
+    /// Entities with the names of their kinds. Effects that quantify over a kind range over these and over
+    /// every entity that a graph, a result or an observation names.
+    #[serde(with = "rows::entities")]
+    #[schemars(with = "Vec<rows::EntityRow>")]
     pub entities: Vec<(SmolStr, SmolStr)>,
+    /// Values for bindings that the graph is to be given; others are ignored.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", with = "rows::bindings")]
+    #[schemars(with = "Vec<rows::BindingRow>")]
+    pub bindings: Vec<(SmolStr, Value)>,
 }
 
 /// First what the compiler was told, then what the host knows.
@@ -32,7 +43,7 @@ pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
     }
     start.entities.iter().for_each(|(id, kind)| ears.hear(id, kind));
     ears.graph();
-    for (fact, value) in &graph.initial {
+    for InitialFact { fact, value } in &graph.initial {
         let args = fact.args.iter().map(|arg| match arg {
             FactArg::Term(Term::Literal(value)) => Some(Pattern::Is(value.clone())),
             FactArg::Any => Some(Pattern::Any),
@@ -79,7 +90,7 @@ impl EntityCollector<'_> {
 
     fn graph(&mut self) {
         let graph = self.graph;
-        graph.initial.iter().for_each(|(fact, _)| self.fact(fact));
+        graph.initial.iter().for_each(|initial| self.fact(&initial.fact));
         for node in &graph.nodes {
             match &node.kind {
                 NodeKind::Call(call) => self.call(call),
@@ -106,8 +117,8 @@ impl EntityCollector<'_> {
     fn call(&mut self, call: &CallNode) {
         let primitive = self.graph.primitives.get(call.primitive.index());
         let params = primitive.map_or(&[][..], |primitive| &primitive.params);
-        for (arg, (_, ty)) in call.args.iter().zip(params) {
-            self.term(arg, Some(ty));
+        for (arg, param) in call.args.iter().zip(params) {
+            self.term(arg, Some(&param.ty));
         }
         for need in &call.needs {
             need.when.iter().for_each(|when| self.condition(when));

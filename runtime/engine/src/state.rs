@@ -2,16 +2,17 @@
 
 use crate::belief::{Beliefs, CellId};
 use crate::effect::{Command, RunEnd};
-use crate::event::GoalId;
 use crate::flat_table::Table;
 use crate::goal_table::GoalTable;
+use crate::ids::CheckId;
+use crate::ids::GoalId;
 use crate::orphan::OrphanGoal;
 use crate::prepared_graph::PreparedGraph;
 use crate::time::Time;
 use crate::timers::Timers;
 use crate::trace::{EndCause, NodeEnding};
 use crate::truth::Truth;
-use crate::verifier::{CheckId, DeferredMotion, Verification};
+use crate::verifier::{DeferredMotion, Verification};
 use crate::work_list::WorkList;
 use motet_graph::{NodeId, RegionId, Value};
 use smol_str::SmolStr;
@@ -19,7 +20,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-/// Where a step is in its life.
+/// Position where a step is in its life.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Phase {
     /// Not reached, or over.
@@ -34,7 +35,6 @@ pub(crate) enum Phase {
     Inside,
     /// An `if` or a loop whose test awaits observations.
     Deciding,
-    /// A `wait`.
     Waiting,
     /// A call that waits for its resources.
     Queued,
@@ -55,7 +55,7 @@ pub(crate) enum Phase {
 }
 
 impl Phase {
-    /// Whether a goal is live.
+    /// True if a goal is live.
     pub(crate) const fn has_goal(self) -> bool {
         match self {
             Self::Starting | Self::Running | Self::Held | Self::Cancelling | Self::SafeStopping => true,
@@ -67,12 +67,10 @@ impl Phase {
     }
 }
 
-/// Why a goal is to end early, or what is to happen once it is acknowledged.
+/// Pending intent for a goal: reason for an early end, or action after its acknowledgement.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum GoalIntent {
-    /// Nothing.
     None,
-    /// To hold.
     Hold,
     /// The driver lost it: it fails once it is safe.
     Lose,
@@ -84,18 +82,17 @@ pub(crate) enum GoalIntent {
     Stop,
 }
 
-/// What becomes of a node once the regions that it stops are down.
+/// Continuation of a node after the regions that it stops have ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum AfterStop {
     /// Nothing is being stopped.
     Nothing,
-    /// It ends.
     Exit(NodeExit),
     /// A monitor starts its body again.
     Restart,
 }
 
-/// How something ended, and where that began.
+/// Outcome of a node or region, with its cause and origin.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct NodeExit {
     pub(crate) ending: NodeEnding,
@@ -112,17 +109,17 @@ pub(crate) struct NodeRun {
     /// Call: attempts begun. Loop: runs of the body begun.
     pub(crate) count: u32,
     pub(crate) goal: Option<GoalId>,
-    /// When the observations that count began.
+    /// Time at which the observations that count began.
     pub(crate) since: Time,
-    /// How many observations had been taken in by then.
+    /// Number of observations until then.
     pub(crate) seen: u64,
-    /// What is left of a deadline while the step is suspended.
+    /// Remaining time of a deadline while the step is suspended.
     pub(crate) left: Time,
-    /// Whether the work list holds a judgement of it.
+    /// True if the work list holds a judgement of it.
     pub(crate) judging: bool,
 }
 
-/// What a composite step keeps beside it; apart, because few steps need it.
+/// Additional state of a composite step; apart, because few steps need it.
 #[derive(Clone, Debug)]
 pub(crate) struct CompositeRun {
     pub(crate) after: AfterStop,
@@ -139,7 +136,7 @@ pub(crate) struct CompositeRun {
 pub(crate) struct RegionRun {
     pub(crate) active: bool,
     pub(crate) current: Option<NodeId>,
-    /// Why it is being stopped.
+    /// Cause of a stop in progress.
     pub(crate) stopping: Option<EndCause>,
     /// By how many pauses and interruptions it is suspended.
     pub(crate) suspended: u32,
@@ -148,7 +145,7 @@ pub(crate) struct RegionRun {
 /// A watch's state.
 #[derive(Clone, Debug)]
 pub(crate) struct WatchRun {
-    /// When the monitor was entered.
+    /// Time at which the monitor was entered.
     pub(crate) since: Time,
     /// Since when its condition has been true.
     pub(crate) true_since: Option<Time>,
@@ -157,9 +154,9 @@ pub(crate) struct WatchRun {
     pub(crate) truth: Truth,
     /// Since when it pauses the body.
     pub(crate) paused_at: Option<Time>,
-    /// How long it has paused the body before.
+    /// Total of its earlier pauses.
     pub(crate) spent: Time,
-    /// How often it has fired.
+    /// Number of times it has fired.
     pub(crate) fired: u32,
     pub(crate) dirty: bool,
 }
@@ -184,7 +181,7 @@ pub(crate) struct Run {
     pub(crate) composites: Table<CompositeRun>,
     pub(crate) regions: Table<RegionRun>,
     pub(crate) watches: Table<WatchRun>,
-    /// What each watch and each `wait` keeps watched.
+    /// Queries that each watch and each `wait` keeps watched.
     pub(crate) subscriptions: Table<Vec<CellId>>,
     pub(crate) bindings: Vec<Option<Value>>,
     /// Lists that `each` loops run over, innermost last.
@@ -198,27 +195,26 @@ pub(crate) struct Run {
     pub(crate) held: u128,
     /// Calls that wait for resources, in document order.
     pub(crate) queue: Vec<NodeId>,
-    /// Whether a resource became free since the queue was last looked at.
+    /// True if a resource became free since the queue was last looked at.
     pub(crate) freed: bool,
     /// Monitors that wait for their body to be down before they run a block.
     pub(crate) clearing: Vec<NodeId>,
     /// Motions of calls that are about to start.
     pub(crate) checks: Vec<MotionCheck>,
-    /// How many were asked for.
+    /// Number of checks so far.
     pub(crate) checked: u64,
     /// Observations that steps await.
     pub(crate) asked: Vec<(CellId, NodeId)>,
     pub(crate) work: WorkList,
     pub(crate) dirty: BinaryHeap<Reverse<u32>>,
-    /// How the run is to end once everything is down.
+    /// Outcome of the run after all regions have ended.
     pub(crate) ending: Option<RunEnd>,
-    /// How the run ends once the goals of replaced policies have ended.
+    /// Outcome of the run after the goals of replaced policies have ended.
     pub(crate) closing: Option<RunEnd>,
     /// Goals of replaced policies, by start.
     pub(crate) orphans: Vec<OrphanGoal>,
-    /// Whether a swap is being made: watches that lose their last watcher are kept until it is.
+    /// True if a swap is being made: watches that lose their last watcher are kept until it is.
     pub(crate) swapping: bool,
-    /// Those watches.
     pub(crate) idle: Vec<CellId>,
     /// Names of failures, those that drivers made up last.
     pub(crate) failures: Vec<SmolStr>,
@@ -289,7 +285,7 @@ impl Run {
         }
     }
 
-    /// What the goal of a call does; none where it has no goal.
+    /// Command of a call's goal; `None` without a goal.
     pub(crate) fn command(&self, plan: &PreparedGraph, node: NodeId) -> Option<Arc<Command>> {
         let worked_out = self.commands.iter().find(|(of, _)| *of == node).map(|(_, command)| command);
         worked_out.or(plan.step(node).command.as_ref()).cloned()

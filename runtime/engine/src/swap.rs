@@ -1,8 +1,9 @@
 //! Replacing the graph that runs, at any moment, in two phases.
 //!
-//! A new graph is **prepared** away from the stepping path ([`PreparedSwap::new`]): it is validated, and all that does not
-//! depend on the moment is worked out. Then [`Engine::swap`] **commits** it between two events, in one move. What the new
-//! policy was proved from is checked against what is believed at that moment; a refused swap changes nothing at all.
+//! A new graph is **prepared** away from the stepping path ([`PreparedSwap::new`]): it is validated, and all
+//! that does not depend on the moment is worked out. Then [`Engine::swap`] **commits** it between two events,
+//! in one move. What the new policy was proved from is checked against what is believed at that moment; a
+//! refused swap changes nothing at all.
 
 use crate::belief::{Beliefs, Entities, FactStanding, covers};
 use crate::effect::Effect;
@@ -31,11 +32,11 @@ pub struct PreparedSwap {
     run: Box<Run>,
     /// The graph that it was prepared against.
     against: Arc<PreparedGraph>,
-    /// Whether fluents stand at the same places in both.
+    /// True if fluents stand at the same places in both.
     same_fluents: bool,
     /// Names of the old graph that are carried, with their places in both.
     carried: Vec<(u32, u32)>,
-    /// What it was proved from.
+    /// Facts from which it was proved.
     told: Vec<InitialFact>,
 }
 
@@ -47,7 +48,7 @@ struct InitialFact {
     value: bool,
 }
 
-/// What a swap leaves behind. To free it costs the size of the graph, so drop it away from the stepping path.
+/// Remains of a swap. Dropping them costs O(graph), so do it away from the stepping path.
 #[derive(Debug)]
 pub struct RetiredGraph {
     revision: u32,
@@ -55,7 +56,7 @@ pub struct RetiredGraph {
     _run: (Box<Run>, Entities),
 }
 
-/// Why a swap was refused. The run goes on as if nobody had asked.
+/// Reason for which a swap was refused. The run continues unchanged.
 #[derive(Clone, PartialEq, Debug)]
 pub enum SwapRefusal {
     /// The graph is not valid.
@@ -69,24 +70,19 @@ pub enum SwapRefusal {
     },
     /// It was proved from a fact that does not hold, or that is no longer known.
     Start {
-        /// The fact.
         fact: Query,
-        /// What it was proved from.
+        /// Facts from which it was proved.
         told: bool,
-        /// What is believed.
         believed: Truth,
     },
     /// It needs a name that the run has not bound, or not with that type.
-    Binding {
-        /// The name.
-        name: SmolStr,
-    },
+    Binding { name: SmolStr },
     /// The run is over, or a person stops it.
     Over,
 }
 
 impl RunningGraph {
-    /// The graph.
+    /// The prepared or running graph.
     #[must_use]
     pub fn graph(&self) -> &Graph {
         &self.plan.graph
@@ -108,8 +104,8 @@ impl RetiredGraph {
 }
 
 impl PreparedSwap {
-    /// Makes a graph ready to take over from the one that runs. Costs the size of the graph. Where another swap is
-    /// committed first, it stays good.
+    /// Makes a graph ready to take over from the one that runs. Costs the size of the graph. Where another
+    /// swap is committed first, it stays good.
     ///
     /// # Errors
     ///
@@ -136,7 +132,7 @@ impl PreparedSwap {
         Ok(prepared)
     }
 
-    /// The graph.
+    /// The prepared or running graph.
     #[must_use]
     pub fn graph(&self) -> &Arc<Graph> {
         &self.plan.graph
@@ -157,7 +153,7 @@ impl PreparedSwap {
         self.carried = carried.collect();
     }
 
-    /// What speaks against it at this moment.
+    /// Checks the swap against the state of the run.
     fn check(&self, run: &Run, running: &Graph) -> Result<(), SwapRefusal> {
         if run.over || run.is_stopped() {
             return Err(SwapRefusal::Over);
@@ -191,17 +187,18 @@ impl Engine {
         RunningGraph { plan: self.plan.clone() }
     }
 
-    /// Lets another graph take over, at any moment between two events: while goals run, are held or are being cancelled,
-    /// and also while an earlier swap still waits for goals to end. The new policy begins with its first step, in the
-    /// state that the old one leaves; its monitors are judged at once. Appends what is to be done about it to `out`.
+    /// Lets another graph take over, at any moment between two events: while goals run, are held or are being
+    /// cancelled, and also while an earlier swap still waits for goals to end. The new policy begins with its
+    /// first step, in the state that the old one leaves; its monitors are judged at once. Appends what is to
+    /// be done about it to `out`.
     ///
-    /// A goal whose call is reached at this instant with the same primitive and arguments goes on untouched, with its
-    /// deadline counted from now and its guards taken as passed. One that the driver can update ([`crate::Capabilities`])
-    /// is, where a call of its primitive is reached whose guards hold. Every other goal is cancelled, and a call that
-    /// conflicts with it starts once it has ended.
+    /// A goal whose call is reached at this instant with the same primitive and arguments goes on untouched,
+    /// with its deadline counted from now and its guards taken as passed. One that the driver can update
+    /// ([`crate::Capabilities`]) is, where a call of its primitive is reached whose guards hold. Every other
+    /// goal is cancelled, and a call that conflicts with it starts once it has ended.
     ///
-    /// Names are carried where name and type agree. What is due before `now` in the old graph and has not been handled no
-    /// longer happens.
+    /// Names are carried where name and type agree. What is due before `now` in the old graph and has not
+    /// been handled no longer happens.
     ///
     /// # Errors
     ///
@@ -259,7 +256,7 @@ impl Engine {
 }
 
 impl Run {
-    /// Whether a person stops the run.
+    /// True if a person stops the run.
     fn is_stopped(&self) -> bool {
         let stopped = |end: &Option<crate::effect::RunEnd>| *end == Some(crate::effect::RunEnd::Interrupted);
         stopped(&self.ending) || stopped(&self.closing)
@@ -289,7 +286,7 @@ impl Run {
 
 /// The ground facts that a graph was proved from.
 fn told(graph: &Graph) -> Vec<InitialFact> {
-    let told = graph.initial.iter().filter_map(|(fact, value)| {
+    let told = graph.initial.iter().filter_map(|motet_graph::InitialFact { fact, value }| {
         let args = fact.args.iter().map(|arg| match arg {
             FactArg::Term(Term::Literal(value)) => Some(Pattern::Is(value.clone())),
             FactArg::Any => Some(Pattern::Any),
@@ -307,7 +304,7 @@ fn told(graph: &Graph) -> Vec<InitialFact> {
     last
 }
 
-/// Whether two types of two graphs are the same.
+/// True if two types of two graphs are the same.
 fn same_type(a: &Type, of_a: &Graph, b: &Type, of_b: &Graph) -> bool {
     let kind =
         |graph: &Graph, id: &motet_graph::KindId| graph.kinds.get(id.index()).map(|kind| kind.name.clone());
@@ -337,7 +334,7 @@ impl fmt::Display for SwapRefusal {
 
 impl std::error::Error for SwapRefusal {}
 
-/// What a run believes of a fact that a policy was proved from.
+/// Initial facts in the beliefs of a run.
 impl Beliefs {
     fn hear_told(&mut self, fluent: &SmolStr, args: &[Pattern], value: bool) {
         if self.standing(fluent, args, value) == FactStanding::Unheard {

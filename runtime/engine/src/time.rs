@@ -1,23 +1,29 @@
-//! Points in time. The engine reads no clock: every event carries its time, and a simulator's time is as good as any.
+//! Points in time. The engine reads no clock: every event carries its time, and a simulator's time is as good
+//! as any.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A point in time in whole nanoseconds since the run's origin, or a span of it. Integers, so that sums are exact and a
-/// replay meets the same instants.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
+/// A point in time in whole nanoseconds since the run's origin, or a span of it. Integers, so that sums are
+/// exact and a replay meets the same instants.
+#[derive(
+    Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(transparent)]
 pub struct Time(u64);
 
 /// Nanoseconds in a second.
 const NANOS: f64 = 1e9;
 
 impl Time {
-    /// The origin.
+    /// The origin of the run's time.
     pub const ZERO: Self = Self(0);
     /// Later than everything that happens.
     pub const NEVER: Self = Self(u64::MAX);
 
-    /// So many seconds after the origin, rounded to the nanosecond; negative and NaN give [`Time::ZERO`], what is too
-    /// large gives [`Time::NEVER`].
+    /// So many seconds after the origin, rounded to the nanosecond; negative and NaN give [`Time::ZERO`],
+    /// what is too large gives [`Time::NEVER`].
     #[must_use]
     pub fn from_secs(secs: f64) -> Self {
         // A cast from a float saturates, and NaN gives zero.

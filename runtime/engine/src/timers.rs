@@ -1,4 +1,5 @@
-//! When the engine wants to be woken: at most one instant a key, in a heap that knows where each key is.
+//! Time at which the engine wants to be woken: at most one instant a key, in a heap that knows where each key
+//! is.
 
 use crate::time::Time;
 

@@ -1,128 +1,93 @@
-//! What a trace is made of: small records of what happened, in the order in which it did.
+//! Trace events: small records of a run in the order of their occurrence.
 
-use crate::event::GoalId;
+use crate::ids::GoalId;
 use crate::time::Time;
 use crate::truth::Truth;
 use crate::verifier::Verification;
 use motet_graph::{BindingId, FailureId, NodeId, Value};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Something that happened in a run.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct TraceEvent {
-    /// When.
     pub at: Time,
     /// The number of the graph that its ids belong to: 0, and one more with each swap.
     pub revision: u32,
-    /// What.
     pub what: TraceEventKind,
 }
 
-/// What happened.
-#[derive(Clone, PartialEq, Debug)]
+/// Kind of a trace event.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum TraceEventKind {
     /// A step was entered.
-    Entered {
-        /// Which.
-        node: NodeId,
-    },
+    Entered { node: NodeId },
     /// A step ended.
-    Ended {
-        /// Which.
-        node: NodeId,
-        /// How.
-        ending: NodeEnding,
-        /// Why.
-        cause: EndCause,
-    },
+    Ended { node: NodeId, ending: NodeEnding, cause: EndCause },
     /// A call was started, for the first time, after a failure, or after an interruption.
     Started {
-        /// The call.
         node: NodeId,
         /// The new goal.
         goal: GoalId,
         /// 1 for the first attempt, one more with each retry.
         attempt: u32,
     },
-    /// A goal ended without ending its step: it failed and is tried again, or was interrupted and goes on later.
-    GoalEnded {
-        /// The call.
-        node: NodeId,
-        /// The goal.
-        goal: GoalId,
-        /// How.
-        ending: NodeEnding,
-        /// Why.
-        cause: EndCause,
-    },
+    /// A goal ended without ending its step: it failed and is tried again, or was interrupted and goes on
+    /// later.
+    GoalEnded { node: NodeId, goal: GoalId, ending: NodeEnding, cause: EndCause },
     /// A guard was checked.
     Guard {
-        /// The call.
         node: NodeId,
         /// Its place in the call's `needs`.
         need: u32,
-        /// What came out; unknown counts as false.
+        /// Result; unknown counts as false.
         truth: Truth,
     },
     /// The verdict on a call's motion came, which the compiler had left to the run.
-    Verified {
-        /// The call.
-        node: NodeId,
-        /// The verdict.
-        verdict: Box<Verification>,
-    },
+    Verified { node: NodeId, verdict: Box<Verification> },
     /// The test of an `if` or an `until` came out.
     Tested {
-        /// The step.
         node: NodeId,
-        /// What came out; unknown counts as false.
+        /// Result; unknown counts as false.
         truth: Truth,
     },
     /// A monitor fired.
     Fired {
-        /// The monitor.
         node: NodeId,
         /// The place of the watch in the monitor.
         watch: u32,
-        /// Whether its condition held, or was unknown for too long.
+        /// True if the condition held; unknown if it was unknown for too long.
         truth: Truth,
     },
-    /// What a monitor held or interrupted goes on.
+    /// The body of a monitor continues after a hold or an interruption.
     WentOn {
-        /// The monitor.
         node: NodeId,
         /// The place of the watch in the monitor.
         watch: u32,
     },
     /// A new policy has taken over. Its ids are those of this record's revision.
-    Swapped {
-        /// Its name.
-        policy: Box<str>,
-    },
+    Swapped { policy: Box<str> },
     /// A goal that the old policy started goes on for a step of the new one, untouched.
     Kept {
         /// The call in the new policy.
         node: NodeId,
-        /// The goal.
         goal: GoalId,
     },
     /// A goal that the old policy started goes on for a step of the new one, with new arguments.
     Updated {
         /// The call in the new policy.
         node: NodeId,
-        /// The goal.
         goal: GoalId,
     },
     /// A name was bound.
-    Bound {
-        /// Which.
-        binding: BindingId,
-        /// To what.
-        value: Box<Value>,
-    },
+    Bound { binding: BindingId, value: Box<Value> },
 }
 
-/// How a step or a goal ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// Outcome of a step or a goal.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum NodeEnding {
     /// It did what it was for.
     Success,
@@ -132,8 +97,9 @@ pub enum NodeEnding {
     Interrupted,
 }
 
-/// Why something ended.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+/// Cause of an end.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum EndCause {
     /// It ran to its end.
     Completed,
@@ -147,7 +113,7 @@ pub enum EndCause {
     Deadline,
     /// A bound on a loop or a monitor was reached.
     Exhausted,
-    /// What the driver gave does not fit the declared type, or a value that was needed could not be observed.
+    /// A result does not fit its declared type, or a required value could not be observed.
     BadValue,
     /// A monitor fired.
     Monitor,

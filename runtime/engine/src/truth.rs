@@ -1,11 +1,13 @@
 //! Three-valued truth: Kleene's strong logic.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What is known of a statement.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+/// Truth value of a statement.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Truth {
-    /// It holds.
     True,
     /// It does not hold.
     False,
@@ -14,7 +16,7 @@ pub enum Truth {
 }
 
 impl Truth {
-    /// Both.
+    /// Conjunction.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         match (self, other) {
@@ -30,7 +32,7 @@ impl Truth {
         self.negated().and(other.negated()).negated()
     }
 
-    /// The opposite.
+    /// Negation.
     #[must_use]
     pub const fn negated(self) -> Self {
         match self {
@@ -40,7 +42,7 @@ impl Truth {
         }
     }
 
-    /// What is known where it may be the one or the other.
+    /// Join of two truth values: equal values stay, others become unknown.
     #[must_use]
     pub fn joined(self, other: Self) -> Self {
         if self == other { self } else { Self::Unknown }

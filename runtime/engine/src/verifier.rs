@@ -1,48 +1,26 @@
-//! Who answers what the compiler left to be checked just before a step starts.
+//! Verifiers: they decide deferred motions just before their steps start.
 //!
 //! The engine itself asks and goes on ([`crate::Effect::Verify`]); the verdict comes back as an event
-//! ([`crate::Event::Verified`]). So it stands in the journal, a replay needs no geometry, and a search that takes its time
-//! keeps no monitor waiting.
+//! ([`crate::Event::Verified`]). So it stands in the journal, a replay needs no geometry, and a search that
+//! takes its time keeps no monitor waiting.
 
 use crate::effect::{Command, Effect};
 use crate::event::Event;
+use crate::ids::CheckId;
 use crate::query::Query;
 use crate::truth::Truth;
 use motet_graph::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 use std::sync::Arc;
-
-/// One question to a verifier. The engine chooses it; it is never used twice in a run.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct CheckId(pub(crate) u64);
-
-impl CheckId {
-    /// As a number, for a wire or a log.
-    #[must_use]
-    pub const fn number(self) -> u64 {
-        self.0
-    }
-
-    /// From its number. A verdict on a check that nobody waits for is ignored.
-    #[must_use]
-    pub const fn from_number(number: u64) -> Self {
-        Self(number)
-    }
-}
-
-impl fmt::Display for CheckId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "?{}", self.0)
-    }
-}
 
 /// A motion that was left to the run.
 #[derive(Clone, PartialEq, Debug)]
 pub struct DeferredMotion {
     /// The name of the query, `reach`.
     pub query: SmolStr,
-    /// Its arguments.
     pub args: Vec<Value>,
     /// The call that it is for.
     pub command: Arc<Command>,
@@ -60,7 +38,8 @@ impl fmt::Display for DeferredMotion {
 }
 
 /// The verdict on a motion.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Verification {
     /// It has a solution.
     Feasible,
@@ -68,14 +47,11 @@ pub enum Verification {
     Infeasible {
         /// One of the failures of the call's primitive, such as `unreachable`.
         failure: SmolStr,
-        /// Why, in words and numbers.
+        /// Reason in words and numbers.
         why: SmolStr,
     },
     /// Nobody can tell: it starts, and the driver will see.
-    Unknown {
-        /// Why not.
-        why: SmolStr,
-    },
+    Unknown { why: SmolStr },
 }
 
 impl fmt::Display for Verification {
@@ -88,17 +64,18 @@ impl fmt::Display for Verification {
     }
 }
 
-/// Checks motions that the compiler deferred, in the world as a run has made it. [`crate::run`] shows the one that its
-/// observer has ([`crate::Observer::verifier`]) all events and effects, asks it, and takes its verdicts as they come.
+/// Checks motions that the compiler deferred, in the world as a run has made it. [`crate::run`] shows the one
+/// that its observer has ([`crate::Observer::verifier`]) all events and effects, asks it, and takes its
+/// verdicts as they come.
 ///
 /// # Laws
 ///
-/// 1. A motion is called infeasible only where that is proven for the world as it was known when it was asked; what is not
-///    known is unknown.
+/// 1. A motion is called infeasible only where that is proven for the world as it was known when it was
+///    asked; what is not known is unknown.
 /// 2. A failure is one that the primitive lists.
 /// 3. Asking changes nothing.
-/// 4. None of its calls keeps a robot waiting: who has to search for long does it on a thread of its own. Where time is
-///    virtual it may search at once, so that a run is the same each time.
+/// 4. None of its calls keeps a robot waiting: who has to search for long does it on a thread of its own.
+///    Where time is virtual it may search at once, so that a run is the same each time.
 pub trait Verifier {
     /// An event is about to be handled: what follows from it for the world.
     fn event(&mut self, event: &Event);
@@ -112,12 +89,12 @@ pub trait Verifier {
     /// A verdict that was not given yet, if there is one.
     fn verdict(&mut self) -> Option<(CheckId, Verification)>;
 
-    /// Whether a verdict is still to come.
+    /// True if a verdict is still to come.
     fn is_busy(&self) -> bool;
 }
 
-/// What holds of a fact that no robot observes and of which nothing is believed. `reachable` is the verdict of a motion, and
-/// the guard of that motion is checked beside it, so it is accepted.
+/// Truth value of a derived fact, which no robot observes and about which nothing is believed. `reachable` is
+/// the verdict of a motion, and the guard of that motion is checked beside it, so it is accepted.
 pub(crate) fn derived(query: &Query) -> Truth {
     match query {
         Query::Fact { fluent, .. } if fluent == "reachable" => Truth::True,

@@ -51,7 +51,8 @@ impl Ord for Entry {
     }
 }
 
-/// The work list. With a single thread of control it holds one entry at most, so that one has a place of its own.
+/// The work list. With a single thread of control it holds one entry at most, so that one has a place of its
+/// own.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WorkList {
     /// The first of all, if it is known.
@@ -76,7 +77,7 @@ impl WorkList {
         }
     }
 
-    /// Whether there is none.
+    /// True if there is none.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.first.is_none() && self.rest.is_empty()

@@ -1,5 +1,5 @@
-//! A steady step allocates nothing: neither a call that ends and the start of the next, nor an idle tick, nor an
-//! observation that changes nothing.
+//! A steady step allocates nothing: neither a call that ends and the start of the next, nor an idle tick, nor
+//! an observation that changes nothing.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 

@@ -1,4 +1,4 @@
-//! What it costs to write an event down: as a line, in a group, and synced to disk one by one.
+//! Cost of writing an event: as a line, in a group, and synced to disk one by one.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use motet_graph::arbitrary::{StepSketch, graph};

@@ -1,5 +1,4 @@
-//! What surrounds the engine on a robot's own computer and does input and output: the journal on disk and as MCAP
-//! files, and drivers in other processes. The engine itself, the lines of a journal and their replay are `motet-runtime`'s.
+#![doc = include_str!("../README.md")]
 
 pub mod journal;
 pub mod mcap;

@@ -13,7 +13,7 @@ use motet_robots::scene::Scene;
 use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead, StepEntry};
 use motet_runtime::{
     CheckId, DeferredMotion, Driver, Effect, Engine, EngineSettings, Event, Observer, RunControl, RunEnd,
-    StartState, Time, TraceEventKind, Verification, Verifier, run, wire,
+    StartState, Time, TraceEventKind, Verification, Verifier, run,
 };
 use motet_sim::{PersonScript, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
@@ -68,9 +68,8 @@ impl Observer for Host {
     }
 
     fn commit(&mut self, now: Time, effects: &[Effect]) -> RunControl {
-        let event = self.event.take().map(|event| wire::Event::from(&event));
-        let effects = effects.iter().map(wire::Effect::from).collect();
-        self.entries.push(JournalEntry::Step(StepEntry { at: now.nanos(), event, effects }));
+        let (event, effects) = (self.event.take(), effects.to_vec());
+        self.entries.push(JournalEntry::Step(StepEntry { at: now, event, effects }));
         RunControl::Continue
     }
 
@@ -111,9 +110,9 @@ fn play_with(scene: &Scene, policy: &str, verifies: CheckMode) -> (RunEnd, Vec<S
         .with_capabilities(sim.capabilities())
         .with_settings(settings);
     let head = JournalHead {
-        start: (&start).into(),
-        settings: settings.into(),
-        capabilities: (&sim.capabilities()).into(),
+        start: start.clone(),
+        settings,
+        capabilities: sim.capabilities(),
         ..JournalHead::new(&graph)
     };
     let guard = Guard::new(session.world_tracker().unwrap(), verifies);

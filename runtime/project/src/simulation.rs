@@ -98,7 +98,7 @@ impl SimulationInputs {
             initial_facts: graph
                 .initial
                 .iter()
-                .filter_map(|(fact, value)| Some((initial_fact(graph, fact)?, *value)))
+                .filter_map(|initial| Some((initial_fact(graph, &initial.fact)?, initial.value)))
                 .collect(),
             ..self.without_policy(None)
         }

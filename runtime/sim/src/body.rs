@@ -1,9 +1,10 @@
-//! Where a thing is and how much room it takes: an upright box or cylinder. What is tilted is taken as upright.
+//! Position where a thing is and how much room it takes: an upright box or cylinder. What is tilted is taken
+//! as upright.
 
 use motet_graph::Pose;
 use motet_robots::scene::{EntityShape, Placement};
 
-/// Where the robot stands: x and y in m in the frame `map`, heading in rad.
+/// Position where the robot stands: x and y in m in the frame `map`, heading in rad.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct BasePose {
     /// East, in m.
@@ -124,7 +125,7 @@ impl UprightBody {
         }
     }
 
-    /// Whether a disc lies within its outline.
+    /// True if a disc lies within its outline.
     pub(crate) fn holds_disc(&self, x: f64, y: f64, radius: f64) -> bool {
         let [u, v] = self.local(x, y);
         match self.outline {
@@ -150,8 +151,8 @@ impl UprightBody {
         points
     }
 
-    /// Stances about it at a distance from its outline, facing it: at the corners' arcs and about every 10 cm along its
-    /// sides.
+    /// Stances about it at a distance from its outline, facing it: at the corners' arcs and about every 10 cm
+    /// along its sides.
     pub(crate) fn stances(&self, clearance: f64) -> Vec<BasePose> {
         let mut stances = Vec::new();
         let mut add = |at: [f64; 2], normal: [f64; 2]| {
@@ -186,7 +187,6 @@ impl UprightBody {
         stances
     }
 
-    /// Its pose.
     pub(crate) fn pose(&self) -> Pose {
         let (sin, cos) = (self.yaw / 2.0).sin_cos();
         Pose { xyz: self.xyz, quaternion: [0.0, 0.0, sin, cos] }

@@ -5,7 +5,6 @@ use motet_graph::Value;
 use motet_runtime::Command;
 use smol_str::SmolStr;
 
-/// What to do.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum SimCommand {
     Go(SmolStr),
@@ -35,8 +34,8 @@ pub(crate) enum SimCommand {
 }
 
 impl SimCommand {
-    /// Parses a driver command. A robot's own primitive with the name of a standard one but other parameters is
-    /// [`Self::Unknown`].
+    /// Parses a driver command. A robot's own primitive with the name of a standard one but other parameters
+    /// is [`Self::Unknown`].
     pub(crate) fn of(command: &Command) -> Self {
         Self::parse(command).unwrap_or(Self::Unknown)
     }
@@ -79,7 +78,7 @@ impl SimCommand {
         })
     }
 
-    /// How much of the deadline it takes when nothing has to be driven.
+    /// Share of the deadline that the work takes, driving aside.
     pub(crate) const fn share(&self) -> f64 {
         match self {
             Self::Go(_) | Self::Turn(_) => 0.0,
@@ -96,7 +95,7 @@ impl SimCommand {
         }
     }
 
-    /// What the arm is like afterwards.
+    /// Sets the pose of the arm after the command.
     pub(crate) fn leave_arm(&self, world: &mut SimWorld) {
         use crate::world::ArmPose;
         let arm = match self {

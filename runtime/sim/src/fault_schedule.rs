@@ -8,7 +8,7 @@ use motet_runtime::Time;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
 
-/// What is still to come.
+/// Faults and world changes that are still to come.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct FaultSchedule {
     calls: Vec<CallFault>,
@@ -16,7 +16,7 @@ pub(crate) struct FaultSchedule {
     changes: VecDeque<(Time, WorldEvent)>,
 }
 
-/// What happens to one call.
+/// A fault of one call.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct ScheduledFault {
     pub(crate) fails: Option<SmolStr>,
@@ -51,7 +51,7 @@ impl FaultSchedule {
         fate
     }
 
-    /// When the world changes next.
+    /// Time at which the world changes next.
     pub(crate) fn next_time(&self) -> Time {
         self.changes.front().map_or(Time::NEVER, |(at, _)| *at)
     }

@@ -1,4 +1,4 @@
-//! What goes wrong, and what the world does of its own accord: a JSON file that a test or a user writes.
+//! Fault files: injected faults and world changes as JSON, written by a test or a user.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,30 +16,28 @@ use smol_str::SmolStr;
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Faults {
-    /// What happens to calls of primitives.
+    /// Faults of calls.
     pub calls: Vec<CallFault>,
-    /// What happens in the world, in any order; of two at one time the earlier in the file happens first.
+    /// World changes in any order; of two at the same time the earlier in the file happens first.
     pub world: Vec<WorldChange>,
-    /// What people answer to `ask` and `choose`, in order, after the answers of the script; `null` refuses.
+    /// Answers to `ask` and `choose`, in order, after those of the script; `null` refuses.
     pub answers: Vec<Option<String>>,
 }
 
-/// What happens to one call.
+/// A fault of one call.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CallFault {
-    /// The primitive.
     #[schemars(with = "String")]
     pub primitive: SmolStr,
-    /// Which call of that primitive in the run, from 1; retries count. Without it, every call.
+    /// Number of the call of that primitive in the run, from 1; retries count. Without it, every call.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub nth: Option<u32>,
-    /// What happens.
     pub then: CallFaultKind,
 }
 
-/// How a call goes wrong.
+/// Kind of a call's fault.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum CallFaultKind {
@@ -57,28 +55,24 @@ pub enum CallFaultKind {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorldChange {
-    /// When, in seconds from the beginning.
+    /// Time in seconds from the beginning of the run.
     #[schemars(range(min = 0.0))]
     pub at: f64,
-    /// What changes.
     pub what: WorldEvent,
 }
 
-/// What changes.
+/// Event in the world.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum WorldEvent {
     /// Somebody moves a thing.
     Moves {
-        /// The thing.
         #[schemars(with = "String")]
         object: SmolStr,
-        /// Where it comes to be.
         to: Destination,
     },
     /// A person walks along a straight line.
     Walks {
-        /// The person.
         #[schemars(with = "String")]
         person: SmolStr,
         /// From here, in m; without it from where they are.
@@ -90,7 +84,7 @@ pub enum WorldEvent {
         #[schemars(range(min = 0.001))]
         speed: f64,
     },
-    /// What the hand holds slips out of it; nothing happens where it does not hold it.
+    /// A held thing slips out of the hand; without effect if it is not held.
     Slips(#[schemars(with = "String")] SmolStr),
     /// Somebody opens a container.
     Opens(#[schemars(with = "String")] SmolStr),
@@ -104,7 +98,7 @@ pub enum WorldEvent {
     Battery(#[schemars(range(min = 0.0, max = 1.0))] f64),
 }
 
-/// Where a thing comes to be.
+/// Destination of a moved thing.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Destination {
@@ -128,7 +122,8 @@ impl Faults {
     ///
     /// # Errors
     ///
-    /// Where it is not JSON of this form, or a number is out of range; with line and column where the text is at fault.
+    /// Where it is not JSON of this form, or a number is out of range; with line and column where the text is
+    /// at fault.
     pub fn from_json(text: &str) -> Result<Self, FaultsError> {
         let faults: Self =
             serde_json::from_str(text).map_err(|error| FaultsError { message: error.to_string() })?;

@@ -1,4 +1,4 @@
-//! What hands do to the world, and why they cannot.
+//! Manipulation: effects of the hands on the world, and their failures.
 
 use crate::body::BasePose;
 use crate::motion::standing_place;
@@ -9,21 +9,21 @@ use smol_str::SmolStr;
 /// A failure kind of the standard library.
 pub(crate) type Failure = &'static str;
 
-/// How far the base may shuffle along what it stands at, in m, while the hand is used.
+/// Distance that the base may shuffle along what it stands at, in m, while the hand is used.
 const SHUFFLE_M: f64 = 1.5;
-/// How far `push` pushes, in m.
+/// Distance that `push` pushes, in m.
 const PUSH_M: f64 = 0.1;
 /// Between the base's rim and what it stands at, in m.
 const MARGIN_M: f64 = 0.03;
 /// Between the base's rim and a person, in m: people do not like a robot closer.
 const PERSON_MARGIN_M: f64 = 0.6;
-/// How far a person reaches out for what they are handed, in m.
+/// Distance that a person reaches out for what they are handed, in m.
 const PERSON_REACH_M: f64 = 0.5;
-/// How much of its reach a robot gives away to the room that its base takes. One with a long body stands sideways.
+/// Share of the reach that the base's own extent takes. A robot with a long body stands sideways.
 const BASE_SHARE: f64 = 0.4;
 
 impl SimWorld {
-    /// Whether a hand reaches a point from a stance: distance in the plane and height.
+    /// True if a hand reaches a point from a stance: distance in the plane and height.
     fn serves(&self, stance: BasePose, xyz: [f64; 3]) -> bool {
         let [x, y, z] = xyz;
         let near = stance.distance_to(x, y) <= self.reach() + 1e-6;
@@ -33,7 +33,8 @@ impl SimWorld {
         near && self.hands.values().any(level)
     }
 
-    /// Where the base stands to serve an entity: for an object in or on something, at the edge of that.
+    /// Position where the base stands to serve an entity: for an object in or on something, at the edge of
+    /// that.
     pub(crate) fn place_for(&self, id: &str) -> Option<BasePose> {
         let root = self.root(id).to_owned();
         let (thing, target) = (self.thing(id)?, self.thing(&root)?);
@@ -62,7 +63,8 @@ impl SimWorld {
         Some(stance)
     }
 
-    /// The stance from which a hand reaches a thing without going elsewhere: here, or a shuffle along what it stands at.
+    /// The stance from which a hand reaches a thing without going elsewhere: here, or a shuffle along what it
+    /// stands at.
     pub(crate) fn stance_for_hand(&self, id: &str) -> Option<BasePose> {
         let thing = self.thing(id)?;
         if self.serves(self.base, thing.body.xyz) {
@@ -77,7 +79,7 @@ impl SimWorld {
         (close && self.serves(stance, thing.body.xyz)).then_some(stance)
     }
 
-    /// Whether the robot stands so that it serves an entity.
+    /// True if the robot stands so that it serves an entity.
     pub(crate) fn stands_at(&self, id: &str) -> bool {
         if self.served_at_start.as_deref() == Some(id) {
             return true;
@@ -98,7 +100,8 @@ impl SimWorld {
         }
     }
 
-    /// Why a hand cannot take a thing where it is, if so; `wide` failures have no kind of their own.
+    /// Failure with which a hand cannot take a thing at its place, if any; `wide` failures have no kind of
+    /// their own.
     fn cannot_take(&self, id: &str) -> Option<Failure> {
         let Some(thing) = self.thing(id) else { return Some("not_found") };
         let lightest = |grip: &&crate::world::HandState| thing.mass_kg <= grip.hand.payload_kg;
@@ -116,7 +119,7 @@ impl SimWorld {
         }
     }
 
-    /// Whether a motion that grasps a thing from here exists.
+    /// True if a motion that grasps a thing from here exists.
     pub(crate) fn is_reachable(&self, id: &str) -> bool {
         self.holder(id).is_none() && self.cannot_take(id).is_none()
     }
@@ -219,7 +222,7 @@ impl SimWorld {
         Ok(())
     }
 
-    /// What a hand holds slips out of it and falls to the floor.
+    /// Drops a held thing to the floor.
     pub(crate) fn slip(&mut self, id: &str) {
         if self.holder(id).is_none() {
             return;

@@ -6,8 +6,8 @@ use crate::world::SimWorld;
 use smol_str::SmolStr;
 
 impl SimWorld {
-    /// Makes the facts true that are not yet, in order. A fact of something that does not exist is left out, and so is
-    /// one that can only come about, such as `visited`.
+    /// Makes the facts true that are not yet, in order. A fact of something that does not exist is left out,
+    /// and so is one that can only come about, such as `visited`.
     pub(crate) fn believe(&mut self, initial_facts: &InitialFacts) {
         for ((fluent, args), holds) in initial_facts {
             let args: Vec<&str> = args.iter().map(SmolStr::as_str).collect();

@@ -1,12 +1,4 @@
-//! A kinematic world that implements the engine's driver: a robot drives along straight lines, picks and places, opens and
-//! closes, looks and asks, in virtual time and the same way each time.
-//!
-//! It is no physics: nothing falls over, nothing collides, and what a primitive does it does at its end. [`Sim`] is the
-//! driver, [`Faults`] what goes wrong.
-//!
-//! Inside: `world`, `thing` and `body` are what is the case, filled from card, scene and state by `build` and `told`;
-//! `motion`, `hand`, `perception` and `people` are what can be done; `observe` answers queries; `camera` takes pictures; `command` and `task` make a
-//! command a run of stages; `faults` and `fate` are what goes wrong; `sim` and `driver` move time.
+#![doc = include_str!("../README.md")]
 
 mod body;
 mod camera;

@@ -1,4 +1,4 @@
-//! How the base and people move: along straight lines at a steady speed.
+//! Motion of the base and of people: along straight lines at constant speed.
 
 use crate::body::{BasePose, UprightBody, turned};
 use motet_robots::card::{BaseSpec, Drive};
@@ -35,7 +35,7 @@ impl BaseMotion {
         Self { from, to, start, span: Time::from_secs(by.abs() / base.turn_rad_per_s.max(1e-3)) }
     }
 
-    /// When it is over.
+    /// Time at which it is over.
     pub(crate) fn end(&self) -> Time {
         self.start.after(self.span)
     }
@@ -45,7 +45,7 @@ impl BaseMotion {
         Self { span: Time::from_secs(self.span.secs() * factor), ..self }
     }
 
-    /// Where the base is at a time.
+    /// Position where the base is at a time.
     pub(crate) fn at(&self, now: Time) -> BasePose {
         let stance = self.wound(now);
         BasePose { heading: turned(stance.heading), ..stance }
@@ -73,7 +73,7 @@ impl BaseMotion {
         Self { start, ..self }
     }
 
-    /// What is left of it, to begin at `start`.
+    /// Remainder of the motion, beginning at `start`.
     pub(crate) fn rest(&self, now: Time, start: Time) -> Self {
         Self { from: self.wound(now), to: self.to, start, span: self.end().since(now) }
     }
@@ -101,7 +101,7 @@ impl PersonWalk {
         self.start.after(Time::from_secs(self.length() / self.speed.max(1e-3)))
     }
 
-    /// Where the person is at a time.
+    /// Position where the person is at a time.
     pub(crate) fn at(&self, now: Time) -> [f64; 2] {
         let (length, gone) = (self.length(), now.since(self.start).secs() * self.speed.max(1e-3));
         let done = if now >= self.end() || length < 1e-9 { 1.0 } else { gone / length };
@@ -109,8 +109,8 @@ impl PersonWalk {
     }
 }
 
-/// Of stances about a thing, the best: one that is free of `others`, then one that serves most of `wanted` within
-/// `reach`, then the nearest.
+/// Of stances about a thing, the best: one that is free of `others`, then one that serves most of `wanted`
+/// within `reach`, then the nearest.
 pub(crate) fn standing_place(
     target: &UprightBody,
     clearance: f64,

@@ -8,9 +8,9 @@ use motet_graph::Value;
 use motet_runtime::{Answer, Pattern, Query};
 use smol_str::SmolStr;
 
-/// How near `near` is, in m.
+/// Distance for the fluent `near` in m.
 const NEAR_M: f64 = 1.5;
-/// How near a thing is to a `Place` that it is at, in m.
+/// Distance within which a thing is at a `Place`, in m.
 const AT_PLACE_M: f64 = 0.5;
 /// Gravity, in m/s².
 const GRAVITY: f64 = 9.81;
@@ -36,7 +36,7 @@ impl SimWorld {
         }
     }
 
-    /// Whether a fluent holds of the arguments, or with `any` of some.
+    /// True if a fluent holds of the arguments, or with `any` of some.
     fn some<'w>(
         &'w self,
         fluent: &str,
@@ -68,7 +68,7 @@ impl SimWorld {
         }
     }
 
-    /// Whether a fluent holds, where the world knows it.
+    /// True if a fluent holds, where the world knows it.
     pub(crate) fn fact(&self, fluent: &str, args: &[&str], initial_facts: &InitialFacts) -> Option<bool> {
         self.standard(fluent, args).or_else(|| {
             let known =

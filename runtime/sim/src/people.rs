@@ -6,11 +6,11 @@ use motet_runtime::Time;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
 
-/// What people have said and will say.
+/// People in the simulated room: scripted answers and heard utterances.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct People {
     answers: VecDeque<Option<String>>,
-    /// What the robot has said aloud, and when it had said it.
+    /// Utterances of the robot with the times at which they ended.
     pub(crate) heard: Vec<(Time, SmolStr)>,
 }
 
@@ -28,7 +28,8 @@ impl People {
         }
     }
 
-    /// Which of several things somebody takes: the one that the answer describes, the first where nothing was scripted.
+    /// Choice of a person among several things: the one that the answer describes, or the first without a
+    /// script.
     pub(crate) fn choice(&mut self, scene: &Scene, among: &[SmolStr]) -> Result<SmolStr, Failure> {
         let Some(answer) = self.answers.pop_front() else { return among.first().cloned().ok_or("refused") };
         let Some(answer) = answer else { return Err("refused") };

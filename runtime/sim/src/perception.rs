@@ -1,7 +1,8 @@
 //! The simulator's eyes: what is in view, where it truly is, and no doubt about it; and pictures of it.
 //!
-//! The camera is where the options say and turns to wherever it has to, within its view to show where most is to be seen; what is in view is told by distance and bearing
-//! alone, while in a picture what stands in front hides what is behind.
+//! The camera is where the options say and turns to wherever it has to, within its view to show where most is
+//! to be seen; what is in view is told by distance and bearing alone, while in a picture what stands in front
+//! hides what is behind.
 
 use crate::body::turned;
 use crate::camera::{CameraLens, encoded, render};
@@ -13,13 +14,13 @@ use motet_runtime::{CameraImage, Detection, Perception, RgbdView, Time};
 use smol_str::SmolStr;
 use std::f64::consts::TAU;
 
-/// How far below the horizon the camera looks where it looks about, in rad: at what stands on tables.
+/// Downward tilt of the camera in an overview image in rad: towards the tops of tables.
 const BELOW: f64 = 0.35;
-/// How far to the side of the middle a thing is well in a picture, in rad; the picture itself goes to 0.7.
+/// Horizontal angle within which a thing is well in an image, in rad; the image itself reaches 0.7.
 const ASIDE: f64 = 0.55;
 /// By how much the camera turns from one look to the next, in rad.
 const TURN: f64 = 0.2;
-/// How many pieces of furniture are worth as much as one thing that can be taken.
+/// Weight of a graspable thing relative to a piece of furniture in the choice of a view.
 const FURNITURE: i64 = 4;
 
 impl Perception for Sim {
@@ -63,15 +64,15 @@ impl Perception for Sim {
 }
 
 impl Sim {
-    /// Where the camera is, in the frame `map`.
+    /// Position where the camera is, in the frame `map`.
     fn eye(&self) -> [f64; 3] {
         let (base, [x, y, z]) = (self.world.base, self.eye);
         let (sin, cos) = base.heading.sin_cos();
         [base.x + cos * x - sin * y, base.y + sin * x + cos * y, z]
     }
 
-    /// How far the camera turns from straight ahead, in rad, to have most of what is visible in a picture; of directions that
-    /// show as much, the one nearest to straight ahead.
+    /// Pan angle in rad that brings most visible things into the image; ties go to the angle nearest to
+    /// straight ahead.
     fn gaze(&self) -> f64 {
         let base = self.world.base;
         let view = self.world.cameras.first().map_or(0.0, |camera| camera.view_rad.min(TAU));

@@ -16,12 +16,14 @@ use std::collections::VecDeque;
 
 /// While something moves, watches are looked at that often, in ns.
 const SAMPLE_NANOS: u64 = 50_000_000;
-/// Where the camera is of a robot of which that is not said: about as high as a person's who sits.
+/// Position where the camera is of a robot of which that is not said: about as high as a person's who sits.
 const EYE: [f64; 3] = [0.0, 0.0, 1.1];
 
-/// A robot in a room. It implements [`motet_runtime::Driver`]; its time is virtual and goes as the host advances it.
+/// A robot in a room. It implements [`motet_runtime::Driver`]; its time is virtual and goes as the host
+/// advances it.
 ///
-/// The same robot, scene and options and the same calls at the same times give the same reports, byte for byte.
+/// The same robot, scene and options and the same calls at the same times give the same reports, byte for
+/// byte.
 #[derive(Clone, Debug)]
 pub struct Sim {
     pub(crate) world: SimWorld,
@@ -32,7 +34,7 @@ pub struct Sim {
     pub(crate) tasks: Vec<Task>,
     pub(crate) watches: Vec<(Query, Answer)>,
     pub(crate) outbox: VecDeque<(Time, DriverEvent)>,
-    /// Where the camera is, in the frame of the base, in m.
+    /// Position where the camera is, in the frame of the base, in m.
     pub(crate) eye: [f64; 3],
     /// The name of the first camera.
     pub(crate) camera: Option<SmolStr>,
@@ -41,8 +43,8 @@ pub struct Sim {
 }
 
 impl Sim {
-    /// A world at time 0. What the scene leaves open is filled in: a thing without a pose gets a place of its own, an
-    /// object without mass or width is light and slim; `start` and `user` always exist.
+    /// A world at time 0. What the scene leaves open is filled in: a thing without a pose gets a place of its
+    /// own, an object without mass or width is light and slim; `start` and `user` always exist.
     #[must_use]
     pub fn new(robot: &Robot, scene: &Scene, options: SimOptions) -> Self {
         let answers = options.script.answers.iter().chain(&options.faults.answers).cloned();
@@ -62,7 +64,7 @@ impl Sim {
         }
     }
 
-    /// Where the base is now.
+    /// Position where the base is now.
     #[must_use]
     pub const fn base(&self) -> BasePose {
         self.world.base
@@ -74,7 +76,7 @@ impl Sim {
         self.world.now
     }
 
-    /// What a hand holds; of several things that of the first hand.
+    /// The held thing; of the first hand if several hold one.
     #[must_use]
     pub fn held(&self) -> Option<&SmolStr> {
         self.world.hands.values().find_map(|grip| grip.holds.as_ref())
@@ -86,7 +88,8 @@ impl Sim {
         self.world.thing(entity).map(|thing| thing.body.xyz)
     }
 
-    /// Whether a fact holds in the world, whatever the robot can observe; nothing where the world does not know.
+    /// True if a fact holds in the world, whatever the robot can observe; nothing where the world does not
+    /// know.
     ///
     /// Arguments are names of entities and hands.
     #[must_use]
@@ -94,7 +97,7 @@ impl Sim {
         self.world.fact(fluent, args, &self.initial_facts)
     }
 
-    /// What the robot has said aloud, with the time at which it had said it.
+    /// Utterances of the robot with the times at which they ended.
     #[must_use]
     pub fn said(&self) -> &[(Time, SmolStr)] {
         &self.people.heard
@@ -104,7 +107,7 @@ impl Sim {
         self.outbox.push_back((self.world.now, event));
     }
 
-    /// What the robot reads. A fluent or measure that its card does not list it cannot observe.
+    /// Observation of the robot. Fluents and measures that its card does not list cannot be observed.
     pub(crate) fn read(&self, query: &Query) -> Answer {
         let observable = match query {
             Query::Fact { fluent: name, .. } | Query::Measure { measure: name, .. } => {
@@ -115,7 +118,7 @@ impl Sim {
         if observable { self.world.answer(query, &self.initial_facts) } else { Answer::Unknown }
     }
 
-    /// When something happens next.
+    /// Time at which something happens next.
     pub(crate) fn next_time(&self) -> Time {
         let now = self.world.now;
         let tasks = self.tasks.iter().map(|task| task.stage.due()).min().unwrap_or(Time::NEVER);

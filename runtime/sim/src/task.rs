@@ -20,18 +20,18 @@ pub(crate) struct Task {
     pub(crate) uses: Arc<[SmolStr]>,
     /// Seconds that its work takes, driving aside.
     pub(crate) work_secs: f64,
-    /// How many times as long everything takes.
+    /// Factor on all durations.
     pub(crate) slower: f64,
     /// Ends in this failure, whatever else.
     pub(crate) fails: Option<SmolStr>,
     pub(crate) stage: TaskStage,
     /// Stages that are over.
     pub(crate) step: u32,
-    /// What `search` has found.
+    /// Result of `search` so far.
     pub(crate) found: Option<SmolStr>,
 }
 
-/// What a task is doing.
+/// Stage of a running task.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum TaskStage {
     /// The base moves, which ends then.
@@ -45,7 +45,7 @@ pub(crate) enum TaskStage {
 }
 
 impl TaskStage {
-    /// When something happens.
+    /// Time at which something happens.
     pub(crate) const fn due(&self) -> Time {
         match self {
             Self::Driving(at) | Self::Working(at) => *at,
@@ -54,7 +54,7 @@ impl TaskStage {
     }
 }
 
-/// What comes next.
+/// Next stage of a task.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum NextStage {
     Drive(BasePose),
@@ -63,7 +63,7 @@ pub(crate) enum NextStage {
     End(Outcome),
 }
 
-/// What a task works on.
+/// World, people and scene, as a task sees them.
 pub(crate) struct TaskContext<'s> {
     pub(crate) world: &'s mut SimWorld,
     pub(crate) people: &'s mut People,
@@ -71,7 +71,7 @@ pub(crate) struct TaskContext<'s> {
 }
 
 impl TaskContext<'_> {
-    /// What a task does next. Called at its start and whenever a stage is over.
+    /// Next stage of a task. Called at its start and at the end of each stage.
     pub(crate) fn next(&mut self, task: &mut Task) -> NextStage {
         let step = task.step;
         task.step += 1;

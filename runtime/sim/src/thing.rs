@@ -14,9 +14,9 @@ pub(crate) struct Thing {
     pub(crate) rest: Rest,
     pub(crate) fixed: bool,
     pub(crate) door: Option<Door>,
-    /// What the scene says of whether it is seen at the start.
+    /// Visibility at the start, if the scene states it.
     pub(crate) visible_at_start: Option<bool>,
-    /// Where the robot saw it last.
+    /// Last seen position.
     pub(crate) seen_at: Option<[f64; 3]>,
     pub(crate) walk: Option<PersonWalk>,
     /// It has been moved since the beginning.
@@ -27,7 +27,7 @@ pub(crate) struct Thing {
     pub(crate) fields: IndexMap<SmolStr, f64>,
 }
 
-/// What a thing is good for: the standard kind that it descends from.
+/// Role of a thing: the standard kind from which its kind descends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Role {
     Place,
@@ -37,7 +37,7 @@ pub(crate) enum Role {
     Person,
 }
 
-/// What a thing rests on.
+/// Support of a thing.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Rest {
     /// The floor, or the wall, or a hand.
@@ -66,7 +66,7 @@ impl Rest {
 }
 
 impl Thing {
-    /// Whether one can reach into it. What has no door is always open.
+    /// True if one can reach into it. What has no door is always open.
     pub(crate) fn is_open(&self) -> bool {
         self.door.is_none_or(|door| door.open)
     }

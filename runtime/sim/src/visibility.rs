@@ -1,4 +1,4 @@
-//! What the cameras see, and which things a description means.
+//! Visibility of things, and matching of descriptions.
 
 use crate::hand::Failure;
 use crate::thing::{Role, Thing};
@@ -6,7 +6,7 @@ use crate::world::SimWorld;
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
-/// Whether the robot may turn its head and body towards what it looks for.
+/// Freedom of the robot to turn while it looks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum ViewDirection {
     /// It looks where it looks.
@@ -16,7 +16,8 @@ pub(crate) enum ViewDirection {
 }
 
 impl SimWorld {
-    /// Whether a camera sees a thing now. What the scene says of it counts until the base has moved or the thing has.
+    /// True if a camera sees a thing now. What the scene says of it counts until the base has moved or the
+    /// thing has.
     pub(crate) fn is_visible(&self, id: &str) -> bool {
         let Some(thing) = self.thing(id) else { return false };
         if let Some(said) = thing.visible_at_start
@@ -28,7 +29,7 @@ impl SimWorld {
         self.sees(id, ViewDirection::Ahead)
     }
 
-    /// Whether a thing is in range and view and not shut in.
+    /// True if a thing is in range and view and not shut in.
     pub(crate) fn sees(&self, id: &str, look: ViewDirection) -> bool {
         let Some(thing) = self.thing(id) else { return false };
         let body = &thing.body;

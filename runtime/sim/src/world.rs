@@ -1,6 +1,7 @@
-//! What is the case in the simulated world: where everything is, what rests on what, what the hands hold.
+//! State of the simulated world: poses, supports, held things.
 //!
-//! It knows nothing of goals and events. Positions are those of its present time; [`SimWorld::advance`] moves on.
+//! It knows nothing of goals and events. Positions are those of its present time; [`SimWorld::advance`] moves
+//! on.
 
 use crate::body::{BasePose, UprightBody};
 use crate::motion::{BaseMotion, PersonWalk};
@@ -29,7 +30,7 @@ pub(crate) struct SimWorld {
     pub(crate) battery: f64,
     /// The base has not moved since the beginning.
     pub(crate) unmoved: bool,
-    /// What the scene says that the robot stands at, until it moves.
+    /// Entity at which the robot stands in the scene, until it moves.
     pub(crate) served_at_start: Option<SmolStr>,
     pub(crate) visited: BTreeSet<SmolStr>,
 }
@@ -45,7 +46,6 @@ pub(crate) struct HandState {
 /// The posture of the arm.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum ArmPose {
-    /// Folded.
     Home,
     /// Raised to look.
     Ready,
@@ -99,7 +99,7 @@ impl SimWorld {
         self.shift(&id, delta);
     }
 
-    /// What a hand has lifted goes with it.
+    /// Moves lifted things along with their hands.
     pub(crate) fn carry(&mut self) {
         let lifted = self.hands.values().filter(|grip| grip.lifted);
         let carried: Vec<_> =
@@ -144,7 +144,7 @@ impl SimWorld {
         self.things.iter().filter(move |(_, thing)| thing.rest.support().is_some_and(|id| id == support))
     }
 
-    /// What a thing rests on in the end: the entity that one drives to.
+    /// Root of a thing's supports: the entity to which the robot drives.
     pub(crate) fn root<'w>(&'w self, id: &'w str) -> &'w str {
         let mut root = id;
         // No chain is longer than there are things.
@@ -177,7 +177,7 @@ impl SimWorld {
         self.hands.iter().find(|(_, grip)| grip.holds.as_deref() == Some(id)).map(|(name, _)| name)
     }
 
-    /// Whether a hand has lifted a thing.
+    /// True if a hand has lifted a thing.
     pub(crate) fn is_lifted(&self, id: &str) -> bool {
         self.hands.values().any(|grip| grip.lifted && grip.holds.as_deref() == Some(id))
     }
@@ -198,7 +198,8 @@ impl SimWorld {
         others.map(|(_, thing)| thing.body).collect()
     }
 
-    /// A free spot for a thing on a support, the one nearest to `from` of those that `fits` takes: its x and y.
+    /// A free spot for a thing on a support, the one nearest to `from` of those that `fits` takes: its x and
+    /// y.
     pub(crate) fn free_spot(
         &self,
         id: &str,

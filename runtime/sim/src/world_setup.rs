@@ -1,5 +1,5 @@
-//! The world at the start, from a card and a scene. What they leave open is filled in: a thing without a place stands in a
-//! row beside the room, an object without mass or width is light and slim.
+//! The world at the start, from a card and a scene. What they leave open is filled in: a thing without a
+//! place stands in a row beside the room, an object without mass or width is light and slim.
 
 use crate::body::{BasePose, UprightBody};
 use crate::options::SimOptions;
@@ -14,9 +14,9 @@ use std::collections::BTreeSet;
 
 /// Metres between things that are filled in.
 const ROW_M: f64 = 2.5;
-/// What an object weighs of which nothing is said.
+/// Default mass of an object in kg.
 const MASS_KG: f64 = 0.2;
-/// How wide an object is of which nothing is said.
+/// Default width of an object in m.
 const WIDTH_M: f64 = 0.06;
 
 impl SimWorld {
@@ -101,7 +101,7 @@ impl SimWorld {
     }
 }
 
-/// What there is: the scene's entities, those that always exist, and those that the options add.
+/// All entities: of the scene, of the standard library, and of the options.
 fn entities(scene: &Scene, options: &SimOptions) -> Vec<Entity> {
     let mut entities: Vec<Entity> = scene.entities.values().cloned().collect();
     let [x, y, heading] = scene.robot.base;
@@ -179,7 +179,8 @@ fn thing(entity: &Entity, options: &SimOptions, row: &mut Row) -> Thing {
     }
 }
 
-/// The standard kind that an entity's kind descends from. Of a kind that nobody declared, the entity itself tells.
+/// The standard kind that an entity's kind descends from. Of a kind that nobody declared, the entity itself
+/// tells.
 fn role(entity: &Entity, options: &SimOptions) -> Role {
     let mut kind = &entity.kind;
     for _ in 0..=options.kinds.len() {

@@ -126,7 +126,7 @@ impl DialogueRecorder for RunJournal {
         from: Time,
     ) -> RunEnd {
         let Self { record, head } = *self;
-        let head = JournalHead { from: from.nanos(), ..head };
+        let head = JournalHead { from, ..head };
         let writer = match JournalWriter::create(&record.run(), head) {
             Ok(writer) => writer,
             Err(error) => {

@@ -10,7 +10,7 @@ use motet_project::{SavedDriver, SavedProject};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
-use motet_runtime::{Driver, Event, Time, Verifier as _, wire};
+use motet_runtime::{Driver, Event, Time, Verifier as _};
 
 use super::RunArgs;
 use crate::command::drive::connect;
@@ -74,13 +74,13 @@ pub(super) fn resume(
         }
         if let Some(guard) = &mut guard {
             if let JournalEntry::Step(StepEntry { event: Some(event), .. }) = entry {
-                guard.event(&event.clone().into());
+                guard.event(event);
             }
             replay.effects().iter().for_each(|effect| guard.effect(effect));
         }
         ledger.take(entry);
         paced.past(replay.now(), replay.effects());
-        begun |= matches!(entry, JournalEntry::Step(step) if step.event == Some(wire::Event::Begin));
+        begun |= matches!(entry, JournalEntry::Step(step) if step.event == Some(Event::Begin));
     }
     if ledger.is_over {
         note("the run is over; nothing is left to do");
@@ -125,7 +125,7 @@ fn now(head: &JournalHead, saved: &SavedDriver, last: Time) -> Time {
         SavedDriver::Simulator(_) => last,
         SavedDriver::Process { .. } => {
             let passed = unix_ns().saturating_sub(head.began_unix_ns);
-            Time::from_nanos(head.from).after(Time::from_nanos(passed)).max(last)
+            head.from.after(Time::from_nanos(passed)).max(last)
         }
     }
 }

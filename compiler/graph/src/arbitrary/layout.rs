@@ -8,8 +8,8 @@ use crate::model::{
 };
 use smol_str::SmolStr;
 
-/// The graph of a policy with these steps. Always valid: a call in a branch that would need what an earlier branch needs
-/// becomes a `say`.
+/// The graph of a policy with these steps. Always valid: a call in a branch that would need what an earlier
+/// branch needs becomes a `say`.
 #[must_use]
 pub fn graph(steps: &[StepSketch]) -> Graph {
     let mut layout =

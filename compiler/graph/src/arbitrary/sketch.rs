@@ -3,20 +3,17 @@
 use super::vocabulary as v;
 use crate::model::{BindingId, Condition, Ending, FailureId, PrimitiveId, Term, Verdict};
 
-/// A step.
+/// Sketch of a step.
 #[derive(Clone, Debug)]
 pub enum StepSketch {
-    /// A call.
     Call(CallSketch),
     /// A named group.
     Sequence(Vec<StepSketch>),
     /// A sub-policy.
     Inline(Vec<StepSketch>),
-    /// A branch.
     If(Condition, Vec<StepSketch>, Option<Vec<StepSketch>>),
     /// A wait, with its deadline in seconds.
     Wait(Condition, f64),
-    /// A monitor.
     Monitor(Vec<WatchSketch>, Vec<StepSketch>),
     /// A body and its handlers.
     Try(Vec<StepSketch>, Vec<(Option<Vec<FailureId>>, Vec<StepSketch>)>),
@@ -24,7 +21,6 @@ pub enum StepSketch {
     Repeat(u32, Vec<StepSketch>, Option<Condition>),
     /// A loop over a list of objects, with its bound.
     Each(Term, u32, Vec<StepSketch>),
-    /// Branches.
     Parallel(Vec<Vec<StepSketch>>),
     /// Ends the sub-policy around it, or the policy where there is none, or where it says `replan`.
     End(Ending),
@@ -33,13 +29,12 @@ pub enum StepSketch {
 /// A call of a primitive of the vocabulary.
 #[derive(Clone, Debug)]
 pub struct CallSketch {
-    /// Which.
     pub primitive: PrimitiveId,
-    /// Its arguments; [`CallSketch::NEAREST`] stands for the object that was bound last, or `mug` where none was.
+    /// Its arguments; [`CallSketch::NEAREST`] stands for the object that was bound last, or `mug` where none
+    /// was.
     pub args: Vec<Term>,
     /// The deadline in seconds.
     pub deadline_secs: f64,
-    /// The retries.
     pub retries: u32,
     /// The verdict on its needs.
     pub verdict: Verdict,
@@ -48,15 +43,13 @@ pub struct CallSketch {
 /// A watched condition.
 #[derive(Clone, Debug)]
 pub struct WatchSketch {
-    /// The condition.
     pub condition: Condition,
     /// Seconds for which it must hold.
     pub hold_secs: f64,
-    /// What then happens.
     pub react: ReactionSketch,
 }
 
-/// A reaction.
+/// Sketch of a monitor's reaction.
 #[derive(Clone, Debug)]
 pub enum ReactionSketch {
     /// Hold for at most so many seconds.
@@ -79,7 +72,7 @@ impl CallSketch {
         Self { primitive, args, deadline_secs: 10.0, retries: 0, verdict: Verdict::Deferred }
     }
 
-    /// With retries.
+    /// Sets the number of retries.
     #[must_use]
     pub fn retry(self, retries: u32) -> Self {
         Self { retries, ..self }

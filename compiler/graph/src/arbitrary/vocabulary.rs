@@ -2,12 +2,12 @@
 
 use crate::model::{
     Binding, CallEffect, Comparison, Condition, DurationBounds, Fact, FactArg, FailureId, Fluent, FluentId,
-    Graph, Kind, KindId, Measure, MeasureId, Need, Primitive, PrimitiveId, Resource, ResourceId, Term, Type,
-    Unsettled, Value, Verdict,
+    Graph, InitialFact, Kind, KindId, Measure, MeasureId, Need, Param, Primitive, PrimitiveId, Resource,
+    ResourceId, Term, Type, Unsettled, Value, Verdict,
 };
 use smol_str::SmolStr;
 
-/// `Entity`
+/// The root kind `Entity`.
 pub const ENTITY: KindId = KindId(0);
 /// `Object`, below `Entity`.
 pub const OBJECT: KindId = KindId(1);
@@ -37,15 +37,15 @@ pub const SAY: PrimitiveId = PrimitiveId(4);
 /// `detect_all(what: Text) -> List<Object>` uses the camera.
 pub const DETECT_ALL: PrimitiveId = PrimitiveId(5);
 
-/// `timeout`
+/// The failure kind `timeout`.
 pub const TIMEOUT: FailureId = FailureId(0);
-/// `failed`
+/// The failure kind `failed`.
 pub const FAILED: FailureId = FailureId(1);
-/// `exhausted`
+/// The failure kind `exhausted`.
 pub const EXHAUSTED: FailureId = FailureId(2);
-/// `unreachable`
+/// The failure kind `unreachable`.
 pub const UNREACHABLE: FailureId = FailureId(3);
-/// `not_found`
+/// The failure kind `not_found`.
 pub const NOT_FOUND: FailureId = FailureId(4);
 
 /// A graph with the declarations and nothing else.
@@ -62,7 +62,7 @@ pub fn declarations() -> Graph {
                      fails: &[u32]| {
         Primitive {
             name: name(text),
-            params: params.into_iter().map(|(param, ty)| (name(param), ty)).collect(),
+            params: params.into_iter().map(|(param, ty)| Param { name: name(param), ty }).collect(),
             result,
             perceives,
             uses: uses.iter().map(|id| ResourceId(*id)).collect(),
@@ -113,19 +113,19 @@ pub fn declarations() -> Graph {
         bindings: Vec::<Binding>::new(),
         nodes: Vec::new(),
         regions: Vec::new(),
-        initial: vec![(Fact { fluent: HOLDING, args: vec![FactArg::Any] }, false)],
+        initial: vec![InitialFact { fact: Fact { fluent: HOLDING, args: vec![FactArg::Any] }, value: false }],
         observe_within_secs: 0.5,
         duration: DurationBounds::default(),
     }
 }
 
-/// An entity.
+/// A literal entity as a term.
 #[must_use]
 pub fn entity(id: &str) -> Term {
     Term::Literal(Value::Entity(SmolStr::new(id)))
 }
 
-/// A text.
+/// A literal text as a term.
 #[must_use]
 pub fn text(text: &str) -> Term {
     Term::Literal(Value::Text(SmolStr::new(text)))
@@ -144,7 +144,7 @@ pub fn nearer(to: &str, limit_m: f64) -> Condition {
     Condition::Compare(Comparison::Less, distance, Term::Literal(Value::Number(limit_m)))
 }
 
-/// What a primitive needs, makes and unsettles with these arguments.
+/// Contract of a primitive with these arguments.
 pub(super) fn contract(primitive: PrimitiveId, args: &[Term], verdict: Verdict) -> Contract {
     let arg = |index: usize| args.get(index).cloned().unwrap_or_else(|| entity("mug"));
     let effect = |fact, value| CallEffect { fact, value, when: None, each: None };
@@ -179,7 +179,7 @@ pub(super) fn contract(primitive: PrimitiveId, args: &[Term], verdict: Verdict) 
     }
 }
 
-/// What a call needs, makes and unsettles.
+/// Preconditions, effects and unsettled facts of a call.
 #[derive(Default)]
 pub(super) struct Contract {
     pub(super) needs: Vec<Need>,

@@ -1,6 +1,8 @@
-//! Graphs for people: an indented tree, a Mermaid flowchart, a Graphviz digraph. The same graph gives the same text.
+//! Graphs for people: an indented tree, a Mermaid flowchart, a Graphviz digraph. The same graph gives the
+//! same text.
 //!
-//! Any graph can be drawn, a valid one or not; what an id does not name is shown as `?`. How deep a drawing goes is bounded.
+//! Any graph can be drawn, a valid one or not; what an id does not name is shown as `?`. How deep a drawing
+//! goes is bounded.
 
 mod dot;
 mod mermaid;

@@ -10,7 +10,7 @@ use crate::model::{
 #[derive(Clone, Copy, Debug)]
 pub struct Names<'a>(pub &'a Graph);
 
-/// Where a table has no such entry.
+/// Placeholder for an id without an entry in its table.
 const NOBODY: &str = "?";
 
 impl<'a> Names<'a> {
@@ -70,11 +70,11 @@ impl<'a> Names<'a> {
     /// An argument of a call, a quantity with its unit.
     fn argument(&self, call: &CallNode, index: usize, arg: &Term) -> String {
         let primitive = self.0.primitives.get(call.primitive.index());
-        let ty = primitive.and_then(|primitive| primitive.params.get(index)).map(|(_, ty)| ty);
+        let ty = primitive.and_then(|primitive| primitive.params.get(index)).map(|param| &param.ty);
         quantity::literal(arg, ty).unwrap_or_else(|| self.term(arg))
     }
 
-    /// What is compared, a number with the unit of what it is compared with.
+    /// One side of a comparison; a number takes the unit of the other side.
     fn side(&self, term: &Term, other: &Term) -> String {
         quantity::literal(term, quantity::type_of(self.0, other)).unwrap_or_else(|| self.term(term))
     }
@@ -83,7 +83,7 @@ impl<'a> Names<'a> {
         let primitive = self.0.primitives.get(call.primitive.index());
         let args = call.args.iter().enumerate().map(|(index, arg)| {
             let name =
-                primitive.and_then(|primitive| primitive.params.get(index)).map(|(name, _)| name.as_str());
+                primitive.and_then(|primitive| primitive.params.get(index)).map(|param| param.name.as_str());
             format!("{}: {}", name.unwrap_or(NOBODY), self.argument(call, index, arg))
         });
         let args = args.collect::<Vec<_>>().join(", ");
@@ -172,7 +172,7 @@ impl<'a> Names<'a> {
         format!("{name}({})", args.collect::<Vec<_>>().join(", "))
     }
 
-    /// A condition.
+    /// A condition in the text syntax.
     #[must_use]
     pub fn condition(&self, condition: &Condition) -> String {
         match condition {

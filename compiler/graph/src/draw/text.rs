@@ -4,8 +4,8 @@ use super::names::Names;
 use super::{DEEPEST, chain, parts};
 use crate::model::{CallNode, Graph, Node, NodeKind, ROOT, RegionId, Verdict};
 
-/// A graph as an indented tree: a line for each step with its duration, and below a call what it needs and changes. A
-/// need that is `deferred` is a guard, checked before each start.
+/// A graph as an indented tree: a line for each step with its duration, and below a call what it needs and
+/// changes. A need that is `deferred` is a guard, checked before each start.
 #[must_use]
 pub fn text(graph: &Graph) -> String {
     let robot = if graph.robot.is_empty() { String::new() } else { format!(" for {}", graph.robot) };

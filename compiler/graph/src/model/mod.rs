@@ -1,27 +1,39 @@
-//! The graph in memory: tables of declarations, nodes in an arena, regions that chain them.
+//! The graph: tables of declarations, nodes in an arena, and regions that chain them.
 //!
-//! A **region** is a list of nodes that run one after the other with a single thread of control: the policy's body, a
-//! branch, a handler. A **node** belongs to one region; its success edge leads to the next node of the region, or
-//! ends the region in success. A node's failure ends its region in that failure, which fails the region's owner; a
-//! [`NodeKind::Try`] owner has failure edges, its handlers. Ids are indices: stable for one graph, in document order.
+//! A **region** is a list of nodes that run one after the other with a single thread of control: the policy's
+//! body, a branch, a handler. A **node** belongs to one region; its success edge leads to the next node of
+//! the region, or ends the region in success. A node's failure ends its region in that failure, which fails
+//! the region's owner; a [`NodeKind::Try`] owner has failure edges, its handlers. Ids are indices: stable for
+//! one graph, in document order.
+//!
+//! The types derive their JSON form. Explicit names stand where JSON and Rust differ; [`crate::encode`] adds
+//! the version and the hash. Nothing here is checked: that is the task of [`crate::validate()`].
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-mod decl;
+mod call;
+mod declaration;
 mod node;
+mod number;
 mod term;
+mod value;
 
-pub use decl::*;
+pub use call::*;
+pub use declaration::*;
 pub use node::*;
 pub use term::*;
+pub use value::*;
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident)*) => {$(
         $(#[$doc])*
-        #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Serialize, Deserialize, JsonSchema)]
+        #[serde(transparent)]
         pub struct $name(pub u32);
         impl $name {
-            /// The index into its table.
+            /// Position in the table.
             #[must_use]
             pub fn index(self) -> usize {
                 self.0 as usize
@@ -52,13 +64,21 @@ ids! {
 }
 
 /// A compiled policy.
-#[derive(Clone, PartialEq, Debug)]
+///
+/// ```
+/// let text = motet_graph::encode(&motet_graph::Graph::empty("tidy_up", "hsr"));
+/// let graph = motet_graph::decode(&text)?;
+/// assert_eq!((graph.policy.as_str(), graph.nodes.len()), ("tidy_up", 0));
+/// # Ok::<(), motet_graph::DecodeError>(())
+/// ```
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Graph {
-    /// The policy's name.
+    /// Name of the policy.
     pub policy: SmolStr,
-    /// The robot that it was compiled for; empty for a domain without a robot.
+    /// Name of the robot that the policy was compiled for; empty for a domain without a robot.
     pub robot: SmolStr,
-    /// Entity kinds that the tables below name, parents before children.
+    /// Entity kinds that the other tables refer to, parents before children.
     pub kinds: Vec<Kind>,
     /// Fluents that the graph uses.
     pub fluents: Vec<Fluent>,
@@ -66,34 +86,69 @@ pub struct Graph {
     pub measures: Vec<Measure>,
     /// Primitives that the graph calls.
     pub primitives: Vec<Primitive>,
-    /// Failure kinds that can occur or are caught. `timeout` is always the first.
+    /// Failure kinds that can occur or are caught; the first is always `timeout`.
     pub failures: Vec<SmolStr>,
-    /// The robot's exclusive resources that the graph uses.
+    /// Exclusive resources of the robot that the graph uses.
     pub resources: Vec<Resource>,
-    /// Named results.
     pub bindings: Vec<Binding>,
-    /// The nodes, in document order: a parent before its children.
-    pub nodes: Vec<Node>,
-    /// The regions; the first is the policy's body.
+    /// Regions; the first is the policy's body.
     pub regions: Vec<Region>,
-    /// What the compiler was told of the state at the start, in order: facts with their value.
-    pub initial: Vec<(Fact, bool)>,
+    /// Nodes in document order: a parent before its children.
+    pub nodes: Vec<Node>,
+    /// Facts from which the policy was proved, in order; a later one overrides an earlier one.
+    pub initial: Vec<InitialFact>,
     /// Seconds that one observation may take.
+    #[serde(rename = "observe_within")]
     pub observe_within_secs: f64,
-    /// Least and greatest duration of the whole policy.
+    /// Least and greatest duration of the whole policy in seconds.
+    #[schemars(with = "[f64; 2]")]
     pub duration: DurationBounds,
 }
 
-/// The policy's own region.
+impl Graph {
+    /// A valid graph without steps, which succeeds at once.
+    #[must_use]
+    pub fn empty(policy: &str, robot: &str) -> Self {
+        Self {
+            policy: policy.into(),
+            robot: robot.into(),
+            kinds: Vec::new(),
+            fluents: Vec::new(),
+            measures: Vec::new(),
+            primitives: Vec::new(),
+            failures: vec![SmolStr::new_static("timeout")],
+            resources: Vec::new(),
+            bindings: Vec::new(),
+            regions: vec![Region { owner: None, entry: None }],
+            nodes: Vec::new(),
+            initial: Vec::new(),
+            observe_within_secs: 0.5,
+            duration: DurationBounds::default(),
+        }
+    }
+}
+
+/// The region of the policy's body.
 pub const ROOT: RegionId = RegionId(0);
-/// The failure that every primitive can end in.
+/// The failure in which every primitive can end.
 pub const TIMEOUT: FailureId = FailureId(0);
 
-/// Least and greatest duration in seconds; `0 <= least <= greatest`, both finite.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
+/// Least and greatest duration in seconds; `0 <= least <= greatest`, both finite. In JSON a pair of numbers.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(from = "[f64; 2]", into = "[f64; 2]")]
 pub struct DurationBounds {
-    /// Least.
     pub least_secs: f64,
-    /// Greatest.
     pub greatest_secs: f64,
+}
+
+impl From<[f64; 2]> for DurationBounds {
+    fn from([least_secs, greatest_secs]: [f64; 2]) -> Self {
+        Self { least_secs, greatest_secs }
+    }
+}
+
+impl From<DurationBounds> for [f64; 2] {
+    fn from(bounds: DurationBounds) -> Self {
+        [bounds.least_secs, bounds.greatest_secs]
+    }
 }

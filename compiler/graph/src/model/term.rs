@@ -1,63 +1,59 @@
-//! Conditions and terms.
+//! Facts, conditions and terms.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use super::{BindingId, FluentId, MeasureId, Value};
 
 /// A fluent applied to arguments.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Fact {
-    /// The fluent.
     pub fluent: FluentId,
-    /// An argument for each parameter.
+    /// One argument for each parameter of the fluent.
     pub args: Vec<FactArg>,
 }
 
 /// An argument of a fluent.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum FactArg {
-    /// A term that gives an entity, a case or another value.
+    /// A term whose value is an entity, a case or another value.
     Term(Term),
     /// In an effect every entity, in a condition some entity.
     Any,
 }
 
 /// A condition over three values: true, false and unknown (Kleene's strong logic).
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Condition {
-    /// `true` or `false`.
     Literal(bool),
-    /// A fluent.
     Fact(Fact),
-    /// A comparison.
     Compare(Comparison, Term, Term),
-    /// Negation.
     Not(Box<Condition>),
-    /// All hold; true where there is none.
+    /// Conjunction; true if empty.
     All(Vec<Condition>),
-    /// At least one holds; false where there is none.
+    /// Disjunction; false if empty.
+    #[serde(rename = "any")]
     AnyOf(Vec<Condition>),
 }
 
 /// A comparison. `Equal` and `Unequal` take values of any type, the others numbers.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Comparison {
-    /// `==`
     Equal,
-    /// `!=`
     Unequal,
-    /// `<`
     Less,
-    /// `<=`
     AtMost,
-    /// `>`
     More,
-    /// `>=`
     AtLeast,
 }
 
 impl Comparison {
-    /// As the text form writes it.
+    /// The operator in the text syntax.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
@@ -71,18 +67,18 @@ impl Comparison {
     }
 }
 
-/// Something that has a value.
-#[derive(Clone, PartialEq, Debug)]
+/// An expression with a value.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Term {
-    /// A literal.
     Literal(Value),
-    /// A binding.
     Binding(BindingId),
-    /// The variable of a quantified entry; only in [`CallEffect`], [`Unsettled`] and [`Need`].
+    /// The variable of a quantified entry; only in [`super::CallEffect`], [`super::Unsettled`] and
+    /// [`super::Need`].
     Each,
     /// A field of an entity, observed like a measure.
     Field(Box<Term>, SmolStr),
-    /// A measure.
+    /// A measure with its arguments.
     Measure(MeasureId, Vec<Term>),
     /// A list whose elements are not all literals.
     List(Vec<Term>),
@@ -91,20 +87,17 @@ pub enum Term {
 }
 
 /// An arithmetic operation.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Arithmetic {
-    /// `+`
     Add,
-    /// `-`
     Subtract,
-    /// `*`
     Multiply,
-    /// `/`
     Divide,
 }
 
 impl Arithmetic {
-    /// As the text form writes it.
+    /// The operator in the text syntax.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {

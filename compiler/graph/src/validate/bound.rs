@@ -1,14 +1,15 @@
-//! That every name is bound on every path before it is used.
+//! Definite assignment: every name is bound on every path before it is used.
 //!
-//! A given name is bound everywhere. Any other is bound by a call or a loop and holds to the end of the region that binds it, so a walk in document order that
-//! forgets at the end of each region what was bound in it knows at each node what is bound.
+//! A given name is bound everywhere. Any other is bound by a call or a loop and holds to the end of the
+//! region that binds it, so a walk in document order that forgets at the end of each region what was bound in
+//! it knows at each node what is bound.
 
 use super::{Findings, InvalidReason};
 use crate::model::{
     BindingId, CallNode, Condition, Fact, FactArg, Graph, Node, NodeId, NodeKind, Reaction, RegionId, Term,
 };
 
-/// What is left to walk, last first.
+/// Entry of the stack of regions and nodes that are still to be walked.
 enum Todo {
     /// A node, then those after it.
     Node(NodeId),
@@ -33,7 +34,7 @@ struct Walk<'a> {
     graph: &'a Graph,
     findings: &'a mut Findings,
     bound: Vec<bool>,
-    /// What was bound, in order.
+    /// Bindings in the order in which they were bound.
     log: Vec<BindingId>,
     todo: Vec<Todo>,
     /// Parts of a term that are still to be looked at; empty between two terms.
@@ -66,7 +67,8 @@ impl<'a> Walk<'a> {
             }
             Todo::Node(id) => {
                 if let Some(node) = self.graph.nodes.get(id.index()) {
-                    // A result is bound for what follows, not for what lies in the node: a call owns no region.
+                    // A result is bound for what follows, not for what lies in the node: a call owns no
+                    // region.
                     self.todo.extend(node.next.map(Todo::Node));
                     self.node(id, node);
                 }

@@ -1,4 +1,4 @@
-//! Why a graph is refused.
+//! Reasons for which validation refuses a graph.
 
 use smol_str::SmolStr;
 use thiserror::Error;
@@ -9,31 +9,18 @@ use thiserror::Error;
 pub struct InvalidGraph {
     /// The path of the node, or the table and the index in it.
     pub at: SmolStr,
-    /// What is wrong there.
     pub reason: InvalidReason,
 }
 
-/// What is wrong.
+/// Kind of a validation error.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum InvalidReason {
     /// A table or the nesting is larger than a limit.
     #[error("{count} {what} are more than the limit of {limit}")]
-    TooMany {
-        /// Of what.
-        what: &'static str,
-        /// How many there are.
-        count: usize,
-        /// How many may be.
-        limit: usize,
-    },
+    TooMany { what: &'static str, count: usize, limit: usize },
     /// An id names nothing.
     #[error("{what} {id} does not exist")]
-    NoSuch {
-        /// What kind of thing.
-        what: &'static str,
-        /// The id.
-        id: u32,
-    },
+    NoSuch { what: &'static str, id: u32 },
     /// The first failure is not `timeout`.
     #[error("the first failure must be `timeout`")]
     NoTimeout,
@@ -69,40 +56,22 @@ pub enum InvalidReason {
     ReplanOfPart,
     /// A number is not finite or out of its range.
     #[error("{what} is {value}, which is no finite number of at least 0")]
-    Number {
-        /// Which number.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-    },
+    Number { what: &'static str, value: f64 },
     /// A literal that is not finite.
     #[error("a literal is {0}, which is no finite number")]
     NotFinite(f64),
     /// A least duration above the greatest.
     #[error("the least duration {least} s is above the greatest {greatest} s")]
-    Bounds {
-        /// The least.
-        least: f64,
-        /// The greatest.
-        greatest: f64,
-    },
+    Bounds { least: f64, greatest: f64 },
     /// A loop that never runs.
     #[error("a loop must run at least once")]
     NoRuns,
     /// Something has the wrong number of arguments.
     #[error("`{of}` takes {expected} arguments, not {given}")]
-    Arity {
-        /// What takes them.
-        of: SmolStr,
-        /// How many it takes.
-        expected: usize,
-        /// How many there are.
-        given: usize,
-    },
+    Arity { of: SmolStr, expected: usize, given: usize },
     /// An argument has the wrong type.
     #[error("argument {index} of `{of}` has the wrong type", index = .index + 1)]
     Argument {
-        /// What takes it.
         of: SmolStr,
         /// Its place, from 0.
         index: usize,

@@ -1,7 +1,7 @@
-//! Whether a graph can be run: everything that an engine relies on is checked here, once.
+//! Validation of graphs: checks, once, every property on which an engine relies.
 //!
-//! In three passes: [`structure`] (tables, regions, edges), then, where that is sound, [`types`] (arguments and
-//! conditions), [`bound`] (names before they are bound) and [`resources`] (what runs at once).
+//! In three passes: [`structure`] (tables, regions, edges), then, where that is sound, [`types`] (arguments
+//! and conditions), [`bound`] (names before they are bound) and [`resources`] (what runs at once).
 
 mod bound;
 mod invalid;
@@ -22,8 +22,8 @@ use smol_str::SmolStr;
 ///
 /// # Errors
 ///
-/// Everything that was found, in document order within each pass. A graph whose structure is unsound is not looked at
-/// further.
+/// Everything that was found, in document order within each pass. A graph whose structure is unsound is not
+/// looked at further.
 pub fn validate(graph: &Graph) -> Result<(), Vec<InvalidGraph>> {
     let mut findings = Findings::default();
     tables::check(graph, &mut findings);
@@ -38,7 +38,7 @@ pub fn validate(graph: &Graph) -> Result<(), Vec<InvalidGraph>> {
     if findings.list.is_empty() { Ok(()) } else { Err(findings.list) }
 }
 
-/// What was found so far.
+/// Errors found so far.
 #[derive(Debug, Default)]
 struct Findings {
     list: Vec<InvalidGraph>,

@@ -66,7 +66,7 @@ fn bad_bounds(bounds: DurationBounds) -> Option<InvalidReason> {
         .then_some(InvalidReason::Bounds { least: least_secs, greatest: greatest_secs })
 }
 
-/// What is wrong with a motion: nothing is called feasible without a solution, and a solution is made of numbers.
+/// Describes the error of a motion: a proven motion needs a witness, and a witness holds finite numbers.
 fn bad_motion(motion: &Motion) -> Option<&'static str> {
     let witness = match (motion.verdict, &motion.witness) {
         (Verdict::Proven, Some(witness)) => witness,

@@ -1,11 +1,12 @@
-//! What runs at once must not need the same resource, nor one that contains another's.
+//! Resource conflicts: parallel branches must not need the same resource, nor one that contains another's.
 
 use super::{Findings, InvalidReason};
 use crate::model::{Graph, NodeKind, RegionId};
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
     let mut used = vec![0_u128; graph.regions.len()];
-    // What lies in a node stands after it, so going back each region is complete before its owner is looked at.
+    // What lies in a node stands after it, so going back each region is complete before its owner is looked
+    // at.
     for node in graph.nodes.iter().rev() {
         let mut own = 0;
         if let NodeKind::Call(call) = &node.kind {

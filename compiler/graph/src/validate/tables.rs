@@ -2,7 +2,7 @@
 
 use super::limits::{MAX_NODES, MAX_RESOURCES, MAX_TERM_DEPTH};
 use super::{Findings, InvalidReason};
-use crate::model::{FactArg, Graph, Term, Type};
+use crate::model::{FactArg, Graph, InitialFact, Term, Type};
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
     for (what, count, limit) in [
@@ -41,7 +41,7 @@ fn declarations(graph: &Graph, findings: &mut Findings) {
         type_known(graph, findings, "measure", index, &measure.result);
     }
     for (index, primitive) in graph.primitives.iter().enumerate() {
-        primitive.params.iter().for_each(|(_, ty)| type_known(graph, findings, "primitive", index, ty));
+        primitive.params.iter().for_each(|param| type_known(graph, findings, "primitive", index, &param.ty));
         primitive.result.iter().for_each(|ty| type_known(graph, findings, "primitive", index, ty));
         for resource in &primitive.uses {
             known(findings, "primitive", index, "resource", resource.0, graph.resources.len());
@@ -56,7 +56,7 @@ fn declarations(graph: &Graph, findings: &mut Findings) {
 }
 
 fn initial(graph: &Graph, findings: &mut Findings) {
-    for (index, (fact, _)) in graph.initial.iter().enumerate() {
+    for (index, InitialFact { fact, .. }) in graph.initial.iter().enumerate() {
         let Some(fluent) = graph.fluents.get(fact.fluent.index()) else {
             findings.table(
                 "initial fact",

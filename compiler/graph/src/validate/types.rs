@@ -20,11 +20,11 @@ struct Types<'a> {
     graph: &'a Graph,
     node: &'a Node,
     findings: &'a mut Findings,
-    /// What [`Term::Each`] ranges over.
+    /// Kind over which [`Term::Each`] ranges.
     each: Option<KindId>,
 }
 
-/// What is known of a term's type.
+/// Knowledge about a term's type.
 #[derive(Clone, PartialEq)]
 enum Class {
     Bool,
@@ -82,7 +82,7 @@ impl Types<'_> {
             self.say(InvalidReason::NoSuch { what: "primitive", id: call.primitive.0 });
             return;
         };
-        let params = primitive.params.iter().map(|(_, ty)| ty);
+        let params = primitive.params.iter().map(|param| &param.ty);
         self.args(&primitive.name, params, call.args.iter(), 0);
         match (call.binds, &primitive.result) {
             (None, None) => {}
@@ -311,7 +311,7 @@ impl Types<'_> {
         }
     }
 
-    /// Whether a term, checked before, can stand where a type is expected.
+    /// True if a term, checked before, can stand where a type is expected.
     fn fits(&self, term: &Term, ty: &Type) -> bool {
         match term {
             Term::Literal(value) => value.fits(ty),
@@ -364,7 +364,7 @@ fn comparable(comparison: Comparison, left: &Class, right: &Class) -> bool {
     }
 }
 
-/// Whether a value of one type can stand where another is expected.
+/// True if a value of one type can stand where another is expected.
 fn is_subtype(graph: &Graph, ty: &Type, expected: &Type) -> bool {
     match (ty, expected) {
         (Type::Entity(kind), Type::Entity(above)) => {

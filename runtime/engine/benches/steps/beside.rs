@@ -5,7 +5,7 @@ use bonsai_bt::{BT, Behavior, Event, RUNNING, Status, UpdateArgs};
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput};
 use std::hint::black_box;
 
-/// What the leaves do.
+/// Behaviour of a leaf.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Leaf {
     Succeed,

@@ -2,6 +2,7 @@
 
 use super::entities::Entities;
 use crate::query::{Answer, Pattern, Query};
+use crate::snapshot::Reading;
 use crate::time::Time;
 use motet_graph::{FluentId, Graph, Value};
 use rustc_hash::{FxHashMap, FxHasher};
@@ -16,31 +17,31 @@ pub(crate) struct CellId(pub(crate) u32);
 /// The most cells that things seen in passing may fill: what nobody asks for is then forgotten.
 const MAX_IN_PASSING: usize = 100_000;
 
-/// What is believed of one query.
+/// Belief about one query.
 #[derive(Clone, Debug)]
 pub(crate) struct Cell {
     pub(crate) query: Arc<Query>,
     pub(crate) answer: Answer,
-    /// When it was last observed or changed by an effect.
+    /// Time at which it was last observed or changed by an effect.
     pub(crate) at: Time,
     /// The number of the observation that gave the answer; 0 where an effect gave it.
     pub(crate) seen: u64,
-    /// Who is to be judged again when it changes; keys of the run.
+    /// Keys of the watches and nodes to evaluate again after a change.
     pub(crate) dependents: Vec<u32>,
-    /// How many watches and waits need it kept current.
+    /// Number of watches and waits that need it kept current.
     pub(crate) watchers: u32,
     /// It is watched and was reported since the watch began.
     pub(crate) live: bool,
-    /// Whether the robot can observe it.
+    /// True if the robot can observe it.
     pub(crate) observable: bool,
-    /// Whether an effect, an observation or a host ever said something of it.
+    /// True if an effect, an observation or a host ever said something of it.
     pub(crate) written: bool,
     /// Its last watcher went away in a swap that is being made.
     pub(crate) idle: bool,
     next: Option<CellId>,
 }
 
-/// What was written to all facts that a pattern covers.
+/// A write to all facts that a pattern covers.
 #[derive(Clone, Debug)]
 pub(crate) struct PatternWrite {
     pub(crate) args: Vec<Pattern>,
@@ -51,9 +52,8 @@ pub(crate) struct PatternWrite {
 /// A fluent's facts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Facts {
-    /// Where it stands in the graph.
+    /// Position where it stands in the graph.
     pub(crate) fluent: Option<FluentId>,
-    /// Single facts.
     pub(crate) cells: Vec<CellId>,
     /// Facts with `any`.
     pub(crate) patterns: Vec<CellId>,
@@ -62,14 +62,13 @@ pub(crate) struct Facts {
     pub(crate) observable: bool,
 }
 
-/// All beliefs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Beliefs {
     pub(crate) entities: Entities,
     pub(crate) fluents: FxHashMap<SmolStr, Facts>,
     /// Keys of those who depend on something that has changed.
     pub(crate) changed: Vec<u32>,
-    /// How many observations were taken in.
+    /// Number of observations so far.
     pub(crate) observations: u64,
     /// The number of the observation that is being taken in; 0 where there is none.
     pub(super) observing: u64,
@@ -128,16 +127,16 @@ impl Beliefs {
     }
 
     /// The last readings of measures and fields.
-    pub(crate) fn readings(&self) -> impl Iterator<Item = (Query, Value, Time)> + '_ {
+    pub(crate) fn readings(&self) -> impl Iterator<Item = Reading> + '_ {
         self.cells.iter().filter_map(|cell| match (&*cell.query, &cell.answer) {
             (Query::Measure { .. } | Query::Field { .. }, Answer::Value(value)) => {
-                Some(((*cell.query).clone(), value.clone(), cell.at))
+                Some(Reading { query: (*cell.query).clone(), value: value.clone(), at: cell.at })
             }
             (Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. }, _) => None,
         })
     }
 
-    /// Whether a fact that nobody asked for may still be kept.
+    /// True if a fact that nobody asked for may still be kept.
     pub(crate) fn has_room(&self) -> bool {
         self.cells.len() < MAX_IN_PASSING
     }

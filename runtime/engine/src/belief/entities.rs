@@ -4,7 +4,8 @@ use motet_graph::{Graph, KindId, Type, Value};
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
-/// Entities in the order in which they were first heard of. Kinds are kept by name, so that they outlast their graph.
+/// Entities in the order in which they were first heard of. Kinds are kept by name, so that they outlast
+/// their graph.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Entities {
     /// Each with the place of its kind among `kinds`.
@@ -16,10 +17,9 @@ pub(crate) struct Entities {
 /// Of each kind of [`Entities`], and last of none: whether its members are of a certain kind.
 pub(crate) struct Sorting(Vec<OfKind>);
 
-/// Whether an entity is of a kind.
+/// Membership of an entity in a kind.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum OfKind {
-    /// It is.
     Surely,
     /// It was only heard of as something more general.
     Perhaps,
@@ -80,12 +80,11 @@ impl Entities {
         }
     }
 
-    /// How many there are.
     pub(crate) fn len(&self) -> usize {
         self.list.len()
     }
 
-    /// Which entities are of a kind of a graph.
+    /// Sorts the known kinds by their relation to a kind of a graph.
     pub(crate) fn sorting(&self, graph: &Graph, kind: KindId) -> Sorting {
         let of_kind = |name: &SmolStr| match find(graph, name) {
             Some(known) if is_kind(graph, known, kind) => OfKind::Surely,
@@ -119,7 +118,7 @@ impl Entities {
     }
 }
 
-/// What an entity is of which no kind is known: the root of the tree takes everything.
+/// Membership of an entity without a known kind: the root of the hierarchy covers everything.
 fn of_none(graph: &Graph, kind: KindId) -> OfKind {
     let is_root = graph.kinds.get(kind.index()).is_some_and(|kind| kind.parent.is_none());
     if is_root { OfKind::Surely } else { OfKind::Perhaps }
@@ -129,7 +128,7 @@ fn find(graph: &Graph, name: &str) -> Option<KindId> {
     graph.kinds.iter().position(|known| known.name == name).map(|index| KindId(index as u32))
 }
 
-/// Whether a kind is another or below it.
+/// True if a kind is another or below it.
 fn is_kind(graph: &Graph, kind: KindId, above: KindId) -> bool {
     let mut current = Some(kind);
     // Parents come before children, so this ends.

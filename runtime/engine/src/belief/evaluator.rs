@@ -7,7 +7,7 @@ use crate::truth::Truth;
 use crate::verifier::derived;
 use motet_graph::{Arithmetic, Comparison, Condition, Fact, FactArg, Graph, Term, Value};
 
-/// How fresh a belief must be to count.
+/// Required freshness of a belief.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Freshness {
     /// Facts last; a reading counts if it is watched or was taken at or after this time.
@@ -16,7 +16,8 @@ pub(crate) enum Freshness {
     Facts(Time, u64),
 }
 
-/// The fluent that is derived from a motion. No effect says when it changes, so what was seen of it does not last.
+/// The fluent that is derived from a motion. No effect says when it changes, so what was seen of it does not
+/// last.
 const DERIVED: &str = "reachable";
 
 /// Judges conditions. Cheap to make.
@@ -24,7 +25,7 @@ pub(crate) struct Evaluator<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) beliefs: &'a mut Beliefs,
     pub(crate) bindings: &'a [Option<Value>],
-    /// What [`Term::Each`] stands for.
+    /// Current value of [`Term::Each`].
     pub(crate) each: Option<Value>,
     pub(crate) fresh: Freshness,
     /// Collects the queries that are unknown and can be observed.
@@ -32,7 +33,7 @@ pub(crate) struct Evaluator<'a> {
 }
 
 impl Evaluator<'_> {
-    /// Whether a condition holds.
+    /// True if a condition holds.
     pub(crate) fn condition(&mut self, condition: &Condition) -> Truth {
         match condition {
             Condition::Literal(value) => Truth::from(*value),
@@ -153,7 +154,7 @@ impl Evaluator<'_> {
         derived(&query)
     }
 
-    /// Whether a fact was seen since what counts began, or is watched.
+    /// True if a fact was seen since what counts began, or is watched.
     fn is_current(&self, fluent: &str, args: &[Pattern]) -> bool {
         let (Freshness::Readings(since) | Freshness::Facts(since, _)) = self.fresh;
         let cell = self.beliefs.find_fact(fluent, args).and_then(|id| self.beliefs.cell(id));

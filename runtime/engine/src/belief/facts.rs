@@ -1,7 +1,7 @@
 //! Facts: how they are looked up and changed, one by one and by patterns.
 //!
-//! A pattern write covers all facts that fit it, also those that nobody has asked for yet; a later write wins. A cell
-//! that has `any` itself says whether some entity fits.
+//! A pattern write covers all facts that fit it, also those that nobody has asked for yet; a later write
+//! wins. A cell that has `any` itself says whether some entity fits.
 
 use super::cells::{Beliefs, CellId, PatternWrite};
 use crate::query::{Answer, Pattern};
@@ -16,13 +16,13 @@ pub(crate) struct BeliefChange {
     /// `any` means every entity.
     pub(crate) args: Vec<Pattern>,
     pub(crate) value: Truth,
-    /// Whether it surely happens; else it may have happened.
+    /// True if it surely happens; else it may have happened.
     pub(crate) sure: bool,
-    /// Whether a pattern is meant only of facts that have no cell: of what nobody has asked for yet.
+    /// True if a pattern is meant only of facts that have no cell: of what nobody has asked for yet.
     pub(crate) rest: bool,
 }
 
-/// How what is believed stands to a fact that somebody claims.
+/// Relation of the beliefs to a claimed fact.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum FactStanding {
     /// It is believed.
@@ -34,8 +34,8 @@ pub(crate) enum FactStanding {
 }
 
 impl Beliefs {
-    /// What is believed of a fact, with `any` whether it holds of some entity; and the number of the observation that it
-    /// is believed by, 0 for an effect.
+    /// Truth value of a fact, with `any` of its existential closure, and the number of the observation behind
+    /// it, 0 for an effect.
     pub(crate) fn fact(&self, fluent: &str, args: &[Pattern]) -> (Truth, u64) {
         let own = self.find_fact(fluent, args).and_then(|id| self.cell(id));
         let (answer, seen) = match own {
@@ -54,13 +54,13 @@ impl Beliefs {
         (answer, seen)
     }
 
-    /// What a host or a compiler says.
+    /// Writes a fact that a host or a compiler states.
     pub(crate) fn tell(&mut self, fluent: &SmolStr, args: Vec<Pattern>, value: Truth) {
         let change = BeliefChange { fluent: fluent.clone(), args, value, sure: true, rest: false };
         self.apply(&change, Time::ZERO);
     }
 
-    /// How what is believed stands to a fact that a policy was proved from; with `any` it was meant of every entity.
+    /// Relation of the beliefs to a fact from which a policy was proved; `any` stands for every entity.
     pub(crate) fn standing(&self, fluent: &str, args: &[Pattern], value: bool) -> FactStanding {
         let Some(facts) = self.fluents.get(fluent) else { return FactStanding::Unheard };
         let is_written = |id: &CellId| self.cell(*id).is_some_and(|cell| cell.written);
@@ -108,7 +108,8 @@ impl Beliefs {
             let value = truth_of(&answer);
             let change =
                 BeliefChange { fluent: fluent.clone(), args: args.clone(), value, sure: true, rest: false };
-            // That none fits says something of each; that some does, or that it is not known, says nothing of any.
+            // That none fits says something of each; that some does, or that it is not known, says nothing of
+            // any.
             if args.contains(&Pattern::Any) && value != Truth::False {
                 self.set(id, answer, now);
             } else {
@@ -119,7 +120,7 @@ impl Beliefs {
         }
     }
 
-    /// What pattern writes say of a fact or a pattern that has no cell.
+    /// Answer of the pattern writes for a fact or a pattern without a cell.
     pub(crate) fn wide_answer(&self, fluent: &str, args: &[Pattern]) -> (Answer, u64) {
         let unknown = (Answer::Unknown, 0);
         let Some(facts) = self.fluents.get(fluent) else { return unknown };
@@ -250,13 +251,13 @@ fn answer_of(truth: Truth) -> Answer {
     }
 }
 
-/// Whether every fact of `other` is one of `wide`.
+/// True if every fact of `other` is one of `wide`.
 pub(crate) fn covers(wide: &[Pattern], other: &[Pattern]) -> bool {
     wide.len() == other.len()
         && wide.iter().zip(other).all(|(wide, other)| *wide == Pattern::Any || wide == other)
 }
 
-/// Whether some fact is one of both.
+/// True if some fact is one of both.
 fn overlaps(a: &[Pattern], b: &[Pattern]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| *a == Pattern::Any || *b == Pattern::Any || a == b)
 }

@@ -1,7 +1,7 @@
-//! What the engine believes of the world: facts, readings, and the entities that it has heard of.
+//! Beliefs of the engine about the world: facts, readings, and known entities.
 //!
-//! Beliefs change by declared effects and by observations, and every change names who depends on it. Conditions are
-//! judged by [`eval`] in three values.
+//! Beliefs change by declared effects and by observations, and every change names who depends on it.
+//! Conditions are judged by [`eval`] in three values.
 
 mod cells;
 mod entities;

@@ -3,7 +3,8 @@
 use super::law::{Law, LawViolation};
 use crate::driver::Driver;
 use crate::effect::Command;
-use crate::event::{DriverEvent, GoalId};
+use crate::event::DriverEvent;
+use crate::ids::GoalId;
 use crate::time::Time;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,7 +19,7 @@ pub(super) struct DriverBench {
     goals: BTreeMap<GoalId, GoalLog>,
 }
 
-/// What was said of a goal.
+/// Reports of a goal so far.
 #[derive(Clone, Copy, Debug, Default)]
 struct GoalLog {
     acknowledged: bool,
@@ -41,7 +42,7 @@ impl DriverBench {
 
     /// A goal that was never started.
     pub(super) fn unheard_of(&mut self) -> GoalId {
-        let goal = GoalId::from_number((self.goals.len() as u64 + 1) << crate::goal_table::SLOT_BITS);
+        let goal = GoalId::from_number((self.goals.len() as u64 + 1) << crate::ids::SLOT_BITS);
         self.goals.insert(goal, GoalLog::default());
         goal
     }
@@ -72,7 +73,7 @@ impl DriverBench {
         None
     }
 
-    /// Whether a goal is acknowledged within a span. It is a breach where there is no answer.
+    /// True if a goal is acknowledged within a span. It is a breach where there is no answer.
     pub(super) fn runs(&mut self, goal: GoalId, span: Time) -> bool {
         match self.until(span, |event| matters(event, goal)) {
             Some(DriverEvent::Acknowledged { .. }) => true,
@@ -135,12 +136,12 @@ pub(super) const fn of(event: &DriverEvent) -> Option<GoalId> {
     }
 }
 
-/// Whether an event says something of a goal that is more than words.
+/// True if an event says something of a goal that is more than words.
 pub(super) fn matters(event: &DriverEvent, goal: GoalId) -> bool {
     of(event) == Some(goal) && !matches!(event, DriverEvent::Feedback { .. })
 }
 
-/// Whether an event ends a goal.
+/// True if an event ends a goal.
 pub(super) fn ends(event: &DriverEvent, goal: GoalId) -> bool {
     let is_end = match event {
         DriverEvent::Ended { .. } | DriverEvent::Stopped { .. } | DriverEvent::Refused { .. } => true,

@@ -4,7 +4,8 @@ use super::driver_bench::{DriverBench, ends, matters};
 use super::law::{Law, LawViolation};
 use crate::driver::Driver;
 use crate::effect::Command;
-use crate::event::{DriverEvent, GoalId, Outcome};
+use crate::event::{DriverEvent, Outcome};
+use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
 use std::collections::BTreeSet;
@@ -21,13 +22,15 @@ pub struct ConformanceSubject<'a> {
     pub moment: Time,
     /// The longest span that is waited for something.
     pub patience: Time,
-    /// Whether its time is virtual, so that the same calls have to give the same reports.
+    /// True if its time is virtual, so that the same calls have to give the same reports.
     pub is_virtual: bool,
 }
 
-/// Runs a driver through all scenes, each with a fresh one, and tells every law that it breaks, each breach once.
+/// Runs a driver through all scenes, each with a fresh one, and tells every law that it breaks, each breach
+/// once.
 ///
-/// What a driver does to a robot, such as whether a goal still uses a resource after its end, cannot be seen from here.
+/// What a driver does to a robot, such as whether a goal still uses a resource after its end, cannot be seen
+/// from here.
 #[must_use]
 pub fn check(subject: &mut ConformanceSubject<'_>) -> Vec<LawViolation> {
     type Scene = fn(&mut DriverBench, &ConformanceSubject<'_>);
@@ -190,7 +193,7 @@ fn watched(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     bench.until(subject.moment, |_| false);
 }
 
-/// How often the question is answered within a moment.
+/// Number of times the question is answered within a moment.
 fn answers(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> usize {
     let before = bench.log.len();
     bench.until(subject.moment, |_| false);

@@ -2,12 +2,13 @@
 
 use crate::driver::{Capabilities, Driver};
 use crate::effect::Command;
-use crate::event::{DriverEvent, GoalId};
+use crate::event::DriverEvent;
+use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
 use smol_str::SmolStr;
 
-/// What goes wrong, each in so many of 1,000 cases.
+/// Rates of injected faults, each in cases per 1,000.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct FaultRates {
     /// A report is lost.
@@ -36,7 +37,8 @@ pub struct FaultRates {
     pub backwards: u32,
 }
 
-/// A driver around another one. The seed decides what goes wrong when; the same calls go wrong in the same way.
+/// A driver around another one. The seed decides what goes wrong when; the same calls go wrong in the same
+/// way.
 #[derive(Clone, Debug)]
 pub struct FaultyDriver<D> {
     inner: D,
@@ -53,7 +55,7 @@ impl<D: Driver> FaultyDriver<D> {
         Self { inner, mischief, dice: seed, is_silent: false, queue: Vec::new(), forgotten: Vec::new() }
     }
 
-    /// Whether something happens that does in so many of 1,000 cases.
+    /// True if something happens that does in so many of 1,000 cases.
     fn happens(&mut self, permille: u32) -> bool {
         permille > 0 && self.roll() % 1_000 < u64::from(permille)
     }
@@ -66,7 +68,7 @@ impl<D: Driver> FaultyDriver<D> {
         mixed ^ (mixed >> 31)
     }
 
-    /// Whether a command reaches the driver within.
+    /// True if a command reaches the driver within.
     fn reaches(&mut self) -> bool {
         self.is_silent |= self.happens(self.mischief.silence);
         !self.happens(self.mischief.deaf)

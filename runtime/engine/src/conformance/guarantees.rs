@@ -1,15 +1,16 @@
-//! What an engine promises, whatever its driver does.
+//! Guarantees of an engine that hold for any driver.
 
 use crate::effect::Effect;
-use crate::event::{DriverEvent, Event, GoalId};
+use crate::event::{DriverEvent, Event};
+use crate::ids::GoalId;
 use crate::run_loop::{Observer, RunControl};
 use crate::time::Time;
 use motet_graph::Graph;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Looks on while an engine runs, and notes every promise that it breaks: no goal is started twice, or while what it
-/// conflicts with is live; a goal is cancelled at most once and not before it runs; time goes forwards; nothing follows the
-/// end.
+/// Looks on while an engine runs, and notes every promise that it breaks: no goal is started twice, or while
+/// what it conflicts with is live; a goal is cancelled at most once and not before it runs; time goes
+/// forwards; nothing follows the end.
 #[derive(Clone, Debug)]
 pub struct EngineGuarantees {
     /// Names of resources that conflict, both ways.
@@ -45,13 +46,13 @@ impl EngineGuarantees {
         Self { conflicts, live, ever, last: Time::ZERO, is_over: false, broken }
     }
 
-    /// What was broken, in words.
+    /// Descriptions of the violations so far.
     #[must_use]
     pub fn broken(&self) -> &[String] {
         &self.broken
     }
 
-    /// How many goals were started.
+    /// Number of goals that were started.
     #[must_use]
     pub fn starts(&self) -> usize {
         self.ever.len()

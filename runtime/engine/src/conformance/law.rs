@@ -32,9 +32,8 @@ pub enum Law {
 /// A law that was broken.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct LawViolation {
-    /// Which.
     pub law: Law,
-    /// How, in words.
+    /// Description of the violation.
     pub told: String,
 }
 

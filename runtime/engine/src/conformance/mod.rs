@@ -1,9 +1,9 @@
-//! Whether a driver keeps the laws of [`crate::Driver`], and whether an engine keeps its own on top of any driver.
+//! Conformance suites: the laws of [`crate::Driver`] and the guarantees of the engine on top of any driver.
 //!
-//! [`check`] runs a driver through short scenes and tells every law that it breaks. [`FaultyDriver`] is a driver around another
-//! one that breaks laws on purpose: it loses, doubles, delays and swaps reports, refuses, and falls silent. [`EngineGuarantees`] looks
-//! on while an engine runs and tells where it breaks what it promises, whatever its driver does. [`perception`] checks the
-//! laws of [`crate::Perception`].
+//! [`check`] runs a driver through short scenes and tells every law that it breaks. [`FaultyDriver`] is a
+//! driver around another one that breaks laws on purpose: it loses, doubles, delays and swaps reports,
+//! refuses, and falls silent. [`EngineGuarantees`] looks on while an engine runs and tells where it breaks
+//! what it promises, whatever its driver does. [`perception`] checks the laws of [`crate::Perception`].
 
 mod driver_bench;
 mod driver_laws;

@@ -1,10 +1,10 @@
-//! Whether eyes keep the laws of [`Perception`].
+//! Conformance suite for the laws of [`Perception`].
 
 use crate::perception::Perception;
 use crate::time::Time;
 
-/// Looks twice at each of some times, given in order, and tells what breaks a law; nothing where none is broken. What is
-/// detected is looked at more closely, too.
+/// Looks twice at each of some times, given in order, and tells what breaks a law; nothing where none is
+/// broken. What is detected is looked at more closely, too.
 pub fn check_perception(eyes: &mut dyn Perception, times: &[Time]) -> Vec<String> {
     let mut broken = Vec::new();
     let finite =

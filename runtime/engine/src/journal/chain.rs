@@ -55,25 +55,17 @@ impl LineChain {
 
     /// The line of an event with its effects.
     pub fn step(&mut self, at: Time, event: &Event, effects: &[Effect]) -> String {
-        self.line(JournalEntry::Step(StepEntry {
-            at: at.nanos(),
-            event: Some(event.into()),
-            effects: wire(effects),
-        }))
+        self.line(JournalEntry::Step(StepEntry { at, event: Some(event.clone()), effects: effects.to_vec() }))
     }
 
     /// The line of giving up.
     pub fn gave_up(&mut self, at: Time, effects: &[Effect]) -> String {
-        self.line(JournalEntry::GaveUp(StepEntry { at: at.nanos(), event: None, effects: wire(effects) }))
+        self.line(JournalEntry::GaveUp(StepEntry { at, event: None, effects: effects.to_vec() }))
     }
 
     /// The line of a new policy.
     pub fn swap(&mut self, at: Time, graph: &Graph, effects: &[Effect]) -> String {
         let graph = motet_graph::encode::document(graph);
-        self.line(JournalEntry::Swap(Box::new(SwapEntry { at: at.nanos(), graph, effects: wire(effects) })))
+        self.line(JournalEntry::Swap(Box::new(SwapEntry { at, graph, effects: effects.to_vec() })))
     }
-}
-
-fn wire(effects: &[Effect]) -> Vec<crate::wire::Effect> {
-    effects.iter().map(crate::wire::Effect::from).collect()
 }

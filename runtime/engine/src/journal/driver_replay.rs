@@ -1,15 +1,16 @@
-//! Leads a driver through a journal again: for one that is deterministic and has forgotten everything, as a simulator has
-//! whose process ended.
+//! Leads a driver through a journal again: for one that is deterministic and has forgotten everything, as a
+//! simulator has whose process ended.
 
 use super::entry::{JournalEntry, StepEntry};
 use crate::driver::Driver;
 use crate::effect::Effect;
-use crate::event::DriverEvent;
+use crate::event::{DriverEvent, Event};
+use crate::json::to_json;
 use crate::time::Time;
-use crate::wire;
 use std::fmt;
 
-/// Gives a driver the commands of a journal at their times, and compares what it reports with what it reported then.
+/// Gives a driver the commands of a journal at their times, and compares what it reports with what it
+/// reported then.
 #[derive(Clone, Debug, Default)]
 pub struct DriverReplay {
     now: Time,
@@ -18,11 +19,10 @@ pub struct DriverReplay {
 /// The driver reports something else than it did then.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ReplayMismatch {
-    /// When.
     pub at: Time,
-    /// What it reported then; none where nothing happened.
+    /// Report in the journal; absent if nothing happened.
     pub journal: Option<DriverEvent>,
-    /// What it reports now, with its time.
+    /// Report of the driver now, with its time.
     pub driver: Option<(Time, DriverEvent)>,
 }
 
@@ -49,7 +49,7 @@ impl DriverReplay {
     pub fn take(&mut self, driver: &mut dyn Driver, entry: &JournalEntry) -> Result<(), Box<ReplayMismatch>> {
         match entry {
             JournalEntry::Head(head) => {
-                self.now = Time::from_nanos(head.from);
+                self.now = head.from;
                 Ok(())
             }
             JournalEntry::Step(step) | JournalEntry::GaveUp(step) => self.step(driver, step),
@@ -62,39 +62,33 @@ impl DriverReplay {
     }
 
     fn step(&mut self, driver: &mut dyn Driver, step: &StepEntry) -> Result<(), Box<ReplayMismatch>> {
-        let at = Time::from_nanos(step.at);
+        let at = step.at;
         match &step.event {
-            Some(wire::Event::Driver(event)) => {
-                let journal = DriverEvent::from(event.clone());
+            Some(Event::Driver(event)) => {
+                let journal = event.clone();
                 let report = driver.advance(at);
                 // Bytes, because a NaN is not equal to itself.
-                let same = |(_, now): &(Time, DriverEvent)| {
-                    wire::json(&wire::DriverEvent::from(now)) == wire::json(event)
-                };
+                let same = |(_, now): &(Time, DriverEvent)| to_json(now) == to_json(event);
                 if !report.as_ref().is_some_and(same) {
                     return Err(Box::new(ReplayMismatch { at, journal: Some(journal), driver: report }));
                 }
             }
-            Some(wire::Event::Tick) if at > self.now => {
+            Some(Event::Tick) if at > self.now => {
                 if let Some(report) = driver.advance(at) {
                     return Err(Box::new(ReplayMismatch { at, journal: None, driver: Some(report) }));
                 }
             }
             // Verdicts are none of the driver's affair.
-            Some(
-                wire::Event::Begin | wire::Event::Tick | wire::Event::Verified { .. } | wire::Event::Stop,
-            )
-            | None => {}
+            Some(Event::Begin | Event::Tick | Event::Verified { .. } | Event::Stop) | None => {}
         }
         self.carry_out(driver, step.at, &step.effects);
         Ok(())
     }
 
-    fn carry_out(&mut self, driver: &mut dyn Driver, at: u64, effects: &[wire::Effect]) {
-        let at = Time::from_nanos(at);
+    fn carry_out(&mut self, driver: &mut dyn Driver, at: Time, effects: &[Effect]) {
         self.now = self.now.max(at);
         for effect in effects {
-            driver.carry_out(at, &Effect::from(effect.clone()));
+            driver.carry_out(at, effect);
         }
     }
 }

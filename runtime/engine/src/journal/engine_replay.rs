@@ -3,10 +3,10 @@
 use super::entry::{JournalEntry, JournalHead, StepEntry, SwapEntry};
 use crate::effect::Effect;
 use crate::engine::Engine;
-use crate::event::Event;
+use crate::json::to_json;
 use crate::swap::PreparedSwap;
 use crate::time::Time;
-use crate::wire;
+use motet_graph::GraphDocument;
 use thiserror::Error;
 
 /// An engine on its way through a journal.
@@ -17,7 +17,7 @@ pub struct EngineReplay {
     out: Vec<Effect>,
 }
 
-/// Why a replay cannot begin or go on.
+/// Error that stops a replay.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum ReplayError {
     /// The graph in the journal was changed, or is of another version.
@@ -31,7 +31,7 @@ pub enum ReplayError {
     Refused(String),
 }
 
-/// Where a replay differs from the journal.
+/// First difference between a replay and its journal.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EffectMismatch {
     /// The place of the first effect that differs, from 0.
@@ -50,15 +50,15 @@ impl EngineReplay {
     /// The graph cannot be used.
     pub fn new(head: &JournalHead) -> Result<Self, ReplayError> {
         let graph = graph(&head.graph)?;
-        let engine = Engine::new(graph, &head.start.clone().into()).map_err(|wrong| {
+        let engine = Engine::new(graph, &head.start).map_err(|wrong| {
             ReplayError::Invalid(wrong.first().map_or_else(String::new, ToString::to_string))
         })?;
-        let engine =
-            engine.with_settings(head.settings.into()).with_capabilities(head.capabilities.clone().into());
-        Ok(Self { engine, now: Time::from_nanos(head.from), out: Vec::new() })
+        let engine = engine.with_settings(head.settings).with_capabilities(head.capabilities.clone());
+        Ok(Self { engine, now: head.from, out: Vec::new() })
     }
 
-    /// Takes an entry in. Gives the first difference between the effects in it and those of the engine, as bytes.
+    /// Takes an entry in. Gives the first difference between the effects in it and those of the engine, as
+    /// bytes.
     ///
     /// # Errors
     ///
@@ -103,31 +103,31 @@ impl EngineReplay {
     }
 
     fn step(&mut self, step: &StepEntry) {
-        self.now = Time::from_nanos(step.at);
+        self.now = step.at;
         match &step.event {
-            Some(event) => self.engine.handle(self.now, Event::from(event.clone()), &mut self.out),
+            Some(event) => self.engine.handle(self.now, event.clone(), &mut self.out),
             None => self.engine.give_up(&mut self.out),
         }
     }
 
     fn swap(&mut self, swap: &SwapEntry) -> Result<(), ReplayError> {
-        self.now = Time::from_nanos(swap.at);
+        self.now = swap.at;
         let prepared = PreparedSwap::new(graph(&swap.graph)?, &self.engine.running());
         let result = prepared.and_then(|prepared| self.engine.swap(self.now, prepared, &mut self.out));
         result.map(drop).map_err(|refusal| ReplayError::Refused(refusal.to_string()))
     }
 
-    fn compare(&self, journal: &[wire::Effect]) -> Option<EffectMismatch> {
+    fn compare(&self, journal: &[Effect]) -> Option<EffectMismatch> {
         let length = journal.len().max(self.out.len());
         (0..length).find_map(|index| {
-            let was = journal.get(index).map(wire::json);
-            let is = self.out.get(index).map(|effect| wire::json(&wire::Effect::from(effect)));
+            let was = journal.get(index).map(to_json);
+            let is = self.out.get(index).map(to_json);
             (was != is).then_some(EffectMismatch { index, journal: was, replay: is })
         })
     }
 }
 
-fn graph(document: &wire::Document) -> Result<motet_graph::Graph, ReplayError> {
+fn graph(document: &GraphDocument) -> Result<motet_graph::Graph, ReplayError> {
     motet_graph::encode::from_document(document.clone())
         .map_err(|error| ReplayError::Graph(error.to_string()))
 }

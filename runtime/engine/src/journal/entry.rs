@@ -1,6 +1,12 @@
-//! What stands in a line.
+//! Entries of a journal.
 
-use crate::wire::{Capabilities, Document, Effect, Event, Settings, StartState};
+use crate::driver::Capabilities;
+use crate::effect::Effect;
+use crate::event::Event;
+use crate::settings::EngineSettings;
+use crate::start::StartState;
+use crate::time::Time;
+use motet_graph::GraphDocument;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +26,7 @@ pub enum JournalEntry {
     Resumed(ResumeEntry),
 }
 
-/// What an engine was made from.
+/// Configuration of an engine at the beginning of a run.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JournalHead {
@@ -28,22 +34,21 @@ pub struct JournalHead {
     pub motet_journal: u32,
     /// The version of the wire forms, 1.
     pub wire: u32,
-    /// When the run began by the host's clock, in ns since 1970; for people and tools, the engine does not know it.
+    /// Time at which the run began by the host's clock, in ns since 1970; for people and tools, the engine
+    /// does not know it.
     pub began_unix_ns: u64,
     /// The engine's time then.
-    pub from: u64,
-    /// What a person asked for, in their words.
+    pub from: Time,
+    /// The operator's request, word for word.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instruction: Option<String>,
-    /// The graph.
-    pub graph: Document,
-    /// What was known.
+    pub graph: GraphDocument,
     pub start: StartState,
-    /// How patient the engine is.
-    pub settings: Settings,
-    /// What the driver can do.
+    /// Time limits and budgets of the engine.
+    pub settings: EngineSettings,
+    /// Abilities of the driver, as the host stated them.
     pub capabilities: Capabilities,
-    /// What the host needs to come to the same driver again; its own affair.
+    /// Data with which the host finds the same driver again, in a form of its own.
     pub driver: serde_json::Value,
 }
 
@@ -52,11 +57,9 @@ pub struct JournalHead {
 #[serde(deny_unknown_fields)]
 pub struct StepEntry {
     /// The engine's time.
-    pub at: u64,
-    /// What it took in.
+    pub at: Time,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub event: Option<Event>,
-    /// What it gave out.
     pub effects: Vec<Effect>,
 }
 
@@ -65,10 +68,9 @@ pub struct StepEntry {
 #[serde(deny_unknown_fields)]
 pub struct SwapEntry {
     /// The engine's time.
-    pub at: u64,
+    pub at: Time,
     /// The new graph.
-    pub graph: Document,
-    /// What the engine gave out.
+    pub graph: GraphDocument,
     pub effects: Vec<Effect>,
 }
 
@@ -76,7 +78,7 @@ pub struct SwapEntry {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResumeEntry {
-    /// When by the host's clock, in ns since 1970.
+    /// Time on the host's clock in ns since 1970.
     pub unix_ns: u64,
     /// Bytes of a line that was not written to its end and was cut off.
     pub cut_bytes: u64,
@@ -85,7 +87,7 @@ pub struct ResumeEntry {
 impl JournalEntry {
     /// The engine's time, and what it gave out; none where it took no part.
     #[must_use]
-    pub fn happened(&self) -> Option<(u64, &[Effect])> {
+    pub fn happened(&self) -> Option<(Time, &[Effect])> {
         match self {
             Self::Head(head) => Some((head.from, &[])),
             Self::Step(step) | Self::GaveUp(step) => Some((step.at, &step.effects)),
@@ -96,20 +98,20 @@ impl JournalEntry {
 }
 
 impl JournalHead {
-    /// The head of a run of a graph that begins at time 0, with the engine's own settings and nothing known beside what
-    /// the graph says.
+    /// The head of a run of a graph that begins at time 0, with the engine's own settings and nothing known
+    /// beside what the graph says.
     #[must_use]
     pub fn new(graph: &motet_graph::Graph) -> Self {
         Self {
             motet_journal: super::VERSION,
-            wire: crate::wire::VERSION,
+            wire: super::WIRE_VERSION,
             began_unix_ns: 0,
-            from: 0,
+            from: Time::ZERO,
             instruction: None,
             graph: motet_graph::encode::document(graph),
             start: StartState::default(),
-            settings: crate::EngineSettings::default().into(),
-            capabilities: (&crate::Capabilities::default()).into(),
+            settings: EngineSettings::default(),
+            capabilities: Capabilities::default(),
             driver: serde_json::Value::Null,
         }
     }

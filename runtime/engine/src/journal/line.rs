@@ -9,10 +9,11 @@ use thiserror::Error;
 
 /// Hexadecimal digits of a checksum.
 pub(super) const CRC_DIGITS: usize = 8;
-/// Bytes of a hash that are kept. 128 bits: against accidents far more than enough, and nobody finds a second line with them.
+/// Bytes of a hash that are kept. 128 bits: against accidents far more than enough, and nobody finds a second
+/// line with them.
 const HASH_BYTES: usize = 16;
 
-/// What the JSON of a line holds.
+/// JSON content of a line.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Body {
@@ -20,11 +21,10 @@ pub(super) struct Body {
     pub(super) seq: u64,
     /// The hash of the line before; that of no bytes before the first.
     pub(super) prev: String,
-    /// What it says.
     pub(super) entry: JournalEntry,
 }
 
-/// What is wrong with a line.
+/// Error of a line in itself.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum LineError {
     /// It is shorter than a checksum, or does not begin with one.
@@ -32,12 +32,7 @@ pub enum LineError {
     NoChecksum,
     /// Its checksum is not that of its content.
     #[error("its checksum is {stated:08x}, its content has {actual:08x}")]
-    Checksum {
-        /// What it says.
-        stated: u32,
-        /// What its content gives.
-        actual: u32,
-    },
+    Checksum { stated: u32, actual: u32 },
     /// Its JSON is not of the form of an entry.
     #[error("it is no entry: {0}")]
     Form(String),
@@ -45,7 +40,7 @@ pub enum LineError {
 
 /// A line with its checksum, without the line feed.
 pub(super) fn encode(body: &Body) -> String {
-    let json = crate::wire::json(body);
+    let json = crate::json::to_json(body);
     let mut line = String::with_capacity(json.len() + CRC_DIGITS + 2);
     // Writing to a string does not fail.
     let _ = write!(line, "{:08x} ", crc::of(json.as_bytes()));

@@ -1,32 +1,36 @@
-//! What a driver was asked for and has not answered yet, at the end of a journal: what to ask it about after a crash.
+//! Open goals: commands that a driver has not answered at the end of a journal, to be clarified after a
+//! crash.
 
 use super::entry::JournalEntry;
-use crate::wire::{DriverEvent, Effect, Event, Query, Start};
+use crate::effect::{Command, Effect};
+use crate::event::{DriverEvent, Event};
+use crate::ids::GoalId;
+use crate::query::Query;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-/// What is open between the engine and its driver.
+/// Unanswered commands between the engine and its driver.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct OpenGoals {
     /// Goals that have not ended, by number.
-    pub goals: BTreeMap<u64, OpenGoal>,
-    /// What is watched, in order.
+    pub goals: BTreeMap<GoalId, OpenGoal>,
+    /// Watched queries in order.
     pub watches: Vec<Query>,
     /// Observations that were not answered, in order.
     pub observations: Vec<Query>,
     /// Commands of the last entry. Whether they reached the driver, the journal cannot know.
     pub uncertain: Vec<Effect>,
-    /// Whether the run is over.
+    /// True if the run is over.
     pub is_over: bool,
 }
 
 /// A goal that has not ended.
 #[derive(Clone, PartialEq, Debug)]
 pub struct OpenGoal {
-    /// What it does.
-    pub start: Start,
-    /// Whether it was given new arguments since.
+    pub command: Arc<Command>,
+    /// True if it was given new arguments since.
     pub updated: bool,
-    /// What was said last of its going on: to hold, to proceed, to end early, to stop safely.
+    /// Last command about its progress: hold, proceed, cancel or safe stop.
     pub told: Option<Effect>,
 }
 
@@ -65,33 +69,33 @@ impl OpenGoals {
 
     fn effect(&mut self, effect: &Effect) {
         match effect {
-            Effect::Start(start) => {
-                let open = OpenGoal { start: start.clone(), updated: false, told: None };
-                self.goals.insert(start.goal, open);
+            Effect::Start { goal, command, .. } => {
+                let open = OpenGoal { command: Arc::clone(command), updated: false, told: None };
+                self.goals.insert(*goal, open);
             }
-            Effect::Update(start) => {
-                self.with(start.goal, |open| (open.start, open.updated) = (start.clone(), true));
+            Effect::Update { goal, command, .. } => {
+                self.with(*goal, |open| (open.command, open.updated) = (Arc::clone(command), true));
             }
             Effect::Cancel { goal }
             | Effect::Hold { goal }
             | Effect::Proceed { goal }
             | Effect::SafeStop { goal } => self.with(*goal, |open| open.told = Some(effect.clone())),
-            Effect::Observe { query } => self.observations.push(query.clone()),
+            Effect::Observe { query } => self.observations.push(Query::clone(query)),
             Effect::Watch { query } => {
                 if !self.watches.contains(query) {
-                    self.watches.push(query.clone());
+                    self.watches.push(Query::clone(query));
                 }
             }
-            Effect::Unwatch { query } => self.watches.retain(|watched| watched != query),
+            Effect::Unwatch { query } => self.watches.retain(|watched| *watched != **query),
             Effect::Finished(_) => self.is_over = true,
-            Effect::Verify(_) | Effect::Report(_) => return,
+            Effect::Verify { .. } | Effect::Report(_) => return,
         }
         if !self.is_over {
             self.uncertain.push(effect.clone());
         }
     }
 
-    fn with(&mut self, goal: u64, change: impl FnOnce(&mut OpenGoal)) {
+    fn with(&mut self, goal: GoalId, change: impl FnOnce(&mut OpenGoal)) {
         if let Some(open) = self.goals.get_mut(&goal) {
             change(open);
         }

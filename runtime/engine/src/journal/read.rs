@@ -7,7 +7,7 @@ use super::{MAX_LINE_BYTES, VERSION};
 use std::fmt;
 use thiserror::Error;
 
-/// Which segment is read.
+/// Position of a segment in its journal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SegmentPosition {
     /// Others follow: it has to be whole.
@@ -16,16 +16,16 @@ pub enum SegmentPosition {
     Last,
 }
 
-/// How a segment ended.
+/// State of the end of a segment.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SegmentEnd {
     /// With a whole line.
     Whole,
     /// With a line that was not written to its end.
     Torn {
-        /// How many bytes hold; what follows is to be cut off before anything is appended.
+        /// Number of valid bytes; the rest is to be cut off before appending.
         good_bytes: u64,
-        /// How many bytes follow.
+        /// Number of bytes after them.
         torn_bytes: u64,
     },
 }
@@ -37,13 +37,13 @@ pub struct JournalDamage {
     pub segment: String,
     /// The line in the segment, from 1.
     pub line: u64,
-    /// Where the line begins, in bytes from the beginning of the segment.
+    /// Offset of the line in bytes from the beginning of the segment.
     pub offset: u64,
-    /// What is wrong.
+    /// Kind of a validation error.
     pub wrong: DamageKind,
 }
 
-/// What is wrong with a line of a journal.
+/// Kind of damage to a journal.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum DamageKind {
     /// The line in itself.
@@ -58,7 +58,6 @@ pub enum DamageKind {
     /// A line before it is missing, or it stands there twice.
     #[error("it has number {found}, number {expected} was to come")]
     Order {
-        /// Its number.
         found: u64,
         /// The number that was to come.
         expected: u64,
@@ -71,10 +70,7 @@ pub enum DamageKind {
     Head(&'static str),
     /// A version that this program does not read.
     #[error("the journal has version {found}; this program reads version {VERSION}")]
-    Version {
-        /// Its version.
-        found: u32,
-    },
+    Version { found: u32 },
 }
 
 impl fmt::Display for JournalDamage {
@@ -93,8 +89,9 @@ pub struct JournalReader {
 impl JournalReader {
     /// Reads a segment and gives every entry with its number to `take`. Tells how the segment ended.
     ///
-    /// A last line without a line feed is torn. So is one with it whose checksum fails and that holds a NUL byte: a block
-    /// that the file system had made room for and never written. Any other line that does not hold is damage.
+    /// A last line without a line feed is torn. So is one with it whose checksum fails and that holds a NUL
+    /// byte: a block that the file system had made room for and never written. Any other line that does not
+    /// hold is damage.
     ///
     /// # Errors
     ///

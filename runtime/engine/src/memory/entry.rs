@@ -1,6 +1,7 @@
 //! One thing that is remembered.
 
-use crate::wire::{Cause, Value};
+use crate::trace::EndCause;
+use motet_graph::Value;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -9,15 +10,14 @@ use std::fmt;
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MemoryEntry {
-    /// When it was over, in seconds since the run's origin.
+    /// Time at which it was over, in seconds since the run's origin.
     pub at_secs: f64,
     /// The number of the policy that ran: 0, and one more with each swap.
     pub revision: u32,
-    /// What.
     pub what: MemoryEvent,
 }
 
-/// What is remembered.
+/// Content of a memory entry.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum MemoryEvent {
@@ -32,9 +32,7 @@ pub enum MemoryEvent {
         call: String,
         /// JSON Pointer to the step in its policy.
         path: String,
-        /// How long it took.
         took_secs: f64,
-        /// How it ended.
         ended: StepEnd,
     },
     /// A step that is no call failed by itself: a wait, a loop.
@@ -43,52 +41,44 @@ pub enum MemoryEvent {
         path: String,
         /// The failure kind.
         kind: String,
-        /// Why.
-        cause: Cause,
+        cause: EndCause,
     },
     /// A person was asked.
     Question {
-        /// What.
         question: String,
-        /// What they said; none where they did not answer.
+        /// The answer; absent if nobody answered.
         answer: Option<String>,
     },
     /// A new policy took over.
-    Swap {
-        /// Its name.
-        policy: String,
-    },
+    Swap { policy: String },
     /// A run ended.
     Ended {
-        /// How, in words.
+        /// Description of the violation.
         how: String,
-        /// Whether it reached what it was for.
+        /// True if it reached what it was for.
         done: bool,
     },
 }
 
-/// How a step ended.
+/// Outcome of a step.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum StepEnd {
     /// It did what it was for; with its result where it has one.
     Success(Option<Value>),
-    /// It failed.
     Failure {
         /// The failure kind.
         kind: String,
-        /// Why.
-        cause: Cause,
+        cause: EndCause,
     },
     /// It was interrupted.
-    Interrupted(Cause),
+    Interrupted(EndCause),
 }
 
 /// A step that runs now.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunningStep {
-    /// The call.
     pub call: String,
     /// JSON Pointer to the step in its policy.
     pub path: String,
@@ -97,7 +87,7 @@ pub struct RunningStep {
 }
 
 impl MemoryEntry {
-    /// Whether it is something that went wrong.
+    /// True if it is something that went wrong.
     #[must_use]
     pub const fn is_failure(&self) -> bool {
         match &self.what {
@@ -118,7 +108,7 @@ impl fmt::Display for MemoryEntry {
             MemoryEvent::Instruction { text } => write!(f, "instruction: {text}"),
             MemoryEvent::Step { call, ended, .. } => write!(f, "{call}: {ended}"),
             MemoryEvent::Stuck { path, kind, cause } => {
-                write!(f, "step {path}: failed with {kind} ({})", crate::EndCause::from(*cause))
+                write!(f, "step {path}: failed with {kind} ({})", cause)
             }
             MemoryEvent::Question { question, answer: Some(answer) } => {
                 write!(f, "asked {question:?}: answered {answer:?}")
@@ -134,11 +124,11 @@ impl fmt::Display for StepEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Success(None) => f.write_str("done"),
-            Self::Success(Some(value)) => write!(f, "done, gave {}", motet_graph::Value::from(value.clone())),
+            Self::Success(Some(value)) => write!(f, "done, gave {}", value),
             Self::Failure { kind, cause } => {
-                write!(f, "failed with {kind} ({})", crate::EndCause::from(*cause))
+                write!(f, "failed with {kind} ({})", cause)
             }
-            Self::Interrupted(cause) => write!(f, "interrupted ({})", crate::EndCause::from(*cause)),
+            Self::Interrupted(cause) => write!(f, "interrupted ({})", cause),
         }
     }
 }

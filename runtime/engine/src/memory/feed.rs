@@ -1,9 +1,10 @@
-//! How a memory learns: from the events that go into an engine and the effects that come out.
+//! Feeding a memory with the events that go into an engine and the effects that come out.
 
 use super::entry::{MemoryEvent, StepEnd};
 use super::store::Memory;
 use crate::effect::{Command, Effect, RunEnd};
-use crate::event::{DriverEvent, Event, GoalId, Outcome};
+use crate::event::{DriverEvent, Event, Outcome};
+use crate::ids::GoalId;
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
@@ -18,17 +19,17 @@ pub(super) struct OpenStep {
     pub(super) call: String,
     pub(super) path: String,
     pub(super) since: Time,
-    /// What it asks a person.
+    /// Question to a person, for primitives that ask one.
     question: Option<String>,
-    /// What the driver said came of it.
+    /// Result that the driver reported.
     result: Option<Value>,
     /// The failure that the driver named.
     kind: Option<String>,
 }
 
 impl Memory {
-    /// A policy is about to run as this revision. Call it before the first event, and before the effects of a swap. A
-    /// revision above 0 is remembered as a swap.
+    /// A policy is about to run as this revision. Call it before the first event, and before the effects of a
+    /// swap. A revision above 0 is remembered as a swap.
     pub fn policy(&mut self, at: Time, revision: u32, graph: Arc<Graph>) {
         self.revision = revision;
         if revision > 0 {
@@ -106,8 +107,8 @@ impl Memory {
                     self.ended(record.at, open, *ending, *cause);
                 }
             }
-            // The goal of a step that ended because another policy took over goes on, for a step of that or until it has
-            // been stopped.
+            // The goal of a step that ended because another policy took over goes on, for a step of that or
+            // until it has been stopped.
             TraceEventKind::Ended { cause: EndCause::Swap, .. } => {}
             TraceEventKind::Ended { node, ending, cause } => {
                 let is_its = |open: &OpenStep| open.node == *node && open.revision == record.revision;
@@ -154,9 +155,9 @@ impl Memory {
                     // Its number means a failure of the policy before.
                     self.cut(&open.kind.unwrap_or_else(|| own_kind(cause).to_owned()))
                 };
-                StepEnd::Failure { kind, cause: cause.into() }
+                StepEnd::Failure { kind, cause }
             }
-            NodeEnding::Interrupted => StepEnd::Interrupted(cause.into()),
+            NodeEnding::Interrupted => StepEnd::Interrupted(cause),
         };
         let took_secs = at.since(open.since).secs();
         let step = MemoryEvent::Step { call: open.call, path: open.path, took_secs, ended };
@@ -164,7 +165,8 @@ impl Memory {
         self.push(entry);
     }
 
-    /// A step failed that has no goal: a guard that did not hold, or a step that is no call and failed by itself.
+    /// A step failed that has no goal: a guard that did not hold, or a step that is no call and failed by
+    /// itself.
     fn stuck(&mut self, at: Time, node: NodeId, kind: FailureId, cause: EndCause) {
         let own = match cause {
             EndCause::GuardRefuted | EndCause::Deadline | EndCause::Exhausted | EndCause::BadValue => true,
@@ -191,13 +193,10 @@ impl Memory {
         let (path, kind) = (self.path(node), self.kind(kind, None, cause));
         let call = self.graph.as_ref().and_then(|graph| called(graph, node));
         let what = match call {
-            Some(call) => MemoryEvent::Step {
-                call,
-                path,
-                took_secs: 0.0,
-                ended: StepEnd::Failure { kind, cause: cause.into() },
-            },
-            None => MemoryEvent::Stuck { path, kind, cause: cause.into() },
+            Some(call) => {
+                MemoryEvent::Step { call, path, took_secs: 0.0, ended: StepEnd::Failure { kind, cause } }
+            }
+            None => MemoryEvent::Stuck { path, kind, cause },
         };
         let entry = self.entry(at, what);
         self.push(entry);
@@ -231,12 +230,11 @@ impl Memory {
     }
 
     /// A value whose text is within the limit; another one as a text that is cut.
-    fn small(&self, value: &Value) -> crate::wire::Value {
-        let wire = crate::wire::Value::from(value);
-        if crate::wire::json(&wire).len() <= self.limits.text_bytes {
-            return wire;
+    fn small(&self, value: &Value) -> Value {
+        if crate::json::to_json(value).len() <= self.limits.text_bytes {
+            return value.clone();
         }
-        crate::wire::Value::Text(self.cut(&value.to_string()))
+        Value::Text(self.cut(&value.to_string()).into())
     }
 }
 

@@ -1,9 +1,10 @@
-//! What a run remembers for people and for models: instructions, steps with their results, failures, questions and answers,
-//! new policies, endings. Bounded, with what was dropped counted.
+//! Memory of a run for people and for models: instructions, steps with their results, failures, questions and
+//! answers, new policies, endings. Bounded, with what was dropped counted.
 //!
-//! A [`Memory`] is fed with the events and effects of a run, by its host, and changes nothing. It has two views for a
-//! language model: [`ShortHistory`], the first request and the latest failure, as InteLiPlan keeps it, and
-//! [`WorkingMemory`], the state and the executed steps, as VLP keeps its working memory; and [`FullMemory`], everything.
+//! A [`Memory`] is fed with the events and effects of a run, by its host, and changes nothing. It has two
+//! views for a language model: [`ShortHistory`], the first request and the latest failure, as InteLiPlan
+//! keeps it, and [`WorkingMemory`], the state and the executed steps, as VLP keeps its working memory; and
+//! [`FullMemory`], everything.
 //!
 //! ```
 //! use motet_runtime::memory::{Limits, Memory};

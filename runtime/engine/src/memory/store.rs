@@ -10,10 +10,10 @@ use smol_str::SmolStr;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-/// What an entry costs beside its texts, in bytes.
+/// Size of an entry beside its texts in bytes.
 const ENTRY_BYTES: usize = 64;
 
-/// How much is remembered.
+/// Limits of a memory.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct MemoryLimits {
     /// The most entries. The first instruction and the latest failure are kept beside them.
@@ -41,24 +41,21 @@ impl Default for MemoryLimits {
     }
 }
 
-/// How many entries were dropped, oldest first, to stay within the limits.
+/// Numbers of entries that were dropped, oldest first, to stay within the limits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct DroppedCounts {
-    /// Instructions.
     pub instructions: u64,
     /// Steps that did not fail.
     pub steps: u64,
     /// Failures of steps.
     pub failures: u64,
-    /// Questions.
     pub questions: u64,
-    /// New policies.
     pub swaps: u64,
     /// Ends of runs.
     pub endings: u64,
 }
 
-/// What a run remembers. See the [module](super).
+/// Bounded memory of a run. See the [module](super).
 #[derive(Clone, Debug)]
 pub struct Memory {
     pub(super) limits: MemoryLimits,
@@ -104,7 +101,7 @@ impl Memory {
         self.entries.iter()
     }
 
-    /// How many were dropped.
+    /// Numbers of dropped entries.
     #[must_use]
     pub const fn dropped(&self) -> DroppedCounts {
         self.dropped
@@ -128,7 +125,7 @@ impl Memory {
         self.latest_failure.as_ref()
     }
 
-    /// What runs now, by start.
+    /// Running steps in the order of their starts.
     pub fn running(&self) -> impl Iterator<Item = RunningStep> + '_ {
         self.running.values().map(|open| RunningStep {
             call: open.call.clone(),
@@ -185,7 +182,7 @@ fn size(entry: &MemoryEntry) -> usize {
         MemoryEvent::Instruction { text } => text.len(),
         MemoryEvent::Step { call, path, ended, .. } => {
             let ended = match ended {
-                StepEnd::Success(Some(value)) => crate::wire::json(value).len(),
+                StepEnd::Success(Some(value)) => crate::json::to_json(value).len(),
                 StepEnd::Failure { kind, .. } => kind.len(),
                 StepEnd::Success(None) | StepEnd::Interrupted(_) => 0,
             };

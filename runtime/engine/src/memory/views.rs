@@ -1,9 +1,8 @@
-//! What a memory shows. Each view is data for a program and, by `Display`, lines for a prompt.
+//! Views of a memory. Each view is data for a program and, by `Display`, lines for a prompt.
 
 use super::entry::{MemoryEntry, MemoryEvent, RunningStep};
 use super::store::{DroppedCounts, Memory};
 use crate::snapshot::Snapshot;
-use crate::wire;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -11,44 +10,43 @@ use std::fmt;
 /// The short history: the first request and the latest failure.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct ShortHistory {
-    /// What was asked for first.
+    /// First request.
     pub request: Option<String>,
-    /// What went wrong last.
+    /// Latest failure.
     pub failure: Option<MemoryEntry>,
 }
 
 /// The working memory: the state, and what was done so far.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct WorkingMemory {
-    /// What was asked for last.
+    /// Latest request.
     pub request: Option<String>,
-    /// What holds (`true`), does not hold (`false`) or is unknown though something else of its kind is known (`null`).
+    /// Facts that hold (`true`), do not hold (`false`), or are unknown although a related fact is known
+    /// (`null`).
     pub state: Vec<(String, Option<bool>)>,
     /// Names that are bound, with their values as the language writes them.
     pub bindings: Vec<(String, String)>,
     /// Steps that are over, questions and new policies, oldest first.
     pub done: Vec<MemoryEntry>,
-    /// How many of them were dropped before the first.
+    /// Number of dropped entries before the first.
     pub dropped: u64,
-    /// What runs.
     pub doing: Vec<RunningStep>,
 }
 
 /// Everything that is remembered.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct FullMemory {
-    /// What was asked for first.
+    /// First request.
     pub first_instruction: Option<MemoryEntry>,
-    /// What went wrong last.
+    /// Latest failure.
     pub latest_failure: Option<MemoryEntry>,
     /// All entries that are kept, oldest first.
     pub entries: Vec<MemoryEntry>,
-    /// How many were dropped.
+    /// Numbers of dropped entries.
     pub dropped: DroppedCounts,
-    /// What runs.
     pub doing: Vec<RunningStep>,
     /// The engine's state.
-    pub state: wire::Snapshot,
+    pub state: Snapshot,
 }
 
 impl Memory {
@@ -90,7 +88,7 @@ impl Memory {
             entries: self.entries.iter().cloned().collect(),
             dropped: self.dropped,
             doing: self.running().collect(),
-            state: state.into(),
+            state: state.clone(),
         }
     }
 }

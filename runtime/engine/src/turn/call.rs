@@ -13,13 +13,12 @@ use motet_graph::{FailureId, NodeId, Term, Value, Verdict};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
-/// What a look at the guards gives.
+/// Result of evaluating a call's guards.
 pub(super) enum GuardCheck {
     /// All hold, and the arguments are known.
     Go(Arc<Command>),
     /// All but the motion are known to hold: somebody is to be asked for that.
     Ask(DeferredMotion),
-    /// Somebody was.
     Wait(Arc<DeferredMotion>),
     /// Something would have to be observed.
     Unknown(StartRefusal),
@@ -27,7 +26,7 @@ pub(super) enum GuardCheck {
     Refused(StartRefusal),
 }
 
-/// Why a call does not start.
+/// Reason for which a call does not start.
 #[derive(Clone, Copy)]
 pub(super) enum StartRefusal {
     /// A need by its place, with its failure.
@@ -260,5 +259,5 @@ impl Turn<'_> {
     }
 }
 
-/// How many failure kinds that the graph does not name are told apart.
+/// Limit of distinct failure kinds that the graph does not name.
 const MAX_MADE_UP: usize = 64;

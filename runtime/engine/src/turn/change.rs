@@ -1,4 +1,4 @@
-//! What a call changes in the beliefs: effects after success, doubt after everything else.
+//! Belief changes of calls: effects after success, doubt after every other outcome.
 
 use super::Turn;
 use crate::belief::{BeliefChange, Beliefs, Evaluator, Freshness, OfKind};
@@ -20,8 +20,8 @@ struct ContractEntry<'a> {
 /// An id that no entity has: it stands for all that nobody has heard of.
 const NOBODY: SmolStr = SmolStr::new_static("");
 
-/// Beliefs, and the graph and bindings in which a contract is read: those of the run, or those of an older policy whose
-/// goals have not ended.
+/// Beliefs, and the graph and bindings in which a contract is read: those of the run, or those of an older
+/// policy whose goals have not ended.
 pub(super) struct Contracts<'a> {
     pub(super) graph: &'a Graph,
     pub(super) bindings: &'a [Option<Value>],
@@ -66,7 +66,8 @@ impl Turn<'_> {
         }
     }
 
-    /// Whether a need holds; of a quantified one, whether it holds for every entity that the engine has heard of.
+    /// True if a need holds; of a quantified one, whether it holds for every entity that the engine has heard
+    /// of.
     pub(super) fn need(&mut self, need: &Need, fresh: Freshness) -> Truth {
         let Some(kind) = need.each else {
             let mut judge = self.judge_missing(fresh);
@@ -94,7 +95,7 @@ impl Turn<'_> {
 }
 
 impl Contracts<'_> {
-    /// What success makes.
+    /// Applies the effects of a successful call.
     pub(super) fn make(&mut self, call: &CallNode) {
         let mut changes = Vec::new();
         for effect in &call.effects {
@@ -108,14 +109,14 @@ impl Contracts<'_> {
         self.apply(&changes);
     }
 
-    /// What is unknown as soon as it starts.
+    /// Makes the facts unknown that the start of a call unsettles.
     pub(super) fn unsettle(&mut self, call: &CallNode) {
         let mut changes = Vec::new();
         self.expand_unsettled(call, &mut changes);
         self.apply(&changes);
     }
 
-    /// What is unknown after anything but success.
+    /// Makes all facts unknown that a call may have changed, after any outcome but success.
     pub(super) fn doubt(&mut self, call: &CallNode) {
         if call.effects.is_empty() && call.unsettles.is_empty() {
             return;

@@ -95,7 +95,7 @@ impl Turn<'_> {
         true
     }
 
-    /// Whether an answer is outstanding.
+    /// True if an answer is outstanding.
     pub(super) fn awaits(&self, node: NodeId) -> bool {
         self.run.asked.iter().any(|(_, asker)| *asker == node)
     }

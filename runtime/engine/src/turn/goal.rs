@@ -2,7 +2,8 @@
 
 use super::Turn;
 use crate::effect::{Effect, Fault};
-use crate::event::{DriverEvent, GoalId, Outcome};
+use crate::event::{DriverEvent, Outcome};
+use crate::ids::GoalId;
 use crate::query::{Answer, Query};
 use crate::state::{GoalIntent, NodeExit, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
@@ -122,7 +123,8 @@ impl Turn<'_> {
         }
     }
 
-    /// Nobody knows what a goal does: everything that it may use is stopped safely before anybody else gets it.
+    /// Nobody knows what a goal does: everything that it may use is stopped safely before anybody else gets
+    /// it.
     fn lost(&mut self, goal: GoalId) {
         let Some(node) = self.run.goals.node(goal) else { return };
         let state = self.run.nodes.at_mut(node.index());
@@ -180,7 +182,8 @@ impl Turn<'_> {
     fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
         let plan = self.plan;
         if plan.step(node).is_silent && self.is_quiet() && self.run.clearing.is_empty() {
-            // The common case, without a detour over the work list. What waits for this goal to end has its own place there.
+            // The common case, without a detour over the work list. What waits for this goal to end has its
+            // own place there.
             let exit = NodeExit { ending: NodeEnding::Success, cause: EndCause::Completed, origin: node };
             self.node_ended(node, exit);
         } else {

@@ -1,4 +1,4 @@
-//! What a step keeps while it waits: subscriptions, places in the queue, reserved resources.
+//! Resources of waiting steps: subscriptions, queue entries, reservations.
 
 use super::Turn;
 use crate::belief::Freshness;

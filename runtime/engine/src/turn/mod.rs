@@ -1,7 +1,7 @@
 //! One event and everything that follows from it at that instant.
 //!
-//! A turn takes the event in, then makes transitions until none is left: watches first, outer before inner and earlier
-//! before later, then steps in document order. A budget bounds it.
+//! A turn takes the event in, then makes transitions until none is left: watches first, outer before inner
+//! and earlier before later, then steps in document order. A budget bounds it.
 
 mod call;
 mod change;
@@ -48,7 +48,8 @@ impl Turn<'_> {
         }
         let now = now.max(self.run.now);
         self.run.now = now;
-        // What was due earlier happened earlier: this event does not change it. But its effects go out only now.
+        // What was due earlier happened earlier: this event does not change it. But its effects go out only
+        // now.
         self.catch_up(|at| at < now);
         match event {
             Event::Begin if self.run.begun => {}
@@ -163,7 +164,7 @@ impl Turn<'_> {
         }
     }
 
-    /// Whether nothing else is to be done first: no watch is to be judged, and no other step has work.
+    /// True if nothing else is to be done first: no watch is to be judged, and no other step has work.
     #[inline]
     fn is_quiet(&self) -> bool {
         self.run.beliefs.changed.is_empty() && self.run.dirty.is_empty() && self.run.work.is_empty()

@@ -4,7 +4,8 @@ use super::Turn;
 use super::change::Contracts;
 use super::goal::stronger;
 use crate::effect::{Effect, Fault};
-use crate::event::{DriverEvent, GoalId, Outcome};
+use crate::event::{DriverEvent, Outcome};
+use crate::ids::GoalId;
 use crate::orphan::OrphanGoal;
 use crate::state::{GoalIntent, Phase};
 use crate::time::Time;
@@ -13,8 +14,8 @@ use motet_graph::{FailureId, NodeId, TIMEOUT};
 use smol_str::SmolStr;
 
 impl Turn<'_> {
-    /// A goal of a replaced policy goes on for a call that was just reached, if there is one that fits. False where the call
-    /// has to start a goal of its own.
+    /// A goal of a replaced policy goes on for a call that was just reached, if there is one that fits. False
+    /// where the call has to start a goal of its own.
     pub(super) fn claim(&mut self, node: NodeId) -> bool {
         let plan = self.plan;
         let Some(call) = plan.call(node) else { return false };
@@ -127,7 +128,7 @@ impl Turn<'_> {
         }
     }
 
-    /// Where a goal stands among the orphans.
+    /// Position where a goal stands among the orphans.
     pub(super) fn orphan(&self, goal: GoalId) -> Option<usize> {
         self.run.orphans.iter().position(|orphan| orphan.goal == goal)
     }

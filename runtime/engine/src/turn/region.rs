@@ -93,8 +93,8 @@ impl Turn<'_> {
         self.push(Transition::NodeEnded(node, exit));
     }
 
-    /// The same from a region's end, which only the work list calls: without a detour over it where nothing else is to be
-    /// done first.
+    /// The same from a region's end, which only the work list calls: without a detour over it where nothing
+    /// else is to be done first.
     pub(super) fn exit_at_once(&mut self, node: NodeId, exit: NodeExit) {
         if self.is_quiet() {
             self.node_ended(node, exit);
@@ -164,7 +164,7 @@ impl Turn<'_> {
         }
     }
 
-    /// Whether none of a node's regions runs.
+    /// True if none of a node's regions runs.
     pub(super) fn is_down(&self, node: NodeId) -> bool {
         self.plan.owned(node).iter().all(|region| !self.run.regions.at(region.index()).active)
     }

@@ -6,8 +6,8 @@ use crate::trace::{EndCause, NodeEnding};
 use motet_graph::{NodeId, RegionId};
 
 impl Turn<'_> {
-    /// Stops a region and everything in it, in document order. Its end comes through the work list, at once where
-    /// nothing in it has a live goal.
+    /// Stops a region and everything in it, in document order. Its end comes through the work list, at once
+    /// where nothing in it has a live goal.
     pub(super) fn stop(&mut self, region: RegionId, cause: EndCause) {
         let mut walk = std::mem::take(&mut self.run.walk);
         walk.clear();
@@ -45,7 +45,7 @@ impl Turn<'_> {
         }
     }
 
-    /// Whether a goal is live in a region.
+    /// True if a goal is live in a region.
     pub(super) fn has_goals(&mut self, region: RegionId) -> bool {
         let mut walk = std::mem::take(&mut self.run.walk);
         walk.clear();

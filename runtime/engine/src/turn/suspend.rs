@@ -7,7 +7,8 @@ use crate::work_list::Transition;
 use motet_graph::{NodeId, NodeKind, RegionId};
 
 impl Turn<'_> {
-    /// Suspends a region once more. Its goals hold, or with [`GoalIntent::Suspend`] end early to start again later.
+    /// Suspends a region once more. Its goals hold, or with [`GoalIntent::Suspend`] end early to start again
+    /// later.
     pub(super) fn suspend(&mut self, region: RegionId, wish: GoalIntent) {
         self.walk_down(region, |turn, node, count| {
             *count += 1;
@@ -87,7 +88,7 @@ impl Turn<'_> {
         }
     }
 
-    /// Whether the driver can hold the goal of a call.
+    /// True if the driver can hold the goal of a call.
     fn can_hold(&self, node: NodeId) -> bool {
         let primitive =
             self.plan.call(node).and_then(|call| self.plan.graph.primitives.get(call.primitive.index()));

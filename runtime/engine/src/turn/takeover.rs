@@ -12,8 +12,8 @@ use motet_graph::{NodeId, NodeKind, ROOT, Value};
 use std::sync::Arc;
 
 impl Turn<'_> {
-    /// Ends every step of the policy that is replaced, inner before outer. Goals that run become orphans; what was watched
-    /// stays so until the new policy has said what it watches.
+    /// Ends every step of the policy that is replaced, inner before outer. Goals that run become orphans;
+    /// what was watched stays so until the new policy has said what it watches.
     pub(crate) fn retire(&mut self, plan: &Arc<PreparedGraph>) -> Arc<Vec<Option<Value>>> {
         self.run.swapping = true;
         let bindings = Arc::new(std::mem::take(&mut self.run.bindings));
@@ -77,8 +77,8 @@ impl Turn<'_> {
         open
     }
 
-    /// The new policy begins in the state that the old one left: its first steps are entered and its monitors judged, goals
-    /// that fit go on, all others are cancelled.
+    /// The new policy begins in the state that the old one left: its first steps are entered and its monitors
+    /// judged, goals that fit go on, all others are cancelled.
     pub(crate) fn take_over(&mut self, heard: &Entities) {
         let graph = &self.plan.graph;
         for (id, kind) in heard.all() {

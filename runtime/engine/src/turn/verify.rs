@@ -4,14 +4,15 @@ use super::Turn;
 use super::call::{GuardCheck, StartRefusal};
 use crate::belief::Freshness;
 use crate::effect::{Command, Effect};
+use crate::ids::CheckId;
 use crate::state::{MotionCheck, Phase};
 use crate::trace::TraceEventKind;
-use crate::verifier::{CheckId, DeferredMotion, Verification};
+use crate::verifier::{DeferredMotion, Verification};
 use motet_graph::{CallNode, NodeId, Verdict};
 use std::sync::Arc;
 
 impl Turn<'_> {
-    /// What is known of a call's motion, where all else holds.
+    /// Evaluates a call's motion after all other guards hold.
     pub(super) fn look_at_motion(
         &mut self,
         node: NodeId,
@@ -66,7 +67,7 @@ impl Turn<'_> {
         self.push_judge(node);
     }
 
-    /// Whether a call has asked for its motion.
+    /// True if a call has asked for its motion.
     pub(super) fn is_verifying(&self, node: NodeId) -> bool {
         self.run.checks.iter().any(|check| check.node == node)
     }

@@ -65,7 +65,8 @@ impl Turn<'_> {
         }
     }
 
-    /// Whether nothing that goes before keeps a watch from firing. What blocks it judges it again when it is over.
+    /// True if nothing that goes before keeps a watch from firing. What blocks it judges it again when it is
+    /// over.
     fn may_fire(&self, node: NodeId, number: u32, watch: &Watch) -> bool {
         let region = self.region_of(node);
         let state = self.run.composites.at(node.index());
@@ -133,7 +134,7 @@ impl Turn<'_> {
         }
     }
 
-    /// What a pause held goes on.
+    /// Resumes the body after a pause.
     fn end_pause(&mut self, node: NodeId, number: u32, index: u32) {
         self.stop_pausing(number);
         self.report(move || TraceEventKind::WentOn { node, watch: index });

@@ -1,4 +1,5 @@
-//! The life of a call: start, acknowledgement, end; deadlines, retries, guards, results; cancels that are not answered.
+//! The life of a call: start, acknowledgement, end; deadlines, retries, guards, results; cancels that are not
+//! answered.
 
 use crate::check;
 use crate::script::Feed::{

@@ -18,4 +18,5 @@ mod rescan;
 mod script;
 mod snapshot;
 mod swap;
+mod threads;
 mod verify;

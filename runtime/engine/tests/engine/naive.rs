@@ -1,6 +1,7 @@
-//! The engine beside a naive interpreter: plain recursion over the tree, which writes down what it believes as a list and
-//! reads it from its end. Policies with a single thread of control, also across a swap in the middle of an action; what runs
-//! at once (monitors, waits, parallel branches) is made one after the other before: `rescan.rs` has that.
+//! The engine beside a naive interpreter: plain recursion over the tree, which writes down what it believes
+//! as a list and reads it from its end. Policies with a single thread of control, also across a swap in the
+//! middle of an action; what runs at once (monitors, waits, parallel branches) is made one after the other
+//! before: `rescan.rs` has that.
 
 use motet_graph::arbitrary::{CallSketch, StepSketch, graph, steps};
 use motet_graph::{
@@ -235,7 +236,7 @@ impl Naive {
         let mut last = Flow::Ok;
         for _ in 0..=call.retries {
             let values = call.args.iter().map(|arg| self.term(arg, &mut Vec::new()).unwrap());
-            let names = primitive.params.iter().map(|(name, _)| name.clone());
+            let names = primitive.params.iter().map(|param| param.name.clone());
             let command = Command {
                 primitive: primitive.name.clone(),
                 args: names.zip(values).collect(),

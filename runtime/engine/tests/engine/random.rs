@@ -1,5 +1,5 @@
-//! Random graphs under random events and random swaps: no panic, the laws of effects hold, every run ends, a refused swap
-//! changes nothing, and a replay is the same.
+//! Random graphs under random events and random swaps: no panic, the laws of effects hold, every run ends, a
+//! refused swap changes nothing, and a replay is the same.
 
 use crate::verify::with_motions;
 use motet_graph::arbitrary::vocabulary::{PICK, PLACE};
@@ -493,7 +493,8 @@ fn bound_values_fit(graphs: &[&Graph], log: &[Effect]) -> bool {
     })
 }
 
-/// The failures that a policy may end in: the engine's own, and those that the contracts of what it calls list.
+/// The failures that a policy may end in: the engine's own, and those that the contracts of what it calls
+/// list.
 fn listed(graph: &Graph) -> BTreeSet<&str> {
     let mut listed = BTreeSet::from(["timeout", "failed", "exhausted"]);
     for node in &graph.nodes {
@@ -516,8 +517,8 @@ fn is_expected(end: &RunEnd, graph: &Graph, strict: bool) -> bool {
     }
 }
 
-/// A policy, others to swap to, and the seed of what happens. The others are one of its own, the policy itself, proved from
-/// nothing, and itself with something before it, so that goals are often met again.
+/// A policy, others to swap to, and the seed of what happens. The others are one of its own, the policy
+/// itself, proved from nothing, and itself with something before it, so that goals are often met again.
 fn cases() -> impl Strategy<Value = (Graph, Vec<Graph>, u64)> {
     (vec(steps(), 2..5), steps(), any::<bool>(), any::<u64>()).prop_map(|(own, other, proved, seed)| {
         let own = own.concat();

@@ -1,11 +1,12 @@
-//! Another policy takes over: what goes on, what is updated, what is cancelled and what waits for it; and what is refused.
+//! Another policy takes over: what goes on, what is updated, what is cancelled and what waits for it; and
+//! what is refused.
 
 use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Lost, Refused, Stop, Stopped, Swap, Tick};
 use crate::script::{distance, entity, holding};
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
-use motet_graph::{Condition, Fact, FactArg, Graph, NodeId, Value};
+use motet_graph::{Condition, Fact, FactArg, Graph, InitialFact, NodeId, Value};
 use motet_runtime::{
     DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, RunEnd, StartState, SwapRefusal, Time, Truth,
 };
@@ -273,21 +274,25 @@ fn another_robot_is_refused() {
 #[test]
 fn a_start_that_does_not_hold_is_refused() {
     let mut graph = graph(&[StepSketch::go("table")]);
-    graph.initial = vec![(v::fact(v::HOLDING, vec![v::entity("mug")]), true)];
+    graph.initial = vec![InitialFact { fact: v::fact(v::HOLDING, vec![v::entity("mug")]), value: true }];
     let SwapRefusal::Start { told, believed, .. } = refused(graph) else { panic!("another refusal") };
     assert_eq!((told, believed), (true, Truth::False));
 }
 
 #[test]
 fn a_start_that_is_no_longer_known_is_refused() {
-    // Where the robot is, is unknown after it was interrupted; so far only that it stands nowhere known is not said.
+    // Where the robot is, is unknown after it was interrupted; so far only that it stands nowhere known is
+    // not said.
     let (mut engine, mut out) = going();
     let prepare = |engine: &Engine, initial| {
         let mut graph = graph(&[StepSketch::say("new")]);
         graph.initial = initial;
         PreparedSwap::new(graph, &engine.running()).unwrap()
     };
-    let somewhere = vec![(v::fact(v::AT, vec![v::entity("robot"), v::entity("table")]), false)];
+    let somewhere = vec![InitialFact {
+        fact: v::fact(v::AT, vec![v::entity("robot"), v::entity("table")]),
+        value: false,
+    }];
     let prepared = prepare(&engine, somewhere.clone());
     engine.swap(Time::from_secs(2.0), prepared, &mut out).unwrap();
     let goal = engine.snapshot().goals[0].goal;
@@ -306,7 +311,8 @@ fn given(name: &str) -> Graph {
     ]);
     graph.bindings[0].given = true;
     graph.bindings[0].name = name.into();
-    graph.initial = vec![(Fact { fluent: v::HOLDING, args: vec![FactArg::Any] }, false)];
+    graph.initial =
+        vec![InitialFact { fact: Fact { fluent: v::HOLDING, args: vec![FactArg::Any] }, value: false }];
     graph
 }
 

@@ -1,4 +1,5 @@
-//! A journal is read as it was written, cut where it is torn, refused where it is damaged, and replayed to the byte.
+//! A journal is read as it was written, cut where it is torn, refused where it is damaged, and replayed to
+//! the byte.
 
 use crate::ready::{Run, run, success};
 use motet_graph::arbitrary::{StepSketch, graph, steps};
@@ -55,7 +56,7 @@ fn a_replay_tells_where_it_differs() {
     let JournalEntry::Step(step) = &mut entries[2] else { panic!("no step") };
     let dropped = step.effects.remove(1);
     let said = replay(&entries).unwrap();
-    assert!(said.starts_with("2: Difference { index: 1, "), "{said}");
+    assert!(said.starts_with("2: EffectMismatch { index: 1, "), "{said}");
     assert!(said.contains(&format!("{:?}", serde_json::to_string(&dropped).unwrap())), "{said}");
 }
 

@@ -116,7 +116,8 @@ fn views_are_data_too() {
     assert_eq!(serde_json::from_str::<motet_runtime::memory::FullMemory>(&text).unwrap(), whole);
 }
 
-/// What is remembered where a policy takes over from `go(table)` while that runs, and then the goal of that ends.
+/// What is remembered where a policy takes over from `go(table)` while that runs, and then the goal of that
+/// ends.
 fn taken_over(next: &[StepSketch], outcome: Outcome) -> Vec<String> {
     let mut memory = Memory::new(MemoryLimits::default());
     let mut engine = Engine::new(graph(&[StepSketch::go("table")]), &StartState::default()).unwrap();

@@ -12,7 +12,8 @@ pub(crate) struct Run {
     pub(crate) engine: Engine,
 }
 
-/// Runs a graph. `outcome` says how the n-th start ends, and the answer to the n-th question; at most `limit` events.
+/// Runs a graph. `outcome` says how the n-th start ends, and the answer to the n-th question; at most `limit`
+/// events.
 pub(crate) fn run(
     graph: Graph,
     mut outcome: impl FnMut(usize, &str) -> Outcome,

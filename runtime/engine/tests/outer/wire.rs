@@ -3,7 +3,7 @@
 use motet_graph::{NodeId, Pose, Value};
 use motet_runtime::{
     Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, EndCause, Event, Fault, GoalId,
-    NodeEnding, Outcome, Pattern, Query, RunEnd, Time, TraceEvent, TraceEventKind, Truth, Verification, wire,
+    NodeEnding, Outcome, Pattern, Query, RunEnd, Time, TraceEvent, TraceEventKind, Truth, Verification,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -11,13 +11,13 @@ use std::sync::Arc;
 
 /// There and back: the same bytes, and the same value where numbers can be compared.
 macro_rules! there_and_back {
-    ($wire:ty, $model:ty, $value:expr) => {{
+    ($model:ty, $value:expr) => {{
         let value: $model = $value;
-        let json = serde_json::to_string(&<$wire>::from(&value)).unwrap();
-        let read: $wire = serde_json::from_str(&json).unwrap();
-        let back = <$model>::from(read);
+        let json = serde_json::to_string(&value).unwrap();
+        let back: $model = serde_json::from_str(&json).unwrap();
         assert_eq!(format!("{value:?}"), format!("{back:?}"));
-        assert_eq!(json, serde_json::to_string(&<$wire>::from(&back)).unwrap());
+        assert_eq!(json, serde_json::to_string(&back).unwrap());
+        json
     }};
 }
 
@@ -87,7 +87,7 @@ proptest! {
 
     #[test]
     fn events(event in driver_event()) {
-        there_and_back!(wire::Event, Event, Event::Driver(event));
+        there_and_back!(Event, Event::Driver(event));
     }
 
     #[test]
@@ -101,8 +101,8 @@ proptest! {
         let (goal, node, command) = (GoalId::from_number(goal), NodeId(node), Arc::new(command));
         let deadline = Time::from_nanos(deadline);
         let start = Effect::Start { goal, node, command: Arc::clone(&command), deadline };
-        there_and_back!(wire::Effect, Effect, start);
-        there_and_back!(wire::Effect, Effect, Effect::Update { goal, node, command, deadline });
+        there_and_back!(Effect, start);
+        there_and_back!(Effect, Effect::Update { goal, node, command, deadline });
     }
 
     #[test]
@@ -110,25 +110,26 @@ proptest! {
         let command = Command { primitive: "pick".into(), args: Vec::new(), uses: [].into(), deadline_secs: 20.1 };
         let motion = Arc::new(DeferredMotion { query: "reach".into(), args, command: Arc::new(command) });
         let check = CheckId::from_number(check);
-        there_and_back!(wire::Effect, Effect, Effect::Verify { check, node: NodeId(3), motion });
+        there_and_back!(Effect, Effect::Verify { check, node: NodeId(3), motion });
         let why = smol_str::SmolStr::from(why);
         for verdict in [
             Verification::Feasible,
             Verification::Infeasible { failure: "unreachable".into(), why: why.clone() },
             Verification::Unknown { why },
         ] {
-            there_and_back!(wire::Event, Event, Event::Verified { check, verdict });
+            there_and_back!(Event, Event::Verified { check, verdict });
         }
     }
 
     #[test]
     fn questions(query in query()) {
-        there_and_back!(wire::Effect, Effect, Effect::Watch { query: Arc::new(query) });
+        there_and_back!(Effect, Effect::Watch { query: Arc::new(query) });
     }
 }
 
 #[test]
-fn records_and_ends() {
+fn wire_form_keeps_its_bytes() {
+    let mut lines = Vec::new();
     let (node, goal) = (NodeId(7), GoalId::from_number(u64::MAX));
     let (ending, cause) = (NodeEnding::Failure(motet_graph::FailureId(3)), EndCause::Lost);
     for what in [
@@ -150,7 +151,7 @@ fn records_and_ends() {
         },
     ] {
         let record = TraceEvent { at: Time::NEVER, revision: 1, what };
-        there_and_back!(wire::Effect, Effect, Effect::Report(record));
+        lines.push(there_and_back!(Effect, Effect::Report(record)));
     }
     let why = Some("because".to_owned());
     for end in [
@@ -162,13 +163,82 @@ fn records_and_ends() {
         RunEnd::Fault(Fault::StepBudget { steps: 1 }),
         RunEnd::Fault(Fault::Stalled),
     ] {
-        there_and_back!(wire::Effect, Effect, Effect::Finished(Box::new(end)));
+        lines.push(there_and_back!(Effect, Effect::Finished(Box::new(end))));
     }
+    let fact = Query::Fact {
+        fluent: "holding".into(),
+        args: vec![Pattern::Any, Pattern::Is(Value::Entity("mug".into()))],
+    };
+    let measure = Query::Measure { measure: "distance".into(), args: vec![Value::Entity("user".into())] };
+    let field = Query::Field { entity: "mug".into(), field: "width".into() };
+    let command = Arc::new(Command {
+        primitive: "pick".into(),
+        args: vec![("object".into(), Value::Entity("mug".into()))],
+        uses: ["hand".into()].into(),
+        deadline_secs: 20.1,
+    });
+    let check = CheckId::from_number(4);
+    let deadline = Time::from_nanos(30_100_000_000);
+    let motion = Arc::new(DeferredMotion {
+        query: "reach".into(),
+        args: vec![Value::Entity("mug".into())],
+        command: Arc::clone(&command),
+    });
+    for effect in [
+        Effect::Start { goal, node, command: Arc::clone(&command), deadline },
+        Effect::Update { goal, node, command, deadline },
+        Effect::Cancel { goal },
+        Effect::Hold { goal },
+        Effect::Proceed { goal },
+        Effect::SafeStop { goal },
+        Effect::Observe { query: Arc::new(fact.clone()) },
+        Effect::Watch { query: Arc::new(measure.clone()) },
+        Effect::Unwatch { query: Arc::new(field.clone()) },
+        Effect::Verify { check, node, motion },
+    ] {
+        lines.push(there_and_back!(Effect, effect));
+    }
+    let failure = smol_str::SmolStr::new_static("slipped");
+    let verdict = Verification::Infeasible { failure: "unreachable".into(), why: "0.3 m too far".into() };
+    let driver = Event::Driver;
+    for event in [
+        Event::Begin,
+        Event::Tick,
+        Event::Stop,
+        Event::Verified { check, verdict },
+        Event::Verified { check, verdict: Verification::Unknown { why: "no body".into() } },
+        driver(DriverEvent::Acknowledged { goal }),
+        driver(DriverEvent::Refused { goal, failure: failure.clone() }),
+        driver(DriverEvent::Ended { goal, outcome: Outcome::Success(None) }),
+        driver(DriverEvent::Ended { goal, outcome: Outcome::Success(Some(Value::Text("red".into()))) }),
+        driver(DriverEvent::Ended { goal, outcome: Outcome::Failure(failure) }),
+        driver(DriverEvent::Ended { goal, outcome: Outcome::Interrupted }),
+        driver(DriverEvent::NotHeld { goal }),
+        driver(DriverEvent::Feedback { goal, text: "half way".into() }),
+        driver(DriverEvent::Stopped { goal }),
+        driver(DriverEvent::Lost { goal }),
+        driver(DriverEvent::DriverLost),
+        driver(DriverEvent::Observed { query: fact.clone(), answer: Answer::Truth(true) }),
+        driver(DriverEvent::Observed { query: measure, answer: Answer::Unknown }),
+        driver(DriverEvent::Observed { query: field, answer: Answer::Value(Value::Number(0.5)) }),
+    ] {
+        lines.push(there_and_back!(Event, event));
+    }
+    let start = motet_runtime::StartState {
+        facts: vec![(fact.clone(), Truth::Unknown)],
+        some: vec![fact],
+        entities: vec![("mug".into(), "Object".into())],
+        bindings: vec![("drink".into(), Value::Int(3))],
+    };
+    lines.push(serde_json::to_string(&start).unwrap());
+    lines.push(serde_json::to_string(&motet_runtime::EngineSettings::default()).unwrap());
+    lines.push(serde_json::to_string(&motet_runtime::Capabilities::default()).unwrap());
+    insta::assert_snapshot!(lines.join("\n"));
 }
 
 #[test]
 fn unknown_keys_are_refused() {
     let wrong = r#"{"driver":{"acknowledged":{"goal":1,"gaol":2}}}"#;
-    let error = serde_json::from_str::<wire::Event>(wrong).unwrap_err().to_string();
+    let error = serde_json::from_str::<Event>(wrong).unwrap_err().to_string();
     assert!(error.contains("unknown field `gaol`"), "{error}");
 }

@@ -1,4 +1,4 @@
-//! Why a journal cannot be read or written.
+//! Errors of journals on disk.
 
 use motet_runtime::journal::JournalDamage;
 use std::io;
@@ -11,45 +11,28 @@ pub enum JournalError {
     /// The system says no.
     #[error("{what} `{}`: {source}", path.display())]
     Io {
-        /// What was tried: `cannot read`, `cannot write`.
+        /// Failed action, such as `cannot read`.
         what: &'static str,
-        /// Which file or folder.
         path: PathBuf,
-        /// What the system said.
         source: io::Error,
     },
     /// It is damaged.
     #[error("`{}`: {damage}", path.display())]
-    Damaged {
-        /// The folder.
-        path: PathBuf,
-        /// Where, and what is wrong.
-        damage: JournalDamage,
-    },
+    Damaged { path: PathBuf, damage: JournalDamage },
     /// A folder that is to hold a new journal is not empty.
     #[error("`{}` is not empty: a journal needs a folder of its own", path.display())]
-    NotEmpty {
-        /// The folder.
-        path: PathBuf,
-    },
+    NotEmpty { path: PathBuf },
     /// There is no journal in a folder, or not even its first line was written.
     #[error("`{}` holds no journal", path.display())]
-    None {
-        /// The folder.
-        path: PathBuf,
-    },
+    None { path: PathBuf },
     /// Another process writes it.
     #[error("another process writes the journal in `{}`", path.display())]
-    Busy {
-        /// The folder.
-        path: PathBuf,
-    },
+    Busy { path: PathBuf },
     /// It has too many segments, or they do not follow from each other.
     #[error("`{}`: {what}", path.display())]
     Segments {
-        /// The folder.
         path: PathBuf,
-        /// What is wrong.
+        /// Kind of a validation error.
         what: String,
     },
 }

@@ -1,9 +1,9 @@
 //! Journals on disk: a folder of segments, which are files of lines, named by the number of their first line.
 //!
-//! A line is written whole, by one call, as soon as the engine has handled its event and before any of its effects goes out.
-//! It is synced to disk at once where an effect starts something ([`motet_runtime::journal::must_be_durable`]), and with
-//! others otherwise, see [`SyncGrouping`]. A folder is written by one process at a time; a lock that the system takes back when
-//! the process ends sees to it.
+//! A line is written whole, by one call, as soon as the engine has handled its event and before any of its
+//! effects goes out. It is synced to disk at once where an effect starts something
+//! ([`motet_runtime::journal::must_be_durable`]), and with others otherwise, see [`SyncGrouping`]. A folder
+//! is written by one process at a time; a lock that the system takes back when the process ends sees to it.
 
 mod error;
 mod read;

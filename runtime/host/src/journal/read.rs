@@ -20,8 +20,8 @@ pub struct JournalTail {
     pub chain: LineChain,
 }
 
-/// Reads the journal in a folder and gives every entry with its number to `take`. Nothing is changed; a torn tail is left
-/// where it is.
+/// Reads the journal in a folder and gives every entry with its number to `take`. Nothing is changed; a torn
+/// tail is left where it is.
 ///
 /// # Errors
 ///

@@ -8,8 +8,8 @@ use motet_runtime::{
 };
 use std::sync::Arc;
 
-/// An observer that writes a journal and then lets another one look on. Where the journal cannot be written, the run is
-/// stopped before anything else starts; [`RunRecorder::finish`] tells why.
+/// An observer that writes a journal and then lets another one look on. Where the journal cannot be written,
+/// the run is stopped before anything else starts; [`RunRecorder::finish`] tells why.
 pub struct RunRecorder<'a> {
     writer: JournalWriter,
     inner: &'a mut dyn Observer,
@@ -17,7 +17,7 @@ pub struct RunRecorder<'a> {
     error: Option<JournalError>,
 }
 
-/// What the next effects follow from.
+/// Cause of the next effects.
 enum Cause {
     Event(Event),
     Swap(Arc<Graph>),

@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// When lines that need not be on disk at once are synced: as soon as one of these is reached.
+/// Time at which lines that need not be on disk at once are synced: as soon as one of these is reached.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct SyncGrouping {
     /// So many lines were written since.
@@ -39,7 +39,7 @@ pub struct JournalWriter {
     _lock: Lock,
 }
 
-/// That nobody else writes here. Taken back by the system where the process ends.
+/// Lock of a journal's folder. The system releases it when the process ends.
 #[derive(Debug)]
 struct Lock(File);
 
@@ -59,8 +59,8 @@ struct Waiting {
 }
 
 impl JournalWriter {
-    /// Begins a journal in a folder, which is made where it does not exist, and must be empty. When this returns, the head
-    /// is on disk.
+    /// Begins a journal in a folder, which is made where it does not exist, and must be empty. When this
+    /// returns, the head is on disk.
     ///
     /// # Errors
     ///
@@ -90,8 +90,8 @@ impl JournalWriter {
         Ok(writer)
     }
 
-    /// Goes on with the journal in a folder. Every entry is given to `take`; then a torn tail is cut off, and the cut synced,
-    /// before anything is appended. The tail tells how much was cut.
+    /// Goes on with the journal in a folder. Every entry is given to `take`; then a torn tail is cut off, and
+    /// the cut synced, before anything is appended. The tail tells how much was cut.
     ///
     /// # Errors
     ///
@@ -140,12 +140,13 @@ impl JournalWriter {
         self
     }
 
-    /// Writes a line that `make` adds to the chain, with its line feed. It is on its way to the disk, and there after the
-    /// next [`JournalWriter::sync`].
+    /// Writes a line that `make` adds to the chain, with its line feed. It is on its way to the disk, and
+    /// there after the next [`JournalWriter::sync`].
     ///
     /// # Errors
     ///
-    /// It cannot be written. The journal is then to be left alone: whether the line is there, only reading it anew can tell.
+    /// It cannot be written. The journal is then to be left alone: whether the line is there, only reading it
+    /// anew can tell.
     pub fn append(&mut self, make: impl FnOnce(&mut LineChain) -> String) -> Result<(), JournalError> {
         if self.bytes >= self.segment_bytes {
             self.sync()?;
@@ -190,7 +191,7 @@ impl JournalWriter {
 }
 
 impl Drop for JournalWriter {
-    /// What waits is synced; nobody is left to hear where that fails.
+    /// Syncs the pending lines; an error has no receiver here.
     fn drop(&mut self) {
         let _ = self.sync();
     }

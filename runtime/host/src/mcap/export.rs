@@ -4,8 +4,9 @@ use super::foxglove::{FrameTransforms, McapScene, SceneUpdate, flat_schema};
 use super::message::{EffectMessage, EventMessage, GraphMessage, StateMessage};
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
+use motet_graph::GraphDocument;
 use motet_runtime::journal::{EngineReplay, JournalEntry, ReplayError};
-use motet_runtime::wire;
+use motet_runtime::{Snapshot, Time};
 use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
 use serde_json::Value;
@@ -33,10 +34,10 @@ pub struct McapExporter<W: Write + Seek> {
     channels: Channels,
     replay: Option<EngineReplay>,
     began_unix_ns: u64,
-    from: u64,
+    from: Time,
     revision: u32,
     sequence: u32,
-    state: Option<wire::Snapshot>,
+    state: Option<Snapshot>,
     picture: Option<McapScene>,
 }
 
@@ -71,7 +72,7 @@ impl<W: Write + Seek> McapExporter<W> {
             channels,
             replay: None,
             began_unix_ns: 0,
-            from: 0,
+            from: Time::ZERO,
             revision: 0,
             sequence: 0,
             state: None,
@@ -95,7 +96,7 @@ impl<W: Write + Seek> McapExporter<W> {
             (self.began_unix_ns, self.from) = (head.began_unix_ns, head.from);
             self.replay = Some(EngineReplay::new(head)?);
         }
-        let now = self.began_unix_ns.saturating_add(at.saturating_sub(self.from));
+        let now = self.began_unix_ns.saturating_add(at.since(self.from).nanos());
         match entry {
             JournalEntry::Head(head) => self.graph(now, seq, head.graph.clone())?,
             JournalEntry::Swap(swap) => {
@@ -115,7 +116,7 @@ impl<W: Write + Seek> McapExporter<W> {
         if let Some(replay) = &mut self.replay {
             // Whether it differs is what `motet replay` tells.
             let _ = replay.take(entry)?;
-            let state = wire::Snapshot::from(&replay.engine().snapshot());
+            let state = replay.engine().snapshot();
             self.state(now, seq, state)?;
         }
         self.picture(now, picture)
@@ -131,16 +132,16 @@ impl<W: Write + Seek> McapExporter<W> {
         Ok(())
     }
 
-    fn graph(&mut self, now: u64, seq: u64, graph: wire::Document) -> Result<(), ExportError> {
+    fn graph(&mut self, now: u64, seq: u64, graph: GraphDocument) -> Result<(), ExportError> {
         let message = GraphMessage { seq, revision: self.revision, graph };
         self.write(self.channels.graph, now, &message)
     }
 
     /// A state, where more has changed than the time and the readings.
-    fn state(&mut self, now: u64, seq: u64, state: wire::Snapshot) -> Result<(), ExportError> {
+    fn state(&mut self, now: u64, seq: u64, state: Snapshot) -> Result<(), ExportError> {
         let same = self.state.as_ref().is_some_and(|last| {
             let (at, readings) = (state.at, state.readings.clone());
-            wire::Snapshot { at, readings, ..last.clone() } == state
+            Snapshot { at, readings, ..last.clone() } == state
         });
         if !same {
             self.state = Some(state.clone());

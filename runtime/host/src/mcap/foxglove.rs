@@ -7,40 +7,34 @@ use serde_json::{Value, json};
 /// A world at a moment, in the frame `map`.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct McapScene {
-    /// Where the base stands: x and y in m, the heading in rad.
+    /// Position where the base stands: x and y in m, the heading in rad.
     pub base: [f64; 3],
-    /// What else there is.
+    /// Bodies in the scene.
     pub bodies: Vec<McapBody>,
 }
 
-/// A thing.
+/// A body with its pose and shape.
 #[derive(Clone, PartialEq, Debug)]
 pub struct McapBody {
-    /// Its id.
     pub id: String,
     /// Its centre in m.
     pub xyz: [f64; 3],
     /// Its turn about the vertical in rad.
     pub heading: f64,
-    /// Its shape.
     pub solid: McapSolid,
 }
 
-/// A shape.
+/// Shape of a body.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum McapSolid {
     /// Full extents in m.
     Box([f64; 3]),
     /// In m, upright.
     Cylinder {
-        /// Its radius.
         radius: f64,
-        /// Its height.
         height: f64,
     },
-    /// In m.
     Sphere {
-        /// Its radius.
         radius: f64,
     },
 }
@@ -80,7 +74,6 @@ struct Color {
     a: f64,
 }
 
-/// `foxglove.FrameTransforms`
 #[derive(Clone, PartialEq, Serialize, JsonSchema)]
 pub(super) struct FrameTransforms {
     transforms: Vec<FrameTransform>,
@@ -95,7 +88,6 @@ struct FrameTransform {
     rotation: Quaternion,
 }
 
-/// `foxglove.SceneUpdate`
 #[derive(Clone, PartialEq, Serialize, JsonSchema)]
 pub(super) struct SceneUpdate {
     deletions: Vec<Value>,
@@ -171,7 +163,6 @@ impl McapScene {
         }
     }
 
-    /// All bodies.
     pub(super) fn scene(&self, now: u64) -> SceneUpdate {
         let entities = self.bodies.iter().map(|body| body.entity(now)).collect();
         SceneUpdate { deletions: Vec::new(), entities }

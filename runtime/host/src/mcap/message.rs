@@ -1,6 +1,7 @@
-//! What stands in the messages of our own topics.
+//! Messages of Motet's topics.
 
-use motet_runtime::wire::{Document, Effect, Event, Snapshot};
+use motet_graph::GraphDocument;
+use motet_runtime::{Effect, Event, Snapshot, Time};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -10,8 +11,8 @@ pub(super) struct EventMessage {
     /// The number of the journal's entry.
     pub(super) seq: u64,
     /// The engine's time in ns.
-    pub(super) at: u64,
-    /// What it took in; none where it gave up.
+    pub(super) at: Time,
+    /// The event; absent if the engine gave up.
     pub(super) event: Option<Event>,
 }
 
@@ -23,8 +24,7 @@ pub(super) struct EffectMessage {
     /// The place among the entry's effects.
     pub(super) index: u32,
     /// The engine's time in ns.
-    pub(super) at: u64,
-    /// What it gave out.
+    pub(super) at: Time,
     pub(super) effect: Effect,
 }
 
@@ -35,8 +35,7 @@ pub(super) struct GraphMessage {
     pub(super) seq: u64,
     /// The number of the graph.
     pub(super) revision: u32,
-    /// The graph.
-    pub(super) graph: Document,
+    pub(super) graph: GraphDocument,
 }
 
 /// On `/motet/state`: whenever what is believed, bound or running has changed.

@@ -1,5 +1,6 @@
-//! Journals as MCAP files, which the tools of roboticists open: events, effects, graphs and states as JSON messages with their
-//! schemas, and where a simulated world is known, its transforms and its scene as Foxglove's messages.
+//! Journals as MCAP files, which the tools of roboticists open: events, effects, graphs and states as JSON
+//! messages with their schemas, and where a simulated world is known, its transforms and its scene as
+//! Foxglove's messages.
 
 mod export;
 mod foxglove;

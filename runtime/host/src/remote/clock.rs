@@ -21,7 +21,7 @@ impl Clock {
         self.from.after(Time::from_nanos(passed))
     }
 
-    /// How long it is until a time; nothing where that is never.
+    /// Duration until a time; `None` for [`Time::NEVER`].
     pub(super) fn left(&self, until: Time) -> Option<Duration> {
         (until != Time::NEVER).then(|| Duration::from_nanos(until.since(self.now()).nanos()))
     }

@@ -1,4 +1,4 @@
-//! Where a driver is: a command to start, or a port of this machine.
+//! Position where a driver is: a command to start, or a port of this machine.
 
 use super::link::{Link, LinkError};
 use std::fmt;
@@ -9,7 +9,7 @@ use std::str::FromStr;
 use std::time::Duration;
 use thiserror::Error;
 
-/// Where a driver is.
+/// Position where a driver is.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum DriverAddress {
     /// A command with its arguments; it speaks on its standard input and output.
@@ -38,8 +38,8 @@ pub enum DriverAddressError {
 impl FromStr for DriverAddress {
     type Err = DriverAddressError;
 
-    /// `tcp://127.0.0.1:PORT`, or a command as a shell would split it at blanks, with single and double quotes and no
-    /// expansion.
+    /// `tcp://127.0.0.1:PORT`, or a command as a shell would split it at blanks, with single and double
+    /// quotes and no expansion.
     fn from_str(text: &str) -> Result<Self, DriverAddressError> {
         if let Some(place) = text.trim().strip_prefix("tcp://") {
             let socket = place.to_socket_addrs().ok().and_then(|mut all| all.next());

@@ -11,7 +11,7 @@ use super::protocol::{
     VERSION, Welcome, hear, say,
 };
 use super::settings::DriverTimeouts;
-use motet_runtime::{Capabilities, DriverEvent, Query, Time};
+use motet_runtime::{Capabilities, DriverEvent, GoalId, Query, Time};
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Instant;
@@ -19,8 +19,8 @@ use std::time::Instant;
 /// A driver in another process. Its time is the wall clock's, from where it was connected.
 ///
 /// A driver that ends, is silent, floods or says what is no message is spoken with no more, and
-/// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few times; these calls
-/// then wait for its greeting. What it used is safe once it has answered the safe stop.
+/// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few
+/// times; these calls then wait for its greeting. What it used is safe once it has answered the safe stop.
 pub struct RemoteDriver {
     address: DriverAddress,
     patience: DriverTimeouts,
@@ -33,7 +33,7 @@ pub struct RemoteDriver {
     outbox: VecDeque<(Time, DriverEvent)>,
     watches: Vec<Query>,
     /// Goals whose safe stop was asked for and is not acknowledged.
-    stopping: BTreeSet<u64>,
+    stopping: BTreeSet<GoalId>,
     heard_at: Instant,
     said_at: Instant,
     restarts: u32,
@@ -49,7 +49,8 @@ struct Waiting {
 }
 
 impl RemoteDriver {
-    /// Starts or calls a driver and greets it. It is `from` then. `note` hears in words what goes wrong, and feedback.
+    /// Starts or calls a driver and greets it. It is `from` then. `note` hears in words what goes wrong, and
+    /// feedback.
     ///
     /// # Errors
     ///
@@ -62,7 +63,7 @@ impl RemoteDriver {
         note: Box<dyn FnMut(&str)>,
     ) -> Result<Self, LinkError> {
         let hello = Hello { protocol: VERSION, ..hello };
-        let capabilities = (&Capabilities::default()).into();
+        let capabilities = Capabilities::default();
         let (driver, instance) = (String::new(), String::new());
         let mut this = Self {
             address,
@@ -87,18 +88,18 @@ impl RemoteDriver {
         Ok(this)
     }
 
-    /// What the driver said of itself.
+    /// The driver's answer to the greeting.
     #[must_use]
     pub const fn welcome(&self) -> &Welcome {
         &self.welcome
     }
 
-    /// What became of some goals, asked for and waited for.
+    /// Asks for the state of some goals and waits for the answer.
     ///
     /// # Errors
     ///
     /// It does not say.
-    pub fn status(&mut self, goals: Vec<u64>) -> Result<StatusResult, LinkError> {
+    pub fn status(&mut self, goals: Vec<GoalId>) -> Result<StatusResult, LinkError> {
         let asked = self.next_id;
         self.call(DriverCall::Status(StatusParams { goals }));
         let due = Instant::now() + self.patience.answer;

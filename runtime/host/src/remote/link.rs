@@ -1,4 +1,5 @@
-//! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up nobody.
+//! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
+//! nobody.
 
 use super::settings::{MAX_LINE_BYTES, MAX_WAITING};
 use std::fmt;
@@ -9,14 +10,13 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Why a driver is no longer spoken with.
+/// Error that ends the connection to a driver.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum LinkError {
     /// It could not be started or called.
     NotReached(String),
     /// It ended, or closed the connection.
     Closed,
-    /// Reading failed.
     Read(String),
     /// It said nothing for so long, though it was asked for a sign of life.
     Silent(Duration),
@@ -47,14 +47,13 @@ impl fmt::Display for LinkError {
     }
 }
 
-/// What is at the other end, to be ended with the link.
+/// Other end of the link, ended together with it.
 #[derive(Debug)]
 pub(super) enum Peer {
     Process(Child),
     Socket(TcpStream),
 }
 
-/// A connection.
 #[derive(Debug)]
 pub(super) struct Link {
     heard: Receiver<Result<String, LinkError>>,
@@ -100,7 +99,7 @@ impl Link {
     }
 }
 
-/// How long a driver that is spoken with no more has to end by itself.
+/// Grace period for a driver to end by itself after its link is dropped.
 const MOMENT: Duration = Duration::from_millis(200);
 
 impl Drop for Link {
@@ -111,8 +110,8 @@ impl Drop for Link {
 }
 
 impl Link {
-    /// Says what still waits to be said, closes the connection, and gives a process so long to end by itself. With its
-    /// connection closed it has no other way to learn that nobody is there any more.
+    /// Says what still waits to be said, closes the connection, and gives a process so long to end by itself.
+    /// With its connection closed it has no other way to learn that nobody is there any more.
     pub(super) fn end(&mut self, within: Duration) {
         let due = Instant::now() + within;
         let (closed, _) = sync_channel(1);
@@ -133,7 +132,7 @@ impl Link {
     }
 }
 
-/// Whether something came true in time.
+/// True if something came true in time.
 fn wait_for(due: Instant, mut is_true: impl FnMut() -> bool) -> bool {
     loop {
         if is_true() {

@@ -1,35 +1,38 @@
-//! What host and driver say to each other. Values, queries, commands and outcomes are the wire forms of `motet-runtime`.
+//! Messages of the driver protocol. Values, queries, commands and outcomes have the JSON form of
+//! `motet-runtime`.
 
 use super::settings::MAX_DEPTH;
-use motet_runtime::wire::{Answer, Capabilities, Command, Outcome, Query};
+use motet_runtime::{Answer, Capabilities, Command, GoalId, Outcome, Query};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
+use std::sync::Arc;
 
 /// The version of the protocol.
 pub const VERSION: u32 = 1;
 /// The error code of a start that is refused; its data names the failure kind.
 pub const REFUSED: i64 = 1;
 
-/// What the host calls. Each is a request with a number of its own and is answered, except `bye`.
+/// Calls of the host. Each is a JSON-RPC request with its own number and is answered, except `bye`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "method", content = "params", rename_all = "snake_case")]
 pub enum DriverCall {
     /// The greeting, first on every connection. Answered by [`Welcome`].
     Hello(Hello),
-    /// Start a goal. Answered by `{}`: it is accepted and runs; or by the error 1: it is refused. Of a goal that was started
-    /// before the same answer is given again, and nothing else is done.
+    /// Start a goal. Answered by `{}`: it is accepted and runs; or by the error 1: it is refused. Of a goal
+    /// that was started before the same answer is given again, and nothing else is done.
     Start(StartParams),
     /// Give a running goal new arguments. Answered by `{}`.
     Update(StartParams),
-    /// End a goal early. Answered by `{}`: heard; the goal's end is said by `ended`. Of a goal that has ended it is ignored.
+    /// End a goal early. Answered by `{}`: heard; the goal's end is said by `ended`. Of a goal that has ended
+    /// it is ignored.
     Cancel(GoalParams),
     /// Keep a goal still. Answered by `{}`, or by any error: it cannot be held.
     Hold(GoalParams),
     /// Let a held goal go on. Answered by `{}`.
     Proceed(GoalParams),
-    /// Bring everything that a goal uses to a safe stop, also of a goal that has ended or was never heard of. Answered by
-    /// `{}`: heard; that everything stands still is said by `stopped`.
+    /// Bring everything that a goal uses to a safe stop, also of a goal that has ended or was never heard of.
+    /// Answered by `{}`: heard; that everything stands still is said by `stopped`.
     SafeStop(GoalParams),
     /// Answer a question once. Answered by [`QueryResult`].
     Observe(QueryParams),
@@ -37,7 +40,7 @@ pub enum DriverCall {
     Watch(QueryParams),
     /// No longer watch. Answered by `{}`.
     Unwatch(QueryParams),
-    /// What became of some goals? Asked after a crash. Answered by [`StatusResult`].
+    /// Asks for the state of some goals after a crash. Answered by [`StatusResult`].
     Status(StatusParams),
     /// A sign of life is asked for. Answered by `{}`.
     Ping(EmptyParams),
@@ -45,7 +48,7 @@ pub enum DriverCall {
     Bye(EmptyParams),
 }
 
-/// What a driver says of its own accord.
+/// Notification from a driver.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "method", content = "params", rename_all = "snake_case")]
 pub enum DriverReport {
@@ -59,18 +62,17 @@ pub enum DriverReport {
     Lost(GoalParams),
     /// The answer to a watched question has changed, or something was noticed in passing.
     Observed(ObservedParams),
-    /// How a goal is getting on, for people. It changes nothing.
+    /// Progress of a goal for people; without effect on the run.
     Feedback(FeedbackParams),
 }
 
-/// The greeting.
+/// Parameters of `hello`, the greeting.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Hello {
     /// The version of the protocol that the host speaks.
     pub protocol: u32,
     /// The robot that the policy is for.
     pub robot: String,
-    /// The policy.
     pub policy: String,
     /// The primitives that it calls.
     pub primitives: Vec<CalledPrimitive>,
@@ -79,7 +81,6 @@ pub struct Hello {
 /// A primitive that a policy calls.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct CalledPrimitive {
-    /// Its name.
     pub name: String,
     /// The type of its result as the language writes it, such as `Object`, `Text` or `List<Object>`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -93,9 +94,10 @@ pub struct Welcome {
     pub protocol: u32,
     /// The driver's name and version, for people.
     pub driver: String,
-    /// A text that is another one after every start of the driver: what it knows of goals, it knows since then.
+    /// A text that is another one after every start of the driver: what it knows of goals, it knows since
+    /// then.
     pub instance: String,
-    /// What it can do beside starting and ending goals.
+    /// Optional abilities.
     pub capabilities: Capabilities,
 }
 
@@ -103,62 +105,55 @@ pub struct Welcome {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct StartParams {
     /// Its number, which the host chooses and never uses twice in a run.
-    pub goal: u64,
-    /// What it does.
-    pub command: Command,
+    pub goal: GoalId,
+    pub command: Arc<Command>,
 }
 
-/// A goal.
+/// Parameters of calls about one goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct GoalParams {
-    /// Its number.
-    pub goal: u64,
+    pub goal: GoalId,
 }
 
-/// Several goals.
+/// Parameters of `status`.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct StatusParams {
-    /// Their numbers.
-    pub goals: Vec<u64>,
+    pub goals: Vec<GoalId>,
 }
 
-/// A question.
+/// Parameters of `observe`, `watch` and `unwatch`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct QueryParams {
-    /// What.
     pub query: Query,
 }
 
 impl From<&motet_runtime::Query> for QueryParams {
     fn from(query: &motet_runtime::Query) -> Self {
-        Self { query: query.into() }
+        Self { query: query.clone() }
     }
 }
 
 /// The answer to a question.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct QueryResult {
-    /// What.
     pub answer: Answer,
 }
 
-/// What became of goals.
+/// Result of `status`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct StatusResult {
     /// Of each that was asked for.
     pub goals: Vec<GoalState>,
 }
 
-/// What became of a goal.
+/// State of a goal, by its number.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct GoalState {
-    /// Its number.
-    pub goal: u64,
-    /// How it is.
+    pub goal: GoalId,
     pub state: GoalStatus,
 }
 
-/// How a goal is.
+/// State of a goal as the driver knows it.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum GoalStatus {
@@ -177,31 +172,25 @@ pub enum GoalStatus {
 /// The end of a goal.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct EndedParams {
-    /// Its number.
-    pub goal: u64,
-    /// How.
+    pub goal: GoalId,
     pub outcome: Outcome,
 }
 
 /// Something that was observed.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct ObservedParams {
-    /// The question.
     pub query: Query,
-    /// The answer.
     pub answer: Answer,
 }
 
-/// How a goal is getting on.
+/// Parameters of `feedback`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct FeedbackParams {
-    /// Its number.
-    pub goal: u64,
-    /// In words.
+    pub goal: GoalId,
     pub text: String,
 }
 
-/// No parameters.
+/// Empty parameters or an empty result.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct EmptyParams {}
 
@@ -217,7 +206,6 @@ pub struct RefusedData {
 pub enum DriverMessage {
     /// The answer to the call of a number.
     Answer(u64, Result<Value, RpcError>),
-    /// A report.
     Report(DriverReport),
 }
 
@@ -226,7 +214,6 @@ pub enum DriverMessage {
 pub struct RpcError {
     /// 1 for a refused start; else as JSON-RPC has it.
     pub code: i64,
-    /// In words.
     pub message: String,
     /// More, such as [`RefusedData`].
     #[serde(default)]
@@ -248,7 +235,7 @@ pub fn say(id: u64, call: &DriverCall) -> String {
     Value::Object(message).to_string()
 }
 
-/// What a line says.
+/// Parses a line from a driver.
 ///
 /// # Errors
 ///
@@ -280,7 +267,7 @@ pub fn hear(line: &str) -> Result<DriverMessage, String> {
     }
 }
 
-/// How deep a message is nested. A parsed one is not nested deeper than the parser goes.
+/// Nesting depth of a message. A parsed one is not nested deeper than the parser goes.
 fn depth(value: &Value) -> usize {
     match value {
         Value::Array(values) => 1 + values.iter().map(depth).max().unwrap_or(0),
@@ -294,9 +281,9 @@ fn depth(value: &Value) -> usize {
 #[schemars(title = "Motet driver protocol, version 1")]
 #[allow(dead_code, reason = "only its schema is used")]
 struct ProtocolSchema {
-    /// What the host calls: with `jsonrpc` and, but for `bye`, `id` beside it.
+    /// Calls of the host: with `jsonrpc` and, but for `bye`, `id` beside it.
     call: DriverCall,
-    /// What a driver says of its own accord: with `jsonrpc` beside it.
+    /// Notification from a driver: with `jsonrpc` beside it.
     report: DriverReport,
     /// The result of `hello`.
     hello_result: Welcome,

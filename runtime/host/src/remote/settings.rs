@@ -4,37 +4,38 @@ use std::time::Duration;
 
 /// The longest line in bytes that a driver may say.
 pub(crate) const MAX_LINE_BYTES: usize = 1024 * 1024;
-/// The longest failure kind in bytes that a driver may name. Another one, or one that is no name, counts as `failed`.
+/// The longest failure kind in bytes that a driver may name. Another one, or one that is no name, counts as
+/// `failed`.
 pub(crate) const MAX_KIND_BYTES: usize = 64;
 /// The most lines that wait to be heard, and the most that wait to be said.
 pub(crate) const MAX_WAITING: usize = 1_024;
-/// How deep a message of a driver may be nested: what a journal holds of it can be read again.
+/// Greatest nesting depth of a driver's message, so that a journal with it can be read again.
 pub(crate) const MAX_DEPTH: usize = 32;
 /// The most characters of a feedback that are kept.
 pub(crate) const MAX_FEEDBACK: usize = 1_000;
-/// How often a start is said before its goal counts as lost.
+/// Number of times a start is said before its goal counts as lost.
 pub(crate) const SAYINGS: u32 = 2;
 
-/// How long a driver may take.
+/// Time limits for a driver in another process.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct DriverTimeouts {
     /// To answer the greeting after it was started or called.
     pub greeting: Duration,
     /// To answer a command. It is an answer to have heard it; what it does may take as long as it takes.
     pub answer: Duration,
-    /// How long it, or the host, may be silent before it is asked for a sign of life.
+    /// Silence of either side after which the host asks for a sign of life.
     pub heartbeat: Duration,
-    /// How long it may be silent before it counts as gone.
+    /// Silence of the driver after which it counts as lost.
     pub silence: Duration,
-    /// How often it is started or called again after it was gone.
+    /// Number of times it is started or called again after it was gone.
     pub restarts: u32,
-    /// How long a process may take to bring what moves to a stop and to end, after it was told that the host goes. Then it is
-    /// killed.
+    /// Time limit for a process to stop all motion and to end after `bye`. Then it is killed.
     pub farewell: Duration,
 }
 
 impl Default for DriverTimeouts {
-    /// 10 s for the greeting, 2 s for an answer, a sign of life every second and at least every 5 s, 3 restarts, 5 s to end.
+    /// 10 s for the greeting, 2 s for an answer, a sign of life every second and at least every 5 s, 3
+    /// restarts, 5 s to end.
     fn default() -> Self {
         Self {
             greeting: Duration::from_secs(10),
@@ -48,8 +49,8 @@ impl Default for DriverTimeouts {
 }
 
 impl DriverTimeouts {
-    /// The longest that it takes until a driver that went silent is noticed, called again, greeted and told: how long a safe stop
-    /// has to be waited for at least.
+    /// The longest that it takes until a driver that went silent is noticed, called again, greeted and told:
+    /// how long a safe stop has to be waited for at least.
     #[must_use]
     pub const fn recovery(&self) -> Duration {
         self.silence.saturating_add(self.greeting).saturating_add(self.answer)

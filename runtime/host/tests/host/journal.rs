@@ -192,7 +192,7 @@ fn a_policy_that_takes_over_is_written_down_and_replayed() {
     let saying = |text: &str, calls: usize| graph(&vec![StepSketch::say(text); calls]);
     let first = saying("first", 3);
     let mut refuted = saying("refuted", 1);
-    for (_, value) in &mut refuted.initial {
+    for motet_graph::InitialFact { value, .. } in &mut refuted.initial {
         *value = !*value;
     }
     let mut swapping =

@@ -34,10 +34,9 @@ const OTHERS: &[Colour] = &[
     [60, 96, 150],
     [150, 84, 110],
 ];
-/// For furniture.
+/// Colours of furniture.
 const WOODS: &[Colour] =
     &[[176, 138, 96], [150, 112, 74], [194, 166, 128], [134, 120, 108], [206, 194, 172], [122, 96, 72]];
-/// For people.
 pub(super) const PERSON: Colour = [86, 104, 142];
 
 /// The colour of a thing by its names, else one of a palette by its id.

@@ -9,7 +9,8 @@ pub(crate) const SIZE: [usize; 2] = [640, 480];
 /// The focal length in pixels: 80° from side to side.
 const FOCAL: f64 = 381.4;
 
-/// Where a camera is and where it looks. The axes are those of images: x to the right, y down, z ahead.
+/// Position where a camera is and where it looks. The axes are those of images: x to the right, y down, z
+/// ahead.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct CameraLens {
     /// Its place in the frame `map`, in m.
@@ -20,7 +21,8 @@ pub(crate) struct CameraLens {
 }
 
 impl CameraLens {
-    /// A camera that looks along a heading, and so much below the horizon; both in rad. It is level from left to right.
+    /// A camera that looks along a heading, and so much below the horizon; both in rad. It is level from left
+    /// to right.
     pub(crate) fn new(eye: [f64; 3], heading: f64, below: f64) -> Self {
         let ((sy, cy), (sb, cb)) = (heading.sin_cos(), below.sin_cos());
         let axes = [[sy, -cy, 0.0], [-sb * cy, -sb * sy, -cb], [cb * cy, cb * sy, -sb]];

@@ -1,9 +1,9 @@
-//! Pictures of the simulated room as it is: its shapes in flat colours, with the depth of every pixel, from where the robot's
-//! camera is. The same world gives the same bytes.
+//! Pictures of the simulated room as it is: its shapes in flat colours, with the depth of every pixel, from
+//! where the robot's camera is. The same world gives the same bytes.
 //!
-//! Fed by the world alone, [`scenery`] says what there is to be seen and in which colours, [`solid`] where a ray meets it,
-//! [`lens`] which ray a pixel is, and [`render`] puts these together. There are no walls, no shadows and no robot in a picture:
-//! it is for telling things apart, not for beauty.
+//! Fed by the world alone, [`scenery`] says what there is to be seen and in which colours, [`solid`] where a
+//! ray meets it, [`lens`] which ray a pixel is, and [`render`] puts these together. There are no walls, no
+//! shadows and no robot in a picture: it is for telling things apart, not for beauty.
 
 mod colour;
 mod lens;

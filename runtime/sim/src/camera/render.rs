@@ -8,23 +8,22 @@ use super::scenery::{Painted, scenery};
 use crate::world::SimWorld;
 use motet_robots::scene::Scene;
 
-/// How far the camera measures, in m: what is beyond is the background.
+/// Distance that the camera measures, in m: what is beyond is the background.
 const FAR_M: f64 = 10.0;
-/// Where light comes from.
+/// Direction of the light.
 const LIGHT: [f64; 3] = [-0.35, -0.25, 0.9];
 /// The share of light that comes from everywhere.
 const AMBIENT: f64 = 0.55;
 /// The squares of the floor, in m and in two greys.
 const TILE_M: f64 = 0.5;
 const TILES: [Colour; 2] = [[168, 166, 160], [180, 178, 172]];
-/// The background.
+/// Colour of the background.
 const SKY: Colour = [214, 222, 230];
 
-/// What a camera has taken.
+/// Image and depth of a simulated camera.
 pub(crate) struct RenderedView {
     /// Red, green and blue of each pixel, row by row.
     pub(crate) colours: Vec<u8>,
-    /// How far away each is.
     pub(crate) depth: DepthImage,
 }
 

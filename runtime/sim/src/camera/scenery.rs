@@ -1,4 +1,4 @@
-//! What there is to be seen in a world: solids with their colours. What is open is hollow, so that what is in it shows.
+//! Visible solids of a world with their colours. Open containers are hollow, so that their content shows.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,7 +10,7 @@ use crate::body::Outline;
 use crate::thing::{Role, Thing};
 use crate::world::SimWorld;
 
-/// How thick the walls of what is open are, in m.
+/// Thickness of the walls of open containers in m.
 const WALL_M: f64 = 0.02;
 
 /// A solid with its colour.
@@ -58,8 +58,8 @@ fn solid(thing: &Thing, own: Option<Form>) -> Solid {
     Solid { centre: [body.x(), body.y(), body.bottom() + half], yaw: body.yaw, form }
 }
 
-/// The walls of an open box: without the face that its door closes, and with the door where that now is; what slides or has no
-/// door is open at the top.
+/// The walls of an open box: without the face that its door closes, and with the door where that now is; what
+/// slides or has no door is open at the top.
 fn hollow(whole: &Solid, half: [f64; 3], thing: &Thing) -> Vec<Solid> {
     let door = thing.door.and_then(|door| match door.travel? {
         Travel::Hinge { axis, at, angle } if axis[2].abs() > 0.5 => {
@@ -95,7 +95,7 @@ fn wall(whole: &Solid, half: [f64; 3], face: [f64; 3]) -> Solid {
 struct Door {
     /// The face that it closes.
     face: [f64; 3],
-    /// Where its middle is.
+    /// Position where its middle is.
     middle: [f64; 2],
     angle: f64,
 }

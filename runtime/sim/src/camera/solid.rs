@@ -29,7 +29,7 @@ pub(super) enum Form {
     },
 }
 
-/// Where a ray meets a solid: how often its own length away, and the normal of the surface there in the frame `map`.
+/// Intersection of a ray with a solid: distance in lengths of the ray, and surface normal in the frame `map`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Hit {
     pub(super) at: f64,
@@ -46,7 +46,7 @@ impl Solid {
         }
     }
 
-    /// Where a ray meets it from outside, in front of its origin.
+    /// First intersection with a ray from outside, in front of the ray's origin.
     pub(super) fn hit(&self, origin: [f64; 3], ray: [f64; 3]) -> Option<Hit> {
         let (sin, cos) = self.yaw.sin_cos();
         let inward = |[x, y, z]: [f64; 3]| [cos * x + sin * y, cos * y - sin * x, z];

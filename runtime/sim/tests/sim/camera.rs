@@ -1,4 +1,5 @@
-//! What the simulator's camera takes of a room: things where they are, in their colours, and the same bytes of the same world.
+//! What the simulator's camera takes of a room: things where they are, in their colours, and the same bytes
+//! of the same world.
 
 use crate::sim;
 use motet_runtime::conformance::check_perception;

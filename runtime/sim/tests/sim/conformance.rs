@@ -1,5 +1,5 @@
-//! The simulator keeps the laws of drivers; one around it that breaks them is caught; and on top of that one the engine keeps
-//! its promises.
+//! The simulator keeps the laws of drivers; one around it that breaks them is caught; and on top of that one
+//! the engine keeps its promises.
 
 use crate::{entity, sim};
 use motet_runtime::conformance::{ConformanceSubject, FaultRates, FaultyDriver, Law, check};

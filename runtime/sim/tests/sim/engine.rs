@@ -8,7 +8,8 @@ use motet_graph::{
 use motet_runtime::{Engine, RunEnd, StartState, Time, run};
 use motet_sim::{Faults, SimOptions};
 
-/// A policy of calls, one after the other: primitive, arguments, and whether it binds `found`, which `None` names.
+/// A policy of calls, one after the other: primitive, arguments, and whether it binds `found`, which `None`
+/// names.
 fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
     let span = DurationBounds { least_secs: 0.0, greatest_secs: 300.0 };
     let object = Type::Entity(KindId(1));
@@ -21,7 +22,10 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
     let failures = ["timeout", "failed", "not_found", "unreachable", "blocked", "slipped"];
     let primitives = calls.iter().map(|(name, args)| Primitive {
         name: (*name).into(),
-        params: args.iter().map(|(name, value)| ((*name).into(), ty(value))).collect(),
+        params: args
+            .iter()
+            .map(|(name, value)| motet_graph::Param { name: (*name).into(), ty: ty(value) })
+            .collect(),
         result: (*name == "detect").then(|| object.clone()),
         perceives: *name == "detect",
         uses: [].into(),

@@ -1,5 +1,5 @@
-//! The laws of a driver, over any calls at any times: what is acknowledged ends once, every question and every safe stop is
-//! answered, time does not run backwards, and the same calls give the same reports.
+//! The laws of a driver, over any calls at any times: what is acknowledged ends once, every question and
+//! every safe stop is answered, time does not run backwards, and the same calls give the same reports.
 
 use crate::{Bench, entity, text};
 use motet_graph::Value;

@@ -1,4 +1,5 @@
-//! The simulator from outside: primitives one by one in the built-in rooms, faults, watches, and graphs through the engine.
+//! The simulator from outside: primitives one by one in the built-in rooms, faults, watches, and graphs
+//! through the engine.
 
 #![allow(
     clippy::unwrap_used,

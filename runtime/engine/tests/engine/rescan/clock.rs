@@ -1,5 +1,5 @@
-//! What is due, one after the other: the earliest first, of what is due at the same instant watches before steps, and what
-//! comes earlier in the document first.
+//! What is due, one after the other: the earliest first, of what is due at the same instant watches before
+//! steps, and what comes earlier in the document first.
 
 use super::state::{After, At, Flow, Naive, Nanos, Phase, Wish};
 use motet_graph::{NodeId, NodeKind};

@@ -1,7 +1,8 @@
-//! The engine beside an interpreter without lists, masks, timers or subscriptions: after each transition it scans the whole
-//! policy for the first one that is enabled, watches first. Policies with everything that runs at once: parallel branches,
-//! waits, and monitors of every reaction; with deadlines, drivers that lose goals and are silent, and swaps at any moment.
-//! Primitives have no contracts here: these are the affair of the other interpreter and of the laws.
+//! The engine beside an interpreter without lists, masks, timers or subscriptions: after each transition it
+//! scans the whole policy for the first one that is enabled, watches first. Policies with everything that
+//! runs at once: parallel branches, waits, and monitors of every reaction; with deadlines, drivers that lose
+//! goals and are silent, and swaps at any moment. Primitives have no contracts here: these are the affair of
+//! the other interpreter and of the laws.
 
 mod clock;
 mod enter;
@@ -117,7 +118,8 @@ impl Beside {
 /// How often what was seen, by its first word.
 type Counts = RefCell<BTreeMap<String, usize>>;
 
-/// The interpreter takes an act in; gives what the engine is to be told, and nothing where the act says nothing.
+/// The interpreter takes an act in; gives what the engine is to be told, and nothing where the act says
+/// nothing.
 fn take(naive: &mut Naive, act: &Act, goal: impl Fn(usize) -> GoalId) -> Option<Event> {
     let live: BTreeSet<usize> =
         naive.goals.keys().copied().chain(naive.orphans.iter().map(|orphan| orphan.number)).collect();

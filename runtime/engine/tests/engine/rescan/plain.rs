@@ -1,4 +1,5 @@
-//! Policies without contracts, in which everything that conditions speak of is known, and no two times are the same.
+//! Policies without contracts, in which everything that conditions speak of is known, and no two times are
+//! the same.
 
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
@@ -50,7 +51,8 @@ fn reacting(when: &WatchSketch) -> WatchSketch {
     WatchSketch::new(when.condition.clone(), react)
 }
 
-/// Times of seconds, each another one: what is due at the same instant by chance would have no order in the document.
+/// Times of seconds, each another one: what is due at the same instant by chance would have no order in the
+/// document.
 struct Times(u32);
 
 impl Times {

@@ -1,4 +1,4 @@
-//! What the engine wants of the driver.
+//! Commands of the engine as calls of the protocol.
 
 use super::super::protocol::{DriverCall, GoalParams, QueryParams, StartParams};
 use super::{RemoteDriver, failed};
@@ -12,7 +12,7 @@ const SLICE: Duration = Duration::from_millis(50);
 impl Driver for RemoteDriver {
     fn start(&mut self, _now: Time, goal: GoalId, command: &Command) {
         if self.reach() {
-            self.call(DriverCall::Start(StartParams { goal: goal.number(), command: command.into() }));
+            self.call(DriverCall::Start(StartParams { goal, command: command.clone().into() }));
         } else {
             // It was never said, so it was never done.
             self.report(DriverEvent::Refused { goal, failure: failed() });
@@ -20,31 +20,31 @@ impl Driver for RemoteDriver {
     }
 
     fn cancel(&mut self, _now: Time, goal: GoalId) {
-        self.call(DriverCall::Cancel(GoalParams { goal: goal.number() }));
+        self.call(DriverCall::Cancel(GoalParams { goal }));
     }
 
     fn capabilities(&self) -> Capabilities {
-        self.welcome.capabilities.clone().into()
+        self.welcome.capabilities.clone()
     }
 
     fn update(&mut self, _now: Time, goal: GoalId, command: &Command) {
-        self.call(DriverCall::Update(StartParams { goal: goal.number(), command: command.into() }));
+        self.call(DriverCall::Update(StartParams { goal, command: command.clone().into() }));
     }
 
     fn hold(&mut self, _now: Time, goal: GoalId) {
-        self.call(DriverCall::Hold(GoalParams { goal: goal.number() }));
+        self.call(DriverCall::Hold(GoalParams { goal }));
     }
 
     fn proceed(&mut self, _now: Time, goal: GoalId) {
-        self.call(DriverCall::Proceed(GoalParams { goal: goal.number() }));
+        self.call(DriverCall::Proceed(GoalParams { goal }));
     }
 
     fn safe_stop(&mut self, _now: Time, goal: GoalId) {
         let was_reached = self.link.is_some();
-        self.stopping.insert(goal.number());
+        self.stopping.insert(goal);
         // Who is called again is told all that is to stop.
         if self.reach() && was_reached {
-            self.call(DriverCall::SafeStop(GoalParams { goal: goal.number() }));
+            self.call(DriverCall::SafeStop(GoalParams { goal }));
         }
     }
 

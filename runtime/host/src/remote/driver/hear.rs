@@ -1,4 +1,4 @@
-//! What the driver says, and what it should have said by now.
+//! Messages of the driver, and overdue answers.
 
 use super::super::link::LinkError;
 use super::super::protocol::{
@@ -7,8 +7,7 @@ use super::super::protocol::{
 };
 use super::super::settings::{MAX_FEEDBACK, MAX_KIND_BYTES, SAYINGS};
 use super::{RemoteDriver, Waiting, failed, nonsense};
-use motet_runtime::wire::Outcome;
-use motet_runtime::{Answer, DriverEvent, GoalId};
+use motet_runtime::{Answer, DriverEvent, Outcome};
 use serde_json::Value;
 use smol_str::SmolStr;
 use std::time::{Duration, Instant};
@@ -48,34 +47,31 @@ impl RemoteDriver {
     }
 
     fn told(&mut self, report: DriverReport) {
-        let id = GoalId::from_number;
         match report {
             DriverReport::Ended(ended) => {
-                let outcome = self.named(ended.outcome).into();
-                self.report(DriverEvent::Ended { goal: id(ended.goal), outcome });
+                let outcome = self.named(ended.outcome);
+                self.report(DriverEvent::Ended { goal: ended.goal, outcome });
             }
-            DriverReport::NotHeld(GoalParams { goal }) => {
-                self.report(DriverEvent::NotHeld { goal: id(goal) })
-            }
+            DriverReport::NotHeld(GoalParams { goal }) => self.report(DriverEvent::NotHeld { goal }),
             DriverReport::Stopped(GoalParams { goal }) => {
                 self.stopping.remove(&goal);
-                self.report(DriverEvent::Stopped { goal: id(goal) });
+                self.report(DriverEvent::Stopped { goal });
             }
-            DriverReport::Lost(GoalParams { goal }) => self.report(DriverEvent::Lost { goal: id(goal) }),
+            DriverReport::Lost(GoalParams { goal }) => self.report(DriverEvent::Lost { goal }),
             DriverReport::Observed(observed) => {
-                let (query, answer) = (observed.query.into(), observed.answer.into());
+                let (query, answer) = (observed.query, observed.answer);
                 self.report(DriverEvent::Observed { query, answer });
             }
             DriverReport::Feedback(feedback) => {
                 let text: SmolStr = feedback.text.chars().take(MAX_FEEDBACK).collect();
-                (self.note)(&format!("goal {}: {text}", id(feedback.goal)));
-                self.report(DriverEvent::Feedback { goal: id(feedback.goal), text });
+                (self.note)(&format!("goal {}: {text}", feedback.goal));
+                self.report(DriverEvent::Feedback { goal: feedback.goal, text });
             }
         }
     }
 
-    /// The failure kind that a driver names: a name of at most [`MAX_KIND_BYTES`]. Anything else is `failed`, and is told
-    /// to people.
+    /// The failure kind that a driver names: a name of at most [`MAX_KIND_BYTES`]. Anything else is `failed`,
+    /// and is told to people.
     pub(in super::super) fn kind(&mut self, named: &str) -> SmolStr {
         let mut letters = named.chars();
         let is_name = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
@@ -91,7 +87,7 @@ impl RemoteDriver {
     /// An outcome whose failure has a name.
     pub(in super::super) fn named(&mut self, outcome: Outcome) -> Outcome {
         match outcome {
-            Outcome::Failure(kind) => Outcome::Failure(self.kind(&kind).to_string()),
+            Outcome::Failure(kind) => Outcome::Failure(self.kind(&kind)),
             Outcome::Success(_) | Outcome::Interrupted => outcome,
         }
     }
@@ -99,7 +95,7 @@ impl RemoteDriver {
     fn answered(&mut self, call: DriverCall, answer: Result<Value, RpcError>, line: &str) {
         match (call, answer) {
             (DriverCall::Start(start), Ok(_)) => {
-                self.report(DriverEvent::Acknowledged { goal: GoalId::from_number(start.goal) });
+                self.report(DriverEvent::Acknowledged { goal: start.goal });
             }
             (DriverCall::Start(start), Err(wrong)) => {
                 let data: Option<RefusedData> = serde_json::from_value(wrong.data.clone()).ok();
@@ -107,11 +103,11 @@ impl RemoteDriver {
                     (self.note)(&format!("the driver does not start a goal: {}", wrong.message));
                 }
                 let failure = data.map_or_else(failed, |data| self.kind(&data.failure));
-                self.report(DriverEvent::Refused { goal: GoalId::from_number(start.goal), failure });
+                self.report(DriverEvent::Refused { goal: start.goal, failure });
             }
             (DriverCall::Observe(asked) | DriverCall::Watch(asked), Ok(value)) => {
                 match serde_json::from_value::<QueryResult>(value) {
-                    Ok(answered) => self.observed(asked, answered.answer.into()),
+                    Ok(answered) => self.observed(asked, answered.answer),
                     Err(why) => self.broke(&nonsense(line, why.to_string())),
                 }
             }
@@ -119,11 +115,11 @@ impl RemoteDriver {
                 self.observed(asked, Answer::Unknown)
             }
             (DriverCall::Hold(GoalParams { goal }), Err(_)) => {
-                self.report(DriverEvent::NotHeld { goal: GoalId::from_number(goal) });
+                self.report(DriverEvent::NotHeld { goal });
             }
             (DriverCall::Update(start), Err(wrong)) => {
                 (self.note)(&format!("the driver does not update a goal: {}", wrong.message));
-                self.report(DriverEvent::Lost { goal: GoalId::from_number(start.goal) });
+                self.report(DriverEvent::Lost { goal: start.goal });
             }
             (
                 DriverCall::Cancel(_)
@@ -141,7 +137,7 @@ impl RemoteDriver {
     }
 
     pub(super) fn observed(&mut self, asked: QueryParams, answer: Answer) {
-        self.report(DriverEvent::Observed { query: asked.query.into(), answer });
+        self.report(DriverEvent::Observed { query: asked.query, answer });
     }
 
     /// Looks after answers that are overdue, and signs of life.
@@ -180,7 +176,7 @@ impl RemoteDriver {
                 self.call_again(DriverCall::Start(start), sayings + 1)
             }
             DriverCall::Start(start) | DriverCall::Update(start) => {
-                let goal = GoalId::from_number(start.goal);
+                let goal = start.goal;
                 (self.note)(&format!("the driver does not say whether goal {goal} runs"));
                 self.report(DriverEvent::Lost { goal });
             }

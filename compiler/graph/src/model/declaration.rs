@@ -1,0 +1,100 @@
+//! Declarations of a graph: kinds, fluents, measures, signatures of primitives, resources, bindings, initial
+//! facts.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
+
+use super::{Fact, FailureId, KindId, ResourceId, Type};
+
+/// An entity kind in the hierarchy of kinds.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Kind {
+    pub name: SmolStr,
+    /// The more general kind; absent for `Entity`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parent: Option<KindId>,
+}
+
+/// A fluent: a relation between entities that is true, false or unknown.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fluent {
+    pub name: SmolStr,
+    /// Types of the parameters.
+    pub params: Vec<Type>,
+    /// True if the robot can observe it. Another one is known only from effects and from the initial facts.
+    pub observable: bool,
+}
+
+/// A measure: a number that the robot observes.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Measure {
+    pub name: SmolStr,
+    /// Types of the parameters.
+    pub params: Vec<Type>,
+    /// Type of the reading.
+    pub result: Type,
+}
+
+/// Signature of a primitive, for typing a call and for the driver.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Primitive {
+    pub name: SmolStr,
+    /// Parameters in the order of the declaration.
+    pub params: Vec<Param>,
+    /// Type of the result; absent for a primitive without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub result: Option<Type>,
+    /// True if the primitive only perceives and moves nothing.
+    pub perceives: bool,
+    /// Resources that the primitive holds while it runs.
+    pub uses: Vec<ResourceId>,
+    /// Failures in which the primitive can end, `timeout` among them.
+    pub fails: Vec<FailureId>,
+}
+
+/// A parameter of a primitive.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Param {
+    pub name: SmolStr,
+    #[serde(rename = "type")]
+    pub ty: Type,
+}
+
+/// An exclusive resource. Two resources conflict if they are the same or one contains the other.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Resource {
+    pub name: SmolStr,
+    /// All resources that this one contains, directly or through another.
+    pub contains: Vec<ResourceId>,
+}
+
+/// A name for the result of a step.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Binding {
+    /// The name in the policy. A suffix `'2`, `'3` … makes it unique where inlining repeats it; an unnamed
+    /// result is `_`.
+    pub name: SmolStr,
+    #[serde(rename = "type")]
+    pub ty: Type,
+    /// True if the name is bound before the first step: by the run that this policy takes over, or by a host.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub given: bool,
+}
+
+/// A fact from which the policy was proved.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InitialFact {
+    /// The fact; its arguments are literals or `any`.
+    pub fact: Fact,
+    /// Truth value at the start.
+    pub value: bool,
+}
