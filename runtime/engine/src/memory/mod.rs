@@ -7,10 +7,10 @@
 //! [`FullMemory`], everything.
 //!
 //! ```
-//! use motet_runtime::memory::{Limits, Memory};
+//! use motet_runtime::memory::{MemoryLimits, Memory};
 //! use motet_runtime::Time;
 //!
-//! let mut memory = Memory::new(Limits::default());
+//! let mut memory = Memory::new(MemoryLimits::default());
 //! memory.instruct(Time::ZERO, "bring me the red mug");
 //! // … for each event: memory.event(now, &event), and memory.effect(now, &effect) for each effect.
 //! assert_eq!(memory.short().to_string(), "request: bring me the red mug\n");
