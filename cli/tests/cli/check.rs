@@ -270,7 +270,7 @@ fn says_what_of_a_folder_it_did_not_check() {
             "out:near/steps.json",
             "out:near/step.json",
             "err:checked 2 documents",
-            "err:no policy: `near/room.json`",
+            "err:not a policy: `near/room.json`",
         ],
     );
 }
