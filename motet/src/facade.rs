@@ -80,7 +80,7 @@ impl Motet {
     /// let inputs = motet::Project::builder()
     ///     .robot("hsr")
     ///     .scene("kitchen")
-    ///     .state(r#"{"open(fridge)": true}"#)
+    ///     .state(r#"{"open(fridge_1)": true}"#)
     ///     .max_duration(120.0);
     /// let motet = motet::Motet::from_builder(inputs)?;
     /// # Ok::<(), motet::Error>(())
@@ -148,7 +148,7 @@ impl Motet {
     ///
     /// ```
     /// let motet = motet::Motet::open("hsr", "kitchen")?;
-    /// let plan = motet.plan("close the fridge and bring me the mug")?;
+    /// let plan = motet.plan("bring me the red mug")?;
     /// println!("{}", plan.text);
     /// # Ok::<(), motet::Error>(())
     /// ```

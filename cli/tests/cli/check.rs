@@ -60,7 +60,7 @@ fn ends_with_the_right_code() {
         (
             "check good.motet --scene empty.json".to_owned(),
             2,
-            &["out:a scene is written `{\"motet_scene\": 1"],
+            &["out:a scene is `{\"motet_scene\": 1"],
         ),
         (format!("check good.motet {scene}"), 0, &["err:checked 1 document: no errors"]),
         (format!("check good.json {scene}"), 0, &["err:checked 1 document"]),
@@ -270,7 +270,7 @@ fn says_what_of_a_folder_it_did_not_check() {
             "out:near/steps.json",
             "out:near/step.json",
             "err:checked 2 documents",
-            "err:no policy: `near/room.json`",
+            "err:not a policy: `near/room.json`",
         ],
     );
 }

@@ -69,7 +69,7 @@ fn answers() {
             0,
             &["out:{\"query\":\"go_to(sink)\",\"answer\":\"feasible\"", "out:\"margins\""],
         ),
-        ("robots check panda", 0, &["out:7 joints: closed form: seven joints with a shoulder"]),
+        ("robots check panda", 0, &["out:7 joints: closed form: seven joints with shoulder"]),
         ("robots show hs", 2, &["err:did you mean `hsr`?"]),
         ("explain", 0, &["out:M0501"]),
         ("explain M0501", 0, &["out:M0501"]),
@@ -209,7 +209,7 @@ fn reads_what_a_card_says_of_the_body() {
     let place = Place::new("robots_body").file("elbow/robot.urdf", ELBOW).file("secret.obj", TIP);
     place.run("robots add elbow/robot.urdf").check(0, &[]);
     let card = place.read("elbow/robot.toml").replace("height = \"0 m\"", "height = \"1 m\"");
-    place.run("robots check elbow").check(0, &["out:M0448", "out:`tip` has a mesh that is not read"]);
+    place.run("robots check elbow").check(0, &["out:M0448", "out:the mesh of `tip` was not read"]);
     let with = |line: &str| card.replace("[model]", &format!("[model]\n{line}"));
     let place = place.file("elbow/robot.toml", with("packages = [\"packages\"]"));
     place.run("robots check elbow").check(0, &["out:packages/elbow/tip.obj", "out:M0448"]);
