@@ -28,7 +28,6 @@ pub(crate) fn read_stdin() -> Result<Bytes, CliError> {
 /// Source of documents.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Input {
-    /// Stdin, `-`.
     Stdin,
     File(PathBuf),
     /// A file with one document per line.

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use motet_project::{ProjectError, reason};
 use thiserror::Error;
 
-/// Exit codes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Exit {
     Success,

@@ -116,7 +116,6 @@ pub(crate) enum DiagnosticFormat {
 /// Format of results that are not diagnostics.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
 pub(crate) enum OutputFormat {
-    /// For people
     #[default]
     Human,
     /// One JSON object per line
@@ -137,7 +136,6 @@ impl From<OutputFormat> for DiagnosticFormat {
 pub(crate) enum SyntaxArg {
     /// Text, as in .motet files
     Text,
-    /// JSON
     Json,
 }
 
@@ -150,7 +148,6 @@ impl From<SyntaxArg> for Syntax {
     }
 }
 
-/// Simulated run.
 #[derive(Args, Debug)]
 pub(crate) struct SimulationArgs {
     /// Speed relative to real time: a factor, or `max` for as fast as possible

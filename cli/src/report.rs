@@ -16,7 +16,6 @@ use crate::output::{Colors, Output, count, note};
 pub(crate) struct Report {
     format: DiagnosticFormat,
     colors: Colors,
-    /// Stdout.
     pub(crate) out: Output,
     collected: Collected,
     is_held: bool,

@@ -22,7 +22,6 @@ use tree::{Status, Tree};
 pub(crate) enum Clock {
     /// Clock of the simulation, at any speed.
     Simulated,
-    /// Wall clock.
     Wall,
 }
 

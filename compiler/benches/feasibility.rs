@@ -1,7 +1,9 @@
-//! What compiling a policy costs with the motions in its scene: every policy of `examples/` for the HSR in the kitchen, in a
+//! What compiling a policy costs with the motions in its scene: every policy of `examples/` for the HSR in
+//! the kitchen, in a
 //! session of its own, then all one after the other in one session, then again.
 //!
-//! A policy is compiled in milliseconds, and the first time differs from the next, so this is no loop of criterion's.
+//! A policy is compiled in milliseconds, and the first time differs from the next, so this is no loop of
+//! criterion's.
 
 #![allow(
     clippy::expect_used,

@@ -1,6 +1,7 @@
 //! Checks of documents: the stages in order, for every policy of a document or for one.
 //!
-//! The only place that knows the order of the stages. Fed by `motet_syntax::read`; [`crate::fix`] applies the fixes.
+//! The only place that knows the order of the stages. Fed by `motet_syntax::read`; [`crate::fix`] applies
+//! the fixes.
 
 use motet_graph::Graph;
 use motet_syntax::ast::{Item, Policy};
@@ -48,7 +49,8 @@ pub struct PolicyOutcome {
 }
 
 impl Session {
-    /// Checks a document and all its policies, each once, and returns the diagnostics in the order of the document.
+    /// Checks a document and all its policies, each once, and returns the diagnostics in the order of the
+    /// document.
     ///
     /// ```
     /// use motet_compiler::Session;
@@ -88,7 +90,8 @@ impl Session {
         DocumentCheck { diagnostics, policies }
     }
 
-    /// Checks names, types, durations and the robot's limits in a document of one policy, without following its state.
+    /// Checks names, types, durations and the robot's limits in a document of one policy, without following
+    /// its state.
     /// Cheaper than [`Self::check`], of whose diagnostics it returns a part.
     #[must_use]
     pub fn check_names(&self, parsed: &Parsed) -> Vec<Diagnostic> {
@@ -158,7 +161,8 @@ impl Session {
         Compiled { graph, diagnostics, skipped_motions }
     }
 
-    /// Runs with the library and the environment of a document: the session's own, unless the document declares something.
+    /// Runs with the library and the environment of a document: the session's own, unless the document
+    /// declares something.
     fn within(
         &self,
         parsed: &Parsed,
@@ -223,7 +227,8 @@ struct Analysis {
 }
 
 impl Analysis {
-    /// Lowers the program if neither it nor the document has an error; else counts the motions that were not checked.
+    /// Lowers the program if neither it nor the document has an error; else counts the motions that were
+    /// not checked.
     fn lower(self, is_refused: bool, library: &Library, environment: &Environment) -> (Option<Graph>, usize) {
         let Self { program, proof, motions, has_errors, are_motions_checked, .. } = self;
         if is_refused || has_errors {
@@ -250,7 +255,8 @@ fn has_errors(findings: &[Finding]) -> bool {
     findings.iter().any(|found| is_error(&found.diagnostic))
 }
 
-/// Gives a diagnostic its path in the document, and moves one inside an inlined policy of another file to the call.
+/// Gives a diagnostic its path in the document, and moves one inside an inlined policy of another file to
+/// the call.
 fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program, library: &Library) {
     if diagnostic.span.file != policy.span.file
         && let Some(call) = call_site(diagnostic.span, policy, program)

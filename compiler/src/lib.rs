@@ -1,7 +1,9 @@
 //! The compiler of Motet: from a spanned AST to a checked execution graph.
 //!
-//! Stages, each a pure function of the one before: `resolve` (names and types), `check` (robot, resources, bounds),
-//! `prove` (state), `place` (geometry), `lower` (the graph). A stage returns what it could make and its diagnostics; no
+//! Stages, each a pure function of the one before: `resolve` (names and types), `check` (robot, resources,
+//! bounds),
+//! `prove` (state), `place` (geometry), `lower` (the graph). A stage returns what it could make and its
+//! diagnostics; no
 //! stage reads a file, a clock or the environment, and none panics on any input.
 
 pub mod codes;

@@ -1,4 +1,5 @@
-//! A compiler session: library and initial environment, built once and shared by all documents checked against them.
+//! A compiler session: library and initial environment, built once and shared by all documents checked
+//! against them.
 //!
 //! Here is the state; [`crate::document`] has the checks of documents, [`crate::plan`] the search for plans.
 
@@ -94,7 +95,8 @@ impl<'a> SessionBuilder<'a> {
         self
     }
 
-    /// Reads the library and builds the environment. The files of the library are added to `sources`; diagnostics about
+    /// Reads the library and builds the environment. The files of the library are added to `sources`;
+    /// diagnostics about
     /// the inputs are kept in [`Session::input_diagnostics`].
     #[must_use]
     pub fn build(self, sources: &mut Sources) -> Session {
@@ -150,7 +152,8 @@ impl Session {
         &self.diagnostics
     }
 
-    /// The same library in another scene and state, without geometry. Much cheaper than a new session, since no file is
+    /// The same library in another scene and state, without geometry. Much cheaper than a new session,
+    /// since no file is
     /// read again. The input diagnostics are about the new scene and state only.
     #[must_use]
     pub fn with_scene(&self, scene: Option<&Scene>, state: Option<&InitialState>) -> Self {
@@ -171,7 +174,8 @@ impl Session {
         }
     }
 
-    /// The same session with geometry for motion queries. The geometry is that of the session's robot, scene and state;
+    /// The same session with geometry for motion queries. The geometry is that of the session's robot,
+    /// scene and state;
     /// it may be shared, and caches its answers. Without geometry every motion is deferred.
     #[must_use]
     pub fn with_geometry(mut self, geometry: Arc<Geometry>) -> Self {
@@ -185,13 +189,15 @@ impl Session {
         self.geometry.is_some()
     }
 
-    /// Decides whether the robot can reach a thing from where it stands, see [`Geometry::access`]; `None` without geometry.
+    /// Decides whether the robot can reach a thing from where it stands, see [`Geometry::access`]; `None`
+    /// without geometry.
     #[must_use]
     pub fn access(&self, id: &str) -> Option<Access> {
         Some(self.geometry.as_ref()?.access(id))
     }
 
-    /// Tracker of the world of a run that begins in this session's environment, for deferred motions; `None` without
+    /// Tracker of the world of a run that begins in this session's environment, for deferred motions;
+    /// `None` without
     /// geometry.
     #[must_use]
     pub fn world_tracker(&self) -> Option<WorldTracker> {
@@ -210,7 +216,8 @@ impl Session {
         self.environment.is_description(text)
     }
 
-    /// Names and types that a policy for this robot and scene may use. Computed once for all sessions derived from one
+    /// Names and types that a policy for this robot and scene may use. Computed once for all sessions
+    /// derived from one
     /// another with the same entities: these share one [`Arc`].
     #[must_use]
     pub fn signatures(&self) -> Arc<Signatures> {
@@ -218,7 +225,8 @@ impl Session {
         Arc::clone(self.signatures.get_or_init(build))
     }
 
-    /// Facts at the start with their values, in order: a later one overrides, and one with `None` as an argument is about
+    /// Facts at the start with their values, in order: a later one overrides, and one with `None` as an
+    /// argument is about
     /// every entity.
     pub fn initial_facts(&self) -> impl Iterator<Item = InitialFact> {
         self.environment.given.iter().filter_map(|(fact, holds)| {
@@ -236,7 +244,8 @@ impl Session {
         })
     }
 
-    /// Type-checks the arguments of a stand-alone motion query, each with its span, and returns the diagnostics that a call
+    /// Type-checks the arguments of a stand-alone motion query, each with its span, and returns the
+    /// diagnostics that a call
     /// of a primitive with this motion would produce. Empty for a motion of which the robot has no primitive.
     #[must_use]
     pub fn check_motion(&self, name: &str, args: &[(SmolStr, Span)]) -> Vec<Diagnostic> {

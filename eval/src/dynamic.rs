@@ -1,8 +1,11 @@
-//! Tasks that change while they are carried out, after VLP: another object is asked for during a handover, another goal
-//! during execution, and a drawer that is to be closed only where it is open is closed by somebody else meanwhile. When the
+//! Tasks that change while they are carried out, after VLP: another object is asked for during a handover,
+//! another goal
+//! during execution, and a drawer that is to be closed only where it is open is closed by somebody else
+//! meanwhile. When the
 //! change comes is drawn at random from the whole time that the task takes without it.
 //!
-//! A trial succeeds where the goal after the change holds at the end, nothing was dropped, nothing done twice, and nothing
+//! A trial succeeds where the goal after the change holds at the end, nothing was dropped, nothing done
+//! twice, and nothing
 //! left running.
 
 use std::collections::BTreeMap;

@@ -1,10 +1,13 @@
 //! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json] [--planned]`.
 //!
-//! `saycan --planned` plans the instructions from their text instead, and exits 0 where at least 60 % are carried out.
+//! `saycan --planned` plans the instructions from their text instead, and exits 0 where at least 60 % are
+//! carried out.
 //! `dialogue` takes a file of wordings, `dynamic` the number of trials a task and robot.
 //! `reach [SCENE|--rooms N --seed S]` asks motion queries instead.
-//! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1. The suite
-//! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at least half
+//! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else
+//! 1. The suite
+//! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at
+//! least half
 //! of them are mended.
 
 use std::io::Write as _;

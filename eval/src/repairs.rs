@@ -1,6 +1,7 @@
 //! How many faulty plans of the scenarios the compiler mends by itself.
 //!
-//! Each static row with a fault is mended as `motet check --fix` would mend it, by at most [`ROUNDS`] fixes, and judged
+//! Each static row with a fault is mended as `motet check --fix` would mend it, by at most [`ROUNDS`]
+//! fixes, and judged
 //! again by the table of the scenarios. A round is one fix that was made, of however many edits.
 
 use std::fmt::Write as _;

@@ -1,6 +1,7 @@
 //! Robots and scenes that are embedded in this crate, under `models/` and `scenes/`.
 //!
-//! [`ROBOTS`] and [`SCENES`] are their texts, as a host lists or copies them; [`robot`] and [`scene`] read them. Robots and
+//! [`ROBOTS`] and [`SCENES`] are their texts, as a host lists or copies them; [`robot`] and [`scene`] read
+//! them. Robots and
 //! scenes from a user's folder come from the host, which owns the files: `motet-project` opens both.
 //!
 //! ```
@@ -46,12 +47,13 @@ pub struct BuiltinScene {
 pub struct RobotWithBody {
     /// Robot as its card describes it.
     pub robot: Robot,
-    /// The URDF after reading. The built-in robots have neither meshes nor an SRDF: their shapes are boxes, cylinders and
+    /// The URDF after reading. The built-in robots have neither meshes nor an SRDF: their shapes are boxes,
+    /// cylinders and
     /// capsules.
     pub urdf: Urdf,
 }
 
-/// Built-in robots.
+/// Robots that come with the crate.
 pub const ROBOTS: [BuiltinRobot; 3] = [
     BuiltinRobot {
         name: "hsr",
@@ -73,7 +75,7 @@ pub const ROBOTS: [BuiltinRobot; 3] = [
     },
 ];
 
-/// Built-in scenes.
+/// Scenes that come with the crate.
 pub const SCENES: [BuiltinScene; 3] = [
     BuiltinScene { name: "kitchen", json: include_str!("../scenes/kitchen.json") },
     BuiltinScene { name: "living_room", json: include_str!("../scenes/living_room.json") },

@@ -1,4 +1,5 @@
-//! What checking a policy costs: reading, resolving, checking and proving the JSON form, beside what `serde_json` and
+//! What checking a policy costs: reading, resolving, checking and proving the JSON form, beside what
+//! `serde_json` and
 //! `jsonschema` take only to validate the same bytes, and how the cost grows with the policy.
 
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark that cannot be set up has failed")]

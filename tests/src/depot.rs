@@ -1,4 +1,5 @@
-//! A symbolic domain of any size and plans in it: boxes that one carrier takes from bay to bay, without robot and scene.
+//! A symbolic domain of any size and plans in it: boxes that one carrier takes from bay to bay, without
+//! robot and scene.
 
 use std::fmt::Write as _;
 
@@ -27,7 +28,8 @@ pub fn domain(boxes: usize) -> String {
     text
 }
 
-/// A plan of so many steps, half of them taking and half leaving; one taking in `fault_every` is from the wrong bay.
+/// A plan of so many steps, half of them taking and half leaving; one taking in `fault_every` is from the
+/// wrong bay.
 #[must_use]
 pub fn plan(boxes: usize, steps: usize, fault_every: Option<usize>) -> String {
     let mut bays = vec![0; boxes];

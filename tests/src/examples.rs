@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
 
-/// The examples in text, with the robot and the scene that their first lines name, in the order of their names. Panics
+/// The examples in text, with the robot and the scene that their first lines name, in the order of their
+/// names. Panics
 /// where a file cannot be read or says neither.
 #[must_use]
 #[expect(clippy::unwrap_used, reason = "a test without its examples cannot go on")]

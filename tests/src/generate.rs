@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-/// A policy of the JSON form for the robot `hsr` in the scene `kitchen` with so many steps: it carries the red mug to the
+/// A policy of the JSON form for the robot `hsr` in the scene `kitchen` with so many steps: it carries the
+/// red mug to the
 /// person and back again, with a handler, a monitor and a condition on the way, over and over.
 #[must_use]
 pub fn policy_of(steps: usize) -> String {

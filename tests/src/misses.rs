@@ -1,4 +1,5 @@
-//! Documents of the model surface's JSON form that are nearly right: each differs from a canonical line in one place.
+//! Documents of the model surface's JSON form that are nearly right: each differs from a canonical line in
+//! one place.
 
 /// Lines made wrong, each with what is wrong. The line must call `go` with an entity, and end in `]}`.
 #[must_use]

@@ -1,12 +1,16 @@
-//! Checks of the documentation: every page is in the book, every link leads somewhere, and every command runs.
+//! Checks of the documentation: every page is in the book, every link leads somewhere, and every command
+//! runs.
 //!
 //! A fenced block acts by its language:
 //! - `sh` runs as one script and must exit with 0;
-//! - `console` holds commands after `$ ` and what each prints. A line `…` stands for any lines, `…` in a line for any text.
+//! - `console` holds commands after `$ ` and what each prints. A line `…` stands for any lines, `…` in a
+//!   line for any text.
 //!   A command that must fail ends with `# exits with N`;
-//! - any other block is text, unless a comment before it names a file that it becomes: `<!-- file: my_robot/robot.toml -->`.
+//! - any other block is text, unless a comment before it names a file that it becomes: `<!-- file:
+//!   my_robot/robot.toml -->`.
 //!
-//! `<!-- not run: REASON -->` before a block keeps it from running. All blocks of a page share a folder, which begins with a
+//! `<!-- not run: REASON -->` before a block keeps it from running. All blocks of a page share a folder,
+//! which begins with a
 //! copy of `examples/`.
 
 use std::collections::BTreeSet;
@@ -31,7 +35,8 @@ enum Directive {
     NotRun(String),
 }
 
-/// Checks all pages with the `motet` command at `motet`. `only` names one page. Returns whether nothing was found.
+/// Checks all pages with the `motet` command at `motet`. `only` names one page. Returns whether nothing was
+/// found.
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! Chores of the workspace: `house` measures the code against `xtask/house.toml`, `docs` checks the documentation.
+//! Chores of the workspace: `house` measures the code against `xtask/house.toml`, `docs` checks the
+//! documentation.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a chore reports on its output")]
 

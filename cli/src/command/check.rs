@@ -80,13 +80,11 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
 #[derive(Default)]
 struct Tally {
     documents: usize,
-    /// Applied fixes.
     fixed: usize,
     /// Documents that are lines of a .jsonl file.
     lines: usize,
     /// Documents with prose around the policy, which a rewrite would lose.
     replies: usize,
-    /// Deferred motions.
     motions: usize,
     /// Motions that were not checked because of earlier errors.
     unseen: usize,

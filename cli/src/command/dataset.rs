@@ -106,7 +106,6 @@ struct LintArgs {
 /// Format of rows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
 enum RowFormat {
-    /// TRL: `messages`
     #[default]
     Trl,
     /// LLaMA-Factory: `conversations` and `system`, with a dataset_info.json

@@ -115,9 +115,7 @@ enum GrammarDialect {
     Llamacpp,
     /// Ollama, at its own chat address
     Ollama,
-    /// SGLang
     Sglang,
-    /// OpenAI
     Openai,
 }
 

@@ -107,11 +107,8 @@ enum Server {
     Vllm,
     /// Server of llama.cpp
     Llamacpp,
-    /// Ollama
     Ollama,
-    /// SGLang
     Sglang,
-    /// OpenAI
     Openai,
 }
 

@@ -10,7 +10,6 @@ use crate::report;
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  motet schema policy > policy.schema.json")]
 pub(crate) struct SchemaArgs {
-    /// File format
     #[arg(value_enum, value_name = "FORMAT")]
     of: FileFormat,
 }
@@ -20,7 +19,6 @@ pub(crate) struct SchemaArgs {
 enum FileFormat {
     /// Policy in JSON
     Policy,
-    /// Scene
     Scene,
     /// Robot card (robot.toml, as JSON)
     Robot,

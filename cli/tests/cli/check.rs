@@ -57,11 +57,7 @@ fn ends_with_the_right_code() {
             1,
             &["err:2 motions were not checked because of earlier errors"],
         ),
-        (
-            "check good.motet --scene empty.json".to_owned(),
-            2,
-            &["out:a scene is `{\"motet_scene\": 1"],
-        ),
+        ("check good.motet --scene empty.json".to_owned(), 2, &["out:a scene is `{\"motet_scene\": 1"]),
         (format!("check good.motet {scene}"), 0, &["err:checked 1 document: no errors"]),
         (format!("check good.json {scene}"), 0, &["err:checked 1 document"]),
         (format!("check good.motet good.json {scene}"), 0, &["err:checked 2 documents"]),

@@ -37,7 +37,8 @@ pub(super) fn primitives(
         let def = primitive(&mut elaborator, &decl.item, robot);
         let mistakes = elaborator.diagnostics;
         if !mistakes.is_empty() {
-            // A robot need not have what a primitive needs that it does not provide; what a domain declares is looked at always.
+            // A robot need not have what a primitive needs that it does not provide; what a domain declares
+            // is looked at always.
             if !def.provided && decl.layer <= declarations.robot_top() {
                 continue;
             }

@@ -91,7 +91,7 @@ motet_syntax::mistakes! {
     help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known))) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
-    /// Unknown type.
+    /// The name of a type is unknown.
     UnknownType("M0209", Error) { name: SmolStr, near: Option<SmolStr> }
     message(m) { format!("there is no type `{}`", m.name) }
     help(m) { did_you_mean(m.near.as_ref()) }

@@ -5,7 +5,8 @@ use motet_stdlib::lang;
 use super::library::Names;
 use crate::ir::{EnumId, Failure, Fluent, Kind, Measure};
 
-/// Declarations of the standard library that the compiler knows by name; `None` for one that a library does not
+/// Declarations of the standard library that the compiler knows by name; `None` for one that a library does
+/// not
 /// declare.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LangItems {

@@ -237,7 +237,8 @@ impl Library {
         (0..ty.lists).fold(base.to_owned(), |inner, _| format!("List<{inner}>"))
     }
 
-    /// Entities of every environment, with their kinds, at the ids [`crate::ir::ROBOT`], [`crate::ir::USER`] and
+    /// Entities of every environment, with their kinds, at the ids [`crate::ir::ROBOT`],
+    /// [`crate::ir::USER`] and
     /// [`crate::ir::START`].
     pub(crate) fn standard_entities(&self) -> [(&'static str, Kind); 3] {
         [

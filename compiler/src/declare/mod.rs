@@ -1,8 +1,11 @@
 //! The declarations in force: kinds, fluents, measures, primitives with their contracts, and policies.
 //!
-//! A [`Library`] is built once from layers (standard library, robot, domains, document) and then only read. The
-//! [`elaborator`](self::elaborator) gives terms and conditions their meaning and type; contracts need it here, and the
-//! resolver of steps needs it again for the arguments of calls. Fed by the syntax front ends, read by every stage.
+//! A [`Library`] is built once from layers (standard library, robot, domains, document) and then only read.
+//! The
+//! [`elaborator`](self::elaborator) gives terms and conditions their meaning and type; contracts need it
+//! here, and the
+//! resolver of steps needs it again for the arguments of calls. Fed by the syntax front ends, read by every
+//! stage.
 
 mod arithmetic;
 mod builder;

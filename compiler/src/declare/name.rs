@@ -181,7 +181,6 @@ impl Elaborator<'_> {
 /// Notation of a name in the document.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum NameNotation {
-    /// Without quotes.
     Bare,
     /// In a string of the JSON syntax.
     Quoted,

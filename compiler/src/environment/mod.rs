@@ -107,7 +107,8 @@ impl Environment {
     /// Records a fact at the start.
     pub(crate) fn assert_fact(&mut self, fact: Fact, value: bool) {
         self.facts.set(fact.fluent, key(&fact), TruthSet::of(value, Cause::START));
-        // One about every entity says it of those, too, of which something was said. Of a single one the later word counts
+        // One about every entity says it of those, too, of which something was said. Of a single one the
+        // later word counts
         // by coming later.
         if fact.args.iter().any(Option::is_none) {
             self.forget_given(&fact);

@@ -126,7 +126,8 @@ fn better(
             if next.is_better_than(base) {
                 return Some((next, vec![done]));
             }
-            // Behind a name or a type that is wrong nothing is proved: mending it can uncover more than it removes.
+            // Behind a name or a type that is wrong nothing is proved: mending it can uncover more than it
+            // removes.
             let uncovers = ["M01", "M02", "M03"].iter().any(|stage| said.code.0.starts_with(stage));
             let is_no_worse = next.count(Severity::Error) <= base.count(Severity::Error);
             if said.severity == Severity::Error && (uncovers || is_no_worse) {

@@ -47,7 +47,8 @@ impl MotionKind {
         }
     }
 
-    /// Returns whether the motion changes the pose of the robot or of a thing. The head may turn in `look`, but no pose
+    /// Returns whether the motion changes the pose of the robot or of a thing. The head may turn in `look`,
+    /// but no pose
     /// that is tracked changes.
     pub(crate) fn moves(self) -> bool {
         self != Self::Look

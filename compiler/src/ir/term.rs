@@ -56,7 +56,6 @@ pub(crate) struct Fact {
 }
 
 impl Term {
-    /// Direct subterms.
     fn parts(&self) -> impl Iterator<Item = &Self> {
         let (one, other, rest): (_, _, &[Self]) = match self {
             Self::Field(of, _) => (Some(&**of), None, &[]),
@@ -92,7 +91,6 @@ impl Term {
 }
 
 impl Condition {
-    /// Direct subconditions.
     pub(crate) fn parts(&self) -> &[Self] {
         match self {
             Self::Not(inner) => std::slice::from_ref(inner),

@@ -88,7 +88,7 @@ motet_syntax::mistakes! {
     message(m) { format!("this {} has no steps", m.what) }
     help(_m) { Some("add a step, or remove it".to_owned()) }
 
-    /// Unused binding.
+    /// A binding is never used.
     Unused("M0901", Warning) { name: SmolStr, of_each: bool }
     message(m) { format!("`{}` is never used", m.name) }
     help(m) {

@@ -1,4 +1,5 @@
-//! Stage 2: what can be said of a resolved policy without following its state: the robot's limits, resources, bounds,
+//! Stage 2: what can be said of a resolved policy without following its state: the robot's limits,
+//! resources, bounds,
 //! and what is written but not meant.
 
 mod capabilities;
@@ -30,7 +31,8 @@ pub(crate) fn check(
     (program, diagnostics)
 }
 
-/// Checks the steps from `first` on of a policy that is being written: every error of [`check`] but that about the duration
+/// Checks the steps from `first` on of a policy that is being written: every error of [`check`] but that
+/// about the duration
 /// of the whole.
 pub(crate) fn check_from(program: &Program, first: usize, library: &Library) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();

@@ -164,7 +164,8 @@ impl<'a> Tables<'a> {
         new
     }
 
-    /// Failure of a refuted guard: from the fluent or field of the need if the primitive lists it, else `failed`.
+    /// Failure of a refuted guard: from the fluent or field of the need if the primitive lists it, else
+    /// `failed`.
     pub(super) fn guard_failure(&mut self, condition: &Condition, fails: &[Failure]) -> graph::FailureId {
         let kind = self.specific_failure(condition).filter(|kind| fails.contains(kind));
         self.failure(kind.or(self.library.lang_items.failed).unwrap_or(crate::ir::TIMEOUT))

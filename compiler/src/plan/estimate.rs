@@ -117,7 +117,8 @@ impl<'p, 'a> Estimate<'p, 'a> {
             }
             Condition::Literal(_) | Condition::Compare(..) => {
                 if value.no.is_some() {
-                    // That a call is for other things than these is no reason: `user != user` of what puts something down.
+                    // That a call is for other things than these is no reason: `user != user` of what puts
+                    // something down.
                     if !self.compares_entities(condition, frame) {
                         self.bury(|prover| prover.show(condition, truth, frame));
                     }

@@ -72,7 +72,7 @@ motet_syntax::mistakes! {
     message(m) { format!("loops, monitors and parallel branches are nested more than {} deep", m.limit) }
     help(_m) { Some("reduce the nesting".to_owned()) }
 
-    /// Unreachable step.
+    /// No path reaches a step.
     Unreached("M0902", Warning) { }
     message(_m) { "this step is never reached".to_owned() }
     help(_m) { Some("remove it, or change the steps before".to_owned()) }

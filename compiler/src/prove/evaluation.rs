@@ -144,7 +144,8 @@ impl Prover<'_> {
         if !key.is_pattern() {
             return self.read(fact.fluent, key);
         }
-        // Some entity: all the rest, then those that are known one by one, in an order of their own: the cause is the
+        // Some entity: all the rest, then those that are known one by one, in an order of their own: the
+        // cause is the
         // last one's.
         let mut known: SmallVec<[FactKey; 8]> = SmallVec::new();
         self.state.facts.entries(fact.fluent, key, |key, _| known.push(key));

@@ -1,8 +1,12 @@
-//! Repairs of refuted policies: calls that bring about what a step needs, steps to leave out, monitors to add.
+//! Repairs of refuted policies: calls that bring about what a step needs, steps to leave out, monitors to
+//! add.
 //!
-//! A [`RepairFinder`] observes the prover and searches while the facts before the refuted step are at hand. The search
-//! chains backwards from needs to the calls that achieve them ([`crate::plan::achievers`]). It is bounded and greedy, after
-//! means-ends analysis (Newell and Simon 1963). What it finds is a candidate: [`crate::fix`] verifies it by checking the
+//! A [`RepairFinder`] observes the prover and searches while the facts before the refuted step are at hand.
+//! The search
+//! chains backwards from needs to the calls that achieve them ([`crate::plan::achievers`]). It is bounded
+//! and greedy, after
+//! means-ends analysis (Newell and Simon 1963). What it finds is a candidate: [`crate::fix`] verifies it by
+//! checking the
 //! edited document again.
 
 mod search;
@@ -140,7 +144,8 @@ impl RepairFinder {
         let subgoals = prover.first_refuted(&def.needs, frame);
         let direct: Vec<_> = subgoals.into_iter().flat_map(|subgoal| prover.achievers(subgoal)).collect();
         repairs.extend(plans.into_iter().map(|calls| Repair::Before(id, prover.by_binding(calls, span))));
-        // A call that is impossible here, for instance because the hand is full, may go before an earlier step.
+        // A call that is impossible here, for instance because the hand is full, may go before an earlier
+        // step.
         for earlier in prover.siblings_before(id) {
             let place = prover.program.step(earlier).map_or(span, |step| step.span);
             for achiever in direct.iter().take(MAX_CANDIDATES) {
@@ -229,7 +234,8 @@ impl Prover<'_> {
         siblings.filter_map(|(index, _)| u32::try_from(index).ok().map(StepId)).take(MAX_EARLIER).collect()
     }
 
-    /// The fluent that no monitor around a step watches, though the step needs one to; only one without parameters,
+    /// The fluent that no monitor around a step watches, though the step needs one to; only one without
+    /// parameters,
     /// of which it is plain what there is to watch.
     fn unwatched(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> Option<Fluent> {
         let refuted = def.needs.iter().find(|need| self.need(need, frame).0.no.is_some())?;

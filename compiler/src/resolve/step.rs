@@ -109,7 +109,8 @@ impl<'a> StepResolver<'a> {
     /// Makes a binding visible to the end of the block.
     pub(super) fn name(&mut self, name: &SmolStr, id: BindingId, ty: Ty, span: Span) {
         let first = self.elaborator.scope.find(name).map(|entry| entry.span);
-        // What a policy of the library calls its own is read there before any entity, and is for nobody else to see.
+        // What a policy of the library calls its own is read there before any entity, and is for nobody
+        // else to see.
         let hides = self.inline.is_none() && self.elaborator.entities.find(name).is_some();
         if first.is_some() || hides {
             self.elaborator.report(Shadows { span, name: name.clone(), first });

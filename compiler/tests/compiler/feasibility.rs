@@ -1,4 +1,5 @@
-//! Motion feasibility: verdicts and witnesses in the graph, refusals with their explanation, and motions that are left to
+//! Motion feasibility: verdicts and witnesses in the graph, refusals with their explanation, and motions
+//! that are left to
 //! the run. Guards `src/feasibility/`.
 
 use std::sync::{Arc, LazyLock};

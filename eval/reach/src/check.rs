@@ -1,4 +1,5 @@
-//! Whether a witness holds: limits, the grasp, and that nothing touches at samples no farther than 5 mm and 0.6° apart.
+//! Whether a witness holds: limits, the grasp, and that nothing touches at samples no farther than 5 mm and
+//! 0.6° apart.
 
 use motet_geometry::planning::{Configuration, MotionWitness, SceneState};
 use motet_robots::scene::Scene;
@@ -9,7 +10,8 @@ use crate::scenery::{Scenery, Touched};
 /// Nearer than this counts as a touch, in m: half of what the query keeps.
 const GAP: f64 = 0.001;
 
-/// What is wrong with the witness of a `reach`, at most eight faults; nothing where it holds. Things that hang on hinges
+/// What is wrong with the witness of a `reach`, at most eight faults; nothing where it holds. Things that
+/// hang on hinges
 /// have to be closed.
 #[must_use]
 pub fn faults(model: &Model, scene: &Scene, world: &SceneState, witness: &MotionWitness) -> Vec<String> {

@@ -21,7 +21,8 @@ Asks `reach` in rooms at random, or for every object of a scene file, and judges
   --targets FILE    writes the targets there
   --json            only the tables, as JSON";
 
-/// Runs the evaluation: what to print, and whether every witness holds and nothing reachable is certified not to be.
+/// Runs the evaluation: what to print, and whether every witness holds and nothing reachable is certified
+/// not to be.
 ///
 /// # Errors
 ///

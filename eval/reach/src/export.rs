@@ -1,4 +1,5 @@
-//! Rooms, witnesses and targets for other programs, a JSON object each: lengths in m, angles in rad, poses in the map as `x y z` and
+//! Rooms, witnesses and targets for other programs, a JSON object each: lengths in m, angles in rad, poses
+//! in the map as `x y z` and
 //! the quaternion `x y z w`.
 
 use motet_geometry::planning::{Configuration, MotionWitness, RobotModel, SceneState, components};
@@ -43,7 +44,8 @@ impl Subject<'_> {
         line
     }
 
-    /// All that another program needs to look for a way to a target itself, with what was answered and what is true.
+    /// All that another program needs to look for a way to a target itself, with what was answered and what
+    /// is true.
     pub(crate) fn target(self, case: &Case, target: &str, seed: u64) -> Value {
         let mut line = self.room(&case.name);
         let machine = &self.model.machine;

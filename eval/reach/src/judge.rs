@@ -1,4 +1,5 @@
-//! Asks the query for every target of many rooms and holds its answers against the truth, which is kept in a file.
+//! Asks the query for every target of many rooms and holds its answers against the truth, which is kept in
+//! a file.
 
 use std::collections::BTreeMap;
 use std::io::Write as _;
@@ -247,7 +248,8 @@ impl Judged<'_> {
     }
 }
 
-/// The median of some runs, or the one where it takes long: the time of the processor that this thread took, so that what else
+/// The median of some runs, or the one where it takes long: the time of the processor that this thread
+/// took, so that what else
 /// the machine does counts little.
 fn timed<T>(run: impl Fn() -> T) -> (T, Duration) {
     let begin = clock();
@@ -348,7 +350,8 @@ impl Cache {
         *self.known.entry(key).or_insert_with(find)
     }
 
-    /// With what another run has written meanwhile, and at one stroke, so that a run that is ended leaves what was there. A file that
+    /// With what another run has written meanwhile, and at one stroke, so that a run that is ended leaves
+    /// what was there. A file that
     /// cannot be written costs only time.
     fn write(&mut self) {
         let Some(path) = &self.path else { return };

@@ -1,5 +1,7 @@
-//! The judge of `reach`: furnished rooms made from a seed, what is true of them by exhaustive search, and a check of
-//! witnesses. Kinematics, collision, grasps and planning are written a second time here, in `f64` and on parry3d; with
+//! The judge of `reach`: furnished rooms made from a seed, what is true of them by exhaustive search, and a
+//! check of
+//! witnesses. Kinematics, collision, grasps and planning are written a second time here, in `f64` and on
+//! parry3d; with
 //! the query it shares the reader of URDFs, which links may touch, and how deep a hand goes around a thing.
 
 #![allow(

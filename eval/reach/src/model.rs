@@ -1,4 +1,5 @@
-//! A robot's kinematics and shapes, a second time: poses straight from the URDF's joints, shapes as parry3d has them.
+//! A robot's kinematics and shapes, a second time: poses straight from the URDF's joints, shapes as parry3d
+//! has them.
 
 use std::collections::BTreeSet;
 
@@ -86,7 +87,8 @@ struct Joint {
     driver: Option<(usize, f64, f64)>,
 }
 
-/// The tip's pose, and how it moves with the base's x, y and yaw and with each dof: velocity, angular velocity.
+/// The tip's pose, and how it moves with the base's x, y and yaw and with each dof: velocity, angular
+/// velocity.
 pub(crate) struct Tip {
     pub(crate) pose: Isometry3<f64>,
     pub(crate) bases: [[f64; 6]; 3],

@@ -1,4 +1,5 @@
-//! Inverse kinematics of the whole robot from starts at random (Levenberg 1944), and RRT-Connect (Kuffner and LaValle 2000)
+//! Inverse kinematics of the whole robot from starts at random (Levenberg 1944), and RRT-Connect (Kuffner
+//! and LaValle 2000)
 //! over base and arm with sampled edges.
 
 use motet_geometry::planning::Configuration;
@@ -11,7 +12,8 @@ use crate::scenery::Scenery;
 /// What a state keeps from everything, in m: as much as the query does.
 pub(crate) const GAP: f64 = 0.002;
 
-/// The state near another that puts the tip at a pose, within the limits; the base moves where it can and `drives`.
+/// The state near another that puts the tip at a pose, within the limits; the base moves where it can and
+/// `drives`.
 pub(crate) fn solve(
     model: &Model,
     wanted: &Isometry3<f64>,
@@ -147,7 +149,8 @@ pub(crate) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Whether a way leads from one state to another. Both are free. The hand may be open in one and not in the other: in between it
+    /// Whether a way leads from one state to another. Both are free. The hand may be open in one and not in
+    /// the other: in between it
     /// is like in either, and opens or closes on the way.
     pub(crate) fn connects(&self, start: &Configuration, goal: &Configuration, chance: &mut Chance) -> bool {
         let free =

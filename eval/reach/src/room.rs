@@ -1,4 +1,5 @@
-//! Rooms at random: tables and counters, shelves, cabinets with an open drawer, narrow passages, clutter on the floor, and
+//! Rooms at random: tables and counters, shelves, cabinets with an open drawer, narrow passages, clutter on
+//! the floor, and
 //! things to grasp on, in and under all of it.
 
 use motet_geometry::planning::RobotModel;

@@ -29,7 +29,8 @@ impl Scenery {
         Some(Self { solids, floor: Solid::floor() })
     }
 
-    /// The first thing that the robot touches: names of a link and of what it touches. The hand may touch `exempt`.
+    /// The first thing that the robot touches: names of a link and of what it touches. The hand may touch
+    /// `exempt`.
     pub(crate) fn touch(
         &self,
         model: &Model,

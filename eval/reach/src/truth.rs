@@ -1,4 +1,5 @@
-//! What is true of a target, by exhaustive search: grasps at random, states of the whole robot that make them, and a way to one.
+//! What is true of a target, by exhaustive search: grasps at random, states of the whole robot that make
+//! them, and a way to one.
 
 use motet_geometry::planning::{Configuration, SceneState};
 use motet_robots::scene::Scene;

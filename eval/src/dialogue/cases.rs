@@ -43,7 +43,8 @@ const TROUBLES: &[&[Kind]] = &[
     &[Kind::AmbiguousTask, Kind::NotReachable],
 ];
 
-/// What a person says beside the task, where a file does not tell: where a thing is, `{at}` being the place with its
+/// What a person says beside the task, where a file does not tell: where a thing is, `{at}` being the place
+/// with its
 /// preposition, that it shall be tried again, yes, and that something shall be done with `{thing}`.
 const WHERE: &[&str] =
     &["It is {at}.", "I put it {at}.", "Look {at}.", "It should be {at}, I think.", "{at}"];
@@ -76,7 +77,8 @@ impl<'w> Sayings<'w> {
     }
 }
 
-/// All cases of a wordings file, in order: each wording without a failure, and with one of the troubles in turn. A file may
+/// All cases of a wordings file, in order: each wording without a failure, and with one of the troubles in
+/// turn. A file may
 /// have answers beside the tasks: `where`, `again`, `yes`, and requests that do not say what to do: `vague`.
 #[must_use]
 pub fn cases(wordings: &str) -> Vec<Case> {

@@ -1,7 +1,9 @@
-//! InteLiPlan's protocol in simulation: commands in many wordings, with and without failures of each kind, one and two
+//! InteLiPlan's protocol in simulation: commands in many wordings, with and without failures of each kind,
+//! one and two
 //! rounds of recovery, on two robots, carried out by the planner that needs no model.
 //!
-//! A case is made from a line of a wordings file, which knows a task and the words for it, and from a room, which knows
+//! A case is made from a line of a wordings file, which knows a task and the words for it, and from a room,
+//! which knows
 //! what there is. The planner sees the words alone; the goal is looked at only to judge the end.
 
 mod cases;

@@ -1,4 +1,5 @@
-//! SayCan: the expected plan of an instruction is checked, compiled and run in simulation, and has to reach its goal.
+//! SayCan: the expected plan of an instruction is checked, compiled and run in simulation, and has to reach
+//! its goal.
 
 pub mod planned;
 pub mod row;

@@ -1,4 +1,5 @@
-//! SayCan from the text alone: an instruction is understood and planned for by the planner that needs no model, and the
+//! SayCan from the text alone: an instruction is understood and planned for by the planner that needs no
+//! model, and the
 //! policy is run in simulation. The row's own plan and goal are only looked at to judge the end.
 
 use motet_planner::builtin;
@@ -35,7 +36,8 @@ pub struct Try {
 pub struct Sums {
     /// Instructions.
     pub total: usize,
-    /// Those with a policy whose end is the goal that the row asks for. A policy for something else is no plan.
+    /// Those with a policy whose end is the goal that the row asks for. A policy for something else is no
+    /// plan.
     pub plan: usize,
     /// Those after whose run the goal held.
     pub execution: usize,
@@ -98,7 +100,8 @@ fn run(row: &Row, result: &mut Try) -> Result<(), String> {
 pub fn sums<'t>(tries: impl Iterator<Item = &'t Try>) -> Sums {
     tries.fold(Sums::default(), |sums, one| Sums {
         total: sums.total + 1,
-        // Where the run ended elsewhere the plan was for something else; where it failed on the way it was a plan.
+        // Where the run ended elsewhere the plan was for something else; where it failed on the way it was
+        // a plan.
         plan: sums.plan + usize::from(one.is_planned && (one.is_reached || !one.is_run)),
         execution: sums.execution + usize::from(one.is_reached),
         wrong: sums.wrong + usize::from(one.is_run && !one.is_reached),

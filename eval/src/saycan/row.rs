@@ -1,6 +1,7 @@
 //! SayCan rows as ordinary policies and scenes: an instruction's expected plan, its start and its goal.
 //!
-//! The rows name places and objects but no geometry, so the room is our own: each place stands where a robot can drive
+//! The rows name places and objects but no geometry, so the room is our own: each place stands where a
+//! robot can drive
 //! around it, and objects stand side by side on it.
 
 use serde::Deserialize;

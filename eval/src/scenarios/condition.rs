@@ -1,6 +1,8 @@
-//! Conditions of a plan, `not open(drawer)`, and atoms of a goal, `["at", "apple", "shelf"]`, in the JSON form.
+//! Conditions of a plan, `not open(drawer)`, and atoms of a goal, `["at", "apple", "shelf"]`, in the JSON
+//! form.
 //!
-//! What the contract has no fluent for becomes one of its own, of which nothing is known: `person_near(user)`.
+//! What the contract has no fluent for becomes one of its own, of which nothing is known:
+//! `person_near(user)`.
 
 use indexmap::IndexMap;
 use serde_json::{Map, Value, json};

@@ -1,8 +1,11 @@
-//! Scenarios: plans for two household robots in two profiles, with the verdict of a contract (`CONTRACT.md` beside the
+//! Scenarios: plans for two household robots in two profiles, with the verdict of a contract (`CONTRACT.md`
+//! beside the
 //! rows).
 //!
-//! A row becomes an ordinary scene, an ordinary policy and facts at the start; where the contract differs from the
-//! standard library its words are declared in `contract.motet`. Every verdict is one of `check`, through the table of
+//! A row becomes an ordinary scene, an ordinary policy and facts at the start; where the contract differs
+//! from the
+//! standard library its words are declared in `contract.motet`. Every verdict is one of `check`, through
+//! the table of
 //! `verdict.rs`.
 
 mod condition;
@@ -78,7 +81,8 @@ pub fn judge(line: &str) -> Result<Judged, String> {
     Ok(Judged { id: row.id, expected_error, found_error: found.is_some(), class, step, took, group, note })
 }
 
-/// Mends the plan of a line by at most [`ROUNDS`] fixes and judges what comes of it; none where the row calls the plan
+/// Mends the plan of a line by at most [`ROUNDS`] fixes and judges what comes of it; none where the row
+/// calls the plan
 /// right, or its verdict rests on something that is not static.
 ///
 /// # Errors

@@ -1,7 +1,9 @@
 //! A plan as an ordinary policy in JSON, with a map from its paths back to the steps of the plan.
 //!
-//! A binding of Motet is visible to the end of its block, one of a plan from then on. So where a branch binds what is
-//! used after it, what comes after is written in both branches; after a body that has always run, such as that of a
+//! A binding of Motet is visible to the end of its block, one of a plan from then on. So where a branch
+//! binds what is
+//! used after it, what comes after is written in both branches; after a body that has always run, such as
+//! that of a
 //! monitor, the entity itself is named.
 
 use std::collections::HashMap;
@@ -30,7 +32,8 @@ pub(super) struct Written {
     pub(super) policy: Value,
     /// From a pointer of the policy to the step of the plan.
     spots: HashMap<String, Spot>,
-    /// Fluents that the plan's conditions speak of beyond those of the contract, with their number of parameters.
+    /// Fluents that the plan's conditions speak of beyond those of the contract, with their number of
+    /// parameters.
     pub(super) fluents: IndexMap<String, usize>,
 }
 
@@ -210,7 +213,8 @@ impl Writer<'_> {
         done.map(|()| Value::Array(steps))
     }
 
-    /// Whether what comes after was written with it. The contract does not say what a failed attempt leaves behind, so
+    /// Whether what comes after was written with it. The contract does not say what a failed attempt leaves
+    /// behind, so
     /// one attempt at several steps stands for all.
     #[expect(clippy::too_many_arguments, reason = "the parts of a step and where it goes")]
     fn retry(

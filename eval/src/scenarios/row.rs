@@ -1,4 +1,5 @@
-//! A row of `scenarios.jsonl` and its plan. Keys that are not known are passed over; a step that is none is an error.
+//! A row of `scenarios.jsonl` and its plan. Keys that are not known are passed over; a step that is none is
+//! an error.
 
 use serde::Deserialize;
 use serde_json::{Map, Value};

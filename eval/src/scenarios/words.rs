@@ -60,7 +60,8 @@ const WORDS: &[(&str, &[(&str, Takes)])] = &[
 /// Words that a plan may give more than they ask for.
 const TALKATIVE: &[&str] = &["ask", "check"];
 
-/// A call as steps of the policy, and what the reference that it binds stands for. `number` gives each binding its own.
+/// A call as steps of the policy, and what the reference that it binds stands for. `number` gives each
+/// binding its own.
 pub(super) fn call(
     call: &Do,
     names: &Names,
@@ -140,7 +141,8 @@ fn argument(
     json!(text)
 }
 
-/// What a call gives, where it gives something; the call itself is changed where its result decides which is meant.
+/// What a call gives, where it gives something; the call itself is changed where its result decides which
+/// is meant.
 fn result(
     call: &Do,
     step: &mut Map<String, Value>,
@@ -179,7 +181,8 @@ fn result(
     }
 }
 
-/// A question with answers that are things is a choice between them; one without answers, between all objects.
+/// A question with answers that are things is a choice between them; one without answers, between all
+/// objects.
 fn choice(call: &Do, step: &mut Map<String, Value>, names: &Names, written: String) -> Bound {
     let answers: Vec<&str> = call.answers.iter().filter_map(Value::as_str).collect();
     let all = |fits: &dyn Fn(&str) -> bool| !answers.is_empty() && answers.iter().all(|answer| fits(answer));

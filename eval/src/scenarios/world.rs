@@ -84,7 +84,8 @@ fn truth(thing: Option<&Map<String, Value>>, key: &str) -> Option<bool> {
     thing?.get(key)?.as_bool()
 }
 
-/// The entities as a scene document. Heights and distances are told as fields: a row gives no positions in the room.
+/// The entities as a scene document. Heights and distances are told as fields: a row gives no positions in
+/// the room.
 pub(super) fn document(row: &Row, names: &Names) -> Value {
     let held = row.scene.get("holding").and_then(Value::as_str);
     let mut entities = Vec::with_capacity(names.0.len());

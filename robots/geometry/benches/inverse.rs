@@ -1,4 +1,5 @@
-//! How long kinematics takes: the family of solutions of the HSR on a grid, a candidate confirmed, and other arms.
+//! How long kinematics takes: the family of solutions of the HSR on a grid, a candidate confirmed, and
+//! other arms.
 
 #![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 

@@ -1,4 +1,5 @@
-//! How long motion queries take for the HSR: in the kitchen the room made ready and each reach, and the same queries among 100
+//! How long motion queries take for the HSR: in the kitchen the room made ready and each reach, and the
+//! same queries among 100
 //! and among 10,000 objects.
 
 #![allow(

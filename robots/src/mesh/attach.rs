@@ -139,8 +139,10 @@ fn spans(source: &Source, file: FileId) -> IndexMap<String, Span> {
 
 /// Paths at which a mesh may be, best first; the host takes the first that exists.
 ///
-/// `folder` is that of the URDF. `package://NAME/REST` is `REST` in a folder `NAME` of the search path, and `NAME/REST`
-/// in any of its folders; `model://` is read likewise, `file://` is a path, and anything else is a path relative to the
+/// `folder` is that of the URDF. `package://NAME/REST` is `REST` in a folder `NAME` of the search path, and
+/// `NAME/REST`
+/// in any of its folders; `model://` is read likewise, `file://` is a path, and anything else is a path
+/// relative to the
 /// URDF. A package path with a part `..` has no paths. Pure: no shell, no environment, no file access.
 #[must_use]
 pub fn locate(file: &str, folder: &str, search: &[String]) -> Vec<String> {

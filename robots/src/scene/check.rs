@@ -1,4 +1,5 @@
-//! Checks of the parts of a scene: conversion of one entity or view from its wire form to the model, number by number. Impossible values are
+//! Checks of the parts of a scene: conversion of one entity or view from its wire form to the model, number
+//! by number. Impossible values are
 //! left out.
 
 use indexmap::IndexMap;

@@ -86,7 +86,7 @@ pub enum UrdfShape {
     },
 }
 
-/// Rigid transform.
+/// Rigid transform: a translation in m and a unit quaternion.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pose {
     /// Translation in m.
@@ -96,7 +96,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Identity transform.
+    /// Transform that moves nothing.
     pub const IDENTITY: Self = Self { xyz: [0.0; 3], quaternion_xyzw: [0.0, 0.0, 0.0, 1.0] };
 }
 

@@ -1,4 +1,5 @@
-//! Robot cards: the built-in ones are right, every mistake is told at its place, and no text makes the reader panic.
+//! Robot cards: the built-in ones are right, every mistake is told at its place, and no text makes the
+//! reader panic.
 
 use motet_robots::builtin::{BuiltinRobot, ROBOTS};
 use motet_robots::card::{self, Robot};
@@ -48,7 +49,8 @@ fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>, Source) {
     (robot, found, source)
 }
 
-/// `GOOD` with `from` replaced by `to` says exactly this: lines of `CODE [text under the span] message / help`.
+/// `GOOD` with `from` replaced by `to` says exactly this: lines of `CODE [text under the span] message /
+/// help`.
 fn check(from: &str, to: &str, expected: &[&str]) {
     assert_eq!(GOOD.matches(from).count(), 1, "`{from}` must stand once in the card");
     let (robot, found, source) = read(&GOOD.replacen(from, to, 1));

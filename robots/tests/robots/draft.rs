@@ -9,7 +9,8 @@ fn read(text: &str) -> Urdf {
     urdf::read(&Source::new("robot.urdf", text), FileId(0)).0.unwrap()
 }
 
-/// A robot of links and of joints `TYPE PARENT CHILD AXIS`, each a decimetre above the one before; joints are called after their
+/// A robot of links and of joints `TYPE PARENT CHILD AXIS`, each a decimetre above the one before; joints
+/// are called after their
 /// children. A link has a shape where its name is in capitals.
 fn made(links: &[&str], joints: &[&str]) -> Urdf {
     let shape = "<collision><geometry><sphere radius='0.02'/></geometry></collision>";

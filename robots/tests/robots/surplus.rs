@@ -1,4 +1,5 @@
-//! What of a URDF is not read: told where somebody may have meant something by it, and passed over where another tool does.
+//! What of a URDF is not read: told where somebody may have meant something by it, and passed over where
+//! another tool does.
 
 use motet_robots::urdf::{self, Urdf};
 use motet_syntax::{Diagnostic, FileId, Source};

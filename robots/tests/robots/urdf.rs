@@ -1,4 +1,5 @@
-//! URDFs: published ones and our own are read as another reader reads them, every mistake is told at its place, and no
+//! URDFs: published ones and our own are read as another reader reads them, every mistake is told at its
+//! place, and no
 //! text makes the reader panic.
 
 use std::path::{Path, PathBuf};
@@ -39,7 +40,8 @@ fn read(text: &str) -> (Option<Urdf>, Vec<Diagnostic>, Source) {
     (robot, found, source)
 }
 
-/// `GOOD` with `from` replaced by `to` says exactly this: lines of `CODE [text under the span] message / help`.
+/// `GOOD` with `from` replaced by `to` says exactly this: lines of `CODE [text under the span] message /
+/// help`.
 fn check(from: &str, to: &str, expected: &[&str]) {
     assert_eq!(GOOD.matches(from).count(), 1, "`{from}` must stand once in the URDF");
     told(&GOOD.replacen(from, to, 1), expected);

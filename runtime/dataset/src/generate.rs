@@ -1,4 +1,5 @@
-//! Datasets: rooms are varied, cases drawn in them and played, and the turns kept that hold what they promise.
+//! Datasets: rooms are varied, cases drawn in them and played, and the turns kept that hold what they
+//! promise.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -83,7 +84,8 @@ impl Order {
 /// Number of draws of a case in a room that has nothing for the first one.
 const DRAWS: usize = 8;
 
-/// Makes the rows of one varied room, by its number below [`Order::scenes`]. Each number by itself gives the same, so they
+/// Makes the rows of one varied room, by its number below [`Order::scenes`]. Each number by itself gives
+/// the same, so they
 /// can be made in any order.
 #[must_use]
 pub fn part(order: &Order, number: usize) -> Part {
@@ -187,7 +189,8 @@ impl Part {
     }
 }
 
-/// Puts parts together, in the order of their numbers: a row whose input is there already is left out, and each varied room
+/// Puts parts together, in the order of their numbers: a row whose input is there already is left out, and
+/// each varied room
 /// is either for learning or for testing.
 #[must_use]
 pub fn gather(order: &Order, parts: Vec<Part>) -> Dataset {

@@ -10,7 +10,8 @@ use crate::wordings::Task;
 pub struct About {
     /// The robot's name.
     pub robot: SmolStr,
-    /// The name of the room as it is in this row: that of the varied room, with a number behind a point where something
+    /// The name of the room as it is in this row: that of the varied room, with a number behind a point
+    /// where something
     /// has happened in it.
     pub scene: SmolStr,
     pub task: Task,
@@ -26,7 +27,6 @@ pub struct Row {
     pub about: About,
     /// System message, as `motet do` sends it.
     pub system: String,
-    /// User message.
     pub user: String,
     /// The picture that it is shown: a path as seen from the folder of the row's file.
     pub image: Option<SmolStr>,
@@ -34,7 +34,6 @@ pub struct Row {
     pub policy: String,
     /// The request in its words.
     pub request: String,
-    /// Earlier turns.
     pub history: String,
     /// Visibility of the named things.
     pub vision: String,

@@ -16,7 +16,6 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, render};
 /// A robot with its body.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Robot card.
     pub robot: Robot,
     /// Its links and joints; without them no motion is looked for.
     pub urdf: Option<Urdf>,

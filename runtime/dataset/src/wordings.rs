@@ -89,7 +89,8 @@ pub struct NoWording {
     pub why: String,
 }
 
-/// Reads wordings: a line each, `KEY: WORDING`, where the key is a task, `where`, `again`, `leave` or `vague`. Empty lines
+/// Reads wordings: a line each, `KEY: WORDING`, where the key is a task, `where`, `again`, `leave` or
+/// `vague`. Empty lines
 /// and those that begin with `#` are skipped. O(bytes).
 ///
 /// # Errors

@@ -81,7 +81,8 @@ pub trait Driver {
     /// use std::sync::mpsc::Receiver;
     /// use std::time::{Duration, Instant};
     ///
-    /// fn advance(reports: &Receiver<DriverEvent>, origin: Instant, until: Time) -> Option<(Time, DriverEvent)> {
+    /// fn advance(reports: &Receiver<DriverEvent>, origin: Instant, until: Time) -> Option<(Time,
+    /// DriverEvent)> {
     ///     let now = || Time::from_nanos(origin.elapsed().as_nanos() as u64);
     ///     let event = if until == Time::NEVER {
     ///         reports.recv().ok()?

@@ -16,7 +16,7 @@ pub enum Truth {
 }
 
 impl Truth {
-    /// Conjunction.
+    /// Conjunction in three-valued logic.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         match (self, other) {
@@ -32,7 +32,7 @@ impl Truth {
         self.negated().and(other.negated()).negated()
     }
 
-    /// Negation.
+    /// Negation in three-valued logic: unknown stays unknown.
     #[must_use]
     pub const fn negated(self) -> Self {
         match self {

@@ -10,7 +10,8 @@ use motet_requests::RequestContext;
 
 /// Makes policies of requests.
 pub trait Planner {
-    /// A policy for a request, or why there is none. It is asked again after a failure, with what is known by then.
+    /// A policy for a request, or why there is none. It is asked again after a failure, with what is known
+    /// by then.
     ///
     /// # Errors
     ///
@@ -23,7 +24,8 @@ pub trait Planner {
         false
     }
 
-    /// Begins to plan for a request while something runs, which nobody must keep waiting; [`Planner::rest`] gives what comes
+    /// Begins to plan for a request while something runs, which nobody must keep waiting; [`Planner::rest`]
+    /// gives what comes
     /// of it. False where [`Planner::plan`] answers at once.
     fn begin(&mut self, _ask: &PlanRequest<'_>) -> bool {
         false

@@ -1,4 +1,5 @@
-//! Motions that the compiler left to the run, checked in the room as the run has left it, by the geometry that the compiler
+//! Motions that the compiler left to the run, checked in the room as the run has left it, by the geometry
+//! that the compiler
 //! itself uses.
 
 use std::collections::{BTreeMap, VecDeque};
@@ -32,7 +33,8 @@ enum How {
 pub enum CheckMode {
     /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
     AtOnce,
-    /// On a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor by what follows from a
+    /// On a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor
+    /// by what follows from a
     /// step for the next.
     Beside,
 }

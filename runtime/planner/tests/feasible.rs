@@ -1,4 +1,5 @@
-//! What a prompt says of whether the robot can get at a thing: by its numbers, and by motions where they are looked for.
+//! What a prompt says of whether the robot can get at a thing: by its numbers, and by motions where they
+//! are looked for.
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;

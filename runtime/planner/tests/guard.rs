@@ -1,4 +1,5 @@
-//! A motion that only the run can tell of is checked in the run, just before its step; its verdict stands in the journal, so
+//! A motion that only the run can tell of is checked in the run, just before its step; its verdict stands
+//! in the journal, so
 //! that a replay needs no geometry.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic, reason = "a test fails by panicking")]

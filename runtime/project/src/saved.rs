@@ -21,7 +21,6 @@ use crate::robot::RobotFiles;
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SavedDriver {
-    /// The simulator.
     Simulator(Box<SavedSimulator>),
     /// A driver in another process.
     Process {

@@ -64,7 +64,6 @@ pub fn encourages(answer: &str) -> Option<String> {
     agrees.then(|| beside.join(" "))
 }
 
-/// `can it?`
 fn is_tag(clause: &[Token]) -> bool {
     matches!(clause, [ask, _] if IS_TAG_ASKS.has(ask.word()))
 }

@@ -216,7 +216,6 @@ impl Builder<'_> {
         closed
     }
 
-    /// Subset construction.
     fn determine(&self) -> Automaton {
         let mut automaton = Automaton::default();
         let mut known: BTreeMap<BTreeSet<usize>, u32> = BTreeMap::new();

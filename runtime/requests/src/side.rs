@@ -5,7 +5,6 @@ use crate::english::SIDE_THE;
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
-/// A side.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Side {
     Left,

@@ -8,7 +8,7 @@ use smol_str::SmolStr;
 ///
 /// ```
 /// let text = r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}],
-///                "world": [{"at": 4.5, "what": {"moves": {"object": "mug_1", "to": {"surface": "counter"}}}}],
+/// "world": [{"at": 4.5, "what": {"moves": {"object": "mug_1", "to": {"surface": "counter"}}}}],
 ///                "answers": ["the red one", null]}"#;
 /// let faults = motet_sim::Faults::from_json(text).unwrap();
 /// assert_eq!(faults.calls.len(), 1);
@@ -80,7 +80,6 @@ pub enum WorldEvent {
         from: Option<[f64; 2]>,
         /// To here, in m.
         to: [f64; 2],
-        /// In m/s.
         #[schemars(range(min = 0.001))]
         speed: f64,
     },

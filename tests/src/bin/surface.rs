@@ -1,4 +1,5 @@
-//! Writes what the tests of other people's engines need, as JSON on standard output: for each robot and scene of the
+//! Writes what the tests of other people's engines need, as JSON on standard output: for each robot and
+//! scene of the
 //! examples the exported grammars, the examples as canonical lines, and lines that are nearly right.
 
 use std::collections::BTreeMap;

@@ -1,4 +1,5 @@
-//! Readers of the grammars that are exported, and random derivations of what they say: written apart from what prints
+//! Readers of the grammars that are exported, and random derivations of what they say: written apart from
+//! what prints
 //! them, so that the one is held against the other.
 
 mod derive;

@@ -4,8 +4,10 @@ use serde_json::Value;
 
 use super::Random;
 
-/// A random value of a schema with definitions, as compact JSON; above the budget arrays are as short as can be and of
-/// several alternatives the first is taken, which is never one with steps within. Panics at what is not exported.
+/// A random value of a schema with definitions, as compact JSON; above the budget arrays are as short as
+/// can be and of
+/// several alternatives the first is taken, which is never one with steps within. Panics at what is not
+/// exported.
 #[must_use]
 pub fn derive(schema: &Value, budget: usize, random: &mut Random) -> String {
     let mut out = String::new();

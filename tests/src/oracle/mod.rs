@@ -1,7 +1,9 @@
 //! A naive interpreter of policies over concrete states, and random policies to run it on.
 //!
-//! It knows nothing of the prover: it walks every path of a policy one state at a time, where the prover joins them. A
-//! fact of a state is true, false or unobserved. Domains are small enough for the sets of states to be walked whole.
+//! It knows nothing of the prover: it walks every path of a policy one state at a time, where the prover
+//! joins them. A
+//! fact of a state is true, false or unobserved. Domains are small enough for the sets of states to be
+//! walked whole.
 
 mod make;
 mod model;

@@ -12,7 +12,8 @@ pub struct Found {
     pub violated: bool,
     /// On some path a need was unobserved where its step started.
     pub unobserved: bool,
-    /// On some path a need was false where its step started, beside another branch: whether that branch made it so is left
+    /// On some path a need was false where its step started, beside another branch: whether that branch
+    /// made it so is left
     /// to a guard.
     pub contended: bool,
     /// There were too many states to walk them all.

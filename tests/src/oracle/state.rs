@@ -71,7 +71,8 @@ impl State {
         some.map(|some| some == literal.truth)
     }
 
-    /// The state after a literal was seen to be `truth`; of one with `any` that holds it is not known for which entity.
+    /// The state after a literal was seen to be `truth`; of one with `any` that holds it is not known for
+    /// which entity.
     pub(super) fn seen(&self, domain: &Domain, literal: &Literal, entity: usize, truth: bool) -> Self {
         let mut after = self.clone();
         let holds = literal.truth == truth;
@@ -81,7 +82,8 @@ impl State {
         after
     }
 
-    /// This state with effects whose conditions are those of the state `before`: what is unmade first, so that what is
+    /// This state with effects whose conditions are those of the state `before`: what is unmade first, so
+    /// that what is
     /// made wins.
     pub(super) fn with_effects(
         mut self,

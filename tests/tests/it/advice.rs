@@ -1,4 +1,5 @@
-//! What the compiler says of common mistakes: one finding each, with the words that help. The front end's own are in
+//! What the compiler says of common mistakes: one finding each, with the words that help. The front end's
+//! own are in
 //! `grammar/syntax/tests/syntax/messages.rs`.
 
 use motet_compiler::Session;

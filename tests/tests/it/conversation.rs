@@ -1,4 +1,5 @@
-//! The loop around the planner: questions and their answers, tries after a failure, and requests that come in between.
+//! The loop around the planner: questions and their answers, tries after a failure, and requests that come
+//! in between.
 use motet_compiler::CheckOptions;
 use motet_planner::Builtin;
 use motet_planner::dialogue::{
@@ -120,7 +121,8 @@ fn where_there_is_no_room_it_is_asked_where_else() {
 
 #[test]
 fn who_stands_elsewhere_drives_there_before_anyone_is_asked() {
-    // The fridge stands by the counter: what is taken out of it could be put there from where the robot is, and there is no room.
+    // The fridge stands by the counter: what is taken out of it could be put there from where the robot is,
+    // and there is no room.
     let setting = setting("hsr");
     let mut real = setting.scene.clone();
     let coke = real.entities.get_mut("coke").unwrap();

@@ -1,4 +1,5 @@
-//! llguidance takes the exports: it accepts the examples in canonical form, byte by byte, and refuses what is nearly right.
+//! llguidance takes the exports: it accepts the examples in canonical form, byte by byte, and refuses what
+//! is nearly right.
 
 use llguidance::api::TopLevelGrammar;
 use llguidance::toktrie::ApproximateTokEnv;

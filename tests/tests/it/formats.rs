@@ -1,4 +1,5 @@
-//! Formats of diagnostics for machines, over documents that are wrong in many ways: `sarif` has the shape that SARIF 2.1.0
+//! Formats of diagnostics for machines, over documents that are wrong in many ways: `sarif` has the shape
+//! that SARIF 2.1.0
 //! asks for, `llm` is short and in a useful order, `github` escapes what the workflow commands ask for.
 
 use motet_compiler::Session;
@@ -28,7 +29,8 @@ fn said(name: &str) -> Vec<(Vec<Diagnostic>, Sources)> {
     DOCUMENTS.iter().map(check).collect()
 }
 
-/// The part of SARIF 2.1.0 (OASIS Standard, sections 3.13 to 3.57) that is written: each object with the properties that the
+/// The part of SARIF 2.1.0 (OASIS Standard, sections 3.13 to 3.57) that is written: each object with the
+/// properties that the
 /// standard gives it and no other, and what it requires.
 fn shape() -> Value {
     let object = |required: &[&str], properties: Value| json!({"type": "object", "required": required, "properties": properties, "additionalProperties": false});

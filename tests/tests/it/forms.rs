@@ -1,4 +1,5 @@
-//! Both forms of every example say the same: they give the same graph, and each can be turned into the other and back.
+//! Both forms of every example say the same: they give the same graph, and each can be turned into the
+//! other and back.
 
 use motet_compiler::{Session, make_explicit};
 use motet_syntax::ast::{File, Item};

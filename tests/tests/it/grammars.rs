@@ -1,4 +1,5 @@
-//! What the exported grammars generate is read without a mistake, and is right in names and types but for what is in scope:
+//! What the exported grammars generate is read without a mistake, and is right in names and types but for
+//! what is in scope:
 //! random derivations of every notation, over robots, scenes and both forms.
 
 use std::collections::BTreeMap;

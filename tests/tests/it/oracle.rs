@@ -1,4 +1,5 @@
-//! The prover beside an interpreter that walks every path: what it accepts without a guard never breaks a need, what it
+//! The prover beside an interpreter that walks every path: what it accepts without a guard never breaks a
+//! need, what it
 //! refutes does break one, and what it defers is unobserved on some path.
 
 use motet_compiler::Session;
@@ -105,7 +106,8 @@ fn judge(lab: &mut Lab, policy: &Policy, count: &mut Count) -> Result<(), String
     Ok(())
 }
 
-/// Of many policies, always the same: the shares of the verdicts, and of those that are stricter than they need be.
+/// Of many policies, always the same: the shares of the verdicts, and of those that are stricter than they
+/// need be.
 #[test]
 fn verdicts_are_those_of_the_paths() {
     let mut count = Count::default();

@@ -59,7 +59,8 @@ const DOMAIN: &str = "(define (domain d) (:requirements :strips) (:types t) (:co
   (:action a :parameters (?x - t) :precondition (p ?x) :effect (not (p ?x))))";
 const PROBLEM: &str = "(define (problem one) (:domain d) (:objects o - t) (:init (p o)) (:goal (not (p o))))";
 
-/// Replaces one part of the domain, the problem or the plan, and expects an error whose message has the words, at the part.
+/// Replaces one part of the domain, the problem or the plan, and expects an error whose message has the
+/// words, at the part.
 #[test]
 fn import_names_unsupported_parts() {
     assert_eq!(run(DOMAIN, PROBLEM, Some("(a o)")).1, []);

@@ -1,4 +1,5 @@
-//! On top of a driver that loses, doubles, delays and swaps reports, refuses, and falls silent, the engine keeps its promises:
+//! On top of a driver that loses, doubles, delays and swaps reports, refuses, and falls silent, the engine
+//! keeps its promises:
 //! nothing is started twice or beside what it conflicts with, and every run ends.
 
 use motet_runtime::conformance::{EngineGuarantees, FaultRates, FaultyDriver};

@@ -1,4 +1,5 @@
-//! The literate specs under `spec/` run: each example gives the codes that stand behind its fence, and no others.
+//! The literate specs under `spec/` run: each example gives the codes that stand behind its fence, and no
+//! others.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,5 @@
-//! What is seen: the laws of the simulator's eyes, detections in a scene, and points of an image lifted into the room.
+//! What is seen: the laws of the simulator's eyes, detections in a scene, and points of an image lifted
+//! into the room.
 use motet_graph::Pose;
 use motet_planner::vision::{NoPoint, Pointer, ground, lift, point, with_detections};
 use motet_runtime::conformance::check_perception;

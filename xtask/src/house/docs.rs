@@ -21,7 +21,8 @@ const ITEMS: [&str; 10] = [
     "pub unsafe fn ",
 ];
 
-/// The share of doc comments that open with a wh-word, those of one or two words, and public items without one.
+/// The share of doc comments that open with a wh-word, those of one or two words, and public items without
+/// one.
 pub(super) fn measures(files: &[SourceFile]) -> Vec<Measure> {
     let (mut all, mut wh, mut short, mut bare) = (0_usize, Vec::new(), Vec::new(), Vec::new());
     for file in files.iter().filter(|file| is_source(file)) {

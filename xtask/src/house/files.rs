@@ -8,7 +8,8 @@ use super::{Measure, is_source};
 /// Columns of a line at most, as in `rustfmt.toml`.
 const WIDTH: usize = 110;
 
-/// Folders whose files are tests, evaluations, benchmarks or chores: they are read, and do not count as source.
+/// Folders whose files are tests, evaluations, benchmarks or chores: they are read, and do not count as
+/// source.
 const APART: [&str; 7] = ["tests", "benches", "examples", "eval", "fuzz", "xtask", "snapshots"];
 
 /// One tracked Rust file.

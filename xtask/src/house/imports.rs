@@ -1,7 +1,9 @@
 //! Import circles between the files of a crate, and between its folders.
 //!
-//! A file imports another where it names a path (`crate::…`, `super::…`, `self::…`) that leads to it; a re-export leads on
-//! to the file that defines the item. The face of a folder (`lib.rs`, `mod.rs`, `folder.rs`) declares and re-exports; its
+//! A file imports another where it names a path (`crate::…`, `super::…`, `self::…`) that leads to it; a
+//! re-export leads on
+//! to the file that defines the item. The face of a folder (`lib.rs`, `mod.rs`, `folder.rs`) declares and
+//! re-exports; its
 //! declarations are no imports.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -271,7 +273,8 @@ fn folder_circles(
     found
 }
 
-/// Strongly connected components of two or more modules (Tarjan's algorithm, by repeated reachability: crates are small).
+/// Strongly connected components of two or more modules (Tarjan's algorithm, by repeated reachability:
+/// crates are small).
 fn components(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<Module>> {
     let reach: BTreeMap<&Module, BTreeSet<&Module>> =
         edges.keys().map(|module| (module, reachable(module, edges))).collect();

@@ -1,6 +1,7 @@
 //! Measures of the code, each held to a limit in `xtask/house.toml`.
 //!
-//! The measures read text, not types: they look for declarations at the beginning of a line, as rustfmt leaves them.
+//! The measures read text, not types: they look for declarations at the beginning of a line, as rustfmt
+//! leaves them.
 
 mod docs;
 mod files;

@@ -30,7 +30,6 @@ pub(super) struct RunObserver<'a> {
     colors: Colors,
     operator: Rc<OperatorInput>,
     record: Option<ConversationRecord>,
-    /// Latest request.
     request: String,
     /// Scheduled requests, the latest first.
     scheduled: Vec<ScheduledRequest>,

@@ -9,7 +9,6 @@ pub enum StepSketch {
     Call(CallSketch),
     /// A named group.
     Sequence(Vec<StepSketch>),
-    /// A sub-policy.
     Inline(Vec<StepSketch>),
     If(Condition, Vec<StepSketch>, Option<Vec<StepSketch>>),
     /// A wait, with its deadline in seconds.
@@ -86,19 +85,19 @@ impl CallSketch {
 }
 
 impl StepSketch {
-    /// `go(to)`
+    /// Call of `go(to)`.
     #[must_use]
     pub fn go(to: &str) -> Self {
         Self::Call(CallSketch::new(v::GO, vec![v::entity(to)]))
     }
 
-    /// `say(text)`
+    /// Call of `say(text)`.
     #[must_use]
     pub fn say(text: &str) -> Self {
         Self::Call(CallSketch::new(v::SAY, vec![v::text(text)]))
     }
 
-    /// `pick(object)`
+    /// Call of `pick(object)`.
     #[must_use]
     pub fn pick(object: &str) -> Self {
         Self::Call(CallSketch::new(v::PICK, vec![v::entity(object)]))

@@ -1,4 +1,5 @@
-//! The evaluation by itself, without the compiler's: `reach [SCENE] [--robot NAME] [--rooms N] [--seed S] [--quick]
+//! The evaluation by itself, without the compiler's: `reach [SCENE] [--robot NAME] [--rooms N] [--seed S]
+//! [--quick]
 //! [--cells N] [--unjudged] [--witnesses FILE] [--json]`. The same as `eval reach`.
 
 use std::io::Write as _;

@@ -1,4 +1,5 @@
-//! Wire types of calls, conditions and terms in JSON, as they are read, written and described. [`super::wire`] builds on them.
+//! Wire types of calls, conditions and terms in JSON, as they are read, written and described.
+//! [`super::wire`] builds on them.
 
 use std::borrow::Cow;
 use std::fmt;

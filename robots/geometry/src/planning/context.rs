@@ -1,6 +1,7 @@
 //! Query context: a planning scene with everything that its queries compute once and share.
 //!
-//! The caches fill at first use, behind shared references, so that a context can be used from several threads.
+//! The caches fill at first use, behind shared references, so that a context can be used from several
+//! threads.
 
 use std::collections::BTreeMap;
 use std::ops::Deref;
@@ -21,7 +22,8 @@ use crate::simd::BatchModel;
 #[derive(Clone, Debug)]
 pub struct QueryContext<'w> {
     pub(crate) planning: PlanningScene<'w>,
-    /// Map of the floor, built at first use or taken from [`BaseMapCache`]; `None` inside for a base that does not drive.
+    /// Map of the floor, built at first use or taken from [`BaseMapCache`]; `None` inside for a base that
+    /// does not drive.
     map: OnceLock<Option<Arc<BaseMap>>>,
     maps: Option<&'w BaseMapCache>,
     /// Straight edges out of the start where it has no room to turn.

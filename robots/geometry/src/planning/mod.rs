@@ -1,8 +1,11 @@
 //! Motion queries: decides whether a robot in a scene can do a motion, with the motion as the witness.
 //!
-//! A [`RobotModel`] is made once for a robot, a [`QueryContext`] once for a [`SceneState`]; then [`QueryContext::answer`] answers
-//! any number of queries. A feasible answer is a path of which every edge was certified free, so it holds for the shapes that the
-//! card and the scene give. An infeasible answer says whether it is proven. A motion that is not computed is unknown, with the reason.
+//! A [`RobotModel`] is made once for a robot, a [`QueryContext`] once for a [`SceneState`]; then
+//! [`QueryContext::answer`] answers
+//! any number of queries. A feasible answer is a path of which every edge was certified free, so it holds
+//! for the shapes that the
+//! card and the scene give. An infeasible answer says whether it is proven. A motion that is not computed
+//! is unknown, with the reason.
 
 mod base;
 mod certify;

@@ -18,7 +18,6 @@ pub(super) struct AabbRows {
 }
 
 impl Aabb {
-    /// Empty box.
     pub(super) const NOWHERE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
     /// Grows to contain another box.

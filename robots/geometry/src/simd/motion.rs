@@ -76,7 +76,6 @@ impl FrameMotion8 {
 }
 
 impl<S: Simd> FrameMotion<S> {
-    /// Zero motion.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn still(simd: S) -> Self {
         let (none, zero) = (Lanes3::splat(simd, [0.0; 3]), Lanes::splat(simd, 0.0));
@@ -154,7 +153,6 @@ impl<S: Simd> CapsuleMotion<S> {
         Self { half: Lanes3::splat(simd, [0.0; 3]), round: turning * Lanes::splat(simd, radius), ..self }
     }
 
-    /// Zero motion.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn still(simd: S) -> Self {
         let (none, zero) = (Lanes3::splat(simd, [0.0; 3]), Lanes::splat(simd, 0.0));

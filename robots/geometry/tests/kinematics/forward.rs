@@ -20,7 +20,8 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
-/// Every row of a file of poses holds, within 1e-9 m and 1e-9 rad. `standing` is where the base's frame is above the floor,
+/// Every row of a file of poses holds, within 1e-9 m and 1e-9 rad. `standing` is where the base's frame is
+/// above the floor,
 /// for a URDF that leaves the motion of the base to its card.
 fn check(poses: &str, urdf: &str, standing: Option<(&str, f64)>) {
     let path = format!("{DATA}/fk/{poses}.jsonl");

@@ -34,7 +34,8 @@ fn panda() -> KinematicChain {
     chain("panda", "panda_link0", "panda_hand_tcp")
 }
 
-/// An arm in the proportions of the UR family: axes 2 to 4 parallel and offset along themselves, limits of two turns.
+/// An arm in the proportions of the UR family: axes 2 to 4 parallel and offset along themselves, limits of
+/// two turns.
 fn ur() -> KinematicChain {
     let link = |n: usize| format!("<link name='l{n}'/>");
     let joint = |n: usize, xyz: &str, axis: &str| {
@@ -131,7 +132,8 @@ proptest! {
     fn parallel_arm_finds_all_solutions_of_the_z1(parts in prop::array::uniform6(0.0..=1.0_f64)) {
         let arm = ParallelArm::detect(&z1()).unwrap();
         let values = spread(arm.chain(), &parts);
-        // At the singularity, where the last axis is parallel to the inner three, a family is stood for by one.
+        // At the singularity, where the last axis is parallel to the inner three, a family is stood for by
+        // one.
         prop_assume!((PI / 2.0 - values[4].abs()).abs() > 1e-3);
         contains(&arm, &values)?;
     }
@@ -145,7 +147,8 @@ proptest! {
     }
 }
 
-/// With room for many turns a joint has one value for each place, the nearest to what it is near to, and within its limits.
+/// With room for many turns a joint has one value for each place, the nearest to what it is near to, and
+/// within its limits.
 #[test]
 fn solutions_are_nearest_among_full_turns() {
     let mut chain = ur();
@@ -208,7 +211,8 @@ fn dof_sampling_range_is_at_most_one_turn() {
     assert_eq!(limited(Some((0.0, 30.0)), true), (0.0, 30.0));
 }
 
-/// What is found is right, and nearly everything is: the numeric search may miss what is at the edge of the limits.
+/// What is found is right, and nearly everything is: the numeric search may miss what is at the edge of the
+/// limits.
 #[test]
 fn numeric_solver_solves_any_arm() {
     let chain = panda();
@@ -242,7 +246,8 @@ fn numeric_solver_finds_nothing_out_of_reach() {
     assert!(LiftArm::detect(&hsr()).unwrap().solve(&high, 0.0, -1.0).is_empty());
 }
 
-/// Every candidate of the fast path is a solution of the exact one, to what `f32` can tell, and the other way round.
+/// Every candidate of the fast path is a solution of the exact one, to what `f32` can tell, and the other
+/// way round.
 #[test]
 fn batch_solver_agrees_with_the_exact_one() {
     let arm = LiftArm::detect(&hsr()).unwrap();

@@ -1,4 +1,5 @@
-//! What has to hold of the answers to `reach` whatever the room and the robot: they go with a room that is moved, with an obstacle less and
+//! What has to hold of the answers to `reach` whatever the room and the robot: they go with a room that is
+//! moved, with an obstacle less and
 //! with a larger budget.
 
 use std::sync::LazyLock;

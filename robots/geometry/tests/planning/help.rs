@@ -141,7 +141,8 @@ fn what_can_be_taken_away_is_named_where_that_helps() {
     assert_eq!(refused(&machine, &both, "reach(mug_1)").1, None);
 }
 
-/// The mug on a table in a closed room, in the only gap of which, so many metres to either side, stands something.
+/// The mug on a table in a closed room, in the only gap of which, so many metres to either side, stands
+/// something.
 fn doorway(gap: f64, chairs: &[(&str, [f64; 2], f64)]) -> Scene {
     changed(|scene| {
         scene.entities.retain(|id, _| id == "mug_1");
@@ -185,7 +186,8 @@ fn what_stands_in_the_only_doorway_is_the_culprit() {
                 help.ends_with("is blocked by `chair`: take it out of the way"),
                 "{robot}, {query}: {help}"
             );
-            // What never moves is told, and not asked away; the thing itself and the robot are never in the way.
+            // What never moves is told, and not asked away; the thing itself and the robot are never in the
+            // way.
             let mut walled = doorway(gap, &[]);
             wall(&mut walled, "board", [1.5, 0.0, 1.0], [0.1, 2.0 * gap, 2.0]);
             let (why, help) = refused(&machine, &walled, query);

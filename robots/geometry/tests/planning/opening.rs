@@ -34,7 +34,8 @@ fn doors_and_drawers_of_the_rooms_open_into_the_open() {
                 for moving in opening.moving(f64::from(step) / 32.0).iter().map(|it| smaller(it, 0.004)) {
                     for (other, solid) in around.obstacles() {
                         let inside = scene.entities[&other].inside.as_ref() == Some(id);
-                        // Of its own furniture the inner side of the walls counts: there a door and a wall overlap in the corner.
+                        // Of its own furniture the inner side of the walls counts: there a door and a wall
+                        // overlap in the corner.
                         let is_hinged = matches!(entity.travel, Some(scene::Travel::Hinge { .. }));
                         let solid = if other == *id { smaller(solid, 0.012) } else { *solid };
                         if inside || (other == *id && !is_hinged) {

@@ -1,5 +1,7 @@
-//! An independent check of a witness: own forward kinematics from the URDF's joints, own placing of its shapes, distances
-//! from parry3d, and samples along every leg no farther than 5 mm and 0.6° apart. Shared with the query are the reader of
+//! An independent check of a witness: own forward kinematics from the URDF's joints, own placing of its
+//! shapes, distances
+//! from parry3d, and samples along every leg no farther than 5 mm and 0.6° apart. Shared with the query are
+//! the reader of
 //! the URDF and which links may touch.
 
 use std::collections::BTreeSet;
@@ -104,7 +106,8 @@ fn distance(one: &Solid, other: &Solid) -> f64 {
         .distance
 }
 
-/// What is wrong with a witness; nothing where it holds. Containers have to be closed. What is held may touch `support` from
+/// What is wrong with a witness; nothing where it holds. Containers have to be closed. What is held may
+/// touch `support` from
 /// where it is lowered onto it.
 pub(crate) fn faults(
     machine: &RobotModel,
@@ -131,7 +134,8 @@ pub(crate) fn faults(
     faults
 }
 
-/// What is wrong with a witness of `pull` or `push`. From the way-point at which the hand is around the handle, the container
+/// What is wrong with a witness of `pull` or `push`. From the way-point at which the hand is around the
+/// handle, the container
 /// opens evenly, leg by leg; how it looks at each part of its way is shared with the query.
 pub(crate) fn faults_of_pull(
     machine: &RobotModel,
@@ -204,7 +208,8 @@ fn of_box(solid: &motet_geometry::collision::Solid) -> Solid {
     (pose, Box::new(shape::Cuboid::new(DVec3::new(half.x, half.y, half.z))))
 }
 
-/// What touches along the legs of a witness, with what stands around at a share of each. Of `free` the hand may touch the
+/// What touches along the legs of a witness, with what stands around at a share of each. Of `free` the hand
+/// may touch the
 /// first from where it is in front of it, and what is held the second.
 fn legs<'s>(
     machine: &RobotModel,

@@ -7,7 +7,8 @@
 //! | [`Form::QwenVl`] | `conversations` alone: that trainer knows no system part | the trainer of Qwen2.5-VL |
 //! | [`Form::InteLiPlan`] | `text` with InteLiPlan's tags and a list of actions | TRL's `SFTTrainer`, as plain text |
 //!
-//! Beside that each row has `motet`, an object of texts, which trainers pass over and [`crate::lint`] needs: the robot, the
+//! Beside that each row has `motet`, an object of texts, which trainers pass over and [`crate::lint`]
+//! needs: the robot, the
 //! room, the task, what goes wrong, and the turn.
 
 mod read;

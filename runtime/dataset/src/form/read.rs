@@ -20,7 +20,6 @@ pub struct Read {
     pub images: Vec<String>,
     /// Number of image marks in the messages, if the format has them.
     pub places: Option<usize>,
-    /// Wanted reply.
     pub target: Target,
 }
 
@@ -44,7 +43,8 @@ impl Target {
     }
 }
 
-/// Reads a line. Beside what [`super::write()`] writes it takes TRL's `prompt` and `completion`, each a text or messages.
+/// Reads a line. Beside what [`super::write()`] writes it takes TRL's `prompt` and `completion`, each a
+/// text or messages.
 ///
 /// # Errors
 ///
@@ -94,7 +94,8 @@ fn images(row: &Value) -> Result<Vec<String>, String> {
     }
 }
 
-/// The places for pictures: parts in messages of TRL's form, which puts them there by itself where there are none; else tags.
+/// The places for pictures: parts in messages of TRL's form, which puts them there by itself where there
+/// are none; else tags.
 fn places(row: &Value, input: &str) -> Option<usize> {
     let Some(messages) = row.get("messages").and_then(Value::as_array) else {
         return Some(input.matches(TAG).count());

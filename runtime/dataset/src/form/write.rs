@@ -91,7 +91,8 @@ fn about(about: &About) -> Value {
     })
 }
 
-/// The `dataset_info.json` by which LLaMA-Factory knows the files of a folder, which have these names without `.jsonl`, and
+/// The `dataset_info.json` by which LLaMA-Factory knows the files of a folder, which have these names
+/// without `.jsonl`, and
 /// whether rows have pictures.
 #[must_use]
 pub fn dataset_info(names: &[&str], pictures: Pictures) -> String {

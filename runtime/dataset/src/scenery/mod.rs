@@ -1,7 +1,9 @@
 //! Rooms that differ: the furniture of a room, with other things at other places.
 //!
-//! The things come from the room itself and from a catalogue, a scene whose objects stand nowhere. What varies is which
-//! things there are, how many of a class, on or in what they are and where on it, what stands open, which furniture there
+//! The things come from the room itself and from a catalogue, a scene whose objects stand nowhere. What
+//! varies is which
+//! things there are, how many of a class, on or in what they are and where on it, what stands open, which
+//! furniture there
 //! is, and where the robot begins.
 
 mod spot;

@@ -1,4 +1,5 @@
-//! A place for a thing on or in the furniture: free, near an edge from which it can be taken, and well inside the edge.
+//! A place for a thing on or in the furniture: free, near an edge from which it can be taken, and well
+//! inside the edge.
 
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 

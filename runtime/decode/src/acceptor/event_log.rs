@@ -134,7 +134,6 @@ pub(crate) struct LogEntry {
     pub(crate) hash: u64,
 }
 
-/// A binding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Name {
     pub(crate) below: Id,

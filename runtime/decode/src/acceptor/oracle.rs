@@ -18,7 +18,6 @@ use crate::grammar::{Constant, NodeKind};
 /// The incremental proofs of a machine.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Oracle {
-    /// Judges calls.
     place: ProofCursor,
     /// Verifies whole steps.
     pub(super) verifier: ProofCursor,

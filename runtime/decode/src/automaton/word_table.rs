@@ -32,7 +32,6 @@ pub(crate) enum Meaning {
     Entity(u16),
     /// A case of an enumeration, by both numbers.
     Case(u16, u16),
-    /// `any`
     Any,
     /// The declaration with this number.
     Named(u16),

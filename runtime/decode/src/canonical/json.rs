@@ -36,7 +36,7 @@ impl Printer {
         self.out.push_str(text);
     }
 
-    /// What needs no escape: the subset has no other strings, but a name of an entity may be any.
+    /// Writes a string that needs no escape. The subset has no other strings, except for names of entities.
     fn string(&mut self, text: &str) {
         // A string always has a JSON form.
         self.out.push_str(&serde_json::to_string(text).unwrap_or_default());

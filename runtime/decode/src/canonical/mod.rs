@@ -50,7 +50,7 @@ impl std::error::Error for OutsideSubset {}
 /// let policy = file.policies().next().expect("the document has a policy");
 /// assert_eq!(
 ///     canonical(policy, &session.signatures(), Subset::default()).as_deref(),
-///     Ok(r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"go","to":"kitchen_table"}]}"#),
+/// Ok(r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"go","to":"kitchen_table"}]}"#),
 /// );
 /// # Ok::<(), motet_decode::EnvironmentError>(())
 /// ```

@@ -40,7 +40,7 @@ pub(super) fn name_but<'w>(words: impl Iterator<Item = &'w str>) -> EbnfExpr {
     below(&root, 0)
 }
 
-/// How a name goes on that has followed the tree for so many letters.
+/// Continuations of a name that has followed the tree for `letters` letters.
 fn below(tree: &Tree, letters: usize) -> EbnfExpr {
     let left = MAX_NAME_CHARS.saturating_sub(letters);
     let class = if letters == 0 { NAME_FIRST } else { NAME };

@@ -49,10 +49,10 @@ pub(super) fn ebnf(grammar: &Grammar) -> EbnfGrammar {
     deriver.out
 }
 
-/// Where a part stands.
+/// Position of a part in the nesting of blocks.
 #[derive(Clone, Copy)]
 struct Level {
-    /// How many blocks may be nested in the steps here.
+    /// Number of block levels that may still nest in the steps here.
     depth: usize,
     in_goal: bool,
 }

@@ -5,10 +5,9 @@
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct RuleId(pub usize);
 
-/// What may stand at a place.
+/// Expression of an EBNF grammar.
 #[derive(Clone, PartialEq, Debug)]
 pub enum EbnfExpr {
-    /// These characters.
     Literal(String),
     /// One character of these ranges, both ends included, all of them ASCII.
     Class(Vec<(char, char)>),
@@ -18,18 +17,17 @@ pub enum EbnfExpr {
     Choice(Vec<EbnfExpr>),
     /// As often as from the first to the second number.
     Repeat(Box<EbnfExpr>, u32, u32),
-    /// What a rule says.
+    /// Reference to a rule.
     Rule(RuleId),
 }
 
-/// A rule.
+/// One rule of an EBNF grammar.
 #[derive(Clone, PartialEq, Debug)]
 pub struct EbnfRule {
     /// Its name: lower-case letters, digits and `_`; no two are alike.
     pub name: String,
-    /// What it says.
     pub body: EbnfExpr,
-    /// Whether it is a word of its own, which has no rule within: a terminal, where a notation has them.
+    /// Marks a terminal: a rule that refers to no other rule.
     pub is_token: bool,
 }
 
@@ -41,7 +39,7 @@ pub struct EbnfGrammar {
 }
 
 impl EbnfExpr {
-    /// A literal.
+    /// Expression that matches one literal text.
     #[must_use]
     pub fn literal(text: impl Into<String>) -> Self {
         Self::Literal(text.into())

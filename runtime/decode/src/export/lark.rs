@@ -4,13 +4,12 @@
 use super::ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
 use super::notation::{Level, Notation, times};
 
-/// Whether the line stands at the top by which llguidance knows its dialect.
+/// First line of a Lark grammar, by which llguidance recognises its dialect.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Header {
     /// No header: what other readers of Lark take.
     #[default]
     None,
-    /// `%llguidance {}`
     Llguidance,
 }
 

@@ -1,4 +1,4 @@
-//! What is known of the limits of servers: where a grammar exceeds one, the server refuses it, or is slow.
+//! Known limits of servers. A server refuses a grammar that exceeds one, or becomes slow.
 
 use serde_json::Value;
 
@@ -8,7 +8,7 @@ use crate::grammar::MAX_EXCLUDED;
 
 /// The most properties of all objects together that OpenAI takes.
 const OPENAI_PROPERTIES: usize = 5_000;
-/// How deep a schema may nest for OpenAI.
+/// Nesting depth of a schema that OpenAI accepts.
 const OPENAI_LEVELS: usize = 10;
 /// The most values of all enumerations together that OpenAI takes.
 const OPENAI_VALUES: usize = 1_000;
@@ -20,9 +20,9 @@ const OLLAMA_BYTES: usize = 64 * 1024;
 /// A limit that a grammar exceeds.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct LimitWarning {
-    /// Whose limit it is; none where it is everyone's.
+    /// Server with the limit; `None` for a limit of all servers.
     pub server: Option<Dialect>,
-    /// What is too much, and how much of it.
+    /// Description of the excess, with its amount.
     pub text: String,
 }
 

@@ -1,8 +1,8 @@
-//! How a grammar is written down: the walk that all notations share, and what each of them has of its own.
+//! Notation of a grammar: the traversal that all notations share, and the parts that differ.
 
 use super::ebnf::{EbnfExpr, RuleId};
 
-/// How tightly an expression has to hold together where it stands.
+/// Binding strength that the context of an expression needs.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Level {
     Choice,
@@ -10,7 +10,6 @@ pub(super) enum Level {
     Item,
 }
 
-/// A notation.
 pub(super) trait Notation {
     /// Between what stands one after the other.
     const THEN: &'static str;
@@ -27,12 +26,11 @@ pub(super) trait Notation {
 
     fn rule(&self, out: &mut String, id: RuleId);
 
-    /// Nothing.
     fn nothing(&self, out: &mut String) {
         out.push_str("\"\"");
     }
 
-    /// How tightly an expression holds together by itself.
+    /// Binding strength of an expression.
     fn level(&self, expr: &EbnfExpr) -> Level {
         match expr {
             EbnfExpr::Choice(_) => Level::Choice,
@@ -75,7 +73,7 @@ pub(super) trait Notation {
     }
 }
 
-/// How often, as GBNF, Lark and regular expressions write it.
+/// Repetition as GBNF, Lark and regular expressions write it.
 pub(super) fn times(out: &mut String, least: u32, greatest: u32) {
     match (least, greatest) {
         (0, 1) => out.push('?'),

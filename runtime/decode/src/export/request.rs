@@ -1,4 +1,4 @@
-//! How servers are asked to hold a model to a grammar: the fields that each dialect adds to a chat request.
+//! Chat requests that constrain a model to a grammar: the fields of each dialect.
 
 use serde_json::{Map, Value, json};
 
@@ -21,14 +21,14 @@ pub enum Dialect {
     OpenAi,
 }
 
-/// What a request asks, beside its grammar.
+/// Messages of a request, beside its grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Prompt<'p> {
     /// The name of the model.
     pub model: &'p str,
-    /// What the model is told to be.
+    /// System message.
     pub system: &'p str,
-    /// What it is asked.
+    /// User message.
     pub user: &'p str,
 }
 

@@ -41,59 +41,58 @@ pub(crate) enum Action {
 /// When an alternative is open.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Guard {
-    /// Always.
     Open,
     /// While the rule has fewer members.
     Below(u8),
-    /// Where the block may end: nothing that follows from it is refuted.
+    /// The block may end: nothing after it is refuted.
     Close,
-    /// Where the block may be empty and may end.
+    /// The block may be empty and end.
     Empty,
-    /// Where some callable may be called.
+    /// Some callable may be called.
     Call,
-    /// Where one more step with blocks may begin.
+    /// One more step with blocks may begin.
     Nest,
     /// As `Nest`, for a step that is proved to a fixed point.
     Fix,
-    /// Where some condition may be waited for.
+    /// Some condition may be waited for.
     Wait,
-    /// Where the goal is not refuted, so that the policy may be done.
+    /// The goal is not refuted, so the policy may be done.
     Done,
     /// As `Done`, for the reaction of a monitor.
     DoneWhen,
-    /// Where this reaction refutes nothing.
+    /// This reaction refutes nothing.
     React(NodeKind),
-    /// Where a condition may be a conjunction.
+    /// A condition may be a conjunction.
     All,
-    /// Where a condition may be a disjunction.
+    /// A condition may be a disjunction.
     Any,
-    /// Where a condition may be a negation.
+    /// A condition may be a negation.
     Not,
-    /// Where some fluent may be asked for.
+    /// Some fluent may be tested.
     Is,
-    /// Where a condition may be one that says nothing about the facts.
+    /// The condition may be one that says nothing about the facts.
     Loose,
-    /// Where a loop needs no test.
+    /// The loop needs no test.
     NoTest,
     /// Always, but the alternative may turn out to be empty.
     Rare,
     /// In no policy.
     Never,
-    /// Where this callable may be called.
+    /// This callable may be called.
     Callable(u16),
-    /// Where some callable with a result may be called.
+    /// Some callable with a result may be called.
     Let,
-    /// Where this fluent may be asked for.
+    /// This fluent may be tested.
     Fluent(u16),
-    /// Where `and` may follow a condition.
+    /// `and` may follow the condition.
     And,
-    /// Where `or` may follow a condition.
+    /// `or` may follow the condition.
     Or,
-    /// Where conditions may be nested this many levels deeper and nothing is required of them.
+    /// Conditions may nest this many levels deeper, and nothing is required of them.
     Paren(u8),
-    /// Where a comparison or several conditions may stand under `not`.
+    /// A comparison or several conditions may follow `not`.
     NotParen,
-    /// Where several conditions may stand in these parentheses.
+    /// Several conditions may stand in these parentheses.
     Several,
     /// Behind a comparison.
     Compared,
@@ -187,7 +186,6 @@ pub(crate) enum WordRole {
     Callable,
     /// The argument of a call with this number.
     Argument(u8),
-    /// A fluent.
     Fluent,
     /// An argument of a fluent.
     Of,

@@ -329,7 +329,7 @@ impl Grammar {
 }
 
 impl Grammar {
-    /// Whether a loop may list what a step has bound.
+    /// Returns `true` if a loop may iterate over a list that a step has bound.
     pub(crate) fn binds_lists(&self) -> bool {
         self.bindable.iter().any(|ty| matches!(ty, Type::List(_)))
     }

@@ -10,18 +10,24 @@ use crate::subset::NumberRange;
 /// grammar spells them.
 #[derive(Clone, Debug)]
 pub(crate) enum Part {
-    /// These bytes.
     Literal(SmolStr),
     /// No byte: an action of the automaton.
     Action(Action),
     /// A name that the policy gives, with what ends it: quotes around it in JSON, a space behind it in text.
     Name(NameUse),
     /// A value of a type; `range` bounds a number, in SI units.
-    Value { ty: Type, range: Option<(f64, f64)>, place: ValuePlace },
+    Value {
+        ty: Type,
+        range: Option<(f64, f64)>,
+        place: ValuePlace,
+    },
     /// A number, in text with its unit.
     Number(NumberRange),
     /// A number or its default: in JSON `null` behind the lead, in text nothing at all.
-    OptionalNumber { lead: SmolStr, range: NumberRange },
+    OptionalNumber {
+        lead: SmolStr,
+        range: NumberRange,
+    },
     /// A relation between values of a type; in text with the space behind it.
     Relation(Type),
     /// The kinds of failure of a handler, with brackets in JSON, with the space behind them in text.
@@ -35,12 +41,16 @@ pub(crate) enum Part {
     /// One of several.
     Choice(ChoiceStyle, Vec<Alternative>),
     /// An alternative or nothing but the actions of `absent`.
-    Optional { present: Box<Alternative>, absent: Vec<Part>, absent_guard: Guard },
+    Optional {
+        present: Box<Alternative>,
+        absent: Vec<Part>,
+        absent_guard: Guard,
+    },
     /// The same several times.
     Repeat(Box<Repeat>),
 }
 
-/// Where a value stands.
+/// Position of a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum ValuePlace {
     /// The argument of a call with this number.
@@ -53,7 +63,7 @@ pub(crate) enum ValuePlace {
     Plain,
 }
 
-/// How the automaton tells the alternatives of a choice apart.
+/// Method by which the automaton tells the alternatives of a choice apart.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum ChoiceStyle {
     /// By literals of which none begins another.

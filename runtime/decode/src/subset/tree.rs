@@ -7,20 +7,17 @@ use smol_str::SmolStr;
 
 use super::Decimal;
 
-/// A policy.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Document {
-    /// Its name.
     pub(crate) name: SmolStr,
     /// The robot of the library; none where it has none.
     pub(crate) robot: Option<SmolStr>,
-    /// What holds where it is done.
+    /// Goal of the policy.
     pub(crate) achieves: Option<Condition>,
     /// Its steps, one at least.
     pub(crate) steps: Vec<Step>,
 }
 
-/// A step.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Step {
     /// `{"do":"pick","object":"$mug","from":"auto"}`, `pick(mug, auto)`
@@ -45,27 +42,23 @@ pub(crate) enum Step {
         list: Value,
         /// The longest list that is taken.
         at_most: u32,
-        /// The body.
         steps: Vec<Step>,
     },
     /// `{"parallel":[[…],[…]]}`, `parallel { { … } { … } }`
     Parallel(Vec<Vec<Step>>),
-    /// `{"end":"done"}`, `done`
     End(End),
 }
 
 /// A call of a primitive or a policy.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Call {
-    /// What is called.
     pub(crate) name: SmolStr,
     /// The arguments with the names of their parameters, all of them, in order.
     pub(crate) args: Vec<(SmolStr, Value)>,
-    /// Whether it is a policy, which has no modifiers.
+    /// Marks a call of a policy, which has no modifiers.
     pub(crate) is_policy: bool,
     /// The deadline, in seconds.
     pub(crate) within: Option<Decimal>,
-    /// The retries.
     pub(crate) retry: Option<u32>,
     /// The name of its result; always there where it has one.
     pub(crate) bind: Option<SmolStr>,
@@ -74,15 +67,13 @@ pub(crate) struct Call {
 /// A condition that is watched, and what then happens.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct When {
-    /// The condition.
     pub(crate) condition: Condition,
-    /// How long it must hold, in seconds; `null` in JSON where nothing is said.
+    /// Time in seconds for which the condition must hold; `null` in JSON for the default.
     pub(crate) hold: Option<Decimal>,
-    /// What then happens.
     pub(crate) reaction: Reaction,
 }
 
-/// What a monitor does.
+/// Reaction of a monitor.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Reaction {
     /// `{"react":"pause"}`, `pause`, with modifiers with its longest time in seconds.
@@ -91,11 +82,9 @@ pub(crate) enum Reaction {
     Restart(u32),
     /// `{"react":"resume","at_most":3,"steps":[…]}`, `resume at most 3 { … }`
     Resume(u32, Vec<Step>),
-    /// An ending.
     End(End),
 }
 
-/// A handler.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Catch {
     /// The kinds of failure; `any` where there is none.
@@ -104,19 +93,15 @@ pub(crate) struct Catch {
     pub(crate) steps: Vec<Step>,
 }
 
-/// An ending.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct End {
-    /// Which.
     pub(crate) kind: EndKind,
     /// The reason: always there but for `done`; a text or a name.
     pub(crate) why: Option<Value>,
 }
 
-/// A condition.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Condition {
-    /// `{"is":"holding","object":"$mug"}`, `holding(mug)`
     Is(SmolStr, Vec<(SmolStr, Value)>),
     /// `{"not":c}`, `not c`
     Not(Box<Condition>),
@@ -128,16 +113,15 @@ pub(crate) enum Condition {
     Compare(Subject, Relation, Value),
 }
 
-/// What is compared.
+/// Left side of a comparison.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Subject {
-    /// A measure.
     Measure(SmolStr, Vec<(SmolStr, Value)>),
     /// A field of an entity.
     Field(SmolStr, Value),
 }
 
-/// How it is compared.
+/// Operator of a comparison.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Relation(pub(crate) CompareOp);
 
@@ -154,7 +138,6 @@ impl Relation {
     /// Those of anything else.
     pub(crate) const EQUALITY: [Self; 2] = [Self(CompareOp::Equal), Self(CompareOp::Unequal)];
 
-    /// In JSON.
     #[must_use]
     pub(crate) fn word(self) -> &'static str {
         match self.0 {
@@ -167,7 +150,6 @@ impl Relation {
         }
     }
 
-    /// In text.
     #[must_use]
     pub(crate) fn symbol(self) -> &'static str {
         match self.0 {
@@ -194,7 +176,6 @@ impl Relation {
     }
 }
 
-/// A value.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Value {
     /// `"$mug"`, `mug`: what a step has bound.
@@ -203,9 +184,7 @@ pub(crate) enum Value {
     Name(SmolStr),
     /// `0.5`, `0.5 m`: a number, in SI units, and the unit of the text form.
     Number(Decimal, Option<Unit>),
-    /// `"red mug"`
     Text(SmolStr),
-    /// `true`
     Bool(bool),
     /// `any`, of a fluent.
     Any,

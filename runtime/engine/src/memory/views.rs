@@ -10,16 +10,13 @@ use std::fmt;
 /// The short history: the first request and the latest failure.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct ShortHistory {
-    /// First request.
     pub request: Option<String>,
-    /// Latest failure.
     pub failure: Option<MemoryEntry>,
 }
 
 /// The working memory: the state, and what was done so far.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct WorkingMemory {
-    /// Latest request.
     pub request: Option<String>,
     /// Facts that hold (`true`), do not hold (`false`), or are unknown although a related fact is known
     /// (`null`).
@@ -36,9 +33,7 @@ pub struct WorkingMemory {
 /// Everything that is remembered.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct FullMemory {
-    /// First request.
     pub first_instruction: Option<MemoryEntry>,
-    /// Latest failure.
     pub latest_failure: Option<MemoryEntry>,
     /// All entries that are kept, oldest first.
     pub entries: Vec<MemoryEntry>,

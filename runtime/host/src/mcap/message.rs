@@ -5,7 +5,6 @@ use motet_runtime::{Effect, Event, Snapshot, Time};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// On `/motet/event`.
 #[derive(Serialize, JsonSchema)]
 pub(super) struct EventMessage {
     /// The number of the journal's entry.
@@ -16,7 +15,6 @@ pub(super) struct EventMessage {
     pub(super) event: Option<Event>,
 }
 
-/// On `/motet/effect`.
 #[derive(Serialize, JsonSchema)]
 pub(super) struct EffectMessage {
     /// The number of the journal's entry.

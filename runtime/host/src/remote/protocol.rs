@@ -97,7 +97,6 @@ pub struct Welcome {
     /// A text that is another one after every start of the driver: what it knows of goals, it knows since
     /// then.
     pub instance: String,
-    /// Optional abilities.
     pub capabilities: Capabilities,
 }
 

@@ -60,7 +60,8 @@ fn part(condition: &Expr) -> String {
     if matches!(condition.kind, motet_syntax::ast::ExprKind::AnyOf(_)) { format!("({text})") } else { text }
 }
 
-/// A step, watched where the base moves to a person or with something in the hand, and the robot can observe it.
+/// A step, watched where the base moves to a person or with something in the hand, and the robot can
+/// observe it.
 fn watched(step: &PlannedStep, robot: Option<&Robot>) -> String {
     let call = print::call(&step.call, Syntax::Text);
     let observes = |name: &str| robot.is_some_and(|robot| robot.observes.iter().any(|known| known == name));

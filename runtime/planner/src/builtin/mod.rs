@@ -1,4 +1,5 @@
-//! The planner that needs no model. Every policy that it writes is checked by the compiler before it is given out.
+//! The planner that needs no model. Every policy that it writes is checked by the compiler before it is
+//! given out.
 
 mod draft;
 
@@ -61,7 +62,8 @@ pub enum PlanError {
 /// Factor on the state budget of a second search, after the first one used up its budget.
 const LAST_RESORT: usize = 6;
 
-/// Plans for aims, one after the other, and has the policy checked. The same session and aims give the same policy.
+/// Plans for aims, one after the other, and has the policy checked. The same session and aims give the same
+/// policy.
 ///
 /// # Errors
 ///

@@ -295,7 +295,8 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// A policy as a list of actions, and what of it the list leaves out: conditions, monitors, what is done after a failure.
+/// A policy as a list of actions, and what of it the list leaves out: conditions, monitors, what is done
+/// after a failure.
 #[must_use]
 pub fn write(policy: &Policy, scene: &Scene) -> (String, Vec<String>) {
     let mut writer = Writer { scene, actions: Vec::new(), left_out: Vec::new() };

@@ -6,7 +6,8 @@ use thiserror::Error;
 
 use crate::prompt::{Reachability, Sighting};
 
-/// One exchange between a person and a robot. Each part is what stands behind its tag, without blanks around it; empty where
+/// One exchange between a person and a robot. Each part is what stands behind its tag, without blanks
+/// around it; empty where
 /// the tag is missing.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Exchange {
@@ -49,8 +50,10 @@ const TAGS: [&str; 5] = ["history", "user", "vision", "feasibility", "robot"];
 /// Length of a quotation in a message, in characters.
 const QUOTED: usize = 40;
 
-/// Reads all exchanges of a text. Tags stand in either case, closing tags may stand behind their parts, and the parts of an
-/// exchange may come in any order; a second `<history>`, or a `<user>` behind a `<robot>`, begins the next. O(bytes).
+/// Reads all exchanges of a text. Tags stand in either case, closing tags may stand behind their parts, and
+/// the parts of an
+/// exchange may come in any order; a second `<history>`, or a `<user>` behind a `<robot>`, begins the next.
+/// O(bytes).
 ///
 /// # Errors
 ///
@@ -163,7 +166,8 @@ impl Exchange {
         self.robot.ends_with('?')
     }
 
-    /// As a text, a line a part. An empty history, vision or feasibility is left out. StreamReader it gives the same exchange
+    /// As a text, a line a part. An empty history, vision or feasibility is left out. StreamReader it gives
+    /// the same exchange
     /// where no part has a tag of its own in it.
     #[must_use]
     pub fn write(&self) -> String {

@@ -1,6 +1,7 @@
 //! A list of actions as its items: numbers, bullets and marks at the ends taken away.
 
-/// The items of a list of actions, in order: by lines, commas, semicolons, numbers, and `then`; commas between parentheses
+/// The items of a list of actions, in order: by lines, commas, semicolons, numbers, and `then`; commas
+/// between parentheses
 /// do not count. O(bytes).
 pub(super) fn items(text: &str) -> Vec<String> {
     let text = without_numbers(text);

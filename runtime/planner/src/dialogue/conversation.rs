@@ -1,4 +1,5 @@
-//! A conversation: requests carried out one after the other, with new plans and questions, in a world that lasts.
+//! A conversation: requests carried out one after the other, with new plans and questions, in a world that
+//! lasts.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -32,7 +33,8 @@ pub struct DialogueSetup {
     pub scene: Scene,
     /// Declarations on top of the library.
     pub domains: Vec<File>,
-    /// The robot's body in the scene, where motions are checked beforehand: as long as all is as the scene says.
+    /// The robot's body in the scene, where motions are checked beforehand: as long as all is as the scene
+    /// says.
     pub geometry: Option<Arc<Geometry>>,
     /// Settings of the check.
     pub options: CheckOptions,
@@ -77,7 +79,8 @@ impl<'a> Conversation<'a> {
         Self { eyes: Some(Box::new(eyes)), ..self }
     }
 
-    /// Carries out a request to its end. Runs from the driver's present time `from`; gives the time at the end too.
+    /// Carries out a request to its end. Runs from the driver's present time `from`; gives the time at the
+    /// end too.
     pub fn carry_out(
         &mut self,
         request: &str,

@@ -1,4 +1,5 @@
-//! A run with somebody beside it: what happens is remembered, and a new request takes over in the middle of it.
+//! A run with somebody beside it: what happens is remembered, and a new request takes over in the middle of
+//! it.
 
 use std::sync::Arc;
 

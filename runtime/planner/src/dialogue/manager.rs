@@ -94,7 +94,8 @@ impl<'r, 'a> Pursuit<'r, 'a> {
                 Next::Over(outcome) => return outcome,
                 Next::Problem(problem, was_refused) => (problem, was_refused),
             };
-            // What merely did not work, or was not as it was believed, is tried again before somebody is troubled.
+            // What merely did not work, or was not as it was believed, is tried again before somebody is
+            // troubled.
             if (problem.kind == Kind::ActionFailed || was_refused) && self.task.tries < TRIES {
                 self.task.tries += 1;
                 continue;
@@ -223,7 +224,8 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         Next::Round
     }
 
-    /// Asks a person what to do about a problem, until the answer is understood; the outcome, where that ends it.
+    /// Asks a person what to do about a problem, until the answer is understood; the outcome, where that
+    /// ends it.
     fn ask(&mut self, problem: Problem, scene: &Scene) -> Option<Outcome> {
         // What an answer says beside what is understood of it is for who plans.
         let is_told = self.planner.reads_answers();

@@ -1,8 +1,10 @@
-//! The loop: a request becomes a policy, the policy runs, and what goes wrong becomes a question whose answer goes into the
+//! The loop: a request becomes a policy, the policy runs, and what goes wrong becomes a question whose
+//! answer goes into the
 //! next policy, until it is done, given up or stopped. A new request may come at any time and takes over.
 //!
 //! Who plans is a [`Planner`], who answers a [`Person`], who looks on a [`Watcher`]; the robot is any
-//! [`Driver`](motet_runtime::Driver). [`Conversation`] brings them together, and [`Known`] is what lasts from one policy to
+//! [`Driver`](motet_runtime::Driver). [`Conversation`] brings them together, and [`Known`] is what lasts
+//! from one policy to
 //! the next.
 
 mod answer;

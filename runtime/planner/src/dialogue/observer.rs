@@ -72,7 +72,8 @@ impl DialogueObserver for () {}
 
 /// Writes down one run.
 pub trait RunRecorder {
-    /// Runs an engine to its end as [`motet_runtime::run`] does, and writes down what it takes in and gives out.
+    /// Runs an engine to its end as [`motet_runtime::run`] does, and writes down what it takes in and gives
+    /// out.
     fn run(
         self: Box<Self>,
         engine: &mut Engine,

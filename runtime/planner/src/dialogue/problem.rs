@@ -147,7 +147,8 @@ fn failed(
     let primitive = call.and_then(|call| graph.primitives.get(call.primitive.index()));
     let args = || call.into_iter().flat_map(|call| &call.args);
     let entity = |arg: &Term| named_entity(graph, bound, arg);
-    // What cannot be got at is where the step leads last: of what is put somewhere the place, since the thing is in the hand.
+    // What cannot be got at is where the step leads last: of what is put somewhere the place, since the
+    // thing is in the hand.
     let about = match (kind, args().next()) {
         ("unreachable" | "blocked", _) => args().filter_map(entity).next_back(),
         // Who looks for a thing by words names it first.

@@ -1,4 +1,5 @@
-//! A look at oneself between two policies: what the hands hold and where the base stands. After a failure or in the middle of
+//! A look at oneself between two policies: what the hands hold and where the base stands. After a failure
+//! or in the middle of
 //! something the engine knows neither, and a robot can tell both without moving.
 
 use motet_graph::Value;
@@ -7,7 +8,8 @@ use motet_robots::scene::Scene;
 use motet_runtime::{Answer, Driver, DriverEvent, Pattern, Query, Time, Truth};
 use smol_str::SmolStr;
 
-/// Asks a driver, where the robot's card says that it can tell. Gives what it answers, in order, and the time by then, which
+/// Asks a driver, where the robot's card says that it can tell. Gives what it answers, in order, and the
+/// time by then, which
 /// is at most the card's `observe_within` later.
 pub(super) fn sense(
     driver: &mut dyn Driver,

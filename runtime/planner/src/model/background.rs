@@ -1,7 +1,9 @@
 //! A policy whose first step begins while the rest is still being written.
 //!
-//! The first step is a policy of its own once it is complete, provided that nothing behind it can speak against it: all that
-//! it needs is proven and its motions have witnesses, where motions are computed. What follows can still turn out to be
+//! The first step is a policy of its own once it is complete, provided that nothing behind it can speak
+//! against it: all that
+//! it needs is proven and its motions have witnesses, where motions are computed. What follows can still
+//! turn out to be
 //! wrong; then it is planned anew from where that step has led.
 
 use std::time::Duration;
@@ -89,7 +91,8 @@ fn is_certain(graph: &Graph) -> bool {
     certain && calls > 0
 }
 
-/// A policy without its first step, in which names of that step stand for what they were bound to; none where nothing is
+/// A policy without its first step, in which names of that step stand for what they were bound to; none
+/// where nothing is
 /// left of it.
 ///
 /// # Errors

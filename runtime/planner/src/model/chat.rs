@@ -37,7 +37,8 @@ impl Message {
 
 /// A language or vision-language model that answers chats.
 pub trait Model {
-    /// Sends a chat. The reply is to keep to what `constraint` offers, where whoever answers can be held to that; nobody
+    /// Sends a chat. The reply is to keep to what `constraint` offers, where whoever answers can be held to
+    /// that; nobody
     /// relies on it. Does not wait.
     ///
     /// # Errors

@@ -181,7 +181,8 @@ impl<'m> ModelPlanner<'m> {
                         if !changed.is_empty() && round < self.settings.repairs {
                             return Round::Bad(reading.reply().to_owned(), changed);
                         }
-                        // A model is told once that this is not what was asked for; it may know better what was meant.
+                        // A model is told once that this is not what was asked for; it may know better what
+                        // was meant.
                         let wanted = goal.take().filter(|_| round < self.settings.repairs);
                         let findings = wanted.map(|goal| goal_check::missed(session, &planned, &goal));
                         if let Some(findings) = findings.filter(|findings| !findings.is_empty()) {

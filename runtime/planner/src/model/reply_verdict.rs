@@ -29,7 +29,8 @@ pub enum ReplyVerdict {
     },
 }
 
-/// Judges a reply. It may have prose, thoughts or a fence around the policy, which may be in either form. What else it
+/// Judges a reply. It may have prose, thoughts or a fence around the policy, which may be in either form.
+/// What else it
 /// declares is left out, or a reply could say of its own steps what they need.
 #[must_use]
 pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {

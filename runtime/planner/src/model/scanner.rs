@@ -1,4 +1,5 @@
-//! The JSON object in a reply, followed character by character: what stands before it is skipped, and white space that
+//! The JSON object in a reply, followed character by character: what stands before it is skipped, and white
+//! space that
 //! says nothing is left out, so that an indented reply is read like one on a single line.
 
 /// Position in the text of a reply.

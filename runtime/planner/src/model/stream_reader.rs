@@ -1,8 +1,11 @@
 //! A reply that is read as it arrives, and stopped where it is wrong.
 //!
-//! As long as it is written like the model surface the acceptor follows it byte by byte. Where it leaves the surface it may
-//! be wrong, or only spelt otherwise: the checker is asked as soon as the value, or else the object, is complete in which
-//! that happened. Each step of the policy's own is checked with the steps before it once it is complete, motions included.
+//! As long as it is written like the model surface the acceptor follows it byte by byte. Where it leaves
+//! the surface it may
+//! be wrong, or only spelt otherwise: the checker is asked as soon as the value, or else the object, is
+//! complete in which
+//! that happened. Each step of the policy's own is checked with the steps before it once it is complete,
+//! motions included.
 //! What a known fix mends is no reason to stop.
 
 use std::borrow::Cow;
@@ -14,7 +17,8 @@ use motet_syntax::Diagnostic;
 use super::reply_verdict::{errors, mend, read};
 use super::scanner::{Mark, Scan};
 
-/// Behind the steps so far, where a policy is checked that is not complete: what it leaves undone is not held against it.
+/// Behind the steps so far, where a policy is checked that is not complete: what it leaves undone is not
+/// held against it.
 const UNFINISHED: &str = r#"{"end":"fail","why":"unfinished"}"#;
 
 /// Steps whose body may run again, or beside another.
@@ -165,7 +169,8 @@ impl<'s> StreamReader<'s> {
         }
     }
 
-    /// Asks the checker about what began at `from` and is complete now. What is found elsewhere is found because the rest
+    /// Asks the checker about what began at `from` and is complete now. What is found elsewhere is found
+    /// because the rest
     /// is missing.
     fn ask(&mut self, suspect: Suspect, from: usize) -> StreamVerdict {
         let text = self.closed();

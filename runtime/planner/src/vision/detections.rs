@@ -6,8 +6,10 @@ use motet_runtime::Detection;
 /// The least confidence that counts as seen.
 const SURE: f64 = 0.5;
 
-/// The scene with what is seen: a thing that was detected is visible and stands where it was detected, any other object is
-/// not visible. A detection without an entity counts for the one object of its class, where there is just one. Poses are
+/// The scene with what is seen: a thing that was detected is visible and stands where it was detected, any
+/// other object is
+/// not visible. A detection without an entity counts for the one object of its class, where there is just
+/// one. Poses are
 /// taken as upright: roll and pitch stay as they were. O(detections · entities).
 #[must_use]
 pub fn with_detections(scene: &Scene, detections: &[Detection]) -> Scene {

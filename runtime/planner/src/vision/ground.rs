@@ -84,7 +84,8 @@ pub fn ground(
 ///
 /// # Errors
 ///
-/// Where it is no such object, has more or fewer than two numbers, one that is not finite, or two different points.
+/// Where it is no such object, has more or fewer than two numbers, one that is not finite, or two different
+/// points.
 pub fn point(reply: &str) -> Result<[f64; 2], NoPoint> {
     if reply.len() > MAX_REPLY {
         return Err(NoPoint::Unreadable("it is too long"));
@@ -113,8 +114,10 @@ pub fn point(reply: &str) -> Result<[f64; 2], NoPoint> {
     found.ok_or(NoPoint::Unreadable("there is no object with `point` in it"))
 }
 
-/// Lifts a point of an image to a pose in the frame `map`: `map_from_point = map_from_camera * camera_from_point`, where the
-/// point lies at `((u - cx) / fx, (v - cy) / fy, 1) * depth` before the camera. Where the pixel has no depth, the median of
+/// Lifts a point of an image to a pose in the frame `map`: `map_from_point = map_from_camera *
+/// camera_from_point`, where the
+/// point lies at `((u - cx) / fx, (v - cy) / fy, 1) * depth` before the camera. Where the pixel has no
+/// depth, the median of
 /// its neighbourhood counts.
 ///
 /// # Errors
@@ -140,7 +143,8 @@ pub fn lift([u, v]: [f64; 2], depth: &DepthImage, camera: &CameraModel) -> Resul
         return Err(NoPoint::Outside { u, v, width, height });
     }
     let far = depth_at(depth, u as i64, v as i64).ok_or(NoPoint::NoDepth { u, v })?;
-    // A pixel's centre is half a pixel from its corner on both sides of the division: intrinsics count from centres.
+    // A pixel's centre is half a pixel from its corner on both sides of the division: intrinsics count from
+    // centres.
     let (u, v) = (u.floor(), v.floor());
     let in_camera = [(u - cx) / fx * far, (v - cy) / fy * far, far];
     let mut lifted = xyz;

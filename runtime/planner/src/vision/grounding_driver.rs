@@ -1,4 +1,5 @@
-//! A driver whose `ground` asks a model. The question goes out on a thread of its own: engine and world go on meanwhile,
+//! A driver whose `ground` asks a model. The question goes out on a thread of its own: engine and world go
+//! on meanwhile,
 //! and the world's time runs no faster than the clock as long as an answer is awaited.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -32,7 +33,8 @@ pub struct GroundedPoint<'a> {
     pub found: &'a Result<Pose, NoPoint>,
 }
 
-/// A driver beside somebody who is asked for points. It keeps the laws of the driver within, with this exception to the
+/// A driver beside somebody who is asked for points. It keeps the laws of the driver within, with this
+/// exception to the
 /// sixth: when an answer comes only its giver knows.
 pub struct GroundingDriver<'d> {
     driver: &'d mut dyn Driver,
@@ -78,7 +80,8 @@ impl Drop for Asked {
 }
 
 impl<'d> GroundingDriver<'d> {
-    /// Puts somebody who points beside a driver. The thread on which they are asked ends after this, once its last question
+    /// Puts somebody who points beside a driver. The thread on which they are asked ends after this, once
+    /// its last question
     /// is answered.
     #[must_use]
     pub fn new(
@@ -235,7 +238,8 @@ impl Driver for GroundingDriver<'_> {
         if !self.own.contains(&goal) {
             return self.driver.hold(now, goal);
         }
-        // An answer that has come already and was not reported yet does not wait either, and this is said before it.
+        // An answer that has come already and was not reported yet does not wait either, and this is said
+        // before it.
         let is_end =
             |event: &DriverEvent| matches!(event, DriverEvent::Ended { goal: of, .. } if *of == goal);
         let end = self.outbox.iter().position(|(_, event)| is_end(event));

@@ -1,4 +1,5 @@
-//! Motion queries on a thread with a stack of 2 MiB, which is what `std::thread` gives, with nothing optimised.
+//! Motion queries on a thread with a stack of 2 MiB, which is what `std::thread` gives, with nothing
+//! optimised.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "a test fails by panicking")]
 

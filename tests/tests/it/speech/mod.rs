@@ -1,4 +1,5 @@
-//! How people speak: what is said around a request is passed over, and what only sounds like one is not taken for it.
+//! How people speak: what is said around a request is passed over, and what only sounds like one is not
+//! taken for it.
 mod answers;
 mod asked;
 mod courtesy;

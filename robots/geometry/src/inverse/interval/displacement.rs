@@ -61,7 +61,6 @@ impl RotationBound {
 }
 
 impl DisplacementBound {
-    /// Zero displacement.
     pub(crate) fn none() -> Self {
         let (zero, axis) = (Vector3::zeros(), Vector3::z());
         let spins = [RotationBound { angle: 0.0, axis, at: zero }; SPINS];
@@ -69,7 +68,6 @@ impl DisplacementBound {
         Self { shift: 0.0, flat: 0.0, slides, count: 0, turn: 0.0, about: zero, spins, turns: 0 }
     }
 
-    /// Unbounded displacement.
     pub(crate) fn unknown() -> Self {
         Self { shift: f64::INFINITY, ..Self::none() }
     }

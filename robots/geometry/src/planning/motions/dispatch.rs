@@ -1,4 +1,5 @@
-//! Entry points of the motion queries: methods of the query context, each a function of one file of this folder.
+//! Entry points of the motion queries: methods of the query context, each a function of one file of this
+//! folder.
 
 use super::{explain, go_to, look, offer, outcome, pull, push, put, reach};
 use crate::planning::context::QueryContext;
@@ -45,7 +46,8 @@ impl QueryContext<'_> {
 
     /// Completes an infeasible answer with the nearest change that would help, in words, where one is known.
     ///
-    /// Each suggested change was tried: with it the motion is feasible. Where every route of the base is cut off, the
+    /// Each suggested change was tried: with it the motion is feasible. Where every route of the base is
+    /// cut off, the
     /// reason names the obstacle. Takes as long as a few queries.
     #[must_use]
     pub fn explain(&self, query: &MotionQuery, why: &Infeasible, budget: SearchBudget) -> Infeasible {
@@ -58,7 +60,8 @@ impl QueryContext<'_> {
         outcome::after_move(self, witness)
     }
 
-    /// State after the grasp of a witness of `reach`, with the robot back at the start and the object in its hand; `None`
+    /// State after the grasp of a witness of `reach`, with the robot back at the start and the object in
+    /// its hand; `None`
     /// where no path back was found.
     #[must_use]
     pub fn after_reach(&self, witness: &MotionWitness) -> Option<SceneState> {
@@ -71,14 +74,17 @@ impl QueryContext<'_> {
         outcome::after_put(self, witness)
     }
 
-    /// State after a person took the held object, with the robot back at the start by the path on which it came.
+    /// State after a person took the held object, with the robot back at the start by the path on which it
+    /// came.
     #[must_use]
     pub fn after_offer(&self, to: &str) -> Option<SceneState> {
         outcome::after_offer(self, to)
     }
 
-    /// State after a container was opened or closed as a witness of `pull` or `push` says: the contents of a drawer moved
-    /// with it. The robot is back at the start, or at the handle with its arm folded where no path leads back; `None` where
+    /// State after a container was opened or closed as a witness of `pull` or `push` says: the contents of
+    /// a drawer moved
+    /// with it. The robot is back at the start, or at the handle with its arm folded where no path leads
+    /// back; `None` where
     /// neither was found.
     #[must_use]
     pub fn after_pull(&self, witness: &MotionWitness) -> Option<SceneState> {

@@ -129,7 +129,6 @@ pub enum MotionAnswer {
     Feasible(Box<MotionWitness>),
     /// No motion exists, or a complete search found none: see [`Infeasible::certified`].
     Infeasible(Infeasible),
-    /// Not decided.
     Unknown(UnknownReason),
 }
 

@@ -20,7 +20,8 @@ use crate::planning::scene::scene_state::{HeldObject, SceneState, solid_shape};
 /// Distance at which the base counts as being at a place, in m.
 const AT_PLACE: f64 = 0.5;
 
-/// A robot in a scene: its model, the scene and its state, the robot's body with the held object, and the obstacles.
+/// A robot in a scene: its model, the scene and its state, the robot's body with the held object, and the
+/// obstacles.
 #[derive(Clone, Debug)]
 pub struct PlanningScene<'w> {
     pub(crate) model: &'w RobotModel,

@@ -166,7 +166,7 @@ impl RobotModel {
         &self.card
     }
 
-    /// Kinematic tree.
+    /// Kinematic tree of the robot.
     #[must_use]
     pub fn tree(&self) -> &KinematicTree {
         &self.tree

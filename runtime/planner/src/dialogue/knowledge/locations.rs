@@ -1,4 +1,5 @@
-//! The world as it is known: as a scene, as a state, as the start of a run, and as requests are understood in it.
+//! The world as it is known: as a scene, as a state, as the start of a run, and as requests are understood
+//! in it.
 
 use indexmap::IndexMap;
 use motet_compiler::{InitialState, Session};
@@ -68,8 +69,10 @@ impl Knowledge {
         scene
     }
 
-    /// The scene as it is now, as motions are looked for in it, with the base where it stands (x, y, heading in the frame
-    /// `map`); none where it is not known where some object is, which could then stand in the way of anything.
+    /// The scene as it is now, as motions are looked for in it, with the base where it stands (x, y,
+    /// heading in the frame
+    /// `map`); none where it is not known where some object is, which could then stand in the way of
+    /// anything.
     #[must_use]
     pub fn placed(&self, scene: &Scene, base: [f64; 3]) -> Option<Scene> {
         let situation = self.situation(scene);

@@ -28,13 +28,15 @@ impl Knowledge {
         self.facts.is_empty()
     }
 
-    /// Takes over what a run believes. Of what its graph does not speak of, what was known before stays; of what the scene
+    /// Takes over what a run believes. Of what its graph does not speak of, what was known before stays; of
+    /// what the scene
     /// says, as a session was `given` it, nothing stays that is no longer believed.
     pub fn learn(&mut self, engine: &Engine, given: &Session) {
         self.take(engine.snapshot(), engine.graph(), given);
     }
 
-    /// The same in the middle of a run, for a policy that is to take over: of what running steps change nothing is known then.
+    /// The same in the middle of a run, for a policy that is to take over: of what running steps change
+    /// nothing is known then.
     pub fn learn_midway(&mut self, engine: &Engine, given: &Session) {
         self.take(engine.interrupted(), engine.graph(), given);
     }

@@ -9,7 +9,8 @@ use super::Knowledge;
 use motet_requests::ReportedLocation;
 
 impl Knowledge {
-    /// After a step that failed it is unknown where the thing is that it was about. Until somebody looks it is taken to be
+    /// After a step that failed it is unknown where the thing is that it was about. Until somebody looks it
+    /// is taken to be
     /// where it was: a hand that slipped left it there. The next plan looks before it takes.
     pub fn presume(&mut self, before: &[ReportedLocation]) {
         for known in before {

@@ -46,7 +46,6 @@ pub(crate) enum Certificate {
     Nowhere,
     /// Free configurations exist; they were handed over.
     Somewhere,
-    /// Not decided.
     Open,
 }
 

@@ -54,7 +54,6 @@ pub(super) struct OpenPatch {
 pub(super) enum PatchOutcome {
     /// No configuration is free.
     Done,
-    /// Undecided halves.
     Halves([OpenPatch; 2]),
     /// A free configuration.
     Free(Box<GraspCandidate>, Configuration),
@@ -312,7 +311,6 @@ enum CellOutcome {
     Closed,
     /// A free configuration.
     Free(Configuration),
-    /// Undecidable.
     Unclear,
     /// Undecided, with the remaining bodies and the gain of a split.
     Open(CellNode, Option<SplitGain>),
