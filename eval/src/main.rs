@@ -1,14 +1,12 @@
 //! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json] [--planned]`.
 //!
-//! `saycan --planned` plans the instructions from their text instead, and exits 0 where at least 60 % are
-//! carried out.
-//! `dialogue` takes a file of wordings, `dynamic` the number of trials a task and robot.
-//! `reach [SCENE|--rooms N --seed S]` asks motion queries instead.
-//! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else
-//! 1. The suite
-//! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at
-//! least half
-//! of them are mended.
+//! A suite prints a line for each disagreement and a summary object at the end. The exit code is 0 if every verdict agrees,
+//! and 1 if one does not.
+//!
+//! - `saycan --planned` plans the instructions from their text instead, and exits with 0 from 60 % carried out on.
+//! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot.
+//! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are repaired.
+//! - `reach [SCENE|--rooms N --seed S]` asks motion queries.
 
 use std::io::Write as _;
 use std::process::ExitCode;
