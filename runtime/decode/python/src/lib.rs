@@ -2,8 +2,8 @@
 //! convenient in Python, names of files and tokenizers of other libraries, is in `motet/*.py`.
 
 use motet_decode::vocabulary::Encoding;
-use motet_decode::{EndToken, Modifiers, AcceptorFactory, Session, Subset, Environment as Texts};
-use motet_syntax::{FileId, Syntax, Source, Sources, render};
+use motet_decode::{AcceptorFactory, EndToken, Environment as Texts, Modifiers, Session, Subset};
+use motet_syntax::{FileId, Source, Sources, Syntax, render};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -100,7 +100,8 @@ impl World {
         let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
         let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
         let form = if text { Syntax::Text } else { Syntax::Json };
-        let prepared = AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
+        let prepared =
+            AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
         Ok(Self { session, prepared })
     }
 
