@@ -88,7 +88,7 @@ fn ends_with_the_right_code() {
         (
             format!("check good.motet {scene} --state all_held.json"),
             2,
-            &["out:M0225", "out:name what is held"],
+            &["out:M0225", "out:name the thing"],
         ),
         (
             "check good.motet --scene odd_kind.json".to_owned(),

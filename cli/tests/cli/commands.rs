@@ -357,7 +357,7 @@ fn a_card_is_compared_with_what_is_declared() {
         ("\"holding\",", "\"holdin\",", "M0406|rb/robot.toml:|did you mean `holding`?"),
         ("pick = {}", "pik = {}", "M0407|rb/robot.toml:|did you mean `pick`?"),
         ("pick = {}", "fetch = {}", "M0407|rb/robot.toml:|`fetch` is a policy"),
-        ("turn.by", "turn.angle", "M0408|rb/robot.toml:|it has `by`"),
+        ("turn.by", "turn.angle", "M0408|rb/robot.toml:|its parameters are `by`"),
         (
             "{ least = \"-360 deg\", greatest = \"360 deg\" }",
             "{ least = \"-1 m\", greatest = \"1 m\" }",

@@ -31,8 +31,8 @@ typedef struct MotetVocabulary MotetVocabulary;
 // A world that is prepared.
 typedef struct MotetWorld MotetWorld;
 
-// What a policy is written for. Each string is UTF-8 that ends with a null byte; null is not given. A world without a
-// robot offers all primitives of the standard library. Motions are left to the run.
+// What a policy is written for. Each string is UTF-8 that ends with a null byte; null is not given. A
+// world without a robot offers all primitives of the standard library. Motions are left to the run.
 typedef struct MotetWorldTexts {
   // The name of a robot that is built in, or the text of a `robot.toml`.
   const char *robot;
@@ -62,8 +62,8 @@ typedef struct MotetBytes {
 extern "C" {
 #endif // __cplusplus
 
-// Why the last function that was called by this thread failed, in words; null where it did not fail. Valid until the
-// thread calls the next function of this library.
+// Why the last function that was called by this thread failed, in words; null where it did not fail. Valid
+// until the thread calls the next function of this library.
 const char *motet_last_error(void);
 
 // Frees a string that a function of this library returned; null is nothing.
@@ -87,35 +87,29 @@ struct MotetWorld *motet_world_new(const struct MotetWorldTexts *texts);
 // `world` is null or a live world, which is not used again.
 void motet_world_free(struct MotetWorld *world);
 
-// What the checker says of a whole policy in either form: JSON objects, one a line, none where nothing is to be said.
-// Freed with [`motet_string_free`](crate::motet_string_free). Null on an error.
+// What the checker says of a whole policy in either form: JSON objects, one a line, none where nothing is
+// to be said. Freed with [`motet_string_free`](crate::motet_string_free). Null on an error.
 //
 // # Safety
 //
 // `world` is null or a live world; `policy` is null or points to `len` bytes.
-char *motet_world_check(const struct MotetWorld *world,
-                        const uint8_t *policy,
-                        uintptr_t len);
+char *motet_world_check(const struct MotetWorld *world, const uint8_t *policy, uintptr_t len);
 
-// A vocabulary of so many tokens in the order of their numbers; one without bytes is special, and never allowed. `end`
-// is the token that ends a sequence. Null on an error.
+// A vocabulary of so many tokens in the order of their numbers; one without bytes is special, and never
+// allowed. `end` is the token that ends a sequence. Null on an error.
 //
 // # Safety
 //
 // `tokens` is null or points to `count` values, and each of them to as many bytes as it says.
-struct MotetVocabulary *motet_vocabulary_new(const struct MotetBytes *tokens,
-                                             uintptr_t count,
-                                             uint32_t end);
+struct MotetVocabulary *motet_vocabulary_new(const struct MotetBytes *tokens, uintptr_t count, uint32_t end);
 
-// A vocabulary from a file: `tokenizer.json` of Hugging Face, a list in JSON, or lines in base64 such as tiktoken's ranks.
-// `end` is the token that ends a sequence, or [`MOTET_END_KNOWN`]. Null on an error.
+// A vocabulary from a file: `tokenizer.json` of Hugging Face, a list in JSON, or lines in base64 such as
+// tiktoken's ranks. `end` is the token that ends a sequence, or [`MOTET_END_KNOWN`]. Null on an error.
 //
 // # Safety
 //
 // `file` is null or points to `len` bytes.
-struct MotetVocabulary *motet_vocabulary_read(const uint8_t *file,
-                                              uintptr_t len,
-                                              int64_t end);
+struct MotetVocabulary *motet_vocabulary_read(const uint8_t *file, uintptr_t len, int64_t end);
 
 // How many 32-bit words a mask has. 0 on an error.
 //
@@ -154,15 +148,14 @@ struct MotetDecoder *motet_decoder_clone(struct MotetDecoder *decoder);
 // `decoder` is null or live, and is not used again.
 void motet_decoder_free(struct MotetDecoder *decoder);
 
-// Writes which tokens may follow: token `t` where bit `t % 32` of word `t / 32` is set. Takes as many words as
-// `motet_vocabulary_mask_words` says, or more, of which the rest becomes 0.
+// Writes which tokens may follow: token `t` where bit `t % 32` of word `t / 32` is set. Takes as many
+// words as `motet_vocabulary_mask_words` says, or more, of which the rest becomes 0.
 //
 // # Safety
 //
-// `decoder` is null or live, and nobody else uses it meanwhile; `words` is null or has room for `count` words.
-enum MotetStatus motet_decoder_mask(struct MotetDecoder *decoder,
-                                    uint32_t *words,
-                                    uintptr_t count);
+// `decoder` is null or live, and nobody else uses it meanwhile; `words` is null or has room for `count`
+// words.
+enum MotetStatus motet_decoder_mask(struct MotetDecoder *decoder, uint32_t *words, uintptr_t count);
 
 // Takes a token, if it may follow.
 //
@@ -178,15 +171,16 @@ enum MotetStatus motet_decoder_accept(struct MotetDecoder *decoder, uint32_t tok
 // `decoder` is null or live, and nobody else uses it meanwhile.
 enum MotetStatus motet_decoder_rollback(struct MotetDecoder *decoder, uintptr_t tokens);
 
-// Whether what was written so far is a whole policy: then, and only then, the end of the sequence may follow.
+// Whether what was written so far is a whole policy: then, and only then, the end of the sequence may
+// follow.
 //
 // # Safety
 //
 // `decoder` is null or live, and nobody else uses it meanwhile.
 enum MotetStatus motet_decoder_is_accepting(struct MotetDecoder *decoder);
 
-// The text that must come next, whatever is meant; empty where there is a choice. Freed with `motet_string_free`. Null
-// on an error.
+// The text that must come next, whatever is meant; empty where there is a choice. Freed with
+// `motet_string_free`. Null on an error.
 //
 // # Safety
 //
@@ -200,15 +194,14 @@ char *motet_decoder_forced(struct MotetDecoder *decoder);
 // `decoder` is null or live, and nobody else uses it meanwhile.
 char *motet_decoder_text(struct MotetDecoder *decoder);
 
-// What the checker says of bytes that may not follow: JSON objects, one a line; none where they may follow, or where it
-// is only their spelling that is refused. Freed with `motet_string_free`. Null on an error.
+// What the checker says of bytes that may not follow: JSON objects, one a line; none where they may
+// follow, or where it is only their spelling that is refused. Freed with `motet_string_free`. Null on an
+// error.
 //
 // # Safety
 //
 // `decoder` is null or live, and nobody else uses it meanwhile; `bytes` is null or points to `len` bytes.
-char *motet_decoder_why_not(struct MotetDecoder *decoder,
-                            const uint8_t *bytes,
-                            uintptr_t len);
+char *motet_decoder_why_not(struct MotetDecoder *decoder, const uint8_t *bytes, uintptr_t len);
 
 #ifdef __cplusplus
 }  // extern "C"
