@@ -85,11 +85,7 @@ fn ends_with_the_right_code() {
         (format!("check good.motet {scene} --state odd_state.json"), 2, &["out:M0224"]),
         (format!("check good.motet {scene} --state full_hand.json"), 2, &["out:M0225", "out:cannot be free"]),
         (format!("check good.motet {scene} --state two_held.json"), 2, &["out:M0225", "out:has one hand"]),
-        (
-            format!("check good.motet {scene} --state all_held.json"),
-            2,
-            &["out:M0225", "out:name the thing"],
-        ),
+        (format!("check good.motet {scene} --state all_held.json"), 2, &["out:M0225", "out:name the thing"]),
         (
             "check good.motet --scene odd_kind.json".to_owned(),
             2,

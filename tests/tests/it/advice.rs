@@ -44,7 +44,7 @@ const DETECT: &str =
 fn a_binding_in_json_has_its_sign() {
     json(
         &format!(r#"{DETECT}, {{"do": "pick", "object": "mug"}}"#),
-        &["M0202: there is no `Object` `mug`; `mug` is bound before: write `$mug`"],
+        &["M0202: there is no `Object` `mug`; `mug` is a binding: write `$mug`"],
     );
     json(
         &format!(r#"{DETECT}, {{"do": "pick", "object": "$mgu"}}"#),

@@ -85,7 +85,8 @@ impl ValueSet {
         is_written || place == ValuePlace::OfFluent || (place != ValuePlace::Operand && grammar.can_bind(ty))
     }
 
-    fn is_empty(&self) -> bool {
+    /// Nothing can stand at the place.
+    pub(crate) fn is_empty(&self) -> bool {
         self.names.is_empty()
             && self.number.is_none()
             && !(self.text || self.bool || self.any || self.binding)
