@@ -52,7 +52,7 @@ fn a_binding_in_json_has_its_sign() {
     );
     json(
         r#"{"do": "say", "text": "$5"}"#,
-        &["M0203: nothing is bound to `5` here; a text that begins with `$` is written with two: `$$5`"],
+        &["M0203: nothing is bound to `5` here; to start a text with `$`, write two: `$$5`"],
     );
 }
 
@@ -218,10 +218,8 @@ fn help_says_what_to_write() {
 fn what_cannot_be_given_is_told_alone() {
     text(
         "go(kitchen_table) inspect(mug_1) pick(mug_1) place(mug_1, robot)",
-        &[
-            "M0501: `place` needs something other than `robot`, and that is what it is given; name something else, or leave this \
-           step out",
-        ],
+        &["M0501: `place` needs something other than `robot`, but it is given exactly that; name another \
+              entity, or remove this step"],
     );
 }
 

@@ -333,19 +333,9 @@ impl Deriver<'_> {
         }
         let grammar = self.grammar;
         let level = Level { depth: 0, in_goal };
-        let asked: Vec<&Atom> = grammar.atoms.iter().filter(|atom| atom.is_observable || in_goal).collect();
+        let asked: Vec<&Atom> = grammar.asked_atoms(in_goal).collect();
         let (mut fluents, mut comparisons) = (Vec::new(), Vec::new());
         for atom in asked {
-            // In a goal nothing is bound, so a place that only a binding fills has no value.
-            let is_unfilled = |part: &Part| match part {
-                Part::Value { ty, range, place } => {
-                    ValueSet::of(ty, *range, *place, in_goal, grammar).is_empty()
-                }
-                _ => false,
-            };
-            if atom.spelled.parts.iter().any(is_unfilled) {
-                continue;
-            }
             let lead = if self.is_json { format!("{{\"{}", atom.sort.lead()) } else { String::new() };
             let body = self.parts(&format!("{lead}{}", atom.spelled.literal), &atom.spelled.parts, level);
             let atoms = if atom.sort == AtomSort::Fluent { &mut fluents } else { &mut comparisons };

@@ -290,7 +290,7 @@ impl Deriver<'_> {
         self.once(format!("{prefix}_{depth}"), |deriver| {
             let (grammar, in_goal) = (deriver.grammar, prefix == "goal");
             let mut shapes = Vec::new();
-            for atom in grammar.atoms.iter().filter(|atom| atom.is_observable || in_goal) {
+            for atom in grammar.asked_atoms(in_goal) {
                 let lead = format!("{{\"{}{}", atom.sort.lead(), atom.spelled.literal);
                 let level = Level { depth: 0, in_goal };
                 let name = format!("{prefix}_{}", atom.spelled.name);

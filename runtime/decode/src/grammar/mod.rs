@@ -225,6 +225,17 @@ impl Grammar {
         Alternative { name: name.into(), literal: literal.into(), guard, number, parts, is_ending: false }
     }
 
+    /// The atoms that may be asked for in a goal, or in another condition. In a goal nothing is bound, so an atom with a
+    /// value that only a binding could fill is left out.
+    pub(crate) fn asked_atoms(&self, in_goal: bool) -> impl Iterator<Item = &Atom> {
+        let is_unfilled = move |part: &Part| match part {
+            Part::Value { ty, range, place } => ValueSet::of(ty, *range, *place, in_goal, self).is_empty(),
+            _ => false,
+        };
+        let atoms = self.atoms.iter().filter(move |atom| atom.is_observable || in_goal);
+        atoms.filter(move |atom| !atom.spelled.parts.iter().any(is_unfilled))
+    }
+
     fn all_atoms(&self) -> Vec<Atom> {
         let signatures = &self.signatures;
         let mut atoms = Vec::new();
