@@ -16,9 +16,10 @@
 
 use motet_syntax::{FileId, Source};
 
-use crate::card::{self, Robot};
-use crate::scene::{self, Scene};
-use crate::urdf::{self, Urdf};
+use crate::card::Robot;
+use crate::scene::Scene;
+use crate::urdf::Urdf;
+use crate::{card, scene, urdf};
 
 /// Texts of a built-in robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,8 +49,7 @@ pub struct RobotWithBody {
     /// Robot as its card describes it.
     pub robot: Robot,
     /// The URDF after reading. The built-in robots have neither meshes nor an SRDF: their shapes are boxes,
-    /// cylinders and
-    /// capsules.
+    /// cylinders and capsules.
     pub urdf: Urdf,
 }
 

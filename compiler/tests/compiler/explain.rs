@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use motet_compiler::{CheckOptions, Geometry, InitialState, Session, codes};
-use motet_robots::{card, mesh, scene, srdf, urdf};
+use motet_robots::{builtin, card, mesh, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 
@@ -191,14 +191,12 @@ impl Case {
             while let Some(word) = words.next() {
                 match word.split_once('=') {
                     Some(("robot", name)) => {
-                        let known = card::embedded().iter().find(|(robot, ..)| *robot == name);
-                        let (_, toml, declarations) = known.ok_or_else(|| format!("no robot `{name}`"))?;
-                        self.card(toml, *declarations);
+                        let texts = builtin::robot_texts(name).ok_or_else(|| format!("no robot `{name}`"))?;
+                        self.card(texts.card, texts.declarations);
                     }
                     Some(("scene", name)) => {
-                        let known = scene::embedded().iter().find(|(scene, _)| *scene == name);
-                        let (_, text) = known.ok_or_else(|| format!("no scene `{name}`"))?;
-                        self.scene(text.as_bytes());
+                        let texts = builtin::scene_text(name).ok_or_else(|| format!("no scene `{name}`"))?;
+                        self.scene(texts.json.as_bytes());
                     }
                     Some(("mesh", name)) => {
                         self.meshes.push((name.to_owned(), bytes.clone()));
@@ -264,7 +262,7 @@ impl Case {
             .build(&mut self.sources);
         let said = session.input_diagnostics().to_vec();
         self.said.extend(said);
-        let body = robot.and_then(|robot| card::embedded_urdf(&robot.name));
+        let body = robot.and_then(|robot| builtin::robot_texts(&robot.name).map(|texts| texts.urdf));
         let session = match (robot, body, scene) {
             (Some(robot), Some(text), Some(scene)) => {
                 let urdf =

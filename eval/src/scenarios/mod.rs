@@ -164,16 +164,17 @@ fn session(
 }
 
 fn robot(name: &str, sources: &mut Sources) -> Result<Robot, String> {
-    let mut known = motet_robots::card::embedded().iter();
-    let Some((_, toml, own)) = known.find(|row| row.0 == name) else {
+    let Some(texts) = motet_robots::builtin::robot_texts(name) else {
         return Err(format!("there is no robot `{name}`"));
     };
-    let source = Source::new(format!("{name}/robot.toml"), *toml);
+    let source = Source::new(format!("{name}/robot.toml"), texts.card);
     let file = sources.add(source.clone());
     // The contract stands for the robot's own declarations, so what only they declare cannot be observed.
     let (robot, said) = motet_robots::card::read(&source, file, None);
     let mut robot = robot.ok_or_else(|| format!("the card of `{name}`: {said:?}"))?;
-    let own = motet_syntax::read(&Source::new("primitives.motet", own.unwrap_or_default()), file).file;
+    let own =
+        motet_syntax::read(&Source::new("primitives.motet", texts.declarations.unwrap_or_default()), file)
+            .file;
     let is_own =
         |name: &str| own.items.iter().any(|item| matches!(item, Item::Fluent(it) if it.name.text == name));
     robot.observes.retain(|name| !is_own(name));

@@ -9,7 +9,8 @@ use super::errors::{BeyondLimit, NoArm, NoFile, NoFolder, NoPlace, NotInUrdf, Sa
 use super::model::ModelSpec;
 use super::quantity::{QuantityReader, Sign, units_of};
 use super::read::CardReader;
-use super::wire::{self, Direction, TomlSpanned, WrittenQuantity};
+use super::wire;
+use super::wire::{Direction, TomlSpanned, WrittenQuantity};
 use crate::urdf::{Joint, JointKind, Urdf};
 
 impl CardReader {
@@ -69,6 +70,17 @@ fn vector(direction: Direction) -> [f64; 3] {
 
 /// Checks a card without errors against its URDF: the named links and joints exist, positions are within
 /// limits, and hands and cameras have a link. O(bytes + links).
+///
+/// ```
+/// use motet_robots::{builtin, card};
+/// use motet_syntax::{FileId, Source};
+///
+/// let texts = builtin::robot_texts("hsr").unwrap();
+/// let source = Source::new("robot.toml", texts.card.replace("hand_palm_link", "hand_plam_link"));
+/// let found = card::fit(&source, FileId(0), &texts.urdf().unwrap());
+/// assert_eq!(found[0].message, "the URDF has no link `hand_plam_link`");
+/// assert_eq!(found[0].help.as_deref(), Some("did you mean `hand_palm_link`?"));
+/// ```
 #[must_use]
 pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
     let Ok(card) = toml::from_str::<wire::CardTable>(&toml.text) else { return vec![] };

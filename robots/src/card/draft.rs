@@ -1,18 +1,14 @@
 //! Draft of a card for a robot of which only a URDF exists. Facts of the URDF are taken over, the rest is
 //! guessed, and every guess is marked in a comment.
 
-mod base;
-mod described;
-mod parts;
-
 use std::fmt::Write;
 
 use indexmap::IndexMap;
 use smol_str::SmolStr;
 
+use super::draft_parts::{DraftHand, RobotParts};
 use crate::srdf::Srdf;
 use crate::urdf::{Urdf, UrdfShape};
-use parts::{DraftHand, RobotParts};
 
 /// Inputs of a draft beside the URDF.
 #[derive(Clone, Default, Debug)]
@@ -38,6 +34,16 @@ pub struct DraftStance {
 /// of the card.
 ///
 /// [`super::read`] accepts the card, and it fits the URDF. O(links × joints).
+///
+/// ```
+/// use motet_robots::{builtin, card};
+/// use motet_syntax::{FileId, Source};
+///
+/// let urdf = builtin::robot("panda").unwrap().urdf;
+/// let text = card::draft(&urdf, "robot.urdf", &card::DraftInputs::default());
+/// let (robot, _) = card::read(&Source::new("robot.toml", text), FileId(0), None);
+/// assert_eq!(robot.unwrap().name, "panda");
+/// ```
 #[must_use]
 pub fn draft(urdf: &Urdf, file: &str, beside: &DraftInputs<'_>) -> String {
     let parts = RobotParts::find(urdf, beside.srdf.map(|(srdf, _)| srdf));
@@ -67,7 +73,8 @@ fn write_card(
     writeln!(card, "# What the robot can tell by itself: guessed.")?;
     writeln!(
         card,
-        "observes = [\n    \"holding\", \"free\", \"visible\", \"located\", \"reachable\", \"at\", \"near\", \"on\", \"in\","
+        "observes = [\n    \"holding\", \"free\", \"visible\", \"located\", \"reachable\", \"at\", \"near\", \
+            \"on\", \"in\","
     )?;
     writeln!(card, "    \"open\", \"locked\", \"clear\", \"lifted\", \"visited\", \"distance\",\n]")?;
     writeln!(card, "\n[base]\ndrive = \"{drive}\"  # guessed: {why}")?;
@@ -158,7 +165,8 @@ fn write_hand(card: &mut String, urdf: &Urdf, hand: &DraftHand) -> std::fmt::Res
     let (least, greatest) = ((hand.shoulder - hand.reach * 0.8).max(0.0), hand.shoulder + hand.reach * 0.8);
     writeln!(
         card,
-        "heights = {{ least = {least:.2}, greatest = {greatest:.2} }}  # guessed: as far above and below the shoulder"
+        "heights = {{ least = {least:.2}, greatest = {greatest:.2} }}  # guessed: as far above and below the \
+            shoulder"
     )?;
     writeln!(card, "tip = {}  # {}", quoted(link(urdf, hand.tip)), hand.why)?;
     writeln!(card, "points = {:?}  # guessed: away from the arm", hand.points)?;

@@ -26,13 +26,17 @@ motet_syntax::mistakes! {
         }
     }
     help(m) {
-        let at = if m.section.is_empty() { "at the top of the card".to_owned() } else { format!("under `[{}]`", m.section) };
+        let at = if m.section.is_empty() {
+            "at the top of the card".to_owned()
+        } else {
+            format!("under `[{}]`", m.section)
+        };
         Some(format!("add `{} = …` {at}", m.key))
     }
 
     /// A value of the wrong type.
     WrongType("M0414", Error) { key: String, found: String, wanted: String }
-    message(m) { format!("`{}` is {}, and must be {}", m.key, m.found, m.wanted) }
+    message(m) { format!("`{}` is {}, but must be {}", m.key, m.found, m.wanted) }
 
     /// A word that is none of the possible ones.
     UnknownWord("M0415", Error) { word: String, near: Option<String>, known: Vec<String> }
@@ -41,11 +45,11 @@ motet_syntax::mistakes! {
 
     /// A number that no such robot can have.
     OutOfRange("M0416", Error) { key: String, actual: String, wanted: &'static str }
-    message(m) { format!("`{}` is {}, and must be {}", m.key, m.actual, m.wanted) }
+    message(m) { format!("`{}` is {}, but must be {}", m.key, m.actual, m.wanted) }
 
     /// A quantity that cannot be read.
     BadQuantity("M0417", Error) { key: String, text: String, units: Vec<&'static str> }
-    message(m) { format!("`{}` is `{}`, which is no number with a unit", m.key, m.text) }
+    message(m) { format!("`{}` is `{}`, which is not a number with a unit", m.key, m.text) }
     help(m) {
         let first = m.units.first().copied().unwrap_or("m");
         Some(format!("write a number and one of {}, such as \"2 {first}\"", one_of(m.units.iter().copied())))
@@ -87,17 +91,19 @@ motet_syntax::mistakes! {
 
     /// An interval whose least end is above its greatest.
     EmptyRange("M0422", Error) { key: String, least: f64, greatest: f64, other: Span }
-    message(m) { format!("the least `{}` is {}, more than the greatest, {}", m.key, m.least, m.greatest) }
-    related(m) { vec![Related::new("the greatest is here", m.other)] }
+    message(m) {
+        format!("the lower bound of `{}` is {}, above the upper bound, {}", m.key, m.least, m.greatest)
+    }
+    related(m) { vec![Related::new("the upper bound is here", m.other)] }
 
     /// A name that cannot be written in a policy.
     BadName("M0423", Error) { name: String }
-    message(m) { format!("`{}` is no name", m.name.escape_debug()) }
+    message(m) { format!("`{}` is not a valid name", m.name.escape_debug()) }
     help(_m) { Some("a name is a letter or `_`, then letters, digits or `_`".to_owned()) }
 
     /// A number that the card gives elsewhere.
     TakenNumber("M0424", Error) { name: String, place: &'static str }
-    message(m) { format!("`robot.{}` is given by `{}` already", m.name, m.place) }
+    message(m) { format!("`robot.{}` is already given by `{}`", m.name, m.place) }
     help(_m) { Some("give this number another name".to_owned()) }
 
     /// Something that is listed twice.
@@ -119,40 +125,56 @@ motet_syntax::mistakes! {
     /// A position that a joint cannot take.
     BeyondLimit("M0428", Error) { joint: String, value: f64, least: f64, greatest: f64 }
     message(m) {
-        format!("joint `{}` is put at {}, and goes from {} to {}", m.joint, m.value, m.least, m.greatest)
+        format!("joint `{}` is at {}, outside its limits of {} to {}", m.joint, m.value, m.least, m.greatest)
     }
 
     /// Fingers that close in the direction in which they point.
     SameAxis("M0429", Error) { hand: String }
     message(m) { format!("the fingers of `{}` point and close along the same axis", m.hand) }
-    help(_m) { Some("fingers close across the direction in which they point: give `points` and `closes`".to_owned()) }
+    help(_m) {
+        Some("fingers close across the direction in which they point: give `points` and `closes`".to_owned())
+    }
 
     /// A hand or a camera of which the card does not say where it is.
     NoPlace("M0430", Warning) { what: &'static str, name: String, key: &'static str }
-    message(m) { format!("no link of the URDF is named for the {} `{}`, so no motion with it can be computed", m.what, m.name) }
+    message(m) {
+        format!(
+            "the card gives no link for the {} `{}`, so motions that need it cannot be computed",
+            m.what, m.name
+        )
+    }
     help(m) { Some(format!("add `{} = \"…\"`", m.key)) }
 
     /// A file that the card names, and that is not there.
     NoFile("M0450", Error) { key: &'static str, file: String }
-    message(m) { format!("`{}` is `{}`, and there is no such file", m.key, m.file.escape_debug()) }
-    help(_m) { Some("a path is seen from the folder of the card".to_owned()) }
+    message(m) { format!("`{}` is `{}`, but there is no such file", m.key, m.file.escape_debug()) }
+    help(_m) { Some("paths are relative to the folder of the card".to_owned()) }
 
     /// A tip that no arm moves.
     NoArm("M0479", Warning) { hand: String, tip: String, base: String, is_carried: bool }
     message(m) {
         let (tip, base) = (m.tip.escape_debug(), m.base.escape_debug());
         if m.is_carried {
-            format!("no joint moves `{tip}`, the tip of the hand `{}`, against the base's link `{base}`", m.hand)
+            format!(
+                "no joint moves `{tip}`, the tip of the hand `{}`, relative to the base link `{base}`",
+                m.hand
+            )
         } else {
-            format!("the base's link `{base}` does not carry `{tip}`, the tip of the hand `{}`", m.hand)
+            format!("the base link `{base}` does not carry `{tip}`, the tip of the hand `{}`", m.hand)
         }
     }
-    help(_m) { Some("name the link of the hand at the end of the arm as `tip`, and the arm's foot, or what is before it, as `base`".to_owned()) }
+    help(_m) {
+        Some("set `tip` to the link of the hand at the end of the arm, and `base` to the foot of the arm or \
+            a link before it".to_owned())
+    }
 
     /// A folder with packages that is not there.
     NoFolder("M0480", Warning) { folder: String }
-    message(m) { format!("`packages` names `{}`, and there is no such folder", m.folder.escape_debug()) }
-    help(_m) { Some("a path is seen from the folder of the card; it is that of the folder which holds the package's own".to_owned()) }
+    message(m) { format!("`packages` names `{}`, but there is no such folder", m.folder.escape_debug()) }
+    help(_m) {
+        Some("paths are relative to the folder of the card; give the folder that contains the package's \
+            folder".to_owned())
+    }
 }
 
 fn known_or_near(near: Option<&str>, known: &[String]) -> String {

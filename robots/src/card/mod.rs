@@ -6,22 +6,18 @@
 
 mod body;
 mod draft;
-mod embedded;
+mod draft_parts;
 mod errors;
 pub mod model;
 mod quantity;
 mod read;
-mod resources;
 mod shape;
-mod spans;
 pub mod wire;
 
 pub(crate) use body::JointPosition;
 pub use body::{ModelFile, fit, missing};
 pub use draft::{DraftInputs, DraftStance, draft};
-pub use embedded::{embedded, embedded_urdf};
 pub use errors::CODES;
-pub use model::*;
+pub use model::{BoundSpan, CardSpans, *};
 pub use read::read;
-pub use spans::{BoundSpan, CardSpans};
 pub use wire::schema;

@@ -1,9 +1,12 @@
-//! Data model of a robot card: every number is finite and in range, every name in it exists.
+//! Data model of a robot card: every number is finite and in range, every name in it exists. With the spans
+//! of the names and bounds that the compiler checks against the library.
 
 use indexmap::IndexMap;
+use motet_syntax::unit::Dimension;
+use motet_syntax::{FileId, Span};
 use smol_str::SmolStr;
-
-use super::spans::CardSpans;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 /// Robot as its card describes it.
 #[derive(Clone, PartialEq, Debug)]
@@ -31,7 +34,7 @@ pub struct Robot {
     pub observe_within_secs: f64,
     /// Primitives that it provides, by name, with bounds on their numeric parameters.
     pub primitives: IndexMap<SmolStr, IndexMap<SmolStr, Range>>,
-    /// QuantityReader that contracts may use as `robot.NAME`, in SI units, with their quantity type
+    /// Numbers that contracts may use as `robot.NAME`, in SI units, with their quantity type
     /// (`Length`, `Mass`, …, `Number` where it has no unit): `payload`, `opening` and `reach` of the first
     /// hand, `speed` of the base, and what the card lists beside them.
     pub numbers: IndexMap<SmolStr, (f64, SmolStr)>,
@@ -124,4 +127,63 @@ pub struct CameraSpec {
 pub struct Range {
     pub least: f64,
     pub greatest: f64,
+}
+
+/// Spans of a card. They are no part of what the robot is, so any two are equal.
+#[derive(Clone, Debug, Default)]
+pub struct CardSpans {
+    /// Name of `primitives.motet` in diagnostics.
+    pub declarations: SmolStr,
+    /// Names under `observes`.
+    pub observes: IndexMap<SmolStr, Span>,
+    /// Keys under `[primitives]`.
+    pub primitives: IndexMap<SmolStr, Span>,
+    /// Bounds of each parameter, by primitive and parameter.
+    pub bounds: IndexMap<(SmolStr, SmolStr), BoundSpan>,
+    /// Facts under `initially`, in order.
+    pub initially: Vec<Span>,
+}
+
+/// Bounds of a parameter as written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct BoundSpan {
+    pub span: Span,
+    /// Dimension of their unit; `None` for bare numbers.
+    pub dimension: Option<Dimension>,
+}
+
+impl PartialEq for CardSpans {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Keys under `[primitives]`, each with its parameters.
+pub(super) fn primitives(
+    document: &Spanned<DeTable<'_>>,
+    file: FileId,
+) -> IndexMap<SmolStr, (Span, IndexMap<SmolStr, Span>)> {
+    let listed = keys(document.get_ref().get("primitives").map(Spanned::get_ref), file);
+    listed.into_iter().map(|(name, span, value)| (name, (span, params(value, file)))).collect()
+}
+
+fn params(bounds: &DeValue<'_>, file: FileId) -> IndexMap<SmolStr, Span> {
+    keys(Some(bounds), file).into_iter().map(|(name, span, _)| (name, span)).collect()
+}
+
+fn keys<'d, 'i>(section: Option<&'d DeValue<'i>>, file: FileId) -> Vec<(SmolStr, Span, &'d DeValue<'i>)> {
+    let Some(DeValue::Table(table)) = section else { return Vec::new() };
+    let key = |(key, value): (&'d Spanned<std::borrow::Cow<'i, str>>, &'d Spanned<DeValue<'i>>)| {
+        let range = key.span();
+        (SmolStr::new(key.get_ref()), Span::new(file, range.start, range.end), value.get_ref())
+    };
+    table.iter().map(key).collect()
+}
+
+/// Name of the declarations file beside a card.
+pub(super) fn beside(card: &str, robot: &str) -> SmolStr {
+    match card.strip_suffix("robot.toml") {
+        Some(folder) if !folder.is_empty() => SmolStr::new(format!("{folder}primitives.motet")),
+        Some(_) | None => SmolStr::new(format!("{robot}/primitives.motet")),
+    }
 }

@@ -1,11 +1,12 @@
-//! QuantityReader of a card: read from a number or from a text with a unit, checked, in SI units.
+//! Quantities of a card: each read from a number or from a text with a unit, checked, in SI units.
 
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, FileId, Span};
 
 use super::errors::{BadQuantity, EmptyRange, OutOfRange, WrongDimension};
 use super::model::Range;
-use super::wire::{self, TomlSpanned, WrittenQuantity};
+use super::wire;
+use super::wire::{TomlSpanned, WrittenQuantity};
 
 /// Allowed sign of a number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -1,17 +1,19 @@
-//! Reader of robot cards: from the text of `robot.toml` to a [`Robot`], with diagnostics.
+//! Reader of robot cards: from the text of `robot.toml` to a [`Robot`], with diagnostics. Every
+//! named resource is declared, hands and cameras are among them, and none contains itself.
 
 use indexmap::IndexMap;
 use motet_syntax::unit::{Dimension, Unit};
-use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
 use smol_str::SmolStr;
 use toml::de::DeTable;
 
-use super::errors::{BadName, ListedTwice, NotToml, TakenNumber};
-use super::model::{BaseSpec, CameraSpec, Drive, HandSpec, Range, Robot};
+use super::errors::{
+    BadName, ListedTwice, NotAResource, NotToml, ResourceCycle, TakenName, TakenNumber, UnknownResource,
+};
+use super::model::{BaseSpec, BoundSpan, CameraSpec, CardSpans, Drive, HandSpec, Range, Robot};
 use super::quantity::{QuantityReader, Sign};
-use super::shape;
-use super::spans::{self, BoundSpan, CardSpans};
-use super::wire::{self, TomlSpanned};
+use super::wire::TomlSpanned;
+use super::{model, shape, wire};
 
 /// Reads the card of a robot. `declarations` is the text of its `primitives.motet`, which is kept for the
 /// compiler. `None` for the robot if there is an error. O(bytes).
@@ -184,11 +186,11 @@ impl CardReader {
         name: &str,
     ) -> CardSpans {
         let mut found =
-            CardSpans { declarations: spans::beside(name, card.name.get()), ..CardSpans::default() };
+            CardSpans { declarations: model::beside(name, card.name.get()), ..CardSpans::default() };
         for name in &card.observes {
             found.observes.entry(name.get().into()).or_insert_with(|| self.numbers.span(name));
         }
-        for (primitive, (span, params)) in spans::primitives(document, self.numbers.file) {
+        for (primitive, (span, params)) in model::primitives(document, self.numbers.file) {
             let bounds = card.primitives.get(primitive.as_str()).map(TomlSpanned::get);
             for (param, span) in params {
                 let bound = bounds.and_then(|bounds| bounds.get(param.as_str())).map(TomlSpanned::get);
@@ -239,5 +241,72 @@ impl CardReader {
             numbers.insert(name.into(), (value, SmolStr::new_static(ty)));
         }
         numbers
+    }
+}
+
+impl CardReader {
+    /// Reads the resources and reports mistakes.
+    pub(super) fn resources(&mut self, card: &wire::CardTable) -> IndexMap<SmolStr, Vec<SmolStr>> {
+        let mut resources = IndexMap::new();
+        for (name, contains) in &card.resources {
+            self.name(name, self.numbers.span(contains));
+            for inner in contains.get().iter().filter(|inner| !card.resources.contains_key(inner.get())) {
+                let near = suggest::closest(inner.get(), card.resources.keys().map(String::as_str));
+                let (span, near) = (self.numbers.span(inner), near.map(str::to_owned));
+                self.numbers.found.push(UnknownResource { span, resource: inner.get().clone(), near }.into());
+            }
+            let contains = contains.get().iter().map(|inner| SmolStr::new(inner.get())).collect();
+            resources.insert(SmolStr::new(name), contains);
+        }
+        for (name, span) in
+            card.hands.iter().map(|(name, hand)| (name, self.numbers.span(hand))).collect::<Vec<_>>()
+        {
+            self.is_resource(card, "hand", name, span);
+            if card.cameras.contains_key(name) {
+                self.numbers.found.push(TakenName { span, name: name.clone() }.into());
+            }
+        }
+        for (name, camera) in &card.cameras {
+            self.is_resource(card, "camera", name, self.numbers.span(camera));
+        }
+        if let Some(chain) = cycle(&resources) {
+            let first = chain.first().and_then(|name| card.resources.get(name.as_str()));
+            let span = first.map(|contains| self.numbers.span(contains)).unwrap_or_default();
+            let chain = chain.iter().map(ToString::to_string).collect();
+            self.numbers.found.push(ResourceCycle { span, chain }.into());
+        }
+        resources
+    }
+
+    fn is_resource(&mut self, card: &wire::CardTable, what: &'static str, name: &str, span: Span) {
+        if !card.resources.contains_key(name) {
+            self.numbers.found.push(NotAResource { span, what, name: name.to_owned() }.into());
+        }
+    }
+}
+
+/// Finds a chain of resources that ends where it begins, by removing, again and again, those that contain no
+/// remaining one.
+fn cycle(resources: &IndexMap<SmolStr, Vec<SmolStr>>) -> Option<Vec<SmolStr>> {
+    let mut left = resources.clone();
+    loop {
+        let before = left.len();
+        let names: Vec<SmolStr> = left.keys().cloned().collect();
+        left.retain(|_, contains| contains.iter().any(|inner| names.contains(inner)));
+        if left.len() == before {
+            break;
+        }
+    }
+    // Every remaining resource contains a remaining one, so following the first of these comes back.
+    let mut chain = vec![left.keys().next()?.clone()];
+    loop {
+        let last = left.get(chain.last()?)?;
+        let next = last.iter().find(|inner| left.contains_key(*inner))?.clone();
+        if let Some(at) = chain.iter().position(|seen| *seen == next) {
+            let mut chain = chain.split_off(at);
+            chain.push(next);
+            return Some(chain);
+        }
+        chain.push(next);
     }
 }

@@ -1,11 +1,10 @@
-//! Meshes of a URDF: each is replaced by solids that enclose it.
+//! Meshes of a URDF: each is replaced by solids that enclose it. Diagnostics M0448 and M0449.
 
 use indexmap::IndexMap;
 use motet_syntax::{Diagnostic, FileId, Source, Span};
 use roxmltree::Node;
 
 use super::cover::cover;
-use super::errors::{BadMesh, UnreadMesh};
 use super::read::{self, Triangle};
 use crate::quaternion::compose;
 use crate::urdf::{LinkShape, Urdf, UrdfShape, XmlDialect, XmlDocument};
@@ -140,10 +139,20 @@ fn spans(source: &Source, file: FileId) -> IndexMap<String, Span> {
 /// Paths at which a mesh may be, best first; the host takes the first that exists.
 ///
 /// `folder` is that of the URDF. `package://NAME/REST` is `REST` in a folder `NAME` of the search path, and
-/// `NAME/REST`
-/// in any of its folders; `model://` is read likewise, `file://` is a path, and anything else is a path
-/// relative to the
-/// URDF. A package path with a part `..` has no paths. Pure: no shell, no environment, no file access.
+/// `NAME/REST` in any of its folders; `model://` is read likewise, `file://` is a path, and anything else is
+/// a path relative to the URDF. A package path with a part `..` has no paths. Pure: no shell, no environment,
+/// no file access.
+///
+/// ```
+/// use motet_robots::mesh;
+///
+/// let search = ["/opt/ros/share".to_owned()];
+/// assert_eq!(
+///     mesh::locate("package://arm/meshes/link.stl", "robots/arm", &search),
+///     ["/opt/ros/share/arm/meshes/link.stl"]
+/// );
+/// assert_eq!(mesh::locate("link.stl", "robots/arm", &search), ["robots/arm/link.stl"]);
+/// ```
 #[must_use]
 pub fn locate(file: &str, folder: &str, search: &[String]) -> Vec<String> {
     let join = |folder: &str, rest: &str| {
@@ -163,4 +172,23 @@ pub fn locate(file: &str, folder: &str, search: &[String]) -> Vec<String> {
         None if file.starts_with('/') => vec![file.to_owned()],
         None => vec![join(folder, file)],
     }
+}
+
+motet_syntax::mistakes! {
+    pub const CODES;
+
+    /// A mesh of which nothing is known: no file, one in a format that is not read, or that of a scene.
+    UnreadMesh("M0448", Warning) { file: String, problem: String, help: String }
+    message(m) {
+        format!(
+            "the mesh `{}` cannot be read, so no motion is computed: {}",
+            m.file.escape_debug(),
+            m.problem
+        )
+    }
+    help(m) { Some(m.help.clone()) }
+
+    /// A mesh that is broken, too large, or where none may be.
+    BadMesh("M0449", Error) { file: String, problem: String }
+    message(m) { format!("the mesh `{}` cannot be used: {}", m.file.escape_debug(), m.problem) }
 }

@@ -49,6 +49,14 @@ enum Form {
 /// Covers a mesh by at most six solids in the frame of the mesh: every point of the mesh, and every point
 /// that it encloses, is in one of them. `scale` is applied to the mesh first. Empty without triangles.
 /// O(triangles).
+///
+/// ```
+/// use motet_robots::mesh;
+///
+/// let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
+/// let tetrahedron = mesh::read("solid.obj", text).unwrap();
+/// assert!((1..=6).contains(&mesh::cover(&tetrahedron, [1.0; 3]).len()));
+/// ```
 #[must_use]
 pub fn cover(mesh: &[Triangle], scale: [f64; 3]) -> Vec<LinkShape> {
     let scaled = |[x, y, z]: [f64; 3]| [x * scale[0], y * scale[1], z * scale[2]];

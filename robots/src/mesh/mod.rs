@@ -1,16 +1,13 @@
 //! Meshes of the links of a robot: triangles from STL and OBJ files, and the solids that enclose them.
 //!
 //! This module opens no file: [`attach`] asks its caller for the bytes of each, and [`locate`] gives the
-//! paths at which a
-//! file may be.
+//! paths at which a file may be.
 
 mod attach;
 mod cover;
-mod errors;
 mod read;
 
-pub use attach::{MeshFile, attach, locate};
+pub(crate) use attach::UnreadMesh;
+pub use attach::{CODES, MeshFile, attach, locate};
 pub use cover::cover;
-pub use errors::CODES;
-pub(crate) use errors::UnreadMesh;
 pub use read::{MAX_BYTES, MAX_TRIANGLES, Triangle, read};

@@ -1,12 +1,9 @@
 //! Reader of mesh files, from bytes to triangles.
 //!
 //! Two formats are read. STL is a header of 80 bytes, a count and 50 bytes for each triangle, or text with
-//! the words
-//! `facet` and `vertex`. Wavefront OBJ has lines `v X Y Z` and `f A B C …`; normals, textures, materials
-//! and groups are
-//! skipped. The readers are our own: they name the line of a mistake and stop at the limit of triangles,
-//! which `stl_io`
-//! and `tobj` do not.
+//! the words `facet` and `vertex`. Wavefront OBJ has lines `v X Y Z` and `f A B C …`; normals, textures,
+//! materials and groups are skipped. The readers are our own: they name the line of a mistake and stop at the
+//! limit of triangles, which `stl_io` and `tobj` do not.
 
 /// Greatest size of one file, in bytes. Collision meshes have some kilobytes, visual meshes some megabytes.
 pub const MAX_BYTES: u64 = 32 << 20;
@@ -20,9 +17,8 @@ const GREATEST: f64 = 1e9;
 /// Triangle by its three corners, in the frame and the unit of the mesh.
 pub type Triangle = [[f64; 3]; 3];
 
-/// Reads the triangles of a file by the extension of its name: `.stl`, binary or text, or `.obj`. There is
-/// at least
-/// one, and every coordinate is finite. O(bytes).
+/// Reads the triangles of a file by the extension of its name: `.stl`, binary or text, or `.obj`. There is at
+/// least one, and every coordinate is finite. O(bytes).
 ///
 /// # Errors
 ///

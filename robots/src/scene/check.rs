@@ -1,16 +1,14 @@
-//! Checks of the parts of a scene: conversion of one entity or view from its wire form to the model, number
-//! by number. Impossible values are
-//! left out.
+//! Checks of the parts of a scene: conversion of one entity or view from its wire form to the model, each
+//! number checked against the range of its quantity. Impossible values are left out.
 
 use indexmap::IndexMap;
 use motet_syntax::json::Spanned;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use super::errors::{EmptyName, FieldTwice, TooWideAngle};
+use super::errors::{EmptyName, FieldTwice, NotPositive, TooFar, TooWideAngle, ZeroAxis};
 use super::model::{CameraView, Entity, EntityShape, EntitySpans, Placement, Scene, Travel};
-use super::number::NumberReader;
-use super::quantity::SceneQuantity;
+use super::quantity::{FURTHEST, SceneQuantity};
 use super::wire;
 use crate::card::JointPosition;
 use crate::mesh::UnreadMesh;
@@ -142,6 +140,16 @@ pub(super) fn view(view: &wire::View, numbers: &mut NumberReader) -> Option<Came
 
 /// Checks that the joints of a scene are joints of the robot that move by themselves, within their limits.
 /// Each diagnostic has the span in the scene. O(joints given × joints).
+///
+/// ```
+/// use motet_robots::{builtin, scene};
+/// use motet_syntax::{FileId, Source};
+///
+/// let text = r#"{"motet_scene": 1, "robot": {"joints": {"arm_lift_joint": 2}}, "entities": []}"#;
+/// let (room, _) = scene::read(&Source::new("room.json", text), FileId(0));
+/// let found = scene::fit(&room.unwrap(), &builtin::robot("hsr").unwrap().urdf);
+/// assert_eq!(found[0].message, "joint `arm_lift_joint` is at 2, outside its limits of 0 to 0.69");
+/// ```
 #[must_use]
 pub fn fit(scene: &Scene, urdf: &Urdf) -> Vec<Diagnostic> {
     let place = |name: &str| scene.robot.spans.0.get(name).copied().unwrap_or_default();
@@ -149,4 +157,54 @@ pub fn fit(scene: &Scene, urdf: &Urdf) -> Vec<Diagnostic> {
         JointPosition { joint: name, value: *value, span: place(name) }.fault(urdf)
     });
     told.collect()
+}
+
+/// Checks numbers and collects diagnostics.
+#[derive(Debug, Default)]
+pub(super) struct NumberReader {
+    /// Diagnostics so far.
+    pub(super) found: Vec<Diagnostic>,
+}
+
+impl NumberReader {
+    /// Checks a number; `None` if it is impossible.
+    pub(super) fn one(&mut self, number: &Spanned<f64>, quantity: SceneQuantity) -> Option<f64> {
+        self.value(number.value, number.span, quantity)
+    }
+
+    /// Checks three numbers; reports at most one mistake.
+    pub(super) fn three(&mut self, point: &Spanned<[f64; 3]>, quantity: SceneQuantity) -> Option<[f64; 3]> {
+        let [x, y, z] = point.value;
+        Some([
+            self.value(x, point.span, quantity)?,
+            self.value(y, point.span, quantity)?,
+            self.value(z, point.span, quantity)?,
+        ])
+    }
+
+    /// Normalises a direction to length 1.
+    pub(super) fn axis(&mut self, axis: &Spanned<[f64; 3]>) -> Option<[f64; 3]> {
+        let raw = self.three(axis, SceneQuantity::Direction)?;
+        // Scaled first, so that the squares lose neither tiny nor huge components.
+        let greatest = raw.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+        if greatest == 0.0 {
+            self.found.push(ZeroAxis { span: axis.span }.into());
+            return None;
+        }
+        let scaled = raw.map(|part| part / greatest);
+        let length = scaled.iter().map(|part| part * part).sum::<f64>().sqrt();
+        Some(scaled.map(|part| part / length))
+    }
+
+    /// The value is finite: JSON has no other numbers, and the reader refuses those too large for a float.
+    fn value(&mut self, value: f64, span: Span, quantity: SceneQuantity) -> Option<f64> {
+        if quantity.has_to_be_positive() && value <= 0.0 {
+            self.found.push(NotPositive { span, quantity, found: value }.into());
+        } else if quantity.has_bound() && value.abs() > FURTHEST {
+            self.found.push(TooFar { span, quantity, found: value }.into());
+        } else {
+            return Some(value);
+        }
+        None
+    }
 }

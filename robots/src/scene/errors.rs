@@ -11,18 +11,18 @@ motet_syntax::mistakes! {
 
     /// Another version of the format.
     Version("M0431", Error) { found: u32 }
-    message(m) { format!("this scene is of version {}, known is version 1", m.found) }
+    message(m) { format!("the scene has format version {}; only version 1 is supported", m.found) }
     help(_m) { Some("write `\"motet_scene\": 1`".into()) }
     fix(m) { Some(replace(m.span, "1", "1")) }
 
     /// Another frame than `map`.
     Frame("M0432", Error) { found: SmolStr }
-    message(m) { format!("the frame `{}` is not known, poses of a scene are in the frame `map`", m.found) }
+    message(m) { format!("unknown frame `{}`: the poses of a scene are in the frame `map`", m.found) }
     help(_m) { Some("transform the poses into `map` and write `\"frame\": \"map\"`".into()) }
 
     /// Two entities with one id.
     DuplicateId("M0433", Error) { id: SmolStr, first: Span }
-    message(m) { format!("the id `{}` is taken", m.id) }
+    message(m) { format!("the id `{}` is used twice", m.id) }
     help(_m) { Some("give each entity an id of its own".into()) }
     related(m) { vec![Related::new("it is first used here", m.first)] }
 
@@ -48,8 +48,8 @@ motet_syntax::mistakes! {
 
     /// More entities than a scene may have.
     TooManyEntities("M0436", Error) { count: usize }
-    message(m) { format!("the scene has {} entities, at most {MAX_ENTITIES} are read", m.count) }
-    help(_m) { Some("leave out what the robot does not need to know of".into()) }
+    message(m) { format!("the scene has {} entities, more than the limit of {MAX_ENTITIES}", m.count) }
+    help(_m) { Some("leave out entities that the robot does not need".into()) }
 
     /// A name that no entity has.
     UnknownEntity("M0437", Error) { key: &'static str, name: SmolStr, near: Option<SmolStr> }
@@ -62,7 +62,7 @@ motet_syntax::mistakes! {
     }
     fix(m) { m.near.as_ref().map(|near| replace(m.span, &quoted(near), near)) }
 
-    /// Things that stand on each other in a ring.
+    /// Things that support each other in a cycle.
     SupportCycle("M0438", Error) { ring: Vec<SmolStr>, others: Vec<(SmolStr, Span)> }
     message(m) {
         match m.ring.as_slice() {
@@ -73,19 +73,22 @@ motet_syntax::mistakes! {
                     names.push(format!("{} more", ring.len() - names.len()));
                 }
                 names.extend(ring.first().map(|id| format!("`{id}`")));
-                format!("things stand on or in each other in a ring: {}", names.join(", "))
+                format!("supports form a cycle: {}", names.join(", "))
             }
         }
     }
-    help(_m) { Some("say for at least one of them that it stands on something else, or nothing".into()) }
+    help(_m) { Some("put at least one of them on something else, or on nothing".into()) }
     related(m) {
-        m.others.iter().map(|(id, span)| Related::new(format!("`{id}` says where it stands here"), *span)).collect()
+        m.others
+            .iter()
+            .map(|(id, span)| Related::new(format!("the support of `{id}` is here"), *span))
+            .collect()
     }
 
     /// A thing that is in the hand and elsewhere too.
     HeldElsewhere("M0439", Error) { id: SmolStr, held: Span }
-    message(m) { format!("`{}` is held, and is on or in something too", m.id) }
-    help(_m) { Some("leave out `on` and `in` of what the robot holds".into()) }
+    message(m) { format!("`{}` is held, but also on or in something", m.id) }
+    help(_m) { Some("remove `on` and `in` of the held object".into()) }
     related(m) { vec![Related::new("it is held here", m.held)] }
 
     /// A number of its own that has a key of its own, or stands twice.
@@ -95,15 +98,13 @@ motet_syntax::mistakes! {
 
     /// A size, mass or way that is zero or negative.
     NotPositive("M0441", Error) { quantity: SceneQuantity, found: f64 }
-    message(m) {
-        format!("{} is {}, it has to be above zero", m.quantity.words(), m.quantity.show(m.found))
-    }
+    message(m) { format!("{} is {}, but must be above zero", m.quantity.words(), m.quantity.show(m.found)) }
 
     /// A coordinate or size beyond what a room has, or an angle beyond what is exact.
     TooFar("M0442", Error) { quantity: SceneQuantity, found: f64 }
     message(m) {
         let limit = m.quantity.show(FURTHEST);
-        format!("{} is {}, at most {limit} are taken", m.quantity.words(), m.quantity.show(m.found))
+        format!("{} is {}, but at most {limit} is allowed", m.quantity.words(), m.quantity.show(m.found))
     }
     help(m) {
         let help = match m.quantity {
@@ -122,7 +123,11 @@ motet_syntax::mistakes! {
     /// A door that opens by more than a turn.
     TooWideAngle("M0444", Error) { found: f64 }
     message(m) {
-        format!("the door opens by {:.2} rad, at most {:.2} rad are possible", m.found, std::f64::consts::TAU)
+        format!(
+            "the door opens by {:.2} rad, more than a full turn, {:.2} rad",
+            m.found,
+            std::f64::consts::TAU
+        )
     }
     help(m) { Some(format!("angles are in radians: {} deg is {:.4}", m.found, m.found.to_radians())) }
 

@@ -11,22 +11,16 @@
 //! ```
 
 mod check;
-mod embedded;
 mod errors;
-mod matching;
 pub mod model;
-mod number;
 mod quantity;
 mod read;
-mod relations;
 mod wire;
 mod write;
 
 pub use check::fit;
-pub use embedded::embedded;
 pub use errors::CODES;
-pub use matching::normal;
-pub use model::*;
+pub use model::{normal, *};
 pub use read::read;
 pub use wire::schema;
 pub use write::write;

@@ -2,6 +2,7 @@
 //! every entity named by `on`, `in` or `holding` exists, and supports have no cycle.
 
 use indexmap::IndexMap;
+use motet_stdlib::lang::kinds;
 use motet_syntax::Span;
 use smol_str::SmolStr;
 
@@ -101,7 +102,7 @@ impl Entity {
     pub fn place(id: SmolStr, pose: Placement) -> Self {
         Self {
             id,
-            kind: SmolStr::new_static("Place"),
+            kind: SmolStr::new_static(kinds::PLACE),
             class: SmolStr::default(),
             names: Vec::new(),
             categories: Vec::new(),
@@ -189,4 +190,67 @@ pub struct CameraView {
     pub pose: Option<Placement>,
     /// Intrinsics fx, fy, cx, cy in pixels.
     pub intrinsics: Option<[f64; 4]>,
+}
+
+impl Scene {
+    /// Entities that a description such as `"the red mug"` fits, in the order of the file.
+    ///
+    /// A description fits by id, a name, the class or a category, as a whole; letter case, leading articles,
+    /// and the difference of `_`, `-` and a space do not count. An empty description fits none. O(entities).
+    #[must_use]
+    pub fn matches(&self, description: &str) -> Vec<&Entity> {
+        let wanted = normal(description);
+        if wanted.is_empty() {
+            return Vec::new();
+        }
+        self.entities.values().filter(|entity| entity.descriptions().any(|name| name == wanted)).collect()
+    }
+}
+
+impl Entity {
+    /// Opening that a hand needs, in m: the width that the scene gives, else the smallest horizontal extent
+    /// of the shape in its own frame. `None` if neither is known, as for a mesh.
+    ///
+    /// ```
+    /// use motet_robots::builtin;
+    ///
+    /// let kitchen = builtin::scene("kitchen").unwrap();
+    /// assert_eq!(kitchen.entities["mug_1"].width(), Some(0.08));
+    /// // The scene gives the thickness of the plate.
+    /// assert_eq!(kitchen.entities["plate"].width(), Some(0.02));
+    /// ```
+    #[must_use]
+    pub fn width(&self) -> Option<f64> {
+        if let Some(width) = self.fields.get("width") {
+            return Some(*width);
+        }
+        match self.shape.as_ref()? {
+            EntityShape::Box([x, y, _]) => Some(x.min(*y)),
+            EntityShape::Cylinder { radius, .. }
+            | EntityShape::Sphere { radius }
+            | EntityShape::Capsule { radius, .. } => Some(2.0 * radius),
+            EntityShape::Mesh { .. } => None,
+        }
+    }
+
+    /// All its names as [`normal`] writes them, with repetitions.
+    pub fn descriptions(&self) -> impl Iterator<Item = String> {
+        let names = [&self.id, &self.class].into_iter().chain(&self.names).chain(&self.categories);
+        names.map(|name| normal(name)).filter(|name| !name.is_empty())
+    }
+}
+
+/// Normal form of a description: words in lower case with single spaces, without leading articles.
+///
+/// ```
+/// use motet_robots::scene;
+///
+/// assert_eq!(scene::normal("The  red_Mug"), "red mug");
+/// ```
+#[must_use]
+pub fn normal(text: &str) -> String {
+    let is_gap = |letter: char| letter.is_whitespace() || matches!(letter, '_' | '-');
+    let words = text.split(is_gap).filter(|word| !word.is_empty()).map(str::to_lowercase);
+    let words: Vec<_> = words.skip_while(|word| matches!(word.as_str(), "a" | "an" | "the")).collect();
+    words.join(" ")
 }

@@ -7,6 +7,15 @@ use super::model::{CameraView, Entity, EntityShape, Placement, RobotState, Scene
 
 /// Writes a scene as one line of JSON. Reading it again gives the same scene where all its numbers are
 /// finite. O(entities).
+///
+/// ```
+/// use motet_robots::{builtin, scene};
+/// use motet_syntax::{FileId, Source};
+///
+/// let kitchen = builtin::scene("kitchen").unwrap();
+/// let (again, _) = scene::read(&Source::new("kitchen.json", scene::write(&kitchen)), FileId(0));
+/// assert_eq!(again.unwrap(), kitchen);
+/// ```
 #[must_use]
 pub fn write(scene: &Scene) -> String {
     let entities: Vec<Value> = scene.entities.values().map(entity).collect();
@@ -131,21 +140,27 @@ fn view(view: &CameraView) -> Value {
 mod tests {
     use motet_syntax::{FileId, Severity, Source};
 
-    use crate::scene::{embedded, read};
+    use crate::builtin::SCENES;
+    use crate::scene::read;
 
-    const ALL: &str = r#"{"motet_scene": 1, "robot": {"base": [1, 2, 0.5], "joints": {"lift": 0.1}, "holding": "ball", "at": "box"},
+    const ALL: &str = r#"{"motet_scene": 1, "robot": {"base": [1, 2, 0.5], "joints": {"lift": 0.1},
+        "holding": "ball", "at": "box"},
         "entities": [
-          {"id": "box", "kind": "Container", "pose": {"xyz": [0, 1, 2]}, "shape": {"box": [1, 1, 1]}, "open": true, "locked": false,
-           "travel": {"hinge": {"axis": [0, 0, 2], "at": [0.5, 0, 0], "angle": 1.5}}, "fields": {"volume": 0.1}},
+          {"id": "box", "kind": "Container", "pose": {"xyz": [0, 1, 2]}, "shape": {"box": [1, 1, 1]},
+              "open": true, "locked": false,
+           "travel": {"hinge": {"axis": [0, 0, 2], "at": [0.5, 0, 0], "angle": 1.5}},
+               "fields": {"volume": 0.1}},
           {"id": "ball", "kind": "Object", "shape": {"sphere": {"radius": 0.1}}, "mass": 0.1, "width": 0.2},
-          {"id": "rod", "kind": "Object", "shape": {"capsule": {"radius": 0.1, "height": 1}}, "in": "box", "visible": false},
+          {"id": "rod", "kind": "Object", "shape": {"capsule": {"radius": 0.1, "height": 1}}, "in": "box",
+              "visible": false},
           {"id": "thing", "kind": "Object", "shape": {"mesh": {"file": "a.stl"}}}],
         "views": [{"camera": "head", "image": "a.png", "depth": "d.png", "pose": {"xyz": [0, 0, 1]},
                    "intrinsics": {"fx": 500, "fy": 500, "cx": 320, "cy": 240}}]}"#;
 
     #[test]
     fn write_and_read_round_trip() {
-        for (name, text) in embedded().iter().copied().chain([("all", ALL)]) {
+        let built_in = SCENES.into_iter().map(|scene| (scene.name, scene.json));
+        for (name, text) in built_in.chain([("all", ALL)]) {
             let (scene, mut said) = read(&Source::new(name, text), FileId(0));
             // Warnings for meshes are expected.
             said.retain(|said| said.severity == Severity::Error);

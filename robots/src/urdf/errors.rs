@@ -3,6 +3,8 @@
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};
 
+use super::model::UrdfShape;
+
 /// Format of an XML document.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum XmlDialect {
@@ -27,16 +29,18 @@ motet_syntax::mistakes! {
     message(m) { format!("this is not XML: {}", m.problem) }
     help(m) {
         let what = match m.dialect {
-            XmlDialect::Urdf => "URDF",
-            XmlDialect::Srdf => "SRDF",
+            XmlDialect::Urdf => "a URDF",
+            XmlDialect::Srdf => "an SRDF",
         };
-        Some(format!("a {what} is an XML document whose root element is `<robot>`"))
+        Some(format!("{what} is an XML document whose root element is `<robot>`"))
     }
 
     /// More elements, or more levels of them, than a description may have.
     TooMuch("M0452", Error) { what: &'static str, limit: usize }
     message(m) { format!("the description has more than {} {}", m.limit, m.what) }
-    help(_m) { Some("a robot needs five levels and some thousand elements: is this the right file?".to_owned()) }
+    help(_m) {
+        Some("a robot needs five levels and some thousand elements: is this the right file?".to_owned())
+    }
 
     /// XML, but of something else.
     NotUrdf("M0453", Error) { found: String }
@@ -44,8 +48,8 @@ motet_syntax::mistakes! {
 
     /// A macro that was not expanded.
     LeftoverXacro("M0454", Error) { text: String }
-    message(m) { format!("`{}` belongs to xacro, which this file has still to be put through", m.text) }
-    help(_m) { Some("run `xacro robot.urdf.xacro > robot.urdf` and give the result".to_owned()) }
+    message(m) { format!("`{}` belongs to xacro: this file has not been expanded", m.text) }
+    help(_m) { Some("run `xacro robot.urdf.xacro > robot.urdf` and pass the result".to_owned()) }
 
     /// An element without something that it needs.
     MissingPart("M0455", Error) { element: String, name: String, part: &'static str, kind: XmlPart }
@@ -69,12 +73,12 @@ motet_syntax::mistakes! {
 
     /// A value that is not the number, or not the three numbers, that it has to be.
     BadNumber("M0456", Error) { key: &'static str, text: String, wanted: &'static str }
-    message(m) { format!("`{}` is `{}`, and must be {}", m.key, m.text.escape_debug(), m.wanted) }
+    message(m) { format!("`{}` is `{}`, but must be {}", m.key, m.text.escape_debug(), m.wanted) }
     help(_m) { Some("write decimal numbers with a point, with spaces between them".to_owned()) }
 
     /// A number that no robot can have.
     ImpossibleNumber("M0457", Error) { key: &'static str, actual: f64, wanted: &'static str }
-    message(m) { format!("`{}` is {}, and must be {}", m.key, m.actual, m.wanted) }
+    message(m) { format!("`{}` is {}, but must be {}", m.key, m.actual, m.wanted) }
 
     /// Two links, or two joints, of one name.
     TakenName("M0458", Error) { what: &'static str, name: String, first: Span }
@@ -85,36 +89,53 @@ motet_syntax::mistakes! {
     /// A joint between links that are not there.
     UnknownLink("M0459", Error) { link: String, near: Option<String> }
     message(m) { format!("there is no link `{}`", m.link.escape_debug()) }
-    help(m) { Some(near_or(m.near.as_deref(), || format!("add `<link name=\"{}\"/>`", m.link.escape_debug()))) }
+    help(m) {
+        Some(near_or(m.near.as_deref(), || format!("add `<link name=\"{}\"/>`", m.link.escape_debug())))
+    }
 
     /// A link that two joints move.
     TwoParents("M0460", Error) { link: String, joint: String, other: String, first: Span }
-    message(m) { format!("link `{}` is the child of joint `{}` and of joint `{}`", m.link.escape_debug(), m.other.escape_debug(), m.joint.escape_debug()) }
-    help(_m) { Some("a URDF is a tree: leave out one of the joints, or let it end in a link of its own".to_owned()) }
+    message(m) {
+        format!(
+            "link `{}` is the child of joint `{}` and of joint `{}`",
+            m.link.escape_debug(),
+            m.other.escape_debug(),
+            m.joint.escape_debug()
+        )
+    }
+    help(_m) {
+        Some("a URDF is a tree: remove one of the joints, or give it a child link of its own".to_owned())
+    }
     related(m) { vec![Related::new(format!("joint `{}` is here", m.other.escape_debug()), m.first)] }
 
-    /// Links that hang on each other in a ring.
+    /// Links that form a cycle.
     LinkCycle("M0461", Error) { chain: Vec<String> }
     message(m) {
         let chain: Vec<String> = m.chain.iter().map(|name| format!("`{}`", name.escape_debug())).collect();
-        format!("links hang on each other in a ring: {}", chain.join(", "))
+        format!("links form a cycle: {}", chain.join(", "))
     }
-    help(_m) { Some("a URDF is a tree: leave out one of the joints".to_owned()) }
+    help(_m) { Some("a URDF is a tree: remove one of the joints".to_owned()) }
 
     /// Links that nothing joins.
     SeveralRoots("M0462", Error) { link: String, first: String, place: Span }
-    message(m) { format!("nothing joins link `{}` to link `{}`", m.link.escape_debug(), m.first.escape_debug()) }
-    help(m) { Some(format!("add a joint that ends in `{}`, or leave the link out", m.link.escape_debug())) }
+    message(m) {
+        format!("no joint connects link `{}` to link `{}`", m.link.escape_debug(), m.first.escape_debug())
+    }
+    help(m) { Some(format!("add a joint whose child is `{}`, or remove the link", m.link.escape_debug())) }
     related(m) { vec![Related::new(format!("`{}` is here", m.first.escape_debug()), m.place)] }
 
     /// A kind of joint that URDF does not have.
     UnknownJointType("M0463", Error) { word: String, near: Option<String>, known: Vec<&'static str> }
-    message(m) { format!("there are no joints of the type `{}`", m.word.escape_debug()) }
-    help(m) { Some(near_or(m.near.as_deref(), || format!("possible here: {}", one_of(m.known.iter().copied())))) }
+    message(m) { format!("there is no joint type `{}`", m.word.escape_debug()) }
+    help(m) {
+        Some(near_or(m.near.as_deref(), || format!("possible here: {}", one_of(m.known.iter().copied()))))
+    }
 
     /// An axis without a direction.
     ZeroAxis("M0464", Error) { joint: String }
-    message(m) { format!("the axis of joint `{}` has length 0, so it has no direction", m.joint.escape_debug()) }
+    message(m) {
+        format!("the axis of joint `{}` has length 0, so it has no direction", m.joint.escape_debug())
+    }
     help(_m) { Some("write a direction such as `0 0 1`".to_owned()) }
 
     /// Limits that leave no position.
@@ -122,15 +143,27 @@ motet_syntax::mistakes! {
     message(m) {
         if m.is_followed {
             format!(
-                "joint `{}` is nowhere within its limits and those of the joints that follow it: it has to be at least at {} and at most at {}",
-                m.joint.escape_debug(), m.lower, m.upper
+                "the limits of joint `{}` and of the joints that mimic it exclude each other: it must be at \
+                    least {} and at most {}",
+                m.joint.escape_debug(),
+                m.lower,
+                m.upper
             )
         } else {
-            format!("the lower limit of joint `{}` is {}, above the upper, {}", m.joint.escape_debug(), m.lower, m.upper)
+            format!(
+                "the lower limit of joint `{}` is {}, above the upper, {}",
+                m.joint.escape_debug(),
+                m.lower,
+                m.upper
+            )
         }
     }
     help(m) {
-        let help = if m.is_followed { "widen the limits of the joints that follow it, or correct their `<mimic>`" } else { "swap them" };
+        let help = if m.is_followed {
+            "widen the limits of the joints that mimic it, or correct their `<mimic>`"
+        } else {
+            "swap them"
+        };
         Some(help.to_owned())
     }
 
@@ -138,31 +171,40 @@ motet_syntax::mistakes! {
     UnknownMimic("M0466", Error) { joint: String, leader: String, near: Option<String>, is_joint: bool }
     message(m) {
         if m.is_joint {
-            format!("joint `{}` follows `{}`, whose position is not one number", m.joint.escape_debug(), m.leader.escape_debug())
+            format!(
+                "joint `{}` mimics `{}`, which has no single position",
+                m.joint.escape_debug(),
+                m.leader.escape_debug()
+            )
         } else {
-            format!("joint `{}` follows `{}`, which is no joint", m.joint.escape_debug(), m.leader.escape_debug())
+            format!(
+                "joint `{}` mimics `{}`, which is not a joint",
+                m.joint.escape_debug(),
+                m.leader.escape_debug()
+            )
         }
     }
     help(m) {
         Some(near_or(m.near.as_deref(), || "name a revolute, continuous or prismatic joint".to_owned()))
     }
 
-    /// Joints that follow each other in a ring.
+    /// Joints that mimic each other in a cycle.
     MimicCycle("M0467", Error) { chain: Vec<String> }
     message(m) {
         match m.chain.as_slice() {
-            [alone] => format!("joint `{}` follows itself", alone.escape_debug()),
+            [alone] => format!("joint `{}` mimics itself", alone.escape_debug()),
             chain => {
-                let chain: Vec<String> = chain.iter().map(|name| format!("`{}`", name.escape_debug())).collect();
-                format!("joints follow each other in a ring: {}", chain.join(", "))
+                let chain: Vec<String> =
+                    chain.iter().map(|name| format!("`{}`", name.escape_debug())).collect();
+                format!("joints mimic each other in a cycle: {}", chain.join(", "))
             }
         }
     }
-    help(_m) { Some("one of them has to move by itself: leave out its `<mimic>`".to_owned()) }
+    help(_m) { Some("remove the `<mimic>` of one of them".to_owned()) }
 
     /// A joint that is not moved.
     HeldJoint("M0468", Warning) { joint: String }
-    message(m) { format!("joint `{}` is floating, and is held at its origin", m.joint.escape_debug()) }
+    message(m) { format!("joint `{}` is floating; it stays at its origin", m.joint.escape_debug()) }
     help(_m) { Some("the robot's card says how its base drives".to_owned()) }
 
     /// A shape that URDF does not have, or none, or several at once.
@@ -174,7 +216,7 @@ motet_syntax::mistakes! {
             format!("there is no shape `{}`", m.found.escape_debug())
         }
     }
-    help(m) { Some(near_or(m.near.as_deref(), || format!("possible here: {}", one_of(super::shape::WORDS)))) }
+    help(m) { Some(near_or(m.near.as_deref(), || format!("possible here: {}", one_of(UrdfShape::ELEMENTS)))) }
 
     /// A description without a body.
     NoLink("M0470", Error) {}
@@ -189,33 +231,40 @@ motet_syntax::mistakes! {
     }
     help(m) {
         Some(if m.element == "geometry" {
-            "leave one out, or give each a `<collision>` of its own".to_owned()
+            "remove one, or give each a `<collision>` of its own".to_owned()
         } else {
-            "leave one out".to_owned()
+            "remove one".to_owned()
         })
     }
     related(m) { vec![Related::new("the first is here", m.first)] }
 
     /// An element that nothing reads.
     UnknownElement("M0474", Warning) { name: String, near: Option<String> }
-    message(m) { format!("`<{}>` is not known here, and is passed over", m.name.escape_debug()) }
+    message(m) { format!("unknown element `<{}>` is ignored", m.name.escape_debug()) }
     help(m) { m.near.as_ref().map(|near| format!("did you mean `<{near}>`?")) }
 
     /// An attribute that nothing reads.
-    UnknownAttribute("M0475", Warning) { element: &'static str, name: String, near: Option<String>, known: &'static [&'static str] }
-    message(m) { format!("`<{}>` has no attribute `{}`: it is passed over", m.element, m.name.escape_debug()) }
+    UnknownAttribute("M0475", Warning) { element: &'static str, name: String, near: Option<String>,
+        known: &'static [&'static str] }
+    message(m) { format!("unknown attribute `{}` of `<{}>` is ignored", m.element, m.name.escape_debug()) }
     help(m) {
         Some(match &m.near {
             Some(near) => format!("did you mean `{}`?", near.escape_debug()),
-            None if m.known.is_empty() => "leave it out".to_owned(),
+            None if m.known.is_empty() => "remove it".to_owned(),
             None => format!("possible here: {}", one_of(m.known.iter().copied())),
         })
     }
 
     /// A joint that follows another, and cannot.
     IdleMimic("M0476", Warning) { joint: String, kind: &'static str }
-    message(m) { format!("joint `{}` is {}, and cannot follow another: its `<mimic>` is passed over", m.joint.escape_debug(), m.kind) }
-    help(_m) { Some("leave the `<mimic>` out, or make the joint revolute, continuous or prismatic".to_owned()) }
+    message(m) {
+        format!(
+            "joint `{}` is {} and cannot mimic another: its `<mimic>` is ignored",
+            m.joint.escape_debug(),
+            m.kind
+        )
+    }
+    help(_m) { Some("remove the `<mimic>`, or make the joint revolute, continuous or prismatic".to_owned()) }
 }
 
 fn near_or(near: Option<&str>, otherwise: impl FnOnce() -> String) -> String {

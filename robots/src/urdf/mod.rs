@@ -16,19 +16,16 @@
 //! ```
 
 mod document;
+mod element;
 mod errors;
-mod joint;
 pub mod model;
-mod number;
 mod read;
-mod shape;
 mod surplus;
 mod tree;
 
+pub(crate) use document::{XmlDocument, XmlSpans, children, is_own};
 pub use errors::CODES;
 pub(crate) use errors::XmlDialect;
 pub use model::*;
 pub use read::read;
-
-pub(crate) use document::{XmlDocument, XmlSpans, children, is_own};
 pub(crate) use surplus::unknown;

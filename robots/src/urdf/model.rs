@@ -13,7 +13,7 @@ pub struct Urdf {
     pub joints: Vec<Joint>,
     /// Index of the link that no joint moves.
     pub root: usize,
-    /// Pairs of links that may touch, the lower index first: empty for the file alone; [`crate::srdf::read`]
+    /// Pairs of links that may touch, the lower index first: empty for the file alone; [`crate::srdf`]
     /// finds them in an SRDF.
     pub may_touch: Vec<[usize; 2]>,
 }
@@ -32,6 +32,15 @@ impl Urdf {
     }
 
     /// Joint that carries a link; `None` for the root. O(joints).
+    ///
+    /// ```
+    /// use motet_robots::builtin;
+    ///
+    /// let urdf = builtin::robot("panda").unwrap().urdf;
+    /// let hand = urdf.link("panda_hand").unwrap();
+    /// assert_eq!(urdf.carrier(hand).unwrap().child, hand);
+    /// assert!(urdf.carrier(urdf.root).is_none());
+    /// ```
     #[must_use]
     pub fn carrier(&self, link: usize) -> Option<&Joint> {
         self.joints.iter().find(|joint| joint.child == link)
@@ -84,6 +93,11 @@ pub enum UrdfShape {
         /// Factors along x, y and z, none zero; a negative one mirrors.
         scale: [f64; 3],
     },
+}
+
+impl UrdfShape {
+    /// Elements that a `<geometry>` may hold.
+    pub(super) const ELEMENTS: [&str; 5] = ["box", "cylinder", "sphere", "capsule", "mesh"];
 }
 
 /// Rigid transform: a translation in m and a unit quaternion.

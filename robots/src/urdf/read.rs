@@ -4,11 +4,10 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use roxmltree::Node;
 use rustc_hash::FxHashMap;
 
-use super::document::{XmlDocument, XmlSpans, children};
+use super::document::{UrdfReader, XmlDocument, XmlSpans, children};
+use super::element::{RawJoint, SpannedName};
 use super::errors::{LeftoverXacro, NoLink, NotUrdf, TakenName, XmlDialect};
-use super::joint::{RawJoint, SpannedName};
 use super::model::{Link, Urdf};
-use super::number::UrdfReader;
 use super::surplus::surplus;
 use super::tree;
 

@@ -41,7 +41,7 @@ const KNOWN: [ElementRule; 17] = [
 ];
 
 /// Elements of a geometry; other names are reported with the shapes.
-const SHAPES: &[&str] = &super::shape::WORDS;
+const SHAPES: &[&str] = &super::model::UrdfShape::ELEMENTS;
 
 /// Elements of other tools.
 const FOREIGN: [&str; 19] = [

@@ -109,16 +109,14 @@ fn card_reader_reports_other_text() {
     check(
         "turn = 1.0",
         "turn = = 1.0",
-        &[
-            "M0411 [=] this is not TOML: extra `=`, expected nothing / a card is a TOML document: `key = value` lines under `[section]` headers",
-        ],
+        &["M0411 [=] this is not TOML: extra `=`, expected nothing / a card is a TOML document: `key = \
+                value` lines under `[section]` headers"],
     );
     check(
         "turn = 1.0",
         "turn = 1.0\nturn = 2.0",
-        &[
-            "M0411 [turn] this is not TOML: duplicate key / a card is a TOML document: `key = value` lines under `[section]` headers",
-        ],
+        &["M0411 [turn] this is not TOML: duplicate key / a card is a TOML document: `key = value` lines \
+                under `[section]` headers"],
     );
 }
 
@@ -137,20 +135,21 @@ fn card_reader_reports_all_wrong_keys_at_once() {
         "colour = 3",
         &[
             "M0413 [] the card has no `title` / add `title = …` at the top of the card",
-            "M0412 [colour] unknown key `colour` / possible here: `title`, `initially`, `model` or `postures`",
+            "M0412 [colour] unknown key `colour` / possible here: `title`, `initially`, `model` or \
+                `postures`",
         ],
     );
 }
 
 #[test]
 fn card_reader_reports_wrong_types() {
-    check("turn = 1.0", "turn = \"fast\"", &["M0414 [\"fast\"] `base.turn` is a text, and must be a number"]);
+    check("turn = 1.0", "turn = \"fast\"", &["M0414 [\"fast\"] `base.turn` is a text, but must be a number"]);
     check(
         "arm = [\"hand\", \"eye\"]",
         "arm = \"hand\"",
-        &["M0414 [\"hand\"] `resources.arm` is a text, and must be a list"],
+        &["M0414 [\"hand\"] `resources.arm` is a text, but must be a list"],
     );
-    check("[\"holding\"]", "[7]", &["M0414 [7] `observes` is a whole number, and must be a text"]);
+    check("[\"holding\"]", "[7]", &["M0414 [7] `observes` is a whole number, but must be a text"]);
     check(
         "\"differential\"",
         "\"diferential\"",
@@ -160,17 +159,17 @@ fn card_reader_reports_wrong_types() {
 
 #[test]
 fn card_reader_reports_impossible_numbers() {
-    check("turn = 1.0", "turn = nan", &["M0416 [nan] `base.turn` is NaN, and must be a finite number"]);
-    check("range = 3", "range = 0", &["M0416 [0] `cameras.eye.range` is 0, and must be above zero"]);
+    check("turn = 1.0", "turn = nan", &["M0416 [nan] `base.turn` is NaN, but must be a finite number"]);
+    check("range = 3", "range = 0", &["M0416 [0] `cameras.eye.range` is 0, but must be above zero"]);
     check(
         "\"500 g\"",
         "\"-1 kg\"",
-        &["M0416 [\"-1 kg\"] `hands.hand.payload` is -1, and must be above zero"],
+        &["M0416 [\"-1 kg\"] `hands.hand.payload` is -1, but must be above zero"],
     );
     check(
         "\"60 cm\"",
         "1e9",
-        &["M0416 [1e9] `hands.hand.reach` is 1000000000, and must be at most a million"],
+        &["M0416 [1e9] `hands.hand.reach` is 1000000000, but must be at most a million"],
     );
 }
 
@@ -181,22 +180,20 @@ fn card_reader_reports_wrong_units() {
         "\"60 cm\"",
         "\"2 feet\"",
         &[&format!(
-            "M0417 [\"2 feet\"] `hands.hand.reach` is `2 feet`, which is no number with a unit / {help}"
+            "M0417 [\"2 feet\"] `hands.hand.reach` is `2 feet`, which is not a number with a unit / {help}"
         )],
     );
     check(
         "\"60 cm\"",
         "\"60 kg\"",
-        &[
-            "M0418 [\"60 kg\"] `hands.hand.reach` is not measured in `kg` / write it in `m`, `cm`, `mm` or `km`",
-        ],
+        &["M0418 [\"60 kg\"] `hands.hand.reach` is not measured in `kg` / write it in `m`, `cm`, `mm` or \
+                `km`"],
     );
     check(
         "least = 0,",
         "least = \"0 s\",",
-        &[
-            "M0418 [\"40 cm\"] `lift.by.greatest` is not measured in `cm` / write it in `s`, `ms`, `min` or `h`",
-        ],
+        &["M0418 [\"40 cm\"] `lift.by.greatest` is not measured in `cm` / write it in `s`, `ms`, `min` or \
+                `h`"],
     );
 }
 
@@ -210,16 +207,14 @@ fn card_reader_reports_wrong_resources() {
     check(
         "hand = []",
         "hand = [\"arm\"]",
-        &[
-            "M0420 [[\"hand\", \"eye\"]] a resource contains itself: `arm` contains `hand` contains `arm` / let the larger part contain the smaller, and not the other way round",
-        ],
+        &["M0420 [[\"hand\", \"eye\"]] a resource contains itself: `arm` contains `hand` contains `arm` / \
+                let the larger part contain the smaller, and not the other way round"],
     );
     check(
         "[cameras.eye]",
         "[cameras.nose]",
-        &[
-            "M0421 [[cameras.nose]] the camera `nose` is not listed as a resource / add `nose = []` under `[resources]`",
-        ],
+        &["M0421 [[cameras.nose]] the camera `nose` is not listed as a resource / add `nose = []` under \
+                `[resources]`"],
     );
 }
 
@@ -228,27 +223,25 @@ fn card_reader_reports_wrong_names_and_ranges() {
     check(
         "greatest = \"40 cm\"",
         "greatest = -1",
-        &["M0422 [0] the least `lift.by` is 0, more than the greatest, -1"],
+        &["M0422 [0] the lower bound of `lift.by` is 0, above the upper bound, -1"],
     );
     check(
         "\"cart\"",
         "\"my cart\"",
-        &[
-            "M0423 [\"my cart\"] `my cart` is no name / a name is a letter or `_`, then letters, digits or `_`",
-        ],
+        &["M0423 [\"my cart\"] `my cart` is not a valid name / a name is a letter or `_`, then letters, \
+                digits or `_`"],
     );
     check(
         "tray =",
         "payload =",
-        &["M0424 [\"2 kg\"] `robot.payload` is given by `hands` already / give this number another name"],
+        &["M0424 [\"2 kg\"] `robot.payload` is already given by `hands` / give this number another name"],
     );
     check("[\"holding\"]", "[\"at\", \"at\"]", &["M0425 [\"at\"] `at` is listed twice / remove one"]);
     check(
         "[cameras.eye]",
         "[cameras.hand]",
-        &[
-            "M0426 [[hands.hand]] `hand` is both a hand and a camera / name one of them differently: both are resources",
-        ],
+        &["M0426 [[hands.hand]] `hand` is both a hand and a camera / name one of them differently: both \
+                are resources"],
     );
 }
 
@@ -260,7 +253,9 @@ proptest! {
 
     /// A card with a piece replaced by noise: most of it is still a card.
     #[test]
-    fn card_reader_never_panics_on_damaged_cards(at in 0usize..900, length in 0usize..40, noise in "[\\[\\]{}=\"a-z0-9.\\- \n]{0,12}") {
+    fn card_reader_never_panics_on_damaged_cards(
+        at in 0usize..900, length in 0usize..40, noise in "[\\[\\]{}=\"a-z0-9.\\- \n]{0,12}",
+    ) {
         let start = at.min(GOOD.len());
         let end = (start + length).min(GOOD.len());
         let text = format!("{}{noise}{}", &GOOD[..start], &GOOD[end..]);
@@ -316,7 +311,7 @@ fn card_fit_reports_differences_from_the_urdf() {
         "tip = 'palm'",
         "frame = 'eye_frame'",
         &model.replace("20 cm", "60 cm"),
-        &["M0428 ['60 cm'] joint `lift` is put at 0.6, and goes from 0 to 0.5"],
+        &["M0428 ['60 cm'] joint `lift` is at 0.6, outside its limits of 0 to 0.5"],
     );
     check_fit(
         "tip = 'palm'",
@@ -330,13 +325,15 @@ fn card_fit_reports_differences_from_the_urdf() {
         &model.replace("20 cm", "30 deg"),
         &["M0418 ['30 deg'] `lift` is not measured in `deg` / write it in `m`, `cm`, `mm` or `km`"],
     );
-    let help = "name the link of the hand at the end of the arm as `tip`, and the arm's foot, or what is before it, as `base`";
+    let help = "set `tip` to the link of the hand at the end of the arm, and `base` to the foot of the arm \
+        or a link before it";
     check_fit(
         "tip = 'eye_frame'",
         "frame = 'eye_frame'",
         model,
         &[&format!(
-            "M0479 ['eye_frame'] no joint moves `eye_frame`, the tip of the hand `hand`, against the base's link `base` / {help}"
+            "M0479 ['eye_frame'] no joint moves `eye_frame`, the tip of the hand `hand`, relative to the \
+                base link `base` / {help}"
         )],
     );
     check_fit(
@@ -344,14 +341,15 @@ fn card_fit_reports_differences_from_the_urdf() {
         "frame = 'eye_frame'",
         &model.replace("'base'", "'eye_frame'"),
         &[&format!(
-            "M0479 ['palm'] the base's link `eye_frame` does not carry `palm`, the tip of the hand `hand` / {help}"
+            "M0479 ['palm'] the base link `eye_frame` does not carry `palm`, the tip of the hand `hand` / \
+                {help}"
         )],
     );
     let posture = "[postures.home]\nlift = inf\n[resources]";
     let (_, found, source) = read(&GOOD.replacen("[resources]", posture, 1));
     assert_eq!(
         told(&found[0], &source),
-        "M0416 [inf] `postures.home.lift` is inf, and must be a finite number"
+        "M0416 [inf] `postures.home.lift` is inf, but must be a finite number"
     );
     let (_, found, _) = read(&GOOD.replacen("[cameras.eye]", "points = 'y'\n[cameras.eye]", 1));
     assert_eq!(found[0].code.0, "M0429");

@@ -9,9 +9,8 @@ fn read(text: &str) -> Urdf {
     urdf::read(&Source::new("robot.urdf", text), FileId(0)).0.unwrap()
 }
 
-/// A robot of links and of joints `TYPE PARENT CHILD AXIS`, each a decimetre above the one before; joints
-/// are called after their
-/// children. A link has a shape where its name is in capitals.
+/// A robot of links and of joints `TYPE PARENT CHILD AXIS`, each a decimetre above the one before; joints are
+/// called after their children. A link has a shape where its name is in capitals.
 fn made(links: &[&str], joints: &[&str]) -> Urdf {
     let shape = "<collision><geometry><sphere radius='0.02'/></geometry></collision>";
     let links = links.iter().map(|name| {
@@ -23,7 +22,8 @@ fn made(links: &[&str], joints: &[&str]) -> Urdf {
         let (kind, parent, child, axis) = (words[0], words[1], words[2], &words[3..]);
         format!(
             "<joint name='{child}_joint' type='{kind}'><origin xyz='0 0 0.1'/><parent link='{parent}'/>
-            <child link='{child}'/><axis xyz='{}'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>",
+            <child link='{child}'/><axis xyz='{}'/><limit lower='-1' upper='1' effort='1' \
+                velocity='1'/></joint>",
             if axis.is_empty() { "0 0 1".to_owned() } else { axis.join(" ") }
         )
     });

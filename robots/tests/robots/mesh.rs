@@ -26,15 +26,18 @@ fn binary(triangles: &[Triangle]) -> Vec<u8> {
 fn mesh_reader_reads_stl_and_obj() {
     let read = |file: &str, bytes: &[u8]| mesh::read(file, bytes);
     assert_eq!(read("a.stl", &binary(&[CORNER])), Ok(vec![CORNER]));
-    let text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2e0 0\nendloop\nendfacet\nendsolid a\n";
+    let text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2e0 \
+        0\nendloop\nendfacet\nendsolid a\n";
     assert_eq!(read("a.STL", text.as_bytes()), Ok(vec![CORNER]));
     let text =
         "# made by hand\nmtllib a.mtl\nv 0 0 0\nv 1 0 0 1\nvt 0 0\nv 0 2 0\nusemtl red\nf 1/1 2/1/1 -1\n";
     assert_eq!(read("a.obj", text.as_bytes()), Ok(vec![CORNER]));
     // Words after a face, letters that are no UTF-8, and capitals.
-    let text = b"# f\xfcr\nmtllib f\xfcr.mtl\nv 0 0 0 # first\nv 1 0 0\nv 0 2 0\nf 1 2 3 # comment\nf 1 2 3#comment\n";
+    let text = b"# f\xfcr\nmtllib f\xfcr.mtl\nv 0 0 0 # first\nv 1 0 0\nv 0 2 0\nf 1 2 3 # comment\nf 1 2 \
+        3#comment\n";
     assert_eq!(read("a.obj", text), Ok(vec![CORNER, CORNER]));
-    let text = b"SOLID F\xdcR\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 2 0\nENDLOOP\nENDFACET\nENDSOLID\n";
+    let text = b"SOLID F\xdcR\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 2 \
+        0\nENDLOOP\nENDFACET\nENDSOLID\n";
     assert_eq!(read("a.stl", text), Ok(vec![CORNER]));
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
     assert_eq!(read("a.obj", square.as_bytes()).unwrap().len(), 2);
@@ -215,8 +218,10 @@ fn attach_reports_mistakes_at_the_name_of_the_mesh() {
     assert_eq!(
         told,
         [
-            "M0448 [a.obj] the mesh `a.obj` is not read, so no motion is computed: there is no such file / looked for at `/r/a.obj`; `packages` in `[model]` of the card names folders with packages",
-            "M0449 [b.stl] the mesh `b.stl` cannot be used: it lies neither below the folder of the card or of the URDF nor below one of `packages` / "
+            "M0448 [a.obj] the mesh `a.obj` cannot be read, so no motion is computed: there is no such file \
+                / looked for at `/r/a.obj`; `packages` in `[model]` of the card names folders with packages",
+            "M0449 [b.stl] the mesh `b.stl` cannot be used: it lies neither below the folder of the card or \
+                of the URDF nor below one of `packages` / "
         ]
     );
     let (_, told) = attached(|_| MeshFile::TooLarge);

@@ -1,5 +1,5 @@
-//! What of a URDF is not read: told where somebody may have meant something by it, and passed over where
-//! another tool does.
+//! Parts of a URDF that are not read: reported where the author may have meant something by them, ignored
+//! where another tool reads them.
 
 use motet_robots::urdf::{self, Urdf};
 use motet_syntax::{Diagnostic, FileId, Source};
@@ -18,8 +18,10 @@ fn told_of(found: &Diagnostic, source: &Source) -> String {
 
 /// A robot of one joint with `from` replaced by `to` says exactly this, and is read where that is no error.
 fn check(from: &str, to: &str, expected: &[&str]) {
-    const ROBOT: &str = "<robot name='a'><link name='a'><collision><origin xyz='0 0 1'/><geometry><box size='1 1 1'/></geometry>
-        </collision></link><link name='b'/><joint name='j' type='revolute'><origin xyz='0 0 0.3'/><parent link='a'/><child link='b'/>
+    const ROBOT: &str = "<robot name='a'><link name='a'><collision><origin xyz='0 0 1'/><geometry><box \
+        size='1 1 1'/></geometry>
+        </collision></link><link name='b'/><joint name='j' type='revolute'><origin xyz='0 0 0.3'/><parent \
+            link='a'/><child link='b'/>
         <axis xyz='0 0 1'/><limit lower='-1' upper='1'/></joint></robot>";
     assert_eq!(ROBOT.matches(from).count(), 1, "`{from}` must stand once in the robot");
     let (robot, found, source) = read(&ROBOT.replacen(from, to, 1));
@@ -32,7 +34,7 @@ fn check(from: &str, to: &str, expected: &[&str]) {
 fn surplus_check_reports_repeated_elements() {
     let twice = |part: &str, element: &str| {
         let under = part.split(' ').next().unwrap();
-        let message = format!("M0473 [{under}] joint `j` has two `{under}>` / leave one out");
+        let message = format!("M0473 [{under}] joint `j` has two `{under}>` / remove one");
         check(part, &format!("{part}{element}"), &[&message]);
     };
     twice("<parent link='a'/>", "<parent link='b'/>");
@@ -44,19 +46,19 @@ fn surplus_check_reports_repeated_elements() {
     check(
         one,
         &format!("{one}{other}"),
-        &["M0473 [<sphere] geometry has two shapes / leave one out, or give each a `<collision>` of its own"],
+        &["M0473 [<sphere] geometry has two shapes / remove one, or give each a `<collision>` of its own"],
     );
     check(
         one,
         &format!("{one}</geometry><geometry>{other}"),
-        &["M0473 [<geometry] collision has two `<geometry>` / leave one out"],
+        &["M0473 [<geometry] collision has two `<geometry>` / remove one"],
     );
 }
 
 #[test]
 fn surplus_check_reports_misspelt_names() {
     let passed = |name: &str, near: &str| {
-        format!("M0474 [<{name}] `<{name}>` is not known here, and is passed over / did you mean `<{near}>`?")
+        format!("M0474 [<{name}] unknown element `<{name}>` is ignored / did you mean `<{near}>`?")
     };
     check("<origin xyz='0 0 0.3'/>", "<orgin xyz='0 0 0.3'/>", &[&passed("orgin", "origin")]);
     check("<link name='b'/>", "<link name='b'/><lnik name='c'/>", &[&passed("lnik", "link")]);
@@ -64,10 +66,10 @@ fn surplus_check_reports_misspelt_names() {
     check(
         "<link name='b'/>",
         "<link name='b'><shade/></link>",
-        &["M0474 [<shade] `<shade>` is not known here, and is passed over"],
+        &["M0474 [<shade] unknown element `<shade>` is ignored"],
     );
     let named = |element: &str, name: &str, help: &str| {
-        format!("M0475 [0 0 1] `<{element}>` has no attribute `{name}`: it is passed over / {help}")
+        format!("M0475 [0 0 1] unknown attribute `{name}` of `<{element}>` is ignored / {help}")
     };
     check("<axis xyz=", "<axis xy=", &[&named("axis", "xy", "did you mean `xyz`?")]);
     check(
@@ -79,7 +81,7 @@ fn surplus_check_reports_misspelt_names() {
     check(
         "lower='-1'",
         "loower='-1'",
-        &["M0475 [-1] `<limit>` has no attribute `loower`: it is passed over / did you mean `lower`?"],
+        &["M0475 [-1] unknown attribute `loower` of `<limit>` is ignored / did you mean `lower`?"],
     );
 }
 
@@ -114,20 +116,18 @@ fn surplus_check_reports_mimic_of_joint_without_one_position() {
     for (kind, more) in [("fixed", &[][..]), ("planar", &[]), ("floating", &["M0468"])] {
         let joint = format!("type='{kind}'><mimic joint='other'/>");
         let text = format!(
-            "<robot><link name='a'/><link name='b'/><joint name='j' {joint}<parent link='a'/><child link='b'/></joint></robot>"
+            "<robot><link name='a'/><link name='b'/><joint name='j' {joint}<parent link='a'/><child \
+                link='b'/></joint></robot>"
         );
         let (robot, found, source) = read(&text);
         let (mimic, others): (Vec<_>, Vec<_>) = found.iter().partition(|found| found.code.0 == "M0476");
         assert!(robot.is_some());
         let told: Vec<String> = mimic.into_iter().map(|found| told_of(found, &source)).collect();
-        let said = format!(
-            "M0476 [<mimic] joint `j` is {kind}, and cannot follow another: its `<mimic>` is passed over"
-        );
+        let said =
+            format!("M0476 [<mimic] joint `j` is {kind} and cannot mimic another: its `<mimic>` is ignored");
         assert_eq!(
             told,
-            [format!(
-                "{said} / leave the `<mimic>` out, or make the joint revolute, continuous or prismatic"
-            )]
+            [format!("{said} / remove the `<mimic>`, or make the joint revolute, continuous or prismatic")]
         );
         assert_eq!(others.iter().map(|found| found.code.0).collect::<Vec<_>>(), more);
     }

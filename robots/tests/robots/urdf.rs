@@ -1,6 +1,5 @@
 //! URDFs: published ones and our own are read as another reader reads them, every mistake is told at its
-//! place, and no
-//! text makes the reader panic.
+//! place, and no text makes the reader panic.
 
 use std::path::{Path, PathBuf};
 
@@ -88,7 +87,9 @@ fn urdf_limits_include_those_of_followers() {
     told(
         &nowhere,
         &[
-            "M0465 [lift] joint `lift` is nowhere within its limits and those of the joints that follow it: it has to be at least at -0.1 and at most at -0.6 / widen the limits of the joints that follow it, or correct their `<mimic>`",
+            "M0465 [lift] the limits of joint `lift` and of the joints that mimic it exclude each other: it must \
+                be at least -0.1 and at most -0.6 / widen the limits of the joints that mimic it, or correct \
+                their `<mimic>`",
         ],
     );
 }
@@ -98,33 +99,30 @@ fn urdf_reader_reports_wrong_numbers() {
     check(
         "0 0 0.5",
         "abc 1 2 3",
-        &[
-            "M0456 [abc 1 2 3] `xyz` is `abc 1 2 3`, and must be three numbers / write decimal numbers with a point, with spaces between them",
-        ],
+        &["M0456 [abc 1 2 3] `xyz` is `abc 1 2 3`, but must be three numbers / write decimal numbers with \
+                a point, with spaces between them"],
     );
     check(
         "0 0 1.57",
         "0 0",
-        &[
-            "M0456 [0 0] `rpy` is `0 0`, and must be three numbers / write decimal numbers with a point, with spaces between them",
-        ],
+        &["M0456 [0 0] `rpy` is `0 0`, but must be three numbers / write decimal numbers with a point, \
+                with spaces between them"],
     );
-    check("0 0 1.57", "0 NaN 0", &["M0457 [0 NaN 0] `rpy` is NaN, and must be a finite number"]);
-    check("0 0 0.5", "0 0 5e7", &["M0457 [0 0 5e7] `xyz` is 50000000, and must be at most a million"]);
+    check("0 0 1.57", "0 NaN 0", &["M0457 [0 NaN 0] `rpy` is NaN, but must be a finite number"]);
+    check("0 0 0.5", "0 0 5e7", &["M0457 [0 0 5e7] `xyz` is 50000000, but must be at most a million"]);
     check(
         "0 0 2",
         "0 0 0",
-        &[
-            "M0464 [0 0 0] the axis of joint `lift` has length 0, so it has no direction / write a direction such as `0 0 1`",
-        ],
+        &["M0464 [0 0 0] the axis of joint `lift` has length 0, so it has no direction / write a direction \
+                such as `0 0 1`"],
     );
-    check("1 2 3", "1 -2 3", &["M0457 [1 -2 3] `size` is -2, and must be zero or more"]);
+    check("1 2 3", "1 -2 3", &["M0457 [1 -2 3] `size` is -2, but must be zero or more"]);
     check(
         r#"lower="-0.1""#,
         r#"lower="0.5""#,
         &["M0465 [0.5] the lower limit of joint `lift` is 0.5, above the upper, 0.4 / swap them"],
     );
-    check(r#"lower="-0.1""#, r#"lower="inf""#, &["M0457 [inf] `lower` is inf, and must be a finite number"]);
+    check(r#"lower="-0.1""#, r#"lower="inf""#, &["M0457 [inf] `lower` is inf, but must be a finite number"]);
 }
 
 #[test]
@@ -137,9 +135,8 @@ fn urdf_reader_reports_missing_parts() {
     check(
         r#"<box size="1 2 3"/>"#,
         "",
-        &[
-            "M0469 [<geometry] the geometry has no shape / possible here: `box`, `cylinder`, `sphere`, `capsule` or `mesh`",
-        ],
+        &["M0469 [<geometry] the geometry has no shape / possible here: `box`, `cylinder`, `sphere`, \
+                `capsule` or `mesh`"],
     );
     check(
         r#"<box size="1 2 3"/>"#,
@@ -154,7 +151,7 @@ fn urdf_reader_reports_missing_parts() {
     check(
         r#"type="prismatic""#,
         r#"type="prismtic""#,
-        &["M0463 [prismtic] there are no joints of the type `prismtic` / did you mean `prismatic`?"],
+        &["M0463 [prismtic] there is no joint type `prismtic` / did you mean `prismatic`?"],
     );
     check(
         "<limit lower=\"-0.1\" upper=\"0.4\" velocity=\"0.2\" effort=\"1\"/>",
@@ -178,23 +175,19 @@ fn urdf_reader_reports_links_that_form_no_tree() {
     check(
         r#"<child link="tip"/>"#,
         r#"<child link="upper"/>"#,
-        &[
-            "M0460 [upper] link `upper` is the child of joint `lift` and of joint `follow` / a URDF is a tree: leave out one of the joints, or let it end in a link of its own",
-        ],
+        &["M0460 [upper] link `upper` is the child of joint `lift` and of joint `follow` / a URDF is a \
+                tree: remove one of the joints, or give it a child link of its own"],
     );
     check(
         r#"<parent link="base"/>"#,
         r#"<parent link="tip"/>"#,
-        &[
-            "M0461 [upper] links hang on each other in a ring: `upper`, `tip` / a URDF is a tree: leave out one of the joints",
-        ],
+        &["M0461 [upper] links form a cycle: `upper`, `tip` / a URDF is a tree: remove one of the joints"],
     );
     check(
         r#"<link name="tip"/>"#,
         r#"<link name="tip"/><link name="lost"/>"#,
-        &[
-            "M0462 [lost] nothing joins link `lost` to link `base` / add a joint that ends in `lost`, or leave the link out",
-        ],
+        &["M0462 [lost] no joint connects link `lost` to link `base` / add a joint whose child is `lost`, \
+                or remove the link"],
     );
     check(
         r#"<link name="tip"/>"#,
@@ -212,7 +205,7 @@ fn urdf_reader_reports_links_that_form_no_tree() {
 #[test]
 fn diagnostics_escape_line_breaks_in_names() {
     let (_, found, _) = read("<robot><link name='a&#10;b'/><link name='c&#10;d'/></robot>");
-    assert_eq!(found[0].message, "nothing joins link `c\\nd` to link `a\\nb`");
+    assert_eq!(found[0].message, "no joint connects link `c\\nd` to link `a\\nb`");
     assert!(found.iter().all(|found| !found.help.as_ref().unwrap().contains('\n')));
 }
 
@@ -221,21 +214,18 @@ fn urdf_reader_reports_mimic_cycles() {
     check(
         r#"<mimic joint="lift""#,
         r#"<mimic joint="follow""#,
-        &[
-            "M0467 [follow] joint `follow` follows itself / one of them has to move by itself: leave out its `<mimic>`",
-        ],
+        &["M0467 [follow] joint `follow` mimics itself / remove the `<mimic>` of one of them"],
     );
     check(
         r#"<mimic joint="lift""#,
         r#"<mimic joint="lifts""#,
-        &["M0466 [lifts] joint `follow` follows `lifts`, which is no joint / did you mean `lift`?"],
+        &["M0466 [lifts] joint `follow` mimics `lifts`, which is not a joint / did you mean `lift`?"],
     );
     check(
         "<axis xyz=\"0 0 2\"/>",
         "<axis xyz=\"0 0 2\"/><mimic joint=\"follow\"/>",
-        &[
-            "M0467 [follow] joints follow each other in a ring: `lift`, `follow` / one of them has to move by itself: leave out its `<mimic>`",
-        ],
+        &["M0467 [follow] joints mimic each other in a cycle: `lift`, `follow` / remove the `<mimic>` of \
+                one of them"],
     );
 }
 
@@ -243,31 +233,31 @@ fn urdf_reader_reports_mimic_cycles() {
 fn urdf_reader_reports_other_documents() {
     told(
         "<robot>",
-        &[
-            "M0451 [] this is not XML: the root node was opened but never closed / a URDF is an XML document whose root element is `<robot>`",
-        ],
+        &["M0451 [] this is not XML: the root node was opened but never closed / a URDF is an XML document \
+                whose root element is `<robot>`"],
     );
     told("<sdf/>", &["M0453 [<sdf] the root element is `<sdf>`, a URDF starts with `<robot>`"]);
-    let help = "run `xacro robot.urdf.xacro > robot.urdf` and give the result";
+    let help = "run `xacro robot.urdf.xacro > robot.urdf` and pass the result";
     check(
         "0 0 0.5",
         "0 0 ${height}",
         &[&format!(
-            "M0454 [0 0 ${{height}}] `0 0 ${{height}}` belongs to xacro, which this file has still to be put through / {help}"
+            "M0454 [0 0 ${{height}}] `0 0 ${{height}}` belongs to xacro: this file has not been expanded / \
+                {help}"
         )],
     );
-    let macros = "<robot name='a' xmlns:xacro='http://www.ros.org/wiki/xacro'><xacro:include filename='x'/><link name='a'/></robot>";
+    let macros = "<robot name='a' xmlns:xacro='http://www.ros.org/wiki/xacro'><xacro:include \
+        filename='x'/><link name='a'/></robot>";
     told(
         macros,
         &[&format!(
-            "M0454 [<xacro:include] `xacro:include` belongs to xacro, which this file has still to be put through / {help}"
+            "M0454 [<xacro:include] `xacro:include` belongs to xacro: this file has not been expanded / \
+                {help}"
         )],
     );
     told(
         "<robot><xacro:arm/></robot>",
-        &[&format!(
-            "M0454 [] `xacro:` belongs to xacro, which this file has still to be put through / {help}"
-        )],
+        &[&format!("M0454 [] `xacro:` belongs to xacro: this file has not been expanded / {help}")],
     );
     let entity = "<!DOCTYPE robot [<!ENTITY a 'b'>]><robot><link name='&a;'/></robot>";
     assert_eq!(read(entity).1[0].code.0, "M0451");
@@ -275,12 +265,12 @@ fn urdf_reader_reports_other_documents() {
 
 #[test]
 fn floating_joint_is_held_with_a_warning() {
-    let text = "<robot><link name='world'/><link name='base'/><joint name='free' type='floating'><parent link='world'/><child link='base'/></joint></robot>";
+    let text = "<robot><link name='world'/><link name='base'/><joint name='free' type='floating'><parent \
+        link='world'/><child link='base'/></joint></robot>";
     told(
         text,
-        &[
-            "M0468 [free] joint `free` is floating, and is held at its origin / the robot's card says how its base drives",
-        ],
+        &["M0468 [free] joint `free` is floating; it stays at its origin / the robot's card says how its \
+                base drives"],
     );
 }
 
@@ -516,15 +506,13 @@ fn srdf_reader_resolves_names_in_the_urdf() {
     let (_, told) = srdf("<robot><group name='a'><group name='a'/></group></robot>");
     assert_eq!(told, ["M0478 [a] a group contains itself: `a` contains `a`"]);
     // Two ways to one group are no ring.
-    let two = "<robot><group name='c'/><group name='b'><group name='c'/></group><group name='a'><group name='b'/><group name='c'/></group></robot>";
+    let two = "<robot><group name='c'/><group name='b'><group name='c'/></group><group name='a'><group \
+        name='b'/><group name='c'/></group></robot>";
     assert!(srdf(two).1.is_empty());
     let (found, told) = srdf("<robot><disable_colisions link1='tip' link2='upper'/><virtual_joint/></robot>");
-    assert_eq!(
-        told,
-        ["M0474 [<disable_colisions] `<disable_colisions>` is not known here, and is passed over"]
-    );
+    assert_eq!(told, ["M0474 [<disable_colisions] unknown element `<disable_colisions>` is ignored"]);
     assert_eq!(found.unwrap().disabled, [[0; 2]; 0]);
     let empty = srdf::read(&Source::new("robot.srdf", ""), FileId(0), &urdf).1;
-    assert_eq!(empty[0].help.as_deref(), Some("a SRDF is an XML document whose root element is `<robot>`"));
-    assert_eq!(srdf("<sdf/>").1, ["M0471 [<sdf] the root element is `<sdf>`, a SRDF starts with `<robot>`"]);
+    assert_eq!(empty[0].help.as_deref(), Some("an SRDF is an XML document whose root element is `<robot>`"));
+    assert_eq!(srdf("<sdf/>").1, ["M0471 [<sdf] the root element is `<sdf>`, an SRDF starts with `<robot>`"]);
 }

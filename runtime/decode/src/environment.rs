@@ -2,6 +2,7 @@
 
 use indexmap::IndexMap;
 use motet_compiler::{InitialState, Session};
+use motet_robots::builtin;
 use motet_robots::card::{self, Robot};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::ast::File;
@@ -82,11 +83,10 @@ impl Environment<'_> {
 }
 
 fn robot(given: &str, declarations: Option<&str>, sources: &mut Sources) -> Result<Robot, EnvironmentError> {
-    let cards = card::embedded();
-    let (name, toml, declarations) = match cards.iter().find(|(known, _, _)| *known == given) {
-        Some((name, toml, built_in)) => (format!("{name}/robot.toml"), *toml, declarations.or(*built_in)),
+    let (name, toml, declarations) = match builtin::robot_texts(given) {
+        Some(texts) => (format!("{given}/robot.toml"), texts.card, declarations.or(texts.declarations)),
         None if given.contains('=') => ("robot.toml".to_owned(), given, declarations),
-        None => return Err(unknown("robot", given, cards.iter().map(|(name, _, _)| *name))),
+        None => return Err(unknown("robot", given, builtin::ROBOTS.iter().map(|robot| robot.name))),
     };
     let (source, file) = add(&name, toml, sources);
     let (robot, diagnostics) = card::read(&source, file, declarations);
@@ -94,11 +94,10 @@ fn robot(given: &str, declarations: Option<&str>, sources: &mut Sources) -> Resu
 }
 
 fn scene_of(given: &str, sources: &mut Sources) -> Result<Scene, EnvironmentError> {
-    let scenes = scene::embedded();
-    let (name, text) = match scenes.iter().find(|(known, _)| *known == given) {
-        Some((name, text)) => (format!("{name}.json"), *text),
+    let (name, text) = match builtin::scene_text(given) {
+        Some(texts) => (format!("{given}.json"), texts.json),
         None if given.trim_start().starts_with('{') => ("scene.json".to_owned(), given),
-        None => return Err(unknown("scene", given, scenes.iter().map(|(name, _)| *name))),
+        None => return Err(unknown("scene", given, builtin::SCENES.iter().map(|scene| scene.name))),
     };
     let (source, file) = add(&name, text, sources);
     let (scene, diagnostics) = scene::read(&source, file);

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use indexmap::IndexMap;
 use motet_compiler::{CheckOptions, Geometry, InitialState, Session};
 use motet_geometry::planning::SearchBudget;
+use motet_robots::builtin;
 use motet_robots::card::Robot;
 use motet_robots::scene::{self, Scene};
 use motet_robots::urdf::Urdf;
@@ -333,8 +334,8 @@ pub fn read_scene(
     sources: &mut Sources,
     sink: &mut dyn DiagnosticSink,
 ) -> Result<Scene, ProjectError> {
-    let (name, bytes) = match scene::embedded().iter().find(|(known, _)| *known == name) {
-        Some((name, text)) => (format!("{name}.json"), text.as_bytes().to_vec()),
+    let (name, bytes) = match builtin::scene_text(name) {
+        Some(texts) => (format!("{name}.json"), texts.json.as_bytes().to_vec()),
         None if looks_like_file(name) => (name.to_owned(), read_small(Path::new(name))?),
         None => return Err(unknown_scene(name)),
     };
@@ -351,7 +352,7 @@ fn looks_like_file(name: &str) -> bool {
 }
 
 fn unknown_scene(name: &str) -> ProjectError {
-    let names = || scene::embedded().iter().map(|(name, _)| *name);
+    let names = || builtin::SCENES.iter().map(|scene| scene.name);
     let near = suggest::closest(name, names()).map(|near| format!("did you mean `{near}`? "));
     let help = format!(
         "{}built-in scenes: {}; your own scene is a JSON file",

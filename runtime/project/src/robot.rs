@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use motet_robots::builtin;
 use motet_robots::card::{self, Robot};
 use motet_syntax::{Sources, suggest};
 
@@ -30,19 +31,18 @@ pub(crate) enum Home {
 
 /// Names of the built-in robots.
 pub fn robot_names() -> impl Iterator<Item = &'static str> {
-    card::embedded().iter().map(|(name, _, _)| *name)
+    builtin::ROBOTS.iter().map(|robot| robot.name)
 }
 
 impl RobotFiles {
     /// Files of a built-in robot.
     #[must_use]
     pub fn built_in(name: &str) -> Option<Self> {
-        let row = card::embedded().iter().find(|(known, _, _)| *known == name);
-        row.map(|(name, toml, declarations)| Self {
+        builtin::robot_texts(name).map(|texts| Self {
             name: format!("{name}/robot.toml"),
-            home: Home::BuiltIn(name),
-            toml: toml.as_bytes().to_vec(),
-            declarations: declarations.map(Into::into),
+            home: Home::BuiltIn(texts.name),
+            toml: texts.card.as_bytes().to_vec(),
+            declarations: texts.declarations.map(Into::into),
         })
     }
 

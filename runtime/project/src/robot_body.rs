@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::PathBuf;
 
+use motet_robots::builtin;
 use motet_robots::card::{self, ModelFile, ModelSpec, Robot};
 use motet_robots::mesh::{self, MeshFile};
 use motet_robots::srdf;
@@ -64,7 +65,7 @@ impl RobotFiles {
     fn urdf(&self, model: &ModelSpec) -> Result<Option<(String, Vec<u8>)>, ProjectError> {
         match &self.home {
             Home::BuiltIn(name) => {
-                let text = card::embedded_urdf(name).unwrap_or_default();
+                let text = builtin::robot_texts(name).map_or("", |texts| texts.urdf);
                 Ok(Some((format!("{name}/{}", model.urdf), text.as_bytes().to_vec())))
             }
             Home::Folder(folder) => read_optional(&folder.join(&model.urdf)),

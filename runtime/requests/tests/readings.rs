@@ -2,12 +2,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use motet_requests::{RequestContext, RequestError, choose, named, understand};
-use motet_robots::scene::{Scene, embedded, read};
+use motet_robots::builtin;
+use motet_robots::scene::{Scene, read};
 use motet_syntax::{Source, Sources, print};
 
 /// An embedded scene, with further entities before its own.
 fn scene(name: &str, entities: &str) -> Scene {
-    let json = embedded().iter().find(|row| row.0 == name).map(|row| row.1).unwrap();
+    let json = builtin::scene_text(name).unwrap().json;
     let json = json.replacen("\"entities\": [", &format!("\"entities\": [{entities}"), 1);
     let mut sources = Sources::default();
     let source = Source::new(name, json.as_str());

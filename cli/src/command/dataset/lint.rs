@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use motet_dataset::lint::{Finding, Linter, Worlds};
 use motet_project::files::Bytes;
 use motet_project::{read_scene, robot_names};
+use motet_robots::builtin::{self, BuiltinScene};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Severity, Source, Sources};
 use serde_json::{Value, json};
@@ -83,8 +84,8 @@ fn worlds(args: &LintArgs, report: &mut Report) -> Result<Worlds, CliError> {
         }
         worlds.bodies.insert(known, body);
     }
-    for (name, _) in scene::embedded() {
-        worlds.scenes.insert((*name).into(), read_scene(name, &mut Sources::default(), report)?);
+    for BuiltinScene { name, .. } in builtin::SCENES {
+        worlds.scenes.insert(name.into(), read_scene(name, &mut Sources::default(), report)?);
     }
     if let Some(name) = &args.scene {
         worlds.scene = Some(name.into());

@@ -16,23 +16,14 @@ use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner};
 use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_sim::{Sim, SimOptions};
-use motet_syntax::{Source, Sources};
+use motet_syntax::Sources;
 
 use super::server::Server;
 
 /// The HSR in the kitchen.
 pub(crate) fn setting() -> DialogueSetup {
-    let cards = motet_robots::card::embedded();
-    let (name, toml, declarations) = cards.iter().find(|row| row.0 == "hsr").unwrap();
-    let mut sources = Sources::default();
-    let source = Source::new(*name, *toml);
-    let id = sources.add(source.clone());
-    let robot = motet_robots::card::read(&source, id, *declarations).0.unwrap();
-    let scenes = motet_robots::scene::embedded();
-    let (name, json) = scenes.iter().find(|row| row.0 == "kitchen").unwrap();
-    let source = Source::new(*name, *json);
-    let id = sources.add(source.clone());
-    let scene = motet_robots::scene::read(&source, id).0.unwrap();
+    let robot = motet_robots::builtin::robot("hsr").unwrap().robot;
+    let scene = motet_robots::builtin::scene("kitchen").unwrap();
     DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
 }
 
@@ -43,11 +34,7 @@ pub(crate) fn session(setting: &DialogueSetup) -> Session {
 
 /// The robot's body in the scene of a setting.
 pub(crate) fn geometry(setting: &DialogueSetup) -> Arc<Geometry> {
-    let text = motet_robots::card::embedded_urdf("hsr").unwrap();
-    let mut sources = Sources::default();
-    let source = Source::new("hsr.urdf", text);
-    let id = sources.add(source.clone());
-    let urdf = motet_robots::urdf::read(&source, id).0.unwrap();
+    let urdf = motet_robots::builtin::robot("hsr").unwrap().urdf;
     Arc::new(Geometry::new(&setting.robot, &urdf, &setting.scene, None, SearchBudget::default()))
 }
 

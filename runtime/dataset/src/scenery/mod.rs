@@ -143,6 +143,7 @@ fn free_id(scene: &Scene, id: &SmolStr) -> SmolStr {
 mod tests {
     use std::collections::BTreeSet;
 
+    use motet_robots::builtin::{self, BuiltinScene};
     use motet_robots::scene;
 
     use super::*;
@@ -152,8 +153,8 @@ mod tests {
         let catalogue = things();
         assert!(catalogue.entities.len() > 30);
         let mut all = BTreeSet::new();
-        for (name, text) in scene::embedded() {
-            let room = scene::read(&Source::new(*name, *text), FileId(0)).0.unwrap();
+        for BuiltinScene { name, .. } in builtin::SCENES {
+            let room = builtin::scene(name).unwrap();
             for seed in 0..40 {
                 let varied = vary(&room, &catalogue, &mut Draw::new(seed));
                 assert_eq!(varied, vary(&room, &catalogue, &mut Draw::new(seed)));

@@ -206,7 +206,7 @@ fn environment_opens_by_name_and_by_text() {
         error(Environment { domain: Some("kind"), ..Environment::default() })
             .contains("the domain cannot be used: ")
     );
-    let (_, scene) = motet_robots::scene::embedded().iter().find(|(name, _)| *name == "kitchen").unwrap();
+    let scene = motet_robots::builtin::scene_text("kitchen").unwrap().json;
     let state = Some(r#"{"holding(mug_1)": true, "free(hand)": false}"#);
     let world = Environment { robot: Some("hsr"), scene: Some(scene), state, ..Environment::default() };
     let prepared = AcceptorFactory::new(&world.session().unwrap(), Subset::default());

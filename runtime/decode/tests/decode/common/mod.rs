@@ -9,19 +9,18 @@ pub mod tokens;
 pub mod walks;
 
 use motet_compiler::Session;
+use motet_robots::builtin;
 use motet_syntax::{FileId, Severity, Source, Sources};
 
 /// The session of an embedded robot in an embedded scene.
 pub fn session(robot: &str, scene: &str) -> Session {
     let mut sources = Sources::default();
-    let row = motet_robots::card::embedded().iter().find(|row| row.0 == robot);
-    let (name, toml, declarations) = row.unwrap_or_else(|| panic!("no robot `{robot}`"));
-    let source = Source::new(format!("{name}/robot.toml"), *toml);
+    let texts = builtin::robot_texts(robot).unwrap_or_else(|| panic!("no robot `{robot}`"));
+    let source = Source::new(format!("{robot}/robot.toml"), texts.card);
     let id = sources.add(source.clone());
-    let robot = motet_robots::card::read(&source, id, *declarations).0.unwrap();
-    let row = motet_robots::scene::embedded().iter().find(|row| row.0 == scene);
-    let (name, json) = row.unwrap_or_else(|| panic!("no scene `{scene}`"));
-    let source = Source::new(*name, *json);
+    let robot = motet_robots::card::read(&source, id, texts.declarations).0.unwrap();
+    let texts = builtin::scene_text(scene).unwrap_or_else(|| panic!("no scene `{scene}`"));
+    let source = Source::new(scene, texts.json);
     let id = sources.add(source.clone());
     let scene = motet_robots::scene::read(&source, id).0.unwrap();
     Session::builder().robot(&robot).scene(&scene).build(&mut sources)

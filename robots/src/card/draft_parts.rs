@@ -1,9 +1,11 @@
-//! Search for the tip of the hand and the frame of the camera in a URDF: by the structure of the joints, then
-//! by words in names.
+//! Search for the parts of a robot in a URDF: the base, behind links that stand for the room; the tip of the
+//! hand and the frame of the camera, by the structure of the joints and then by words in names; and the arm
+//! and the hand as an SRDF describes them.
 
-use super::base::{DraftBase, has_word};
-use super::described::Described;
-use crate::srdf::Srdf;
+use smol_str::SmolStr;
+
+use crate::quaternion::{mul, rotate};
+use crate::srdf::{JointGroup, Srdf};
 use crate::urdf::{Joint, JointKind, Urdf};
 
 /// Parts of a robot that the search found.
@@ -316,4 +318,140 @@ fn camera(urdf: &Urdf) -> Option<(usize, &'static str)> {
         });
         found.map(|camera| (camera, *why))
     })
+}
+
+/// Base link, with the reason of the choice.
+#[derive(Clone, Copy)]
+pub(super) struct DraftBase {
+    pub(super) link: usize,
+    pub(super) why: &'static str,
+    /// True if joints before it slide it over the floor.
+    pub(super) is_planar: bool,
+}
+
+impl DraftBase {
+    /// Finds the base: the root, or the first link after links that stand for the room. O(joints²) of the
+    /// links before the base.
+    pub(super) fn find(urdf: &Urdf) -> Self {
+        let mut base = Self { link: urdf.root, why: "the root", is_planar: false };
+        while let Some(joint) = only(urdf, base.link) {
+            let name = urdf.links.get(base.link).map_or("", |link| link.name.as_str());
+            if let Some(link) = slid(urdf, base.link) {
+                return Self { link, why: "what joints along x and y move", is_planar: true };
+            }
+            base = match joint.kind {
+                JointKind::Planar => {
+                    return Self { link: joint.child, why: "what a planar joint moves", is_planar: true };
+                }
+                JointKind::Floating => Self { link: joint.child, why: "what a floating joint moves", ..base },
+                JointKind::Fixed if has_word(name, &["world", "map", "odom"]) => {
+                    Self { link: joint.child, why: "what the root carries", ..base }
+                }
+                // A revolute joint on the root is part of an arm, whatever the name of the root.
+                JointKind::Fixed | JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {
+                    return base;
+                }
+            };
+        }
+        base
+    }
+}
+
+/// The only joint on a link.
+fn only(urdf: &Urdf, link: usize) -> Option<&Joint> {
+    let mut hanging = urdf.joints.iter().filter(|joint| joint.parent == link);
+    hanging.next().filter(|_| hanging.next().is_none())
+}
+
+/// Link at the end of a chain of joints along x and along y, and maybe about z, without shapes before it: a
+/// machine that slides has beams.
+fn slid(urdf: &Urdf, from: usize) -> Option<usize> {
+    let (mut at, mut turn) = (from, [0.0, 0.0, 0.0, 1.0]);
+    // Joints seen along x, along y and about z.
+    let mut has = [false; 3];
+    while let Some(joint) = only(urdf, at).filter(|joint| joint.mimic.is_none()) {
+        if urdf.links.get(at).is_none_or(|link| !link.collisions.is_empty() || !link.visuals.is_empty()) {
+            break;
+        }
+        turn = mul(turn, joint.parent_from_joint.quaternion_xyzw);
+        let along = rotate(turn, joint.axis).map(|part| part.abs() > 0.999);
+        let which = match (joint.kind, along) {
+            (JointKind::Prismatic, [true, _, _]) => 0,
+            (JointKind::Prismatic, [_, true, _]) => 1,
+            (JointKind::Revolute | JointKind::Continuous, [_, _, true]) => 2,
+            _ => break,
+        };
+        match has.get_mut(which) {
+            Some(is_known) if !*is_known => *is_known = true,
+            Some(_) | None => break,
+        }
+        at = joint.child;
+    }
+    matches!(has, [true, true, _]).then_some(at)
+}
+
+/// Checks whether a name contains one of some words, ignoring case.
+pub(super) fn has_word(name: &str, words: &[&str]) -> bool {
+    let name = name.to_ascii_lowercase();
+    words.iter().any(|word| name.contains(word))
+}
+
+/// Hand as described.
+pub(super) struct Described {
+    /// Link on which the hand is mounted, or with which the arm ends.
+    pub(super) mount: usize,
+    /// Links of the hand.
+    pub(super) links: Vec<usize>,
+    /// Joints of the hand.
+    pub(super) joints: Vec<usize>,
+    /// True if only the end of the arm is described, and no hand.
+    pub(super) is_end: bool,
+    /// Source of the description.
+    pub(super) why: String,
+}
+
+impl Described {
+    /// Finds the end effector on the longest arm, or the end of the longest chain of a group; `length` counts
+    /// the joints between the base and a link.
+    pub(super) fn find(urdf: &Urdf, srdf: &Srdf, length: impl Fn(usize) -> usize) -> Option<Self> {
+        let hands = srdf.end_effectors.iter().rev().max_by_key(|(_, hand)| length(hand.parent));
+        if let Some((name, hand)) = hands {
+            let (links, joints) = members(urdf, srdf, &hand.group);
+            let why = format!("the end effector `{}`", name.escape_debug());
+            return Some(Self { mount: hand.parent, links, joints, is_end: false, why });
+        }
+        let ends = srdf.groups.iter().flat_map(|(name, group)| ends(urdf, group).map(move |end| (name, end)));
+        // Of several with the same length the first.
+        let (name, mount) = ends.collect::<Vec<_>>().into_iter().rev().max_by_key(|(_, end)| length(*end))?;
+        let why = format!("the end of the group `{}`", name.escape_debug());
+        Some(Self { mount, links: vec![], joints: vec![], is_end: true, why })
+    }
+}
+
+/// Tips of the chains of a group, and the child of its last joint.
+fn ends<'a>(urdf: &'a Urdf, group: &'a JointGroup) -> impl Iterator<Item = usize> + 'a {
+    // Each joint comes after the one that carries its parent.
+    let last = group.joints.iter().max().and_then(|joint| urdf.joints.get(*joint)).map(|joint| joint.child);
+    group.chains.iter().map(|[_, tip]| *tip).chain(last)
+}
+
+/// Links and joints of a group and of its subgroups, with the children of its joints.
+fn members(urdf: &Urdf, srdf: &Srdf, group: &str) -> (Vec<usize>, Vec<usize>) {
+    let (mut links, mut joints): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
+    let mut open = vec![SmolStr::new(group)];
+    let mut next = 0;
+    while let Some(group) = open.get(next).and_then(|name| srdf.groups.get(name)) {
+        links.extend(&group.links);
+        joints.extend(&group.joints);
+        for inner in &group.groups {
+            if !open.contains(inner) {
+                open.push(inner.clone());
+            }
+        }
+        next += 1;
+    }
+    links.extend(joints.iter().filter_map(|joint| urdf.joints.get(*joint)).map(|joint| joint.child));
+    // Some tools list fixed joints.
+    joints.retain(|joint| urdf.joints.get(*joint).is_some_and(|joint| joint.kind != JointKind::Fixed));
+    (links, joints)
 }

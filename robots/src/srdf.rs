@@ -1,16 +1,59 @@
-//! Reader of SRDF, with diagnostics.
+//! SRDF: groups of links and joints, end effectors, and pairs of links that may touch. It is read against the
+//! URDF, so every name in it refers to a link or joint. Virtual and passive joints, spheres and states are
+//! skipped. Diagnostics M0471, M0472, M0477 and M0478, beside those of any XML.
 
 use indexmap::IndexMap;
-use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
+use motet_syntax::{Diagnostic, FileId, Related, Severity, Source, Span, suggest};
 use roxmltree::Node;
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
-use super::errors::{GroupCycle, NotSrdf, TakenPart, UnknownPart};
-use super::{EndEffector, JointGroup, Srdf};
 use crate::urdf::{Urdf, XmlDialect, XmlDocument, XmlSpans, children, is_own, unknown};
 
+/// SRDF after reading; links and joints are indices into the URDF.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Srdf {
+    /// Groups by name.
+    pub groups: IndexMap<SmolStr, JointGroup>,
+    /// End effectors by name.
+    pub end_effectors: IndexMap<SmolStr, EndEffector>,
+    /// Pairs of links that may touch, the lower index first, sorted, each once.
+    pub disabled: Vec<[usize; 2]>,
+}
+
+/// Links and joints that are planned together.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct JointGroup {
+    pub links: Vec<usize>,
+    pub joints: Vec<usize>,
+    /// Chains, from base link to tip link.
+    pub chains: Vec<[usize; 2]>,
+    /// Other groups that belong to it.
+    pub groups: Vec<SmolStr>,
+}
+
+/// End effector: a hand on an arm.
+#[derive(Clone, PartialEq, Debug)]
+pub struct EndEffector {
+    /// Group of its own links and joints.
+    pub group: SmolStr,
+    /// Link on which it is mounted.
+    pub parent: usize,
+}
+
 /// Reads the SRDF of a robot. `None` if there is an error. O(bytes + links + joints).
+///
+/// ```
+/// use motet_robots::{builtin, srdf};
+/// use motet_syntax::{FileId, Source};
+///
+/// let urdf = builtin::robot("panda").unwrap().urdf;
+/// let chain = r#"<chain base_link="panda_link0" tip_link="panda_link7"/>"#;
+/// let text = format!(r#"<robot name="panda"><group name="arm">{chain}</group></robot>"#);
+/// let (srdf, diagnostics) = srdf::read(&Source::new("robot.srdf", text), FileId(0), &urdf);
+/// assert!(diagnostics.is_empty());
+/// assert_eq!(srdf.unwrap().groups["arm"].chains[0][1], urdf.link("panda_link7").unwrap());
+/// ```
 #[must_use]
 pub fn read(source: &Source, file: FileId, urdf: &Urdf) -> (Option<Srdf>, Vec<Diagnostic>) {
     let document = match XmlDocument::parse(source, file, XmlDialect::Srdf) {
@@ -205,4 +248,31 @@ fn ring(groups: &IndexMap<SmolStr, JointGroup>) -> Option<Vec<SmolStr>> {
         }
     }
     None
+}
+
+motet_syntax::mistakes! {
+    pub const CODES;
+
+    /// XML, but of something else.
+    NotSrdf("M0471", Error) { found: String }
+    message(m) { format!("the root element is `<{}>`, an SRDF starts with `<robot>`", m.found) }
+
+    /// A link, joint or group that is not there.
+    UnknownPart("M0472", Error) { what: &'static str, name: String, near: Option<String> }
+    message(m) { format!("there is no {} `{}`", m.what, m.name.escape_debug()) }
+    help(m) { m.near.as_ref().map(|near| format!("did you mean `{near}`?")) }
+
+    /// Two groups, or two end effectors, of one name.
+    TakenPart("M0477", Error) { what: &'static str, name: String, first: Span }
+    message(m) { format!("there are two {}s `{}`", m.what, m.name.escape_debug()) }
+    help(m) { Some(format!("give each {} a name of its own", m.what)) }
+    related(m) { vec![Related::new("the first is here", m.first)] }
+
+    /// Groups that contain each other.
+    GroupCycle("M0478", Error) { chain: Vec<String> }
+    message(m) {
+        let chain: Vec<String> = m.chain.iter().map(|name| format!("`{}`", name.escape_debug())).collect();
+        format!("a group contains itself: {}", chain.join(" contains "))
+    }
+    help(_m) { Some("let the larger group contain the smaller, and not the other way round".to_owned()) }
 }

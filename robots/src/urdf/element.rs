@@ -1,12 +1,12 @@
-//! Reader of one joint: kind, axis, limits and mimic rule. [`super::tree`] resolves its names.
+//! Readers of the elements of a URDF: the shapes of a link, and one joint with kind, axis, limits and mimic
+//! rule. [`super::tree`] resolves the names of joints.
 
 use motet_syntax::{Span, suggest};
 use roxmltree::Node;
 
-use super::document::child;
-use super::errors::{EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, XmlPart, ZeroAxis};
-use super::model::{JointKind, JointLimits, Pose};
-use super::number::UrdfReader;
+use super::document::{UrdfReader, child, children};
+use super::errors::{BadShape, EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, XmlPart, ZeroAxis};
+use super::model::{JointKind, JointLimits, Link, LinkShape, Pose, UrdfShape};
 
 /// Name with its span.
 pub(super) type SpannedName<'a> = (&'a str, Span);
@@ -138,5 +138,52 @@ impl UrdfReader {
         let multiplier = self.scalar(node, "multiplier").unwrap_or(1.0);
         let offset = self.scalar(node, "offset").unwrap_or(0.0);
         Some(RawMimic { leader, multiplier, offset })
+    }
+}
+
+impl UrdfReader {
+    /// Reads a link and its shapes; a wrong shape is left out.
+    pub(super) fn link(&mut self, node: Node<'_, '_>, name: &str) -> Link {
+        let mut solids = |part| children(node, part).filter_map(|part| self.solid(part)).collect();
+        Link { name: name.into(), collisions: solids("collision"), visuals: solids("visual") }
+    }
+
+    fn solid(&mut self, node: Node<'_, '_>) -> Option<LinkShape> {
+        let Some(geometry) = child(node, "geometry") else {
+            self.found.push(self.spans.missing(node, "geometry", XmlPart::Element));
+            return None;
+        };
+        let link_from_shape = self.origin(node);
+        let Some(shape) = geometry.children().find(Node::is_element) else {
+            let span = self.spans.tag(geometry);
+            self.found.push(BadShape { span, found: String::new(), near: None }.into());
+            return None;
+        };
+        Some(LinkShape { link_from_shape, shape: self.shape(shape)? })
+    }
+
+    fn shape(&mut self, node: Node<'_, '_>) -> Option<UrdfShape> {
+        match node.tag_name().name() {
+            "box" => self.lengths(node, "size").map(UrdfShape::Box),
+            "cylinder" => {
+                let (radius, length) = (self.lengths(node, "radius"), self.lengths(node, "length"));
+                radius.zip(length).map(|([radius], [length])| UrdfShape::Cylinder { radius, length })
+            }
+            "capsule" => {
+                let (radius, length) = (self.lengths(node, "radius"), self.lengths(node, "length"));
+                radius.zip(length).map(|([radius], [length])| UrdfShape::Capsule { radius, length })
+            }
+            "sphere" => self.lengths(node, "radius").map(|[radius]| UrdfShape::Sphere { radius }),
+            "mesh" => {
+                let (file, _) = self.spans.required(node, "filename", &mut self.found)?;
+                Some(UrdfShape::Mesh { file: file.trim().to_owned(), scale: self.factors(node, "scale") })
+            }
+            other => {
+                let near = suggest::closest(other, UrdfShape::ELEMENTS).map(str::to_owned);
+                let span = self.spans.tag(node);
+                self.found.push(BadShape { span, found: other.to_owned(), near }.into());
+                None
+            }
+        }
     }
 }
