@@ -1,8 +1,7 @@
 //! Tells the code of batches whether it is optimised.
 //!
 //! All of it is inlined into one function for each kind of processor. Without an optimiser that function
-//! would keep every
-//! intermediate vector on the stack, 8 MB of them; then nothing is inlined.
+//! would keep every intermediate vector on the stack, 8 MB of them; then nothing is inlined.
 
 #![allow(
     clippy::disallowed_methods,

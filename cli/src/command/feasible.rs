@@ -8,11 +8,13 @@ use std::path::PathBuf;
 use clap::{Args, value_parser};
 use motet_compiler::Session;
 use motet_geometry::planning::{
-    InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
-    UnknownReason,
+    GraspSide, InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState,
+    SearchBudget, UnknownReason,
 };
 use motet_project::{open_robot, read_scene, require};
 use motet_robots::scene::{self, Scene};
+use motet_syntax::ast::{Arg, ExprKind};
+use motet_syntax::text::parse_condition;
 use motet_syntax::{Diagnostic, FileId, Source, Sources, Span, suggest};
 use smol_str::SmolStr;
 
@@ -119,7 +121,7 @@ fn parse_motions(
     scene: &Scene,
 ) -> Result<Vec<MotionQuery>, CliError> {
     let parsed = motions.iter().map(|motion| {
-        let query = MotionQuery::parse(motion).ok_or_else(|| CliError::Unknown {
+        let query = parse_motion(motion).ok_or_else(|| CliError::Unknown {
             what: "motion",
             name: motion.clone(),
             help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), \
@@ -149,24 +151,37 @@ fn parse_motions(
     parsed.collect()
 }
 
+/// Parses a motion such as `reach(mug_1, top)`; `None` for any other text.
+fn parse_motion(motion: &str) -> Option<MotionQuery> {
+    let (name, mut args) = parse_call(motion, FileId::default())?;
+    let side = if name == "reach" && args.len() == 2 { args.pop() } else { None };
+    let side = match side.filter(|(side, _)| side != "auto") {
+        Some((side, _)) => Some(GraspSide::from_name(&side)?),
+        None => None,
+    };
+    MotionQuery::from_call(&name, args.into_iter().map(|(id, _)| id), side)
+}
+
+/// Parses the name of a motion and its arguments, with their spans in a file.
+fn parse_call(motion: &str, file: FileId) -> Option<(SmolStr, Vec<(SmolStr, Span)>)> {
+    let ExprKind::Call(call) = parse_condition(motion).ok()?.kind else { return None };
+    let arg = |arg: Arg| match arg.value.kind {
+        ExprKind::Name(id) if arg.name.is_none() => Some((id, Span { file, ..arg.value.span })),
+        _ => None,
+    };
+    Some((call.name.text, call.args.into_iter().map(arg).collect::<Option<_>>()?))
+}
+
 /// Type-checks the entities of a motion.
 fn check_kinds(motion: &str, session: &Session, sources: &mut Sources) -> Vec<Diagnostic> {
-    let Some((name, listed)) = motion.split_once('(') else { return vec![] };
     let file = FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX));
     sources.add(Source::new("--for", motion));
-    let mut at = name.len() + 1;
-    let mut args = Vec::new();
-    for arg in listed.split(',') {
-        let bare = arg.trim_matches([' ', ')', '`']);
-        let start = at + arg.find(bare).unwrap_or(0);
-        args.push((SmolStr::new(bare), Span::new(file, start, start + bare.len())));
-        at += arg.len() + 1;
-    }
+    let Some((name, mut args)) = parse_call(motion, file) else { return vec![] };
     // The side of a reach is not an entity.
-    if name.trim() == "reach" {
+    if name == "reach" {
         args.truncate(1);
     }
-    session.check_motion(name.trim(), &args)
+    session.check_motion(&name, &args)
 }
 
 /// Requires that a name is known.

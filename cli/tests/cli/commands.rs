@@ -27,7 +27,7 @@ fn answers() {
         (
             "feasible --robot hsr --scene kitchen --for push(drawer_1)",
             1,
-            &["out:unknown", "out:is closed already"],
+            &["out:unknown", "out:is already closed"],
         ),
         (
             "feasible --robot hsr --scene kitchen --for jump(mug_1)",
@@ -60,7 +60,7 @@ fn answers() {
             1,
             &[
                 "out:the robot itself (`head_tilt_link` and `arm_flex_link`)",
-                "out:the posture `start` before",
+                "out:the posture `start` first",
             ],
         ),
         ("feasible --help", 0, &["out:--effort", "out:put(OBJECT, ENTITY)"]),

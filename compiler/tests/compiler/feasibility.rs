@@ -196,7 +196,7 @@ fn what_stands_before_a_drawer_is_named() {
     let (said, _) =
         refusal(&session(&scene), "policy look for hsr { go(drawer_1) open(drawer_1) close(drawer_1) }");
     assert!(
-        said.starts_with("M0603 `open` cannot perform `pull(drawer_1)`: `chair` blocks the way"),
+        said.starts_with("M0603 `open` cannot perform `pull(drawer_1)`: `chair` blocks the path"),
         "{said}"
     );
 }

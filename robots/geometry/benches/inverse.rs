@@ -1,4 +1,4 @@
-//! How long kinematics takes: the family of solutions of the HSR on a grid, a candidate confirmed, and
+//! Times of kinematics: the family of solutions of the HSR on a grid, a candidate confirmed, and
 //! other arms.
 
 #![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark fails by panicking")]

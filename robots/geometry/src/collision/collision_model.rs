@@ -1,13 +1,13 @@
-//! Collision model of a robot: the solids of its links, and the pairs of them that must not touch.
+//! Collision model of a robot: the solids of its links, without duplicates, and the pairs of them that must
+//! not touch.
 
 use std::ops::Range;
 
-use motet_robots::urdf::{JointKind, Urdf};
+use motet_robots::urdf::{JointKind, Link, Urdf, UrdfShape};
 use nalgebra::Isometry3;
 
-use super::link_solid::{LinkSolid, parts};
-use super::solid::Solid;
-use crate::kinematics::{KinematicTree, quasi_random_in};
+use super::solid::{Shape, Solid};
+use crate::kinematics::{KinematicTree, isometry, quasi_random_in};
 
 /// Number of sampled configurations by which links that always touch are found.
 const SAMPLES: usize = 64;
@@ -43,6 +43,18 @@ impl CollisionModel {
     /// other at a joint, pairs that the SRDF disables (`allowed`), and pairs of links that touch in each of
     /// 64 sampled configurations. O(solids²) if most pairs are apart in the first sample, else O(solids² ×
     /// 64).
+    ///
+    /// ```
+    /// use motet_geometry::KinematicTree;
+    /// use motet_geometry::collision::CollisionModel;
+    /// use motet_robots::builtin;
+    ///
+    /// let urdf = builtin::robot("panda").unwrap().urdf;
+    /// let tree = KinematicTree::new(&urdf);
+    /// let model = CollisionModel::new(&urdf, &tree, &[]);
+    /// let solids = model.placed(&tree.root_from_links(&tree.neutral()));
+    /// assert_eq!(solids.len(), model.parts().len());
+    /// ```
     #[must_use]
     pub fn new(urdf: &Urdf, tree: &KinematicTree, allowed: &[[usize; 2]]) -> Self {
         let (groups, next_to) = groups(urdf);
@@ -176,4 +188,74 @@ fn groups(urdf: &Urdf) -> (Vec<usize>, Vec<[usize; 2]>) {
         }
     }
     (groups, next_to)
+}
+
+/// Solid that a link carries.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct LinkSolid {
+    /// Index of the link in the kinematic tree.
+    pub link: usize,
+    /// The solid, in the link's frame.
+    pub solid: Solid,
+}
+
+/// Solids of a link, and whether they cover all its shapes (a mesh is left out).
+///
+/// URDFs write a capsule as a cylinder with a ball at each end; it becomes a capsule again. A ball within
+/// another solid is dropped.
+pub(super) fn parts(link: &Link, at: usize) -> (Vec<LinkSolid>, bool) {
+    let mut solids: Vec<Solid> = Vec::new();
+    let mut is_complete = true;
+    for listed in &link.collisions {
+        let shape = match listed.shape {
+            UrdfShape::Box([x, y, z]) => Shape::Box([x / 2.0, y / 2.0, z / 2.0].into()),
+            UrdfShape::Cylinder { radius, length } => Shape::Cylinder { radius, half: length / 2.0 },
+            UrdfShape::Capsule { radius, length } => Shape::Capsule { radius, half: length / 2.0 },
+            UrdfShape::Sphere { radius } => Shape::Capsule { radius, half: 0.0 },
+            UrdfShape::Mesh { .. } => {
+                is_complete = false;
+                continue;
+            }
+        };
+        solids.push(Solid::new(&isometry(&listed.link_from_shape), shape));
+    }
+    let rounded = solids.iter().map(|solid| with_round_ends(solid, &solids)).collect::<Vec<_>>();
+    let is_needed = |(index, solid): &(usize, &Solid)| {
+        let hides = |(other, larger): (usize, &Solid)| {
+            other != *index
+                && is_ball_within(solid, larger)
+                && (other < *index || !is_ball_within(larger, solid))
+        };
+        !rounded.iter().enumerate().any(hides)
+    };
+    let kept =
+        rounded.iter().enumerate().filter(is_needed).map(|(_, solid)| LinkSolid { link: at, solid: *solid });
+    (kept.collect(), is_complete)
+}
+
+/// The capsule made of a cylinder with balls at both ends; any other solid unchanged.
+fn with_round_ends(solid: &Solid, all: &[Solid]) -> Solid {
+    let Shape::Cylinder { radius, half } = solid.shape else { return *solid };
+    let [_, _, z] = &solid.axes;
+    let has_ball = |sign: f64| {
+        let end = solid.centre + z * (half * sign);
+        all.iter().any(|ball| match ball.shape {
+            Shape::Capsule { radius: wide, half: 0.0 } => {
+                wide + 1e-6 >= radius && (ball.centre - end).norm() <= wide - radius + 1e-6
+            }
+            Shape::Capsule { .. } | Shape::Box(_) | Shape::Cylinder { .. } | Shape::HalfSpace => false,
+        })
+    };
+    // Makes up for the tolerance of a millionth of a metre above.
+    let shape = Shape::Capsule { radius: radius + 2e-6, half };
+    if has_ball(-1.0) && has_ball(1.0) { Solid { shape, ..*solid } } else { *solid }
+}
+
+fn is_ball_within(solid: &Solid, larger: &Solid) -> bool {
+    let Shape::Capsule { radius, half: 0.0 } = solid.shape else { return false };
+    let Shape::Capsule { radius: wide, half } = larger.shape else { return false };
+    let [_, _, z] = &larger.axes;
+    let between = solid.centre - larger.centre;
+    let along = between.dot(z).clamp(-half, half);
+    (between - z * along).norm() + radius <= wide
 }

@@ -2,11 +2,7 @@
 
 mod collision_model;
 mod distance;
-mod link_solid;
-mod outline;
-mod simplex;
 mod solid;
 
-pub use collision_model::{CollisionModel, NearestPair};
-pub use link_solid::LinkSolid;
+pub use collision_model::{CollisionModel, LinkSolid, NearestPair};
 pub use solid::{Shape, Solid};

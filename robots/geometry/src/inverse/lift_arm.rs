@@ -5,12 +5,20 @@
 //! parameters, the height of the centre gives the lift, its horizontal place gives the base, and the
 //! remaining rotation gives the three wrist angles, in two branches. So each pose has a two-parameter family
 //! of solutions with two branches.
+//!
+//! The parameters of its cells for branch and bound are the yaw of the base and the value of the shoulder,
+//! for each branch of the wrist.
+
+use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::Tolerance;
-use super::screw::{ROUNDED, Screw, drives_each, screws};
-use super::subproblem::{angle_between, component, turned, within};
+use super::interval::{
+    CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet, based, carried_wrist_interval,
+    dof_intervals, frames, wave,
+};
+use super::screw::{ROUNDED, Screw, drives_each, screws, turned, within, wrist};
 use crate::kinematics::{Dof, KinematicChain, planar};
 use crate::trigonometry::{turn, wrapped};
 
@@ -204,21 +212,85 @@ impl LiftArm {
     }
 }
 
-/// Angles about three axes, each perpendicular to the next, that make up a rotation: two branches in a fixed
-/// order. If the outer axes coincide only their sum counts, and the first angle is 0.
-pub(super) fn wrist(axes: &[Vector3<f64>; 3], rotation: &UnitQuaternion<f64>) -> Vec<[f64; 3]> {
-    let [one, two, three] = axes;
-    let pointing = rotation * three;
-    let Some(middles) = component(two, three, one, one.dot(&pointing)) else { return vec![] };
-    let ways = middles.into_iter().map(|middle| {
-        let bent = turned(two, middle, three);
-        let first = angle_between(one, &bent, &pointing);
-        // The remaining rotation is about the third axis; a vector perpendicular to that axis shows its
-        // angle.
-        let rest =
-            turn(&Unit::new_unchecked(*two), -middle) * turn(&Unit::new_unchecked(*one), -first) * rotation;
-        let last = angle_between(three, two, &(rest * two));
-        [first, middle, last]
-    });
-    ways.collect()
+impl LiftArm {
+    /// Cells that contain all solutions.
+    pub(crate) fn cells(&self) -> Vec<IkCell> {
+        let (lower, upper) = self.shoulder_span();
+        let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0);
+        (0..2).map(|branch| IkCell { branch, middle: [0.0, middle, 0.0], half: [PI, half, 0.0] }).collect()
+    }
+
+    /// Approximate displacement, in m, per unit of each parameter of a cell.
+    pub(crate) fn weights(&self) -> [f64; 3] {
+        let long = self.shoulder.to_wrist.norm();
+        [libm::hypot(self.shoulder.point.x, self.shoulder.point.y) + long, long, 0.0]
+    }
+
+    /// Encloses all solutions of a cell.
+    pub(crate) fn enclose(&self, tips: &PoseSet, cell: &IkCell) -> IntervalSolution {
+        let map_from_tip = &tips.map_from_tip;
+        let ([yaw, value, _], [yaws, values, _]) = (cell.middle, cell.half);
+        let Some(joint) = self.chain.joints.get(1) else { return IntervalSolution::Unknown };
+        let (angle, bends) =
+            (joint.coupling.position(&[0.0, value]), values * joint.coupling.multiplier.abs());
+        let Shoulder { axis, point, to_wrist } = self.shoulder;
+        let centre = self.centre(map_from_tip).coords;
+        // The centre of the wrist is uncertain as well, and so is the rotation of the hand.
+        let swings = turned(&Vector3::z(), yaw, &axis);
+        let (moves, tilts) = (tips.displacement.along(&centre, &Vector3::z()), tips.displacement.angle());
+        let arm = turned(&axis, angle, &to_wrist);
+        let (across, long) = (axis.cross(&arm), axis.cross(&arm).norm());
+        let lifts = wave(across.z, long, bends) + moves;
+        let lift = (centre.z - point.z - arm.z) * self.up;
+        let carried = turn(&Vector3::z_axis(), yaw) * turn(&Unit::new_unchecked(axis), angle);
+        let left = carried.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
+        let carrier = DisplacementBound::none().spun(swings, Vector3::zeros(), bends).spun(
+            Vector3::z(),
+            Vector3::zeros(),
+            yaws,
+        );
+        let (turns, displacements) = ([&carried, &left], [&carrier, &tips.displacement.turning()]);
+        let Some([first, middle, last]) =
+            carried_wrist_interval(&self.wrist, turns, displacements, cell.branch)
+        else {
+            return IntervalSolution::Unknown;
+        };
+        let Some(values) =
+            dof_intervals(&self.chain, &[[lift, lifts], [angle, bends], first, middle, last], tips.is_any)
+        else {
+            return IntervalSolution::Empty;
+        };
+        let in_map = turned(&Vector3::z(), yaw, &(point + arm));
+        let base = [centre.x - in_map.x, centre.y - in_map.y, yaw];
+        let placed = frames(&self.chain, based(base, 0.0), &values);
+        // The shoulder moves opposite to the centre of the wrist as the arm bends, and all but the hand
+        // rotates with the base.
+        let held = tips.displacement.carried(&centre);
+        let back = turned(&Vector3::z(), yaw, &-arm);
+        let carries = held.swung(&swings, &(back - swings * swings.dot(&back)), bends);
+        let about = |at: usize, displacement: DisplacementBound, spin: f64| {
+            let axis = self.chain.joints.get(at).zip(placed.get(at));
+            let axis = axis.map_or(Vector3::z(), |(joint, pose)| pose * joint.axis.into_inner());
+            displacement.spun(axis, centre, spin)
+        };
+        let upright = |displacement: DisplacementBound| displacement.spun(Vector3::z(), centre, yaws);
+        let [_, roll] = first;
+        let [_, end] = last;
+        let displacements = [
+            upright(carries),
+            upright(held.spun(swings, centre, bends)),
+            upright(about(2, held, roll).spun(swings, centre, bends)),
+            about(4, held.turned(centre, tilts), end),
+            tips.displacement,
+        ];
+        IntervalSolution::Enclosed(Box::new(CellEnclosure {
+            base,
+            // The base keeps its height, whatever the height of the shoulder.
+            base_displacement: upright(carries.level()),
+            frames: placed.into_iter().zip(displacements).collect(),
+            values,
+            short: [0.0; 2],
+            is_joined: true,
+        }))
+    }
 }

@@ -13,16 +13,14 @@ pub mod numeric;
 mod parallel_arm;
 mod screw;
 mod seven_arm;
-mod subproblem;
-mod wide_angles;
-
-pub use lift_arm::{LiftArm, MobileSolution};
-pub use parallel_arm::ParallelArm;
-pub use seven_arm::SevenArm;
 
 use nalgebra::Isometry3;
 
 use crate::trigonometry::rotation_vector;
+
+pub use lift_arm::{LiftArm, MobileSolution};
+pub use parallel_arm::ParallelArm;
+pub use seven_arm::SevenArm;
 
 /// Greatest deviation of a pose from the requested one.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -1,5 +1,5 @@
-//! Kinematic chains: the joints between two links, with fixed parts folded into the poses between. Inverse
-//! kinematics works on these.
+//! Parts of a kinematic tree: the chain between two links, on which inverse kinematics works; the joints that
+//! move a link; and the tree reduced to some free joints. Fixed parts are folded into the poses between.
 
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
@@ -126,5 +126,121 @@ impl KinematicChain {
     pub fn allows(&self, values: &[f64]) -> bool {
         values.len() == self.dofs.len()
             && self.dofs.iter().zip(values).all(|(known, value)| known.allows(*value))
+    }
+}
+
+/// Joint between the root and a link.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct AncestorJoint {
+    /// Index of the link whose frame is that of the joint.
+    pub frame: usize,
+    /// Axis of rotation or direction of travel, in that frame.
+    pub axis: Unit<Vector3<f64>>,
+    /// True for a prismatic joint, false for a revolute one.
+    pub is_prismatic: bool,
+    /// Coupling to a degree of freedom.
+    pub coupling: JointCoupling,
+}
+
+impl KinematicTree {
+    /// Joints that move a link, root first. For a planar joint the directions are those of its rotated frame,
+    /// which keeps lengths. O(links).
+    #[must_use]
+    pub fn ancestor_joints(&self, link: usize) -> Vec<AncestorJoint> {
+        let mut ancestors = Vec::new();
+        for segment in self.segments_to(link).into_iter().filter_map(|segment| self.segments.get(segment)) {
+            let mut add = |axis, is_prismatic, coupling| {
+                ancestors.push(AncestorJoint { frame: segment.child, axis, is_prismatic, coupling });
+            };
+            match &segment.motion {
+                JointMotion::Fixed => {}
+                JointMotion::Turn(axis, coupling) => add(*axis, false, *coupling),
+                JointMotion::Slide(axis, coupling) => add(*axis, true, *coupling),
+                JointMotion::Planar { axes: [x, y, normal], first } => {
+                    for (axis, is_prismatic, dof) in
+                        [(x, true, *first), (y, true, first + 1), (normal, false, first + 2)]
+                    {
+                        add(*axis, is_prismatic, JointCoupling { dof, multiplier: 1.0, offset: 0.0 });
+                    }
+                }
+            }
+        }
+        ancestors
+    }
+}
+
+/// Robot with only some joints free. Frame 0 is that of the root, frame `n` + 1 that of joint `n`.
+#[derive(Clone, Debug)]
+pub(crate) struct ReducedModel {
+    /// Joints, each after the one that carries it.
+    pub(crate) joints: Vec<ReducedJoint>,
+    /// For each link the frame to which it is fixed, and its pose in that frame.
+    pub(crate) links: Vec<(usize, Isometry3<f64>)>,
+}
+
+/// Joint of a [`ReducedModel`].
+#[derive(Clone, Debug)]
+pub(crate) struct ReducedJoint {
+    /// Index of the parent frame.
+    pub(crate) parent: usize,
+    /// Pose of the joint in the parent frame.
+    pub(crate) before: Isometry3<f64>,
+    /// Axis of rotation or direction of travel, in the frame of the joint.
+    pub(crate) axis: Unit<Vector3<f64>>,
+    /// True for a prismatic joint, false for a revolute one.
+    pub(crate) is_prismatic: bool,
+    /// Coupling to a degree of freedom of the tree.
+    pub(crate) coupling: JointCoupling,
+}
+
+impl ReducedJoint {
+    /// Rigid motion of the joint at a position.
+    pub(crate) fn motion(&self, position: f64) -> Isometry3<f64> {
+        if self.is_prismatic {
+            Translation3::from(self.axis.into_inner() * position).into()
+        } else {
+            Isometry3::from_parts(Translation3::identity(), turn(&self.axis, position))
+        }
+    }
+}
+
+impl KinematicTree {
+    /// Reduced model in which only the selected degrees of freedom move and the others are as in a
+    /// configuration; `None` if one of them moves a planar joint. O(links).
+    pub(crate) fn reduced(
+        &self,
+        configuration: &[f64],
+        is_free: impl Fn(usize) -> bool,
+    ) -> Option<ReducedModel> {
+        let mut reduced =
+            ReducedModel { joints: vec![], links: vec![(0, Isometry3::identity()); self.links().len()] };
+        for segment in &self.segments {
+            let (frame, pose) = reduced.links.get(segment.parent).copied()?;
+            let moved = match &segment.motion {
+                JointMotion::Turn(axis, coupling) if is_free(coupling.dof) => Some((axis, false, coupling)),
+                JointMotion::Slide(axis, coupling) if is_free(coupling.dof) => Some((axis, true, coupling)),
+                JointMotion::Planar { first, .. } if (*first..first + 3).any(&is_free) => return None,
+                JointMotion::Fixed
+                | JointMotion::Turn(..)
+                | JointMotion::Slide(..)
+                | JointMotion::Planar { .. } => None,
+            };
+            let link = match moved {
+                Some((axis, is_prismatic, coupling)) => {
+                    let before = pose * segment.parent_from_joint;
+                    reduced.joints.push(ReducedJoint {
+                        parent: frame,
+                        before,
+                        axis: *axis,
+                        is_prismatic,
+                        coupling: *coupling,
+                    });
+                    (reduced.joints.len(), Isometry3::identity())
+                }
+                None => (frame, pose * segment.pose(configuration)),
+            };
+            *reduced.links.get_mut(segment.child)? = link;
+        }
+        Some(reduced)
     }
 }

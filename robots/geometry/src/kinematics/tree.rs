@@ -1,5 +1,5 @@
-//! Kinematic tree: the joints of a robot as a flat list, each after the joint that carries it, and the
-//! degrees of freedom that move them.
+//! Kinematic tree: the joints of a robot as a flat list, each after the joint that carries it, the degrees of
+//! freedom that move them, and quasi-random values of these.
 
 use std::f64::consts::{PI, TAU};
 
@@ -46,7 +46,7 @@ pub struct Dof {
     pub is_prismatic: bool,
 }
 
-/// JointLimits as far from 0 as that on both sides, in rad and in m, are none: "unlimited" is often written
+/// Limits as far from 0 as that on both sides, in rad and in m, are none: "unlimited" is often written
 /// as 1e16.
 const UNLIMITED: [f64; 2] = [1000.0 * TAU, 1000.0];
 
@@ -282,4 +282,36 @@ pub(crate) fn isometry(pose: &Pose) -> Isometry3<f64> {
         Translation3::new(x, y, z),
         UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)),
     )
+}
+
+/// Configuration `index` of the R sequence over the sampling ranges (Roberts 2018: multiples of powers of a
+/// generalised golden ratio); the middle for index 0. O(degrees of freedom).
+///
+/// ```
+/// use motet_geometry::KinematicTree;
+/// use motet_geometry::kinematics::quasi_random;
+/// use motet_robots::builtin;
+///
+/// let tree = KinematicTree::new(&builtin::robot("panda").unwrap().urdf);
+/// assert!((0..100).all(|index| tree.allows(&quasi_random(tree.dofs(), index))));
+/// ```
+#[must_use]
+pub fn quasi_random(dofs: &[Dof], index: usize) -> Vec<f64> {
+    quasi_random_in(dofs.iter().map(Dof::sampling_range), index)
+}
+
+/// Point `index` of the R sequence over some ranges.
+pub(crate) fn quasi_random_in(ranges: impl ExactSizeIterator<Item = (f64, f64)>, index: usize) -> Vec<f64> {
+    // The root of x^(n+1) = x + 1: this iteration converges from any start.
+    let mut ratio = 1.5_f64;
+    for _ in 0..40 {
+        ratio = libm::pow(1.0 + ratio, 1.0 / (ranges.len() as f64 + 1.0));
+    }
+    let mut power = 1.0;
+    let values = ranges.map(|(lower, upper)| {
+        power /= ratio;
+        let part = 0.5 + power * index as f64;
+        lower + (part - libm::floor(part)) * (upper - lower)
+    });
+    values.collect()
 }

@@ -9,12 +9,8 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use motet_robots::scene::Scene;
 
-use crate::planning::base::base_map::BaseMap;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::Contact;
-use crate::planning::scene::planning_scene::PlanningScene;
-use crate::planning::scene::robot_model::RobotModel;
-use crate::planning::scene::scene_state::SceneState;
+use super::base::BaseMap;
+use super::scene::{Configuration, Contact, PlanningScene, RobotModel, SceneState};
 use crate::simd::BatchModel;
 
 /// Query context: a planning scene and the caches of its queries. Built in O(entities); the map of the

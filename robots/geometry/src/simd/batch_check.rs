@@ -3,10 +3,9 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::TOLD;
-use super::aabb::Aabb;
 use super::batch_model::{Batch8, BatchModel, bit};
+use super::boxes::{Aabb, ObbSet};
 use super::lanes::Lane8;
-use super::obb::ObbSet;
 use super::posed_batch::PosedBatch;
 
 /// Capacity reserved for pairs.

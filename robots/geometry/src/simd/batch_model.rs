@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
+use super::boxes::{sides, single};
 use super::lanes::Lane8x3;
-use super::obb::{sides, single};
 use super::{FAR, LONG, MOVED, TURNED, TURNS};
 use crate::collision::{CollisionModel, Shape, Solid};
 use crate::kinematics::{JointCoupling, ReducedJoint, ReducedModel};

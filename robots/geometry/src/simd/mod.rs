@@ -14,24 +14,21 @@
 //! These add up along the chain of each part ([`batch_model::BatchPart::slack`]), so the bound grows with the
 //! lengths in between: 1e-5 m to 6e-5 m for arms. Every distance is reduced by it twice for each part, once
 //! for its motion, and by [`TOLD`] for the distance itself. A velocity is off by that for each rad of joint
-//! rotation, which is added to it ([`motion`]).
+//! rotation, which is added to it ([`separation`]).
 
-mod aabb;
 mod batch_check;
 mod batch_model;
+mod boxes;
 mod lanes;
-mod motion;
 mod pair_check;
 mod posed_batch;
 mod separation;
 
 pub(crate) use batch_check::{BatchCheck, BatchPair, NearPair, PairTarget};
 pub(crate) use batch_model::{Batch8, BatchModel};
-pub(crate) use obb::{Obb, ObbSet};
+pub(crate) use boxes::{Obb, ObbSet};
 pub(crate) use posed_batch::PosedBatch;
 
-mod obb;
-mod self_pairs;
 #[cfg(test)]
 mod tests;
 
@@ -48,5 +45,5 @@ const MOVED: f64 = 2e-6;
 /// Error of the distance between two solids, in m.
 const TOLD: f32 = 1e-5;
 /// Depth below the required distance, beside the error of the parts, from which two solids certainly touch,
-/// in m: a tenth of a millimetre, more than the rounding of an obstacle ([`obb::Obb::is_exact`]).
+/// in m: a tenth of a millimetre, more than the rounding of an obstacle ([`boxes::Obb::is_exact`]).
 const SURE: f32 = 1e-4;

@@ -1,15 +1,14 @@
 //! Check of one pair of solids in eight configurations with tighter bounds at each step: bounding balls,
-//! boxes, and on an edge the first-order motion.
+//! boxes, and on an edge the first-order motion. A pair of the robot's own parts is separated by planes
+//! perpendicular to the line between the axes.
 
 use pulp::Simd;
 
 use super::batch_check::{BatchChecker, BatchPair, PairTarget};
 use super::batch_model::BatchPart;
 use super::lanes::{Lanes, Lanes3};
-use super::motion::{CapsuleMotion, stays_clear_of_box};
 use super::posed_batch::PosedPart;
-use super::self_pairs::SelfPair;
-use super::separation::{CapsuleAxis, Cuboid, beside};
+use super::separation::{CapsuleAxis, CapsuleMotion, Cuboid, beside, stays_clear_of_box};
 use super::{SURE, TOLD};
 
 impl BatchChecker<'_> {
@@ -202,5 +201,87 @@ impl PosedPart {
             centre: Lanes3::of(simd, &self.centre, chunk),
             half: Lanes3::of(simd, &self.half, chunk),
         }
+    }
+}
+
+/// Two parts of a robot, placed.
+#[derive(Clone, Copy)]
+pub(super) struct SelfPair<'a, S: Simd> {
+    parts: [&'a BatchPart; 2],
+    axes: [CapsuleAxis<S>; 2],
+    /// From a point on the axis of the second part to one on the axis of the first; both are nearly the
+    /// nearest points.
+    pub(super) way: Lanes3<S>,
+    length: Lanes<S>,
+    /// Separation of the axes along that line, times its length.
+    room: Lanes<S>,
+    radii: Lanes<S>,
+}
+
+impl<'a, S: Simd> SelfPair<'a, S> {
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn new(simd: S, [(own, axis), (far, other)]: [(&'a BatchPart, CapsuleAxis<S>); 2]) -> Self {
+        let way = axis.way(simd, other);
+        Self {
+            parts: [own, far],
+            axes: [axis, other],
+            way,
+            length: way.dot(way).sqrt(),
+            room: way.dot(axis.centre - other.centre) - way.dot(axis.half).abs() - way.dot(other.half).abs(),
+            radii: Lanes::splat(simd, own.radius + far.radius),
+        }
+    }
+
+    /// Bit mask of the configurations in which the bounding capsules may be nearer than `wanted`.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn capsules(self, wanted: Lanes<S>) -> u8 {
+        (self.room - (self.radii + wanted) * self.length).not_positive()
+    }
+
+    /// The same for the boxes of the parts that have one.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn near(self, simd: S, boxes: [Option<Cuboid<S>>; 2], wanted: Lanes<S>) -> u8 {
+        let ([own, far], [axis, other]) = (self.parts, self.axes);
+        let mut bits = u8::MAX;
+        if let [_, Some(cuboid)] = boxes {
+            bits &= beside(simd, axis, cuboid, wanted + Lanes::splat(simd, own.radius), 4);
+        }
+        if let (true, [Some(cuboid), _]) = (bits != 0, boxes) {
+            bits &= beside(simd, other, cuboid, wanted + Lanes::splat(simd, far.radius), 4);
+        }
+        if let (true, [Some(one), Some(two)]) = (bits != 0, boxes) {
+            bits &= one.aside(simd, two, wanted).not_positive();
+            bits &= two.aside(simd, one, wanted).not_positive();
+        }
+        bits
+    }
+
+    /// Bit mask of the configurations in which the parts may come too near, by their motion along the line
+    /// between them and along the axes of boxes.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn motion_after(
+        self,
+        simd: S,
+        [one, two]: [CapsuleMotion<S>; 2],
+        boxes: [Option<Cuboid<S>>; 2],
+        least: Lanes<S>,
+    ) -> u8 {
+        let ([own, far], [axis, other]) = (self.parts, self.axes);
+        let towards = one.approach(two, self.way, self.length);
+        let mut bits = (self.room - (self.radii + least) * self.length - towards).not_positive();
+        if let (true, [_, Some(cuboid)]) = (bits != 0, boxes) {
+            bits &=
+                stays_clear_of_box(simd, cuboid, (axis, own.radius), [one, two.ball(simd, far.reach)], least);
+        }
+        if let (true, [Some(cuboid), _]) = (bits != 0, boxes) {
+            bits &= stays_clear_of_box(
+                simd,
+                cuboid,
+                (other, far.radius),
+                [two, one.ball(simd, own.reach)],
+                least,
+            );
+        }
+        bits
     }
 }

@@ -2,10 +2,10 @@
 
 use pulp::Simd;
 
-use super::aabb::{Aabb, AabbRows};
 use super::batch_model::{Batch8, BatchJoint, BatchModel, bit};
+use super::boxes::{Aabb, AabbRows};
 use super::lanes::{Lane8, Lane8x3, Lanes, Lanes3};
-use super::motion::{CapsuleMotion, FrameMotion, FrameMotion8};
+use super::separation::{CapsuleMotion, FrameMotion, FrameMotion8};
 
 /// Poses of a batch model in eight configurations, and the motion around each. Parts that are not needed have
 /// no defined pose.

@@ -1,12 +1,12 @@
 //! Batch checks give the same results on every processor, and agree with `f64` checks of each configuration.
 
+use motet_robots::builtin;
 use nalgebra::Isometry3;
 use pulp::Arch;
 
 use super::{Batch8, BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
 use crate::collision::{CollisionModel, Shape, Solid};
 use crate::kinematics::{KinematicTree, planar, quasi_random};
-use motet_robots::builtin;
 
 struct Robot {
     tree: KinematicTree,

@@ -21,8 +21,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 /// Every row of a file of poses holds, within 1e-9 m and 1e-9 rad. `standing` is where the base's frame is
-/// above the floor,
-/// for a URDF that leaves the motion of the base to its card.
+/// above the floor, for a URDF that leaves the motion of the base to its card.
 fn check(poses: &str, urdf: &str, standing: Option<(&str, f64)>) {
     let path = format!("{DATA}/fk/{poses}.jsonl");
     let tree = tree(urdf);
@@ -114,7 +113,8 @@ fn forward_kinematics_moves_mimic_and_planar_joints() {
         <joint name='one' type='prismatic'><parent link='b'/><child link='c'/><axis xyz='1 0 0'/>
           <limit lower='0' upper='1' velocity='1' effort='1'/></joint>
         <joint name='two' type='prismatic'><parent link='c'/><child link='d'/><axis xyz='1 0 0'/>
-          <limit lower='0' upper='1' velocity='1' effort='1'/><mimic joint='one' multiplier='2' offset='0.5'/></joint></robot>";
+          <limit lower='0' upper='1' velocity='1' effort='1'/><mimic joint='one' multiplier='2' \
+              offset='0.5'/></joint></robot>";
     let tree = KinematicTree::new(&urdf::read(&Source::new("x", text), FileId(0)).0.unwrap());
     let names: Vec<&str> = tree.dofs().iter().map(|known| known.name.as_str()).collect();
     assert_eq!(names, ["drive/x", "drive/y", "drive/theta", "one"]);

@@ -41,7 +41,8 @@ fn ur() -> KinematicChain {
     let joint = |n: usize, xyz: &str, axis: &str| {
         format!(
             "<joint name='j{n}' type='revolute'><parent link='l{}'/><child link='l{n}'/><origin xyz='{xyz}'/>
-             <axis xyz='{axis}'/><limit lower='-6.2831853' upper='6.2831853' velocity='1' effort='1'/></joint>",
+             <axis xyz='{axis}'/><limit lower='-6.2831853' upper='6.2831853' velocity='1' \
+                 effort='1'/></joint>",
             n - 1
         )
     };
@@ -102,7 +103,8 @@ proptest! {
             prop_assert!(arm.chain().allows(solution));
             prop_assert!(Tolerance::EXACT.covers(&arm.chain().base_from_tip(solution), &wanted));
         }
-        let far = |solution: &[f64; 7]| solution.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let far = |solution: &[f64; 7]| solution.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0,
+            f64::max);
         let nearest = found.iter().map(far).fold(f64::INFINITY, f64::min);
         prop_assert!(nearest < 1e-4, "{nearest} from {values:?} in {} solutions", found.len());
     }
@@ -150,7 +152,7 @@ proptest! {
 /// With room for many turns a joint has one value for each place, the nearest to what it is near to, and
 /// within its limits.
 #[test]
-fn solutions_are_nearest_among_full_turns() {
+fn parallel_arm_solutions_are_nearest_among_full_turns() {
     let mut chain = ur();
     for dof in &mut chain.dofs {
         dof.limits = Some((-40.0, 60.0));
@@ -211,8 +213,8 @@ fn dof_sampling_range_is_at_most_one_turn() {
     assert_eq!(limited(Some((0.0, 30.0)), true), (0.0, 30.0));
 }
 
-/// What is found is right, and nearly everything is: the numeric search may miss what is at the edge of the
-/// limits.
+/// Every solution found is right, and nearly all are found: the numeric search may miss one at the edge of
+/// the limits.
 #[test]
 fn numeric_solver_solves_any_arm() {
     let chain = panda();

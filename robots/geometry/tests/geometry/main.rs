@@ -1,8 +1,9 @@
-//! Tests of kinematics, collision checking, and laws of `reach`.
+//! Tests of kinematics, collision checking, laws of `reach`, and motion queries.
 
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
+    clippy::unreachable,
     clippy::indexing_slicing,
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -14,4 +15,5 @@
 mod collision;
 mod forward;
 mod inverse;
+mod planning;
 mod properties;

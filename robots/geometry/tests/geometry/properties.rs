@@ -1,6 +1,5 @@
-//! What has to hold of the answers to `reach` whatever the room and the robot: they go with a room that is
-//! moved, with an obstacle less and
-//! with a larger budget.
+//! Laws of `reach` for any room and robot: answers stay the same in a moved room, feasible ones without an
+//! obstacle, and none contradicts one of a larger budget.
 
 use std::sync::LazyLock;
 
@@ -33,7 +32,7 @@ fn rooms() -> impl Strategy<Value = (Scene, usize)> {
         .prop_flat_map(|which| furnished(ROBOTS[which].drives()).prop_map(move |scene| (scene, which)))
 }
 
-/// Where the robot does not drive, the table is in its reach.
+/// A room with a table, which is within reach of a robot that does not drive.
 fn furnished(drives: bool) -> impl Strategy<Value = Scene> {
     let (least, free) = if drives { (0.7, 0.45) } else { (0.35, 0.2) };
     let (far, wide) = if drives { (0.6..2.0_f64, 0.3..1.3_f64) } else { (0.5..0.8, 0.3..0.8) };
@@ -112,7 +111,8 @@ proptest! {
 
     #[test]
     fn reach_stays_feasible_without_an_obstacle((scene, which) in rooms(), gone in 0..8_usize) {
-        let less: Vec<_> = scene.entities.keys().filter(|id| !matches!(id.as_str(), "can" | "table")).collect();
+        let less: Vec<_> = scene.entities.keys().filter(|id| !matches!(id.as_str(),
+            "can" | "table")).collect();
         let mut open = scene.clone();
         if let Some(id) = less.get(gone % less.len().max(1)) {
             open.entities.shift_remove(*id);

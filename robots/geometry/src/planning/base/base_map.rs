@@ -8,10 +8,8 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Mutex;
 
-use crate::planning::base::footprint::{Footprint, FootprintIndex, about_vertical};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::grid_index::Obstacle;
-use crate::planning::scene::planning_scene::PlanningScene;
+use super::footprint::{Footprint, FootprintIndex, about_vertical};
+use crate::planning::scene::{Configuration, Obstacle, PlanningScene};
 
 /// Side of a cell in m, for scenes of up to [`CELLS`] cells a side.
 const CELL: f64 = 0.05;

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
-use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::MIN_CLEARANCE;
 
 /// Cap of the clearance, in m.
 const WIDE: f64 = 0.4;

@@ -1,5 +1,7 @@
 //! Map of the floor for a driving base.
 
-pub(crate) mod base_map;
-pub(crate) mod constraint_removal;
-pub(crate) mod footprint;
+mod base_map;
+mod constraint_removal;
+mod footprint;
+
+pub(crate) use base_map::BaseMap;

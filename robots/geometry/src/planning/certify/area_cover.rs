@@ -7,11 +7,9 @@
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::planning_scene::PlanningScene;
-use crate::planning::scene::scene_state::HeldObject;
-use crate::planning::scene::support_surface::{ABOVE, SupportSurface};
+use crate::planning::scene::{
+    ABOVE, Configuration, HeldObject, MIN_CLEARANCE, PlanningScene, SupportSurface,
+};
 
 /// Side of a square in m, for scenes of up to [`CELLS`] squares a side.
 const CELL: f64 = 0.05;

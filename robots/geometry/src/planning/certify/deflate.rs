@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
-use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::MIN_CLEARANCE;
 
 /// Numerical slack of positions and lengths, in m: far more than rounding and than the error of a URDF's
 /// axes.
@@ -108,11 +108,13 @@ mod tests {
 
         /// Deflation is sound: contact and separation hold for every pose within the drift.
         #[test]
-        fn what_is_said_of_a_board_holds_for_all_that_is_near(
-            at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64], turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64],
-            half in 0.05..0.4_f64, radius in 0.01..0.06_f64, drift in 0.0..0.25_f64, kind in 0..3_u8,
+        fn deflated_contact_holds_for_all_near_poses(
+            at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64],
+            turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64], half in 0.05..0.4_f64,
+            radius in 0.01..0.06_f64, drift in 0.0..0.25_f64, kind in 0..3_u8,
             shift in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64], share in 0.0..1.0_f64,
-            board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.03_f64], lean in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64],
+            board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.03_f64],
+            lean in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64],
         ) {
             let shape = match kind {
                 0 => Shape::Capsule { radius, half },
@@ -130,7 +132,8 @@ mod tests {
             let axis = Vector3::new(y, z, x + 1e-3).normalize();
             let turned = UnitQuaternion::from_scaled_axis(axis * (share * drift / own.reach()).min(1.0));
             let about = Translation3::from(own.centre);
-            let moved = Translation3::from(along * ((1.0 - share) * drift)) * about * turned * about.inverse();
+            let moved = Translation3::from(along * ((1.0 - share) * drift)) * about * turned
+                * about.inverse();
             let moved = own.moved(&moved);
             prop_assert!(!is_stuck || moved.is_nearer(&board, super::MIN_CLEARANCE));
             prop_assert!(!is_apart || moved.is_farther(&board, super::MIN_CLEARANCE));

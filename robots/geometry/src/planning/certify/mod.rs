@@ -1,5 +1,8 @@
 //! Infeasibility certificates: proofs that no configuration satisfies a motion query.
 
-pub(crate) mod area_cover;
-pub(crate) mod deflate;
-pub(crate) mod infeasibility;
+mod area_cover;
+mod deflate;
+mod infeasibility;
+
+pub(crate) use deflate::{DeflatedPart, inner, resized};
+pub(crate) use infeasibility::Certificate;

@@ -7,10 +7,9 @@ use nalgebra::Vector3;
 
 use crate::collision::Solid;
 use crate::planning::context::QueryContext;
-use crate::planning::query::contact_tally::ContactTally;
-use crate::planning::scene::configuration::{Configuration, plane};
-use crate::planning::scene::contact::{
-    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+use crate::planning::query::ContactTally;
+use crate::planning::scene::{
+    AllowedCollisions, Configuration, Contact, ContactTarget, HandModel, MIN_CLEARANCE, above_floor, plane,
 };
 use crate::simd::{BatchPair, NearPair, ObbSet, PairTarget, PosedBatch};
 
@@ -22,7 +21,7 @@ pub(crate) struct CollisionChecker<'r, 'w> {
     /// Centre of the base positions that the checker covers, and their greatest distance from it, in m.
     place: [f64; 2],
     far: f64,
-    pub(crate) quick: PrefilterCache,
+    pub(crate) prefilter: PrefilterCache,
 }
 
 /// Flags of one part of the robot.
@@ -67,7 +66,7 @@ impl<'w> QueryContext<'w> {
             obstacles: obstacles.collect(),
             place,
             far,
-            quick: PrefilterCache::default(),
+            prefilter: PrefilterCache::default(),
         }
     }
 
@@ -87,7 +86,7 @@ impl<'w> QueryContext<'w> {
 
     fn limbs(&self) -> Vec<CheckedPart> {
         let hand = self.model.hand();
-        let is = |list: fn(&crate::planning::scene::robot_model::HandModel) -> &Vec<bool>, link: usize| {
+        let is = |list: fn(&HandModel) -> &Vec<bool>, link: usize| {
             hand.is_some_and(|hand| list(hand).get(link) == Some(&true))
         };
         let drives = self.model.drives();
@@ -117,6 +116,22 @@ impl QueryContext<'_> {
     }
 
     /// First contact in a configuration, with a padding of [`MIN_CLEARANCE`]. O(parts × obstacles near).
+    ///
+    /// ```
+    /// use motet_geometry::planning::{AllowedCollisions, QueryContext, RobotModel, SceneState};
+    /// use motet_robots::builtin::{self, RobotWithBody};
+    ///
+    /// let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
+    /// let scene = builtin::scene("kitchen").unwrap();
+    /// let model = RobotModel::new(&robot, &urdf);
+    /// let state = SceneState::new(&model, &scene);
+    /// let context = QueryContext::new(&model, &scene, &state);
+    ///
+    /// let none = AllowedCollisions::default();
+    /// assert_eq!(context.contact(&state.robot, none), None);
+    /// let in_the_table = state.robot.at([2.2, 0.5, 0.0]);
+    /// assert_eq!(context.contact(&in_the_table, none).unwrap().other, "kitchen_table");
+    /// ```
     #[must_use]
     pub fn contact(&self, configuration: &Configuration, allowed: AllowedCollisions) -> Option<Contact> {
         self.along(configuration, configuration).contact(configuration, allowed)
@@ -194,7 +209,7 @@ impl CollisionChecker<'_, '_> {
         let poses = self.context.model.map_from_links(configuration);
         let placed = self.context.body.placed(&poses);
         let found = self.first(&placed, allowed);
-        found.map(|(part, other)| self.context.told(part, other))
+        found.map(|(part, other)| self.context.named_contact(part, other))
     }
 
     /// Checks whether the checker covers the base of a configuration.
@@ -359,7 +374,7 @@ impl CollisionChecker<'_, '_> {
             return Ok(());
         }
         if let Some(near) = near.iter().flatten().find(|near| near.sure != 0) {
-            return Err(self.told(near));
+            return Err(self.named_contact(near));
         }
         let context = self.context;
         let placed = |configuration| context.body.placed(&context.model.map_from_links(configuration));
@@ -367,7 +382,7 @@ impl CollisionChecker<'_, '_> {
         let solids: Vec<(Solid, Vector3<f64>)> =
             placed.iter().zip(&last).map(|(one, other)| (*one, other.centre - one.centre)).collect();
         let look = |part: usize, other: ContactTarget| match self.touches_swept(&solids, part, other) {
-            Some(other) => Err(context.told(part, other)),
+            Some(other) => Err(context.named_contact(part, other)),
             None => Ok(()),
         };
         if let Some(near) = near {

@@ -5,12 +5,11 @@ use std::cell::{OnceCell, RefCell};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
 
+use super::collision_checker::is_touching;
 use crate::collision::Solid;
-use crate::planning::checking::collision_checker::is_touching;
-use crate::planning::scene::contact::{AllowedCollisions, Contact, MIN_CLEARANCE, above_floor};
-use crate::planning::scene::grid_index::Obstacle;
-use crate::planning::scene::planning_scene::PlanningScene;
-use crate::planning::scene::robot_model::HandModel;
+use crate::planning::scene::{
+    AllowedCollisions, Contact, HandModel, MIN_CLEARANCE, Obstacle, PlanningScene, above_floor,
+};
 use crate::simd::{BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
 
 /// Open hand without its arm, and the obstacles near the object that it grasps.
@@ -23,7 +22,7 @@ pub(crate) struct HandChecker<'r, 'w> {
     /// Mean position of the poses.
     middle: Vector3<f64>,
     /// Prefilter data seen from there, filled at first use; `None` where it does not apply.
-    quick: OnceCell<Option<(BatchModel, ObbSet)>>,
+    prefilter: OnceCell<Option<(BatchModel, ObbSet)>>,
     posed: RefCell<PosedBatch>,
 }
 
@@ -38,7 +37,7 @@ struct HandPart {
 
 impl<'w> PlanningScene<'w> {
     /// Checker of the hand at any of some tip poses.
-    pub(crate) fn palm(
+    pub(crate) fn hand_checker(
         &self,
         hand: &HandModel,
         tips: &[Isometry3<f64>],
@@ -75,7 +74,7 @@ impl<'w> PlanningScene<'w> {
             parts,
             obstacles,
             middle,
-            quick: OnceCell::new(),
+            prefilter: OnceCell::new(),
             posed: RefCell::default(),
         }
     }
@@ -90,13 +89,14 @@ impl HandChecker<'_, '_> {
         let contact = |(tip, lane): (&Isometry3<f64>, usize)| {
             let sure = near.iter().find(|met| met.sure >> lane & 1 == 1);
             let mut near = near.iter().filter(|met| met.still >> lane & 1 == 1);
-            sure.or_else(|| near.find(|met| self.is_touching(met, tip))).and_then(|met| self.told(met))
+            sure.or_else(|| near.find(|met| self.is_touching(met, tip)))
+                .and_then(|met| self.named_contact(met))
         };
         map_from_tips.iter().zip(0..).map(contact).collect()
     }
 
     /// Batch model of the hand and the obstacles; `None` where one is too large or has no box.
-    fn quick(&self) -> Option<&(BatchModel, ObbSet)> {
+    fn prefilter(&self) -> Option<&(BatchModel, ObbSet)> {
         let place = [self.middle.x, self.middle.y];
         let make = || {
             let obbs =
@@ -104,12 +104,12 @@ impl HandChecker<'_, '_> {
             let obbs = obbs.collect::<Option<ObbSet>>()?;
             Some((BatchModel::rigid(self.parts.iter().map(|own| &own.solid))?, obbs))
         };
-        self.quick.get_or_init(make).as_ref()
+        self.prefilter.get_or_init(make).as_ref()
     }
 
     /// Pairs that are near each other at some poses; `None` where the prefilter does not apply.
     fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<NearPair>> {
-        let (batch_model, obbs) = self.quick()?;
+        let (batch_model, obbs) = self.prefilter()?;
         let seen = |tip: &Isometry3<f64>| {
             Isometry3::from_parts(Translation3::from(tip.translation.vector - self.middle), tip.rotation)
         };
@@ -146,7 +146,7 @@ impl HandChecker<'_, '_> {
     }
 
     /// Contact of a pair.
-    fn told(&self, met: &NearPair) -> Option<Contact> {
+    fn named_contact(&self, met: &NearPair) -> Option<Contact> {
         let own = self.parts.get(met.pair.part)?;
         match met.pair.target {
             PairTarget::Obb(at) => {

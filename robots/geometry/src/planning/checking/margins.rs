@@ -1,10 +1,9 @@
 //! Margins of a path: its clearance and the distance to joint limits.
 
-use crate::planning::checking::collision_checker::CollisionChecker;
+use super::collision_checker::CollisionChecker;
 use crate::planning::context::QueryContext;
-use crate::planning::query::answer::Margins;
-use crate::planning::scene::configuration::{Configuration, plane};
-use crate::planning::scene::contact::AllowedCollisions;
+use crate::planning::query::Margins;
+use crate::planning::scene::{AllowedCollisions, Configuration, plane};
 use crate::simd::NearPair;
 
 /// Clearances to try first, in m, in two batches.

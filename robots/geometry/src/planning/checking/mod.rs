@@ -1,8 +1,11 @@
 //! Collision checks of configurations and edges.
 
-pub(crate) mod collision_checker;
-pub(crate) mod edge_check;
-pub(crate) mod hand_check;
-pub(crate) mod margins;
-pub(crate) mod motion_bound;
-pub(crate) mod prefilter;
+mod collision_checker;
+mod edge_check;
+mod hand_check;
+mod margins;
+mod prefilter;
+
+pub(crate) use collision_checker::CollisionChecker;
+pub(crate) use edge_check::MotionBound;
+pub(crate) use hand_check::HandChecker;

@@ -1,11 +1,10 @@
 //! Broad phase in batches of eight: drops the pairs that are apart for certain in `f32`, so that `f64`
 //! decides the near ones only.
 
-use crate::planning::checking::collision_checker::{CollisionChecker, SegmentCentres, is_touching, other};
+use super::collision_checker::{CollisionChecker, SegmentCentres, is_touching, other};
 use crate::planning::context::QueryContext;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::{
-    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+use crate::planning::scene::{
+    AllowedCollisions, Configuration, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
 };
 use crate::simd::{Batch8, BatchCheck, BatchModel, BatchPair, NearPair, Obb, ObbSet};
 
@@ -65,7 +64,7 @@ impl CollisionChecker<'_, '_> {
             let obbs = self.obstacles.iter().map(|near| Obb::new(near.entity, &near.solid, self.place()));
             obbs.collect()
         };
-        self.quick.obbs.get_or_init(make).as_ref()
+        self.prefilter.obbs.get_or_init(make).as_ref()
     }
 
     /// Near pairs in up to eight configurations; `None` where the prefilter does not apply.
@@ -154,7 +153,7 @@ impl CollisionChecker<'_, '_> {
         gap: NearRange,
     ) -> Option<Vec<NearPair>> {
         let obbs = self.obbs()?;
-        let mut posed = self.quick.posed.borrow_mut();
+        let mut posed = self.prefilter.posed.borrow_mut();
         let counts = |part: usize, entity: Option<usize>| {
             self.limbs.get(part).is_some_and(|limb| match entity {
                 Some(entity) => limb.counts && !limb.may_touch(entity, allowed),
@@ -215,7 +214,7 @@ impl CollisionChecker<'_, '_> {
         lane: usize,
         configuration: &Configuration,
     ) -> Option<Contact> {
-        let sure = near.iter().find(|near| near.sure >> lane & 1 == 1).map(|near| self.told(near));
+        let sure = near.iter().find(|near| near.sure >> lane & 1 == 1).map(|near| self.named_contact(near));
         sure.or_else(|| {
             let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1);
             near.find_map(|near| self.contact_of(near, configuration))
@@ -223,14 +222,14 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// Contact of a near pair.
-    pub(crate) fn told(&self, near: &NearPair) -> Contact {
+    pub(crate) fn named_contact(&self, near: &NearPair) -> Contact {
         let other = match other(&near.pair) {
             ContactTarget::Obstacle(at) => {
                 ContactTarget::Obstacle(self.obstacles.get(at).map_or(at, |obstacle| obstacle.index))
             }
             other @ (ContactTarget::Part(_) | ContactTarget::Floor) => other,
         };
-        self.context.told(near.pair.part, other)
+        self.context.named_contact(near.pair.part, other)
     }
 
     /// Checks a near pair in `f64`.
@@ -248,6 +247,6 @@ impl CollisionChecker<'_, '_> {
             }
             ContactTarget::Floor => above_floor(&one) <= MIN_CLEARANCE,
         };
-        is_touched.then(|| self.told(near))
+        is_touched.then(|| self.named_contact(near))
     }
 }

@@ -8,8 +8,8 @@ use std::f64::consts::{FRAC_PI_6, TAU};
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::planning::query::answer::GraspSide;
-use crate::planning::scene::robot_model::HandModel;
+use crate::planning::query::GraspSide;
+use crate::planning::scene::HandModel;
 use crate::trigonometry::{sin_cos, turn};
 
 /// Overlap of the fingers with a flat face, in m.
@@ -212,7 +212,7 @@ impl CandidateList<'_> {
         }
     }
 
-    /// How far the thing extends against a direction on the line through its middle.
+    /// Extent of the object against a direction, on the line through its middle.
     fn side_extent(&self, approach: &Vector3<f64>) -> f64 {
         let [_, _, z] = &self.object.axes;
         match self.object.shape {

@@ -7,11 +7,11 @@ use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
+use super::candidates::{GRIP, GraspCandidate, SHORT, TOP, is_ahead};
 use crate::collision::{Shape, Solid};
 use crate::inverse::interval::DisplacementBound;
-use crate::planning::grasp::candidates::{GRIP, GraspCandidate, SHORT, TOP, is_ahead};
-use crate::planning::query::answer::GraspSide;
-use crate::planning::scene::robot_model::HandModel;
+use crate::planning::query::GraspSide;
+use crate::planning::scene::HandModel;
 use crate::trigonometry::{atan2, sin_cos, turn, wrapped};
 
 /// Numerical slack of an angle or a length.
@@ -225,8 +225,7 @@ impl<'a> GraspManifold<'a> {
         patches.collect()
     }
 
-    /// Motion of the hand in m over half of a patch's widest side, approximately, and the index of that
-    /// side.
+    /// Motion of the hand in m over half of a patch's widest side, approximately, and the index of that side.
     pub(crate) fn widest(&self, patch: &GraspPatch) -> (f64, usize) {
         let [about, bend, place, deep] = patch.half;
         let Some(slot) = self.slots.get(patch.slot) else { return (0.0, 0) };
@@ -343,7 +342,8 @@ impl<'a> GraspManifold<'a> {
     /// Checks whether no pose of a patch is from the robot's side, where that is requested.
     fn is_behind(&self, slot: &GraspFamily, approach: &Vector3<f64>, off: f64) -> bool {
         let is_level = matches!(slot.kind, FamilyKind::Flat { .. })
-            || matches!(slot.kind, FamilyKind::Around { down: axis, .. } | FamilyKind::Rim { across: axis, .. }
+            || matches!(slot.kind, FamilyKind::Around { down: axis, .. } | FamilyKind::Rim { across: axis,
+                .. }
                 if axis.z.abs() > 1.0 - 1e-9);
         let [x, y] = self.ahead;
         let angle = wrapped(atan2(approach.y, approach.x) - atan2(y, x));

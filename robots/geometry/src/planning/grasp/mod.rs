@@ -1,4 +1,7 @@
 //! Grasps of an object: candidates for a search, and the manifold of all of them for a proof.
 
-pub(crate) mod candidates;
-pub(crate) mod manifold;
+mod candidates;
+mod manifold;
+
+pub(crate) use candidates::{GraspCandidate, grasp_candidates};
+pub(crate) use manifold::{GraspManifold, GraspPatch, widest};

@@ -4,16 +4,16 @@
 //! Runs where an answer is shown, not where it is computed: it takes as long as a few queries.
 
 use motet_robots::scene::{Entity, Scene};
+use motet_stdlib::lang::kinds;
 use nalgebra::Translation3;
 use smol_str::SmolStr;
 
 use crate::planning::context::QueryContext;
-use crate::planning::motions::outcome::after_move;
-use crate::planning::query::answer::{
-    BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, SearchBudget,
+use crate::planning::query::{
+    BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, ReachLength, SearchBudget,
 };
-use crate::planning::scene::configuration::plane;
-use crate::planning::search::workspace::whole_centimetres;
+use crate::planning::scene::plane;
+use crate::planning::search::whole_centimetres;
 
 /// Greatest number of obstacles tried for removal, one at a time.
 const TAKEN: usize = 3;
@@ -34,63 +34,86 @@ const FIXED: u32 = 100;
 /// from there.
 const STRAIGHT: f64 = 0.55;
 
-/// Adds the nearest change that would help, in words. Where every route of the base is cut off, the reason
-/// names the obstacle.
-pub(crate) fn explain(
-    context: &QueryContext<'_>,
-    query: &MotionQuery,
-    why: &Infeasible,
-    budget: SearchBudget,
-) -> Infeasible {
-    let mut told = why.clone();
-    if told.change.is_some() {
-        return told;
-    }
-    let mut least = budget;
-    least.candidates = least.candidates.min(EFFORT[0]);
-    least.paths = least.paths.min(EFFORT[1]);
-    least.cells = least.cells.min(CELLS);
-    told.change = match &why.reason {
-        InfeasibleReason::TooHeavy { .. } | InfeasibleReason::TooWide { .. } => None,
-        InfeasibleReason::OutOfReach { what: "sight", needs, reach } => {
-            targets(query).next_back().map(|id| {
-                let nearer = whole_centimetres(needs - reach);
-                format!("the robot has to be at least {nearer:.2} m nearer to `{id}`")
-            })
+impl QueryContext<'_> {
+    /// Completes an infeasible answer with the nearest change that would help, in words, where one is known.
+    ///
+    /// Each suggested change was tried: with it the motion is feasible. Where every route of the base is
+    /// cut off, the reason names the obstacle. Takes as long as a few queries.
+    ///
+    /// ```
+    /// use motet_geometry::planning::{
+    ///     MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
+    /// };
+    /// use motet_robots::builtin::{self, RobotWithBody};
+    ///
+    /// let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
+    /// let mut scene = builtin::scene("kitchen").unwrap();
+    /// // The mug is far too high.
+    /// scene.entities["mug_1"].pose.as_mut().unwrap().xyz[2] = 2.5;
+    /// let model = RobotModel::new(&robot, &urdf);
+    /// let state = SceneState::new(&model, &scene);
+    /// let context = QueryContext::new(&model, &scene, &state);
+    ///
+    /// let (query, budget) = (MotionQuery::Reach("mug_1".into(), None), SearchBudget::default());
+    /// let MotionAnswer::Infeasible(why) = context.answer(&query, budget) else { panic!() };
+    /// let change = context.explain(&query, &why, budget).change.unwrap();
+    /// assert!(change.starts_with("`mug_1` would have to be at least") && change.ends_with("m lower"));
+    /// ```
+    #[must_use]
+    pub fn explain(&self, query: &MotionQuery, why: &Infeasible, budget: SearchBudget) -> Infeasible {
+        let mut explained = why.clone();
+        if explained.change.is_some() {
+            return explained;
         }
-        InfeasibleReason::OutOfReach { what: "distance", needs, reach } => {
-            targets(query).next_back().map(|id| {
-                format!("`{id}` would have to be at least {:.2} m nearer", whole_centimetres(needs - reach))
-            })
-        }
-        InfeasibleReason::OutOfReach { .. } => None,
-        InfeasibleReason::NotInView { by: None, aside: Some(BearingLimit { needs, limit }) }
-            if context.model.drives() =>
-        {
-            let to = if *needs > 0.0 { "left" } else { "right" };
-            // Rounding must not add a degree.
-            let least = libm::ceil((needs.abs() - limit).to_degrees() - 1e-6);
-            Some(format!("turn to the {to} by at least {least:.0}° before"))
-        }
-        InfeasibleReason::NoFreePose { by, .. }
-        | InfeasibleReason::BlockedPath { by }
-        | InfeasibleReason::NotInView { by, .. } => {
-            let shut = shut_in(context, query);
-            if shut.is_some() {
-                shut
-            } else if let Some((by, change)) = cut_off(context, query, why, least) {
-                if let InfeasibleReason::BlockedPath { by: named } = &mut told.reason {
-                    *named = Some(by);
-                }
-                change
-            } else {
-                (cleared(context, query, by.as_ref(), least))
-                    .or_else(|| lifted(context, query, &why.reason, least))
-                    .or_else(|| elsewhere(context, query, least))
+        let mut least = budget;
+        least.candidates = least.candidates.min(EFFORT[0]);
+        least.paths = least.paths.min(EFFORT[1]);
+        least.cells = least.cells.min(CELLS);
+        explained.change = match &why.reason {
+            InfeasibleReason::TooHeavy { .. } | InfeasibleReason::TooWide { .. } => None,
+            InfeasibleReason::OutOfReach { length: ReachLength::Sight, needs, reach } => {
+                targets(query).next_back().map(|id| {
+                    let nearer = whole_centimetres(needs - reach);
+                    format!("the robot has to be at least {nearer:.2} m nearer to `{id}`")
+                })
             }
-        }
-    };
-    told
+            InfeasibleReason::OutOfReach { length: ReachLength::Distance, needs, reach } => {
+                targets(query).next_back().map(|id| {
+                    format!(
+                        "`{id}` would have to be at least {:.2} m nearer",
+                        whole_centimetres(needs - reach)
+                    )
+                })
+            }
+            InfeasibleReason::OutOfReach { length: ReachLength::Height, .. } => None,
+            InfeasibleReason::NotInView { by: None, aside: Some(BearingLimit { needs, limit }) }
+                if self.model.drives() =>
+            {
+                let to = if *needs > 0.0 { "left" } else { "right" };
+                // Rounding must not add a degree.
+                let least = libm::ceil((needs.abs() - limit).to_degrees() - 1e-6);
+                Some(format!("turn to the {to} by at least {least:.0}° first"))
+            }
+            InfeasibleReason::NoFreePose { by, .. }
+            | InfeasibleReason::BlockedPath { by }
+            | InfeasibleReason::NotInView { by, .. } => {
+                let shut = shut_in(self, query);
+                if shut.is_some() {
+                    shut
+                } else if let Some((by, change)) = cut_off(self, query, why, least) {
+                    if let InfeasibleReason::BlockedPath { by: named } = &mut explained.reason {
+                        *named = Some(by);
+                    }
+                    change
+                } else {
+                    (cleared(self, query, by.as_ref(), least))
+                        .or_else(|| lifted(self, query, &why.reason, least))
+                        .or_else(|| elsewhere(self, query, least))
+                }
+            }
+        };
+        explained
+    }
 }
 
 /// Obstacle that cuts the base off from its goal, and its removal where that helps. `None` for an answer
@@ -122,7 +145,7 @@ fn cut_off(
             },
         };
         let them = if names.len() == 1 { "it" } else { "them" };
-        format!("every way to {what} is blocked by {}: take {them} out of the way", listed(&names))
+        format!("every path to {what} is blocked by {}: move {them} away", listed(&names))
     });
     let is_way = matches!(why.reason, InfeasibleReason::BlockedPath { .. });
     let by = fixed.or(names.first()).filter(|_| is_way || change.is_some())?;
@@ -138,7 +161,7 @@ fn shut_in(context: &QueryContext<'_>, query: &MotionQuery) -> Option<String> {
         let is_there = !context.state.holds(id) && !context.state.moved.contains_key(id);
         std::iter::successors(around(id).filter(|_| is_there), |it| around(&it.id)).take(8).find(is_shut)
     })?;
-    Some(format!("open `{}` before", shut.id))
+    Some(format!("open `{}` first", shut.id))
 }
 
 /// Suggests to remove one obstacle, without which the motion is feasible.
@@ -167,9 +190,9 @@ fn cleared(
     Some(match query {
         MotionQuery::GoTo(to) => {
             let reach = context.served_within(context.scene.entities.get(to)?);
-            format!("a place within {reach:.2} m of `{to}` is blocked by `{id}`: take it out of the way")
+            format!("a place within {reach:.2} m of `{to}` is blocked by `{id}`: move it away")
         }
-        _ => format!("without `{id}` it can be done: take it out of the way"),
+        _ => format!("`{id}` is in the way: move it away"),
     })
 }
 
@@ -190,13 +213,13 @@ fn lifted(
         matches!(context.in_state(&state).answer(query, budget), MotionAnswer::Feasible(_))
     };
     let up = LIFTS.into_iter().find(helps)?;
-    Some(format!("with `{id}` {up:.2} m higher it can be done"))
+    Some(format!("it is feasible with `{id}` {up:.2} m higher"))
 }
 
 /// Checks whether an entity can be removed without the target.
 fn may_go(context: &QueryContext<'_>, query: &MotionQuery, id: &str) -> bool {
     // Never propose removing a person as an obstacle.
-    let is_thing = |it: &Entity| !it.fixed && it.shape.is_some() && it.kind != "Person";
+    let is_thing = |it: &Entity| !it.fixed && it.shape.is_some() && it.kind != kinds::PERSON;
     let is_free = context.scene.entities.get(id).is_some_and(is_thing);
     let is_asked = targets(query).any(|about| goes_with(context.scene, about, id));
     is_free && !is_asked && !context.state.holds(id)
@@ -207,15 +230,15 @@ fn elsewhere(context: &QueryContext<'_>, query: &MotionQuery, budget: SearchBudg
     let (MotionQuery::Look(to) | MotionQuery::Offer(_, to)) = query else { return None };
     let helps = |first: &MotionQuery| {
         let MotionAnswer::Feasible(way) = context.answer(first, budget) else { return false };
-        let state = after_move(context, &way);
+        let state = context.after_move(&way);
         let is_elsewhere = state.robot != context.state.robot;
         is_elsewhere && matches!(context.in_state(&state).answer(query, budget), MotionAnswer::Feasible(_))
     };
     let mut postures = context.model.card().postures.keys();
     if let Some(name) = postures.find(|name| helps(&MotionQuery::Posture((*name).clone()))) {
-        return Some(format!("bring the arm into the posture `{name}` before"));
+        return Some(format!("move the arm to the posture `{name}` first"));
     }
-    (context.model.drives() && helps(&MotionQuery::GoTo(to.clone()))).then(|| format!("go to `{to}` before"))
+    (context.model.drives() && helps(&MotionQuery::GoTo(to.clone()))).then(|| format!("go to `{to}` first"))
 }
 
 /// Entities on every route of the base to its goal, in order from the start: as few as were found, entities
@@ -246,7 +269,7 @@ pub(crate) fn barrier(
     let weight = |at: usize| {
         let (id, entity) = context.scene.entities.get_index(at).filter(|_| at != index)?;
         Some(match (may_go(id), entity.kind.as_str()) {
-            (true, "Object") => 1,
+            (true, kinds::OBJECT) => 1,
             (true, _) => LARGE,
             (false, _) => FIXED,
         })

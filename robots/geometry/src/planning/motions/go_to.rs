@@ -2,12 +2,11 @@
 //! named posture.
 
 use crate::planning::context::QueryContext;
-use crate::planning::query::answer::{
-    Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, SearchBudget, UnknownReason, certain,
+use crate::planning::query::{
+    ContactTally, Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
+    certain,
 };
-use crate::planning::query::contact_tally::ContactTally;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
+use crate::planning::scene::{AllowedCollisions, Configuration};
 
 /// Directions around the entity.
 const DIRECTIONS: usize = 32;
@@ -19,7 +18,7 @@ pub(crate) fn go_to(context: &QueryContext<'_>, id: &str, _budget: SearchBudget)
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
     let Some((index, entity)) = context.entity(id) else { return unknown(format!("there is no `{id}`")) };
     let Some(pose) = context.state.pose(entity) else {
-        return unknown(format!("the place of `{id}` is not known"));
+        return unknown(format!("the pose of `{id}` is unknown"));
     };
     if !context.model.drives() {
         return unknown("the robot's base does not drive".into());

@@ -10,12 +10,11 @@ use nalgebra::Vector3;
 use crate::collision::{Shape, Solid};
 use crate::kinematics::{Dof, quasi_random};
 use crate::planning::context::QueryContext;
-use crate::planning::query::answer::{
-    BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
+use crate::planning::query::{
+    BearingLimit, ContactTally, Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, ReachLength,
+    SearchBudget, UnknownReason,
 };
-use crate::planning::query::contact_tally::ContactTally;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
+use crate::planning::scene::{AllowedCollisions, Configuration};
 
 /// Greatest angle between a camera's axis and its target, in rad; for a fixed camera up and down only.
 const AIM: f64 = 0.37;
@@ -34,7 +33,7 @@ pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     };
     let points = points_of(context, index, entity);
     if points.is_empty() {
-        return unknown(format!("the place of `{id}` is not known"));
+        return unknown(format!("the pose of `{id}` is unknown"));
     }
     if context.state.holds(id) {
         return unknown(format!("the hand holds `{id}`"));
@@ -77,7 +76,9 @@ pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     let is_far = hides.most().is_none() && away.is_finite();
     let reason = match (is_blocked, is_far) {
         (true, _) => InfeasibleReason::BlockedPath { by: ways.most() },
-        (false, true) => InfeasibleReason::OutOfReach { what: "sight", needs: away, reach: view.range },
+        (false, true) => {
+            InfeasibleReason::OutOfReach { length: ReachLength::Sight, needs: away, reach: view.range }
+        }
         (false, false) => {
             let by = hides.most();
             let aside = points.first().filter(|_| by.is_none()).and_then(|it| view.beyond(start, it));
@@ -221,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn the_view_of_a_camera_that_nothing_turns_is_its_own() {
+    fn view_of_a_fixed_camera_is_its_own() {
         for (way, is_seen) in [
             ([0.0, 0.0], true),
             ([29.0, 0.0], true),
@@ -235,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_camera_that_is_turned_looks_at_the_thing_within_its_view() {
+    fn view_of_a_turning_camera_contains_the_target() {
         for (view, heading, way, is_seen) in [
             (260.0, 0.0, [20.0, 0.0], true),
             (260.0, 0.0, [23.0, 0.0], false),

@@ -2,18 +2,15 @@
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
+use super::put::put_down;
 use crate::kinematics::{planar, quasi_random};
 use crate::planning::context::QueryContext;
-use crate::planning::motions::put::put_down;
-use crate::planning::query::answer::{
-    Infeasible, InfeasibleReason, MotionAnswer, SearchBudget, UnknownReason,
+use crate::planning::query::{
+    ContactTally, Infeasible, InfeasibleReason, MotionAnswer, ReachLength, SearchBudget, UnknownReason,
+    exhausted,
 };
-use crate::planning::query::contact_tally::{ContactTally, exhausted};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::scene::ik_solver::IkSolver;
-use crate::planning::scene::scene_state::HeldObject;
-use crate::planning::search::arm_candidates::{SPACE, part};
+use crate::planning::scene::{AllowedCollisions, Configuration, HeldObject, IkSolver};
+use crate::planning::search::{SPACE, part};
 
 /// Distance of the object from the person's middle, in m: beyond the body, within an arm's length.
 const REACH: [f64; 2] = [0.3, 0.75];
@@ -27,12 +24,12 @@ const STATURE: f64 = 1.7;
 /// Answers `offer`: a configuration in which a person can take the held object.
 pub(crate) fn offer(context: &QueryContext<'_>, id: &str, to: &str, budget: SearchBudget) -> MotionAnswer {
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
-    let Some(held) = context.held_thing(id) else {
+    let Some(held) = context.held_object(id) else {
         return unknown(format!("the hand does not hold `{id}`"));
     };
     let Some((index, entity)) = context.entity(to) else { return unknown(format!("there is no `{to}`")) };
     let Some(pose) = context.state.pose(entity) else {
-        return unknown(format!("the place of `{to}` is not known"));
+        return unknown(format!("the pose of `{to}` is unknown"));
     };
     let stature = context.solids_of(index).map(|solid| solid.centre.z + solid.extent(&Vector3::z()));
     let stature = stature.fold(0.0, f64::max);
@@ -51,9 +48,12 @@ pub(crate) fn offer(context: &QueryContext<'_>, id: &str, to: &str, budget: Sear
     let far = libm::hypot(person.x - x, person.y - y);
     let tip_reach = held.hand.card.reach_m + context.model.card().base.radius_m + 0.4;
     if far > tip_reach + REACH[1] {
-        let reason =
-            InfeasibleReason::OutOfReach { what: "distance", needs: far - REACH[1], reach: tip_reach };
-        let change = Some(format!("go to `{to}` before"));
+        let reason = InfeasibleReason::OutOfReach {
+            length: ReachLength::Distance,
+            needs: far - REACH[1],
+            reach: tip_reach,
+        };
+        let change = Some(format!("go to `{to}` first"));
         return MotionAnswer::Infeasible(Infeasible {
             reason,
             change,

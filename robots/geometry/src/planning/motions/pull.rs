@@ -1,5 +1,4 @@
-//! `pull`, and `push` of a container: the hand grasps the handle and follows it along the container's
-//! travel.
+//! `pull`, and `push` of a container: the hand grasps the handle and follows it along the container's travel.
 //!
 //! The robot follows in one of two modes. The base moves with the arm still: beside the handle, or turning
 //! with the door, or half of each, while the hand turns about the bar. Or the base is still and the arm
@@ -9,21 +8,16 @@ use std::ops::ControlFlow;
 
 use nalgebra::Isometry3;
 
-use crate::planning::certify::infeasibility::Certificate;
+use super::handle::{BEYOND, HandlePull, beside, follow, follows_to, front_around, gripping, stops, without};
+use crate::planning::certify::Certificate;
 use crate::planning::context::QueryContext;
-use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::motions::follow::{beside, follow, follows_to, stops, without};
-use crate::planning::motions::handle::{BEYOND, HandlePull, front_around, gripping};
-use crate::planning::query::answer::{
-    Grasp, Infeasible, InfeasibleReason, Margins, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
-    certain,
+use crate::planning::grasp::GraspCandidate;
+use crate::planning::query::{
+    ContactTally, Grasp, Infeasible, InfeasibleReason, Margins, MotionAnswer, MotionWitness, SearchBudget,
+    UnknownReason, certain, exhausted,
 };
-use crate::planning::query::contact_tally::{ContactTally, exhausted};
-use crate::planning::scene::articulation::{Articulation, THICK};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::path::LAST;
+use crate::planning::scene::{AllowedCollisions, Articulation, Configuration, HandModel, THICK};
+use crate::planning::search::LAST;
 
 /// Approach distances before a handle, in m; the shorter where the longer is blocked.
 const BACK: [f64; 2] = [0.1, 0.05];
@@ -44,20 +38,20 @@ pub(crate) fn pull(
         return unknown(format!("the hand holds `{held}`"));
     }
     if entity.travel.is_none() {
-        return unknown(format!("`{id}` has nothing that opens"));
+        return unknown(format!("`{id}` does not open"));
     }
     let [from, to] = parts;
     if context.state.is_open(entity) != (from > to) {
         let is = if from > to { "closed" } else { "open" };
-        return unknown(format!("`{id}` is {is} already"));
+        return unknown(format!("`{id}` is already {is}"));
     }
     let Some(opening) = Articulation::new(entity, context.state) else {
-        return unknown(format!("how `{id}` opens does not follow from its shape"));
+        return unknown(format!("the shape of `{id}` does not determine how it opens"));
     };
     let (clear, contents) = without(context, index, &opening, from);
     let opening = opening.with(contents);
     if let Some(by) = stops(&clear, &opening, parts) {
-        let change = Some(format!("take `{by}` out of its way"));
+        let change = Some(format!("move `{by}` away"));
         return certain(InfeasibleReason::BlockedPath { by: Some(by) }, change);
     }
     let depth = (front_around(context, hand, THICK) - BEYOND).max(hand.palm + THICK / 2.0);
@@ -70,7 +64,7 @@ pub(crate) fn pull(
     let MotionAnswer::Infeasible(found) = answer else { return answer };
     let bar = (pull.opening.map_moved(from) * pull.opening.handle().centre).coords;
     MotionAnswer::Infeasible(
-        match context.span(hand).beyond_all(&bar, &format!("the handle of `{id}`"), &tips) {
+        match context.reach_envelope(hand).beyond_all(&bar, &format!("the handle of `{id}`"), &tips) {
             Some((reason, change)) => Infeasible { reason, change, ..found },
             None => found,
         },
@@ -85,7 +79,7 @@ fn free_holds<'h>(
     tips: &[Isometry3<f64>],
     met: &mut ContactTally,
 ) -> Vec<&'h GraspCandidate> {
-    let hand_checker = context.palm(hand, tips, AllowedCollisions::default());
+    let hand_checker = context.hand_checker(hand, tips, AllowedCollisions::default());
     let is_free = |hold: &&GraspCandidate| {
         hand_checker.contact(&hold.map_from_tip).map(|contact| met.add(&contact)).is_none()
     };

@@ -1,23 +1,21 @@
 //! `push`: closes a container by its handle, or pushes any other object a little away from the robot with
 //! the closed hand.
 
+use motet_stdlib::lang::kinds;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
+use super::handle::front_around;
+use super::pull::pull;
 use crate::collision::Solid;
-use crate::planning::certify::deflate::{DeflatedPart, inner};
+use crate::planning::certify::{DeflatedPart, inner};
 use crate::planning::context::QueryContext;
-use crate::planning::motions::handle::front_around;
-use crate::planning::motions::pull::pull;
-use crate::planning::query::answer::{
-    Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer, MotionWitness, SearchBudget,
-    UnknownReason,
+use crate::planning::query::{
+    ContactTally, Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer, MotionWitness,
+    SearchBudget, UnknownReason, exhausted,
 };
-use crate::planning::query::contact_tally::{ContactTally, exhausted};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::{AllowedCollisions, MIN_CLEARANCE};
-use crate::planning::scene::grid_index::Obstacle;
-use crate::planning::scene::robot_model::HandModel;
-use crate::planning::scene::scene_state::solid_shape;
+use crate::planning::scene::{
+    AllowedCollisions, Configuration, HandModel, MIN_CLEARANCE, Obstacle, solid_shape,
+};
 use crate::trigonometry::turn;
 
 /// Length of a push, in m.
@@ -42,11 +40,11 @@ pub(crate) fn push(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     if let Some((held, _)) = &context.state.held {
         return unknown(format!("the hand holds `{held}`"));
     }
-    if entity.fixed || entity.kind == "Person" {
-        return unknown(format!("`{id}` is nothing to be pushed away"));
+    if entity.fixed || entity.kind == kinds::PERSON {
+        return unknown(format!("`{id}` cannot be pushed"));
     }
     let Some((pose, shape)) = context.state.pose(entity).zip(solid_shape(entity)) else {
-        return unknown(format!("the place or the shape of `{id}` is not known"));
+        return unknown(format!("the pose or the shape of `{id}` is unknown"));
     };
     let object = Solid::new(&pose, shape);
     let support = context.support(index);
@@ -88,7 +86,7 @@ pub(crate) fn push(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     }
     let tips: Vec<_> = ends.iter().map(|(_, end)| *end).collect();
     if let Some((reason, change)) =
-        context.span(hand).beyond_all(&pose.translation.vector, &format!("`{id}`"), &tips)
+        context.reach_envelope(hand).beyond_all(&pose.translation.vector, &format!("`{id}`"), &tips)
     {
         return MotionAnswer::Infeasible(Infeasible { change, ..Infeasible::exhausted(reason) });
     }

@@ -6,19 +6,14 @@ use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use crate::collision::{Shape, Solid};
 use crate::kinematics::planar;
 use crate::planning::context::QueryContext;
-use crate::planning::query::answer::{
-    Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer, MotionWitness, SearchBudget,
-    UnknownReason,
+use crate::planning::query::{
+    ContactTally, Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer, MotionWitness,
+    SearchBudget, UnknownReason,
 };
-use crate::planning::query::contact_tally::ContactTally;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::{AllowedCollisions, MIN_CLEARANCE};
-use crate::planning::scene::scene_state::{HeldObject, solid_shape};
-use crate::planning::scene::support_surface::{ABOVE, SupportSurface};
-use crate::planning::search::arm_candidates::{PLANE, part};
-use crate::planning::search::goal_search::{GoalPose, GoalSpec};
-use crate::planning::search::path::LAST;
-use crate::planning::search::workspace::ReachEnvelope;
+use crate::planning::scene::{
+    ABOVE, AllowedCollisions, Configuration, HeldObject, MIN_CLEARANCE, SupportSurface, WALL, solid_shape,
+};
+use crate::planning::search::{GoalPose, GoalSpec, LAST, PLANE, ReachEnvelope, part};
 
 /// Heights in m from which the object is lowered straight down; the shorter where the longer is blocked.
 const LOWER: [f64; 2] = [0.1, 0.05];
@@ -33,7 +28,7 @@ const TURNS: u32 = 8;
 /// Answers `put`: a place for the held object.
 pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: SearchBudget) -> MotionAnswer {
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
-    let Some(held) = context.held_thing(id) else {
+    let Some(held) = context.held_object(id) else {
         return unknown(format!("the hand does not hold `{id}`"));
     };
     let Some((index, entity)) = context.entity(on) else { return unknown(format!("there is no `{on}`")) };
@@ -60,11 +55,10 @@ pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: Search
     // Into a drawer the object comes from above its walls.
     let over = (support.walls > 0.0).then(|| support.walls + LOWER[1]);
     let tips: Vec<_> = places.iter().map(|place| place * tip_from_place).collect();
-    // Upright at one height, the wrist is at one height too, wherever the object is and however it is
-    // turned.
-    let span = context.span(held.hand);
-    if let Some((reason, change)) = span.beyond_all(&face.vector, &format!("the top of `{on}`"), &tips) {
-        let certified = matches!(span, ReachEnvelope::Heights(..));
+    // Upright at one height, the wrist is at one height too, wherever the object is and however it is turned.
+    let envelope = context.reach_envelope(held.hand);
+    if let Some((reason, change)) = envelope.beyond_all(&face.vector, &format!("the top of `{on}`"), &tips) {
+        let certified = matches!(envelope, ReachEnvelope::Heights(..));
         return MotionAnswer::Infeasible(Infeasible { reason, change, certified, configuration: None });
     }
     let goal = GoalSpec {
@@ -95,7 +89,7 @@ pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: Search
 fn support_of(context: &QueryContext<'_>, entity: &Entity) -> Result<SupportSurface, MotionAnswer> {
     let unknown = |why: String| Err(MotionAnswer::Unknown(UnknownReason::Because(why)));
     let Some((pose, shape)) = context.state.pose(entity).zip(solid_shape(entity)) else {
-        return unknown(format!("the place or the shape of `{}` is not known", entity.id));
+        return unknown(format!("the pose or the shape of `{}` is unknown", entity.id));
     };
     let up = pose.rotation * Vector3::z();
     if up.z < 0.999 {
@@ -105,26 +99,24 @@ fn support_of(context: &QueryContext<'_>, entity: &Entity) -> Result<SupportSurf
         Shape::Box(half) => ([half.x, half.y], half.z, false),
         Shape::Cylinder { radius, half } => ([radius, radius], half, true),
         Shape::Capsule { .. } | Shape::HalfSpace => {
-            return unknown(format!("nothing stands on the round shape of `{}`", entity.id));
+            return unknown(format!("no object stands on the round shape of `{}`", entity.id));
         }
     };
     if entity.travel.is_some() && !context.state.is_open(entity) {
         let reason = InfeasibleReason::NoFreePose { by: Some(entity.id.clone()), share: None };
-        let change = Some(format!("open `{}` before", entity.id));
+        let change = Some(format!("open `{}` first", entity.id));
         return Err(MotionAnswer::Infeasible(Infeasible::proven(reason, change)));
     }
     let (face, inset) = match &entity.travel {
         // On the bottom of the container.
-        Some(Travel::Slide { axis, distance }) => (
-            pose * Translation3::from(Vector3::from(*axis) * *distance),
-            crate::planning::scene::articulation::WALL,
-        ),
-        Some(Travel::Hinge { .. }) => (pose, crate::planning::scene::articulation::WALL),
+        Some(Travel::Slide { axis, distance }) => {
+            (pose * Translation3::from(Vector3::from(*axis) * *distance), WALL)
+        }
+        Some(Travel::Hinge { .. }) => (pose, WALL),
         None => (pose, 0.0),
     };
     let deep = height;
-    let height =
-        if entity.travel.is_some() { crate::planning::scene::articulation::WALL - height } else { height };
+    let height = if entity.travel.is_some() { WALL - height } else { height };
     let map_from_face = face * Translation3::new(0.0, 0.0, height);
     let walls = match &entity.travel {
         Some(Travel::Slide { .. }) => 2.0 * deep,

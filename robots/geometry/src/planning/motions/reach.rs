@@ -4,20 +4,15 @@ use motet_robots::scene::Entity;
 use nalgebra::{Isometry3, Vector3};
 
 use crate::collision::Solid;
-use crate::planning::checking::collision_checker::CollisionChecker;
+use crate::planning::checking::CollisionChecker;
 use crate::planning::context::QueryContext;
-use crate::planning::grasp::candidates::{GraspCandidate, grasp_candidates};
-use crate::planning::grasp::manifold::GraspManifold;
-use crate::planning::query::answer::{
+use crate::planning::grasp::{GraspCandidate, GraspManifold, grasp_candidates};
+use crate::planning::query::{
     Grasp, GraspSide, InfeasibleReason, Margins, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
     certain,
 };
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::scene::robot_model::{HandModel, away};
-use crate::planning::scene::scene_state::solid_shape;
-use crate::planning::search::goal_search::{GoalPose, GoalSpec};
-use crate::planning::search::path::LAST;
+use crate::planning::scene::{AllowedCollisions, Configuration, HandModel, away, solid_shape};
+use crate::planning::search::{GoalPose, GoalSpec, LAST};
 
 /// Approach distances before the object, in m; the shorter where the longer is blocked.
 const BACK: [f64; 2] = [0.1, 0.05];
@@ -37,7 +32,7 @@ pub(crate) fn reach(
         return unknown("the card names no hand with a tip".into());
     };
     let Some((pose, shape)) = context.state.pose(entity).zip(solid_shape(entity)) else {
-        return unknown(format!("the place or the shape of `{id}` is not known"));
+        return unknown(format!("the pose or the shape of `{id}` is unknown"));
     };
     if let Some((held, _)) = &context.state.held {
         return unknown(format!("the hand holds `{held}`"));
@@ -51,7 +46,7 @@ pub(crate) fn reach(
         return certain(InfeasibleReason::TooWide { needs: least, limit: hand.card.opening_m }, None);
     }
     if all.is_empty() && side.is_none() {
-        return unknown(format!("no place between the fingers of `{}` is known for its shape", hand.name));
+        return unknown(format!("no grasp by `{}` is known for its shape", hand.name));
     }
     let target = ReachTarget {
         id,
@@ -61,15 +56,15 @@ pub(crate) fn reach(
         hand,
         allowed: AllowedCollisions { hand: Some(index), held: None },
     };
-    let (mut all, span) = (all, context.span(hand));
+    let (mut all, envelope) = (all, context.reach_envelope(hand));
     let manifold = GraspManifold::new(hand, &target.object, side, context.state.robot.base);
-    if let Some(answer) = span.beyond(&target.pose.translation.vector, id, &all)
-        && manifold.are_all(|tip, drift| span.is_beyond(tip, drift))
+    if let Some(answer) = envelope.beyond(&target.pose.translation.vector, id, &all)
+        && manifold.are_all(|tip, drift| envelope.is_beyond(tip, drift))
     {
         return answer;
     }
     // A pose outside of the workspace needs no search.
-    all.retain(|hold| span.holds(&hold.map_from_tip));
+    all.retain(|hold| envelope.holds(&hold.map_from_tip));
     sort(context, &mut all, &target);
     let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
     let centre = target.pose.translation;

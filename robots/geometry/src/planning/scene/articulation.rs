@@ -7,8 +7,8 @@
 use motet_robots::scene::{Entity, Travel};
 use nalgebra::{Isometry3, Point3, Translation3, Unit, Vector3};
 
+use super::scene_state::{SceneState, solid_shape};
 use crate::collision::{Shape, Solid};
-use crate::planning::scene::scene_state::{SceneState, solid_shape};
 use crate::trigonometry::turn;
 
 /// Assumed wall thickness of an open container, in m.
@@ -53,6 +53,19 @@ enum ArticulationJoint {
 impl Articulation {
     /// Articulation of an entity in a state. `None` where the entity has no travel or no known pose, is no
     /// box, or has no face whose door turns about its hinge.
+    ///
+    /// ```
+    /// use motet_geometry::planning::{Articulation, RobotModel, SceneState};
+    /// use motet_robots::builtin::{self, RobotWithBody};
+    ///
+    /// let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
+    /// let scene = builtin::scene("kitchen").unwrap();
+    /// let state = SceneState::new(&RobotModel::new(&robot, &urdf), &scene);
+    ///
+    /// let drawer = Articulation::new(&scene.entities["drawer_1"], &state).unwrap();
+    /// assert!((drawer.map_moved(1.0).translation.vector.norm() - 0.35).abs() < 1e-9);
+    /// assert!(Articulation::new(&scene.entities["mug_1"], &state).is_none());
+    /// ```
     #[must_use]
     pub fn new(entity: &Entity, state: &SceneState) -> Option<Self> {
         let (pose, shape) = (state.pose(entity)?, solid_shape(entity)?);

@@ -7,8 +7,7 @@ use nalgebra::Vector3;
 /// Between two configurations the robot moves straight in base and joints.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Configuration {
-    /// Pose of the base in the map: x and y in m, yaw in rad. Along a path yaw continues beyond half a
-    /// turn.
+    /// Pose of the base in the map: x and y in m, yaw in rad. Along a path yaw continues beyond half a turn.
     pub base: [f64; 3],
     /// Value of each variable of the robot's tree, in rad or m.
     pub joints: Vec<f64>,
@@ -16,6 +15,14 @@ pub struct Configuration {
 
 impl Configuration {
     /// Configuration on the straight edge to another one, at `part` of it in 0..=1.
+    ///
+    /// ```
+    /// use motet_geometry::planning::Configuration;
+    ///
+    /// let start = Configuration { base: [0.0, 0.0, 0.0], joints: vec![0.25] };
+    /// let end = Configuration { base: [2.0, 1.0, 0.0], joints: vec![0.75] };
+    /// assert_eq!(start.towards(&end, 0.5), Configuration { base: [1.0, 0.5, 0.0], joints: vec![0.5] });
+    /// ```
     #[must_use]
     pub fn towards(&self, other: &Self, part: f64) -> Self {
         let mix = |one, other| between(one, other, part);

@@ -1,11 +1,21 @@
 //! Planning scene: robot model, scene state, obstacles and permitted contacts.
 
-pub(crate) mod articulation;
-pub(crate) mod configuration;
-pub(crate) mod contact;
-pub(crate) mod grid_index;
-pub(crate) mod ik_solver;
-pub(crate) mod planning_scene;
-pub(crate) mod robot_model;
-pub(crate) mod scene_state;
-pub(crate) mod support_surface;
+mod articulation;
+mod configuration;
+mod obstacle;
+mod planning_scene;
+mod robot_model;
+mod scene_state;
+
+pub use articulation::Articulation;
+pub(crate) use articulation::{THICK, WALL};
+pub use configuration::Configuration;
+pub(crate) use configuration::plane;
+pub use obstacle::{AllowedCollisions, Contact, MIN_CLEARANCE};
+pub(crate) use obstacle::{ContactTarget, Obstacle, ObstacleIndex, above_floor};
+pub use planning_scene::PlanningScene;
+pub(crate) use planning_scene::{ABOVE, SupportSurface};
+pub(crate) use robot_model::away;
+pub use robot_model::{HandModel, IkSolver, RobotModel};
+pub(crate) use scene_state::{HeldObject, solid_shape};
+pub use scene_state::{SceneState, components};

@@ -4,18 +4,17 @@
 
 use motet_robots::card::Drive;
 use motet_robots::scene::{Entity, EntityShape, Scene};
+use motet_stdlib::lang::kinds;
 use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
 
+use super::articulation::Articulation;
+use super::configuration::Configuration;
+use super::obstacle::{Contact, ContactTarget, MIN_CLEARANCE, Obstacle, ObstacleIndex};
+use super::robot_model::{HandModel, IkSolver, RobotModel};
+use super::scene_state::{HeldObject, SceneState, solid_shape};
 use crate::collision::{CollisionModel, LinkSolid, Shape, Solid};
 use crate::kinematics::planar;
-use crate::planning::scene::articulation::Articulation;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::{Contact, ContactTarget, MIN_CLEARANCE};
-use crate::planning::scene::grid_index::{Obstacle, ObstacleIndex};
-use crate::planning::scene::ik_solver::IkSolver;
-use crate::planning::scene::robot_model::{HandModel, RobotModel};
-use crate::planning::scene::scene_state::{HeldObject, SceneState, solid_shape};
 
 /// Distance at which the base counts as being at a place, in m.
 const AT_PLACE: f64 = 0.5;
@@ -122,7 +121,7 @@ impl<'w> PlanningScene<'w> {
         self.scene.entities.get_index(entity).map(|(id, _)| id.clone()).unwrap_or_default()
     }
 
-    pub(crate) fn told(&self, part: usize, other: ContactTarget) -> Contact {
+    pub(crate) fn named_contact(&self, part: usize, other: ContactTarget) -> Contact {
         let link = |part: usize| {
             let link = self.body.parts().get(part).map_or(0, |part| part.link);
             self.model.tree().links().get(link).cloned().unwrap_or_default()
@@ -197,7 +196,7 @@ impl<'w> PlanningScene<'w> {
         entity: &Entity,
         [x, y]: [f64; 2],
     ) -> impl Fn(f64, f64) -> f64 + use<> {
-        let is_point = matches!(entity.kind.as_str(), "Object" | "Place");
+        let is_point = matches!(entity.kind.as_str(), kinds::OBJECT | kinds::PLACE);
         let outline: Vec<Solid> = if is_point { vec![] } else { self.solids_of(index).copied().collect() };
         move |at_x, at_y| {
             let solids = outline.iter().map(|solid| beside(solid, at_x, at_y));
@@ -208,13 +207,13 @@ impl<'w> PlanningScene<'w> {
     /// Greatest distance in m from which the base serves an entity.
     pub(crate) fn served_within(&self, entity: &Entity) -> f64 {
         match (entity.kind.as_str(), self.model.hand()) {
-            ("Place", _) | (_, None) => AT_PLACE,
+            (kinds::PLACE, _) | (_, None) => AT_PLACE,
             (_, Some(hand)) => hand.card.reach_m,
         }
     }
 
     /// Held object, where its id is `id`.
-    pub(crate) fn held_thing(&self, id: &str) -> Option<HeldObject<'_>> {
+    pub(crate) fn held_object(&self, id: &str) -> Option<HeldObject<'_>> {
         let (held, tip_from_object) = self.state.held.as_ref().filter(|(held, _)| held == id)?;
         let (hand, (_, entity)) = (self.model.hand()?, self.entity(held)?);
         let shape = solid_shape(entity)?;
@@ -257,4 +256,43 @@ fn beside(solid: &Solid, x: f64, y: f64) -> f64 {
         shape: Shape::Capsule { radius: 0.0, half: up },
     };
     solid.distance(&vertical).max(0.0)
+}
+
+/// Height above the surface at which an object is released, in m.
+pub(crate) const ABOVE: f64 = 0.004;
+
+/// Flat rectangle or disc that supports objects.
+pub(crate) struct SupportSurface {
+    /// Pose of the middle of its upper face.
+    pub(crate) map_from_face: Isometry3<f64>,
+    pub(crate) half: [f64; 2],
+    /// Height of the walls around it, in m: objects come in from above them.
+    pub(crate) walls: f64,
+    pub(crate) is_disc: bool,
+}
+
+impl SupportSurface {
+    /// Point of the rim at a share of its length, in units of half the sides.
+    pub(crate) fn rim(&self, around: f64) -> [f64; 2] {
+        if self.is_disc {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * around);
+            return [cos, sin];
+        }
+        // Equal spacing on long and short sides.
+        let [wide, deep] = self.half;
+        // The rim is a single point.
+        if wide + deep <= 0.0 {
+            return [0.0; 2];
+        }
+        let gone = around * 2.0 * (wide + deep);
+        if gone < wide {
+            [2.0 * gone / wide - 1.0, -1.0]
+        } else if gone < wide + deep {
+            [1.0, 2.0 * (gone - wide) / deep - 1.0]
+        } else if gone < 2.0 * wide + deep {
+            [1.0 - 2.0 * (gone - wide - deep) / wide, 1.0]
+        } else {
+            [-1.0, 1.0 - 2.0 * (gone - 2.0 * wide - deep) / deep]
+        }
+    }
 }

@@ -1,15 +1,19 @@
-//! Robot model for motion queries: card, kinematics, body and the solver of its arm.
+//! Robot model for motion queries: card, kinematics, body, and the solver of its arm: in closed form where
+//! the chain has one, else in steps.
 
 use motet_robots::card::{Drive, HandSpec, Robot};
 use motet_robots::urdf::Urdf;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
+use super::configuration::Configuration;
+use super::obstacle::above_floor;
 use crate::collision::{CollisionModel, Shape, Solid};
+use crate::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
 use crate::kinematics::{AncestorJoint, KinematicChain, KinematicTree, planar};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::above_floor;
-use crate::planning::scene::ik_solver::IkSolver;
+
+/// Greatest change of a joint between two points of a hand path, in rad or m.
+const JUMP: f64 = 0.5;
 
 /// Gap between the palm and a held object, in m.
 const PALM_GAP: f64 = 0.005;
@@ -190,8 +194,20 @@ impl RobotModel {
         &self.rest
     }
 
-    /// Joint values of a posture; joints that it does not name stay as in `from`. `None` for an unknown
-    /// name.
+    /// Joint values of a posture; joints that it does not name stay as in `from`. `None` for an unknown name.
+    ///
+    /// ```
+    /// use motet_geometry::planning::RobotModel;
+    /// use motet_robots::builtin::{self, RobotWithBody};
+    ///
+    /// let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
+    /// let model = RobotModel::new(&robot, &urdf);
+    /// let joints = model.posture("start", model.rest()).unwrap();
+    /// for (name, position) in &robot.postures["start"] {
+    ///     assert_eq!(joints[model.tree().dof(name).unwrap()], *position);
+    /// }
+    /// assert_eq!(model.posture("handstand", model.rest()), None);
+    /// ```
     #[must_use]
     pub fn posture(&self, name: &str, from: &[f64]) -> Option<Vec<f64>> {
         let mut joints = from.to_vec();
@@ -397,5 +413,70 @@ impl RobotModel {
         let motet_robots::builtin::RobotWithBody { robot, urdf } =
             motet_robots::builtin::robot(name).unwrap();
         Self::new(&robot, &urdf)
+    }
+}
+
+/// Solver for the inverse kinematics of one arm, chosen by the shape of its chain.
+#[derive(Clone, Debug)]
+pub enum IkSolver {
+    /// Lift with a spherical wrist, on a base that drives in every direction.
+    Lift(LiftArm),
+    /// Six joints, three of them parallel.
+    Parallel(ParallelArm),
+    /// Seven joints as in the Franka arms.
+    Seven(SevenArm),
+    /// Any other chain: damped least squares.
+    Steps(KinematicChain),
+}
+
+impl IkSolver {
+    /// Chooses the solver of a chain on a base with a drive, whose link is `height` m above the floor.
+    ///
+    /// ```
+    /// use motet_geometry::planning::{IkSolver, RobotModel};
+    /// use motet_robots::builtin::{self, RobotWithBody};
+    ///
+    /// let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
+    /// let model = RobotModel::new(&robot, &urdf);
+    /// assert!(matches!(model.hand().unwrap().solver, IkSolver::Lift(_)));
+    /// ```
+    #[must_use]
+    pub fn of(chain: &KinematicChain, drive: Drive, height: f64) -> Self {
+        let drives_anywhere = matches!(drive, Drive::Omnidirectional | Drive::Legged);
+        let lift =
+            LiftArm::detect(chain).filter(|_| drives_anywhere).map(|arm| Self::Lift(arm.raised(height)));
+        let parallel = || ParallelArm::detect(chain).map(Self::Parallel);
+        let seven = || SevenArm::detect(chain).map(Self::Seven);
+        lift.or_else(parallel).or_else(seven).unwrap_or_else(|| Self::Steps(chain.clone()))
+    }
+
+    /// Kinematic chain from the base's link to the tip.
+    #[must_use]
+    pub fn chain(&self) -> &KinematicChain {
+        match self {
+            Self::Lift(arm) => arm.chain(),
+            Self::Parallel(arm) => arm.chain(),
+            Self::Seven(arm) => arm.chain(),
+            Self::Steps(chain) => chain,
+        }
+    }
+
+    /// Joint values for a tip pose near to the one of `values`, without a jump to another branch.
+    pub(crate) fn followed(&self, base_from_tip: &Isometry3<f64>, values: &[f64]) -> Option<Vec<f64>> {
+        let is_near = |next: &Vec<f64>| next.iter().zip(values).all(|(a, b)| (a - b).abs() <= JUMP);
+        let closed = match self {
+            // The closed form finds all solutions, so none is near where the nearest is not.
+            Self::Parallel(arm) => {
+                return arm.nearest(base_from_tip, values.try_into().ok()?).map(Vec::from).filter(is_near);
+            }
+            Self::Seven(arm) => {
+                let last = values.last().copied().unwrap_or_default();
+                arm.nearest(base_from_tip, &[last], values, 1).pop().map(Vec::from)
+            }
+            Self::Lift(_) | Self::Steps(_) => None,
+        };
+        let numeric = || numeric::refined(self.chain(), base_from_tip, values, 20, Tolerance::EXACT);
+        // A jump to another branch leaves the straight line of the hand.
+        closed.filter(is_near).or_else(|| numeric().filter(is_near))
     }
 }

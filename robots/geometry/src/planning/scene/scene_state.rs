@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
+use motet_stdlib::lang::kinds;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::robot_model::{HandModel, RobotModel};
+use super::configuration::Configuration;
+use super::robot_model::{HandModel, RobotModel};
 
 /// Scene state: robot configuration, moved objects, held object and open containers.
 #[derive(Clone, PartialEq, Debug)]
@@ -80,9 +81,9 @@ impl SceneState {
         let pose = isometry(entity.pose.as_ref()?);
         // The scene gives the pose of a person's feet.
         let lifted = match (&entity.shape, entity.kind.as_str()) {
-            (Some(EntityShape::Cylinder { height, .. }), "Person") => height / 2.0,
-            (Some(EntityShape::Capsule { radius, height }), "Person") => height / 2.0 + radius,
-            (Some(EntityShape::Box([_, _, z])), "Person") => z / 2.0,
+            (Some(EntityShape::Cylinder { height, .. }), kinds::PERSON) => height / 2.0,
+            (Some(EntityShape::Capsule { radius, height }), kinds::PERSON) => height / 2.0 + radius,
+            (Some(EntityShape::Box([_, _, z])), kinds::PERSON) => z / 2.0,
             _ => 0.0,
         };
         Some(pose * Translation3::new(0.0, 0.0, lifted))

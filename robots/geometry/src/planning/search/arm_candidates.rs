@@ -1,15 +1,18 @@
 //! Arm candidates: configurations that put the tip at a pose, in a low-discrepancy order.
+//!
+//! For an arm on a lift a broad phase draws eight at a time in `f32`. Most are in contact for certain; only
+//! the others are solved in `f64`.
 
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
-use crate::inverse::{Tolerance, numeric};
+use crate::inverse::batch::{BatchSolver, CandidateBatch, LANES, TipBatch};
+use crate::inverse::{LiftArm, Tolerance, numeric};
 use crate::kinematics::{KinematicChain, quasi_random};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::ik_solver::IkSolver;
-use crate::planning::scene::planning_scene::PlanningScene;
-use crate::planning::scene::robot_model::HandModel;
+use crate::planning::checking::CollisionChecker;
+use crate::planning::scene::{AllowedCollisions, Configuration, Contact, HandModel, IkSolver, PlanningScene};
+use crate::simd::BatchModel;
 
 /// Steps of a straight hand path that the arm follows.
 const STEPS: usize = 5;
@@ -169,5 +172,146 @@ impl PlanningScene<'_> {
         }
         configurations.reverse();
         Some(configurations)
+    }
+}
+
+/// Greatest difference between the solutions in `f64` and in `f32`, in rad or m.
+const SAME: f64 = 1e-3;
+
+/// Prefilter for the candidates of one goal search.
+pub(crate) struct ArmPrefilter<'a, 'r, 'w> {
+    checker: &'a CollisionChecker<'r, 'w>,
+    batch_model: &'a BatchModel,
+    hand: &'a HandModel,
+    arm: &'a LiftArm,
+    manifold: BatchSolver<'a>,
+    allowed: AllowedCollisions,
+    /// Configuration with the hand as it approaches.
+    still: Configuration,
+    /// Range of the shoulder joint, in rad.
+    shoulders: [f64; 2],
+}
+
+/// Up to eight tip poses with their indices.
+pub(crate) struct PoseBatch {
+    tips: Vec<(usize, Isometry3<f64>)>,
+    poses: TipBatch,
+}
+
+/// Candidate in `f32`.
+#[derive(Clone, Copy)]
+pub(crate) struct ArmDraft {
+    /// Index of its tip pose.
+    pub(crate) at: usize,
+    pub(crate) tip: Isometry3<f64>,
+    yaw: f64,
+    shoulder: f64,
+    /// Offset of the base from the checker's origin, in m.
+    base: [f64; 2],
+    values: [f64; 5],
+}
+
+/// Result of the broad phase for one draft.
+pub(crate) enum DraftCheck {
+    Free,
+    /// Undecided: near to another body.
+    Open,
+    Touches(Contact),
+}
+
+impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
+    /// Prefilter of an arm; `None` where the robot has no batch model.
+    pub(crate) fn new(
+        checker: &'a CollisionChecker<'r, 'w>,
+        hand: &'a HandModel,
+        arm: &'a LiftArm,
+        allowed: AllowedCollisions,
+    ) -> Option<Self> {
+        let (lower, upper) = arm.shoulder_span();
+        Some(Self {
+            checker,
+            batch_model: checker.context.batch_model()?,
+            hand,
+            arm,
+            manifold: BatchSolver::new(arm),
+            allowed,
+            still: checker.context.with(hand, [0.0; 3], &[]),
+            shoulders: [lower, upper],
+        })
+    }
+
+    /// Batch of up to eight tip poses.
+    pub(crate) fn group(&self, tips: Vec<(usize, Isometry3<f64>)>) -> PoseBatch {
+        let facing: Vec<_> =
+            tips.iter().map(|(_, tip)| (*tip, self.checker.context.heading(self.hand, tip))).collect();
+        PoseBatch { poses: self.manifold.poses(&facing, self.checker.place()), tips }
+    }
+
+    /// Appends the candidates of one round for a batch of poses, the same as [`PlanningScene::candidates`].
+    pub(crate) fn drafts(&self, group: &PoseBatch, round: usize, drafts: &mut Vec<ArmDraft>) {
+        let [lower, upper] = self.shoulders;
+        let shoulder = lower + part(round, 2, PLANE) * (upper - lower);
+        let block = self.manifold.block(&group.poses, (part(round, 1, PLANE) - 0.5) * TAU, shoulder);
+        let CandidateBatch { lift, base: [x, y], .. } = block;
+        let (lift, x, y) = (lift.to_array(), x.to_array(), y.to_array());
+        for branch in &block.branches {
+            if branch.allowed == 0 {
+                continue;
+            }
+            let wrist = branch.values.map(|values| values.to_array());
+            for (lane, (at, tip)) in (0..LANES).zip(&group.tips) {
+                if branch.allowed >> lane & 1 == 0 {
+                    continue;
+                }
+                let of = |row: &[f32; LANES]| row.get(lane).copied().map_or(f64::NAN, f64::from);
+                let [a, b, c] = &wrist;
+                drafts.push(ArmDraft {
+                    at: *at,
+                    tip: *tip,
+                    yaw: block.yaws.get(lane).copied().unwrap_or_default(),
+                    shoulder,
+                    base: [of(&x), of(&y)],
+                    values: [of(&lift), shoulder, of(a), of(b), of(c)],
+                });
+            }
+        }
+    }
+
+    /// Checks up to eight drafts.
+    pub(crate) fn seen(&self, drafts: &[ArmDraft]) -> Vec<DraftCheck> {
+        let look = || {
+            let mut batch = self.batch_model.batch();
+            let mut joints = self.still.joints.clone();
+            let first = drafts.first()?;
+            for lane in 0..LANES {
+                let draft = drafts.get(lane).unwrap_or(first);
+                for (at, value) in self.arm.chain().in_tree.iter().zip(draft.values) {
+                    *joints.get_mut(*at)? = value;
+                }
+                let [x, y] = draft.base;
+                let is_within = self.batch_model.set(&mut batch, lane, [x, y, draft.yaw], &joints);
+                if !is_within || !self.checker.holds_off(draft.base) {
+                    return None;
+                }
+            }
+            self.checker.near_to(self.batch_model, &batch, self.allowed)
+        };
+        let Some(near) = look() else { return drafts.iter().map(|_| DraftCheck::Open).collect() };
+        let seen = |lane: usize| match near.iter().find(|near| near.sure >> lane & 1 == 1) {
+            Some(near) => DraftCheck::Touches(self.checker.named_contact(near)),
+            None if near.iter().any(|near| near.still >> lane & 1 == 1) => DraftCheck::Open,
+            None => DraftCheck::Free,
+        };
+        (0..drafts.len()).map(seen).collect()
+    }
+
+    /// Solution of a draft in `f64`.
+    pub(crate) fn configuration(&self, draft: &ArmDraft) -> Option<Configuration> {
+        let placed = self.arm.solve(&draft.tip, draft.yaw, draft.shoulder);
+        let is_same = |values: &[f64; 5]| {
+            values.iter().zip(&draft.values).all(|(one, other)| (one - other).abs() < SAME)
+        };
+        let placed = placed.into_iter().find(|placed| is_same(&placed.values))?;
+        Some(self.checker.context.with(self.hand, placed.base, &placed.values))
     }
 }

@@ -1,9 +1,12 @@
 //! Search for paths of the whole robot: goal configurations, and routes to them.
 
-pub(crate) mod arm_candidates;
-pub(crate) mod goal_search;
-pub(crate) mod path;
-pub(crate) mod prefilter_arm;
-pub(crate) mod retreat;
-pub(crate) mod rrt_connect;
-pub(crate) mod workspace;
+mod arm_candidates;
+mod goal_search;
+mod path;
+mod rrt_connect;
+mod workspace;
+
+pub(crate) use arm_candidates::{PLANE, SPACE, part};
+pub(crate) use goal_search::{GoalPose, GoalSpec};
+pub(crate) use path::LAST;
+pub(crate) use workspace::{ReachEnvelope, whole_centimetres};

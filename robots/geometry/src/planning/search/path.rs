@@ -1,14 +1,17 @@
-//! Paths of the whole robot: the base drives with the arm as it is, the arm unfolds, and the base drives
-//! in.
+//! Paths of the whole robot: the base drives with the arm as it is, the arm unfolds, and the base drives in.
+//! Where no simple path leads to the beginning of an approach line, RRT-Connect from open space does: out of
+//! a drawer, or between obstacles closer than the base's disc is wide.
+
+use std::f64::consts::TAU;
 
 use motet_robots::card::Drive;
 
-use crate::planning::base::base_map::BaseMap;
-use crate::planning::checking::collision_checker::CollisionChecker;
+use super::rrt_connect::{PlannedJoints, RrtEffort};
+use crate::planning::base::BaseMap;
+use crate::planning::checking::CollisionChecker;
 use crate::planning::context::QueryContext;
-use crate::planning::query::contact_tally::ContactTally;
-use crate::planning::scene::configuration::{Configuration, plane};
-use crate::planning::scene::contact::{AllowedCollisions, Contact};
+use crate::planning::query::ContactTally;
+use crate::planning::scene::{AllowedCollisions, Configuration, Contact, plane};
 
 /// Greatest distance between the base at the goal and at the start of the approach, in m.
 pub(crate) const LAST: f64 = 0.65;
@@ -321,5 +324,57 @@ impl CollisionChecker<'_, '_> {
         postures
             .map(|joints| Configuration { base: from.base, joints })
             .find_map(|by| is_free(&[from, &by, to]).then(|| vec![from.clone(), by, to.clone()]))
+    }
+}
+
+/// Distances in m from the line at which the base stands with the arm folded.
+const OUT: [f64; 11] = [0.3, 0.45, 0.6, 0.2, 0.1, 0.0, 0.8, 1.0, 1.3, 1.6, 2.0];
+/// Directions of these places around the line.
+const DIRECTIONS: usize = 16;
+
+impl CollisionChecker<'_, '_> {
+    /// Path from the start to the beginning of a free line and along it; the robot usually comes along
+    /// `inwards`.
+    pub(crate) fn retreat(
+        &self,
+        line: &[Configuration],
+        inwards: [f64; 2],
+        effort: RrtEffort,
+    ) -> Option<Vec<Configuration>> {
+        let context = self.context;
+        let first = line.first()?;
+        let (from, moving) = if context.slides() {
+            (self.landing(first, inwards)?, PlannedJoints::All)
+        } else {
+            let folded = Configuration { base: first.base, joints: context.state.robot.joints.clone() };
+            if self.contact(&folded, AllowedCollisions::default()).is_some() || !context.is_drivable(&folded)
+            {
+                return None;
+            }
+            (folded, PlannedJoints::Arm)
+        };
+        let mut configurations = self.connect(&from, first, moving, effort)?;
+        configurations.extend(line.iter().skip(1).cloned());
+        context.driven(configurations)
+    }
+
+    /// Place near a configuration to which the base drives with the arm as at the start.
+    fn landing(&self, near: &Configuration, [x, y]: [f64; 2]) -> Option<Configuration> {
+        let context = self.context;
+        let [near_x, near_y, yaw] = near.base;
+        let outwards = libm::atan2(-y, -x);
+        let folded = |far: f64, step: usize| {
+            let turn = step.div_ceil(2) as f64 * if step.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let (sin, cos) = libm::sincos(outwards + turn * TAU / DIRECTIONS as f64);
+            Configuration {
+                base: [near_x + cos * far, near_y + sin * far, yaw],
+                joints: context.state.robot.joints.clone(),
+            }
+        };
+        let mut places = OUT.into_iter().flat_map(|far| (0..DIRECTIONS).map(move |step| (far, step)));
+        places.find_map(|(far, step)| {
+            let place = folded(far, step);
+            (context.is_at_home(plane(&place)) && context.is_drivable(&place)).then_some(place)
+        })
     }
 }

@@ -2,9 +2,8 @@
 //! that grow towards a low-discrepancy sequence, so that the search is deterministic.
 
 use crate::kinematics::{Dof, quasi_random_in};
-use crate::planning::checking::collision_checker::CollisionChecker;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
+use crate::planning::checking::CollisionChecker;
+use crate::planning::scene::{AllowedCollisions, Configuration};
 
 /// Degrees of freedom of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

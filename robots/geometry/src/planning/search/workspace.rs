@@ -5,11 +5,9 @@ use nalgebra::{Isometry3, Vector3};
 
 use crate::inverse::LiftArm;
 use crate::inverse::interval::DisplacementBound;
-use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::query::answer::{InfeasibleReason, MotionAnswer, certain};
-use crate::planning::scene::ik_solver::IkSolver;
-use crate::planning::scene::planning_scene::PlanningScene;
-use crate::planning::scene::robot_model::HandModel;
+use crate::planning::grasp::GraspCandidate;
+use crate::planning::query::{InfeasibleReason, MotionAnswer, ReachLength, certain};
+use crate::planning::scene::{HandModel, IkSolver, PlanningScene};
 
 /// Reach envelope: tip poses outside of it are unreachable for certain.
 pub(crate) enum ReachEnvelope<'a> {
@@ -23,7 +21,7 @@ pub(crate) enum ReachEnvelope<'a> {
 
 impl PlanningScene<'_> {
     /// Reach envelope of a hand.
-    pub(crate) fn span<'h>(&self, hand: &'h HandModel) -> ReachEnvelope<'h> {
+    pub(crate) fn reach_envelope<'h>(&self, hand: &'h HandModel) -> ReachEnvelope<'h> {
         if let IkSolver::Lift(arm) = &hand.solver {
             return ReachEnvelope::Heights(arm, arm.heights());
         }
@@ -113,14 +111,20 @@ impl ReachEnvelope<'_> {
                     let change = if off > 0.0 { "lower" } else { "higher" };
                     format!("{what} would have to be at least {least:.2} m {change}")
                 });
-                let reason =
-                    InfeasibleReason::OutOfReach { what: "height", needs: place.z, reach: place.z - off };
+                let reason = InfeasibleReason::OutOfReach {
+                    length: ReachLength::Height,
+                    needs: place.z,
+                    reach: place.z - off,
+                };
                 Some((reason, change))
             }
             Self::Ball(shoulder, reach) => {
                 let needs = tips.iter().map(|tip| (tip.translation.vector - shoulder).norm());
                 let needs = needs.fold(f64::INFINITY, f64::min);
-                Some((InfeasibleReason::OutOfReach { what: "distance", needs, reach: *reach }, None))
+                Some((
+                    InfeasibleReason::OutOfReach { length: ReachLength::Distance, needs, reach: *reach },
+                    None,
+                ))
             }
             Self::Anywhere => None,
         }

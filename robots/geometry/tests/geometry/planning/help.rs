@@ -1,7 +1,7 @@
-//! What is said where a motion is infeasible: by how much, and what would help.
+//! Explanations of infeasible answers: the numbers, and the change that would help.
 
 use motet_geometry::planning::{
-    Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState,
+    Infeasible, InfeasibleReason, MotionAnswer, QueryContext, ReachLength, RobotModel, SceneState,
     SearchBudget,
 };
 use motet_robots::builtin;
@@ -9,7 +9,7 @@ use motet_robots::card;
 use motet_robots::scene::{EntityShape, Placement, Scene, Travel};
 use motet_syntax::{FileId, Source};
 
-use super::{changed, embedded, machine};
+use super::{changed, embedded, model, motion_query};
 
 /// The HSR with a line of its card replaced.
 fn hsr(from: &str, to: &str) -> RobotModel {
@@ -21,13 +21,13 @@ fn hsr(from: &str, to: &str) -> RobotModel {
 }
 
 /// The answer as it is told, and what would help.
-fn asked(machine: &RobotModel, scene: &Scene, query: &str) -> (MotionAnswer, Option<String>) {
-    let world = SceneState::new(machine, scene);
-    let room = QueryContext::new(machine, scene, &world);
-    let query = MotionQuery::parse(query).unwrap();
-    match room.answer(&query, SearchBudget::default()) {
+fn asked(model: &RobotModel, scene: &Scene, query: &str) -> (MotionAnswer, Option<String>) {
+    let state = SceneState::new(model, scene);
+    let context = QueryContext::new(model, scene, &state);
+    let query = motion_query(query);
+    match context.answer(&query, SearchBudget::default()) {
         MotionAnswer::Infeasible(why) => {
-            let told = room.explain(&query, &why, SearchBudget::default());
+            let told = context.explain(&query, &why, SearchBudget::default());
             assert_eq!((told.reason.name(), told.certified), (why.reason.name(), why.certified));
             let change = told.change.clone();
             (MotionAnswer::Infeasible(told), change)
@@ -36,8 +36,8 @@ fn asked(machine: &RobotModel, scene: &Scene, query: &str) -> (MotionAnswer, Opt
     }
 }
 
-fn refused(machine: &RobotModel, scene: &Scene, query: &str) -> (Infeasible, Option<String>) {
-    match asked(machine, scene, query) {
+fn refused(model: &RobotModel, scene: &Scene, query: &str) -> (Infeasible, Option<String>) {
+    match asked(model, scene, query) {
         (MotionAnswer::Infeasible(why), help) => (why, help),
         (other, _) => panic!("{query}: {other:?}"),
     }
@@ -56,10 +56,10 @@ fn aside(far: f64, degrees: f64) -> Scene {
 }
 
 #[test]
-fn a_camera_sees_what_is_in_its_view() {
-    let (machine, _) = machine("hsr");
+fn look_sees_entities_in_the_view() {
+    let (model, _) = model("hsr");
     for degrees in [0.0, 60.0, -60.0, 90.0, -90.0, -120.0] {
-        let (answer, _) = asked(&machine, &aside(2.0, degrees), "look(mug_1)");
+        let (answer, _) = asked(&model, &aside(2.0, degrees), "look(mug_1)");
         assert!(matches!(answer, MotionAnswer::Feasible(_)), "{degrees}: {answer:?}");
     }
     // Its neck turns so far to the right, and the card says that it sees 129° to either side.
@@ -67,15 +67,15 @@ fn a_camera_sees_what_is_in_its_view() {
         (
             -170.0,
             "is 170° to the right, the camera sees 129° to either side",
-            "turn to the right by at least 41° before",
+            "turn to the right by at least 41° first",
         ),
         (
             150.0,
             "is 150° to the left, the camera sees 129° to either side",
-            "turn to the left by at least 21° before",
+            "turn to the left by at least 21° first",
         ),
     ] {
-        let (why, found) = refused(&machine, &aside(2.0, degrees), "look(mug_1)");
+        let (why, found) = refused(&model, &aside(2.0, degrees), "look(mug_1)");
         assert_eq!((why.reason.to_string().as_str(), found.as_deref()), (told, Some(help)));
         assert!(!why.certified);
     }
@@ -86,15 +86,17 @@ fn a_camera_sees_what_is_in_its_view() {
 }
 
 #[test]
-fn what_is_too_far_to_be_seen_says_by_how_much() {
-    let (machine, _) = machine("hsr");
-    let (why, help) = refused(&machine, &aside(6.0, 0.0), "look(mug_1)");
-    let InfeasibleReason::OutOfReach { what: "sight", needs, reach } = why.reason else { panic!("{why:?}") };
+fn look_reports_a_distance_beyond_the_range() {
+    let (model, _) = model("hsr");
+    let (why, help) = refused(&model, &aside(6.0, 0.0), "look(mug_1)");
+    let InfeasibleReason::OutOfReach { length: ReachLength::Sight, needs, reach } = why.reason else {
+        panic!("{why:?}")
+    };
     let least = ((needs - reach) * 100.0).ceil() / 100.0;
     assert_eq!(help.unwrap(), format!("the robot has to be at least {least:.2} m nearer to `mug_1`"));
 }
 
-/// A wall.
+/// Adds a wall to the scene.
 fn wall(scene: &mut Scene, id: &str, xyz: [f64; 3], extents: [f64; 3]) {
     let mut wall = embedded("kitchen").entities["kitchen_table"].clone();
     wall.id = id.into();
@@ -121,24 +123,23 @@ fn alcove(is_fixed: bool) -> Scene {
 }
 
 #[test]
-fn what_can_be_taken_away_is_named_where_that_helps() {
-    let (machine, _) = machine("hsr");
-    let (_, help) = refused(&machine, &alcove(false), "reach(mug_1)");
-    let told =
-        "every way to a place from which `mug_1` is in reach is blocked by `chair`: take it out of the way";
+fn explain_names_an_obstacle_whose_removal_helps() {
+    let (model, _) = model("hsr");
+    let (_, help) = refused(&model, &alcove(false), "reach(mug_1)");
+    let told = "every path to a place from which `mug_1` is in reach is blocked by `chair`: move it away";
     assert_eq!(help.as_deref(), Some(told));
-    let (_, help) = refused(&machine, &alcove(false), "go_to(mug_1)");
+    let (_, help) = refused(&model, &alcove(false), "go_to(mug_1)");
     assert_eq!(
         help.as_deref(),
-        Some("every way to a place within 0.60 m of `mug_1` is blocked by `chair`: take it out of the way")
+        Some("every path to a place within 0.60 m of `mug_1` is blocked by `chair`: move it away")
     );
     // What never moves is not asked away, nor what would not help.
-    assert_eq!(refused(&machine, &alcove(true), "reach(mug_1)").1, None);
+    assert_eq!(refused(&model, &alcove(true), "reach(mug_1)").1, None);
     let mut both = alcove(false);
     wall(&mut both, "front", [1.4, 0.0, 1.0], [0.1, 3.0, 2.0]);
     wall(&mut both, "behind", [1.5, 1.5, 1.0], [4.0, 0.1, 2.0]);
     wall(&mut both, "beside", [1.5, -1.5, 1.0], [4.0, 0.1, 2.0]);
-    assert_eq!(refused(&machine, &both, "reach(mug_1)").1, None);
+    assert_eq!(refused(&model, &both, "reach(mug_1)").1, None);
 }
 
 /// The mug on a table in a closed room, in the only gap of which, so many metres to either side, stands
@@ -164,9 +165,9 @@ fn doorway(gap: f64, chairs: &[(&str, [f64; 2], f64)]) -> Scene {
 }
 
 #[test]
-fn what_stands_in_the_only_doorway_is_the_culprit() {
+fn explain_names_the_obstacle_in_the_only_doorway() {
     for (robot, gap) in [("hsr", 0.5), ("anymal_z1", 1.0)] {
-        let (machine, _) = machine(robot);
+        let (model, _) = model(robot);
         for (query, to) in [
             ("go_to(table)", "a place within"),
             ("go_to(mug_1)", "a place within"),
@@ -174,7 +175,7 @@ fn what_stands_in_the_only_doorway_is_the_culprit() {
         ] {
             // One far from the doorway, as near to the table, is of no matter.
             let scene = doorway(gap, &[("stool", [4.8, 1.5], 0.3), ("chair", [1.5, 0.0], 0.4)]);
-            let (why, help) = refused(&machine, &scene, query);
+            let (why, help) = refused(&model, &scene, query);
             assert_eq!(
                 why.reason,
                 InfeasibleReason::BlockedPath { by: Some("chair".into()) },
@@ -182,15 +183,12 @@ fn what_stands_in_the_only_doorway_is_the_culprit() {
             );
             let help = help.unwrap();
             assert!(help.starts_with(&format!("every way to {to}")), "{robot}, {query}: {help}");
-            assert!(
-                help.ends_with("is blocked by `chair`: take it out of the way"),
-                "{robot}, {query}: {help}"
-            );
+            assert!(help.ends_with("is blocked by `chair`: move it away"), "{robot}, {query}: {help}");
             // What never moves is told, and not asked away; the thing itself and the robot are never in the
             // way.
             let mut walled = doorway(gap, &[]);
             wall(&mut walled, "board", [1.5, 0.0, 1.0], [0.1, 2.0 * gap, 2.0]);
-            let (why, help) = refused(&machine, &walled, query);
+            let (why, help) = refused(&model, &walled, query);
             assert_eq!(help, None, "{robot}, {query}");
             let InfeasibleReason::BlockedPath { by: Some(by) } = why.reason else {
                 panic!("{robot}, {query}: {why:?}")
@@ -201,35 +199,35 @@ fn what_stands_in_the_only_doorway_is_the_culprit() {
 }
 
 #[test]
-fn two_things_in_a_row_have_to_go_both() {
-    let (machine, _) = machine("hsr");
+fn explain_names_two_obstacles_in_a_row() {
+    let (model, _) = model("hsr");
     let mut scene = doorway(0.5, &[("chair", [1.5, 0.0], 0.4), ("stool", [2.3, 0.0], 0.4)]);
     for (id, y) in [("inner_left", 0.6), ("inner_right", -0.6)] {
         wall(&mut scene, id, [1.9, y, 1.0], [0.9, 0.2, 2.0]);
     }
-    let (why, help) = refused(&machine, &scene, "go_to(table)");
+    let (why, help) = refused(&model, &scene, "go_to(table)");
     assert_eq!(why.reason, InfeasibleReason::BlockedPath { by: Some("chair".into()) });
-    assert!(help.unwrap().ends_with("is blocked by `chair` and `stool`: take them out of the way"));
+    assert!(help.unwrap().ends_with("is blocked by `chair` and `stool`: move them away"));
 }
 
 #[test]
-fn what_lies_too_flat_is_told_how_much_higher_it_would_do() {
-    let (machine, _) = machine("hsr");
+fn explain_suggests_a_lift_of_a_flat_object() {
+    let (model, _) = model("hsr");
     let scene = embedded("kitchen");
-    let (why, help) = refused(&machine, &scene, "reach(plate)");
+    let (why, help) = refused(&model, &scene, "reach(plate)");
     assert!(matches!(why.reason, InfeasibleReason::NoFreePose { share: Some(_), .. }));
     let help = help.unwrap();
     let up =
-        help.strip_prefix("with `plate` ").and_then(|rest| rest.strip_suffix(" m higher it can be done"));
+        help.strip_prefix("it is feasible with `plate` ").and_then(|rest| rest.strip_suffix(" m higher"));
     let up: f64 = up.unwrap().parse().unwrap();
     let mut higher = scene.clone();
     higher.entities["plate"].pose.as_mut().unwrap().xyz[2] += up;
-    assert!(matches!(asked(&machine, &higher, "reach(plate)").0, MotionAnswer::Feasible(_)));
+    assert!(matches!(asked(&model, &higher, "reach(plate)").0, MotionAnswer::Feasible(_)));
 }
 
 #[test]
-fn what_is_shut_in_is_let_out() {
-    let (machine, _) = machine("hsr");
+fn explain_suggests_to_open_the_container() {
+    let (model, _) = model("hsr");
     let shut = |is_open: bool| {
         changed(|scene| {
             let at = scene.entities["drawer_1"].pose.unwrap().xyz;
@@ -240,30 +238,30 @@ fn what_is_shut_in_is_let_out() {
         })
     };
     for query in ["reach(mug_1)", "look(mug_1)"] {
-        let (_, help) = refused(&machine, &shut(false), query);
-        assert_eq!(help.as_deref(), Some("open `drawer_1` before"), "{query}");
+        let (_, help) = refused(&model, &shut(false), query);
+        assert_eq!(help.as_deref(), Some("open `drawer_1` first"), "{query}");
     }
-    let (_, help) = asked(&machine, &shut(true), "reach(mug_1)");
+    let (_, help) = asked(&model, &shut(true), "reach(mug_1)");
     assert!(help.is_none_or(|help| !help.contains("open")));
 }
 
 #[test]
-fn what_is_hidden_is_seen_from_elsewhere() {
-    let (machine, _) = machine("hsr");
+fn explain_suggests_a_place_with_a_view() {
+    let (model, _) = model("hsr");
     let scene = changed(|scene| {
         wall(scene, "screen", [1.2, 0.0, 1.0], [0.1, 1.6, 2.0]);
         scene.entities["mug_1"].on = None;
         scene.entities["mug_1"].pose.as_mut().unwrap().xyz = [2.4, 0.0, 0.8];
         scene.entities.retain(|id, _| ["screen", "mug_1"].contains(&id.as_str()));
     });
-    let (why, help) = refused(&machine, &scene, "look(mug_1)");
+    let (why, help) = refused(&model, &scene, "look(mug_1)");
     assert_eq!(why.reason, InfeasibleReason::NotInView { by: Some("screen".into()), aside: None });
-    assert_eq!(help.as_deref(), Some("go to `mug_1` before"));
+    assert_eq!(help.as_deref(), Some("go to `mug_1` first"));
 }
 
 #[test]
-fn heights_are_told_of_every_motion_of_the_hand() {
-    let (machine, _) = machine("hsr");
+fn explain_reports_heights_for_every_hand_motion() {
+    let (model, _) = model("hsr");
     let high = |z: f64, held: bool| {
         changed(|scene| {
             scene.entities.retain(|id, _| ["mug_1", "shelf", "drawer_1"].contains(&id.as_str()));
@@ -285,8 +283,8 @@ fn heights_are_told_of_every_motion_of_the_hand() {
         ("put(mug_1, shelf)", "the top of `shelf`", true),
         ("pull(drawer_1)", "the handle of `drawer_1`", false),
     ] {
-        let (why, help) = refused(&machine, &high(2.4, held), query);
-        let InfeasibleReason::OutOfReach { what: "height", needs, reach } = why.reason else {
+        let (why, help) = refused(&model, &high(2.4, held), query);
+        let InfeasibleReason::OutOfReach { length: ReachLength::Height, needs, reach } = why.reason else {
             panic!("{query}: {why:?}")
         };
         let least = ((needs - reach) * 100.0).ceil() / 100.0;
@@ -294,22 +292,23 @@ fn heights_are_told_of_every_motion_of_the_hand() {
         assert!((needs - 2.4).abs() < 0.05, "{query}: {needs}");
         assert!(why.certified, "{query}");
         // Lower by so much, and a little for the way there, it is not too high.
-        let lower = asked(&machine, &high(2.4 - least, held), query).0;
+        let lower = asked(&model, &high(2.4 - least, held), query).0;
         assert!(
-            !matches!(&lower, MotionAnswer::Infeasible(why) if matches!(why.reason, InfeasibleReason::OutOfReach { .. })),
+            !matches!(&lower, MotionAnswer::Infeasible(why) if matches!(why.reason,
+                InfeasibleReason::OutOfReach { .. })),
             "{query}: {lower:?}"
         );
     }
 }
 
 #[test]
-fn the_robot_in_its_own_way_is_told_with_its_links() {
-    let (machine, _) = machine("hsr");
+fn explain_names_the_links_of_a_self_collision() {
+    let (model, _) = model("hsr");
     // With the arm as at home the wrist is beside the head.
     let mut scene = aside(2.0, 90.0);
     scene.robot.joints.clear();
-    let (why, help) = refused(&machine, &scene, "look(mug_1)");
-    let told = "the robot itself (`head_tilt_link` and `wrist_roll_link`) blocks the way";
+    let (why, help) = refused(&model, &scene, "look(mug_1)");
+    let told = "the robot itself (`head_tilt_link` and `wrist_roll_link`) blocks the path";
     assert_eq!(why.reason.to_string(), told);
-    assert_eq!(help.as_deref(), Some("bring the arm into the posture `start` before"));
+    assert_eq!(help.as_deref(), Some("move the arm to the posture `start` first"));
 }

@@ -1,16 +1,5 @@
 //! Motion queries: what is feasible holds under an independent check, and what is infeasible says why.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::unreachable,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    clippy::print_stderr,
-    missing_docs,
-    reason = "a test fails by panicking"
-)]
-
 mod help;
 mod narrow;
 mod opening;
@@ -20,14 +9,26 @@ use std::collections::BTreeMap;
 
 use motet_geometry::planning::{
     AllowedCollisions, Configuration, ContactShare, GraspSide, InfeasibleReason, MotionAnswer, MotionQuery,
-    QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason,
+    QueryContext, ReachLength, RobotModel, SceneState, SearchBudget, UnknownReason,
 };
 use motet_robots::builtin::{self, BuiltinRobot, ROBOTS, RobotWithBody};
 use motet_robots::scene::{self, Placement, Scene};
 use motet_robots::urdf::Urdf;
+use motet_syntax::ast::ExprKind;
+use motet_syntax::print;
+use motet_syntax::text::parse_condition;
 use proptest::prelude::*;
 
-fn machine(name: &str) -> (RobotModel, Urdf) {
+/// A query as its display shows it, such as `reach(mug_1, top)`.
+fn motion_query(text: &str) -> MotionQuery {
+    let ExprKind::Call(call) = parse_condition(text).unwrap().kind else { panic!("{text}") };
+    let names: Vec<_> = call.args.iter().map(|arg| print::expression(&arg.value)).collect();
+    let side = names.get(1).and_then(|name| GraspSide::from_name(name));
+    let ids = names.iter().take(names.len() - usize::from(side.is_some()));
+    MotionQuery::from_call(&call.name.text, ids, side).unwrap()
+}
+
+fn model(name: &str) -> (RobotModel, Urdf) {
     let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
     (RobotModel::new(&robot, &urdf), urdf)
 }
@@ -37,32 +38,36 @@ fn embedded(name: &str) -> Scene {
 }
 
 #[test]
-fn postures_are_free_of_the_robot_itself_and_of_the_floor() {
+fn postures_have_no_contact() {
     for BuiltinRobot { name, .. } in ROBOTS {
-        let (machine, _) = machine(name);
-        assert!(machine.body().uncovered_links().is_empty());
+        let (model, _) = model(name);
+        assert!(model.body().uncovered_links().is_empty());
         let scene = Scene::default();
-        let mut world = SceneState::new(&machine, &scene);
-        for posture in machine.card().postures.keys() {
-            world.robot.joints = machine.posture(posture, machine.rest()).unwrap();
-            let room = QueryContext::new(&machine, &scene, &world);
-            assert_eq!(room.contact(&world.robot, AllowedCollisions::default()), None, "{name}, {posture}");
+        let mut state = SceneState::new(&model, &scene);
+        for posture in model.card().postures.keys() {
+            state.robot.joints = model.posture(posture, model.rest()).unwrap();
+            let context = QueryContext::new(&model, &scene, &state);
+            assert_eq!(
+                context.contact(&state.robot, AllowedCollisions::default()),
+                None,
+                "{name}, {posture}"
+            );
         }
     }
 }
 
-/// Asks for every entity of a scene; what is feasible has to hold. The answers, by query.
+/// Answers for every entity of a scene, by query; each feasible one is verified.
 fn all(robot: &str, scene: &str) -> BTreeMap<String, MotionAnswer> {
-    let ((machine, urdf), scene) = (machine(robot), embedded(scene));
-    let world = SceneState::new(&machine, &scene);
-    let room = QueryContext::new(&machine, &scene, &world);
+    let ((model, urdf), scene) = (model(robot), embedded(scene));
+    let state = SceneState::new(&model, &scene);
+    let context = QueryContext::new(&model, &scene, &state);
     let mut answers = BTreeMap::new();
     for (id, entity) in &scene.entities {
         let reach = (entity.kind == "Object").then(|| MotionQuery::Reach(id.clone(), None));
         for query in [MotionQuery::GoTo(id.clone())].into_iter().chain(reach) {
-            let answer = room.answer(&query, SearchBudget { candidates: 128, ..SearchBudget::default() });
+            let answer = context.answer(&query, SearchBudget { candidates: 128, ..SearchBudget::default() });
             if let MotionAnswer::Feasible(witness) = &answer {
-                let faults = verify::faults(&machine, &urdf, &scene, &world, witness, None);
+                let faults = verify::faults(&model, &urdf, &scene, &state, witness, None);
                 assert!(faults.is_empty(), "{robot}, {query}: {:?}", &faults[..faults.len().min(5)]);
             }
             answers.insert(query.to_string(), answer);
@@ -72,7 +77,7 @@ fn all(robot: &str, scene: &str) -> BTreeMap<String, MotionAnswer> {
 }
 
 #[test]
-fn the_hsr_in_the_kitchen() {
+fn reach_and_go_to_of_the_hsr_in_the_kitchen() {
     let answers = all("hsr", "kitchen");
     let is_feasible = |query: &str| matches!(answers[query], MotionAnswer::Feasible(_));
     for object in ["mug_1", "apple", "glass_1", "mug_2", "bottle", "coke"] {
@@ -96,27 +101,30 @@ fn the_hsr_in_the_kitchen() {
 }
 
 #[test]
-fn the_panda_at_the_workbench() {
-    let (machine, urdf) = machine("panda");
+fn reach_of_the_panda_at_the_workbench() {
+    let (model, urdf) = model("panda");
     let mut scene = embedded("lab");
     scene.robot.base = [1.45, 0.8, 0.0];
-    let world = SceneState::new(&machine, &scene);
-    let room = QueryContext::new(&machine, &scene, &world);
+    let state = SceneState::new(&model, &scene);
+    let context = QueryContext::new(&model, &scene, &state);
     let MotionAnswer::Feasible(witness) =
-        room.answer(&MotionQuery::Reach("beaker".into(), None), SearchBudget::default())
+        context.answer(&MotionQuery::Reach("beaker".into(), None), SearchBudget::default())
     else {
         panic!("the beaker")
     };
-    let faults = verify::faults(&machine, &urdf, &scene, &world, &witness, None);
+    let faults = verify::faults(&model, &urdf, &scene, &state, &witness, None);
     assert!(faults.is_empty(), "{:?}", &faults[..faults.len().min(5)]);
     // It stands on another bench.
     let (why, certified) =
-        reason(room.answer(&MotionQuery::Reach("sample".into(), None), SearchBudget::default()));
-    assert!(matches!(why, InfeasibleReason::OutOfReach { what: "distance", .. }) && certified, "{why:?}");
+        reason(context.answer(&MotionQuery::Reach("sample".into(), None), SearchBudget::default()));
+    assert!(
+        matches!(why, InfeasibleReason::OutOfReach { length: ReachLength::Distance, .. }) && certified,
+        "{why:?}"
+    );
 }
 
 #[test]
-fn the_anymal_in_the_living_room() {
+fn reach_and_go_to_of_the_anymal_in_the_living_room() {
     let answers = all("anymal_z1", "living_room");
     let mut drives = answers.iter().filter(|(query, _)| query.starts_with("go_to"));
     assert!(drives.all(|(_, answer)| matches!(answer, MotionAnswer::Feasible(_))));
@@ -132,12 +140,12 @@ fn changed(change: impl FnOnce(&mut Scene)) -> Scene {
 }
 
 fn ask(scene: &Scene, query: &str) -> MotionAnswer {
-    let (machine, _) = machine("hsr");
-    let world = SceneState::new(&machine, scene);
-    let room = QueryContext::new(&machine, scene, &world);
-    let query = MotionQuery::parse(query).unwrap();
-    let answer = room.answer(&query, SearchBudget::default());
-    assert_eq!(room.answer(&query, SearchBudget::default()), answer);
+    let (model, _) = model("hsr");
+    let state = SceneState::new(&model, scene);
+    let context = QueryContext::new(&model, scene, &state);
+    let query = motion_query(query);
+    let answer = context.answer(&query, SearchBudget::default());
+    assert_eq!(context.answer(&query, SearchBudget::default()), answer);
     answer
 }
 
@@ -146,13 +154,13 @@ fn reason(answer: MotionAnswer) -> (InfeasibleReason, bool) {
     (why.reason, why.certified)
 }
 
-/// What states touch that are looked at together is what each touches alone, if not the same.
+/// A batch finds a contact exactly where a single check does, if not the same one.
 #[test]
-fn states_are_looked_at_together_as_one_by_one() {
-    let ((machine, _), scene) = (machine("hsr"), embedded("kitchen"));
-    let world = SceneState::new(&machine, &scene);
-    let room = QueryContext::new(&machine, &scene, &world);
-    let dofs = machine.tree().dofs();
+fn contacts_of_a_batch_equal_single_contacts() {
+    let ((model, _), scene) = (model("hsr"), embedded("kitchen"));
+    let state = SceneState::new(&model, &scene);
+    let context = QueryContext::new(&model, &scene, &state);
+    let dofs = model.tree().dofs();
     let states: Vec<Configuration> = (0..203)
         .map(|at| {
             let turn = f64::from(at) * 2.4;
@@ -160,15 +168,15 @@ fn states_are_looked_at_together_as_one_by_one() {
             Configuration { base, joints: motet_geometry::kinematics::quasi_random(dofs, at as usize) }
         })
         .collect();
-    let together = room.contacts(&states, AllowedCollisions::default());
+    let together = context.contacts(&states, AllowedCollisions::default());
     let alone: Vec<bool> =
-        states.iter().map(|state| room.contact(state, AllowedCollisions::default()).is_some()).collect();
+        states.iter().map(|state| context.contact(state, AllowedCollisions::default()).is_some()).collect();
     assert_eq!(together.iter().map(Option::is_some).collect::<Vec<_>>(), alone);
     assert!(alone.contains(&true) && alone.contains(&false));
 }
 
 #[test]
-fn what_is_infeasible_says_why() {
+fn infeasible_answers_give_the_reason() {
     let heavy = changed(|scene| scene.entities["mug_1"].mass_kg = Some(2.0));
     assert_eq!(
         reason(ask(&heavy, "reach(mug_1)")),
@@ -183,7 +191,8 @@ fn what_is_infeasible_says_why() {
     let high = changed(|scene| scene.entities["apple"].pose.as_mut().unwrap().xyz[2] = 2.5);
     let (why, certified) = reason(ask(&high, "reach(apple)"));
     assert!(
-        matches!(why, InfeasibleReason::OutOfReach { what: "height", needs: 2.5, .. }) && certified,
+        matches!(why, InfeasibleReason::OutOfReach { length: ReachLength::Height, needs: 2.5, .. })
+            && certified,
         "{why:?}"
     );
     // A wall around the robot, higher than it.
@@ -204,7 +213,7 @@ fn what_is_infeasible_says_why() {
 }
 
 #[test]
-fn what_is_not_computed_is_unknown() {
+fn unknown_answers_give_the_reason() {
     // Nothing is in the hand yet.
     for query in ["push(drawer_1)", "put(mug_1, sink)", "offer(mug_1, user)", "posture(nowhere)"] {
         let answer = ask(&embedded("kitchen"), query);
@@ -213,8 +222,8 @@ fn what_is_not_computed_is_unknown() {
 }
 
 #[test]
-fn an_ordinary_surface_takes_a_thing_from_wherever_the_robot_stands() {
-    let (machine, urdf) = machine("hsr");
+fn put_on_a_surface_is_feasible_from_anywhere() {
+    let (model, urdf) = model("hsr");
     let bases = [[0.0, 0.0, 0.0], [0.5, -1.2, 0.0], [0.0, -1.0, 0.0]];
     let places = ["counter", "kitchen_table", "sink", "shelf", "trash"];
     for (base, on) in bases.into_iter().flat_map(|base| places.map(|on| (base, on))) {
@@ -223,42 +232,42 @@ fn an_ordinary_surface_takes_a_thing_from_wherever_the_robot_stands() {
             scene.robot.holding = Some(Some("mug_1".into()));
             scene.entities["mug_1"].on = None;
         });
-        let world = SceneState::new(&machine, &scene);
-        let room = QueryContext::new(&machine, &scene, &world);
+        let state = SceneState::new(&model, &scene);
+        let context = QueryContext::new(&model, &scene, &state);
         let query = MotionQuery::Put("mug_1".into(), on.into());
-        let MotionAnswer::Feasible(witness) = room.answer(&query, SearchBudget::default()) else {
+        let MotionAnswer::Feasible(witness) = context.answer(&query, SearchBudget::default()) else {
             panic!("{base:?}, {query}")
         };
-        let faults = verify::faults(&machine, &urdf, &scene, &world, &witness, Some(on));
+        let faults = verify::faults(&model, &urdf, &scene, &state, &witness, Some(on));
         assert!(faults.is_empty(), "{base:?}, {query}: {:?}", &faults[..faults.len().min(5)]);
     }
 }
 
 #[test]
-fn what_is_taken_is_put_held_out_and_looked_at() {
-    let ((machine, urdf), scene) = (machine("hsr"), embedded("kitchen"));
-    let answer = |world: &SceneState, query: MotionQuery, support: Option<&str>| {
-        let room = QueryContext::new(&machine, &scene, world);
-        let MotionAnswer::Feasible(witness) = room.answer(&query, SearchBudget::default()) else {
+fn put_offer_and_look_follow_a_reach() {
+    let ((model, urdf), scene) = (model("hsr"), embedded("kitchen"));
+    let answer = |state: &SceneState, query: MotionQuery, support: Option<&str>| {
+        let context = QueryContext::new(&model, &scene, state);
+        let MotionAnswer::Feasible(witness) = context.answer(&query, SearchBudget::default()) else {
             panic!("{query}")
         };
-        let faults = verify::faults(&machine, &urdf, &scene, world, &witness, support);
+        let faults = verify::faults(&model, &urdf, &scene, state, &witness, support);
         assert!(faults.is_empty(), "{query}: {:?}", &faults[..faults.len().min(5)]);
         witness
     };
-    let gone = |world: &SceneState, to: &str| {
-        let witness = answer(world, MotionQuery::GoTo(to.into()), None);
-        QueryContext::new(&machine, &scene, world).after_move(&witness)
+    let gone = |state: &SceneState, to: &str| {
+        let witness = answer(state, MotionQuery::GoTo(to.into()), None);
+        QueryContext::new(&model, &scene, state).after_move(&witness)
     };
-    let at_table = gone(&SceneState::new(&machine, &scene), "kitchen_table");
+    let at_table = gone(&SceneState::new(&model, &scene), "kitchen_table");
     answer(&at_table, MotionQuery::Look("mug_1".into()), None);
     let reached = answer(&at_table, MotionQuery::Reach("mug_1".into(), None), None);
-    let taken = QueryContext::new(&machine, &scene, &at_table).after_reach(&reached).unwrap();
+    let taken = QueryContext::new(&model, &scene, &at_table).after_reach(&reached).unwrap();
     assert!(taken.holds("mug_1") && taken.robot.base == at_table.robot.base);
     for on in ["sink", "trash"] {
         let there = gone(&taken, on);
         let put = answer(&there, MotionQuery::Put("mug_1".into(), on.into()), Some(on));
-        let after = QueryContext::new(&machine, &scene, &there).after_put(&put).unwrap();
+        let after = QueryContext::new(&model, &scene, &there).after_put(&put).unwrap();
         assert!(after.held.is_none());
         // It stands on it, its middle within its outline.
         let (mug, support) = (after.moved["mug_1"].translation, scene.entities[on].pose.unwrap().xyz);
@@ -267,13 +276,13 @@ fn what_is_taken_is_put_held_out_and_looked_at() {
     let at_user = gone(&taken, "user");
     let offered = answer(&at_user, MotionQuery::Offer("mug_1".into(), "user".into()), None);
     assert!(offered.path.iter().all(|state| state.base == at_user.robot.base));
-    let given = QueryContext::new(&machine, &scene, &at_user).after_offer("user").unwrap();
+    let given = QueryContext::new(&model, &scene, &at_user).after_offer("user").unwrap();
     assert!(given.held.is_none());
     // What is closed takes nothing, and hides what is in it.
     let at_drawer = gone(&taken, "drawer_1");
-    let room = QueryContext::new(&machine, &scene, &at_drawer);
+    let context = QueryContext::new(&model, &scene, &at_drawer);
     let (why, certified) =
-        reason(room.answer(&MotionQuery::Put("mug_1".into(), "drawer_1".into()), SearchBudget::default()));
+        reason(context.answer(&MotionQuery::Put("mug_1".into(), "drawer_1".into()), SearchBudget::default()));
     assert_eq!(
         (why, certified),
         (InfeasibleReason::NoFreePose { by: Some("drawer_1".into()), share: None }, true)
@@ -281,7 +290,7 @@ fn what_is_taken_is_put_held_out_and_looked_at() {
 }
 
 #[test]
-fn what_stands_behind_something_is_not_in_view() {
+fn look_reports_what_hides_the_target() {
     let hidden = changed(|scene| {
         let shelf = scene.entities["shelf"].pose.unwrap().xyz;
         let mug = scene.entities["mug_1"].pose.as_mut().unwrap();
@@ -291,11 +300,14 @@ fn what_stands_behind_something_is_not_in_view() {
     let (why, _) = reason(ask(&hidden, "look(mug_1)"));
     assert_eq!(why, InfeasibleReason::NotInView { by: Some("shelf".into()), aside: None });
     let far = changed(|scene| scene.entities["mug_1"].pose.as_mut().unwrap().xyz = [9.0, 0.0, 0.8]);
-    assert!(matches!(reason(ask(&far, "look(mug_1)")).0, InfeasibleReason::OutOfReach { what: "sight", .. }));
+    assert!(matches!(
+        reason(ask(&far, "look(mug_1)")).0,
+        InfeasibleReason::OutOfReach { length: ReachLength::Sight, .. }
+    ));
 }
 
 #[test]
-fn a_side_that_is_asked_for_is_kept_to() {
+fn reach_keeps_to_the_given_side() {
     for (side, wanted) in [("top", GraspSide::Top), ("side", GraspSide::Side), ("front", GraspSide::Side)] {
         let MotionAnswer::Feasible(witness) = ask(&embedded("kitchen"), &format!("reach(mug_1, {side})"))
         else {
@@ -306,10 +318,10 @@ fn a_side_that_is_asked_for_is_kept_to() {
 }
 
 #[test]
-fn postures_are_reached() {
+fn posture_is_feasible() {
     let MotionAnswer::Feasible(witness) = ask(&embedded("kitchen"), "posture(start)") else { panic!() };
-    let (machine, _) = machine("hsr");
-    assert_eq!(witness.path.last().unwrap().joints, machine.posture("start", machine.rest()).unwrap());
+    let (model, _) = model("hsr");
+    assert_eq!(witness.path.last().unwrap().joints, model.posture("start", model.rest()).unwrap());
 }
 
 fn furniture() -> impl Strategy<Value = Vec<(f64, f64, f64, [f64; 3], bool)>> {
@@ -322,8 +334,8 @@ proptest! {
 
     /// Furniture at random, a can on each piece: what is feasible passes the independent check.
     #[test]
-    fn feasible_is_feasible(furniture in furniture()) {
-        let (machine, urdf) = machine("hsr");
+    fn feasible_answers_pass_the_independent_check(furniture in furniture()) {
+        let (model, urdf) = model("hsr");
         let mut scene = Scene::default();
         let kitchen = embedded("kitchen");
         for ((x, y, yaw, size, has_can), at) in furniture.into_iter().zip(0..) {
@@ -343,16 +355,16 @@ proptest! {
                 scene.entities.insert(can.id.clone(), can);
             }
         }
-        let world = SceneState::new(&machine, &scene);
-        let room = QueryContext::new(&machine, &scene, &world);
+        let state = SceneState::new(&model, &scene);
+        let context = QueryContext::new(&model, &scene, &state);
         for id in scene.entities.keys() {
             for query in [MotionQuery::GoTo(id.clone()), MotionQuery::Reach(id.clone(), None)] {
                 if id.starts_with("table") && matches!(query, MotionQuery::Reach(..)) {
                     continue;
                 }
-                let answer = room.answer(&query, SearchBudget { candidates: 64, paths: 16, cells: 4_096 });
+                let answer = context.answer(&query, SearchBudget { candidates: 64, paths: 16, cells: 4_096 });
                 if let MotionAnswer::Feasible(witness) = &answer {
-                    let faults = verify::faults(&machine, &urdf, &scene, &world, witness, None);
+                    let faults = verify::faults(&model, &urdf, &scene, &state, witness, None);
                     prop_assert!(faults.is_empty(), "{query}: {:?}", &faults[..faults.len().min(5)]);
                 }
             }
@@ -360,9 +372,9 @@ proptest! {
     }
 }
 
-/// What is held can be put on an empty face wherever the robot gets at any part of it.
+/// The held object can be put on an empty face if the robot reaches any part of it.
 #[test]
-fn a_face_has_places_all_over() {
+fn put_uses_the_whole_face() {
     for y in [-2.2, -1.6, -1.1] {
         let scene = changed(|scene| {
             scene.entities.retain(|id, _| id == "mug_1" || id == "counter");
@@ -378,7 +390,7 @@ fn a_face_has_places_all_over() {
 }
 
 #[test]
-fn a_help_is_no_more_than_is_known() {
+fn suggested_change_is_no_larger_than_known() {
     let at = |height: f64| {
         let scene = changed(|scene| {
             scene.entities.retain(|id, _| id == "mug_1");
@@ -401,7 +413,7 @@ fn a_help_is_no_more_than_is_known() {
         assert_eq!(change.is_some(), needs - (needs - reach) > 0.0, "{change:?}");
     }
     let told = |share| InfeasibleReason::NoFreePose { by: Some("wall".into()), share }.to_string();
-    assert_eq!(told(None), "no pose of the robot is free, and most often `wall` is in the way");
+    assert_eq!(told(None), "every candidate configuration collides, most often with `wall`");
     let share = ContactShare { touching: 3, tried: 4 };
-    assert!(told(Some(share)).ends_with("most often `wall` is in the way (3 of 4 that were tried)"));
+    assert!(told(Some(share)).ends_with("most often with `wall` (3 of 4 samples)"));
 }

@@ -3,7 +3,7 @@
 use motet_geometry::planning::{MotionAnswer, MotionQuery, QueryContext, SceneState, SearchBudget};
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 
-use super::{machine, verify};
+use super::{model, verify};
 
 /// A scene of boxes, each with its middle, and one thing.
 fn scene(boxes: &[(&str, [f64; 3], [f64; 3])], at: [f64; 3], shape: EntityShape) -> Scene {
@@ -19,27 +19,27 @@ fn scene(boxes: &[(&str, [f64; 3], [f64; 3])], at: [f64; 3], shape: EntityShape)
 
 /// Asks a robot to reach the thing, which has to be feasible, and the witness to hold.
 fn reached(robot: &str, scene: &Scene) {
-    let (machine, urdf) = machine(robot);
-    let world = SceneState::new(&machine, scene);
-    let room = QueryContext::new(&machine, scene, &world);
+    let (model, urdf) = model(robot);
+    let state = SceneState::new(&model, scene);
+    let context = QueryContext::new(&model, scene, &state);
     let query = MotionQuery::Reach("thing".into(), None);
-    let answer = room.answer(&query, SearchBudget::default());
+    let answer = context.answer(&query, SearchBudget::default());
     let MotionAnswer::Feasible(witness) = &answer else { panic!("{answer:?}") };
-    let faults = verify::faults(&machine, &urdf, scene, &world, witness, None);
+    let faults = verify::faults(&model, &urdf, scene, &state, witness, None);
     assert!(faults.is_empty(), "{:?}", &faults[..faults.len().min(5)]);
-    assert_eq!(room.answer(&query, SearchBudget::default()), answer);
+    assert_eq!(context.answer(&query, SearchBudget::default()), answer);
 }
 
-/// Where the lift goes no higher than the head, the hand slides over a thing from beside it.
+/// At the greatest height of the lift the hand slides over the object from beside it.
 #[test]
-fn what_is_as_high_as_the_hand_comes_is_gripped_from_above() {
+fn reach_grasps_from_above_at_the_greatest_height() {
     let table = ("table", [1.6, 0.0, 0.42], [0.8, 0.8, 0.84]);
     reached("hsr", &scene(&[table], [1.45, 0.0, 0.856], EntityShape::Box([0.05, 0.09, 0.03])));
 }
 
 /// Base and arm move together until the hand is out of the box.
 #[test]
-fn what_lies_in_a_box_as_high_as_the_hand_comes_is_gripped() {
+fn reach_grasps_from_a_box_at_the_greatest_height() {
     let walls = [
         ("table", [1.6, 0.0, 0.34], [0.8, 0.8, 0.68]),
         ("front", [1.25, 0.0, 0.76], [0.01, 0.5, 0.16]),
@@ -52,7 +52,7 @@ fn what_lies_in_a_box_as_high_as_the_hand_comes_is_gripped() {
 
 /// Taken for a disc, the robot does not fit between the walls, at the far end of which the thing stands.
 #[test]
-fn between_walls_a_robot_fits_that_is_longer_than_wide() {
+fn go_to_leads_a_long_robot_between_walls() {
     let walls = [
         ("left", [2.0, 0.5, 0.6], [1.6, 0.1, 1.2]),
         ("right", [2.0, -0.5, 0.6], [1.6, 0.1, 1.2]),

@@ -9,26 +9,26 @@ use motet_geometry::planning::{
 use motet_robots::builtin::{BuiltinScene, SCENES};
 use motet_robots::scene;
 
-use super::{embedded, machine, verify};
+use super::{embedded, model, verify};
 
-/// A solid with less room to each side, in m.
+/// A solid smaller by this on each side, in m.
 fn smaller(solid: &Solid, less: f64) -> Solid {
     let Shape::Box(half) = solid.shape else { return *solid };
     Solid { shape: Shape::Box(half.map(|half| (half - less).max(half * 0.1))), ..*solid }
 }
 
 #[test]
-fn doors_and_drawers_of_the_rooms_open_into_the_open() {
-    let (machine, _) = machine("hsr");
+fn articulations_of_builtin_scenes_open_freely() {
+    let (model, _) = model("hsr");
     let mut count = 0;
-    for BuiltinScene { name: room, .. } in SCENES {
-        let scene = embedded(room);
-        let world = SceneState::new(&machine, &scene);
+    for BuiltinScene { name, .. } in SCENES {
+        let scene = embedded(name);
+        let state = SceneState::new(&model, &scene);
         for (id, entity) in scene.entities.iter().filter(|(_, entity)| entity.travel.is_some()) {
-            let opening = Articulation::new(entity, &world).unwrap();
-            let mut closed = world.clone();
+            let opening = Articulation::new(entity, &state).unwrap();
+            let mut closed = state.clone();
             closed.open.insert(id.clone(), false);
-            let around = QueryContext::new(&machine, &scene, &closed);
+            let around = QueryContext::new(&model, &scene, &closed);
             count += 1;
             for step in 0..=32 {
                 for moving in opening.moving(f64::from(step) / 32.0).iter().map(|it| smaller(it, 0.004)) {
@@ -43,7 +43,7 @@ fn doors_and_drawers_of_the_rooms_open_into_the_open() {
                         }
                         assert!(
                             moving.is_farther(&solid, 0.0),
-                            "{room}: `{id}` runs into `{other}` at {step}/32"
+                            "{name}: `{id}` runs into `{other}` at {step}/32"
                         );
                     }
                 }
@@ -54,36 +54,36 @@ fn doors_and_drawers_of_the_rooms_open_into_the_open() {
 }
 
 /// Opens, or closes, what a room has from in front of it; what is feasible has to hold. The answers.
-fn at_each(robot: &str, room: &str) -> BTreeMap<String, MotionAnswer> {
-    let ((machine, urdf), scene) = (machine(robot), embedded(room));
+fn at_each(robot: &str, name: &str) -> BTreeMap<String, MotionAnswer> {
+    let ((model, urdf), scene) = (model(robot), embedded(name));
     let mut answers = BTreeMap::new();
     for (id, entity) in scene.entities.iter().filter(|(_, entity)| entity.travel.is_some()) {
-        let start = SceneState::new(&machine, &scene);
-        let before = QueryContext::new(&machine, &scene, &start);
+        let start = SceneState::new(&model, &scene);
+        let before = QueryContext::new(&model, &scene, &start);
         let MotionAnswer::Feasible(way) =
             before.answer(&MotionQuery::GoTo(id.clone()), SearchBudget::default())
         else {
             panic!("{robot} does not come to `{id}`")
         };
-        let mut world = before.after_move(&way);
-        let is_open = world.is_open(entity);
+        let mut state = before.after_move(&way);
+        let is_open = state.is_open(entity);
         let [first, second] = if is_open {
             [MotionQuery::Push, MotionQuery::Pull]
         } else {
             [MotionQuery::Pull, MotionQuery::Push]
         };
         for query in [first(id.clone()), second(id.clone())] {
-            let around = QueryContext::new(&machine, &scene, &world);
+            let around = QueryContext::new(&model, &scene, &state);
             let answer = around.answer(&query, SearchBudget::default());
             let mut after = None;
             if let MotionAnswer::Feasible(witness) = &answer {
-                let faults = verify::faults_of_pull(&machine, &urdf, &scene, &world, witness);
+                let faults = verify::faults_of_pull(&model, &urdf, &scene, &state, witness);
                 assert!(faults.is_empty(), "{robot}, {query}: {:?}", &faults[..faults.len().min(5)]);
                 after = around.after_pull(witness);
             }
             answers.insert(query.to_string(), answer);
             let Some(next) = after else { break };
-            world = next;
+            state = next;
         }
     }
     answers
@@ -98,9 +98,9 @@ fn is_feasible(answers: &BTreeMap<String, MotionAnswer>, query: &str) {
 }
 
 #[test]
-fn the_hsr_opens_and_closes_what_there_is() {
-    for room in ["kitchen", "lab", "living_room"] {
-        let answers = at_each("hsr", room);
+fn pull_and_push_of_the_hsr_open_and_close_containers() {
+    for name in ["kitchen", "lab", "living_room"] {
+        let answers = at_each("hsr", name);
         for query in answers.keys() {
             is_feasible(&answers, query);
         }
@@ -109,7 +109,7 @@ fn the_hsr_opens_and_closes_what_there_is() {
 }
 
 #[test]
-fn the_anymal_opens_what_there_is_room_for() {
+fn pull_of_the_anymal_opens_containers_with_room() {
     let answers = at_each("anymal_z1", "kitchen");
     for query in ["pull(fridge_1)", "pull(drawer_1)", "push(drawer_1)"] {
         is_feasible(&answers, query);
@@ -118,16 +118,16 @@ fn the_anymal_opens_what_there_is_room_for() {
 }
 
 #[test]
-fn what_stands_before_a_drawer_stops_it() {
-    let ((machine, _), mut scene) = (machine("hsr"), embedded("kitchen"));
+fn pull_is_stopped_by_an_obstacle_before_the_drawer() {
+    let ((model, _), mut scene) = (model("hsr"), embedded("kitchen"));
     let mut chair = scene.entities["trash"].clone();
     chair.id = "chair".into();
     chair.pose.as_mut().unwrap().xyz = [2.8, -1.7, 0.4];
     chair.shape = Some(scene::EntityShape::Cylinder { radius: 0.2, height: 0.8 });
     scene.entities.insert(chair.id.clone(), chair);
-    let world = SceneState::new(&machine, &scene);
-    let room = QueryContext::new(&machine, &scene, &world);
-    let answer = room.answer(&MotionQuery::Pull("drawer_1".into()), SearchBudget::default());
+    let state = SceneState::new(&model, &scene);
+    let context = QueryContext::new(&model, &scene, &state);
+    let answer = context.answer(&MotionQuery::Pull("drawer_1".into()), SearchBudget::default());
     let MotionAnswer::Infeasible(why) = answer else { panic!("{answer:?}") };
     assert_eq!(
         (why.reason, why.certified),
@@ -136,20 +136,20 @@ fn what_stands_before_a_drawer_stops_it() {
 }
 
 #[test]
-fn a_thing_is_pushed_away() {
-    let ((machine, urdf), scene) = (machine("hsr"), embedded("kitchen"));
-    let world = SceneState::new(&machine, &scene);
-    let room = QueryContext::new(&machine, &scene, &world);
-    let answer = room.answer(&MotionQuery::Push("mug_1".into()), SearchBudget::default());
+fn push_moves_an_object_away() {
+    let ((model, urdf), scene) = (model("hsr"), embedded("kitchen"));
+    let state = SceneState::new(&model, &scene);
+    let context = QueryContext::new(&model, &scene, &state);
+    let answer = context.answer(&MotionQuery::Push("mug_1".into()), SearchBudget::default());
     let MotionAnswer::Feasible(witness) = &answer else { panic!("{answer:?}") };
-    let faults = verify::faults(&machine, &urdf, &scene, &world, witness, None);
+    let faults = verify::faults(&model, &urdf, &scene, &state, witness, None);
     assert!(faults.is_empty(), "{:?}", &faults[..faults.len().min(5)]);
 }
 
 /// Posts in each direction that is tried leave room between them; a wall leaves none.
 #[test]
-fn a_thing_is_shut_in_only_where_it_is_in_all_directions() {
-    let (machine, _) = machine("hsr");
+fn push_is_infeasible_only_if_blocked_on_all_sides() {
+    let (model, _) = model("hsr");
     let add = |scene: &mut scene::Scene, id: &str, xyz: [f64; 3], shape: scene::EntityShape| {
         let mut entity = scene::Entity::place(id.into(), scene::Placement { xyz, rpy: [0.0; 3] });
         entity.kind = if id == "puck" { "Object".into() } else { "Place".into() };
@@ -169,8 +169,8 @@ fn a_thing_is_shut_in_only_where_it_is_in_all_directions() {
     }
     add(&mut wall, "wall", [1.16, 0.0, 0.5], scene::EntityShape::Box([0.2, 2.0, 1.0]));
     for (scene, is_proven) in [(posts, false), (wall, true)] {
-        let world = SceneState::new(&machine, &scene);
-        let answer = QueryContext::new(&machine, &scene, &world)
+        let state = SceneState::new(&model, &scene);
+        let answer = QueryContext::new(&model, &scene, &state)
             .answer(&MotionQuery::Push("puck".into()), SearchBudget::default());
         let MotionAnswer::Infeasible(why) = answer else { panic!("{answer:?}") };
         assert!(matches!(why.reason, InfeasibleReason::BlockedPath { .. }), "{:?}", why.reason);

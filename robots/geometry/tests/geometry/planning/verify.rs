@@ -1,8 +1,6 @@
 //! An independent check of a witness: own forward kinematics from the URDF's joints, own placing of its
-//! shapes, distances
-//! from parry3d, and samples along every leg no farther than 5 mm and 0.6° apart. Shared with the query are
-//! the reader of
-//! the URDF and which links may touch.
+//! shapes, distances from parry3d, and samples along every leg no farther than 5 mm and 0.6° apart. Shared
+//! with the query are the reader of the URDF and which links may touch.
 
 use std::collections::BTreeSet;
 
@@ -106,9 +104,8 @@ fn distance(one: &Solid, other: &Solid) -> f64 {
         .distance
 }
 
-/// What is wrong with a witness; nothing where it holds. Containers have to be closed. What is held may
-/// touch `support` from
-/// where it is lowered onto it.
+/// Faults of a witness; none where it holds. Containers have to be closed. The held object may touch `support`
+/// from where it is lowered onto it.
 pub(crate) fn faults(
     machine: &RobotModel,
     urdf: &Urdf,
@@ -134,9 +131,8 @@ pub(crate) fn faults(
     faults
 }
 
-/// What is wrong with a witness of `pull` or `push`. From the way-point at which the hand is around the
-/// handle, the container
-/// opens evenly, leg by leg; how it looks at each part of its way is shared with the query.
+/// Faults of a witness of `pull` or `push`. From the way-point at which the hand is around the handle, the
+/// container opens evenly, leg by leg; its solids at each part of the travel come from the code under test.
 pub(crate) fn faults_of_pull(
     machine: &RobotModel,
     urdf: &Urdf,
@@ -191,7 +187,7 @@ pub(crate) fn faults_of_pull(
     faults
 }
 
-/// What stands around, closed, but for one.
+/// Solids of all entities, closed, except one.
 fn closed<'s>(scene: &'s Scene, world: &SceneState, but: Option<&str>) -> Vec<(&'s str, Solid)> {
     let others = scene.entities.values().filter(|entity| !world.holds(&entity.id) && but != Some(&entity.id));
     let placed = others.filter_map(|entity| {
@@ -208,9 +204,8 @@ fn of_box(solid: &motet_geometry::collision::Solid) -> Solid {
     (pose, Box::new(shape::Cuboid::new(DVec3::new(half.x, half.y, half.z))))
 }
 
-/// What touches along the legs of a witness, with what stands around at a share of each. Of `free` the hand
-/// may touch the
-/// first from where it is in front of it, and what is held the second.
+/// Contacts along the legs of a witness, with the obstacles at a share of each. Of `free` the hand may touch
+/// the first from where it is in front of it, and the held object the second.
 fn legs<'s>(
     machine: &RobotModel,
     urdf: &Urdf,

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::collision::{Shape, Solid};
 use crate::inverse::interval::DisplacementBound;
 use crate::planning::certify::deflate::SLACK;
-use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::MIN_CLEARANCE;
 
 /// Number of points on a line that are tried, each nearer to the best.
 const PLACES: usize = 6;
@@ -341,7 +341,7 @@ mod tests {
     use super::is_in;
     use crate::collision::{Shape, Solid};
     use crate::inverse::interval::DisplacementBound;
-    use crate::planning::scene::contact::MIN_CLEARANCE;
+    use crate::planning::scene::MIN_CLEARANCE;
 
     fn solid(at: [f64; 3], turn: [f64; 3], shape: Shape) -> Solid {
         let turned = UnitQuaternion::from_scaled_axis(Vector3::from(turn));
@@ -358,12 +358,14 @@ mod tests {
 
         /// The directional bound is sound: contact holds for every motion within the drift.
         #[test]
-        fn what_is_in_something_touches_it_wherever_it_goes(
-            at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64], turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64],
-            half in 0.02..0.4_f64, radius in 0.01..0.2_f64, kind in 0..4_u8, beyond in 0..4_u8,
+        fn obstacle_bound_holds_for_every_motion(
+            at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64],
+            turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64], half in 0.02..0.4_f64,
+            radius in 0.01..0.2_f64, kind in 0..4_u8, beyond in 0..4_u8,
             board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.3_f64], lean in -1.5..1.5_f64,
-            slide in [-0.2..0.2_f64, -0.2..0.2_f64, -0.2..0.2_f64], spin in 0.0..0.6_f64, bend in 0.0..0.4_f64,
-            centre in [-0.5..0.5_f64, -0.5..0.5_f64, -0.5..0.5_f64], size in prop::sample::select(vec![0.03, 0.3, 1.0]),
+            slide in [-0.2..0.2_f64, -0.2..0.2_f64, -0.2..0.2_f64], spin in 0.0..0.6_f64,
+            bend in 0.0..0.4_f64, centre in [-0.5..0.5_f64, -0.5..0.5_f64, -0.5..0.5_f64],
+            size in prop::sample::select(vec![0.03, 0.3, 1.0]),
             moved in prop::collection::vec(prop::sample::select(vec![-1.0, -0.6, 0.0, 0.3, 1.0]), 30),
         ) {
             let shape = match kind {
@@ -403,7 +405,7 @@ mod tests {
 
     /// An arm that turns along a thin board is in contact throughout.
     #[test]
-    fn an_arm_through_a_board_is_in_it() {
+    fn obstacle_bound_finds_an_arm_through_a_board() {
         let arm = solid([0.0; 3], [0.0; 3], Shape::Capsule { radius: 0.05, half: 0.3 });
         let board = solid([0.0; 3], [0.0; 3], Shape::Box(Vector3::new(1.0, 1.0, 0.005)));
         let slid = |step: Vector3<f64>| is_in(&arm, &DisplacementBound::none().slid(step), &board);

@@ -9,7 +9,7 @@ use super::cover::{CellModel, CellPart, CellPlacement, FAR, FEWER, kept};
 use super::relative::{BodyPair, PairGroup, RelativeChains};
 use crate::collision::{Shape, Solid};
 use crate::planning::certify::deflate::{DeflatedPart, SLACK};
-use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::MIN_CLEARANCE;
 
 impl CellModel<'_, '_, '_> {
     /// Pairs of parts that may not be in contact.

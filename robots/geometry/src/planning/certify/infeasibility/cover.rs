@@ -1,21 +1,20 @@
-//! Model of one cell: poses and drifts of the robot's parts, and the contacts that hold throughout.
+//! Model of one cell: poses and drifts of the robot's parts, and the contacts that hold throughout;
+//! and the arm families whose inverse kinematics has an interval solution over cells.
 
 use std::f64::consts::TAU;
 use std::rc::Rc;
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::arm_family::ArmFamily;
 use super::bound_obstacle::{ScaledMotion, is_in};
 use super::relative::{BodyPair, RelativeChains, RelativePlacement};
 use crate::collision::Solid;
-use crate::inverse::interval::{CellEnclosure, DisplacementBound, PoseSet};
+use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet};
+use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 use crate::kinematics::ReducedModel;
 use crate::planning::certify::deflate::{DeflatedPart, SLACK, inner};
-use crate::planning::checking::collision_checker::CollisionChecker;
-use crate::planning::scene::contact::{AllowedCollisions, MIN_CLEARANCE, above_floor};
-use crate::planning::scene::ik_solver::IkSolver;
-use crate::planning::scene::robot_model::HandModel;
+use crate::planning::checking::CollisionChecker;
+use crate::planning::scene::{AllowedCollisions, HandModel, IkSolver, MIN_CLEARANCE, above_floor};
 
 /// Robot, hand and obstacles of one certificate.
 pub(super) struct CellModel<'a, 'r, 'w> {
@@ -361,4 +360,45 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
 /// Remaining items; shares the list where all remain.
 pub(super) fn kept<T: Copy>(left: Vec<T>, all: &Rc<[T]>) -> Rc<[T]> {
     if left.len() == all.len() { Rc::clone(all) } else { left.into() }
+}
+
+/// Arm whose solutions are covered by cells.
+#[derive(Clone, Copy)]
+pub(super) enum ArmFamily<'a> {
+    Lift(&'a LiftArm),
+    /// Arm, and the height of the base's link above the floor in m.
+    Parallel(&'a ParallelArm, f64),
+    /// Arm, the pose of the base's link, and the base's pose.
+    Seven(&'a SevenArm, Isometry3<f64>, [f64; 3]),
+    /// Any other arm: only the hand is covered.
+    Any,
+}
+
+impl ArmFamily<'_> {
+    pub(super) fn cells(self) -> Vec<IkCell> {
+        match self {
+            Self::Lift(arm) => arm.cells(),
+            Self::Parallel(arm, _) => arm.cells(),
+            Self::Seven(arm, ..) => arm.cells(),
+            Self::Any => vec![IkCell { branch: 0, middle: [0.0; 3], half: [0.0; 3] }],
+        }
+    }
+
+    pub(super) fn weights(self) -> [f64; 3] {
+        match self {
+            Self::Lift(arm) => arm.weights(),
+            Self::Parallel(arm, _) => arm.weights(),
+            Self::Seven(arm, ..) => arm.weights(),
+            Self::Any => [0.0; 3],
+        }
+    }
+
+    pub(super) fn over(self, tips: &PoseSet, cell: &IkCell) -> IntervalSolution {
+        match self {
+            Self::Lift(arm) => arm.enclose(tips, cell),
+            Self::Parallel(arm, height) => arm.enclose(tips, height, cell),
+            Self::Seven(arm, map_from_base, base) => arm.enclose(tips, &map_from_base, base, cell),
+            Self::Any => IntervalSolution::Unknown,
+        }
+    }
 }

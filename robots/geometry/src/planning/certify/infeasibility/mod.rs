@@ -8,36 +8,30 @@
 //! one of all checks, [`MIN_CLEARANCE`].
 //!
 //! An undecided cell is split along the parameter that contributes most to keeping the nearly closing
-//! constraint open (`split`), or that moves the robot most; where that is the patch, the patch is split,
-//! and its remaining cells are searched for each half (`search`). A free configuration is handed to the
-//! caller. The search ends where nothing is open, or where the budget of cells is spent. Bodies that are
-//! far from a part in a cell are not checked in its halves, and the pairs that closed recent cells come
-//! first.
+//! constraint open (`split`), or that moves the robot most; where that is the patch, the patch is split, and
+//! its remaining cells are searched for each half (`search`). A free configuration is handed to the caller.
+//! The search ends where nothing is open, or where the budget of cells is spent. Bodies that are far from a
+//! part in a cell are not checked in its halves, and the pairs that closed recent cells come first.
 //!
 //! Beside an obstacle the bound is directional (`bound_obstacle`); between two parts of the robot it counts
 //! only the joints between them (`bound_pair`, `relative`). Related: Basch 2001; Li and Dantam 2023.
 
-use std::collections::VecDeque;
-use std::ops::ControlFlow;
-use std::rc::Rc;
-
-use cover::CellModel;
-use search::{BranchAndBound, CellNode, OpenPatch, PatchOutcome};
-
-use crate::planning::checking::collision_checker::CollisionChecker;
-use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::grasp::manifold::GraspManifold;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::scene::robot_model::HandModel;
-
-mod arm_family;
 mod bound_obstacle;
 mod bound_pair;
 mod cover;
 mod relative;
 mod search;
 mod split;
+
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+use std::rc::Rc;
+
+use crate::planning::checking::CollisionChecker;
+use crate::planning::grasp::{GraspCandidate, GraspManifold};
+use crate::planning::scene::{AllowedCollisions, Configuration, HandModel};
+use cover::CellModel;
+use search::{BranchAndBound, CellNode, OpenPatch, PatchOutcome};
 
 /// Verdict of a certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -4,14 +4,12 @@ use std::rc::Rc;
 
 use nalgebra::Isometry3;
 
-use super::arm_family::ArmFamily;
-use super::cover::{CellModel, CellPlacement, ContactGroup};
+use super::cover::{ArmFamily, CellModel, CellPlacement, ContactGroup};
 use super::relative::{BodyPair, PairGroup};
 use super::split::{SplitCause, SplitGain, TRUSTED};
 use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet};
-use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::grasp::manifold::{GraspManifold, GraspPatch, widest};
-use crate::planning::scene::configuration::Configuration;
+use crate::planning::grasp::{GraspCandidate, GraspManifold, GraspPatch, widest};
+use crate::planning::scene::Configuration;
 
 /// Spread in m of tip poses that are covered together.
 const COARSE: f64 = 0.6;

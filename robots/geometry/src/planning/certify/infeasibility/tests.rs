@@ -1,27 +1,25 @@
 //! Soundness of cells and certificates: bounds hold for every configuration of a cell, and a covered scene
-//! has no free one.
+//! has no free one. Every grasp that a search tries is in some patch.
 
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 
-use super::arm_family::ArmFamily;
-use super::cover::{CellModel, CellPlacement, ContactGroup};
+use super::Certificate;
+use super::cover::{ArmFamily, CellModel, CellPlacement, ContactGroup};
 use super::relative::PairGroup;
 use super::split::SplitCause;
 use crate::collision::{Shape, Solid};
 use crate::inverse::interval::{DisplacementBound, IkCell, IntervalSolution, PoseSet};
 use crate::planning::certify::deflate::DeflatedPart;
-use crate::planning::certify::infeasibility::Certificate;
 use crate::planning::context::QueryContext;
-use crate::planning::grasp::manifold::GraspManifold;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::scene::robot_model::{HandModel, RobotModel};
-use crate::planning::scene::scene_state::SceneState;
+use crate::planning::grasp::{GraspManifold, grasp_candidates};
+use crate::planning::query::GraspSide;
+use crate::planning::scene::{
+    AllowedCollisions, Configuration, HandModel, RobotModel, SceneState, solid_shape,
+};
+use crate::planning::search::{SPACE, part};
 use crate::trigonometry::wrapped;
-
-mod grips;
 
 /// Configuration with the arm's joints at shares of their ranges.
 fn configuration(
@@ -169,11 +167,10 @@ fn poses(
     let (index, _, entity) = scene.entities.get_full("can").unwrap();
     let allowed = AllowedCollisions { hand: Some(index), held: None };
     let pose = context.state.pose(entity).unwrap();
-    let object = Solid::new(&pose, crate::planning::scene::scene_state::solid_shape(entity).unwrap());
-    let (holds, _) =
-        crate::planning::grasp::candidates::grasp_candidates(hand, &object, None, context.state.robot.base);
+    let object = Solid::new(&pose, solid_shape(entity).unwrap());
+    let (holds, _) = grasp_candidates(hand, &object, None, context.state.robot.base);
     let tips: Vec<_> = holds.iter().map(|hold| hold.map_from_tip).collect();
-    let palm = context.palm(hand, &tips, allowed);
+    let palm = context.hand_checker(hand, &tips, allowed);
     (tips.into_iter().filter(|tip| palm.contact(tip).is_none()).collect(), allowed, object)
 }
 
@@ -233,25 +230,32 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
-    fn a_state_of_the_hsr_is_in_its_cell(
-        base in [-2.0..2.0_f64, -2.0..2.0_f64, -3.1..3.1_f64], shares in prop::collection::vec(0.0..1.0_f64, 5),
-        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]), off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
+    fn cell_of_the_hsr_contains_its_configurations(
+        base in [-2.0..2.0_f64, -2.0..2.0_f64, -3.1..3.1_f64],
+        shares in prop::collection::vec(0.0..1.0_f64, 5),
+        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64],
+        size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]),
+        off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
     ) {
         a_state_is_in_its_cell("hsr", base, &shares, places, [size, off]);
     }
 
     #[test]
-    fn a_state_of_the_anymal_is_in_its_cell(
-        base in [-2.0..2.0_f64, -2.0..2.0_f64, -3.1..3.1_f64], shares in prop::collection::vec(0.0..1.0_f64, 6),
-        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]), off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
+    fn cell_of_the_anymal_contains_its_configurations(
+        base in [-2.0..2.0_f64, -2.0..2.0_f64, -3.1..3.1_f64],
+        shares in prop::collection::vec(0.0..1.0_f64, 6),
+        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64],
+        size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]),
+        off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
     ) {
         a_state_is_in_its_cell("anymal_z1", base, &shares, places, [size, off]);
     }
 
     #[test]
-    fn a_state_of_the_panda_is_in_its_cell(
+    fn cell_of_the_panda_contains_its_configurations(
         shares in prop::collection::vec(0.0..1.0_f64, 7), place in 0.0..1.0_f64,
-        size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]), off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
+        size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]),
+        off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
     ) {
         a_state_is_in_its_cell("panda", [0.0; 3], &shares, [place, 0.3, 0.9], [size, off]);
     }
@@ -261,8 +265,9 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
     #[test]
-    fn no_state_that_is_drawn_is_free_where_none_is_said_to_be(
-        size in [0.15..0.6_f64, 0.12..0.5_f64, 0.2..0.8_f64], up in 0.05..1.1_f64, place in [0.0..1.0_f64, 0.0..1.0_f64],
+    fn certificate_excludes_every_sampled_configuration(
+        size in [0.15..0.6_f64, 0.12..0.5_f64, 0.2..0.8_f64], up in 0.05..1.1_f64,
+        place in [0.0..1.0_f64, 0.0..1.0_f64],
         draws in prop::collection::vec([0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], 60),
         name in prop::sample::select(vec!["hsr", "anymal_z1", "panda"]),
     ) {
@@ -273,18 +278,8 @@ proptest! {
 }
 
 #[test]
-fn what_no_arm_gets_into_is_covered_and_what_one_does_is_not() {
-    let draws: Vec<[f64; 4]> = (0..200)
-        .map(|at| {
-            [1, 2, 3, 4].map(|n| {
-                crate::planning::search::arm_candidates::part(
-                    at,
-                    n,
-                    crate::planning::search::arm_candidates::SPACE,
-                )
-            })
-        })
-        .collect();
+fn certificate_of_the_hsr_covers_only_unreachable_objects() {
+    let draws: Vec<[f64; 4]> = (0..200).map(|at| [1, 2, 3, 4].map(|n| part(at, n, SPACE))).collect();
     // Low and deep: room for the hand, none for the arm.
     let deep = niche([0.6, 0.4, 1.8], [1.5, 0.3], [1.0, 0.5]);
     assert_eq!(covered("hsr", &deep, 200_000, &draws), Some(true));
@@ -294,18 +289,8 @@ fn what_no_arm_gets_into_is_covered_and_what_one_does_is_not() {
 }
 
 #[test]
-fn what_a_panda_does_not_get_to_is_covered_and_what_it_does_is_not() {
-    let draws: Vec<[f64; 4]> = (0..200)
-        .map(|at| {
-            [1, 2, 3, 4].map(|n| {
-                crate::planning::search::arm_candidates::part(
-                    at,
-                    n,
-                    crate::planning::search::arm_candidates::SPACE,
-                )
-            })
-        })
-        .collect();
+fn certificate_of_the_panda_covers_only_unreachable_objects() {
+    let draws: Vec<[f64; 4]> = (0..200).map(|at| [1, 2, 3, 4].map(|n| part(at, n, SPACE))).collect();
     let far = niche([0.9, 0.7, 0.4], [0.9, 0.8], [1.0, 0.5]);
     assert_eq!(covered("panda", &far, 100_000, &draws), Some(true));
     let near = niche([0.9, 0.7, 0.4], [0.3, 0.8], [0.2, 0.5]);
@@ -361,21 +346,99 @@ fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: 
 }
 
 #[test]
-fn what_keeps_a_cell_open_is_told() {
+fn split_cause_names_the_open_constraint() {
     let scene = niche([0.6, 0.4, 0.8], [0.7, 0.4], [0.2, 0.5]);
     let mut told = 0;
     for name in ["hsr", "anymal_z1", "panda"] {
         for at in 0..60 {
-            let places = [1, 2, 3].map(|n| {
-                crate::planning::search::arm_candidates::part(
-                    at,
-                    n,
-                    crate::planning::search::arm_candidates::SPACE,
-                )
-            });
+            let places = [1, 2, 3].map(|n| part(at, n, SPACE));
             let size = [0.2, 0.05, 0.01][at % 3];
             told += u32::from(what_is_nearest_to_closing_a_cell_is_told(name, &scene, places, size));
         }
     }
     assert!(told > 20, "{told}");
+}
+
+/// Patches contain every grasp that a search tries.
+#[test]
+fn patch_contains_the_grasps_of_an_object() {
+    let model = RobotModel::embedded("hsr");
+    let hand = model.hand().unwrap();
+    let shapes = [
+        Shape::Cylinder { radius: 0.03, half: 0.08 },
+        Shape::Cylinder { radius: 0.05, half: 0.02 },
+        Shape::Capsule { radius: 0.03, half: 0.06 },
+        Shape::Capsule { radius: 0.04, half: 0.0 },
+        Shape::Box(Vector3::new(0.02, 0.05, 0.09)),
+    ];
+    let lean = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.2, 1.0);
+    let upright = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, 1.0);
+    for (shape, rotation) in shapes.into_iter().flat_map(|shape| [(shape, upright), (shape, lean)]) {
+        let pose = Isometry3::from_parts(nalgebra::Translation3::new(1.0, 0.3, 0.8), rotation);
+        let object = Solid::new(&pose, shape);
+        for side in [None, Some(GraspSide::Top), Some(GraspSide::Side), Some(GraspSide::Front)] {
+            let manifold = GraspManifold::new(hand, &object, side, [0.0; 3]);
+            let (holds, _) = grasp_candidates(hand, &object, side, [0.0; 3]);
+            assert!(side.is_some() || !holds.is_empty(), "{shape:?}");
+            // Small ones, so that how far they say they go is not more than a hand is long.
+            let (mut open, mut patches) = (manifold.patches(), vec![]);
+            while let Some(patch) = open.pop() {
+                let (size, across) = manifold.widest(&patch);
+                if size > 0.08 {
+                    open.extend(patch.halves(across));
+                } else {
+                    patches.push(patch);
+                }
+            }
+            let tips: Vec<_> = patches.iter().filter_map(|patch| manifold.over(patch)).collect();
+            for hold in &holds {
+                let is_in = |(tip, drift): &(Isometry3<f64>, DisplacementBound)| {
+                    [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()].iter().all(|at| {
+                        let at = nalgebra::Point3::from(at * 0.2);
+                        let (one, other) = (hold.map_from_tip * at, tip * at);
+                        let ball = Shape::Capsule { radius: 0.0, half: 0.0 };
+                        let place = Isometry3::from_parts(other.coords.into(), upright);
+                        (one - other).norm() <= drift.of(&Solid::new(&place, ball)) + 1e-6
+                    })
+                };
+                assert!(tips.iter().any(is_in), "{shape:?}, {side:?}: {hold:?}");
+            }
+        }
+    }
+}
+
+/// Patches of the handle contain every grasp that a search tries in steps.
+#[test]
+fn patch_contains_the_grasps_of_a_handle() {
+    let model = RobotModel::embedded("anymal_z1");
+    let hand = model.hand().unwrap();
+    let (along, out) = (Vector3::new(0.0, 0.6, 0.8), Vector3::x());
+    let centre = Vector3::new(1.0, 0.2, 0.7);
+    let bar = Solid {
+        centre,
+        axes: [out, along.cross(&out), along],
+        shape: Shape::Capsule { radius: 0.008, half: 0.2 },
+    };
+    let manifold = GraspManifold::of_bar(hand, &bar, out, 0.03, [1.05, 0.6]);
+    for (tilt, place, sign) in [(0.0, 0.0, 1.0), (0.9, 0.6, -1.0), (-0.52, -0.6, 1.0), (-0.9, 0.3, -1.0)] {
+        let turned = nalgebra::UnitQuaternion::from_scaled_axis(along * tilt);
+        let approach = turned * -out;
+        let closes = along.cross(&approach) * sign;
+        let at = centre + along * (place * 0.2) - approach * 0.03 - closes * hand.middle(0.016);
+        let tip = Isometry3::from_parts(at.into(), hand.turned(&approach, &closes));
+        let mut open = manifold.patches();
+        for _ in 0..12 {
+            let halves = open.iter().flat_map(|patch| patch.halves(manifold.widest(patch).1));
+            open = halves.collect();
+            open.retain(|patch| {
+                let Some((other, drift)) = manifold.over(patch) else { return false };
+                [Vector3::zeros(), Vector3::x(), Vector3::y()].iter().all(|point| {
+                    let point = nalgebra::Point3::from(point * 0.2);
+                    let (one, other) = (tip * point, other * point);
+                    (one - other).norm() <= drift.point(&other.coords, 0.0) + 1e-6
+                })
+            });
+        }
+        assert!(!open.is_empty(), "{tilt}, {place}, {sign}");
+    }
 }

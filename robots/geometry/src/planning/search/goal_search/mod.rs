@@ -4,25 +4,19 @@
 //! Poses come in the given order; for each one candidate of base and arm after the other. The trials of a
 //! free configuration are in `trial`.
 
+mod trial;
+
 use std::ops::{ControlFlow, Range};
 
 use nalgebra::{Isometry3, Vector3};
 
+use super::arm_candidates::{ArmDraft, ArmPrefilter, DraftCheck, PoseBatch};
 use crate::inverse::batch::LANES;
-use crate::planning::checking::collision_checker::CollisionChecker;
-use crate::planning::checking::hand_check::HandChecker;
+use crate::planning::checking::{CollisionChecker, HandChecker};
 use crate::planning::context::QueryContext;
-use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::grasp::manifold::GraspManifold;
-use crate::planning::query::answer::{MotionAnswer, SearchBudget};
-use crate::planning::query::contact_tally::ContactTally;
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::scene::ik_solver::IkSolver;
-use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::prefilter_arm::{ArmDraft, ArmPrefilter, DraftCheck, PoseBatch};
-
-mod trial;
+use crate::planning::grasp::{GraspCandidate, GraspManifold};
+use crate::planning::query::{ContactTally, MotionAnswer, SearchBudget};
+use crate::planning::scene::{AllowedCollisions, Configuration, HandModel, IkSolver};
 
 /// Number of poses that get a full sample budget each; beyond it they share one. The second is for arms
 /// that do not place the base, where most candidates have no solution.
@@ -151,7 +145,7 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
             budget,
             tips: goal.tips.iter().enumerate().map(|(at, tip)| (at, *tip, HandCheckState::Unknown)).collect(),
             finer: None,
-            hand_checker: goal.checker.context.palm(goal.hand, &goal.tips, goal.allowed),
+            hand_checker: goal.checker.context.hand_checker(goal.hand, &goal.tips, goal.allowed),
             tried: 0,
             lined: 0,
             is_spent: false,

@@ -1,6 +1,5 @@
-//! Trials of a free goal configuration: simple paths to it and, for some, RRT-Connect. Where all fail:
-//! finer grasps, places of the base that the map cuts off, an infeasibility certificate, and more
-//! candidates.
+//! Trials of a free goal configuration: simple paths to it and, for some, RRT-Connect. Where all fail: finer
+//! grasps, places of the base that the map cuts off, an infeasibility certificate, and more candidates.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -11,14 +10,12 @@ use super::{
     ApproachLine, BaseRegion, FoundPath, GoalCandidate, GoalPose, GoalSearch, GoalSpec, HandCheckState,
     Rounds, SearchFlow,
 };
-use crate::planning::certify::infeasibility::Certificate;
-use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::grasp::manifold::GraspManifold;
-use crate::planning::query::answer::{Infeasible, InfeasibleReason, MotionAnswer, UnknownReason};
-use crate::planning::query::contact_tally::ContactTally;
-use crate::planning::scene::configuration::Configuration;
+use crate::planning::certify::Certificate;
+use crate::planning::grasp::{GraspCandidate, GraspManifold};
+use crate::planning::query::{ContactTally, Infeasible, InfeasibleReason, MotionAnswer, UnknownReason};
+use crate::planning::scene::Configuration;
+use crate::planning::search::arm_candidates::ArmPrefilter;
 use crate::planning::search::path::PathError;
-use crate::planning::search::prefilter_arm::ArmPrefilter;
 use crate::planning::search::rrt_connect::RrtEffort;
 
 /// Number of free configurations without a simple path after which a search is tried.
@@ -120,7 +117,7 @@ impl GoalSearch<'_, '_, '_> {
         let goal = self.goal;
         let finer = finer(manifold);
         let tips: Vec<Isometry3<f64>> = finer.iter().map(|hold| hold.map_from_tip).collect();
-        self.hand_checker = goal.checker.context.palm(goal.hand, &tips, goal.allowed);
+        self.hand_checker = goal.checker.context.hand_checker(goal.hand, &tips, goal.allowed);
         self.tips =
             tips.into_iter().enumerate().map(|(at, tip)| (at, tip, HandCheckState::Unknown)).collect();
         self.finer = Some(finer);
@@ -235,7 +232,7 @@ impl GoalSearch<'_, '_, '_> {
     /// Short searches to the collected approach lines.
     fn searches(&mut self) -> Option<FoundPath> {
         for lined in self.left.drain(..) {
-            if let Some(path) = self.goal.checker.lead(&lined.line, lined.inwards, RrtEffort::Short) {
+            if let Some(path) = self.goal.checker.retreat(&lined.line, lined.inwards, RrtEffort::Short) {
                 return Some((lined.at, path));
             }
             if self.searched.len() < LEFT {
@@ -250,7 +247,7 @@ impl GoalSearch<'_, '_, '_> {
         let checker = self.goal.checker;
         let mut left = self.searched.drain(..).chain(self.left.drain(..)).take(LEFT);
         let way = left.find_map(|ApproachLine { at, line, inwards, .. }| {
-            Some((at, checker.lead(&line, inwards, RrtEffort::Long)?))
+            Some((at, checker.retreat(&line, inwards, RrtEffort::Long)?))
         });
         way.map_or(ControlFlow::Continue(()), ControlFlow::Break)
     }
@@ -323,12 +320,12 @@ mod tests {
 
     use super::{FINE, POSES, finer};
     use crate::collision::{Shape, Solid};
-    use crate::planning::grasp::candidates::grasp_candidates;
-    use crate::planning::grasp::manifold::GraspManifold;
-    use crate::planning::scene::robot_model::RobotModel;
+    use crate::planning::grasp::GraspManifold;
+    use crate::planning::grasp::grasp_candidates;
+    use crate::planning::scene::RobotModel;
 
     #[test]
-    fn every_hold_has_finer_ones_nearby() {
+    fn grasp_candidates_have_finer_ones_nearby() {
         let model = RobotModel::embedded("hsr");
         let hand = model.hand().unwrap();
         let shapes = [

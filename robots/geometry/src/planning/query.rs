@@ -1,8 +1,12 @@
-//! Motion queries and their answers: the vocabulary of all other folders.
+//! Motion queries and their answers, with the tally of contacts that gives the reason of an infeasible one.
+//! This is the vocabulary of all folders of `planning`.
 
-use smol_str::SmolStr;
+use std::collections::BTreeMap;
 
-use crate::planning::scene::configuration::Configuration;
+use motet_stdlib::lang::approaches;
+use smol_str::{SmolStr, format_smolstr};
+
+use super::scene::{Configuration, Contact};
 
 /// Direction from which an object is grasped.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -13,6 +17,27 @@ pub enum GraspSide {
     Side,
     /// Within 45° of the direction from the base.
     Front,
+}
+
+impl GraspSide {
+    /// All sides, in order.
+    pub const ALL: [Self; 3] = [Self::Top, Self::Side, Self::Front];
+
+    /// Name of the side in the language.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Top => approaches::TOP,
+            Self::Side => approaches::SIDE,
+            Self::Front => approaches::FRONT,
+        }
+    }
+
+    /// Side with a name; `None` for any other word.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|side| side.name() == name)
+    }
 }
 
 /// Motion query. Names are ids of the scene.
@@ -39,34 +64,36 @@ pub enum MotionQuery {
 }
 
 impl MotionQuery {
-    /// Parses a query in the notation of [`Display`](std::fmt::Display), such as `reach(mug_1, top)` or
-    /// `go_to(sink)`. `None` for anything else.
+    /// Query of a motion by its name in the language, the ids that it names, and the side of a grasp. `None`
+    /// where no motion has this name, this number of ids and, if a side is given, a side.
+    ///
+    /// ```
+    /// use motet_geometry::planning::{GraspSide, MotionQuery};
+    ///
+    /// let query = MotionQuery::from_call("reach", ["mug_1"], Some(GraspSide::Top)).unwrap();
+    /// assert_eq!(query.to_string(), "reach(mug_1, top)");
+    /// assert_eq!(MotionQuery::from_call("put", ["mug_1"], None), None);
+    /// ```
     #[must_use]
-    pub fn parse(text: &str) -> Option<Self> {
-        let (name, rest) = text.trim().split_once('(')?;
-        let mut args = rest.strip_suffix(')')?.split(',').map(|arg| arg.trim().trim_matches('`'));
-        let (first, second, third) = (args.next().filter(|arg| !arg.is_empty())?, args.next(), args.next());
-        if let ("put" | "offer", Some(second), None) = (name, second, third) {
-            let (object, second) = (first.into(), second.into());
-            return Some(if name == "put" { Self::Put(object, second) } else { Self::Offer(object, second) });
-        }
-        let side = match second {
-            None | Some("auto") => None,
-            Some("top") => Some(GraspSide::Top),
-            Some("side") => Some(GraspSide::Side),
-            Some("front") => Some(GraspSide::Front),
-            Some(_) => return None,
-        };
-        match name {
-            _ if third.is_some() => None,
-            "reach" => Some(Self::Reach(first.into(), side)),
-            "go_to" if second.is_none() => Some(Self::GoTo(first.into())),
-            "posture" if second.is_none() => Some(Self::Posture(first.into())),
-            "look" if second.is_none() => Some(Self::Look(first.into())),
-            "pull" if second.is_none() => Some(Self::Pull(first.into())),
-            "push" if second.is_none() => Some(Self::Push(first.into())),
-            _ => None,
-        }
+    pub fn from_call<I: Into<SmolStr>>(
+        name: &str,
+        ids: impl IntoIterator<Item = I>,
+        side: Option<GraspSide>,
+    ) -> Option<Self> {
+        let mut ids = ids.into_iter().map(Into::into);
+        let (first, second, third) = (ids.next()?, ids.next(), ids.next());
+        Some(match (name, second, side) {
+            _ if third.is_some() => return None,
+            ("reach", None, side) => Self::Reach(first, side),
+            ("go_to", None, None) => Self::GoTo(first),
+            ("put", Some(on), None) => Self::Put(first, on),
+            ("offer", Some(to), None) => Self::Offer(first, to),
+            ("look", None, None) => Self::Look(first),
+            ("pull", None, None) => Self::Pull(first),
+            ("push", None, None) => Self::Push(first),
+            ("posture", None, None) => Self::Posture(first),
+            _ => return None,
+        })
     }
 }
 
@@ -75,14 +102,7 @@ impl std::fmt::Display for MotionQuery {
         match self {
             Self::GoTo(to) => write!(f, "go_to({to})"),
             Self::Reach(object, None) => write!(f, "reach({object})"),
-            Self::Reach(object, Some(side)) => {
-                let side = match side {
-                    GraspSide::Top => "top",
-                    GraspSide::Side => "side",
-                    GraspSide::Front => "front",
-                };
-                write!(f, "reach({object}, {side})")
-            }
+            Self::Reach(object, Some(side)) => write!(f, "reach({object}, {})", side.name()),
             Self::Put(object, on) => write!(f, "put({object}, {on})"),
             Self::Offer(object, to) => write!(f, "offer({object}, {to})"),
             Self::Look(at) => write!(f, "look({at})"),
@@ -173,8 +193,7 @@ pub struct Margins {
 pub struct Infeasible {
     pub reason: InfeasibleReason,
     /// Change that would make the motion feasible, in words; known after
-    /// [`QueryContext::explain`](crate::planning::QueryContext::explain) or where it follows from the
-    /// reason.
+    /// [`QueryContext::explain`](crate::planning::QueryContext::explain) or where it follows from the reason.
     pub change: Option<String>,
     /// Set where infeasibility is proven for all grasps and configurations; else the search ended without a
     /// motion.
@@ -200,8 +219,8 @@ impl Infeasible {
 pub enum InfeasibleReason {
     /// Too far, too high or too low; both lengths in m.
     OutOfReach {
-        /// Measured quantity: `height`, `distance` or `sight`.
-        what: &'static str,
+        /// Length that is compared with the reach.
+        length: ReachLength,
         needs: f64,
         reach: f64,
     },
@@ -234,6 +253,17 @@ pub enum InfeasibleReason {
     },
 }
 
+/// Length that decides whether a target is within reach.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ReachLength {
+    /// Height of the hand above the floor.
+    Height,
+    /// Distance from the arm's shoulder, or from the base.
+    Distance,
+    /// Distance from the camera.
+    Sight,
+}
+
 impl InfeasibleReason {
     /// Name of the reason in the language.
     #[must_use]
@@ -252,7 +282,7 @@ impl InfeasibleReason {
 impl std::fmt::Display for InfeasibleReason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::OutOfReach { what: "sight", needs, reach } => {
+            Self::OutOfReach { length: ReachLength::Sight, needs, reach } => {
                 write!(f, "is {needs:.2} m away, the camera sees {reach:.2} m")
             }
             Self::NotInView { by: Some(by), .. } => write!(f, "{} hides it from the camera", named(by)),
@@ -265,21 +295,24 @@ impl std::fmt::Display for InfeasibleReason {
                 )
             }
             Self::NotInView { by: None, aside: None } => f.write_str("the camera does not turn there"),
-            Self::OutOfReach { what, needs, reach } => {
-                write!(f, "needs a {what} of {needs:.2} m, the hand reaches {reach:.2} m")
+            Self::OutOfReach { length: ReachLength::Height, needs, reach } => {
+                write!(f, "needs a height of {needs:.2} m, the hand reaches {reach:.2} m")
+            }
+            Self::OutOfReach { length: ReachLength::Distance, needs, reach } => {
+                write!(f, "needs a distance of {needs:.2} m, the hand reaches {reach:.2} m")
             }
             Self::NoFreePose { by: Some(by), share } => {
-                write!(f, "no pose of the robot is free, and most often {} is in the way", named(by))?;
+                write!(f, "every candidate configuration collides, most often with {}", named(by))?;
                 match share {
                     Some(ContactShare { touching, tried }) => {
-                        write!(f, " ({touching} of {tried} that were tried)")
+                        write!(f, " ({touching} of {tried} samples)")
                     }
                     None => Ok(()),
                 }
             }
-            Self::NoFreePose { by: None, .. } => f.write_str("no pose of the robot serves it"),
-            Self::BlockedPath { by: Some(by) } => write!(f, "{} blocks the way", named(by)),
-            Self::BlockedPath { by: None } => f.write_str("no way leads there"),
+            Self::NoFreePose { by: None, .. } => f.write_str("no configuration of the robot reaches it"),
+            Self::BlockedPath { by: Some(by) } => write!(f, "{} blocks the path", named(by)),
+            Self::BlockedPath { by: None } => f.write_str("no path leads there"),
             Self::TooHeavy { needs, limit } => {
                 write!(f, "weighs {needs:.2} kg, the hand carries {limit:.2} kg")
             }
@@ -329,4 +362,66 @@ pub enum UnknownReason {
 /// Answer of a proof that there is no motion.
 pub(crate) fn certain(reason: InfeasibleReason, change: Option<String>) -> MotionAnswer {
     MotionAnswer::Infeasible(Infeasible::proven(reason, change))
+}
+
+/// Count of contacts by body.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ContactTally {
+    others: BTreeMap<SmolStr, usize>,
+    /// Contacts within the robot, by the two links.
+    own: BTreeMap<[SmolStr; 2], usize>,
+}
+
+impl ContactTally {
+    pub(crate) fn add(&mut self, contact: &Contact) {
+        if contact.is_own {
+            *self.own.entry([contact.link.clone(), contact.other.clone()]).or_default() += 1;
+        } else {
+            self.add_entity(contact.other.clone());
+        }
+    }
+
+    pub(crate) fn add_entity(&mut self, name: SmolStr) {
+        *self.others.entry(name).or_default() += 1;
+    }
+
+    /// Most frequent body; the first by name among equals. The robot itself counts as one body, named with
+    /// its two links that touch most often.
+    pub(crate) fn most(&self) -> Option<SmolStr> {
+        self.counted().map(|(name, _)| name)
+    }
+
+    /// Reason that no pose is free: the most frequent body and its share of all contacts.
+    pub(crate) fn none_free(&self) -> InfeasibleReason {
+        let (by, touching) = self.counted().unzip();
+        let tried = self.others.values().chain(self.own.values()).sum();
+        InfeasibleReason::NoFreePose { by, share: touching.map(|touching| ContactShare { touching, tried }) }
+    }
+
+    fn counted(&self) -> Option<(SmolStr, usize)> {
+        let own: usize = self.own.values().sum();
+        match first_most(&self.others) {
+            Some((name, count)) if count >= own => Some((name.clone(), count)),
+            _ => first_most(&self.own)
+                .map(|([one, other], _)| (format_smolstr!("{ITSELF} (`{one}` and `{other}`)"), own)),
+        }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.others.is_empty() && self.own.is_empty()
+    }
+}
+
+/// Key with the greatest count, the first of equals.
+fn first_most<K>(counts: &BTreeMap<K, usize>) -> Option<(&K, usize)> {
+    counts.iter().fold(None, |most, (name, count)| match most {
+        Some((_, known)) if known >= *count => most,
+        Some(_) | None => Some((name, *count)),
+    })
+}
+
+/// Answer of a search without a path: blocked where a free configuration was found, else not free.
+pub(crate) fn exhausted(found: bool, poses: &ContactTally, ways: &ContactTally) -> MotionAnswer {
+    let reason = if found { InfeasibleReason::BlockedPath { by: ways.most() } } else { poses.none_free() };
+    MotionAnswer::Infeasible(Infeasible::exhausted(reason))
 }

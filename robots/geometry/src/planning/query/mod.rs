@@ -1,4 +1,0 @@
-//! Motion queries and their answers.
-
-pub(crate) mod answer;
-pub(crate) mod contact_tally;
