@@ -244,9 +244,10 @@ motet_syntax::mistakes! {
     help(m) { m.near.as_ref().map(|near| format!("did you mean `<{near}>`?")) }
 
     /// An attribute that nothing reads.
-    UnknownAttribute("M0475", Warning) { element: &'static str, name: String, near: Option<String>,
-        known: &'static [&'static str] }
-    message(m) { format!("unknown attribute `{}` of `<{}>` is ignored", m.element, m.name.escape_debug()) }
+    UnknownAttribute("M0475", Warning) {
+        element: &'static str, name: String, near: Option<String>, known: &'static [&'static str]
+    }
+    message(m) { format!("unknown attribute `{}` of `<{}>` is ignored", m.name.escape_debug(), m.element) }
     help(m) {
         Some(match &m.near {
             Some(near) => format!("did you mean `{}`?", near.escape_debug()),

@@ -182,7 +182,7 @@ fn explain_names_the_obstacle_in_the_only_doorway() {
                 "{robot}, {query}"
             );
             let help = help.unwrap();
-            assert!(help.starts_with(&format!("every way to {to}")), "{robot}, {query}: {help}");
+            assert!(help.starts_with(&format!("every path to {to}")), "{robot}, {query}: {help}");
             assert!(help.ends_with("is blocked by `chair`: move it away"), "{robot}, {query}: {help}");
             // What never moves is told, and not asked away; the thing itself and the robot are never in the
             // way.
