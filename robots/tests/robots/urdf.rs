@@ -86,11 +86,9 @@ fn urdf_limits_include_those_of_followers() {
     let nowhere = narrow.replace(r#"offset="0.1""#, r#"offset="0.5""#);
     told(
         &nowhere,
-        &[
-            "M0465 [lift] the limits of joint `lift` and of the joints that mimic it exclude each other: it must \
-                be at least -0.1 and at most -0.6 / widen the limits of the joints that mimic it, or correct \
-                their `<mimic>`",
-        ],
+        &["M0465 [lift] the limits of joint `lift` and of the joints that mimic it exclude each other: it \
+                must be at least -0.1 and at most -0.6 / widen the limits of the joints that mimic it, or correct \
+                their `<mimic>`"],
     );
 }
 

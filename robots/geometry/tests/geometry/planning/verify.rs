@@ -104,8 +104,8 @@ fn distance(one: &Solid, other: &Solid) -> f64 {
         .distance
 }
 
-/// Faults of a witness; none where it holds. Containers have to be closed. The held object may touch `support`
-/// from where it is lowered onto it.
+/// Faults of a witness; none where it holds. Containers have to be closed. The held object may touch
+/// `support` from where it is lowered onto it.
 pub(crate) fn faults(
     machine: &RobotModel,
     urdf: &Urdf,
