@@ -87,8 +87,8 @@ fn urdf_limits_include_those_of_followers() {
     told(
         &nowhere,
         &["M0465 [lift] the limits of joint `lift` and of the joints that mimic it exclude each other: it \
-                must be at least -0.1 and at most -0.6 / widen the limits of the joints that mimic it, or correct \
-                their `<mimic>`"],
+                must be at least -0.1 and at most -0.6 / widen the limits of the joints that mimic it, or \
+                correct their `<mimic>`"],
     );
 }
 
