@@ -1,4 +1,4 @@
-//! Any bytes as a document: read it, print it in both forms, format it.
+//! Any bytes as a document: read it, print it in both syntaxes, format it.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! The JSON form: whatever is read without an error prints, and what was printed reads as the same tree.
+//! The JSON syntax: whatever is read without an error prints, and what was printed reads as the same tree.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,4 +1,5 @@
-//! The text form: whatever is read prints, and what was printed reads as the same tree and formats to itself.
+//! The text syntax: whatever is read prints, and what was printed reads as the same tree and formats to
+//! itself.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -45,8 +45,8 @@ pub(crate) struct DecodeArgs {
     #[arg(long, value_name = "TOKEN", requires = "tokenizer")]
     end: Option<String>,
     /// Syntax of the prefix
-    #[arg(long, value_enum, default_value = "json", value_name = "SYNTAX")]
-    surface: SyntaxArg,
+    #[arg(long, alias = "surface", value_enum, default_value = "json", value_name = "SYNTAX")]
+    syntax: SyntaxArg,
     /// Allow deadlines and retries
     #[arg(long)]
     modifiers: bool,
@@ -71,7 +71,7 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
     let mut project = args.environment.without_motions().open_with(report)?;
     let session = project.session(report)?.session.clone();
     let mut prefix = read(&args.path)?;
-    let syntax = args.surface.into();
+    let syntax = args.syntax.into();
     let modifiers = if args.modifiers { Modifiers::Written } else { Modifiers::Default };
     let prepared = AcceptorFactory::new(&session, Subset { syntax, modifiers, ..Subset::default() });
     let mut acceptor = prepared

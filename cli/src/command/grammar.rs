@@ -20,7 +20,7 @@ use crate::report::Report;
     subcommand_help_heading = "Subcommands",
     after_help = "Examples:\n  \
     motet grammar --robot hsr --scene kitchen > policy.schema.json\n  \
-    motet grammar --robot hsr --scene kitchen --format gbnf --surface text > policy.gbnf\n  \
+    motet grammar --robot hsr --scene kitchen --format gbnf --syntax text > policy.gbnf\n  \
     motet grammar --robot hsr --scene kitchen --request vllm --model NAME |\n    \
     curl -H 'Content-Type: application/json' -d @- http://localhost:8000/v1/chat/completions\n  \
     motet grammar probe http://localhost:8000 --dialect vllm --model NAME"
@@ -34,8 +34,8 @@ pub(crate) struct GrammarArgs {
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<GrammarFormat>,
     /// Syntax that the model writes
-    #[arg(long, value_enum, default_value = "json", value_name = "SYNTAX")]
-    surface: SyntaxArg,
+    #[arg(long, alias = "surface", value_enum, default_value = "json", value_name = "SYNTAX")]
+    syntax: SyntaxArg,
     /// Allow deadlines and retries
     #[arg(long)]
     modifiers: bool,
@@ -141,12 +141,12 @@ pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, CliError> 
 fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
     let mut project = args.environment.without_motions().open_with(report)?;
     let signatures = project.session(report)?.session.signatures();
-    let surface = Subset {
-        syntax: args.surface.into(),
+    let subset = Subset {
+        syntax: args.syntax.into(),
         modifiers: if args.modifiers { Modifiers::Written } else { Modifiers::Default },
         depth: args.depth,
     };
-    let grammar = Grammar::new(&signatures, surface);
+    let grammar = Grammar::new(&signatures, subset);
     if args.llguidance && (args.request.is_some() || notation(args) != Notation::Lark) {
         return Err(CliError::Message("`--llguidance` needs `--format lark`".to_owned()));
     }
@@ -183,12 +183,12 @@ fn concerns(args: &GrammarArgs, server: Option<Dialect>) -> bool {
 
 fn needs_json(who: &str) -> CliError {
     CliError::Message(format!(
-        "{who} a JSON Schema, which describes the JSON syntax only: leave out `--surface text`"
+        "{who} a JSON Schema, which describes the JSON syntax only: leave out `--syntax text`"
     ))
 }
 
 fn notation(args: &GrammarArgs) -> Notation {
-    match (args.format, args.surface) {
+    match (args.format, args.syntax) {
         (Some(GrammarFormat::JsonSchema), _) | (None, SyntaxArg::Json) => Notation::JsonSchema,
         (Some(GrammarFormat::Gbnf), _) | (None, SyntaxArg::Text) => Notation::Gbnf,
         (Some(GrammarFormat::Lark), _) => Notation::Lark,

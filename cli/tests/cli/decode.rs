@@ -1,4 +1,4 @@
-//! `motet decode`: what may follow in a policy that was begun.
+//! `motet decode`: continuations of a policy prefix.
 
 use crate::support::Place;
 
@@ -17,8 +17,8 @@ fn what_must_follow_and_what_may() {
         &["out:accepted: 4 bytes\nmust follow: \"tet\\\":1,\\\"policy\\\":\\\"\"\nmay follow: \"ABC"],
     );
     // Only the end of a line is left out: a space belongs to what was begun.
-    decode("decode_space", "--surface text", "policy p ").check(0, &["out:accepted: 9 bytes"]);
-    decode("decode_break", "--surface text", "policy p \r\n").check(0, &["out:accepted: 9 bytes"]);
+    decode("decode_space", "--syntax text", "policy p ").check(0, &["out:accepted: 9 bytes"]);
+    decode("decode_break", "--syntax text", "policy p \r\n").check(0, &["out:accepted: 9 bytes"]);
     decode("decode_white", "", "{\"motet\":1, ").check(1, &["out:refused: \" \" at byte 11"]);
     let whole = format!("{HEAD}{{\"end\":\"done\"}}]}}");
     decode("decode_whole", "", &whole).check(0, &["out:the policy is complete: only the end may follow\n"]);

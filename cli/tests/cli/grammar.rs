@@ -17,13 +17,13 @@ fn a_grammar_is_printed_in_each_notation() {
     for (flags, begins) in [
         ("", "{\n  \"type\": \"object\""),
         ("--format gbnf", "root ::= "),
-        ("--format gbnf --surface text", "root ::= \"policy\""),
-        ("--surface text", "root ::= \"policy\""),
+        ("--format gbnf --syntax text", "root ::= \"policy\""),
+        ("--syntax text", "root ::= \"policy\""),
         ("--format lark", "start: "),
         ("--format lark --llguidance", "%llguidance {}"),
         ("--format regex-free-ebnf --modifiers --depth 1", "root = "),
         ("--request vllm --model m --ask hello", "{\"model\":\"m\",\"messages\":"),
-        ("--request llamacpp --surface text", "{\"model\":\"MODEL\",\"messages\":"),
+        ("--request llamacpp --syntax text", "{\"model\":\"MODEL\",\"messages\":"),
     ] {
         let ran = place.run(&format!("grammar --robot hsr --scene kitchen {flags}"));
         assert_eq!(ran.code, Some(0), "{flags}: {}", ran.stderr);
@@ -36,9 +36,9 @@ fn a_grammar_is_printed_in_each_notation() {
 fn what_a_server_cannot_take_is_said() {
     let place = Place::new("grammar_limits");
     for flags in [
-        "--format json-schema --surface text",
-        "--request ollama --surface text",
-        "--request openai --surface text",
+        "--format json-schema --syntax text",
+        "--request ollama --syntax text",
+        "--request openai --syntax text",
     ] {
         let ran = place.run(&format!("grammar --robot hsr {flags}"));
         assert_eq!(ran.code, Some(2), "{flags}");

@@ -1,12 +1,9 @@
 #![doc = include_str!("../README.md")]
 
-mod actions;
 mod domain;
 mod errors;
 mod formula;
-mod name;
 mod plan;
-mod problem;
 mod s_expression;
 mod typed;
 mod write;
@@ -30,7 +27,7 @@ pub struct Translation {
 }
 
 impl Translation {
-    /// The declarations in the text form, with the goal in a comment above them.
+    /// The declarations in the text syntax, with the goal in a comment above them.
     #[must_use]
     pub fn declarations_text(&self) -> String {
         let goal = self.policy.policies().find_map(|policy| policy.achieves.as_ref());
@@ -39,7 +36,7 @@ impl Translation {
         format!("// A plan for it is: {goal}\n\n{}", print::text(&self.declarations))
     }
 
-    /// The policy in the text form.
+    /// The policy in the text syntax.
     #[must_use]
     pub fn policy_text(&self) -> String {
         print::text(&self.policy)
@@ -65,11 +62,11 @@ pub fn import(
     let mut diagnostics = Vec::new();
     let domain =
         s_expression::read(domain, &mut diagnostics).and_then(|tree| domain::read(&tree, &mut diagnostics));
-    let problem = s_expression::read(problem, &mut diagnostics)
-        .and_then(|tree| domain.as_ref().and_then(|domain| problem::read(&tree, domain, &mut diagnostics)));
+    let problem = s_expression::read(problem, &mut diagnostics).and_then(|tree| {
+        domain.as_ref().and_then(|domain| domain::read_problem(&tree, domain, &mut diagnostics))
+    });
     let plan = plan.map(|plan| plan::read(plan, domain.as_ref(), problem.as_ref(), &mut diagnostics));
-    let is_refused =
-        diagnostics.iter().any(|diagnostics: &Diagnostic| diagnostics.severity == Severity::Error);
+    let is_refused = diagnostics.iter().any(|diagnostic: &Diagnostic| diagnostic.severity == Severity::Error);
     let imported = domain.zip(problem).filter(|_| !is_refused);
     (
         imported.map(|(domain, problem)| write::imported(&domain, &problem, plan.unwrap_or_default())),

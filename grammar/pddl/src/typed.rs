@@ -1,4 +1,4 @@
-//! TypedName lists: `a b - block c - table d`.
+//! Lists of typed names: `a b - block c - table d`.
 
 use indexmap::IndexMap;
 use motet_syntax::{Diagnostic, Span};

@@ -1,20 +1,24 @@
-//! The AST of what was read.
+//! Translation of a domain, a problem and a plan to declarations and a policy.
+//!
+//! Names of PDDL become names of Motet. Any name may stand in back-quotes, so most stay as they are; those
+//! that would mean something else get a `_` at their end.
 
-use motet_syntax::Span;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+
 use motet_syntax::ast::{
     Arg as AstArg, Block, Call, Clause, CompareOp, Do, EntitiesDecl, Expr, ExprKind, File, FluentDecl,
     InitiallyDecl, Item, KindDecl, Name, Param, Policy, PrimitiveDecl, PrimitiveKind, Quantified, Step,
     StepKind, TypeExpr,
 };
+use motet_syntax::words::is_json_key;
+use motet_syntax::{FileId, Source, Span};
 use smol_str::{SmolStr, format_smolstr};
 
 use crate::Translation;
-use crate::actions::{Action, Effect};
-use crate::domain::Domain;
-use crate::formula::{Argument, Literal};
-use crate::name;
+use crate::domain::{Domain, Problem};
+use crate::formula::{Action, Argument, Effect, Literal};
 use crate::plan::PlanStep;
-use crate::problem::Problem;
 use crate::typed::{DomainNames, OBJECT, TypedName};
 
 /// All of it.
@@ -38,7 +42,7 @@ fn kinds(domain: &Domain) -> Vec<Item> {
     let decl = |doc: SmolStr, name: &SmolStr, parent: Name| {
         Item::Kind(KindDecl {
             doc,
-            name: name::kind(name, span),
+            name: kind_name(name, span),
             parent: Some(parent),
             fields: Vec::new(),
             span,
@@ -48,13 +52,13 @@ fn kinds(domain: &Domain) -> Vec<Item> {
     let doc = format_smolstr!("Imported from the PDDL domain `{}`: any of its objects.", domain.name);
     let mut items = vec![decl(doc, &OBJECT, root)];
     let types = &domain.words.types;
-    items.extend(types.iter().map(|(ty, parent)| decl(SmolStr::default(), ty, name::kind(parent, span))));
+    items.extend(types.iter().map(|(ty, parent)| decl(SmolStr::default(), ty, kind_name(parent, span))));
     items
 }
 
 fn typed(param: &TypedName, constants: &[TypedName]) -> Param {
-    let ty = TypeExpr::Named(name::kind(&param.ty, param.span));
-    Param { name: name::param(&param.name, param.span, constants), ty, default: None }
+    let ty = TypeExpr::Named(kind_name(&param.ty, param.span));
+    Param { name: param_name(&param.name, param.span, constants), ty, default: None }
 }
 
 fn fluent(name: &SmolStr, params: &[TypedName]) -> Item {
@@ -67,12 +71,7 @@ fn fluent(name: &SmolStr, params: &[TypedName]) -> Item {
         }
         written.push(param);
     }
-    Item::Fluent(FluentDecl {
-        doc: SmolStr::default(),
-        name: name::fluent(name, span),
-        params: written,
-        span,
-    })
+    Item::Fluent(FluentDecl { doc: SmolStr::default(), name: fluent_name(name, span), params: written, span })
 }
 
 fn primitive(action: &Action, words: &DomainNames) -> Item {
@@ -94,10 +93,7 @@ fn primitive(action: &Action, words: &DomainNames) -> Item {
 
 fn quantified(effect: &Effect, words: &DomainNames) -> Quantified {
     let each = effect.each.as_ref().map(|each| {
-        (
-            name::param(&each.name, each.span, &words.constants),
-            TypeExpr::Named(name::kind(&each.ty, each.span)),
-        )
+        (param_name(&each.name, each.span, &words.constants), TypeExpr::Named(kind_name(&each.ty, each.span)))
     });
     let when: Vec<_> = effect.when.iter().map(|part| literal(part, &words.constants)).collect();
     let when = if when.is_empty() { None } else { conjunction(when) };
@@ -112,8 +108,8 @@ fn entities(objects: &[TypedName]) -> Vec<Item> {
             let first = chunk.first()?;
             Some(Item::Entities(EntitiesDecl {
                 doc: SmolStr::default(),
-                names: chunk.iter().map(|object| name::entity(&object.name, object.span)).collect(),
-                kind: name::kind(&first.ty, first.span),
+                names: chunk.iter().map(|object| entity_name(&object.name, object.span)).collect(),
+                kind: kind_name(&first.ty, first.span),
                 span: Span::default(),
             }))
         })
@@ -124,7 +120,7 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
     let span = Span::default();
     let steps = plan.into_iter().map(|step| {
         let args = step.args.into_iter().map(|(arg, span)| {
-            let value = expr(ExprKind::Name(name::entity(&arg, span).text), span);
+            let value = expr(ExprKind::Name(entity_name(&arg, span).text), span);
             AstArg { name: None, value, span }
         });
         let call =
@@ -157,8 +153,8 @@ fn literal(literal: &Literal, constants: &[TypedName]) -> Expr {
     let span = literal.atom.span;
     let args = literal.atom.args.iter().map(|arg| {
         let name = match arg {
-            Argument::Variable(text) => name::param(text, span, constants),
-            Argument::Name(text) => name::entity(text, span),
+            Argument::Variable(text) => param_name(text, span, constants),
+            Argument::Name(text) => entity_name(text, span),
         };
         expr(ExprKind::Name(name.text), span)
     });
@@ -172,6 +168,73 @@ fn literal(literal: &Literal, constants: &[TypedName]) -> Expr {
         };
     };
     let args = args.map(|value| AstArg { name: None, span: value.span, value }).collect();
-    let atom = expr(ExprKind::Call(Call { name: name::fluent(predicate, span), args, span }), span);
+    let atom = expr(ExprKind::Call(Call { name: fluent_name(predicate, span), args, span }), span);
     if literal.truth { atom } else { expr(ExprKind::Not(Box::new(atom)), span) }
+}
+
+/// Entities that always exist, and the word for all of them.
+const ENTITY_TAKEN: [&str; 6] = ["robot", "user", "start", "any", "true", "false"];
+
+/// Name of a parameter. `on` is free in Motet, yet `result` is not.
+fn param_name(text: &str, span: Span, constants: &[TypedName]) -> Name {
+    if constants.iter().any(|constant| constant.name == text) {
+        // In PDDL `?depot` and `depot` are two names.
+        return Name { text: format_smolstr!("{text}__"), span };
+    }
+    let is_taken = is_json_key(text) || text == "result" || ENTITY_TAKEN.contains(&text);
+    suffixed(text, is_taken, span)
+}
+
+/// Name of an object.
+fn entity_name(text: &str, span: Span) -> Name {
+    suffixed(text, ENTITY_TAKEN.contains(&text), span)
+}
+
+/// Name of a predicate. One of the standard library cannot be declared anew with other parameters: its
+/// primitives use it.
+fn fluent_name(text: &str, span: Span) -> Name {
+    suffixed(text, standard_fluents().contains(text) || text == "monitored", span)
+}
+
+/// Name of a type. Kinds of the standard library begin with a capital letter, and types of PDDL with a small
+/// one.
+fn kind_name(text: &str, span: Span) -> Name {
+    Name { text: text.into(), span }
+}
+
+fn suffixed(text: &str, is_taken: bool, span: Span) -> Name {
+    // One more `_` for each that is there already, so that two names never become one.
+    let is_taken = is_taken || {
+        let bare = text.trim_end_matches('_');
+        bare != text
+            && (ENTITY_TAKEN.contains(&bare)
+                || is_json_key(bare)
+                || bare == "on"
+                || standard_fluents().contains(bare))
+    };
+    let text = if is_taken { SmolStr::from(format!("{text}_")) } else { text.into() };
+    Name { text, span }
+}
+
+/// Fluents and measures of the standard library.
+fn standard_fluents() -> &'static BTreeSet<SmolStr> {
+    static NAMES: OnceLock<BTreeSet<SmolStr>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let files = motet_stdlib::FILES.iter().map(|(name, text)| Source::new(*name, *text));
+        let items = files.flat_map(|source| motet_syntax::read(&source, FileId(0)).file.items);
+        items
+            .filter_map(|item| match item {
+                Item::Fluent(decl) => Some(decl.name.text),
+                Item::Measure(decl) => Some(decl.name.text),
+                Item::Kind(_)
+                | Item::Failure(_)
+                | Item::Enum(_)
+                | Item::Primitive(_)
+                | Item::Policy(_)
+                | Item::Entities(_)
+                | Item::Initially(_)
+                | Item::ClosedWorld(_) => None,
+            })
+            .collect()
+    })
 }

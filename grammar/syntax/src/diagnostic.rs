@@ -74,7 +74,7 @@ pub struct Diagnostic {
     pub message: String,
     pub help: Option<String>,
     pub span: Span,
-    /// JSON Pointer into the JSON form, such as `/steps/2/try/0`; empty for the whole document or a
+    /// JSON Pointer into the JSON syntax, such as `/steps/2/try/0`; empty for the whole document or a
     /// declaration.
     pub path: String,
     /// Other ranges that explain the message.

@@ -12,7 +12,6 @@ pub mod pointer;
 pub mod print;
 mod read;
 pub mod render;
-mod reply;
 pub mod source;
 pub mod suggest;
 pub mod text;

@@ -1,5 +1,5 @@
 //! JSON Pointers into a policy, whichever syntax it was read from: a diagnostic of any stage names its node
-//! in the JSON form it belongs.
+//! in the JSON syntax it belongs.
 
 use smol_str::SmolStr;
 

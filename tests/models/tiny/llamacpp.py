@@ -75,7 +75,7 @@ def held(binary, world):
     whole = json.loads(of("--request", "llamacpp", "--ask", request))
     return {
         "GBNF of the JSON form": {"grammar": of("--format", "gbnf")},
-        "GBNF of the text form": {"grammar": of("--format", "gbnf", "--surface", "text")},
+        "GBNF of the text form": {"grammar": of("--format", "gbnf", "--syntax", "text")},
         "JSON Schema": {"response_format": whole["response_format"]},
     }
 

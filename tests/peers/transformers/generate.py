@@ -36,8 +36,8 @@ def main():
         path = Path(folder) / "tokenizer.json"
         path.write_text(json.dumps(tokenizer_json()))
         tokenizer = PreTrainedTokenizerFast(tokenizer_object=Tokenizer.from_file(str(path)), eos_token=END)
-    world = motet.World(robot="hsr", scene="kitchen")
-    decoder = motet.Decoder(world=world, tokenizer=tokenizer, budget=TOKENS - 1)
+    environment = motet.Environment(robot="hsr", scene="kitchen")
+    decoder = motet.Decoder(environment=environment, tokenizer=tokenizer, budget=TOKENS - 1)
     prompt = tokenizer("Bring me the red mug.", return_tensors="pt")
     wrong = count = 0
     for seed in range(4):
@@ -48,7 +48,7 @@ def main():
                 rows = model.generate(**prompt, max_new_tokens=TOKENS, logits_processor=[processor], **options)
             for row in rows:
                 text = tokenizer.decode(row[prompt["input_ids"].shape[1] :], skip_special_tokens=True)
-                said = [said for said in world.check(text) if said["severity"] == "error"]
+                said = [said for said in environment.check(text) if said["severity"] == "error"]
                 count, wrong = count + 1, wrong + bool(said)
                 if said:
                     print(f"{way}, seed {seed}: {text}: {said[0]['code']} {said[0]['message']}")

@@ -36,7 +36,7 @@ pub struct Name {
     pub span: Span,
 }
 
-/// A file of the text form: declarations in order.
+/// A file of the text syntax: declarations in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct File {
     pub items: Vec<Item>,

@@ -1,31 +1,46 @@
-//! Mistakes that a document can have in either syntax: its size, its depth, its encoding, and text around it.
+//! Mistakes of a document in the text syntax, and those that a document can have in either syntax: its size,
+//! its depth, its encoding, and text around it.
 
+use smol_str::SmolStr;
+
+use super::replacement;
 use crate::ast::{MAX_BYTES, MAX_NESTING, MAX_STEPS, MAX_TOKENS};
-
-/// Help for a document without a policy.
-const POLICY: &str = "a policy is written `policy name { … }`, or in JSON \
-                      `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`";
-
-/// Kind of document that the reader was asked for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum DocumentKind {
-    /// A policy or declarations, in either syntax.
-    Policy,
-    /// A document that has a JSON syntax only: a scene, a state, a fault schedule.
-    Json,
-}
-
-/// Part of a model's reply that the reader ignores.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum IgnoredPart {
-    /// Prose before or after the policy.
-    Prose,
-    /// A policy beside the one that is read.
-    Policy,
-}
+use crate::diagnostic::{Edit, Fix, Related};
+use crate::source::Span;
+use crate::suggest;
+use crate::unit::Unit;
 
 crate::mistakes! {
     pub(crate) const CODES;
+
+    /// The text does not follow the grammar. `fix` is the text to write in place of the span, where it is
+    /// sure to be right.
+    TextSyntax("M0101", Error) {
+        message: String,
+        help: Option<String>,
+        related: Option<(&'static str, Span)>,
+        fix: Option<String>,
+    }
+    message(m) { m.message.clone() }
+    help(m) { m.help.clone() }
+    related(m) { m.related.iter().map(|(words, span)| Related::new(*words, *span)).collect() }
+    fix(m) {
+        m.fix.as_ref().map(|text| match text.as_str() {
+            "" => Fix { title: "remove it".into(), edits: vec![Edit { span: m.span, text: String::new() }] },
+            text => replacement(m.span, text, text),
+        })
+    }
+
+    /// A word after a number that is not a unit.
+    UnknownUnit("M0120", Error) { unit: SmolStr }
+    message(m) { format!("unknown unit `{}`", m.unit) }
+    help(m) {
+        Some(match Unit::from_spelling(&m.unit) {
+            Some(meant) => format!("did you mean `{}`?", meant.symbol()),
+            None => format!("the units are {}", suggest::one_of(Unit::ALL.iter().map(|unit| unit.symbol()))),
+        })
+    }
+    fix(m) { Unit::from_spelling(&m.unit).map(|meant| replacement(m.span, meant.symbol(), meant.symbol())) }
 
     /// Brackets, blocks or expressions nest deeper than any policy needs. The span is the first that is too
     /// deep.
@@ -92,4 +107,33 @@ crate::mistakes! {
     NoDocument("M0119", Error) {}
     message(_m) { "there is no policy in this text".into() }
     help(_m) { Some(POLICY.into()) }
+}
+
+impl TextSyntax {
+    /// A mistake with a message and help.
+    pub(crate) fn new(span: Span, message: String, help: impl Into<String>) -> Self {
+        Self { span, message, help: Some(help.into()), related: None, fix: None }
+    }
+}
+
+/// Help for a document without a policy.
+const POLICY: &str = "a policy is written `policy name { … }`, or in JSON \
+                      `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`";
+
+/// Kind of document that the reader was asked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum DocumentKind {
+    /// A policy or declarations, in either syntax.
+    Policy,
+    /// A document that has a JSON syntax only: a scene, a state, a fault schedule.
+    Json,
+}
+
+/// Part of a model's reply that the reader ignores.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum IgnoredPart {
+    /// Prose before or after the policy.
+    Prose,
+    /// A policy beside the one that is read.
+    Policy,
 }

@@ -3,25 +3,21 @@
 
 mod document;
 mod json;
-mod json_syntax;
-mod text;
 
 pub(crate) use document::{
-    DocumentKind, Empty, IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooDeep, TooLarge, TooManySteps,
-    TooManyTokens,
+    DocumentKind, Empty, IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TextSyntax, TooDeep, TooLarge,
+    TooManySteps, TooManyTokens, UnknownUnit,
 };
 pub(crate) use json::{
-    BadName, BadValue, DuplicateKey, MissingKey, NoForm, NumberRange, ReservedKey, TwoForms, UnknownKey,
-    WrongType,
+    BadName, BadValue, DuplicateKey, JsonSyntax, MissingKey, NoForm, NumberRange, ReservedKey, SyntaxFault,
+    TwoForms, UnknownKey, WrongType,
 };
-pub(crate) use json_syntax::{JsonSyntax, SyntaxFault};
-pub(crate) use text::{TextSyntax, UnknownUnit};
 
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::source::Span;
 
 /// Lists of all codes of the syntax stage, one for each kind of mistake.
-pub const CODES: [&[Code]; 4] = [text::CODES, json_syntax::CODES, json::CODES, document::CODES];
+pub const CODES: [&[Code]; 2] = [document::CODES, json::CODES];
 
 /// Reports a document of more than [`MAX_BYTES`](crate::ast::MAX_BYTES) bytes (M0112).
 #[must_use]

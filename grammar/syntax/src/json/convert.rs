@@ -40,7 +40,7 @@ pub(super) struct Converter {
 }
 
 impl Converter {
-    /// A block; `depth` counts the braces that the text form has around its steps.
+    /// A block; `depth` counts the braces that the text syntax has around its steps.
     fn block(&mut self, steps: wire::Steps, depth: usize) -> Block {
         let span = steps.span;
         if depth > MAX_NESTING {

@@ -24,7 +24,6 @@
 
 mod convert;
 mod convert_term;
-mod schema;
 pub(crate) mod term;
 pub(crate) mod wire;
 

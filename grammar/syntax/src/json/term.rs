@@ -157,7 +157,7 @@ pub(crate) enum Relation {
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct Args(pub(crate) Vec<(Spanned<SmolStr>, Spanned<Term>)>);
 
-/// A condition; a string is read as the text form.
+/// A condition; a string is read as the text syntax.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct Condition(pub(crate) Spanned<Term>);

@@ -14,7 +14,7 @@ use serde::de::{
     self, Deserialize, DeserializeSeed, Deserializer, Expected, IntoDeserializer, Unexpected, Visitor,
 };
 
-use super::{Located, LocatedValue, Number, spanned};
+use super::{LENIENT, Located, LocatedValue, Number, SPANNED};
 use crate::source::Span;
 
 /// Entry in a struct's list of fields: any other key is welcome too.
@@ -163,12 +163,8 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
     ) -> Result<V::Value, Fault> {
         let inner = self.at(self.content());
         match name {
-            spanned::SPANNED => {
-                visitor.visit_seq(Wrapped { reader: inner, is_lenient: false, is_read: false })
-            }
-            spanned::LENIENT => {
-                visitor.visit_seq(Wrapped { reader: inner, is_lenient: true, is_read: false })
-            }
+            SPANNED => visitor.visit_seq(Wrapped { reader: inner, is_lenient: false, is_read: false }),
+            LENIENT => visitor.visit_seq(Wrapped { reader: inner, is_lenient: true, is_read: false }),
             MIXED if !matches!(inner.node.value, LocatedValue::Object(_)) => inner.deserialize_any(visitor),
             _ => visitor.visit_newtype_struct(inner),
         }
@@ -294,7 +290,7 @@ impl<'s> de::SeqAccess<'s> for Wrapped<'_, 's> {
 
     fn next_element_seed<T: DeserializeSeed<'s>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
         if self.is_read {
-            let number = spanned::pack(self.reader.node.span);
+            let number = super::pack(self.reader.node.span);
             return seed.deserialize(U128Deserializer::<Fault>::new(number)).map(Some);
         }
         self.is_read = true;

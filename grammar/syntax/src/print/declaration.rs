@@ -1,4 +1,4 @@
-//! Declarations in the text form.
+//! Declarations in the text syntax.
 
 use super::expr;
 use super::writer::{Blank, Writer};

@@ -1,5 +1,5 @@
-//! Conditions and terms in the text form, with as few parentheses as the grammar needs, and those that help a
-//! reader.
+//! Conditions and terms in the text syntax, with as few parentheses as the grammar needs, and those that help
+//! a reader.
 
 use smol_str::SmolStr;
 

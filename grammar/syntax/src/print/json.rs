@@ -4,9 +4,9 @@
 //! in an SI unit is written as a number, any other as a string with its unit. An argument without a name is
 //! written under `arg1`, `arg2`, … by its position: the compiler names arguments before it prints.
 
+use serde_json::Value;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::layout;
 use crate::ast::{
     Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Name, Policy, Reaction, Step,
     StepKind, When,
@@ -15,21 +15,21 @@ use crate::json::term::{self, Args, Condition, Count, Duration, Field, Form, Get
 use crate::json::{Lenient, Spanned, wire};
 use crate::unit::{Dimension, Unit};
 
-/// A policy in the JSON form, indented by two, short values on one line. It ends with a line break.
+/// A policy in the JSON syntax, indented by two, short values on one line. It ends with a line break.
 #[must_use]
 pub fn policy_json(policy: &Policy) -> String {
-    // The wire types are maps, lists, strings and finite numbers: all of them have a JSON form.
+    // The wire types are maps, lists, strings and finite numbers: all of them have a JSON syntax.
     let value = serde_json::to_value(policy_wire(policy)).unwrap_or_default();
-    layout::pretty(&value)
+    pretty(&value)
 }
 
 /// A call as a step, on one line.
 pub(super) fn call(step: &Do) -> String {
     let mut translation = WireTranslation { scope: Vec::new() };
-    layout::one_line(&serde_json::to_value(translation.call_step(step)).unwrap_or_default())
+    one_line(&serde_json::to_value(translation.call_step(step)).unwrap_or_default())
 }
 
-/// A policy as the wire types of the JSON form. Spans are left empty.
+/// A policy as the wire types of the JSON syntax. Spans are left empty.
 #[must_use]
 fn policy_wire(policy: &Policy) -> wire::Document {
     let mut translation =
@@ -169,7 +169,7 @@ impl WireTranslation {
         wire::End { end: kind.into(), why: end.why.as_ref().map(|why| self.term(why).into()) }
     }
 
-    /// A condition. What has no form of its own is written as a string in the text form.
+    /// A condition. What has no form of its own is written as a string in the text syntax.
     fn condition(&mut self, expr: &Expr) -> Condition {
         let term = match &expr.kind {
             ExprKind::Bool(value) => Term::Bool(*value),
@@ -308,4 +308,121 @@ fn binding(bound: &SmolStr) -> Term {
 /// A text that begins with `$` is written with two.
 fn escaped(text: &SmolStr) -> SmolStr {
     if text.starts_with('$') { format_smolstr!("${text}") } else { text.clone() }
+}
+
+/// Values that end before this column stay on their line.
+const WIDTH: usize = 100;
+
+/// A value and a line break. Keys keep their order.
+fn pretty(value: &Value) -> String {
+    let mut text = String::new();
+    broken(&mut text, value, 0, 0);
+    text.push('\n');
+    text
+}
+
+/// A value on one line, without a line break.
+fn one_line(value: &Value) -> String {
+    let mut text = String::new();
+    flat(&mut text, value, usize::MAX);
+    text
+}
+
+/// Appends a value; `used` columns of the line are taken, and `after` are needed behind it. The outermost is
+/// always broken.
+fn fitting(text: &mut String, value: &Value, indent: usize, used: usize, after: usize) {
+    let before = text.len();
+    let room = WIDTH.saturating_sub(used + after);
+    if !flat(text, value, before + 4 * room)
+        || text.get(before..).is_some_and(|line| line.chars().count() > room)
+    {
+        text.truncate(before);
+        broken(text, value, indent, after);
+    }
+}
+
+/// Appends a value on one line; `false`, and a useless text, where it is longer than `limit` bytes of text.
+fn flat(text: &mut String, value: &Value, limit: usize) -> bool {
+    match value {
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {
+            text.push_str(&value.to_string())
+        }
+        Value::Array(members) => {
+            text.push('[');
+            for (index, member) in members.iter().enumerate() {
+                text.push_str(if index > 0 { ", " } else { "" });
+                if !flat(text, member, limit) {
+                    return false;
+                }
+            }
+            text.push(']');
+        }
+        Value::Object(members) => {
+            text.push('{');
+            for (index, (key, member)) in members.iter().enumerate() {
+                text.push_str(if index > 0 { ", " } else { "" });
+                push_key(text, key);
+                if !flat(text, member, limit) {
+                    return false;
+                }
+            }
+            text.push('}');
+        }
+    }
+    text.len() <= limit
+}
+
+/// Appends a container with a member a line; a scalar, or an empty container, as it is.
+fn broken(text: &mut String, value: &Value, indent: usize, after: usize) {
+    let inner = indent + 2;
+    match value {
+        Value::Array(members) if !members.is_empty() => {
+            text.push('[');
+            for (index, member) in members.iter().enumerate() {
+                new_line(text, index > 0, inner);
+                let is_last = index + 1 == members.len();
+                fitting(text, member, inner, inner, usize::from(!is_last));
+            }
+            text.push('\n');
+            spaces(text, indent);
+            text.push(']');
+        }
+        Value::Object(members) if !members.is_empty() => {
+            text.push('{');
+            for (index, (key, member)) in members.iter().enumerate() {
+                new_line(text, index > 0, inner);
+                push_key(text, key);
+                let is_last = index + 1 == members.len();
+                fitting(text, member, inner, inner + key.chars().count() + 4, usize::from(!is_last));
+            }
+            text.push('\n');
+            spaces(text, indent);
+            text.push('}');
+        }
+        Value::Array(_)
+        | Value::Object(_)
+        | Value::Null
+        | Value::Bool(_)
+        | Value::Number(_)
+        | Value::String(_) => {
+            let limit = text.len() + after;
+            flat(text, value, limit);
+        }
+    }
+}
+
+fn push_key(text: &mut String, key: &str) {
+    text.push_str(&Value::from(key).to_string());
+    text.push_str(": ");
+}
+
+fn new_line(text: &mut String, has_comma: bool, indent: usize) {
+    text.push_str(if has_comma { ",\n" } else { "\n" });
+    spaces(text, indent);
+}
+
+fn spaces(text: &mut String, count: usize) {
+    for _ in 0..count {
+        text.push(' ');
+    }
 }

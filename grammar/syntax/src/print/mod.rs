@@ -1,30 +1,58 @@
-//! The canonical printers: AST to either form. Reading what they print gives the same tree back, and printing
-//! that gives the same text.
+//! The canonical printers: AST to either syntax. Reading what they print gives the same tree back, and
+//! printing that gives the same text.
 
-mod comment;
 mod declaration;
 mod expr;
-mod format;
 mod json;
-mod layout;
 mod step;
 mod writer;
 
-pub use format::format;
 pub use json::policy_json;
 
 use crate::ast::{Do, Expr, ExprKind, File};
-use crate::source::Syntax;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::read::read;
+use crate::source::{FileId, Source, Syntax};
 
-/// A file in the text form. Documentation is kept; comments are not part of a tree (see [`format()`]).
+/// The document as the canonical printer writes it. In the text syntax comments stay where they are, on lines
+/// of their own or behind what they follow, and so do single blank lines. Formatting twice is formatting
+/// once.
+///
+/// ```
+/// use motet_syntax::{Source, print};
+///
+/// let source = Source::new("p.motet", "policy p{go(sink)}");
+/// assert_eq!(print::format(&source).unwrap(), "policy p {\n    go(sink)\n}\n");
+/// ```
+///
+/// # Errors
+/// All diagnostics, where one of them is an error: what cannot be read is not formatted.
+pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
+    let parsed = read(source, FileId(0));
+    if parsed.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
+        return Err(parsed.diagnostics);
+    }
+    Ok(match parsed.syntax {
+        Syntax::Text => {
+            // A reply is prose with a document in it: what is ignored there has no comments to keep.
+            let text: &str = if parsed.diagnostics.is_empty() { &source.text } else { "" };
+            let mut writer = writer::Writer::new(writer::Comments::of(text));
+            writer.file(&parsed.file);
+            writer.finish()
+        }
+        Syntax::Json => parsed.file.policies().map(policy_json).collect(),
+    })
+}
+
+/// A file in the text syntax. Documentation is kept; comments are not part of a tree (see [`format()`]).
 #[must_use]
 pub fn text(file: &File) -> String {
-    let mut writer = writer::Writer::new(comment::Comments::none());
+    let mut writer = writer::Writer::new(writer::Comments::none());
     writer.file(file);
     writer.finish()
 }
 
-/// A condition or a term in the text form, on one line.
+/// A condition or a term in the text syntax, on one line.
 #[must_use]
 pub fn expression(expr: &Expr) -> String {
     let mut text = String::new();
@@ -32,7 +60,8 @@ pub fn expression(expr: &Expr) -> String {
     text
 }
 
-/// A call as a step on one line, in either form. Arguments of the JSON form are written under their names.
+/// A call as a step on one line, in either syntax. Arguments of the JSON syntax are written under their
+/// names.
 #[must_use]
 pub fn call(step: &Do, form: Syntax) -> String {
     match form {
@@ -51,7 +80,7 @@ pub fn call(step: &Do, form: Syntax) -> String {
     }
 }
 
-/// A name in the text form, back-quoted where it has to be.
+/// A name in the text syntax, back-quoted where it has to be.
 ///
 /// ```
 /// use motet_syntax::print::identifier;

@@ -1,4 +1,4 @@
-//! Policies' steps in the text form.
+//! Policies' steps in the text syntax.
 
 use super::expr;
 use super::writer::{Blank, Writer};

@@ -1,5 +1,5 @@
-//! Pairs to declarations. Steps are in [`super::step`], expressions in [`super::expr`], contracts in
-//! [`super::contract`].
+//! Pairs to declarations and the clauses of contracts. Steps are in [`super::step`], expressions in
+//! [`super::expr`].
 
 use std::iter::Peekable;
 
@@ -7,8 +7,8 @@ use smol_str::SmolStr;
 
 use super::{Origin, Pair, Rule};
 use crate::ast::{
-    EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl, MeasureDecl, Name,
-    Param, Policy, PrimitiveDecl, PrimitiveKind, TypeExpr,
+    Clause, EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl,
+    MeasureDecl, Name, Param, Policy, PrimitiveDecl, PrimitiveKind, Quantified, TypeExpr,
 };
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
@@ -262,5 +262,43 @@ impl Builder {
             last = inner;
         }
         self.origin.place(pair.as_span().start(), last.as_span().end())
+    }
+}
+
+impl Builder {
+    pub(super) fn clause(&mut self, pair: Pair<'_>) -> Option<Clause> {
+        let rule = pair.as_rule();
+        let mut parts = Children::of(pair);
+        Some(match rule {
+            Rule::needs => Clause::Needs(self.entries(parts)),
+            Rule::makes => Clause::Makes(self.entries(parts)),
+            Rule::unsettles => Clause::Unsettles(self.entries(parts)),
+            Rule::motion => Clause::Motion(self.call(parts.next()?, 1)?),
+            Rule::uses => Clause::Uses(self.names(parts.next()?)),
+            Rule::takes => {
+                Clause::Takes { least: self.expr(parts.next()?, 1), greatest: self.expr(parts.next()?, 1) }
+            }
+            Rule::fails => Clause::Fails(self.names(parts.next()?)),
+            Rule::lasts => Clause::Lasts(self.names(parts.next()?)),
+            _ => return None,
+        })
+    }
+
+    fn entries(&mut self, parts: Children<'_>) -> Vec<Quantified> {
+        parts.filter_map(|entry| self.quantified(entry)).collect()
+    }
+
+    fn quantified(&mut self, pair: Pair<'_>) -> Option<Quantified> {
+        let mut parts = Children::of(pair);
+        let expr = self.expr(parts.next()?, 1);
+        let each = match parts.next_of(Rule::for_each) {
+            Some(pair) => {
+                let mut parts = Children::of(pair);
+                Some((self.name(parts.next()?), self.type_name(parts.next()?)?))
+            }
+            None => None,
+        };
+        let when = self.expr_in(parts.next_of(Rule::given), 1);
+        Some(Quantified { expr, each, when })
     }
 }

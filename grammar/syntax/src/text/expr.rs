@@ -1,5 +1,5 @@
 //! Pairs to expressions: the grammar gives a flat list of operands and operators, which is put together by
-//! precedence here. Recursion follows brackets, which [`super::brackets`] has bounded; chains without
+//! precedence here. Recursion follows brackets, which [`super::lexer`] has bounded; chains without
 //! brackets are built in loops and bounded by their height.
 
 use smol_str::SmolStr;

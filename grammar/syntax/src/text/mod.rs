@@ -1,12 +1,9 @@
 //! The text front end: `motet.pest` parses, the builders in this folder make the AST with exact spans, and
 //! [`syntax_error`] puts what the grammar refuses into words.
 
-mod brackets;
 mod builder;
-mod contract;
 mod expr;
 pub(crate) mod lexer;
-mod rule_names;
 mod step;
 mod syntax_error;
 
@@ -32,7 +29,7 @@ type Pair<'s> = pest::iterators::Pair<'s, Rule>;
 
 /// Parses a text of declarations and policies. A syntax error is one diagnostic and an empty file. O(bytes).
 pub(crate) fn parse(text: &str, file: FileId) -> (ast::File, Vec<Diagnostic>) {
-    if let Err(diagnostic) = brackets::check(text, file) {
+    if let Err(diagnostic) = lexer::check(text, file) {
         return (ast::File::default(), vec![*diagnostic]);
     }
     match MotetParser::parse(Rule::file, text) {
@@ -49,7 +46,7 @@ pub(crate) fn parse(text: &str, file: FileId) -> (ast::File, Vec<Diagnostic>) {
 pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<ast::Expr>, Vec<Diagnostic>) {
     let file = FileId::default();
     let moved = |diagnostic| (None, vec![origin.moved(diagnostic)]);
-    if let Err(diagnostic) = brackets::check(text, file) {
+    if let Err(diagnostic) = lexer::check(text, file) {
         return moved(*diagnostic);
     }
     match MotetParser::parse(Rule::lone_expr, text) {
@@ -76,7 +73,7 @@ pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<as
 ///
 /// # Errors
 ///
-/// What is wrong, in words, where the text is no condition.
+/// The reason, in words, if the text is no condition.
 pub fn parse_condition(text: &str) -> Result<ast::Expr, String> {
     let (expr, found) = parse_expr(text, Origin::At(FileId::default(), 0), 0);
     match (expr, found.into_iter().next()) {

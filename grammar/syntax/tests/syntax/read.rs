@@ -1,4 +1,4 @@
-//! Reading policies of both forms.
+//! Reading policies of both syntaxes.
 
 use motet_syntax::ast::{Item, StepKind};
 use motet_syntax::{FileId, Parsed, Source, Syntax, read};

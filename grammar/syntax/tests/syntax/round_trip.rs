@@ -51,7 +51,7 @@ proptest! {
         let text = print::text(&parse(&json));
         let again = parse_policy(&text);
         prop_assert_eq!(print::policy_json(&again), json, "{}", text);
-        // What came by way of JSON is in the text form the same as what came from text.
+        // What came by way of JSON is in the text syntax the same as what came from text.
         prop_assert_eq!(print::text(&File { items: vec![Item::Policy(again)] }), text);
     }
 

@@ -82,23 +82,23 @@ static int write_policy(MotetDecoder *decoder) {
 
 int main(int argc, char **argv) {
     int policies = argc > 1 ? atoi(argv[1]) : 1;
-    MotetWorldTexts texts = {0};
+    MotetEnvironmentTexts texts = {0};
     texts.robot = "hsr";
     texts.scene = "kitchen";
-    MotetWorld *world = motet_world_new(&texts);
-    if (!world)
-        return fail("world");
+    MotetEnvironment *environment = motet_environment_new(&texts);
+    if (!environment)
+        return fail("environment");
     MotetVocabulary *tokens = vocabulary();
     if (!tokens)
         return fail("vocabulary");
     int failed = 0;
     for (int policy = 0; policy < policies && !failed; policy++) {
         state = (uint64_t)policy;
-        MotetDecoder *decoder = motet_decoder_new(world, tokens, 600);
+        MotetDecoder *decoder = motet_decoder_new(environment, tokens, 600);
         failed = decoder ? write_policy(decoder) : fail("decoder");
         motet_decoder_free(decoder);
     }
     motet_vocabulary_free(tokens);
-    motet_world_free(world);
+    motet_environment_free(environment);
     return failed;
 }

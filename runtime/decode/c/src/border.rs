@@ -1,4 +1,4 @@
-//! The border: pointers that become references, errors that become words, panics that stay here.
+//! The border between C and Rust: pointers become references, errors become texts, panics stay here.
 
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
@@ -8,14 +8,14 @@ thread_local! {
     static LAST: RefCell<Option<CString>> = const { RefCell::new(None) };
 }
 
-/// Why the last function that was called by this thread failed, in words; null where it did not fail. Valid
+/// Returns the reason why the last function that this thread called failed; null if it did not fail. Valid
 /// until the thread calls the next function of this library.
 #[unsafe(no_mangle)]
 pub extern "C" fn motet_last_error() -> *const c_char {
     LAST.with_borrow(|last| last.as_ref().map_or(std::ptr::null(), |last| last.as_ptr()))
 }
 
-/// Frees a string that a function of this library returned; null is nothing.
+/// Frees a string that a function of this library returned; null does nothing.
 ///
 /// # Safety
 ///
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn motet_string_free(string: *mut c_char) {
     }
 }
 
-/// Runs what a function does: its result, or what stands for an error, of which the words are kept.
+/// Runs the body of a function: its result, or `failed` after an error, whose text is kept.
 pub(crate) fn guarded<T>(failed: T, run: impl FnOnce() -> Result<T, String>) -> T {
     let ran = catch_unwind(AssertUnwindSafe(run));
     let ran = ran.unwrap_or_else(|_| {
@@ -46,12 +46,12 @@ pub(crate) fn guarded<T>(failed: T, run: impl FnOnce() -> Result<T, String>) -> 
     }
 }
 
-/// A handle of a value.
+/// Moves a value behind a handle.
 pub(crate) fn handle<T>(value: T) -> *mut T {
     Box::into_raw(Box::new(value))
 }
 
-/// Frees a handle; null is nothing.
+/// Frees a handle; null does nothing.
 ///
 /// # Safety
 ///
@@ -67,7 +67,7 @@ pub(crate) unsafe fn free<T>(handle: *mut T) {
     }
 }
 
-/// What a handle stands for.
+/// The value behind a handle.
 ///
 /// # Safety
 ///
@@ -77,7 +77,7 @@ pub(crate) unsafe fn shared<'h, T>(handle: *const T, what: &str) -> Result<&'h T
     unsafe { handle.as_ref() }.ok_or_else(|| format!("the {what} is null"))
 }
 
-/// The same, to change it.
+/// The value behind a handle, to change it.
 ///
 /// # Safety
 ///
@@ -101,11 +101,11 @@ pub(crate) unsafe fn string<'s>(string: *const c_char, what: &str) -> Result<Opt
     text.to_str().map(Some).map_err(|_| format!("the {what} is no UTF-8"))
 }
 
-/// So many values from an address; none may be at null.
+/// `count` values from an address, which may be null if there are none.
 ///
 /// # Safety
 ///
-/// Where it is not null, `count` values stand there, and do not change meanwhile.
+/// The address is null, or `count` values stand there, and do not change meanwhile.
 pub(crate) unsafe fn slice<'s, T>(first: *const T, count: usize, what: &str) -> Result<&'s [T], String> {
     if count == 0 {
         return Ok(&[]);
@@ -115,11 +115,11 @@ pub(crate) unsafe fn slice<'s, T>(first: *const T, count: usize, what: &str) -> 
     Ok(unsafe { std::slice::from_raw_parts(first, count) })
 }
 
-/// The same, to be written.
+/// Room for `count` values, to be written.
 ///
 /// # Safety
 ///
-/// Where it is not null, there is room for `count` values, which nobody else uses meanwhile.
+/// The address is null, or has room for `count` values, which nobody else uses meanwhile.
 pub(crate) unsafe fn slice_mut<'s, T>(
     first: *mut T,
     count: usize,

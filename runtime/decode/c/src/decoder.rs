@@ -1,4 +1,4 @@
-//! Decoders: what may follow in one policy that is being written.
+//! Decoders: token masks for one policy that is being written.
 
 use std::ffi::c_char;
 
@@ -6,10 +6,10 @@ use motet_decode::Decoder;
 use motet_syntax::{Source, Sources, render};
 
 use crate::border::{exclusive, free, guarded, handle, shared, slice, slice_mut, string_out};
+use crate::environment::MotetEnvironment;
 use crate::vocabulary::MotetVocabulary;
-use crate::world::MotetWorld;
 
-/// What a function came to.
+/// The outcome of a function.
 #[repr(C)]
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum MotetStatus {
@@ -21,15 +21,15 @@ pub enum MotetStatus {
     Error = 2,
 }
 
-/// What may follow in one policy. It is not there any more after a fault in the library itself.
+/// Follows one policy, token by token. After a fault in the library itself it cannot be used any more.
 pub struct MotetDecoder {
     decoder: Option<Decoder>,
-    /// How many words a mask has.
+    /// The number of words of a mask.
     words: usize,
 }
 
 impl MotetDecoder {
-    /// Runs what may fail half-way: the decoder is put back only where it did not.
+    /// Runs an operation that may fail half-way: the decoder is put back only if it did not.
     fn with<T>(&mut self, run: impl FnOnce(&mut Decoder) -> Result<T, String>) -> Result<T, String> {
         let mut decoder = self.decoder.take().ok_or_else(|| "the decoder failed before".to_owned())?;
         let ran = run(&mut decoder);
@@ -38,29 +38,30 @@ impl MotetDecoder {
     }
 }
 
-/// A decoder of a policy of at most `budget` bytes. Null on an error, such as a budget that no policy fits.
+/// Creates a decoder for a policy of at most `budget` bytes. Null on an error, such as a budget that no
+/// policy fits.
 ///
 /// # Safety
 ///
-/// `world` and `vocabulary` are null or live.
+/// `environment` and `vocabulary` are null or live.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn motet_decoder_new(
-    world: *const MotetWorld,
+    environment: *const MotetEnvironment,
     vocabulary: *const MotetVocabulary,
     budget: usize,
 ) -> *mut MotetDecoder {
     guarded(std::ptr::null_mut(), || {
         // SAFETY: as the function's.
-        let world = unsafe { shared(world, "world")? };
+        let environment = unsafe { shared(environment, "environment")? };
         // SAFETY: as the function's.
         let vocabulary = unsafe { shared(vocabulary, "vocabulary")? };
-        let decoder = world.prepared.decoder(&vocabulary.0, budget);
+        let decoder = environment.prepared.decoder(&vocabulary.0, budget);
         let decoder = decoder.ok_or_else(|| format!("no policy has at most {budget} bytes"))?;
         Ok(handle(MotetDecoder { decoder: Some(decoder), words: vocabulary.0.len().div_ceil(32) }))
     })
 }
 
-/// Another decoder in the same state. Null on an error.
+/// Creates another decoder in the same state. Null on an error.
 ///
 /// # Safety
 ///
@@ -75,7 +76,7 @@ pub unsafe extern "C" fn motet_decoder_clone(decoder: *mut MotetDecoder) -> *mut
     })
 }
 
-/// Frees a decoder; null is nothing.
+/// Frees a decoder; null does nothing.
 ///
 /// # Safety
 ///
@@ -86,8 +87,8 @@ pub unsafe extern "C" fn motet_decoder_free(decoder: *mut MotetDecoder) {
     unsafe { free(decoder) };
 }
 
-/// Writes which tokens may follow: token `t` where bit `t % 32` of word `t / 32` is set. Takes as many
-/// words as `motet_vocabulary_mask_words` says, or more, of which the rest becomes 0.
+/// Writes the mask of the tokens that may follow: token `t` is bit `t % 32` of word `t / 32`. `count` is at
+/// least `motet_vocabulary_mask_words`; further words become 0.
 ///
 /// # Safety
 ///
@@ -117,7 +118,7 @@ pub unsafe extern "C" fn motet_decoder_mask(
     })
 }
 
-/// Takes a token, if it may follow.
+/// Takes a token if it may follow.
 ///
 /// # Safety
 ///
@@ -131,7 +132,7 @@ pub unsafe extern "C" fn motet_decoder_accept(decoder: *mut MotetDecoder, token:
     })
 }
 
-/// Takes back the last tokens; all of them where there are not so many.
+/// Takes back the last tokens, or all if there are fewer.
 ///
 /// # Safety
 ///
@@ -148,8 +149,7 @@ pub unsafe extern "C" fn motet_decoder_rollback(decoder: *mut MotetDecoder, toke
     })
 }
 
-/// Whether what was written so far is a whole policy: then, and only then, the end of the sequence may
-/// follow.
+/// Answers if the text so far is a whole policy: then, and only then, the end of the sequence may follow.
 ///
 /// # Safety
 ///
@@ -163,7 +163,7 @@ pub unsafe extern "C" fn motet_decoder_is_accepting(decoder: *mut MotetDecoder) 
     })
 }
 
-/// The text that must come next, whatever is meant; empty where there is a choice. Freed with
+/// Returns the text that must come next whatever the model means; empty if there is a choice. Freed with
 /// `motet_string_free`. Null on an error.
 ///
 /// # Safety
@@ -178,7 +178,7 @@ pub unsafe extern "C" fn motet_decoder_forced(decoder: *mut MotetDecoder) -> *mu
     })
 }
 
-/// The text so far. Freed with `motet_string_free`. Null on an error.
+/// Returns the text so far. Freed with `motet_string_free`. Null on an error.
 ///
 /// # Safety
 ///
@@ -192,9 +192,8 @@ pub unsafe extern "C" fn motet_decoder_text(decoder: *mut MotetDecoder) -> *mut 
     })
 }
 
-/// What the checker says of bytes that may not follow: JSON objects, one a line; none where they may
-/// follow, or where it is only their spelling that is refused. Freed with `motet_string_free`. Null on an
-/// error.
+/// Explains the refusal of bytes: the errors of the checker as JSON objects, one a line; empty if the bytes
+/// may follow, or if only their spelling is refused. Freed with `motet_string_free`. Null on an error.
 ///
 /// # Safety
 ///
@@ -224,11 +223,11 @@ fn yes(holds: bool) -> MotetStatus {
     if holds { MotetStatus::Ok } else { MotetStatus::Refused }
 }
 
-/// What the library says of threads.
+/// The thread safety that the documentation promises.
 const _: fn() = || {
     fn is_shared<T: Send + Sync>() {}
     fn is_sent<T: Send>() {}
-    is_shared::<MotetWorld>();
+    is_shared::<MotetEnvironment>();
     is_shared::<MotetVocabulary>();
     is_sent::<MotetDecoder>();
 };

@@ -1,16 +1,16 @@
-//! What a language model may write next, for hosts in C: `include/motet.h` says what there is.
+//! C interface of the constrained decoder: the functions of `include/motet.h`.
 //!
-//! What is here only carries values over the border. Handles are opaque; a null pointer or a wrong length
-//! is an error and no crash; a panic does not leave the library, and what it may have left half done is not
-//! used again. An error is told by what a function returns, and in words by [`motet_last_error`], a thread
-//! at a time.
+//! The crate only carries values over the border. Handles are opaque. A null pointer or a wrong length is an
+//! error and no crash. A panic does not leave the library, and the value that it may have left half done is
+//! not used again. A function returns a status or null, and [`motet_last_error`] has the reason, for each
+//! thread.
 //!
-//! A world and a vocabulary can be used by many threads at once, a decoder by one at a time.
+//! An environment and a vocabulary can be used by many threads at once, a decoder by one at a time.
 
 mod border;
 mod decoder;
+mod environment;
 mod vocabulary;
-mod world;
 
 pub use border::{motet_last_error, motet_string_free};
 pub use decoder::{
@@ -18,8 +18,11 @@ pub use decoder::{
     motet_decoder_free, motet_decoder_is_accepting, motet_decoder_mask, motet_decoder_new,
     motet_decoder_rollback, motet_decoder_text, motet_decoder_why_not,
 };
+pub use environment::{
+    MotetEnvironment, MotetEnvironmentTexts, motet_environment_check, motet_environment_free,
+    motet_environment_new,
+};
 pub use vocabulary::{
     MOTET_END_KNOWN, MotetBytes, MotetVocabulary, motet_vocabulary_free, motet_vocabulary_mask_words,
     motet_vocabulary_new, motet_vocabulary_read,
 };
-pub use world::{MotetWorld, MotetWorldTexts, motet_world_check, motet_world_free, motet_world_new};

@@ -4,24 +4,24 @@ use motet_decode::{EndToken, Vocabulary};
 
 use crate::border::{free, guarded, handle, shared, slice};
 
-/// Says that the end of a sequence is the token that is known to be, by its name.
+/// The end of a sequence is the token with a well-known name.
 pub const MOTET_END_KNOWN: i64 = -1;
 
 /// Bytes; not ended by a null byte.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MotetBytes {
-    /// The first; may be null where there are none.
+    /// Address of the first byte; may be null if there are none.
     pub data: *const u8,
-    /// How many.
+    /// The number of bytes.
     pub len: usize,
 }
 
 /// The tokens of a language model.
 pub struct MotetVocabulary(pub(crate) Vocabulary);
 
-/// A vocabulary of so many tokens in the order of their numbers; one without bytes is special, and never
-/// allowed. `end` is the token that ends a sequence. Null on an error.
+/// Creates a vocabulary of `count` tokens in the order of their numbers; one without bytes is special, and
+/// never allowed. `end` is the token that ends a sequence. Null on an error.
 ///
 /// # Safety
 ///
@@ -43,8 +43,9 @@ pub unsafe extern "C" fn motet_vocabulary_new(
     })
 }
 
-/// A vocabulary from a file: `tokenizer.json` of Hugging Face, a list in JSON, or lines in base64 such as
-/// tiktoken's ranks. `end` is the token that ends a sequence, or [`MOTET_END_KNOWN`]. Null on an error.
+/// Reads a vocabulary from a file: `tokenizer.json` of Hugging Face, a list in JSON, or lines of base64 such
+/// as the ranks of tiktoken. `end` is the token that ends a sequence, or [`MOTET_END_KNOWN`]. Null on an
+/// error.
 ///
 /// # Safety
 ///
@@ -68,7 +69,7 @@ pub unsafe extern "C" fn motet_vocabulary_read(
     })
 }
 
-/// How many 32-bit words a mask has. 0 on an error.
+/// Returns the number of 32-bit words of a mask; 0 on an error.
 ///
 /// # Safety
 ///
@@ -79,7 +80,7 @@ pub unsafe extern "C" fn motet_vocabulary_mask_words(vocabulary: *const MotetVoc
     guarded(0, || Ok(unsafe { shared(vocabulary, "vocabulary")? }.0.len().div_ceil(32)))
 }
 
-/// Frees a vocabulary; null is nothing. Decoders that were made of it go on.
+/// Frees a vocabulary; null does nothing. Decoders of it stay valid.
 ///
 /// # Safety
 ///

@@ -1,4 +1,4 @@
-"""What a language model may write next in a policy for a robot.
+"""Constrained decoding of policies for robots: masks of the tokens that a language model may write next.
 
     decoder = motet.Decoder(robot="hsr", scene="kitchen", tokenizer="tokenizer.json")
     while not decoder.is_over:
@@ -6,13 +6,13 @@
         decoder.accept(int(logits.argmax()))
     print(decoder.text)
 
-From any weights at all, what is written is a policy that `World.check` has no error against. `motet.transformers` has a logits
-processor for Hugging Face transformers.
+Whatever the weights, the result is a policy against which `Environment.check` has no error. `motet.transformers` has a logits processor
+for Hugging Face transformers.
 """
 
 from ._motet import __version__
 from .decoder import Decoder
+from .environment import Environment
 from .vocabulary import Vocabulary, vocabulary
-from .world import World
 
-__all__ = ["Decoder", "Vocabulary", "World", "__version__", "vocabulary"]
+__all__ = ["Decoder", "Environment", "Vocabulary", "__version__", "vocabulary"]

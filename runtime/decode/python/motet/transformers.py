@@ -3,7 +3,7 @@
     processor = MotetLogitsProcessor(motet.Decoder(robot="hsr", scene="kitchen", tokenizer=tokenizer, budget=999))
     model.generate(**inputs, max_new_tokens=1000, logits_processor=[processor])
 
-Neither transformers nor torch is imported here: scores of torch are told by what they can do, and arrays of numpy do as well.
+Neither transformers nor torch is imported here: scores may be tensors of torch or arrays of numpy.
 """
 
 import numpy
@@ -12,9 +12,9 @@ __all__ = ["MotetLogitsProcessor"]
 
 
 class MotetLogitsProcessor:
-    """Holds what a model writes after its prompt to policies that check: one policy a row, also in batches and beams.
+    """Constrains the text after the prompt to a policy that checks: one policy per row, also in batches and beams.
 
-    It is for one call of `generate`, whose first scores tell where the prompt ends. The decoder that is given is not changed.
+    Make one for each call of `generate`: its first scores tell the length of the prompt. The decoder is not changed.
     """
 
     def __init__(self, decoder):
@@ -32,7 +32,7 @@ class MotetLogitsProcessor:
         allowed = numpy.zeros(tuple(scores.shape), dtype=bool)
         for row, decoder in zip(allowed, self._decoders):
             if decoder.is_over:
-                # What pads a row that has ended is not ours to choose.
+                # The padding of a row that has ended is not ours to choose.
                 row[:] = True
             else:
                 of_row = decoder.allowed()[: len(row)]
@@ -44,7 +44,7 @@ class MotetLogitsProcessor:
         return numpy.where(allowed, scores, -numpy.inf)
 
     def _at(self, tokens):
-        """A decoder that has taken these tokens: from the one that has most of them, as beams may have changed places."""
+        """A decoder that has taken these tokens, made from the one with most of them: beams may have changed places."""
         nearest = max(self._decoders, key=lambda decoder: _common(decoder.tokens, tokens))
         common = _common(nearest.tokens, tokens)
         decoder = nearest.clone()
@@ -58,6 +58,6 @@ class MotetLogitsProcessor:
 
 
 def _common(one, other):
-    """How many tokens two lists begin with together."""
+    """The length of the common beginning of two lists of tokens."""
     pairs = enumerate(zip(one, other))
     return next((at for at, (left, right) in pairs if left != right), min(len(one), len(other)))

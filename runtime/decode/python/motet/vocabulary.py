@@ -1,4 +1,4 @@
-"""Vocabularies from what hosts have."""
+"""Vocabularies from encodings, files and tokenizers of other libraries."""
 
 import os
 from pathlib import Path
@@ -14,8 +14,8 @@ def vocabulary(tokenizer, end=None):
     """The vocabulary of a tokenizer: `cl100k` or `o200k`, the path of a tokenizer.json, of a list in JSON or of lines in
     base64, a tokenizer of `transformers` or of `tokenizers`, or a `Vocabulary` as it is.
 
-    `end` is the name or the number of the token that ends a sequence. Without it, it is what the tokenizer says; of a file,
-    the token whose name is known to. Raises `ValueError` where the tokenizer cannot be used.
+    `end` is the name or the number of the token that ends a sequence. The default is the end token of the tokenizer; of a file,
+    the token with a well-known name. Raises `ValueError` if the tokenizer cannot be used.
     """
     if isinstance(tokenizer, Vocabulary):
         return tokenizer

@@ -1,5 +1,5 @@
-//! The native part of the Python module `motet`: worlds, vocabularies and decoders as they are. What is
-//! convenient in Python, names of files and tokenizers of other libraries, is in `motet/*.py`.
+//! Native part of the Python module `motet`: environments, vocabularies and decoders. Names of files and
+//! tokenizers of other libraries are handled in `motet/*.py`.
 
 use motet_decode::vocabulary::Encoding;
 use motet_decode::{AcceptorFactory, EndToken, Environment as Texts, Modifiers, Session, Subset};
@@ -15,7 +15,7 @@ struct Vocabulary(motet_decode::Vocabulary);
 #[pymethods]
 impl Vocabulary {
     /// Reads tokenizer.json, a list in JSON or lines in base64. `end` is the name or the number of the
-    /// token that ends a sequence; without it the one that is known to.
+    /// token that ends a sequence; the default is the token with a well-known name.
     #[staticmethod]
     #[pyo3(signature = (file, end = None))]
     fn from_file(file: &[u8], end: Option<EndOfSequence>) -> PyResult<Self> {
@@ -53,7 +53,7 @@ impl Vocabulary {
         PyBytes::new(py, self.0.bytes(token))
     }
 
-    /// The tokens of bytes, each time the longest that fits.
+    /// The tokens of a text, the longest first at each place.
     fn tokenize(&self, text: &[u8]) -> Vec<u32> {
         self.0.tokenize(text)
     }
@@ -76,16 +76,16 @@ impl EndOfSequence {
     }
 }
 
-/// A robot, a scene and what else is known, prepared.
+/// A robot, a scene and facts, prepared.
 #[pyclass(frozen, module = "motet._motet")]
-struct World {
+struct Environment {
     session: Session,
     prepared: AcceptorFactory,
 }
 
 #[pymethods]
-impl World {
-    /// Names of what is built in, or texts.
+impl Environment {
+    /// Takes names of built-in robots and scenes, or texts.
     #[new]
     #[pyo3(signature = (*, robot = None, declarations = None, scene = None, state = None, domain = None, modifiers = false, text = false))]
     fn new(
@@ -99,20 +99,19 @@ impl World {
     ) -> PyResult<Self> {
         let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
         let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
-        let form = if text { Syntax::Text } else { Syntax::Json };
-        let prepared =
-            AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
+        let syntax = if text { Syntax::Text } else { Syntax::Json };
+        let prepared = AcceptorFactory::new(&session, Subset { syntax, modifiers, ..Subset::default() });
         Ok(Self { session, prepared })
     }
 
-    /// What the checker says of a policy in either form: JSON objects, one a line.
+    /// The diagnostics of a policy in either syntax: JSON objects, one a line.
     fn check(&self, policy: &str) -> String {
         let (source, sources) = sources(policy);
         let parsed = motet_syntax::read(&source, FileId(0));
         render::json(&self.session.check(&parsed), &sources)
     }
 
-    /// A decoder of a policy of at most so many bytes.
+    /// Creates a decoder for a policy of at most `budget` bytes.
     fn decoder(&self, vocabulary: &Vocabulary, budget: usize) -> PyResult<Decoder> {
         let decoder = self.prepared.decoder(&vocabulary.0, budget);
         let decoder = decoder.ok_or_else(|| wrong(format!("no policy has at most {budget} bytes")))?;
@@ -120,17 +119,17 @@ impl World {
     }
 }
 
-/// What may follow in one policy.
+/// Follows one policy token by token.
 #[pyclass(module = "motet._motet")]
 struct Decoder {
     decoder: motet_decode::Decoder,
-    /// How many words a mask has.
+    /// The number of words of a mask.
     words: usize,
 }
 
 #[pymethods]
 impl Decoder {
-    /// A bit a token, the lowest first, in 32-bit words of the machine's order.
+    /// The mask, one bit per token, the lowest first, in 32-bit words of the machine's order.
     fn mask<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyBytes> {
         let words = self.words;
         let mask = py.detach(|| self.decoder.mask().get(..words).unwrap_or_default().to_vec());
@@ -143,7 +142,7 @@ impl Decoder {
         self.decoder.accept(token)
     }
 
-    /// The text that must come next; empty where there is a choice.
+    /// The text that must come next; empty if there is a choice.
     fn forced(&mut self) -> String {
         String::from_utf8_lossy(&self.decoder.acceptor().forced()).into_owned()
     }
@@ -154,7 +153,7 @@ impl Decoder {
         self.decoder.rollback(tokens);
     }
 
-    /// What the checker says of a text that may not follow: JSON objects, one a line.
+    /// The errors of the checker for a text that may not follow: JSON objects, one a line.
     fn why_not(&mut self, text: &str) -> String {
         let acceptor = self.decoder.acceptor();
         let (_, sources) = sources(&(String::from_utf8_lossy(acceptor.bytes()) + text));
@@ -167,7 +166,7 @@ impl Decoder {
         String::from_utf8_lossy(self.decoder.acceptor().bytes()).into_owned()
     }
 
-    /// Whether the text so far is a whole policy.
+    /// Returns `true` if the text so far is a whole policy.
     #[getter]
     fn is_accepting(&mut self) -> bool {
         self.decoder.acceptor().is_accepting()
@@ -195,6 +194,6 @@ fn wrong(error: impl std::fmt::Display) -> PyErr {
 fn _motet(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<Vocabulary>()?;
-    module.add_class::<World>()?;
+    module.add_class::<Environment>()?;
     module.add_class::<Decoder>()
 }

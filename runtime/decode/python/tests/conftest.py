@@ -1,4 +1,4 @@
-"""What the tests share: a tokenizer in a file, and a world."""
+"""Shared fixtures: a tokenizer in a file, and an environment."""
 
 import json
 
@@ -14,7 +14,7 @@ def tokenizer(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def world():
+def environment():
     import motet
 
-    return motet.World(robot="hsr", scene="kitchen")
+    return motet.Environment(robot="hsr", scene="kitchen")

@@ -28,17 +28,17 @@ def write(decoder, random, scale):
 
 
 @pytest.mark.parametrize("scale", [0.0, 1.0, 5.0])
-def test_what_is_written_at_random_checks(world, tokenizer, scale):
-    start = motet.Decoder(world=world, tokenizer=tokenizer, budget=500)
+def test_what_is_written_at_random_checks(environment, tokenizer, scale):
+    start = motet.Decoder(environment=environment, tokenizer=tokenizer, budget=500)
     for seed in range(6):
         policy = write(start.clone(), numpy.random.default_rng(seed), scale)
-        wrong = [said for said in world.check(policy) if said["severity"] == "error"]
+        wrong = [said for said in environment.check(policy) if said["severity"] == "error"]
         assert not wrong, (seed, policy, wrong)
         assert len(policy) <= 500
 
 
-def test_a_mask_is_taken_by_numpy(world, tokenizer):
-    decoder = motet.Decoder(world=world, tokenizer=tokenizer)
+def test_a_mask_is_taken_by_numpy(environment, tokenizer):
+    decoder = motet.Decoder(environment=environment, tokenizer=tokenizer)
     mask = decoder.mask()
     words = numpy.asarray(mask)
     assert words.dtype == numpy.uint32 and len(words) == -(-len(decoder.vocabulary) // 32)
@@ -47,8 +47,8 @@ def test_a_mask_is_taken_by_numpy(world, tokenizer):
     assert [decoder.vocabulary.token(token) for token, may in enumerate(bits) if may] == [b"{", b'{"']
 
 
-def test_a_policy_is_followed_forced_and_taken_back(world, tokenizer):
-    decoder = motet.Decoder(world=world, tokenizer=tokenizer)
+def test_a_policy_is_followed_forced_and_taken_back(environment, tokenizer):
+    decoder = motet.Decoder(environment=environment, tokenizer=tokenizer)
     assert decoder.forced() == '{"motet":1,"policy":"'
     feed(decoder, START + '{"do":"pick","object":"mug_1","from":"auto"}')
     again = ',{"do":"pick","object":"mug_2","from":"auto"}'
@@ -67,16 +67,16 @@ def test_a_policy_is_followed_forced_and_taken_back(world, tokenizer):
     assert not [said for said in decoder.check(decoder.text) if said["severity"] == "error"]
 
 
-def test_worlds_are_of_names_files_and_values(tmp_path, tokenizer):
+def test_environments_are_of_names_files_and_values(tmp_path, tokenizer):
     held = motet.Decoder(
         robot="hsr", scene="kitchen", state={"holding(mug_1)": True, "free(hand)": False}, tokenizer=tokenizer
     )
     feed(held, START + '{"do":"p')
     assert not held.accept(ord("i"))
     with pytest.raises(ValueError, match="there is no robot `hal`; built in: "):
-        motet.World(robot="hal")
+        motet.Environment(robot="hal")
     with pytest.raises(ValueError, match="the state cannot be used"):
-        motet.World(robot="hsr", state={"holding": 3})
+        motet.Environment(robot="hsr", state={"holding": 3})
     with pytest.raises(ValueError, match="no policy has at most 3 bytes"):
         motet.Decoder(robot="hsr", tokenizer=tokenizer, budget=3)
     (tmp_path / "wrong.json").write_text("{}")

@@ -28,18 +28,18 @@ def generate(decoder, rows, random, most=400):
     return texts
 
 
-def test_batches_of_policies_check(world, tokenizer):
-    decoder = motet.Decoder(world=world, tokenizer=tokenizer, budget=399)
+def test_batches_of_policies_check(environment, tokenizer):
+    decoder = motet.Decoder(environment=environment, tokenizer=tokenizer, budget=399)
     texts = generate(decoder, rows=4, random=numpy.random.default_rng(3))
     assert len(set(texts)) == 4
     for text in texts:
-        wrong = [said for said in world.check(text) if said["severity"] == "error"]
+        wrong = [said for said in environment.check(text) if said["severity"] == "error"]
         assert not wrong, (text, wrong)
     assert decoder.text == ""
 
 
-def test_beams_may_change_places(world, tokenizer):
-    decoder = motet.Decoder(world=world, tokenizer=tokenizer)
+def test_beams_may_change_places(environment, tokenizer):
+    decoder = motet.Decoder(environment=environment, tokenizer=tokenizer)
     processor = MotetLogitsProcessor(decoder)
     scores = numpy.zeros((2, len(decoder.vocabulary)))
     open_brace, both = ord("{"), decoder.vocabulary.tokenize(b'{"')[0]

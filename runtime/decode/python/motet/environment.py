@@ -1,4 +1,4 @@
-"""Worlds from names, files and values."""
+"""Environments from names, files and values."""
 
 import json
 import os
@@ -6,20 +6,20 @@ from pathlib import Path
 
 from . import _motet
 
-__all__ = ["World"]
+__all__ = ["Environment"]
 
 
-class World:
-    """A robot, a scene and what else is known, prepared for any number of policies.
+class Environment:
+    """A robot, a scene and facts, prepared for any number of policies.
 
-    `robot` is a name that is built in or a folder with a robot.toml, `scene` a name, a file or a dictionary, `state` a file
-    or a dictionary of facts at the start such as `{"holding(mug_1)": True}`, `domain` a file of further declarations.
-    `modifiers` gives deadlines and retries a place, `surface` is "json" or "text". Raises `ValueError` where something of it is wrong.
+    `robot` is a built-in name or a folder with a robot.toml, `scene` a built-in name, a file or a dictionary, `state` a file
+    or a dictionary of facts at the start such as `{"holding(mug_1)": True}`, `domain` a file of further declarations. With
+    `modifiers` a policy may have deadlines and retries. `syntax` is "json" or "text". Raises `ValueError` if an argument is wrong.
     """
 
-    def __init__(self, robot=None, scene=None, state=None, domain=None, modifiers=False, surface="json"):
-        if surface not in ("json", "text"):
-            raise ValueError(f"there is no surface `{surface}`: json or text")
+    def __init__(self, robot=None, scene=None, state=None, domain=None, modifiers=False, syntax="json"):
+        if syntax not in ("json", "text"):
+            raise ValueError(f"there is no syntax `{syntax}`: json or text")
         declarations = None
         if robot is not None and Path(robot).is_dir():
             folder = Path(robot)
@@ -27,26 +27,26 @@ class World:
             primitives = folder / "primitives.motet"
             declarations = primitives.read_text(encoding="utf-8") if primitives.exists() else None
         domain = None if domain is None else Path(domain).read_text(encoding="utf-8")
-        self._world = _motet.World(
+        self._environment = _motet.Environment(
             robot=None if robot is None else str(robot),
             declarations=declarations,
             scene=_text(scene),
             state=_text(state),
             domain=domain,
             modifiers=modifiers,
-            text=surface == "text",
+            text=syntax == "text",
         )
 
     def check(self, policy):
-        """What the checker says of a policy in either form: a list of dictionaries as `motet schema diagnostic` has them."""
-        return _objects(self._world.check(policy))
+        """The diagnostics of a policy in either syntax: a list of dictionaries, described by `motet schema diagnostic`."""
+        return _objects(self._environment.check(policy))
 
     def _decoder(self, vocabulary, budget):
-        return self._world.decoder(vocabulary, budget)
+        return self._environment.decoder(vocabulary, budget)
 
 
 def _text(given):
-    """The name or the text that a name, a file or a value stands for."""
+    """The name itself, or the text of a file or a value."""
     if given is None:
         return None
     if isinstance(given, dict):

@@ -1,12 +1,5 @@
 //! The example in C compiles against the header and the library, and what it writes at random checks.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::disallowed_methods,
-    clippy::print_stdout,
-    reason = "a test fails by panicking"
-)]
-
 use std::path::Path;
 use std::process::Command;
 

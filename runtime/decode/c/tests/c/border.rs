@@ -1,11 +1,4 @@
-//! What hosts may get wrong is an error: null pointers, wrong lengths, texts that are none.
-
-#![allow(
-    clippy::unwrap_used,
-    clippy::undocumented_unsafe_blocks,
-    clippy::indexing_slicing,
-    reason = "a test fails by panicking; it keeps what the functions ask for"
-)]
+//! Mistakes of hosts are errors: null pointers, wrong lengths, texts that are not UTF-8.
 
 use std::ffi::{CStr, CString, c_char};
 use std::ptr::{null, null_mut};
@@ -24,9 +17,9 @@ fn taken(string: *mut c_char) -> String {
     text
 }
 
-fn world(robot: &CStr, scene: *const c_char) -> *mut MotetWorld {
+fn environment(robot: &CStr, scene: *const c_char) -> *mut MotetEnvironment {
     let (robot, none) = (robot.as_ptr(), null());
-    let texts = MotetWorldTexts {
+    let texts = MotetEnvironmentTexts {
         robot,
         declarations: none,
         scene,
@@ -35,7 +28,7 @@ fn world(robot: &CStr, scene: *const c_char) -> *mut MotetWorld {
         modifiers: false,
         text: false,
     };
-    unsafe { motet_world_new(&raw const texts) }
+    unsafe { motet_environment_new(&raw const texts) }
 }
 
 /// Every byte, then the end.
@@ -49,9 +42,9 @@ fn vocabulary() -> *mut MotetVocabulary {
 #[test]
 fn null_is_an_error() {
     unsafe {
-        assert!(motet_world_new(null()).is_null());
-        assert_eq!(said(), "the world is null");
-        assert!(motet_world_check(null(), null(), 0).is_null());
+        assert!(motet_environment_new(null()).is_null());
+        assert_eq!(said(), "the environment is null");
+        assert!(motet_environment_check(null(), null(), 0).is_null());
         assert!(motet_vocabulary_new(null(), 3, 0).is_null());
         assert_eq!(said(), "there is no address of the tokens");
         assert!(motet_vocabulary_new(null(), 0, 0).is_null());
@@ -68,7 +61,7 @@ fn null_is_an_error() {
         assert!(motet_decoder_text(null_mut()).is_null());
         assert!(motet_decoder_why_not(null_mut(), null(), 0).is_null());
         motet_string_free(null_mut());
-        motet_world_free(null_mut());
+        motet_environment_free(null_mut());
         motet_vocabulary_free(null_mut());
         motet_decoder_free(null_mut());
     }
@@ -76,9 +69,9 @@ fn null_is_an_error() {
 
 #[test]
 fn wrong_values_are_errors() {
-    assert!(world(c"hal", null()).is_null());
+    assert!(environment(c"hal", null()).is_null());
     assert!(said().starts_with("there is no robot `hal`"), "{}", said());
-    assert!(world(c"\xff", null()).is_null());
+    assert!(environment(c"\xff", null()).is_null());
     assert_eq!(said(), "the robot is no UTF-8");
     let huge = MotetBytes { data: c"x".as_ptr().cast(), len: usize::MAX };
     assert!(unsafe { motet_vocabulary_new(&raw const huge, 1, 0) }.is_null());
@@ -87,12 +80,12 @@ fn wrong_values_are_errors() {
     assert!(said().starts_with("the vocabulary is not JSON"), "{}", said());
     assert!(unsafe { motet_vocabulary_read(b"[]".as_ptr(), 2, -7) }.is_null());
     assert_eq!(said(), "-7 is no token");
-    let (world, tokens) = (world(c"hsr", c"kitchen".as_ptr()), vocabulary());
+    let (environment, tokens) = (environment(c"hsr", c"kitchen".as_ptr()), vocabulary());
     assert_eq!(said(), "");
     unsafe {
-        assert!(motet_decoder_new(world, tokens, 10).is_null());
+        assert!(motet_decoder_new(environment, tokens, 10).is_null());
         assert_eq!(said(), "no policy has at most 10 bytes");
-        let decoder = motet_decoder_new(world, tokens, 1000);
+        let decoder = motet_decoder_new(environment, tokens, 1000);
         let mut mask = [u32::MAX; 8];
         assert_eq!(motet_decoder_mask(decoder, mask.as_mut_ptr(), 8), MotetStatus::Error);
         assert_eq!(said(), "the mask has room for 8 words and needs 9");
@@ -100,15 +93,15 @@ fn wrong_values_are_errors() {
         assert_eq!(motet_decoder_mask(decoder, odd, 2), MotetStatus::Error);
         motet_decoder_free(decoder);
         motet_vocabulary_free(tokens);
-        motet_world_free(world);
+        motet_environment_free(environment);
     }
 }
 
 #[test]
 fn a_policy_is_written() {
-    let (world, tokens) = (world(c"hsr", c"kitchen".as_ptr()), vocabulary());
+    let (environment, tokens) = (environment(c"hsr", c"kitchen".as_ptr()), vocabulary());
     unsafe {
-        let decoder = motet_decoder_new(world, tokens, 1000);
+        let decoder = motet_decoder_new(environment, tokens, 1000);
         // A decoder keeps what it needs.
         motet_vocabulary_free(tokens);
         assert_eq!(taken(motet_decoder_forced(decoder)), "{\"motet\":1,\"policy\":\"");
@@ -134,12 +127,13 @@ fn a_policy_is_written() {
         assert_eq!(motet_decoder_is_accepting(decoder), MotetStatus::Ok);
         assert_eq!(motet_decoder_accept(decoder, 256), MotetStatus::Ok);
         let policy = CString::new(taken(motet_decoder_text(decoder))).unwrap();
-        let said = taken(motet_world_check(world, policy.as_ptr().cast(), policy.as_bytes().len()));
+        let said =
+            taken(motet_environment_check(environment, policy.as_ptr().cast(), policy.as_bytes().len()));
         assert!(!said.contains("\"error\""), "{said}");
         assert_eq!(taken(motet_decoder_text(other)).as_bytes(), start);
         for decoder in [decoder, other] {
             motet_decoder_free(decoder);
         }
-        motet_world_free(world);
+        motet_environment_free(environment);
     }
 }

@@ -1,10 +1,11 @@
-//! Diagnostics as a SARIF 2.1.0 log, for code scanning services.
+//! Diagnostics for code hosting: a SARIF 2.1.0 log, for code scanning services, and workflow commands of
+//! GitHub Actions.
 
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use super::tool_file;
+use super::{region, tool_file};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{Source, Sources, Span};
 
@@ -92,7 +93,7 @@ fn result(diagnostic: &Diagnostic, rule: Option<usize>, sources: &Sources) -> Va
             .edits
             .iter()
             .map(|edit| {
-                let deleted = region(edit.span, sources);
+                let deleted = sarif_region(edit.span, sources);
                 json!({"deletedRegion": deleted, "insertedContent": {"text": edit.text}})
             })
             .collect();
@@ -111,7 +112,7 @@ fn result(diagnostic: &Diagnostic, rule: Option<usize>, sources: &Sources) -> Va
 
 fn location(span: Span, path: &str, sources: &Sources) -> Value {
     let mut location = json!({
-        "physicalLocation": {"artifactLocation": artifact(span, sources), "region": region(span, sources)},
+        "physicalLocation": {"artifactLocation": artifact(span, sources), "region": sarif_region(span, sources)},
     });
     if let (false, Some(location)) = (path.is_empty(), location.as_object_mut()) {
         location.insert("logicalLocations".into(), json!([{"fullyQualifiedName": path, "kind": "value"}]));
@@ -134,8 +135,8 @@ fn artifact(span: Span, sources: &Sources) -> Value {
     json!({"uri": uri})
 }
 
-fn region(span: Span, sources: &Sources) -> Value {
-    let [(line, column), (end_line, end_column)] = super::region(sources, span);
+fn sarif_region(span: Span, sources: &Sources) -> Value {
+    let [(line, column), (end_line, end_column)] = region(sources, span);
     let mut region = json!({
         "startLine": line,
         "startColumn": column,
@@ -150,4 +151,36 @@ fn region(span: Span, sources: &Sources) -> Value {
         region.insert("byteLength".into(), span.end.saturating_sub(span.start).into());
     }
     region
+}
+
+/// `::error file=…,line=…,col=…,title=…::message` for each diagnostic.
+#[must_use]
+pub fn github(diagnostics: &[Diagnostic], sources: &Sources) -> String {
+    let mut text = String::new();
+    for diagnostic in diagnostics {
+        let command = match diagnostic.severity {
+            Severity::Note => "notice",
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        };
+        let file = property(tool_file(sources, diagnostic.span));
+        let [(line, column), (end_line, end_column)] = region(sources, diagnostic.span);
+        let message = match &diagnostic.help {
+            Some(help) => data(&format!("{}\n{help}", diagnostic.message)),
+            None => data(&diagnostic.message),
+        };
+        let place = format!("file={file},line={line},endLine={end_line},col={column},endColumn={end_column}");
+        text.push_str(&format!("::{command} {place},title={}::{message}\n", diagnostic.code));
+    }
+    text
+}
+
+/// Text after the `::`.
+fn data(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+/// The value of a property.
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
 }
