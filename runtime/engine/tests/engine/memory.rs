@@ -29,7 +29,7 @@ fn slips(number: usize, primitive: &str) -> Outcome {
 }
 
 #[test]
-fn steps_with_their_results_and_the_latest_failure() {
+fn memory_steps_with_their_results_and_the_latest_failure() {
     let steps = [StepSketch::go("table"), StepSketch::detect("mug"), StepSketch::say("never")];
     let run = run(graph(&steps), slips, |_, _| Answer::Unknown, 100);
     let memory = fed(&run, MemoryLimits::default());
@@ -53,7 +53,7 @@ fn steps_with_their_results_and_the_latest_failure() {
 }
 
 #[test]
-fn what_has_no_question_is_a_step() {
+fn memory_what_has_no_question_is_a_step() {
     let limits = MemoryLimits { questions: vec!["detect".into()], ..MemoryLimits::default() };
     let run = run(graph(&[StepSketch::detect("mug")]), |_, name| success(name), |_, _| Answer::Unknown, 100);
     // The test vocabulary has no `ask`; what is no parameter `question` is no question.
@@ -61,7 +61,7 @@ fn what_has_no_question_is_a_step() {
 }
 
 #[test]
-fn what_runs_is_told_with_its_start() {
+fn memory_what_runs_is_told_with_its_start() {
     let run = run(
         graph(&[StepSketch::go("table"), StepSketch::say("on")]),
         |_, name| success(name),
@@ -75,7 +75,7 @@ fn what_runs_is_told_with_its_start() {
 }
 
 #[test]
-fn old_entries_are_dropped_and_counted() {
+fn memory_old_entries_are_dropped_and_counted() {
     let steps: Vec<StepSketch> = (0..20).map(|number| StepSketch::say(&format!("number {number}"))).collect();
     let run = run(graph(&steps), slips, |_, _| Answer::Unknown, 100);
     let all = fed(&run, MemoryLimits::default());
@@ -96,7 +96,7 @@ fn old_entries_are_dropped_and_counted() {
 }
 
 #[test]
-fn long_texts_are_cut_between_letters() {
+fn memory_long_texts_are_cut_between_letters() {
     let mut memory = Memory::new(MemoryLimits { text_bytes: 10, ..MemoryLimits::default() });
     memory.instruct(Time::ZERO, "größer als erlaubt");
     let Some(MemoryEvent::Instruction { text }) = memory.entries().next().map(|entry| entry.what.clone())
@@ -108,7 +108,7 @@ fn long_texts_are_cut_between_letters() {
 }
 
 #[test]
-fn views_are_data_too() {
+fn memory_views_are_data_too() {
     let run = run(graph(&[StepSketch::detect("mug")]), |_, name| success(name), |_, _| Answer::Unknown, 100);
     let memory = fed(&run, MemoryLimits::default());
     let whole = memory.whole(&run.engine.snapshot());
@@ -149,7 +149,7 @@ fn taken_over(next: &[StepSketch], outcome: Outcome) -> Vec<String> {
 }
 
 #[test]
-fn what_goes_on_for_another_policy_is_told_once_with_its_end() {
+fn memory_what_goes_on_for_another_policy_is_told_once_with_its_end() {
     let done = || Outcome::Success(None);
     let kept = taken_over(&[StepSketch::go("table"), StepSketch::say("on")], done());
     assert_eq!(kept, ["new policy `sketch`", "go(to: table): done"]);

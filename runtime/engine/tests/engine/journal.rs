@@ -38,7 +38,7 @@ fn replay(entries: &[JournalEntry]) -> Option<String> {
 }
 
 #[test]
-fn a_replay_is_the_same() {
+fn journal_replay_is_the_same() {
     let run = small();
     let (entries, ending) = read(run.lines.concat().as_bytes(), SegmentPosition::Middle).unwrap();
     assert_eq!((entries.len(), ending), (run.lines.len(), SegmentEnd::Whole));
@@ -50,7 +50,7 @@ fn a_replay_is_the_same() {
 }
 
 #[test]
-fn a_replay_tells_where_it_differs() {
+fn journal_replay_tells_where_it_differs() {
     let run = small();
     let (mut entries, _) = read(run.lines.concat().as_bytes(), SegmentPosition::Middle).unwrap();
     let JournalEntry::Step(step) = &mut entries[2] else { panic!("no step") };
@@ -61,7 +61,7 @@ fn a_replay_tells_where_it_differs() {
 }
 
 #[test]
-fn cut_anywhere_at_most_the_last_line_is_lost() {
+fn journal_cut_anywhere_at_most_the_last_line_is_lost() {
     let text = small().lines.concat();
     for length in 0..=text.len() {
         let bytes = &text.as_bytes()[..length];
@@ -83,7 +83,7 @@ fn cut_anywhere_at_most_the_last_line_is_lost() {
 }
 
 #[test]
-fn every_changed_byte_is_found() {
+fn journal_every_changed_byte_is_found() {
     let text = small().lines.concat();
     for place in 0..text.len() {
         for bit in [0, 3, 7] {
@@ -101,7 +101,7 @@ fn every_changed_byte_is_found() {
 }
 
 #[test]
-fn damage_says_where_and_what() {
+fn journal_damage_says_where_and_what() {
     let lines = small().lines;
     let said = |bytes: &[u8], place| read(bytes, place).unwrap_err().to_string();
     let start = "the journal is damaged in 00000000.log, ";
@@ -132,7 +132,7 @@ fn damage_says_where_and_what() {
 }
 
 #[test]
-fn a_block_that_was_never_written_is_torn() {
+fn journal_block_that_was_never_written_is_torn() {
     let lines = small().lines;
     let good = lines[..2].concat();
     let mut bytes = lines[..3].concat().into_bytes();
@@ -153,7 +153,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
-    fn random_runs_are_replayed_to_the_byte(steps in steps(), dice in any::<u64>()) {
+    fn journal_random_runs_are_replayed_to_the_byte(steps in steps(), dice in any::<u64>()) {
         let roll = |number: usize, sides: u64| dice.rotate_left(number as u32 * 7) % sides;
         let run = run(
             graph(&steps),

@@ -4,6 +4,7 @@ use motet_graph::{NodeId, Pose, Value};
 use motet_runtime::{
     Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, EndCause, Event, Fault, GoalId,
     NodeEnding, Outcome, Pattern, Query, RunEnd, Time, TraceEvent, TraceEventKind, Truth, Verification,
+    journal,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -86,12 +87,12 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
-    fn events(event in driver_event()) {
+    fn wire_events(event in driver_event()) {
         there_and_back!(Event, Event::Driver(event));
     }
 
     #[test]
-    fn starts(goal: u64, node: u32, args in vec((any::<String>(), value()), 0..4), deadline: u64) {
+    fn wire_starts(goal: u64, node: u32, args in vec((any::<String>(), value()), 0..4), deadline: u64) {
         let command = Command {
             primitive: "pick".into(),
             args: args.into_iter().map(|(name, value)| (name.into(), value)).collect(),
@@ -106,8 +107,9 @@ proptest! {
     }
 
     #[test]
-    fn motions(args in vec(value(), 0..3), check: u64, why: String) {
-        let command = Command { primitive: "pick".into(), args: Vec::new(), uses: [].into(), deadline_secs: 20.1 };
+    fn wire_motions(args in vec(value(), 0..3), check: u64, why: String) {
+        let (primitive, uses) = ("pick".into(), [].into());
+        let command = Command { primitive, args: Vec::new(), uses, deadline_secs: 20.1 };
         let motion = Arc::new(DeferredMotion { query: "reach".into(), args, command: Arc::new(command) });
         let check = CheckId::from_number(check);
         there_and_back!(Effect, Effect::Verify { check, node: NodeId(3), motion });
@@ -122,7 +124,7 @@ proptest! {
     }
 
     #[test]
-    fn questions(query in query()) {
+    fn wire_questions(query in query()) {
         there_and_back!(Effect, Effect::Watch { query: Arc::new(query) });
     }
 }
@@ -237,8 +239,19 @@ fn wire_form_keeps_its_bytes() {
 }
 
 #[test]
-fn unknown_keys_are_refused() {
+fn wire_unknown_keys_are_refused() {
     let wrong = r#"{"driver":{"acknowledged":{"goal":1,"gaol":2}}}"#;
     let error = serde_json::from_str::<Event>(wrong).unwrap_err().to_string();
     assert!(error.contains("unknown field `gaol`"), "{error}");
+}
+
+/// A change of a schema is a new version of the journal or of the graph, unless old files can still be read.
+/// An entry holds graphs, events, effects and trace events, so its schema has all of theirs.
+#[test]
+fn journal_schema_is_as_recorded() {
+    insta::assert_json_snapshot!(serde_json::json!({
+        "versions": [journal::VERSION, journal::WIRE_VERSION, motet_graph::encode::VERSION],
+        "entry": schemars::schema_for!(journal::JournalEntry),
+        "snapshot": schemars::schema_for!(motet_runtime::Snapshot),
+    }));
 }
