@@ -1,32 +1,29 @@
 //! Many replies of a server with random faults: each ends in a run, a question or an error, and nothing
 //! leaks.
 //!
-//! A few in the tests of every change; `MOTET_REPLIES=500 cargo test -p motet-client --test flood --
+//! A few in the tests of every change; `MOTET_REPLIES=500 cargo test -p motet-client flood --
 //! --nocapture` for as many as one likes.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
-mod common;
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use common::server::{Act, Server};
-use common::world::{Heard, brisk, carry_out, planner, right, setting};
+use crate::kitchen::{Heard, brisk, carry_out, planner, right, setting};
+use crate::server::{Act, Server};
 use motet_client::ClientSettings;
 use motet_planner::dialogue::Outcome;
+use rand::RngExt as _;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::SeedableRng as _;
 
 const REQUESTS: &[&str] = &["bring me the coke", "open the fridge", "put the red mug in the cupboard"];
 
-/// xorshift64*: faults are random, and the same in each run.
-struct Dice(u64);
+/// Replies at random, and the same in each run.
+struct Dice(SplitMix64);
 
 impl Dice {
     fn below(&mut self, most: usize) -> usize {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize % most
+        self.0.random_range(0..most)
     }
 
     /// A reply as some server gives it: often right, often not.
@@ -84,13 +81,27 @@ fn settled(before: usize) -> (usize, usize) {
     held()
 }
 
+/// The variable that tells the process of this test that it has been started alone.
+const ALONE: &str = "MOTET_FLOOD_ALONE";
+
+/// Handles and memory are those of a process, so the test runs in one of its own.
 #[test]
-fn every_reply_ends_in_a_run_a_question_or_an_error_and_nothing_leaks() {
+fn client_ends_every_reply_and_leaks_nothing() {
+    if std::env::var_os(ALONE).is_some() {
+        return flood();
+    }
+    let mut alone = std::process::Command::new(std::env::current_exe().unwrap());
+    let name = "flood::client_ends_every_reply_and_leaks_nothing";
+    assert!(alone.args([name, "--exact", "--nocapture"]).env(ALONE, "1").status().unwrap().success());
+}
+
+/// Every reply ends in a run, a question or an error.
+fn flood() {
     let replies: usize =
         std::env::var("MOTET_REPLIES").ok().and_then(|count| count.parse().ok()).unwrap_or(60);
     let setting = setting();
     let right: Vec<String> = REQUESTS.iter().map(|request| right(&setting, request)).collect();
-    let dice = Arc::new(Mutex::new(Dice(0x4d6f_7465_7453_6565)));
+    let dice = Arc::new(Mutex::new(Dice(SplitMix64::seed_from_u64(0x4d6f_7465_7453_6565))));
     let server = Server::with(move || dice.lock().unwrap().act(&right));
     let mut ended: BTreeMap<String, usize> = BTreeMap::new();
     let (mut heard, mut asked, mut begun) = (0, 0, None);

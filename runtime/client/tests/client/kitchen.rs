@@ -8,52 +8,41 @@ use std::time::Duration;
 use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_decode::{Subset, canonical};
-use motet_geometry::planning::SearchBudget;
-use motet_planner::Planner;
-use motet_planner::builtin;
 use motet_planner::dialogue::{Conversation, DialogueSetup, NoOperator, Outcome, Person};
 use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner};
+use motet_planner::{Planner, builtin};
+use motet_project::{Discard, Project, ProjectBuilder, ProjectSession};
 use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_sim::{Sim, SimOptions};
-use motet_syntax::{Source, Sources};
 
-use super::server::Server;
+use crate::server::Server;
 
 /// The HSR in the kitchen.
+fn opened(project: ProjectBuilder) -> ProjectSession {
+    let project = project.robot("hsr").scene("kitchen").open().unwrap();
+    project.into_session(&mut Discard).unwrap()
+}
+
 pub(crate) fn setting() -> DialogueSetup {
-    let cards = motet_robots::card::embedded();
-    let (name, toml, declarations) = cards.iter().find(|row| row.0 == "hsr").unwrap();
-    let mut sources = Sources::default();
-    let source = Source::new(*name, *toml);
-    let id = sources.add(source.clone());
-    let robot = motet_robots::card::read(&source, id, *declarations).0.unwrap();
-    let scenes = motet_robots::scene::embedded();
-    let (name, json) = scenes.iter().find(|row| row.0 == "kitchen").unwrap();
-    let source = Source::new(*name, *json);
-    let id = sources.add(source.clone());
-    let scene = motet_robots::scene::read(&source, id).0.unwrap();
+    let opened = opened(Project::builder().without_motions());
+    let (robot, scene) = (opened.robot.unwrap(), opened.scene.unwrap());
     DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
 }
 
-pub(crate) fn session(setting: &DialogueSetup) -> Session {
-    let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
-    Session::builder().robot(robot).scene(scene).options(setting.options).build(&mut Sources::default())
+pub(crate) fn session() -> Session {
+    opened(Project::builder().without_motions()).session
 }
 
-/// The robot's body in the scene of a setting.
-pub(crate) fn geometry(setting: &DialogueSetup) -> Arc<Geometry> {
-    let text = motet_robots::card::embedded_urdf("hsr").unwrap();
-    let mut sources = Sources::default();
-    let source = Source::new("hsr.urdf", text);
-    let id = sources.add(source.clone());
-    let urdf = motet_robots::urdf::read(&source, id).0.unwrap();
-    Arc::new(Geometry::new(&setting.robot, &urdf, &setting.scene, None, SearchBudget::default()))
+/// The robot's body in the kitchen.
+#[allow(dead_code, reason = "the benchmark uses it")]
+pub(crate) fn geometry() -> Arc<Geometry> {
+    opened(Project::builder()).geometry.unwrap()
 }
 
 /// What a model that knows the right policy would write for a request.
 pub(crate) fn right(setting: &DialogueSetup, request: &str) -> String {
-    let session = session(setting);
+    let session = session();
     let situation = RequestContext::new(&setting.scene);
     let answered = builtin::answer(&session, Some(&setting.robot), request, &situation).unwrap();
     let policy = answered.planned.parsed.file.policies().next().unwrap();

@@ -1,13 +1,10 @@
 //! Replies of a model, good and bad, up to what the robot does with them.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
-mod common;
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use common::server::{Act, Server};
-use common::world::{Heard, brisk, carry_out, carry_out_with, planner, right, session, setting};
+use crate::kitchen::{Heard, brisk, carry_out, carry_out_with, planner, right, session, setting};
+use crate::server::{Act, Server};
 use motet_client::Client;
 use motet_decode::{AcceptorFactory, Grammar, Subset};
 use motet_planner::builtin::{self, PlannedRequest};
@@ -31,7 +28,7 @@ fn play(script: Vec<Act>) -> (Outcome, Vec<String>, Server) {
 }
 
 #[test]
-fn a_right_reply_is_carried_out_however_it_is_written() {
+fn model_planner_right_reply_is_carried_out_however_it_is_written() {
     let line = right(&setting(), COKE);
     let value: serde_json::Value = serde_json::from_str(&line).unwrap();
     let indented = serde_json::to_string_pretty(&value).unwrap();
@@ -39,8 +36,7 @@ fn a_right_reply_is_carried_out_however_it_is_written() {
     let thought = format!("<think>\nA {{brace}} and a coke.\n</think>\n\n{line}");
     let setting = setting();
     let situation = RequestContext::new(&setting.scene);
-    let planned =
-        builtin::answer(&session(&setting), Some(&setting.robot), COKE, &situation).unwrap().planned;
+    let planned = builtin::answer(&session(), Some(&setting.robot), COKE, &situation).unwrap().planned;
     let text = planned.text;
     for reply in [line, indented, fenced, thought, text] {
         let (outcome, heard, _) = play(vec![Act::says(reply.clone())]);
@@ -50,7 +46,7 @@ fn a_right_reply_is_carried_out_however_it_is_written() {
 }
 
 #[test]
-fn a_reply_that_is_wrong_goes_back_with_its_own_text_and_the_reason() {
+fn model_planner_reply_that_is_wrong_goes_back_with_its_own_text_and_the_reason() {
     let right = right(&setting(), COKE);
     let wrong = right.replacen("\"coke\"", "\"teapot_of_brown_betty\"", 1);
     let (outcome, heard, server) = play(vec![Act::says(wrong.clone()), Act::says(right)]);
@@ -66,7 +62,7 @@ fn a_reply_that_is_wrong_goes_back_with_its_own_text_and_the_reason() {
 }
 
 #[test]
-fn a_policy_that_does_something_else_goes_back_once() {
+fn model_planner_policy_that_does_something_else_goes_back_once() {
     let nothing = r#"{"motet":1,"policy":"idle","robot":"hsr","steps":[]}"#.to_owned();
     let apple = right(&setting(), "bring me the green apple");
     for wrong in [nothing, apple] {
@@ -82,7 +78,7 @@ fn a_policy_that_does_something_else_goes_back_once() {
 }
 
 #[test]
-fn a_slip_that_has_a_known_fix_is_mended_without_another_round() {
+fn model_planner_slip_that_has_a_known_fix_is_mended_without_another_round() {
     let wrong = right(&setting(), COKE).replacen("\"object\":\"coke\"", "\"object\":\"cokee\"", 1);
     let (outcome, heard, _) = play(vec![Act::says(wrong)]);
     assert_eq!((outcome, heard.len()), (Outcome::Done, 3), "{heard:?}");
@@ -90,7 +86,7 @@ fn a_slip_that_has_a_known_fix_is_mended_without_another_round() {
 }
 
 #[test]
-fn a_fix_that_changes_the_steps_is_left_to_the_model() {
+fn model_planner_fix_that_changes_the_steps_is_left_to_the_model() {
     let right = right(&setting(), COKE);
     let mut value: serde_json::Value = serde_json::from_str(&right).unwrap();
     value["steps"].as_array_mut().unwrap().remove(0);
@@ -107,7 +103,7 @@ fn a_fix_that_changes_the_steps_is_left_to_the_model() {
 }
 
 #[test]
-fn a_reply_that_stays_wrong_becomes_a_question() {
+fn model_planner_reply_that_stays_wrong_becomes_a_question() {
     let (outcome, heard, _) = play(vec![Act::says("I am sorry, I cannot do that.")]);
     assert_eq!(heard.iter().filter(|line| line.starts_with("asked")).count(), 4, "{heard:?}");
     let Outcome::Failed(problem) = outcome else { panic!("{outcome:?}") };
@@ -115,7 +111,7 @@ fn a_reply_that_stays_wrong_becomes_a_question() {
 }
 
 #[test]
-fn a_model_that_cannot_be_asked_is_an_error_and_no_question() {
+fn model_planner_model_that_cannot_be_asked_is_an_error_and_no_question() {
     let (outcome, heard, _) = play(vec![Act::status("404 Not Found", "")]);
     let Outcome::Failed(problem) = outcome else { panic!("{outcome:?}") };
     assert!(problem.question.contains("404 Not Found"), "{problem:?} {heard:?}");
@@ -123,7 +119,7 @@ fn a_model_that_cannot_be_asked_is_an_error_and_no_question() {
 }
 
 #[test]
-fn a_reply_that_breaks_off_is_asked_for_again() {
+fn model_planner_reply_that_breaks_off_is_asked_for_again() {
     let right = right(&setting(), COKE);
     let half = right.chars().take(right.len() / 2).collect();
     let script = vec![Act::BreaksOff { text: half }, Act::Nonsense, Act::Silent, Act::says(right)];
@@ -133,7 +129,7 @@ fn a_reply_that_breaks_off_is_asked_for_again() {
 }
 
 #[test]
-fn a_reply_that_never_ends_is_read_to_the_end_of_its_policy_and_no_further() {
+fn model_planner_reply_that_never_ends_is_read_to_the_end_of_its_policy_and_no_further() {
     let right = right(&setting(), COKE);
     let (outcome, heard, _) = play(vec![Act::Endless { text: right }]);
     assert_eq!((outcome, heard), (Outcome::Done, vec!["asked 0".to_owned(), "taken".to_owned()]));
@@ -143,9 +139,9 @@ fn a_reply_that_never_ends_is_read_to_the_end_of_its_policy_and_no_further() {
 }
 
 #[test]
-fn a_reply_that_is_wrong_is_read_no_further_than_the_value_that_is() {
+fn model_planner_reply_that_is_wrong_is_read_no_further_than_the_value_that_is() {
     let setting = setting();
-    let session = session(&setting);
+    let session = session();
     let prepared = AcceptorFactory::new(&session, Subset::default());
     let right = right(&setting, COKE);
     // In the goal, and in a step.
@@ -161,9 +157,9 @@ fn a_reply_that_is_wrong_is_read_no_further_than_the_value_that_is() {
 }
 
 #[test]
-fn a_right_reply_is_never_stopped_however_it_is_cut() {
+fn model_planner_right_reply_is_never_stopped_however_it_is_cut() {
     let setting = setting();
-    let session = session(&setting);
+    let session = session();
     let prepared = AcceptorFactory::new(&session, Subset::default());
     for request in
         [COKE, "put the red mug in the cupboard", "open the fridge", "bring me the coke and the apple"]
@@ -192,7 +188,7 @@ impl Person for Says {
 }
 
 #[test]
-fn an_answer_in_any_words_reaches_the_model() {
+fn model_planner_answer_in_any_words_reaches_the_model() {
     let setting = setting();
     let (bad, good) = (Act::says("What do you mean?"), Act::says(right(&setting, COKE)));
     let server = Server::new(vec![bad.clone(), bad.clone(), bad.clone(), bad, good]);
@@ -236,7 +232,7 @@ fn steps(script: Vec<Act>, start: Start, request: &str) -> (Outcome, Steps, Vec<
 }
 
 #[test]
-fn the_first_step_begins_while_the_rest_is_written_and_nothing_is_done_twice() {
+fn model_planner_first_step_begins_while_the_rest_is_written_and_nothing_is_done_twice() {
     for request in [COKE, "put the red mug in the cupboard", "open the fridge"] {
         let says = Act::Says { text: right(&setting(), request), each: 40, pause: Duration::from_millis(2) };
         let (outcome, whole, _, _) = steps(vec![says.clone()], Start::Whole, request);
@@ -252,7 +248,7 @@ fn the_first_step_begins_while_the_rest_is_written_and_nothing_is_done_twice() {
 }
 
 #[test]
-fn a_rest_that_is_wrong_is_planned_anew_from_where_the_first_step_has_led() {
+fn model_planner_rest_that_is_wrong_is_planned_anew_from_where_the_first_step_has_led() {
     let right = right(&setting(), COKE);
     let at = right.rfind("\"handover\"").unwrap();
     let wrong =
@@ -322,7 +318,7 @@ impl DialogueObserver for Impatient {
 }
 
 #[test]
-fn a_request_made_meanwhile_is_planned_without_making_the_robot_wait() {
+fn model_planner_request_made_meanwhile_is_planned_without_making_the_robot_wait() {
     let setting = setting();
     let heard = Heard::default();
     let told = Told::new(&[right(&setting, COKE), right(&setting, "open the fridge")]);

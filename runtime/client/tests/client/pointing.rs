@@ -1,12 +1,9 @@
 //! A driver that asks a model for points keeps the laws of drivers: for the goals that it answers itself, and
 //! for those that it leaves to the driver within.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
-mod common;
 
 use std::time::Duration;
 
-use common::world::setting;
+use crate::kitchen::setting;
 use motet_graph::Value;
 use motet_planner::vision::{GroundingDriver, Pointer};
 use motet_runtime::conformance::{ConformanceSubject, Law, check};
@@ -56,7 +53,7 @@ fn command(primitive: &str, args: Vec<(&str, Value)>, uses: &str) -> Command {
 }
 
 #[test]
-fn questions_keep_the_laws_however_late_the_answer() {
+fn grounding_driver_questions_keep_the_laws_however_late_the_answer() {
     for after in [Duration::ZERO, Duration::from_millis(40)] {
         let ground = command(
             "ground",
@@ -68,14 +65,14 @@ fn questions_keep_the_laws_however_late_the_answer() {
 }
 
 #[test]
-fn a_question_about_what_is_not_seen_keeps_them_too() {
+fn grounding_driver_question_about_what_is_not_seen_keeps_them_too() {
     for args in [vec![("object", entity("teddy")), ("use", Value::Text("it".into()))], vec![]] {
         assert_eq!(broken(command("ground", args, "camera"), Duration::ZERO, true), [""; 0]);
     }
 }
 
 #[test]
-fn what_it_leaves_to_the_driver_stays_as_it_was() {
+fn grounding_driver_what_it_leaves_to_the_driver_stays_as_it_was() {
     let go = command("go", vec![("to", entity("kitchen_table"))], "base");
     assert_eq!(broken(go, Duration::ZERO, true), [""; 0]);
 }

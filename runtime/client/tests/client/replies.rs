@@ -1,12 +1,9 @@
 //! What becomes of what a server says and does.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
-mod common;
 
 use std::time::Duration;
 
-use common::server::{Act, Server};
-use common::world::{brisk, session, setting};
+use crate::kitchen::{brisk, session};
+use crate::server::{Act, Server};
 use motet_client::{Client, ClientSettings, EncodedImage, ImageError, Notation, ServerUrl};
 use motet_decode::export::Dialect;
 use motet_decode::{Grammar, Subset};
@@ -19,8 +16,7 @@ fn chat() -> Vec<Message> {
 
 /// Asks, and gives the text, how often it was tried again, and the ending.
 fn ask(settings: ClientSettings) -> (String, usize, Result<Finish, ModelError>) {
-    let setting = setting();
-    let grammar = Grammar::new(&session(&setting).signatures(), Subset::default());
+    let grammar = Grammar::new(&session().signatures(), Subset::default());
     let mut client = Client::new(settings).unwrap();
     let mut reply = match client.ask(&chat(), &grammar) {
         Ok(reply) => reply,
@@ -52,7 +48,7 @@ fn check(script: Vec<Act>, expected: (&str, usize, Result<Finish, &str>)) {
 }
 
 #[test]
-fn a_reply_arrives_however_it_is_sent() {
+fn client_reply_arrives_however_it_is_sent() {
     let text = "{\"motet\": 1} and a word: grüße".to_owned();
     check(vec![Act::says(text.clone())], (&text, 0, Ok(Finish::Stop)));
     check(vec![Act::AtOnce { text: text.clone() }], (&text, 0, Ok(Finish::Stop)));
@@ -60,7 +56,7 @@ fn a_reply_arrives_however_it_is_sent() {
 }
 
 #[test]
-fn a_server_that_is_busy_or_fails_is_asked_again_a_few_times() {
+fn client_server_that_is_busy_or_fails_is_asked_again_a_few_times() {
     let busy = Act::status("429 Too Many Requests", "Retry-After: 1\r\n");
     check(vec![busy.clone(), Act::says("now")], ("now", 1, Ok(Finish::Stop)));
     let fails = Act::status("500 Internal Server Error", "");
@@ -70,7 +66,7 @@ fn a_server_that_is_busy_or_fails_is_asked_again_a_few_times() {
 }
 
 #[test]
-fn what_lasts_is_not_tried_again() {
+fn client_what_lasts_is_not_tried_again() {
     check(vec![Act::status("401 Unauthorized", "")], ("", 0, Err("refuses the request")));
     check(
         vec![Act::status("307 Temporary Redirect", "Location: http://127.0.0.1:1/\r\n")],
@@ -79,7 +75,7 @@ fn what_lasts_is_not_tried_again() {
 }
 
 #[test]
-fn a_bad_reply_ends_in_an_error_and_not_in_a_wait() {
+fn client_bad_reply_ends_in_an_error_and_not_in_a_wait() {
     check(vec![Act::BreaksOff { text: "half".to_owned() }], ("half", 0, Err("broke off")));
     check(vec![Act::Nonsense], ("", 0, Err("no JSON")));
     check(vec![Act::Silent], ("", 0, Err("did not answer within 1 s")));
@@ -93,7 +89,7 @@ fn a_bad_reply_ends_in_an_error_and_not_in_a_wait() {
 }
 
 #[test]
-fn a_server_that_is_not_there_is_an_error() {
+fn client_server_that_is_not_there_is_an_error() {
     let gone = Server::new(vec![Act::HangsUp]);
     let settings = brisk(&gone);
     drop(gone);
@@ -103,7 +99,7 @@ fn a_server_that_is_not_there_is_an_error() {
 }
 
 #[test]
-fn lark_goes_where_llguidance_takes_it() {
+fn client_lark_goes_where_llguidance_takes_it() {
     for (dialect, field) in [
         (Dialect::Vllm, Some("/structured_outputs/grammar")),
         (Dialect::LlamaCpp, Some("/grammar")),
@@ -129,7 +125,7 @@ fn lark_goes_where_llguidance_takes_it() {
 }
 
 #[test]
-fn images_and_grammars_are_sent_in_the_dialect_of_the_server() {
+fn client_images_and_grammars_are_sent_in_the_dialect_of_the_server() {
     let png = [0x89, b'P', b'N', b'G', 1, 2, 3];
     let image = EncodedImage::new(&png).unwrap();
     assert_eq!(EncodedImage::new(b"a text"), Err(ImageError::Unknown));
@@ -168,7 +164,7 @@ fn images_and_grammars_are_sent_in_the_dialect_of_the_server() {
 }
 
 #[test]
-fn addresses_with_a_password_are_refused() {
+fn client_addresses_with_a_password_are_refused() {
     assert!(ServerUrl::new("http://me:secret@localhost", None).unwrap_err().contains("--key-from"));
     assert!(ServerUrl::new("localhost:8000", None).is_err());
     let address = |text| ServerUrl::new(text, None).unwrap().to_string();
@@ -178,10 +174,9 @@ fn addresses_with_a_password_are_refused() {
 }
 
 #[test]
-fn who_drops_a_reply_hangs_up() {
+fn client_who_drops_a_reply_hangs_up() {
     let server = Server::new(vec![Act::Endless { text: "on and on ".to_owned() }]);
-    let setting = setting();
-    let grammar = Grammar::new(&session(&setting).signatures(), Subset::default());
+    let grammar = Grammar::new(&session().signatures(), Subset::default());
     let mut client = Client::new(ClientSettings { max_bytes: usize::MAX, ..brisk(&server) }).unwrap();
     let mut reply = client.ask(&chat(), &grammar).unwrap();
     while !matches!(reply.next(Duration::from_millis(20)), News::Piece(_)) {}

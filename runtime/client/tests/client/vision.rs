@@ -1,12 +1,9 @@
 //! What a model is shown: a fresh picture with every plan, and one with every question for a point.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
-mod common;
 
 use std::time::Duration;
 
-use common::server::{Act, Server};
-use common::world::{Heard, brisk, planner, right, session, setting};
+use crate::kitchen::{Heard, brisk, planner, right, session, setting};
+use crate::server::{Act, Server};
 use motet_client::Client;
 use motet_graph::{Pose, Value};
 use motet_planner::dialogue::{Conversation, NoOperator, Outcome};
@@ -40,7 +37,7 @@ impl Perception for Head {
 }
 
 #[test]
-fn a_fresh_picture_goes_with_every_plan() {
+fn client_fresh_picture_goes_with_every_plan() {
     let setting = setting();
     let server = Server::new(vec![Act::says(right(&setting, COKE))]);
     let faults = r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#;
@@ -88,7 +85,7 @@ impl Perception for Wall {
 /// Runs a policy that asks for a point; how it ended, and the point.
 fn point(server: &Server, within: &str) -> (RunEnd, Option<Value>) {
     let setting = setting();
-    let session = session(&setting);
+    let session = session();
     let text =
         format!("policy touch for hsr {{\n    let handle = ground(mug_1, \"the handle\"){within}\n}}\n");
     let compiled = session.compile(&motet_syntax::read(&Source::new("touch.motet", text), FileId(0)), None);
@@ -108,7 +105,7 @@ fn answered(text: &str) -> (RunEnd, Option<Value>) {
 }
 
 #[test]
-fn a_model_is_asked_for_a_point_with_the_picture() {
+fn client_model_is_asked_for_a_point_with_the_picture() {
     let server = Server::new(vec![Act::AtOnce { text: "Here: {\"point\": [75.4, 60.9]}".to_owned() }]);
     let (end, found) = point(&server, "");
     assert!(matches!(end, RunEnd::Done { .. }), "{end:?}");
@@ -123,7 +120,7 @@ fn a_model_is_asked_for_a_point_with_the_picture() {
 }
 
 #[test]
-fn a_bad_answer_is_a_failure_of_the_primitive() {
+fn client_bad_answer_is_a_failure_of_the_primitive() {
     let failed = |end: &RunEnd| match end {
         RunEnd::Failed { kind, .. } => kind.to_string(),
         other => format!("{other:?}"),
@@ -142,7 +139,7 @@ fn a_bad_answer_is_a_failure_of_the_primitive() {
 }
 
 #[test]
-fn a_model_that_is_silent_keeps_nobody_waiting() {
+fn client_model_that_is_silent_keeps_nobody_waiting() {
     let server = Server::new(vec![Act::Silent]);
     let begun = std::time::Instant::now();
     let (end, _) = point(&server, " within 100 ms");
