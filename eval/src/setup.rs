@@ -9,25 +9,14 @@ use motet_syntax::{Diagnostic, Source, Sources};
 #[must_use]
 #[expect(clippy::panic, reason = "a test that names a robot which is not there cannot go on")]
 pub fn robot(name: &str) -> Robot {
-    let Some((name, toml, declarations)) = motet_robots::card::embedded().iter().find(|row| row.0 == name)
-    else {
-        panic!("no robot `{name}`");
-    };
-    let mut sources = Sources::default();
-    let source = Source::new(format!("{name}/robot.toml"), *toml);
-    let id = sources.add(source.clone());
-    let (robot, said) = motet_robots::card::read(&source, id, *declarations);
-    robot.unwrap_or_else(|| panic!("{name}: {said:?}"))
+    motet_robots::builtin::robot(name).unwrap_or_else(|| panic!("no robot `{name}`")).robot
 }
 
 /// An embedded scene. Panics where there is none: a test named it.
 #[must_use]
 #[expect(clippy::panic, reason = "a test that names a scene which is not there cannot go on")]
 pub fn scene(name: &str) -> Scene {
-    let Some((name, json)) = motet_robots::scene::embedded().iter().find(|row| row.0 == name) else {
-        panic!("no scene `{name}`");
-    };
-    scene_from(name, json)
+    motet_robots::builtin::scene(name).unwrap_or_else(|| panic!("no scene `{name}`"))
 }
 
 /// A scene from its text. Panics where it is wrong.
