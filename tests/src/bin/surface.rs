@@ -1,6 +1,5 @@
-//! Writes what the tests of other people's engines need, as JSON on standard output: for each robot and
-//! scene of the
-//! examples the exported grammars, the examples as canonical lines, and lines that are nearly right.
+//! Writes what the tests of other people's engines need, as JSON on standard output: for each robot and scene
+//! of the examples the exported grammars, the examples as canonical lines, and lines that are nearly right.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +7,7 @@ use motet_decode::export::{Format, Header, export};
 use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
-use motet_tests::{misses, setup};
+use motet_tests::{examples, setup};
 use serde_json::{Value, json};
 
 /// A robot and a scene.
@@ -48,7 +47,7 @@ fn main() {
         .map(|(key, policies)| {
             let misses: Vec<Value> = policies
                 .iter()
-                .flat_map(|(_, [json, _])| misses::near_misses(json))
+                .flat_map(|(_, [json, _])| examples::near_misses(json))
                 .map(|(what, line)| json!({"what": what, "line": line}))
                 .collect();
             let policies: Vec<Value> = policies
@@ -56,7 +55,8 @@ fn main() {
                 .map(|(name, [json, text])| json!({"name": name, "json": json, "text": text}))
                 .collect();
             let grammars = grammars.remove(&key);
-            json!({"robot": key.0, "scene": key.1, "grammars": grammars, "policies": policies, "misses": misses})
+            json!({"robot": key.0, "scene": key.1, "grammars": grammars, "policies": policies,
+                "misses": misses})
         })
         .collect();
     print(&json!(all));

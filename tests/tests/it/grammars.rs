@@ -1,6 +1,5 @@
 //! What the exported grammars generate is read without a mistake, and is right in names and types but for
-//! what is in scope:
-//! random derivations of every notation, over robots, scenes and both forms.
+//! what is in scope: random derivations of every notation, over robots, scenes and both forms.
 
 use std::collections::BTreeMap;
 
@@ -8,11 +7,13 @@ use motet_compiler::{Session, Signatures};
 use motet_decode::export::{EbnfGrammar, Format, Header, ebnf, export};
 use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{Parsed, Severity, Source, Sources, Syntax};
-use motet_tests::notation::{Deriver, Notation, Random, derive_schema, read};
+use motet_tests::notation::{Deriver, Notation, derive_schema, read};
 use motet_tests::setup;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::SeedableRng as _;
 
 /// Derivations of each combination of a robot, a surface and a notation.
-const DERIVATIONS: usize = 1_500;
+const DERIVATIONS: usize = 600;
 /// About how many bytes a derivation has at most.
 const BUDGET: usize = 250;
 /// One of so many is followed through its state too.
@@ -91,7 +92,7 @@ fn walk(
 ) -> BTreeMap<String, usize> {
     let mut found = BTreeMap::new();
     let deriver = Deriver::new(grammar, BUDGET);
-    let mut random = Random(seed);
+    let mut random = SplitMix64::seed_from_u64(seed);
     for index in 0..DERIVATIONS {
         let text = deriver.derive(&mut random);
         let parsed = check(session, &text, index % PROVEN == 0, &mut found);
@@ -128,7 +129,7 @@ fn what_a_grammar_generates_is_read_and_typed() {
             }
             let Some(schema) = export(Format::JsonSchema) else { continue };
             let schema = serde_json::from_str(&schema).unwrap();
-            let mut random = Random(at as u64);
+            let mut random = SplitMix64::seed_from_u64(at as u64);
             for index in 0..DERIVATIONS {
                 let text = derive_schema(&schema, BUDGET, &mut random);
                 check(session, &text, index % PROVEN == 0, &mut found);
@@ -137,7 +138,7 @@ fn what_a_grammar_generates_is_read_and_typed() {
         }
     }
     println!("{count} derivations: {found:?}");
-    assert!(count >= 100_000, "{count}");
+    assert!(count >= 40_000, "{count}");
 }
 
 /// The engine writes facts as text and may not depend on the syntax crate, so it has a copy of the list.

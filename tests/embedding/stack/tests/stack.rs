@@ -1,14 +1,18 @@
 //! Motion queries on a thread with a stack of 2 MiB, which is what `std::thread` gives, with nothing
 //! optimised.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "a test fails by panicking"
+)]
 
 use motet_geometry::planning::{
     Configuration, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
 };
+use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::scene::Scene;
-use motet_robots::{card, scene, urdf};
-use motet_syntax::{FileId, Source};
 
 const STACK: usize = 2 * 1024 * 1024;
 
@@ -16,16 +20,12 @@ const STACK: usize = 2 * 1024 * 1024;
 const BUDGET: SearchBudget = SearchBudget { candidates: 16, paths: 4, cells: 256 };
 
 fn robot(name: &str) -> RobotModel {
-    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
-    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
-    let text = card::embedded_urdf(name).unwrap();
-    let urdf = urdf::read(&Source::new(name, text), FileId(0)).0.unwrap();
-    RobotModel::new(&card, &urdf)
+    let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
+    RobotModel::new(&robot, &urdf)
 }
 
 fn kitchen() -> Scene {
-    let text = scene::embedded().iter().find(|(known, _)| *known == "kitchen").unwrap().1;
-    scene::read(&Source::new("kitchen", text), FileId(0)).0.unwrap()
+    builtin::scene("kitchen").unwrap()
 }
 
 /// Answers the queries of one robot, from wherever `go_to` leads it, and explains those that are infeasible.
@@ -43,7 +43,8 @@ fn answers(name: &str, queries: &[MotionQuery], holding: bool) {
             MotionAnswer::Feasible(witness) => {
                 let start: &Configuration = context.start();
                 assert_eq!(witness.path.first(), Some(start), "{name}: {query}");
-                drop((context.after_reach(&witness), context.after_put(&witness), context.after_pull(&witness)));
+                drop((context.after_reach(&witness), context.after_put(&witness)));
+                drop(context.after_pull(&witness));
             }
             MotionAnswer::Infeasible(why) => drop(context.explain(query, &why, BUDGET)),
             MotionAnswer::Unknown(_) => {}
