@@ -567,7 +567,7 @@ fn observed(seed: u64, first: &Graph, second: &Graph, swap_at: Option<usize>) ->
 fn engine_effects_are_those_of_a_naive_interpreter() {
     let cases = (prop::collection::vec(steps(), 1..3), steps(), any::<u64>(), any::<bool>());
     let config = ProptestConfig {
-        cases: 500,
+        cases: 1_000,
         max_shrink_iters: 5_000,
         failure_persistence: None,
         ..ProptestConfig::default()
