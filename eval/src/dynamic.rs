@@ -1,12 +1,10 @@
 //! Tasks that change while they are carried out, after VLP: another object is asked for during a handover,
-//! another goal
-//! during execution, and a drawer that is to be closed only where it is open is closed by somebody else
-//! meanwhile. When the
-//! change comes is drawn at random from the whole time that the task takes without it.
+//! another goal during execution, and a drawer that is to be closed only where it is open is closed by
+//! somebody else meanwhile. When the change comes is drawn at random from the whole time that the task takes
+//! without it.
 //!
 //! A trial succeeds where the goal after the change holds at the end, nothing was dropped, nothing done
-//! twice, and nothing
-//! left running.
+//! twice, and nothing left running.
 
 use std::collections::BTreeMap;
 
@@ -15,6 +13,9 @@ use motet_planner::Builtin;
 use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator, Outcome};
 use motet_runtime::{DriverEvent, Effect, Event, GoalId, Outcome as Ending, RunEnd, Time};
 use motet_sim::{Faults, Sim, SimOptions};
+use rand::RngExt as _;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::SeedableRng as _;
 use serde::Serialize;
 
 use crate::setup;
@@ -25,11 +26,11 @@ pub struct Task {
     /// `object_changed`
     pub name: &'static str,
     scene: &'static str,
-    /// What is asked for, with what is asked for instead.
+    /// Requests, each with the one that replaces it.
     wordings: &'static [(&'static str, Option<&'static str>)],
-    /// What somebody does meanwhile.
+    /// Container that somebody closes meanwhile.
     done: Option<&'static str>,
-    /// What shall hold at the end, for each wording.
+    /// Fact that shall hold at the end, for each wording.
     goals: &'static [(&'static str, &'static [&'static str], bool)],
 }
 
@@ -67,16 +68,16 @@ pub const TASKS: &[Task] = &[
     },
 ];
 
-/// What came of a trial.
+/// Result of a trial.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Trial {
     /// The task.
     pub task: &'static str,
     /// The robot.
     pub robot: String,
-    /// When the change came, in s.
+    /// Time of the change, in s.
     pub changed_at: f64,
-    /// Whether the goal held at the end, and the conversation ended as done.
+    /// True if the goal held at the end, and the conversation ended as done.
     pub is_reached: bool,
     /// Objects that lay nowhere at the end: not in the hand, on or in anything, or with anybody.
     pub dropped: Vec<String>,
@@ -84,12 +85,12 @@ pub struct Trial {
     pub doubled: Vec<String>,
     /// Calls that had not ended when their policy had.
     pub orphaned: Vec<String>,
-    /// How the conversation ended.
+    /// End of the conversation.
     pub end: String,
 }
 
 impl Trial {
-    /// Whether everything went well.
+    /// True if everything went well.
     #[must_use]
     pub fn is_good(&self) -> bool {
         self.is_reached && self.dropped.is_empty() && self.doubled.is_empty() && self.orphaned.is_empty()
@@ -100,7 +101,7 @@ impl Trial {
 struct Observer {
     says: Option<(Time, &'static str)>,
     running: BTreeMap<GoalId, String>,
-    /// What the last action on the hand did: the same one again without another between is one too many.
+    /// Last action on the hand: the same one again without another between is one too many.
     last: Option<String>,
     doubled: Vec<String>,
     orphaned: Vec<String>,
@@ -212,24 +213,14 @@ fn play(task: &Task, robot: &str, wording: usize, change_at: Option<f64>) -> (Tr
 /// All trials: so many of each task on each robot, with the same draws for a seed.
 #[must_use]
 pub fn trials(seed: u64, count: usize) -> Vec<Trial> {
-    let mut random = seed;
+    let mut random = SplitMix64::seed_from_u64(seed);
     let mut drawn = Vec::new();
     for task in TASKS {
         for robot in ["hsr", "anymal_z1"] {
-            drawn.extend((0..count).map(|index| (task, robot, index, draw(&mut random))));
+            drawn.extend((0..count).map(|index| (task, robot, index, random.random())));
         }
     }
     super::spread(drawn, |(task, robot, index, draw)| run(task, robot, index, draw))
-}
-
-/// The next number in `0 .. 1` of SplitMix64 (Steele, Lea and Flood 2014).
-pub fn draw(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut mixed = *state;
-    mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    mixed ^= mixed >> 31;
-    (mixed >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// The table: a row a task and robot.

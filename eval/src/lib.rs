@@ -15,24 +15,24 @@ use motet_compiler::Session;
 use motet_syntax::{Diagnostic, Severity, Source, Sources};
 use serde::Serialize;
 
-/// What a row says, and what the compiler says of it.
+/// Verdict of a row beside that of the compiler.
 #[derive(Clone, Debug)]
 pub struct Judged {
     /// The row's name.
     pub id: String,
-    /// Whether the row calls the plan wrong.
+    /// True if the row calls the plan wrong.
     pub expected_error: bool,
-    /// Whether the compiler does.
+    /// True if the compiler does.
     pub found_error: bool,
     /// The class that the row gives, and the compiler's.
     pub class: Option<(String, String)>,
     /// The step that the row gives, and the compiler's.
     pub step: Option<(String, String)>,
-    /// How long reading, checking and proving took.
+    /// Time to read, check and prove.
     pub took: Duration,
     /// Under which name the row is added up once more, with others of its kind.
     pub group: Option<String>,
-    /// What the compiler says, in a few words.
+    /// Finding of the compiler in a few words.
     pub note: Option<String>,
 }
 
@@ -63,7 +63,7 @@ pub struct Summary {
 }
 
 impl Judged {
-    /// What is different, in a line; none where nothing is.
+    /// Describes the difference in a line; none where there is none.
     #[must_use]
     pub fn disagreement(&self) -> Option<String> {
         let word = |error: bool| if error { "error" } else { "ok" };

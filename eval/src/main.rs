@@ -1,11 +1,13 @@
 //! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json] [--planned]`.
 //!
-//! A suite prints a line for each disagreement and a summary object at the end. The exit code is 0 if every verdict agrees,
-//! and 1 if one does not.
+//! A suite prints a line for each disagreement and a summary object at the end. The exit code is 0 if every
+//! verdict agrees, and 1 if one does not.
 //!
-//! - `saycan --planned` plans the instructions from their text instead, and exits with 0 from 60 % carried out on.
+//! - `saycan --planned` plans the instructions from their text instead, and exits with 0 if at least 60 % of
+//!   them are carried out.
 //! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot.
-//! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are repaired.
+//! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are
+//!   repaired.
 //! - `reach [SCENE|--rooms N --seed S]` asks motion queries.
 
 use std::io::Write as _;
@@ -14,7 +16,7 @@ use std::process::ExitCode;
 use motet_eval::saycan::planned;
 use motet_eval::{Judged, dialogue, dynamic, planbench, repairs, saycan, scenarios, spread, summary};
 
-/// What a suite has to say of the lines of a file.
+/// Suite over the lines of a file.
 type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
 
 const SUITES: &[(&str, Suite)] = &[
@@ -56,7 +58,8 @@ fn run() -> Result<bool, String> {
     let usage = || {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
-            "usage: eval {} FILE [--json], eval dynamic TRIALS, or eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
+            "usage: eval {} FILE [--json], eval dynamic TRIALS, or eval reach [SCENE|--rooms N --seed S] \
+             (`eval reach --help`)",
             names.join("|")
         )
     };

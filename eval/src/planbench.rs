@@ -1,8 +1,7 @@
 //! PlanBench: plans for the blocks world by language models, with the verdict of VAL.
 //!
-//! A row becomes the domain `blocks.motet` with the row's blocks and start, and a policy of the plan's
-//! steps with the
-//! row's goal. Every verdict is the compiler's.
+//! A row becomes the domain `blocks.motet` with the row's blocks and start, and a policy of the plan's steps
+//! with the row's goal. Every verdict is the compiler's.
 
 use std::fmt::Write as _;
 

@@ -1,8 +1,7 @@
-//! How many faulty plans of the scenarios the compiler mends by itself.
+//! Repairs of the faulty plans of the scenarios by the compiler.
 //!
-//! Each static row with a fault is mended as `motet check --fix` would mend it, by at most [`ROUNDS`]
-//! fixes, and judged
-//! again by the table of the scenarios. A round is one fix that was made, of however many edits.
+//! Each static row with a fault is mended as `motet check --fix` would mend it, by at most [`ROUNDS`] fixes,
+//! and judged again by the table of the scenarios. A round is one fix that was made, of however many edits.
 
 use std::fmt::Write as _;
 
@@ -12,16 +11,16 @@ use serde::Serialize;
 /// The most fixes that are made in a plan.
 pub const ROUNDS: usize = 3;
 
-/// What became of a faulty plan.
+/// Result for a faulty plan.
 #[derive(Clone, Debug)]
 pub struct Repair {
     /// The row's name.
     pub id: String,
     /// The class of its fault, as the row gives it.
     pub class: String,
-    /// What was done, in order.
+    /// Titles of the fixes, in order.
     pub done: Vec<String>,
-    /// What is still wrong, in a few words; none where the plan is clean.
+    /// Remaining fault in a few words; none where the plan is clean.
     pub left: Option<String>,
 }
 
@@ -38,7 +37,7 @@ pub struct Summary {
     pub classes: IndexMap<String, Share>,
 }
 
-/// How many of some plans were mended.
+/// Number of plans, and of those that were mended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Share {
     /// Plans.
@@ -48,7 +47,7 @@ pub struct Share {
 }
 
 impl Repair {
-    /// What was done, and what is left.
+    /// Describes the fixes and the remaining fault.
     #[must_use]
     pub fn line(&self) -> String {
         let mut line = format!("{}: {}: ", self.id, self.class);

@@ -1,6 +1,6 @@
 //! What checking a policy costs: reading, resolving, checking and proving the JSON form, beside what
-//! `serde_json` and
-//! `jsonschema` take only to validate the same bytes, and how the cost grows with the policy.
+//! `serde_json` and `jsonschema` take only to validate the same bytes, and how the cost grows with the
+//! policy.
 
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark that cannot be set up has failed")]
 
@@ -9,7 +9,7 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use motet_compiler::Session;
 use motet_syntax::{FileId, Source, Sources};
-use motet_tests::{depot, generate, setup};
+use motet_tests::{generate, setup};
 
 fn session() -> Session {
     let mut sources = Sources::default();
@@ -63,21 +63,21 @@ fn growth(c: &mut Criterion) {
 fn depot(c: &mut Criterion) {
     const BOXES: usize = 995;
     let mut sources = Sources::default();
-    let source = Source::new("depot.motet", depot::domain(BOXES));
+    let source = Source::new("depot.motet", generate::depot(BOXES));
     let file = sources.add(source.clone());
     let declared = motet_syntax::read(&source, file).file;
     let session = Session::builder().domains(&[declared]).build(&mut sources);
     let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "the domain has no findings: {said:?}");
     let mut group = c.benchmark_group("symbolic domain of 1,000 entities");
-    let right = depot::plan(BOXES, 10_000, None);
+    let right = generate::depot_plan(BOXES, 10_000, None);
     assert_eq!(check(&session, &right), 0, "the plan is right");
     for (name, text) in [
         ("a right plan of 10,000 steps", right),
-        ("a plan of 10,000 steps with 500 mistakes", depot::plan(BOXES, 10_000, Some(10))),
-        ("20 nested branches", depot::nested_branches(20)),
-        ("20 successive branches", depot::successive_branches(20)),
-        ("8 nested loops", depot::nested_loops(8)),
+        ("a plan of 10,000 steps with 500 mistakes", generate::depot_plan(BOXES, 10_000, Some(10))),
+        ("20 nested branches", generate::nested_branches(20)),
+        ("20 successive branches", generate::successive_branches(20)),
+        ("8 nested loops", generate::nested_loops(8)),
     ] {
         group.bench_function(name, |b| b.iter(|| check(&session, black_box(&text))));
     }

@@ -9,6 +9,8 @@
 )]
 
 use crate::support::{GOOD, Place};
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng as _, SeedableRng as _};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -115,14 +117,6 @@ fn crashes() -> u64 {
     std::env::var("MOTET_CRASHES").ok().and_then(|count| count.parse().ok()).unwrap_or(10)
 }
 
-/// Numbers that look random: the generator of Vigna's SplitMix64.
-fn next(state: &mut u64) -> u64 {
-    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    mixed ^ (mixed >> 31)
-}
-
 #[test]
 fn killed_at_any_moment_a_run_goes_on_as_if_nothing_had_been() {
     let place = Place::new("journal_crash").file("good.motet", GOOD);
@@ -131,14 +125,14 @@ fn killed_at_any_moment_a_run_goes_on_as_if_nothing_had_been() {
     place.run(&format!("run {world} --record whole")).check(0, &[]);
     let span = begun.elapsed();
     let expected = deeds(&place.path("whole"));
-    let (mut kills, mut runs, mut dice) = (0, 0, 7);
+    let (mut kills, mut runs, mut dice) = (0, 0, SplitMix64::seed_from_u64(7));
     let mut late = 0;
     while kills < crashes() {
         runs += 1;
         let folder = format!("run{runs}");
         let mut line = format!("run {world} --format json --record {folder}");
         loop {
-            let delay = span.mul_f64((next(&mut dice) % 1_000) as f64 / 900.0);
+            let delay = span.mul_f64((dice.next_u64() % 1_000) as f64 / 900.0);
             let (was_killed, shown) = run_and_kill(&place, &line, delay);
             // The head may not have been written yet: then there is no run to go on with.
             let begun = journal(&place.path(&folder)).exists()

@@ -10,9 +10,8 @@ use crate::scenery::{Scenery, Touched};
 /// Nearer than this counts as a touch, in m: half of what the query keeps.
 const GAP: f64 = 0.001;
 
-/// What is wrong with the witness of a `reach`, at most eight faults; nothing where it holds. Things that
-/// hang on hinges
-/// have to be closed.
+/// Faults of the witness of a `reach`, at most eight; none where it holds. Things that hang on hinges have to
+/// be closed.
 #[must_use]
 pub fn faults(model: &Model, scene: &Scene, world: &SceneState, witness: &MotionWitness) -> Vec<String> {
     let mut faults = Vec::new();
@@ -67,7 +66,7 @@ pub fn faults(model: &Model, scene: &Scene, world: &SceneState, witness: &Motion
     faults
 }
 
-/// Whether a state is within the limits and touches nothing, the hand at a thing, which it may touch.
+/// True if a state is within the limits and touches nothing, the hand at a thing, which it may touch.
 #[must_use]
 pub(crate) fn is_free_at(
     model: &Model,

@@ -1,6 +1,5 @@
-//! Rooms, witnesses and targets for other programs, a JSON object each: lengths in m, angles in rad, poses
-//! in the map as `x y z` and
-//! the quaternion `x y z w`.
+//! Rooms, witnesses and targets for other programs, a JSON object each: lengths in m, angles in rad, poses in
+//! the map as `x y z` and the quaternion `x y z w`.
 
 use motet_geometry::planning::{Configuration, MotionWitness, RobotModel, SceneState, components};
 use motet_robots::scene::Scene;
@@ -79,7 +78,8 @@ impl Subject<'_> {
             let shown = scenery.solids.iter().filter_map(|(entity, solid)| {
                 let (id, _) = scene.entities.get_index(*entity)?;
                 let shape = if let Some(it) = solid.shape.as_cuboid() {
-                    json!({"box": [it.half_extents.x * 2.0, it.half_extents.y * 2.0, it.half_extents.z * 2.0]})
+                    let half = it.half_extents;
+                    json!({"box": [half.x * 2.0, half.y * 2.0, half.z * 2.0]})
                 } else if let Some(it) = solid.shape.as_cylinder() {
                     json!({"cylinder_along_y": [it.radius, it.half_height * 2.0]})
                 } else {

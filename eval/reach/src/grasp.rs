@@ -1,12 +1,12 @@
-//! How a thing can be held, drawn at random from all directions: level to 60° down around what is round,
-//! along and across the
-//! sides of a box, from above; against a jaw that does not move, where the hand has one. What makes it a
-//! grasp is the contract of the query: the near face as close to the palm as it
-//! can be, the fingers beyond the widest place of a round thing or 1 cm over a flat one.
+//! Grasps of a thing, drawn at random from all directions: level to 60° down around what is round,
+//! along and across the sides of a box, from above; against a jaw that does not move, where the hand has one.
+//! What makes it a grasp is the contract of the query: the near face as close to the palm as it can be, the
+//! fingers beyond the widest place of a round thing or 1 cm over a flat one.
 
 use motet_geometry::planning::RobotModel;
 use motet_robots::scene::{Entity, EntityShape};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use rand_xoshiro::SplitMix64;
 
 use crate::chance::Chance;
 
@@ -21,7 +21,7 @@ struct Way {
     approach: Vector3<f64>,
     along: Vector3<f64>,
     width: f64,
-    /// How far it extends against the approach on the line of the hand.
+    /// Its extent against the approach on the line of the hand.
     half: f64,
     is_round: bool,
     shift: Vector3<f64>,
@@ -32,7 +32,7 @@ pub(crate) fn draw(
     machine: &RobotModel,
     entity: &Entity,
     pose: &Isometry3<f64>,
-    chance: &mut Chance,
+    chance: &mut SplitMix64,
 ) -> Option<Grasp> {
     let hand = machine.hand()?;
     let way = match *entity.shape.as_ref()? {
@@ -69,7 +69,13 @@ pub(crate) fn draw(
 }
 
 /// Upright round things, as all in these rooms are.
-fn round(pose: &Isometry3<f64>, radius: f64, half: f64, is_flat_on_top: bool, chance: &mut Chance) -> Way {
+fn round(
+    pose: &Isometry3<f64>,
+    radius: f64,
+    half: f64,
+    is_flat_on_top: bool,
+    chance: &mut SplitMix64,
+) -> Way {
     let up = if half > 0.0 { pose.rotation * Vector3::z() } else { Vector3::z() };
     let (sin, cos) = chance.between(-std::f64::consts::PI, std::f64::consts::PI).sin_cos();
     let side = pose.rotation * Vector3::x();
@@ -104,12 +110,12 @@ fn round(pose: &Isometry3<f64>, radius: f64, half: f64, is_flat_on_top: bool, ch
     }
 }
 
-fn flat(pose: &Isometry3<f64>, half: [f64; 3], chance: &mut Chance) -> Way {
+fn flat(pose: &Isometry3<f64>, half: [f64; 3], chance: &mut SplitMix64) -> Way {
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotation * axis);
     let along = chance.below(3);
     let approach = (along + 1 + chance.below(2)) % 3;
     let third = 3 - along - approach;
-    let sign = |chance: &mut Chance| if chance.is(0.5) { 1.0 } else { -1.0 };
+    let sign = |chance: &mut SplitMix64| if chance.is(0.5) { 1.0 } else { -1.0 };
     let shift = if half[third] > 0.04 { half[third] * chance.between(-0.5, 0.5) } else { 0.0 };
     Way {
         approach: axes[approach] * sign(chance),

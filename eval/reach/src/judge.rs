@@ -2,6 +2,7 @@
 //! a file.
 
 use std::collections::BTreeMap;
+use std::hash::Hasher as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -19,7 +20,7 @@ use crate::room::{furnished, targets};
 use crate::scenery::Scenery;
 use crate::truth::{Effort, Truth, searched};
 
-/// What to run over.
+/// Rooms and queries of an evaluation.
 #[derive(Clone, Debug)]
 pub struct Settings {
     /// Names of robots.
@@ -30,7 +31,7 @@ pub struct Settings {
     pub seed: u64,
     /// The text of a scene instead of rooms.
     pub scene: Option<String>,
-    /// How long a query may look.
+    /// Search budget of a query.
     pub budget: SearchBudget,
     /// Search for the truth only shortly.
     pub is_quick: bool,
@@ -47,17 +48,17 @@ pub struct Settings {
 /// One target with its answer.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// Which robot, room and thing.
+    /// Names of robot, room and thing.
     pub name: String,
-    /// What is true of it.
+    /// Its truth by exhaustive search.
     pub truth: Truth,
-    /// What was answered.
+    /// Answer of the query.
     pub said: Said,
-    /// How long the answer took, the room made ready.
+    /// Time of the answer, the room made ready.
     pub took: Duration,
-    /// How long making the room ready took.
+    /// Time to make the room ready.
     pub set_up: Duration,
-    /// What the independent check has against the witness.
+    /// Faults that the independent check finds in the witness.
     pub faults: Vec<String>,
     /// The reason of a negative.
     pub reason: Option<String>,
@@ -140,7 +141,7 @@ fn file(path: &Option<PathBuf>) -> Result<Option<std::fs::File>, String> {
     path.as_ref().map(create).transpose()
 }
 
-/// What was answered where the truth is not asked for.
+/// Case whose truth is not asked for.
 #[derive(Default)]
 struct Answered {
     kinds: BTreeMap<Said, usize>,
@@ -158,7 +159,8 @@ impl Answered {
         let middle = self.negative.get(self.negative.len() / 2).copied().unwrap_or_default();
         let mut lines = std::mem::take(&mut self.faults);
         lines.push(format!(
-            "{name}: {}; witnesses that do not hold {faulty}; of a negative {middle:?} at the median, {most:?} at most",
+            "{name}: {}; witnesses that do not hold {faulty}; of a negative {middle:?} at the median, \
+             {most:?} at most",
             kinds.join(", ")
         ));
         lines
@@ -248,9 +250,8 @@ impl Judged<'_> {
     }
 }
 
-/// The median of some runs, or the one where it takes long: the time of the processor that this thread
-/// took, so that what else
-/// the machine does counts little.
+/// The median of some runs, or the one where it takes long: the time of the processor that this thread took,
+/// so that what else the machine does counts little.
 fn timed<T>(run: impl Fn() -> T) -> (T, Duration) {
     let begin = clock();
     let value = run();
@@ -302,7 +303,7 @@ impl Case {
         self.said == Said::Certified && (self.is_reachable() || self.truth == Truth::NoWay)
     }
 
-    /// What is not as it should be, in a line.
+    /// Describes the faults in a line.
     #[must_use]
     pub fn line(&self) -> Option<String> {
         let reason = self.reason.as_deref().unwrap_or_default();
@@ -329,7 +330,7 @@ impl Case {
 /// Of the search for the truth and of the rooms: what an older one found is searched for again.
 const VERSION: u32 = 2;
 
-/// What the truth was found to be, in a file.
+/// Truths that were found before, in a file.
 struct Cache {
     path: Option<PathBuf>,
     known: BTreeMap<String, Truth>,
@@ -351,8 +352,7 @@ impl Cache {
     }
 
     /// With what another run has written meanwhile, and at one stroke, so that a run that is ended leaves
-    /// what was there. A file that
-    /// cannot be written costs only time.
+    /// what was there. A file that cannot be written costs only time.
     fn write(&mut self) {
         let Some(path) = &self.path else { return };
         if let Some(folder) = path.parent() {
@@ -368,15 +368,15 @@ impl Cache {
     }
 }
 
-/// What a file has; nothing where it cannot be read.
+/// Truths in a file; none where it cannot be read.
 fn kept(path: &Path) -> BTreeMap<String, Truth> {
     let text = std::fs::read_to_string(path).ok();
     text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
 }
 
-/// FNV-1a.
+/// The FNV-1a hash of a text, which is the same everywhere.
 fn hash(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
+    let mut hasher = fnv::FnvHasher::default();
+    hasher.write(text.as_bytes());
+    hasher.finish()
 }

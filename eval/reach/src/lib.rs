@@ -1,8 +1,7 @@
 //! The judge of `reach`: furnished rooms made from a seed, what is true of them by exhaustive search, and a
-//! check of
-//! witnesses. Kinematics, collision, grasps and planning are written a second time here, in `f64` and on
-//! parry3d; with
-//! the query it shares the reader of URDFs, which links may touch, and how deep a hand goes around a thing.
+//! check of witnesses. Kinematics, collision, grasps and planning are written a second time here, in `f64`
+//! and on parry3d; with the query it shares the reader of URDFs, which links may touch, and how deep a hand
+//! goes around a thing.
 
 #![allow(
     clippy::indexing_slicing,
@@ -12,7 +11,6 @@
 
 mod chance;
 mod check;
-mod command;
 mod export;
 mod grasp;
 mod judge;
@@ -24,9 +22,8 @@ mod scenery;
 mod truth;
 
 pub use check::faults;
-pub use command::command;
 pub use judge::{Case, Said, Settings, run};
 pub use model::{Model, robot};
-pub use report::Table;
+pub use report::{Table, command};
 pub use room::{furnished, targets};
 pub use truth::{Truth, truth};

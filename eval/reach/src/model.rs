@@ -8,8 +8,7 @@ use motet_geometry::planning::{Configuration, RobotModel};
 use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::urdf::{JointKind, Pose, Urdf, UrdfShape};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
-use parry3d_f64::query;
-use parry3d_f64::shape;
+use parry3d_f64::{query, shape};
 
 /// A shape somewhere.
 pub(crate) struct Solid {
@@ -54,7 +53,7 @@ impl Solid {
         }
     }
 
-    /// Whether another is no farther than `gap`, with this one moved.
+    /// True if another is no farther than `gap`, with this one moved.
     pub(crate) fn touches(
         &self,
         at: &Isometry3<f64>,
@@ -268,7 +267,7 @@ impl Model {
         Tip { pose, bases, columns }
     }
 
-    /// Whether a part of the robot counts: on a base that does not drive, only what the arm moves.
+    /// True if a part of the robot counts: on a base that does not drive, only what the arm moves.
     pub(crate) fn counts(&self, link: usize) -> bool {
         self.machine.drives() || self.is_carried(link)
     }

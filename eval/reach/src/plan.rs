@@ -1,15 +1,15 @@
-//! Inverse kinematics of the whole robot from starts at random (Levenberg 1944), and RRT-Connect (Kuffner
-//! and LaValle 2000)
-//! over base and arm with sampled edges.
+//! Inverse kinematics of the whole robot from starts at random (Levenberg 1944), and RRT-Connect (Kuffner and
+//! LaValle 2000) over base and arm with sampled edges.
 
 use motet_geometry::planning::Configuration;
 use nalgebra::{Isometry3, SMatrix, SVector};
+use rand_xoshiro::SplitMix64;
 
 use crate::chance::Chance;
 use crate::model::{Model, Tip};
 use crate::scenery::Scenery;
 
-/// What a state keeps from everything, in m: as much as the query does.
+/// Distance in m that a state keeps from everything: as much as the query does.
 pub(crate) const GAP: f64 = 0.002;
 
 /// The state near another that puts the tip at a pose, within the limits; the base moves where it can and
@@ -75,7 +75,7 @@ pub(crate) fn scatter(
     like: &Configuration,
     about: [f64; 2],
     far: f64,
-    chance: &mut Chance,
+    chance: &mut SplitMix64,
 ) -> Configuration {
     let mut state = like.clone();
     for dof in model.movable() {
@@ -96,7 +96,7 @@ pub(crate) fn scatter(
     state
 }
 
-/// Whether the straight way between two states is free at samples so many m or rad apart.
+/// True if the straight way between two states is free at samples so many m or rad apart.
 pub(crate) fn is_free(
     model: &Model,
     scenery: &Scenery,
@@ -138,7 +138,7 @@ fn metric(from: &Configuration, to: &Configuration) -> f64 {
     (drive + 0.1 * square(to.base[2] - from.base[2]) + 0.1 * joints).sqrt()
 }
 
-/// Where all search goes on: how far, and at what cost.
+/// The heap entry of a search: a node with its cost.
 pub(crate) struct Search<'a> {
     pub(crate) model: &'a Model,
     pub(crate) scenery: &'a Scenery,
@@ -149,10 +149,14 @@ pub(crate) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Whether a way leads from one state to another. Both are free. The hand may be open in one and not in
-    /// the other: in between it
-    /// is like in either, and opens or closes on the way.
-    pub(crate) fn connects(&self, start: &Configuration, goal: &Configuration, chance: &mut Chance) -> bool {
+    /// True if a way leads from one state to another. Both are free. The hand may be open in one and not in
+    /// the other: in between it is like in either, and opens or closes on the way.
+    pub(crate) fn connects(
+        &self,
+        start: &Configuration,
+        goal: &Configuration,
+        chance: &mut SplitMix64,
+    ) -> bool {
         let free =
             |a: &Configuration, b: &Configuration| is_free(self.model, self.scenery, a, b, self.apart, None);
         if free(start, goal) {

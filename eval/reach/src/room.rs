@@ -1,18 +1,18 @@
 //! Rooms at random: tables and counters, shelves, cabinets with an open drawer, narrow passages, clutter on
-//! the floor, and
-//! things to grasp on, in and under all of it.
+//! the floor, and things to grasp on, in and under all of it.
 
 use motet_geometry::planning::RobotModel;
 use motet_robots::card::Drive;
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene, Travel};
+use rand_xoshiro::SplitMix64;
 use smol_str::{SmolStr, format_smolstr};
 
-use crate::chance::Chance;
+use crate::chance::{Chance, seeded};
 
 /// The room of a seed for a robot, which stands at its origin in the posture `home`.
 #[must_use]
 pub fn furnished(machine: &RobotModel, seed: u64) -> Scene {
-    let mut made = Made { scene: Scene::default(), chance: Chance::new(seed), outlines: vec![], turn: 0.0 };
+    let mut made = Made { scene: Scene::default(), chance: seeded(seed), outlines: vec![], turn: 0.0 };
     match machine.card().base.drive {
         Drive::Fixed => made.bench(),
         Drive::Omnidirectional | Drive::Legged | Drive::Differential => {
@@ -30,7 +30,7 @@ pub fn targets(scene: &Scene) -> Vec<SmolStr> {
 
 struct Made {
     scene: Scene,
-    chance: Chance,
+    chance: SplitMix64,
     /// Centres and radii of what stands on the floor.
     outlines: Vec<([f64; 2], f64)>,
     turn: f64,

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::model::{Model, Solid};
 
-/// How thick the walls of an open drawer are, in m.
+/// Thickness of the walls of an open drawer, in m.
 const WALL: f64 = 0.01;
 
 /// A scene as solids, each with the index of its entity.
@@ -59,7 +59,7 @@ impl Scenery {
         })
     }
 
-    /// Whether the hand alone, its tip at a pose and open, touches anything but `exempt`.
+    /// True if the hand alone, its tip at a pose and open, touches anything but `exempt`.
     pub(crate) fn hand_touches(
         &self,
         members: &[(Isometry3<f64>, &Solid)],
@@ -79,7 +79,7 @@ impl Scenery {
     }
 }
 
-/// What is touched.
+/// Name of the touched body.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Touched {
     Entity(usize),

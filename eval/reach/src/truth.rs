@@ -1,18 +1,19 @@
-//! What is true of a target, by exhaustive search: grasps at random, states of the whole robot that make
+//! The truth of a target, by exhaustive search: grasps at random, states of the whole robot that make
 //! them, and a way to one.
 
 use motet_geometry::planning::{Configuration, SceneState};
 use motet_robots::scene::Scene;
 use nalgebra::Isometry3;
+use rand_xoshiro::SplitMix64;
 use serde::{Deserialize, Serialize};
 
-use crate::chance::Chance;
+use crate::chance::{Chance, seeded};
 use crate::grasp;
 use crate::model::{Model, Solid};
 use crate::plan::{GAP, Search, is_free, scatter, solve};
 use crate::scenery::Scenery;
 
-/// What was found of a target.
+/// Truth of a target, as far as it was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Truth {
@@ -24,7 +25,7 @@ pub enum Truth {
     NoState,
 }
 
-/// How long to search.
+/// Effort of a search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
     /// Grasps drawn.
@@ -64,7 +65,7 @@ pub(crate) fn grasps(
 ) -> Vec<grasp::Grasp> {
     let world = SceneState::new(&model.machine, scene);
     let target = Target::new(model, scene, &world, target);
-    let mut free = target.map_or_else(Vec::new, |it| it.grasps(Effort::QUICK.grasps, &mut Chance::new(seed)));
+    let mut free = target.map_or_else(Vec::new, |it| it.grasps(Effort::QUICK.grasps, &mut seeded(seed)));
     free.truncate(most);
     free
 }
@@ -75,7 +76,7 @@ struct Target<'a> {
     scenery: Scenery,
     index: usize,
     pose: Isometry3<f64>,
-    /// Where the robot is, its hand as it is: it opens on the way.
+    /// State of the robot, its hand as it is: it opens on the way.
     start: &'a Configuration,
     /// The same with the hand open.
     open: Configuration,
@@ -100,7 +101,7 @@ impl<'a> Target<'a> {
     }
 
     /// Of so many grasps at random those in which the hand is free.
-    fn grasps(&self, draws: usize, chance: &mut Chance) -> Vec<grasp::Grasp> {
+    fn grasps(&self, draws: usize, chance: &mut SplitMix64) -> Vec<grasp::Grasp> {
         let Some((_, entity)) = self.scene.entities.get_index(self.index) else { return vec![] };
         let machine = &self.model.machine;
         let mut drawn: Vec<_> =
@@ -110,7 +111,7 @@ impl<'a> Target<'a> {
     }
 
     fn search(&self, seed: u64, effort: Effort) -> Truth {
-        let mut chance = Chance::new(seed);
+        let mut chance = seeded(seed);
         let machine = &self.model.machine;
         let free = self.grasps(effort.grasps, &mut chance);
         if free.is_empty() {
@@ -139,13 +140,13 @@ impl<'a> Target<'a> {
         if ways > 0 { Truth::NoWay } else { Truth::NoState }
     }
 
-    /// Whether a way leads to a state: to one a little back along the fingers, and from there straight in.
+    /// True if a way leads to a state: to one a little back along the fingers, and from there straight in.
     fn is_reached(
         &self,
         grasp: &grasp::Grasp,
         state: &Configuration,
         steps: usize,
-        chance: &mut Chance,
+        chance: &mut SplitMix64,
     ) -> bool {
         [0.05, 0.1].into_iter().any(|back| {
             let mut before = grasp.map_from_tip;

@@ -42,7 +42,8 @@ fn reach_witnesses_hold() {
 /// One can, in the open.
 fn can(xyz: [f64; 3]) -> String {
     format!(
-        r#"{{"motet_scene": 1, "entities": [{{"id": "can", "kind": "Object", "pose": {{"xyz": {xyz:?}}}, "mass": 0.2,
+        r#"{{"motet_scene": 1, "entities": [{{"id": "can", "kind": "Object", "pose": {{"xyz": {xyz:?}}},
+            "mass": 0.2,
             "shape": {{"cylinder": {{"radius": 0.03, "height": 0.12}}}}}}]}}"#
     )
 }

@@ -3,8 +3,6 @@
 use motet_planner::dialogue::Kind;
 use motet_robots::scene::Scene;
 
-use super::room::{Named, ROOMS, Room};
-
 /// One case.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -14,23 +12,23 @@ pub struct Case {
     pub scene: String,
     /// The task of the wording.
     pub task: String,
-    /// What the person says.
+    /// Request of the person.
     pub request: String,
-    /// What shall hold at the end.
+    /// Facts that shall hold at the end.
     pub goal: Vec<(String, Vec<String>)>,
-    /// What shall not hold at the end, though it does at the start.
+    /// Fact that shall not hold at the end, though it does at the start.
     pub undo: Option<(String, Vec<String>)>,
-    /// What goes wrong, in order; one for each round of recovery.
+    /// Failures in order; one for each round of recovery.
     pub failures: Vec<Kind>,
     /// The thing that is asked for.
     thing: String,
-    /// Where it is in truth, where it is not found.
+    /// Its true place, where it is not found.
     hidden: Option<(&'static str, String)>,
-    /// What the person answers to the question of each kind.
+    /// Answers of the person to the question of each kind.
     answers: Vec<(Kind, String)>,
 }
 
-/// What goes wrong: nothing, each kind by itself, and two after each other.
+/// Failures of the cases: none, each kind by itself, and two after each other.
 const TROUBLES: &[&[Kind]] = &[
     &[],
     &[Kind::NotFound],
@@ -43,16 +41,15 @@ const TROUBLES: &[&[Kind]] = &[
     &[Kind::AmbiguousTask, Kind::NotReachable],
 ];
 
-/// What a person says beside the task, where a file does not tell: where a thing is, `{at}` being the place
-/// with its
-/// preposition, that it shall be tried again, yes, and that something shall be done with `{thing}`.
+/// Sayings of a person beside the task, for files without their own: where a thing is, `{at}` being the place
+/// with its preposition, that it shall be tried again, yes, and that something shall be done with `{thing}`.
 const WHERE: &[&str] =
     &["It is {at}.", "I put it {at}.", "Look {at}.", "It should be {at}, I think.", "{at}"];
 const AGAIN: &[&str] = &["Please try again.", "Try once more.", "yes, try again", "Again, please."];
 const YES: &[&str] = &["Yes.", "yes please", "Please try again.", "sure"];
 const VAGUE: &[&str] = &["Do something about {thing}."];
 
-/// What a person says beside the task.
+/// Sayings of a person beside the task.
 struct Sayings<'w> {
     places: Vec<&'w str>,
     again: Vec<&'w str>,
@@ -78,8 +75,8 @@ impl<'w> Sayings<'w> {
 }
 
 /// All cases of a wordings file, in order: each wording without a failure, and with one of the troubles in
-/// turn. A file may
-/// have answers beside the tasks: `where`, `again`, `yes`, and requests that do not say what to do: `vague`.
+/// turn. A file may have answers beside the tasks: `where`, `again`, `yes`, and requests that do not say what
+/// to do: `vague`.
 #[must_use]
 pub fn cases(wordings: &str) -> Vec<Case> {
     let lines = wordings.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -213,7 +210,7 @@ impl Case {
         real
     }
 
-    /// What goes wrong with steps.
+    /// Faults of the steps.
     pub(super) fn faults(&self) -> String {
         let fails = |nth: u32, kind: &str| {
             format!(r#"{{"primitive": "pick", "nth": {nth}, "then": {{"fails": "{kind}"}}}}"#)
@@ -228,9 +225,75 @@ impl Case {
         format!(r#"{{"calls": [{}]}}"#, calls.join(", "))
     }
 
-    /// What the person answers.
+    /// Answers of the person.
     #[must_use]
     pub fn answers(&self) -> Vec<(Kind, String)> {
         self.answers.clone()
     }
 }
+
+/// A thing or a place, and its name with an article.
+pub(super) type Named = (&'static str, &'static str);
+
+/// A room.
+pub(super) struct Room {
+    pub(super) scene: &'static str,
+    /// Things that either robot can carry.
+    pub(super) things: &'static [Named],
+    /// Surfaces to put things on.
+    pub(super) surfaces: &'static [Named],
+    /// Containers with doors.
+    pub(super) containers: &'static [Named],
+    /// Places to go to.
+    pub(super) places: &'static [Named],
+    /// The bin.
+    pub(super) bin: &'static str,
+    /// A name that several things have, with one of them and how it is told apart.
+    pub(super) shared: (&'static str, &'static str, &'static [&'static str]),
+}
+
+pub(super) const ROOMS: &[Room] = &[
+    Room {
+        scene: "kitchen",
+        things: &[
+            ("coke", "the coke can"),
+            ("apple", "the green apple"),
+            ("mug_1", "the red mug"),
+            ("bottle", "the water bottle"),
+            ("sponge", "the sponge"),
+        ],
+        surfaces: &[("kitchen_table", "the kitchen table"), ("counter", "the counter"), ("sink", "the sink")],
+        containers: &[
+            ("drawer_1", "the top drawer"),
+            ("cupboard_1", "the cupboard"),
+            ("fridge_1", "the fridge"),
+        ],
+        places: &[
+            ("kitchen_table", "the kitchen table"),
+            ("sink", "the sink"),
+            ("door", "the kitchen door"),
+            ("charging_dock", "the charging station"),
+        ],
+        bin: "trash",
+        shared: ("the mug", "mug_1", &["the red one", "the red mug", "the one on the table"]),
+    },
+    Room {
+        scene: "living_room",
+        things: &[
+            ("remote_1", "the remote control"),
+            ("magazine", "the magazine"),
+            ("cup", "the tea cup"),
+            ("bottle_1", "the water bottle"),
+        ],
+        surfaces: &[("coffee_table", "the coffee table"), ("cabinet", "the sideboard")],
+        containers: &[("drawer_1", "the drawer")],
+        places: &[
+            ("sofa", "the sofa"),
+            ("bookshelf", "the bookshelf"),
+            ("window", "the window"),
+            ("door", "the door"),
+        ],
+        bin: "trash_bin",
+        shared: ("the toy", "toy", &["the toy car", "the car", "the one on the coffee table"]),
+    },
+];

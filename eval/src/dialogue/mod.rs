@@ -1,13 +1,10 @@
 //! InteLiPlan's protocol in simulation: commands in many wordings, with and without failures of each kind,
-//! one and two
-//! rounds of recovery, on two robots, carried out by the planner that needs no model.
+//! one and two rounds of recovery, on two robots, carried out by the planner that needs no model.
 //!
 //! A case is made from a line of a wordings file, which knows a task and the words for it, and from a room,
-//! which knows
-//! what there is. The planner sees the words alone; the goal is looked at only to judge the end.
+//! which knows what there is. The planner sees the words alone; the goal is looked at only to judge the end.
 
 mod cases;
-mod room;
 mod tables;
 
 use std::time::{Duration, Instant};
@@ -24,18 +21,18 @@ pub use tables::{sums, table};
 
 use crate::setup;
 
-/// What came of a case.
+/// Result of a case.
 #[derive(Clone, Debug)]
 pub struct Trial {
     /// The case.
     pub case: Case,
-    /// Whether the goal held at the end.
+    /// True if the goal held at the end.
     pub is_reached: bool,
     /// The kinds of the problems that were put to the person.
     pub asked: Vec<Kind>,
-    /// Whether every failure of the case was put to the person as what it is.
+    /// True if every failure of the case was put to the person as what it is.
     pub is_explained: bool,
-    /// How it ended, where it is not done.
+    /// Its end, where it is not done.
     pub note: Option<String>,
     /// Time for the words: which things are meant.
     pub vision: Duration,

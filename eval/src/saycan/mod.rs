@@ -6,6 +6,9 @@ pub mod row;
 
 use std::time::{Duration, Instant};
 
+use motet_graph::Graph;
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_syntax::{Severity, Source, Sources};
@@ -53,16 +56,21 @@ pub fn run(row: &Row) -> (Result<(), String>, Duration) {
             return Err(format!("{} {}", wrong.code, wrong.message));
         }
         let graph = compiled.graph.ok_or("no graph")?;
-        let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
-        let start = StartState { entities: entities.collect(), ..StartState::default() };
-        let mut engine = Engine::new(graph, &start).map_err(|wrong| format!("{wrong:?}"))?;
-        let mut sim = Sim::new(&robot, &scene, SimOptions::default());
-        let end = motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO);
-        if !matches!(end, RunEnd::Done { .. }) {
-            return Err(format!("ended in {end:?}"));
-        }
+        let sim = simulate(graph, &robot, &scene)?;
         let reached = row.reached(|fluent, args| sim.holds(fluent, args) == Some(true));
         reached.then_some(()).ok_or_else(|| "goal missed".to_owned())
     };
     (end(), took)
+}
+
+/// The world at the end of a policy that was run in simulation.
+fn simulate(graph: Graph, robot: &Robot, scene: &Scene) -> Result<Sim, String> {
+    let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
+    let start = StartState { entities: entities.collect(), ..StartState::default() };
+    let mut engine = Engine::new(graph, &start).map_err(|wrong| format!("{wrong:?}"))?;
+    let mut sim = Sim::new(robot, scene, SimOptions::default());
+    match motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO) {
+        RunEnd::Done { .. } => Ok(sim),
+        end => Err(format!("ended in {end:?}")),
+    }
 }

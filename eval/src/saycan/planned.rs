@@ -1,33 +1,31 @@
 //! SayCan from the text alone: an instruction is understood and planned for by the planner that needs no
-//! model, and the
-//! policy is run in simulation. The row's own plan and goal are only looked at to judge the end.
+//! model, and the policy is run in simulation. The row's own plan and goal are only looked at to judge the
+//! end.
 
 use motet_planner::builtin;
 use motet_requests::RequestContext;
-use motet_runtime::{Engine, RunEnd, StartState, Time};
-use motet_sim::{Sim, SimOptions};
 use motet_syntax::Sources;
 use serde::Serialize;
 
 use super::row::Row;
 use crate::setup;
 
-/// What came of an instruction.
+/// Result of an instruction.
 #[derive(Clone, Debug)]
 pub struct Try {
     /// The row's name.
     pub id: String,
     /// The kind of instruction.
     pub family: String,
-    /// What the person said.
+    /// Instruction of the person.
     pub instruction: String,
-    /// Whether there was a policy, and whether it passed the check.
+    /// True if there was a policy that passed the check.
     pub is_planned: bool,
-    /// Whether the policy ran to its end.
+    /// True if the policy ran to its end.
     pub is_run: bool,
-    /// Whether the goal of the row then held.
+    /// True if the goal of the row then held.
     pub is_reached: bool,
-    /// What went otherwise.
+    /// Description of the difference.
     pub note: Option<String>,
 }
 
@@ -82,14 +80,7 @@ fn run(row: &Row, result: &mut Try) -> Result<(), String> {
     let answered = answered.map_err(|why| why.to_string())?;
     result.is_planned = true;
     let graph = answered.planned.compiled.graph.ok_or("no graph")?;
-    let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
-    let start = StartState { entities: entities.collect(), ..StartState::default() };
-    let mut engine = Engine::new(graph, &start).map_err(|wrong| format!("{wrong:?}"))?;
-    let mut sim = Sim::new(&robot, &scene, SimOptions::default());
-    let end = motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO);
-    if !matches!(end, RunEnd::Done { .. }) {
-        return Err(format!("ended in {end:?}"));
-    }
+    let sim = super::simulate(graph, &robot, &scene)?;
     result.is_run = true;
     result.is_reached = row.reached(|fluent, args| sim.holds(fluent, args) == Some(true));
     if result.is_reached { Ok(()) } else { Err(format!("another goal:\n{}", answered.planned.text)) }

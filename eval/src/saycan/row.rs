@@ -1,8 +1,7 @@
 //! SayCan rows as ordinary policies and scenes: an instruction's expected plan, its start and its goal.
 //!
-//! The rows name places and objects but no geometry, so the room is our own: each place stands where a
-//! robot can drive
-//! around it, and objects stand side by side on it.
+//! The rows name places and objects but no geometry, so the room is our own: each place stands where a robot
+//! can drive around it, and objects stand side by side on it.
 
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -12,9 +11,9 @@ use serde_json::{Map, Value, json};
 pub struct Row {
     /// The row's name.
     pub id: String,
-    /// What the person said.
+    /// Instruction of the person.
     pub instruction: String,
-    /// What kind of instruction it is.
+    /// Kind of the instruction.
     #[serde(default)]
     pub family: String,
     robot_start: Start,
@@ -35,7 +34,7 @@ struct Op {
     args: Vec<String>,
 }
 
-/// Where the places of these rows stand: the centre of a box of 0.8 m × 0.6 m.
+/// Places of these rows, each the centre of a box of 0.8 m × 0.6 m.
 const PLACES: &[(&str, [f64; 2])] = &[
     ("table", [2.5, 0.0]),
     ("close_counter", [0.0, -2.5]),
@@ -81,7 +80,7 @@ impl Row {
             .to_string()
     }
 
-    /// Whether the goal holds in a world that tells which facts hold.
+    /// True if the goal holds in a world that tells which facts hold.
     #[must_use]
     pub fn reached(&self, holds: impl Fn(&str, &[&str]) -> bool) -> bool {
         self.goal.iter().all(|atom| is_reached(atom, &holds))
@@ -95,7 +94,8 @@ impl Row {
             let kind = if *name == "trash" { "Container" } else { "Surface" };
             entities.push(json!({
                 "id": name, "kind": kind, "class": name, "fixed": true,
-                "pose": {"xyz": [x, y, HEIGHT_M / 2.0], "rpy": [0, 0, 0]}, "shape": {"box": [0.8, 0.6, HEIGHT_M]},
+                "pose": {"xyz": [x, y, HEIGHT_M / 2.0], "rpy": [0, 0, 0]}, "shape": {"box": [0.8, 0.6,
+                    HEIGHT_M]},
             }));
         }
         for (index, (id, place)) in self.scene.iter().enumerate() {
@@ -119,7 +119,8 @@ impl Row {
             "shape": {"cylinder": {"radius": 0.3, "height": 1.7}},
         }));
         let [x, y] = spot(&self.robot_start.at);
-        let robot = json!({"base": [x - 0.9, y, 0.0], "holding": self.robot_start.holding, "at": self.robot_start.at});
+        let robot = json!({"base": [x - 0.9, y, 0.0], "holding": self.robot_start.holding,
+            "at": self.robot_start.at});
         json!({"motet_scene": 1, "frame": "map", "robot": robot, "entities": entities}).to_string()
     }
 }

@@ -1,19 +1,14 @@
 //! Scenarios: plans for two household robots in two profiles, with the verdict of a contract (`CONTRACT.md`
-//! beside the
-//! rows).
+//! beside the rows).
 //!
 //! A row becomes an ordinary scene, an ordinary policy and facts at the start; where the contract differs
-//! from the
-//! standard library its words are declared in `contract.motet`. Every verdict is one of `check`, through
-//! the table of
-//! `verdict.rs`.
+//! from the standard library its words are declared in `contract.motet`. Every verdict is one of `check`,
+//! through the table of `verdict.rs`.
 
-mod condition;
 mod policy;
 mod row;
 mod verdict;
 mod words;
-mod world;
 
 use std::time::Instant;
 
@@ -24,8 +19,7 @@ use motet_syntax::{FileId, Severity, Source, Sources};
 use serde_json::Value;
 
 use self::policy::Written;
-use self::row::Row;
-use self::world::Names;
+use self::row::{Names, Row};
 use super::Judged;
 use super::repairs::{ROUNDS, Repair};
 
@@ -81,9 +75,8 @@ pub fn judge(line: &str) -> Result<Judged, String> {
     Ok(Judged { id: row.id, expected_error, found_error: found.is_some(), class, step, took, group, note })
 }
 
-/// Mends the plan of a line by at most [`ROUNDS`] fixes and judges what comes of it; none where the row
-/// calls the plan
-/// right, or its verdict rests on something that is not static.
+/// Mends the plan of a line by at most [`ROUNDS`] fixes and judges what comes of it; none where the row calls
+/// the plan right, or its verdict rests on something that is not static.
 ///
 /// # Errors
 ///
@@ -141,12 +134,12 @@ fn session(
     for rule in row.scene.get("rules").and_then(Value::as_array).into_iter().flatten() {
         contract = watched(contract, rule);
     }
-    contract.push_str(&condition::declarations(&written.fluents));
+    contract.push_str(&words::declarations(&written.fluents));
     let source = Source::new("contract.motet", contract);
     let file = sources.add(source.clone());
     let parsed = motet_syntax::read(&source, file);
-    let scene = world::scene(row, names, sources)?;
-    let state = world::state(row, names, &robot);
+    let scene = row::scene(row, names, sources)?;
+    let state = row::state(row, names, &robot);
     let options = CheckOptions::default();
     let session = Session::builder()
         .robot(&robot)
@@ -172,9 +165,8 @@ fn robot(name: &str, sources: &mut Sources) -> Result<Robot, String> {
     // The contract stands for the robot's own declarations, so what only they declare cannot be observed.
     let (robot, said) = motet_robots::card::read(&source, file, None);
     let mut robot = robot.ok_or_else(|| format!("the card of `{name}`: {said:?}"))?;
-    let own =
-        motet_syntax::read(&Source::new("primitives.motet", texts.declarations.unwrap_or_default()), file)
-            .file;
+    let own = Source::new("primitives.motet", texts.declarations.unwrap_or_default());
+    let own = motet_syntax::read(&own, file).file;
     let is_own =
         |name: &str| own.items.iter().any(|item| matches!(item, Item::Fluent(it) if it.name.text == name));
     robot.observes.retain(|name| !is_own(name));

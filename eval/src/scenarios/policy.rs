@@ -1,20 +1,16 @@
 //! A plan as an ordinary policy in JSON, with a map from its paths back to the steps of the plan.
 //!
-//! A binding of Motet is visible to the end of its block, one of a plan from then on. So where a branch
-//! binds what is
-//! used after it, what comes after is written in both branches; after a body that has always run, such as
-//! that of a
-//! monitor, the entity itself is named.
+//! A binding of Motet is visible to the end of its block, one of a plan from then on. So where a branch binds
+//! what is used after it, what comes after is written in both branches; after a body that has always run,
+//! such as that of a monitor, the entity itself is named.
 
 use std::collections::HashMap;
 
 use indexmap::IndexMap;
 use serde_json::{Value, json};
 
-use super::condition::Conditions;
-use super::row::{Do, Node, Row, Step};
-use super::words::{self, Bound};
-use super::world::Names;
+use super::row::{Do, Names, Node, Row, Step};
+use super::words::{self, Bound, Conditions};
 
 /// The most steps that writing a continuation twice may lead to.
 const MAX_STEPS: usize = 20_000;
@@ -87,7 +83,7 @@ pub(super) fn write(row: &Row, plan: &[Node], names: &Names) -> Result<Written, 
     Ok(Written { policy, spots: writer.spots, fluents: writer.conditions.into_fluents() })
 }
 
-/// What each reference of the plan stands for, the innermost block last.
+/// Meanings of the references of the plan, the innermost block last.
 #[derive(Clone, Debug)]
 pub(super) struct Scope(Vec<HashMap<String, Bound>>);
 
@@ -213,9 +209,8 @@ impl Writer<'_> {
         done.map(|()| Value::Array(steps))
     }
 
-    /// Whether what comes after was written with it. The contract does not say what a failed attempt leaves
-    /// behind, so
-    /// one attempt at several steps stands for all.
+    /// True if the steps after it were written with it. The contract does not say what a failed attempt
+    /// leaves behind, so one attempt at several steps stands for all.
     #[expect(clippy::too_many_arguments, reason = "the parts of a step and where it goes")]
     fn retry(
         &mut self,
@@ -282,7 +277,7 @@ impl Writer<'_> {
     }
 }
 
-/// How often at most. For no bound the language has no word, and says so of this one.
+/// Bound of a loop. For no bound the language has no word, and says so of this one.
 fn bound(times: &Value) -> Value {
     if times.is_null() { json!("forever") } else { times.clone() }
 }
@@ -293,7 +288,7 @@ fn joined<'n>(block: &'n [Node], after: &[&'n Node]) -> Vec<&'n Node> {
     block.iter().chain(after.iter().copied()).collect()
 }
 
-/// Whether a block ends the policy by its last step.
+/// True if a block ends the policy by its last step.
 fn ends(block: &[Node]) -> bool {
     match block.last().map(|node| &node.step) {
         Some(Step::Do(call)) => call.op == "done",
@@ -303,7 +298,7 @@ fn ends(block: &[Node]) -> bool {
     }
 }
 
-/// Whether blocks bind what is used after them.
+/// True if blocks bind names that are used after them.
 fn escapes<'n>(blocks: impl Iterator<Item = &'n Node>, after: &[&Node]) -> bool {
     let mut bound = Vec::new();
     blocks.for_each(|node| {

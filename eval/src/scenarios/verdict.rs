@@ -4,7 +4,7 @@ use motet_syntax::{About, Diagnostic, Severity};
 
 use super::policy::{Spot, Written};
 
-/// Where a finding belongs in the plan.
+/// Place of a finding in the plan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Place {
     /// The step at its path.
@@ -24,7 +24,7 @@ struct Entry {
     code: &'static str,
     /// Primitives, or none for all.
     primitives: &'static [&'static str],
-    /// What the condition turns on, and whether it is to hold.
+    /// Subject of the condition, with the truth that is wanted.
     subject: Option<(&'static str, bool)>,
     /// The key at its path, or none for all.
     key: &'static str,
@@ -189,7 +189,7 @@ pub(super) fn first<'d>(said: &'d [Diagnostic], written: &Written) -> Option<Fou
     first.map(|(spot, _, found)| Found { step: spot.label, ..found })
 }
 
-/// Whether a pointer ends in the first step of a block: a branch that is never taken.
+/// True if a pointer ends in the first step of a block: a branch that is never taken.
 fn is_first(pointer: &str) -> bool {
     pointer.rsplit('/').next() == Some("0")
 }

@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 use motet_eval::dialogue;
 use motet_planner::dialogue::Kind;
 
-/// Of the cases of twenty equal wordings and some lines behind them: what is asked for, and what is
-/// answered to questions of
-/// each kind.
+/// Of the cases of twenty equal wordings and some lines behind them: what is asked for, and what is answered
+/// to questions of each kind.
 fn said(lines: &str) -> (BTreeSet<String>, BTreeSet<(Kind, String)>) {
     let cases = dialogue::cases(&format!("{}{lines}", "bring: Fetch {thing}.\n".repeat(20)));
     let requests = cases.iter().map(|case| case.request.clone()).collect();

@@ -18,8 +18,10 @@ fn planbench_verdicts_equal_val() {
 
 #[test]
 fn planbench_reads_other_names_and_a_failing_step() {
-    let row = r#"{"id": "made-up", "objects": ["red block", "7"], "init_support": {"red block": "table", "7": "red block"},
+    let row = r#"{"id": "made-up", "objects": ["red block", "7"], "init_support": {"red block": "table",
+        "7": "red block"},
         "goal_support": {"red block": "7"}, "verdict": "error", "first_error_step": 1,
-        "plan": [{"op": "pick", "args": ["red block"], "from": "table"}, {"op": "place", "args": ["red block", "7"]}]}"#;
+        "plan": [{"op": "pick", "args": ["red block"], "from": "table"}, {"op": "place",
+            "args": ["red block", "7"]}]}"#;
     assert_eq!(planbench::judge(row).unwrap().disagreement(), None);
 }

@@ -18,8 +18,10 @@ fn saycan_plans_reach_their_goals() {
 
 #[test]
 fn saycan_refuses_a_plan_for_an_absent_object() {
-    let row = r#"{"id": "made-up", "instruction": "Bring me the banana.", "robot_start": {"at": "user", "holding": null},
-        "scene": {"apple": "table"}, "expected_plan": [{"op": "go", "args": ["table"]}, {"op": "pick", "args": ["banana"]}],
+    let row = r#"{"id": "made-up", "instruction": "Bring me the banana.", "robot_start": {"at": "user",
+        "holding": null},
+        "scene": {"apple": "table"}, "expected_plan": [{"op": "go", "args": ["table"]}, {"op": "pick",
+            "args": ["banana"]}],
         "goal": [["holding", "banana"]]}"#;
     let judged = saycan::judge(row).unwrap();
     assert!(judged.note.as_ref().unwrap().starts_with("M0202"), "{judged:?}");

@@ -97,7 +97,7 @@ fn given(extra: Value, text: &str, expected: &str) {
 }
 
 #[test]
-fn words() {
+fn scenarios_words() {
     hsr("go table; grasp cup; done", "unknown_primitive @ 2");
     hsr("go table; grab cup table; done", "unknown_primitive @ 2");
     hsr("go table; pick cup; go user_spot; hand_over user; done", "unknown_primitive @ 4");
@@ -123,7 +123,7 @@ fn words() {
 }
 
 #[test]
-fn hands_and_places() {
+fn scenarios_hands_and_places() {
     hsr("go table; pick cup; place table; done", "ok");
     hsr("pick cup; done", "not_at_location @ 1");
     hsr("go table; pick cup; pick toy; done", "pick_while_holding @ 3");
@@ -170,7 +170,7 @@ fn hands_and_places() {
 }
 
 #[test]
-fn containers() {
+fn scenarios_containers() {
     hsr("go desk; open drawer; pick pen; place desk; close drawer; done", "ok");
     hsr("go desk; pick pen; done", "closed_container @ 2");
     hsr("go desk; search pen; done", "closed_container @ 2");
@@ -186,7 +186,7 @@ fn containers() {
 }
 
 #[test]
-fn perception() {
+fn scenarios_perception() {
     fine("go table; detect cup => $c; pick $c; place table; done", "ok");
     fine("go table; detect cup => $c; pick cup; place table; done", "ok");
     fine("go table; detect cup => $c; turn right; pick $c; done", "stale_perception @ 4");
@@ -214,7 +214,7 @@ fn perception() {
 }
 
 #[test]
-fn embodiment() {
+fn scenarios_embodiment() {
     anymal("go table; pick cup; go user_spot; done", "posture @ 3");
     anymal("go table; pick cup; home; go user_spot; handover user; done", "ok");
     anymal("go table; pick cup; lift 0.1; go user_spot; handover user; home; done", "ok");
@@ -241,7 +241,7 @@ fn embodiment() {
 }
 
 #[test]
-fn rules_and_swaps() {
+fn scenarios_rules_and_swaps() {
     let never =
         |verb: &str, key: &str, thing: Value| json!({"rules": [{"rule": format!("no_{verb}"), key: thing}]});
     given(
@@ -276,8 +276,10 @@ fn around(before: &str, control: Value, after: &str) -> Vec<Value> {
 }
 
 #[test]
-fn branches_and_loops() {
-    let either = |then: &str, otherwise: &str| json!({"if": "person_near(user)", "then": plan(then), "else": plan(otherwise)});
+fn scenarios_branches_and_loops() {
+    let either = |then: &str, otherwise: &str| -> Value {
+        json!({"if": "person_near(user)", "then": plan(then), "else": plan(otherwise)})
+    };
     let check = |profile: &str, before: &str, control: Value, after: &str, expected: &str| {
         check_in("hsr", profile, json!({}), &around(before, control, after), expected);
     };
@@ -320,7 +322,9 @@ fn branches_and_loops() {
         "pick $c; place table; done",
         "ok",
     );
-    let retry = |times: Value, body: &str, fail: &str| json!({"retry": times, "body": plan(body), "on_fail": plan(fail)});
+    let retry = |times: Value, body: &str, fail: &str| -> Value {
+        json!({"retry": times, "body": plan(body), "on_fail": plan(fail)})
+    };
     check(
         "fine",
         "go table",
@@ -385,7 +389,7 @@ fn branches_and_loops() {
 }
 
 #[test]
-fn at_once() {
+fn scenarios_at_once() {
     let both = |one: &str, two: &str| json!({"parallel": [plan(one), plan(two)]});
     let objects = json!({"cup": {"at": "table"}, "plate": {"at": "table"}});
     let check = |robot: &str, control: Value, after: &str, expected: &str| {
@@ -406,7 +410,7 @@ fn at_once() {
 }
 
 #[test]
-fn people_choose() {
+fn scenarios_people_choose() {
     let ask = |answers: Value| json!({"op": "ask", "args": ["Which?"], "as": "$x", "answers": answers});
     let check = |answers: Value, after: &str, goal: Value, expected: &str| {
         check_in(
@@ -423,7 +427,7 @@ fn people_choose() {
 }
 
 #[test]
-fn a_row_that_is_none_is_told_apart() {
+fn scenarios_row_that_is_none_is_told_apart() {
     let wrong = |row: Value| scenarios::judge(&row.to_string()).unwrap_err();
     assert!(wrong(json!({"id": "x"})).contains("missing field"));
     let row =

@@ -8,14 +8,17 @@
     reason = "a benchmark that cannot be set up has failed"
 )]
 
-#[path = "../tests/common/mod.rs"]
-mod common;
+#[path = "../tests/client/kitchen.rs"]
+#[allow(dead_code, reason = "the tests use all of it")]
+mod kitchen;
+#[path = "../tests/client/server.rs"]
+#[allow(dead_code, reason = "the tests use all of it")]
+mod server;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use common::server::{Act, Server};
-use common::world::{Heard, brisk, geometry, right, setting};
+use kitchen::{Heard, brisk, geometry, right, setting};
 use motet_client::{Client, ClientSettings};
 use motet_compiler::{InitialState, Session};
 use motet_decode::export::{Dialect, request_constraint};
@@ -28,6 +31,7 @@ use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_runtime::{Effect, Engine, PreparedSwap, StartState, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_syntax::Sources;
+use server::{Act, Server};
 
 const REQUESTS: &[&str] = &["bring me the coke", "put the red mug in the cupboard", "open the fridge"];
 const RUNS: usize = 50;
@@ -41,7 +45,7 @@ fn main() {
 
 fn overhead() {
     let mut setting = setting();
-    let geometry = geometry(&setting);
+    let geometry = geometry();
     setting.geometry = Some(Arc::clone(&geometry));
     let mut made: Vec<Duration> = Vec::new();
     for _ in 0..RUNS.min(10) {

@@ -8,6 +8,13 @@ use thiserror::Error;
 pub const MAX_IMAGE_BYTES: usize = 20 << 20;
 
 /// An image, encoded once.
+///
+/// ```
+/// use motet_client::{EncodedImage, ImageError};
+///
+/// assert!(EncodedImage::new(b"\x89PNG and more").is_ok());
+/// assert_eq!(EncodedImage::new(b"plain text"), Err(ImageError::Unknown));
+/// ```
 #[derive(Clone, PartialEq, Eq)]
 pub struct EncodedImage {
     kind: &'static str,

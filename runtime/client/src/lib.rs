@@ -1,19 +1,14 @@
 #![doc = include_str!("../README.md")]
 
-mod address;
 mod body;
 mod image;
-mod key;
-mod once;
 mod settings;
 mod stream;
 mod talk;
 
-pub use address::ServerUrl;
 pub use image::{EncodedImage, ImageError, MAX_IMAGE_BYTES};
-pub use key::ApiKey;
-pub use once::content;
-pub use settings::{ClientSettings, Notation};
+pub use settings::{ApiKey, ClientSettings, Notation, ServerUrl};
+pub use stream::content;
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -64,7 +59,7 @@ impl Client {
         if settings.address.is_loopback() {
             builder = builder.no_proxy();
         }
-        let http = builder.build().map_err(|error| wrong(talk::reason(error)))?;
+        let http = builder.build().map_err(|error| wrong(stream::reason(error)))?;
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(1)
             .thread_name("motet-client")
@@ -81,7 +76,7 @@ impl Client {
     /// Why there is none.
     pub fn once(&self, body: &Value) -> Result<Value, ModelError> {
         let Some(runtime) = &self.runtime else { return Err(ModelError::Cancelled) };
-        runtime.block_on(once::once(&self.http, &self.settings, body.to_string()))
+        runtime.block_on(talk::once(&self.http, &self.settings, body.to_string()))
     }
 
     fn send(&self, body: &Value) -> Incoming {

@@ -1,12 +1,12 @@
-//! Settings of a client.
+//! Settings of a client: the address of a server, its key, times and sizes.
 
+use std::fmt;
 use std::time::Duration;
 
 use motet_decode::export::Dialect;
+use reqwest::Url;
 
-use crate::address::ServerUrl;
 use crate::image::EncodedImage;
-use crate::key::ApiKey;
 
 /// Server, model, and limits of time and size.
 #[derive(Clone, Debug)]
@@ -69,5 +69,96 @@ impl ClientSettings {
             longest_back_off: Duration::from_secs(20),
             max_bytes: 4 << 20,
         }
+    }
+}
+
+/// The address of chat requests.
+///
+/// ```
+/// use motet_client::ServerUrl;
+///
+/// let url = ServerUrl::new("http://localhost:8000/v1", None)?;
+/// assert_eq!(url.to_string(), "http://localhost:8000/v1/chat/completions");
+/// assert!(url.is_loopback());
+/// assert!(ServerUrl::new("ftp://localhost", None).is_err());
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ServerUrl(Url);
+
+impl ServerUrl {
+    /// The address of chat requests, from that of a server: the path is that of the dialect where none is
+    /// given.
+    ///
+    /// # Errors
+    ///
+    /// Why it is no address, in a clause.
+    pub fn new(server: &str, dialect: Option<Dialect>) -> Result<Self, String> {
+        let mut url = Url::parse(server).map_err(|error| format!("`{server}` is no address: {error}"))?;
+        if !matches!(url.scheme(), "http" | "https") {
+            return Err(format!("`{server}` is no address of a server: it begins with http:// or https://"));
+        }
+        if !url.username().is_empty() || url.password().is_some() {
+            return Err(
+                "an address with a name or a password in it would be shown: give a key with --key-from"
+                    .to_owned(),
+            );
+        }
+        let base = url.path().trim_end_matches('/').to_owned();
+        if !base.ends_with("/chat/completions") && !base.ends_with("/api/chat") {
+            let path = match dialect {
+                Some(Dialect::Ollama) => format!("{base}/api/chat"),
+                Some(Dialect::Vllm | Dialect::LlamaCpp | Dialect::Sglang | Dialect::OpenAi) | None => {
+                    format!("{}/v1/chat/completions", base.strip_suffix("/v1").unwrap_or(&base))
+                }
+            };
+            url.set_path(&path);
+        }
+        Ok(Self(url))
+    }
+
+    /// True if it is this machine.
+    #[must_use]
+    pub fn is_loopback(&self) -> bool {
+        matches!(self.0.host_str(), Some("localhost" | "127.0.0.1" | "[::1]"))
+    }
+
+    pub(crate) fn url(&self) -> Url {
+        self.0.clone()
+    }
+}
+
+impl fmt::Display for ServerUrl {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// A key, which is never shown.
+#[derive(Clone, PartialEq, Eq)]
+pub struct ApiKey(String);
+
+impl ApiKey {
+    /// The key in a variable of the environment; none where there is no such variable, or nothing in it.
+    #[must_use]
+    pub fn from_variable(name: &str) -> Option<Self> {
+        let key = std::env::var(name).ok()?;
+        let key = key.trim();
+        (!key.is_empty()).then(|| Self(key.to_owned()))
+    }
+
+    pub(crate) fn bearer(&self) -> String {
+        format!("Bearer {}", self.0)
+    }
+
+    /// A text of the server, which may quote what it was sent, without the key.
+    pub(crate) fn cut_from(&self, text: &str) -> String {
+        text.replace(&self.0, "[key]")
+    }
+}
+
+impl fmt::Debug for ApiKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Key(…)")
     }
 }

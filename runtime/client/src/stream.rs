@@ -1,7 +1,9 @@
 //! A reply as it arrives: server-sent events, a JSON object a line (Ollama), or all at once from a server
 //! that does not stream. No more bytes are taken than the settings allow, and no silence longer.
 
+use std::error::Error as _;
 use std::sync::mpsc::Sender;
+use std::time::Duration;
 
 use eventsource_stream::{EventStreamError, Eventsource as _};
 use futures_util::{Stream, StreamExt as _};
@@ -10,9 +12,7 @@ use reqwest::Response;
 use reqwest::header::CONTENT_TYPE;
 use serde_json::Value;
 
-use crate::once::content;
 use crate::settings::ClientSettings;
-use crate::talk::{reason, timed_out};
 
 type Bytes = Vec<u8>;
 
@@ -155,4 +155,42 @@ fn malformed(why: &str) -> ModelError {
 
 fn broke_off() -> ModelError {
     ModelError::CutOff { why: "it ended without saying so".to_owned() }
+}
+
+pub(crate) fn timed_out(after: Duration) -> ModelError {
+    ModelError::TimedOut { secs: after.as_secs_f64() }
+}
+
+/// Description of an error down to its cause, without the address, which the caller knows.
+pub(crate) fn reason(error: reqwest::Error) -> String {
+    let error = error.without_url();
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(next) = cause {
+        let words = next.to_string();
+        if !text.contains(&words) {
+            text.push_str(": ");
+            text.push_str(&words);
+        }
+        cause = next.source();
+    }
+    text
+}
+
+/// The text of a chat answer: of an OpenAI-like server, or of Ollama.
+///
+/// ```
+/// use serde_json::json;
+///
+/// let openai = json!({"choices": [{"message": {"role": "assistant", "content": "yes"}}]});
+/// assert_eq!(motet_client::content(&openai), Some("yes"));
+/// let ollama = json!({"message": {"content": "no"}, "done": true});
+/// assert_eq!(motet_client::content(&ollama), Some("no"));
+/// ```
+#[must_use]
+pub fn content(answer: &Value) -> Option<&str> {
+    answer
+        .pointer("/choices/0/message/content")
+        .or_else(|| answer.pointer("/message/content"))
+        .and_then(Value::as_str)
 }

@@ -1,15 +1,15 @@
 //! One request with its retries, and the reply as it arrives.
 
-use std::error::Error as _;
 use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use motet_planner::model::{ModelError, News};
 use reqwest::header::{CONTENT_TYPE, HeaderMap, RETRY_AFTER};
 use reqwest::{Response, StatusCode};
+use serde_json::Value;
 
 use crate::settings::ClientSettings;
-use crate::stream;
+use crate::stream::{self, reason, timed_out};
 
 /// Number of characters of a server's refusal that are shown.
 const SHOWN_CHARS: usize = 320;
@@ -105,22 +105,17 @@ async fn refusal(response: Response, settings: &ClientSettings) -> ModelError {
     if is_passing(status) { ModelError::Busy { why } } else { ModelError::Refused { why } }
 }
 
-pub(crate) fn timed_out(after: Duration) -> ModelError {
-    ModelError::TimedOut { secs: after.as_secs_f64() }
-}
-
-/// Description of an error down to its cause, without the address, which the caller knows.
-pub(crate) fn reason(error: reqwest::Error) -> String {
-    let error = error.without_url();
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(next) = cause {
-        let words = next.to_string();
-        if !text.contains(&words) {
-            text.push_str(": ");
-            text.push_str(&words);
-        }
-        cause = next.source();
-    }
-    text
+/// Sends a body and reads the whole answer.
+pub(crate) async fn once(
+    http: &reqwest::Client,
+    settings: &ClientSettings,
+    body: String,
+) -> Result<Value, ModelError> {
+    let whole = async {
+        let response = send(http, settings, body, |_| ()).await?;
+        let text = stream::text(response, settings.max_bytes).await?;
+        serde_json::from_str(&text)
+            .map_err(|error| ModelError::Malformed { why: format!("it is no JSON: {error}") })
+    };
+    tokio::time::timeout(settings.timeout, whole).await.unwrap_or_else(|_| Err(timed_out(settings.timeout)))
 }

@@ -4,6 +4,7 @@ use motet_planner::dialogue::Kind;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
 use motet_sim::{CallFault, CallFaultKind, Faults};
+use rand_xoshiro::SplitMix64;
 use smol_str::SmolStr;
 
 use crate::random::Draw;
@@ -47,7 +48,7 @@ const SLIPS: u32 = 3;
 
 /// Draws a case for a robot in a room; none where the room has nothing for what was drawn. O(things²).
 #[must_use]
-pub fn draw(robot: &Robot, room: &Scene, wordings: &Wordings, draw: &mut Draw) -> Option<Case> {
+pub fn draw(robot: &Robot, room: &Scene, wordings: &Wordings, draw: &mut SplitMix64) -> Option<Case> {
     let task = *draw.pick(&Task::ALL)?;
     let said: Vec<&String> =
         wordings.requests.iter().filter(|(known, _)| *known == task).map(|(_, said)| said).collect();
@@ -60,7 +61,7 @@ pub fn draw(robot: &Robot, room: &Scene, wordings: &Wordings, draw: &mut Draw) -
 }
 
 /// A request that is about a place alone: nothing goes wrong with it.
-fn plain(room: &Scene, task: Task, wording: &str, draw: &mut Draw) -> Option<Case> {
+fn plain(room: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Option<Case> {
     let fits = |entity: &&Entity| match task {
         Task::Open => is_closet(entity) && entity.open == Some(false),
         Task::Close => is_closet(entity) && entity.open == Some(true),
@@ -90,7 +91,7 @@ fn carried(
     wordings: &Wordings,
     task: Task,
     wording: &str,
-    draw: &mut Draw,
+    draw: &mut SplitMix64,
 ) -> Option<Case> {
     let mut failures = drawn_failures(draw).to_vec();
     let objects: Vec<&Entity> =
@@ -145,7 +146,7 @@ fn carried(
     Some(Case { task, request, goal, failures, real, faults, answers, is_given_up })
 }
 
-fn drawn_failures(draw: &mut Draw) -> &'static [Kind] {
+fn drawn_failures(draw: &mut SplitMix64) -> &'static [Kind] {
     let whole: usize = TROUBLES.iter().map(|(weight, _)| weight).sum();
     let mut left = draw.below(whole);
     for (weight, kinds) in TROUBLES {
@@ -175,7 +176,7 @@ fn faults(failures: &[Kind]) -> Faults {
 }
 
 /// Puts a thing where the robot does not think that it is, and says where.
-fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Draw) -> Option<String> {
+fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut SplitMix64) -> Option<String> {
     let is_other = |place: &Entity| {
         let is_goal = goal.is_some_and(|goal| goal.id == place.id);
         let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
@@ -198,7 +199,7 @@ fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Draw
 }
 
 /// A place of a kind where a thing is not yet.
-fn other_place<'r>(room: &'r Scene, kind: &str, thing: &Entity, draw: &mut Draw) -> Option<&'r Entity> {
+fn other_place<'r>(room: &'r Scene, kind: &str, thing: &Entity, draw: &mut SplitMix64) -> Option<&'r Entity> {
     let fits = |place: &&Entity| {
         let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
         place.kind == kind && !is_there && (kind == "Surface" || is_closet(place))
@@ -220,7 +221,7 @@ fn can_carry(robot: &Robot, thing: &Entity) -> bool {
 }
 
 /// Name of an entity in speech, with its article: one of the names that nothing else in the room has.
-fn the(room: &Scene, entity: &Entity, draw: &mut Draw) -> Option<String> {
+fn the(room: &Scene, entity: &Entity, draw: &mut SplitMix64) -> Option<String> {
     let own = entity.names.iter().chain([&entity.class]).filter(|name| !name.is_empty());
     let names: Vec<&SmolStr> = own.filter(|name| room.matches(name).len() == 1).collect();
     draw.pick(&names).map(|name| format!("the {name}"))

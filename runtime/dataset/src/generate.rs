@@ -10,16 +10,13 @@ use motet_robots::scene::Scene;
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
-use crate::case;
-use crate::form::{self, Form};
-use crate::lint;
+use crate::form::{self, About, Form, Row};
 use crate::picture::{Picture, Pictures};
 use crate::play::play;
-use crate::random::Draw;
-use crate::row::{About, Row};
-use crate::scenery;
+use crate::random::{self, Draw as _};
 use crate::stage::{Body, Stage};
 use crate::wordings::Wordings;
+use crate::{case, lint, scenery};
 
 /// Order for a dataset.
 #[derive(Clone, Debug)]
@@ -84,15 +81,14 @@ impl Order {
 /// Number of draws of a case in a room that has nothing for the first one.
 const DRAWS: usize = 8;
 
-/// Makes the rows of one varied room, by its number below [`Order::scenes`]. Each number by itself gives
-/// the same, so they
-/// can be made in any order.
+/// Makes the rows of one varied room, by its number below [`Order::scenes`]. Each number by itself gives the
+/// same, so they can be made in any order.
 #[must_use]
 pub fn part(order: &Order, number: usize) -> Part {
     let mut part = Part::default();
     let Some((name, room)) = order.rooms.get(number % order.rooms.len().max(1)) else { return part };
     let seed = u64::try_from(number).unwrap_or(u64::MAX);
-    let mut draw = Draw::part(order.seed, seed);
+    let mut draw = random::part(order.seed, seed);
     let told = scenery::vary(room, &order.things, &mut draw);
     let name = format_smolstr!("{name}-{}", number + 1);
     for body in &order.bodies {
@@ -137,7 +133,7 @@ impl Part {
         room: &SmolStr,
         case: &case::Case,
         turn: usize,
-        played: crate::mind::Turn,
+        played: crate::play::Turn,
     ) {
         let Ok(policy) = played.policy else {
             self.leave_out("the plan has no place on the model surface");
@@ -190,8 +186,7 @@ impl Part {
 }
 
 /// Puts parts together, in the order of their numbers: a row whose input is there already is left out, and
-/// each varied room
-/// is either for learning or for testing.
+/// each varied room is either for learning or for testing.
 #[must_use]
 pub fn gather(order: &Order, parts: Vec<Part>) -> Dataset {
     let mut dataset = Dataset::default();
@@ -228,6 +223,6 @@ fn tested(order: &Order) -> Vec<bool> {
     let least = usize::from(order.test > 0.0);
     let count = wanted.max(least).min(order.scenes.saturating_sub(1));
     let mut is_test: Vec<bool> = (0..order.scenes).map(|number| number < count).collect();
-    Draw::part(order.seed, u64::MAX).shuffle(&mut is_test);
+    random::part(order.seed, u64::MAX).shuffle(&mut is_test);
     is_test
 }

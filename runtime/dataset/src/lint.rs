@@ -227,13 +227,21 @@ pub fn fault(stage: &Stage, target: &Target) -> Option<String> {
     }
 }
 
-/// The varied room of a room in which something has happened: what stands before the last point.
+/// The varied room of a room in which something has happened: its name before the last point.
+///
+/// ```
+/// assert_eq!(motet_dataset::lint::family("kitchen_7.2"), "kitchen_7");
+/// ```
 #[must_use]
 pub fn family(scene: &str) -> &str {
     scene.rsplit_once('.').map_or(scene, |(room, _)| room)
 }
 
 /// An input as it is compared: letter case, white space and the marks of sentences do not count.
+///
+/// ```
+/// assert_eq!(motet_dataset::lint::normal("Bring me  the mug!"), "bring me the mug");
+/// ```
 #[must_use]
 pub fn normal(input: &str) -> String {
     let letters = input.chars().filter(|letter| !matches!(letter, '.' | ',' | '!' | '?' | ';'));

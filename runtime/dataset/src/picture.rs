@@ -34,6 +34,13 @@ impl Picture {
 
 /// Checks that trainers can read the bytes of an image file, and returns the fault. A PNG is decoded; of
 /// other formats the first bytes are compared.
+///
+/// ```
+/// use motet_dataset::picture::fault;
+///
+/// assert_eq!(fault(b"GIF89a"), None);
+/// assert_eq!(fault(b"text").as_deref(), Some("it is no PNG, JPEG, WebP or GIF"));
+/// ```
 #[must_use]
 pub fn fault(bytes: &[u8]) -> Option<String> {
     match bytes {

@@ -1,16 +1,24 @@
-//! A case played from its request to its end, with every turn in which a planner is asked.
+//! A case played from its request to its end, with every turn in which a planner is asked: the request, the
+//! answer, and the room as it was then.
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::time::Duration;
 
 use motet_compiler::CheckOptions;
+use motet_decode::{Grammar, Subset, canonical};
+use motet_planner::builtin::{PlanError, PlannedRequest};
+use motet_planner::dialect::{actions, exchange};
 use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
-use motet_runtime::Time;
+use motet_planner::{Builtin, PlanRequest, Planner, model, prompt};
+use motet_robots::scene::{Entity, Scene};
+use motet_runtime::{Perception as _, Time};
 use motet_sim::{Sim, SimOptions};
+use motet_syntax::{FileId, Source, print};
+use smol_str::SmolStr;
 
 use crate::case::Case;
-use crate::mind::{Mind, Turn};
-use crate::picture::Pictures;
+use crate::picture::{Picture, Pictures};
 use crate::stage::Stage;
 
 /// Answers from a list.
@@ -23,9 +31,9 @@ impl Person for Scripted {
     }
 }
 
-/// Plays a case where the robot was told the room of a stage. Gives its turns, or why it did not go as it
-/// was drawn: it came
-/// to another end, its goal does not hold, or something that should go wrong was never asked about.
+/// Plays a case where the robot was told the room of a stage. Gives its turns, or why it did not go as it was
+/// drawn: it came to another end, its goal does not hold, or something that should go wrong was never asked
+/// about.
 pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec<Turn>, &'static str> {
     let eye = stage.geometry.as_ref().and_then(|geometry| geometry.eye());
     let options = SimOptions { faults: case.faults.clone(), eye, ..SimOptions::default() };
@@ -55,4 +63,185 @@ pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec
         return Err("what was asked for does not hold at the end");
     }
     Ok(mind.turns)
+}
+
+/// A turn: a planner is asked, and answers.
+#[derive(Clone, Debug)]
+pub(crate) struct Turn {
+    /// The room as it is then, as far as it is known.
+    pub(crate) scene: Scene,
+    pub(crate) system: String,
+    pub(crate) user: String,
+    /// Camera image at that moment.
+    pub(crate) picture: Option<Picture>,
+    pub(crate) request: String,
+    pub(crate) history: String,
+    pub(crate) vision: String,
+    pub(crate) feasibility: String,
+    /// On the model surface; why it has no place there otherwise.
+    pub(crate) policy: Result<String, String>,
+    pub(crate) actions: String,
+}
+
+/// A simulator that a planner looks at while the conversation drives it.
+pub(crate) type Shared = Rc<RefCell<Sim>>;
+
+/// The planner that needs no model, with a memory of its turns.
+pub(crate) struct Mind {
+    /// The room as the robot was told that it is.
+    pub(crate) told: Scene,
+    pub(crate) sim: Shared,
+    pub(crate) pictures: Pictures,
+    pub(crate) turns: Vec<Turn>,
+}
+
+impl Planner for Mind {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
+        let answer = Builtin.plan(ask);
+        let mut chat = model::chat(ask, prompt::TOKENS).into_iter().map(|message| message.text);
+        let (system, user) = (chat.next().unwrap_or_default(), chat.next().unwrap_or_default());
+        let (scene, situation) = (ask.situation.scene, ask.situation);
+        let now = self.scene_now(ask);
+        let named = motet_requests::named(ask.request, situation);
+        // The same seed gives the same rows, however fast the machine is.
+        let seen = prompt::seen(ask.session, ask.robot, scene, &named, Duration::ZERO);
+        let (_, feasibility) = exchange::sight(&seen);
+        let vision: Vec<String> = named.iter().filter_map(|id| sight(&now, id)).collect();
+        // The first entry is the request itself.
+        let entries = ask.memory.entries().skip(1).map(|entry| entry.to_string());
+        let history: Vec<String> = std::iter::once(stance(ask, &now)).chain(entries).collect();
+        let (policy, actions) = match &answer {
+            Ok(answered) => {
+                let policy = answered.planned.parsed.file.policies().next();
+                let actions = policy.map(|policy| actions::write(policy, scene).0).unwrap_or_default();
+                (surfaced(ask, &answered.planned.text), actions)
+            }
+            Err(why) => {
+                let question = Problem::of_planning(why, scene).question;
+                (surfaced(ask, &asking(ask, &question)), question)
+            }
+        };
+        self.turns.push(Turn {
+            scene: now,
+            system,
+            user,
+            picture: self.picture(),
+            request: ask.request.to_owned(),
+            history: history.join("; "),
+            vision: vision.join(", "),
+            feasibility,
+            policy,
+            actions,
+        });
+        answer
+    }
+
+    fn reads_answers(&self) -> bool {
+        true
+    }
+}
+
+impl Mind {
+    fn picture(&self) -> Option<Picture> {
+        match self.pictures {
+            Pictures::None => None,
+            Pictures::EachRow => {
+                let mut sim = self.sim.borrow_mut();
+                let now = sim.now();
+                Some(Picture(sim.image(now)?.bytes.into()))
+            }
+        }
+    }
+
+    /// The room as it is known: what is believed of things counts where it is not the case.
+    fn scene_now(&self, ask: &PlanRequest<'_>) -> Scene {
+        let sim = self.sim.borrow();
+        let mut scene = self.told.clone();
+        let base = sim.base();
+        scene.robot.base = [base.x, base.y, base.heading];
+        if sim.now() == Time::ZERO {
+            return scene;
+        }
+        scene.robot.joints.clear();
+        scene.robot.holding = Some(ask.situation.holding.clone());
+        let serves = |id: &str| sim.holds("at", &["robot", id]) == Some(true);
+        scene.robot.at = scene.entities.keys().find(|id| serves(id)).cloned();
+        let kinds: Vec<_> =
+            scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
+        for (id, entity) in &mut scene.entities {
+            if entity.travel.is_some() {
+                entity.open = sim.holds("open", &[id.as_str()]);
+            }
+            if entity.kind != "Object" || entity.fixed {
+                continue;
+            }
+            // What was in view was so from where the robot stood.
+            entity.visible = None;
+            let believed = ask.situation.supports.iter().find(|(known, _)| known == id);
+            let Some((_, support)) = believed else { continue };
+            let is_held = ask.situation.holding.as_ref() == Some(id);
+            let before = entity.on.as_ref().or(entity.inside.as_ref());
+            if !is_held && before == support.as_ref() {
+                continue;
+            }
+            (entity.on, entity.inside, entity.pose) = (None, None, None);
+            let Some(support) = support.as_ref().filter(|_| !is_held) else { continue };
+            let is_container = kinds.iter().any(|(known, kind)| known == support && kind == "Container");
+            if is_container {
+                entity.inside = Some(support.clone());
+            } else {
+                entity.on = Some(support.clone());
+            }
+        }
+        scene
+    }
+}
+
+/// The robot as it stands, in the words of the dialect.
+fn stance(ask: &PlanRequest<'_>, now: &Scene) -> String {
+    let mut text = format!("robot: {}", ask.robot.name);
+    if let Some(place) = &now.robot.at {
+        text.push_str(&format!(", at {place}"));
+    }
+    if let Some(Some(held)) = &now.robot.holding {
+        text.push_str(&format!(", holding {held}"));
+    }
+    text
+}
+
+/// Knowledge of a thing in the words of the dialect: `coke: not seen, in fridge_1 (closed)`.
+fn sight(now: &Scene, id: &str) -> Option<String> {
+    let entity = now.entities.get(id)?;
+    let word = match entity.visible {
+        Some(true) => "seen",
+        Some(false) => "not seen",
+        None => "unknown",
+    };
+    let state = |entity: &Entity| match entity.open {
+        Some(true) => " (open)",
+        Some(false) => " (closed)",
+        None => "",
+    };
+    let at = |preposition: &str, holder: &Option<SmolStr>| {
+        let holder = now.entities.get(holder.as_ref()?)?;
+        Some(format!(", {preposition} {}{}", holder.id, state(holder)))
+    };
+    let place = at("on", &entity.on).or_else(|| at("in", &entity.inside)).unwrap_or_default();
+    Some(format!("{id}: {word}{}{place}", state(entity)))
+}
+
+/// A policy as a model writes it.
+fn surfaced(ask: &PlanRequest<'_>, text: &str) -> Result<String, String> {
+    let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
+    let policy = parsed.file.policies().next().ok_or_else(|| "there is no policy".to_owned())?;
+    let grammar = Grammar::new(&ask.session.signatures(), Subset::default());
+    canonical(policy, &grammar).map_err(|outside| outside.why)
+}
+
+/// A policy that asks a question, whose answer goes into the next plan.
+fn asking(ask: &PlanRequest<'_>, question: &str) -> String {
+    let plain: String =
+        question.chars().map(|letter| if letter == '"' || letter == '\\' { '\'' } else { letter }).collect();
+    let robot = print::identifier(&ask.robot.name);
+    format!("policy ask_first for {robot} {{\n    let answer = ask(\"{plain}\")\n    replan answer\n}}\n")
 }

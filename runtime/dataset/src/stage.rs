@@ -5,6 +5,7 @@ use std::sync::Arc;
 use motet_compiler::{Geometry, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_graph::NodeKind;
+use motet_project::{Discard, SessionInputs};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
@@ -40,17 +41,15 @@ impl Stage {
     /// What keeps the robot from being in that room.
     pub fn new(body: &Body, scene: &Scene, effort: Option<SearchBudget>) -> Result<Self, String> {
         let robot = &body.robot;
-        let mut session = Session::builder().robot(robot).scene(scene).build(&mut Sources::default());
-        let said = session.input_diagnostics().to_vec();
-        if let Some(error) = said.iter().find(|said| said.severity == Severity::Error) {
-            return Err(format!("{}: {}", error.code, error.message));
-        }
-        let mut geometry = None;
-        if let (Some(budget), Some(urdf)) = (effort, &body.urdf) {
-            let made = Arc::new(Geometry::new(robot, urdf, scene, None, budget));
-            session = session.with_geometry(Arc::clone(&made));
-            geometry = Some(made);
-        }
+        let inputs = SessionInputs { robot: Some(robot), scene: Some(scene), ..SessionInputs::default() };
+        let session = inputs.open(&mut Sources::default(), &mut Discard).map_err(|error| {
+            let first = error.diagnostics().first();
+            first.map_or_else(|| error.to_string(), |error| format!("{}: {}", error.code, error.message))
+        })?;
+        let (session, geometry) = match (effort, &body.urdf) {
+            (Some(budget), Some(urdf)) => inputs.add_motions(session, urdf, budget),
+            (None, _) | (_, None) => (session, None),
+        };
         Ok(Self { session, geometry, robot: robot.clone(), scene: scene.clone() })
     }
 

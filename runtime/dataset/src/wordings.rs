@@ -90,8 +90,15 @@ pub struct NoWording {
 }
 
 /// Reads wordings: a line each, `KEY: WORDING`, where the key is a task, `where`, `again`, `leave` or
-/// `vague`. Empty lines
-/// and those that begin with `#` are skipped. O(bytes).
+/// `vague`. Empty lines and those that begin with `#` are skipped. O(bytes).
+///
+/// ```
+/// use motet_dataset::wordings::{OWN, read};
+///
+/// assert!(read(OWN).is_ok());
+/// let wrong = read("bring: Bring me that.").unwrap_err();
+/// assert_eq!((wrong.line, wrong.why.as_str()), (1, "`bring` has no {thing}"));
+/// ```
 ///
 /// # Errors
 ///
@@ -148,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_own_wordings_are_right_and_have_every_kind() {
+    fn wordings_own_wordings_are_right_and_have_every_kind() {
         let own = read(OWN).unwrap();
         for task in Task::ALL {
             assert!(own.requests.iter().filter(|(known, _)| *known == task).count() >= 6, "{task:?}");
@@ -159,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_is_wrong_is_named() {
+    fn wordings_line_that_is_wrong_is_named() {
         for (text, line, words) in [
             ("bring: get {thing}\nnonsense", 2, "KEY:"),
             ("wash: wash {thing}", 1, "no task `wash`"),

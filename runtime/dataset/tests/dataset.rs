@@ -75,7 +75,7 @@ fn lines(rows: &[Row], form: Form) -> Vec<String> {
 }
 
 #[test]
-fn every_row_of_a_dataset_passes_lint_in_every_form() {
+fn dataset_rows_pass_lint_in_every_form() {
     for form in FORMS {
         let order = match form {
             Form::Trl | Form::InteLiPlan => order(form),
@@ -90,7 +90,7 @@ fn every_row_of_a_dataset_passes_lint_in_every_form() {
 }
 
 #[test]
-fn motions_are_verified_too() {
+fn dataset_motions_are_verified_too() {
     let order = Order {
         bodies: vec![body("hsr")],
         scenes: 2,
@@ -105,7 +105,7 @@ fn motions_are_verified_too() {
 }
 
 #[test]
-fn a_seed_gives_the_same_rows_and_another_seed_others() {
+fn dataset_seed_gives_the_same_rows_and_another_seed_others() {
     let one = Order { bodies: vec![body("hsr")], scenes: 2, cases: 2, ..order(Form::Trl) };
     let (first, second) = (made(&one), made(&one));
     assert_eq!((&first.train, &first.test), (&second.train, &second.test));
@@ -114,7 +114,7 @@ fn a_seed_gives_the_same_rows_and_another_seed_others() {
 }
 
 #[test]
-fn rooms_are_on_one_side_and_what_happens_varies() {
+fn dataset_rooms_are_on_one_side_and_what_happens_varies() {
     let dataset = made(&Order { scenes: 6, cases: 8, ..order(Form::Trl) });
     let rooms = |rows: &[Row]| -> BTreeSet<String> {
         rows.iter().map(|row| family(&row.about.scene).to_owned()).collect()
@@ -133,7 +133,7 @@ fn rooms_are_on_one_side_and_what_happens_varies() {
 }
 
 #[test]
-fn rows_have_the_shapes_that_trainers_read() {
+fn dataset_rows_have_the_shapes_that_trainers_read() {
     let dataset = made(&Order { scenes: 2, cases: 3, ..order(Form::Trl) });
     let row = &dataset.train[0];
     let of = |form| -> Value { serde_json::from_str(&form::write(row, form)).unwrap() };
@@ -169,7 +169,7 @@ fn wrong_row(request: &str, policy: &str) -> String {
 }
 
 #[test]
-fn rows_that_are_wrong_are_found_each_in_its_way() {
+fn dataset_rows_that_are_wrong_are_found_each_in_its_way() {
     let mut worlds = worlds(&Dataset::default(), None);
     worlds.scenes.insert("kitchen".into(), room("kitchen"));
     let fetch = "policy p for hsr { go(counter) pick(coke) }";
@@ -205,7 +205,13 @@ fn rows_that_are_wrong_are_found_each_in_its_way() {
             1,
             "no room `cellar`",
         ),
-        ("a misspelt step", vec![wrong_row("a", "policy p for hsr { goo(counter) }")], Fault::CannotRun, 1, "goo"),
+        (
+            "a misspelt step",
+            vec![wrong_row("a", "policy p for hsr { goo(counter) }")],
+            Fault::CannotRun,
+            1,
+            "goo",
+        ),
         (
             "a refuted step",
             vec![wrong_row("a", "policy p for hsr { pick(coke) pick(apple) }")],
@@ -220,7 +226,13 @@ fn rows_that_are_wrong_are_found_each_in_its_way() {
             1,
             "not_found",
         ),
-        ("a new plan", vec![wrong_row("a", "policy p for hsr { replan \"no\" }")], Fault::CannotRun, 1, "another plan"),
+        (
+            "a new plan",
+            vec![wrong_row("a", "policy p for hsr { replan \"no\" }")],
+            Fault::CannotRun,
+            1,
+            "another plan",
+        ),
         ("prose", vec![wrong_row("a", "I cannot do that.")], Fault::CannotRun, 1, ""),
         (
             "a contract of its own",
@@ -245,7 +257,13 @@ fn rows_that_are_wrong_are_found_each_in_its_way() {
         ),
         (
             "an action that the robot lacks",
-            vec![json!({"text": "<user> Fly. <robot> go to counter, fly home", "motet": {"robot": "hsr", "scene": "kitchen"}}).to_string()],
+            vec![
+                json!({
+                    "text": "<user> Fly. <robot> go to counter, fly home",
+                    "motet": {"robot": "hsr", "scene": "kitchen"},
+                })
+                .to_string(),
+            ],
             Fault::CannotRun,
             1,
             "action 2",
@@ -261,7 +279,7 @@ fn rows_that_are_wrong_are_found_each_in_its_way() {
 }
 
 #[test]
-fn a_room_in_two_files_is_found_once() {
+fn dataset_room_in_two_files_is_found_once() {
     let mut worlds = worlds(&Dataset::default(), None);
     for name in ["kitchen-1", "kitchen-1.2", "kitchen-2"] {
         worlds.scenes.insert(name.into(), room("kitchen"));
@@ -287,7 +305,7 @@ impl Shelf for Kept<'_> {
 }
 
 #[test]
-fn pictures_go_with_rows_in_every_form_that_has_them() {
+fn dataset_pictures_go_with_rows_in_every_form_that_has_them() {
     for (form, column) in [(Form::Trl, "images"), (Form::LlamaFactory, "images"), (Form::QwenVl, "image")] {
         let order = Order { pictures: Pictures::EachRow, bodies: vec![body("hsr")], ..order(form) };
         let dataset = made(&order);
@@ -303,15 +321,17 @@ fn pictures_go_with_rows_in_every_form_that_has_them() {
         for (number, line) in lines(&dataset.train, form).iter().enumerate() {
             assert_eq!(linter.line("train", number + 1, line), [], "{form:?}");
         }
-        let again = made(&order);
-        assert_eq!(dataset.pictures, again.pictures);
+        // The form has no part in what the camera sees.
+        if form == Form::Trl {
+            assert_eq!(dataset.pictures, made(&order).pictures);
+        }
     }
     let info: Value = serde_json::from_str(&form::dataset_info(&["train"], Pictures::EachRow)).unwrap();
     assert_eq!(info["motet_train"]["columns"]["images"], "images");
 }
 
 #[test]
-fn pictures_that_are_wrong_are_found() {
+fn dataset_pictures_that_are_wrong_are_found() {
     let mut worlds = worlds(&Dataset::default(), None);
     worlds.scenes.insert("kitchen".into(), room("kitchen"));
     let dataset = Dataset {

@@ -1,11 +1,9 @@
 //! Effects: the engine's only way to act on the world.
 
-use crate::ids::CheckId;
-use crate::ids::GoalId;
+use crate::ids::{CheckId, GoalId};
 use crate::query::Query;
 use crate::time::Time;
 use crate::trace::TraceEvent;
-use crate::verifier::DeferredMotion;
 use motet_graph::{NodeId, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -209,5 +207,26 @@ impl fmt::Display for Fault {
             Self::NotStopped { .. } => f.write_str("the driver answered neither a cancel nor a safe stop"),
             Self::Stalled => f.write_str("nothing is left to wait for, but the policy has not ended"),
         }
+    }
+}
+
+/// A motion that was left to the run.
+#[derive(Clone, PartialEq, Debug)]
+pub struct DeferredMotion {
+    /// The name of the query, `reach`.
+    pub query: SmolStr,
+    pub args: Vec<Value>,
+    /// The call that it is for.
+    pub command: Arc<Command>,
+}
+
+impl fmt::Display for DeferredMotion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}(", self.query)?;
+        for (index, arg) in self.args.iter().enumerate() {
+            let comma = if index > 0 { ", " } else { "" };
+            write!(f, "{comma}{arg}")?;
+        }
+        f.write_str(")")
     }
 }

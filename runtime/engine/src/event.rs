@@ -2,7 +2,6 @@
 
 use crate::ids::{CheckId, GoalId};
 use crate::query::{Answer, Query};
-use crate::verifier::Verification;
 use motet_graph::Value;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -113,6 +112,33 @@ impl fmt::Display for Outcome {
             Self::Success(Some(value)) => write!(f, "success {value}"),
             Self::Failure(kind) => write!(f, "failure {kind}"),
             Self::Interrupted => f.write_str("interrupted"),
+        }
+    }
+}
+
+/// The verdict on a motion.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Verification {
+    /// It has a solution.
+    Feasible,
+    /// It has none: the step ends in this failure, without moving.
+    Infeasible {
+        /// One of the failures of the call's primitive, such as `unreachable`.
+        failure: SmolStr,
+        /// Reason in words and numbers.
+        why: SmolStr,
+    },
+    /// Nobody can tell: it starts, and the driver will see.
+    Unknown { why: SmolStr },
+}
+
+impl fmt::Display for Verification {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Feasible => f.write_str("feasible"),
+            Self::Infeasible { failure, why } => write!(f, "{failure}: {why}"),
+            Self::Unknown { why } => write!(f, "unknown: {why}"),
         }
     }
 }

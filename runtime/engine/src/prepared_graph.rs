@@ -235,7 +235,7 @@ impl PreparedGraph {
         self.watches.len() as u32 + id.0
     }
 
-    /// Whose key it is.
+    /// Owner of a key.
     pub(crate) fn of_key(&self, key: u32) -> Dependent {
         let watches = self.watches.len() as u32;
         if key < watches { Dependent::Watch(key) } else { Dependent::Node(NodeId(key - watches)) }
@@ -298,4 +298,30 @@ fn mask(graph: &Graph, primitive: &Primitive) -> ResourceMask {
         }
     }
     mask
+}
+
+/// Rows by index.
+#[derive(Clone, Debug)]
+pub(crate) struct Table<T> {
+    rows: Vec<T>,
+    spare: T,
+}
+
+impl<T: Clone> Table<T> {
+    /// So many equal rows.
+    pub(crate) fn new(len: usize, row: T) -> Self {
+        Self { rows: vec![row.clone(); len], spare: row }
+    }
+}
+
+impl<T> Table<T> {
+    #[inline]
+    pub(crate) fn at(&self, index: usize) -> &T {
+        self.rows.get(index).unwrap_or(&self.spare)
+    }
+
+    #[inline]
+    pub(crate) fn at_mut(&mut self, index: usize) -> &mut T {
+        self.rows.get_mut(index).unwrap_or(&mut self.spare)
+    }
 }

@@ -1,4 +1,4 @@
-//! Queries: ground questions about the world, and their answers.
+//! Queries to the world, their answers, and the truth values that conditions have.
 
 use motet_graph::Value;
 use schemars::JsonSchema;
@@ -7,6 +7,16 @@ use smol_str::SmolStr;
 use std::fmt;
 
 /// A question about the world with all names resolved. Two equal queries are the same question.
+///
+/// ```
+/// use motet_graph::Value;
+/// use motet_runtime::{Pattern, Query};
+///
+/// let held = Query::Fact { fluent: "holding".into(), args: vec![Pattern::Any] };
+/// assert_eq!(held.to_string(), "holding(any)");
+/// let near = Query::Measure { measure: "distance".into(), args: vec![Value::Entity("user".into())] };
+/// assert_eq!(near.to_string(), "distance(user)");
+/// ```
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Query {
@@ -85,5 +95,73 @@ impl fmt::Display for Answer {
             Self::Truth(truth) => write!(f, "{truth}"),
             Self::Value(value) => write!(f, "{value}"),
         }
+    }
+}
+
+/// Truth value of a statement.
+///
+/// ```
+/// use motet_runtime::Truth;
+///
+/// assert_eq!(Truth::True.and(Truth::Unknown), Truth::Unknown);
+/// assert_eq!(Truth::True.or(Truth::Unknown), Truth::True);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Truth {
+    True,
+    /// It does not hold.
+    False,
+    /// It may or may not hold.
+    Unknown,
+}
+
+impl Truth {
+    /// Conjunction in three-valued logic.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::False, _) | (_, Self::False) => Self::False,
+            (Self::True, Self::True) => Self::True,
+            (Self::Unknown, Self::True | Self::Unknown) | (Self::True, Self::Unknown) => Self::Unknown,
+        }
+    }
+
+    /// At least one.
+    #[must_use]
+    pub const fn or(self, other: Self) -> Self {
+        self.negated().and(other.negated()).negated()
+    }
+
+    /// Negation in three-valued logic: unknown stays unknown.
+    #[must_use]
+    pub const fn negated(self) -> Self {
+        match self {
+            Self::True => Self::False,
+            Self::False => Self::True,
+            Self::Unknown => Self::Unknown,
+        }
+    }
+
+    /// Join of two truth values: equal values stay, others become unknown.
+    #[must_use]
+    pub fn joined(self, other: Self) -> Self {
+        if self == other { self } else { Self::Unknown }
+    }
+}
+
+impl From<bool> for Truth {
+    fn from(value: bool) -> Self {
+        if value { Self::True } else { Self::False }
+    }
+}
+
+impl fmt::Display for Truth {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::True => "true",
+            Self::False => "false",
+            Self::Unknown => "unknown",
+        })
     }
 }

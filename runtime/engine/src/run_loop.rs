@@ -1,13 +1,13 @@
 //! The loop around an engine: effects to a driver, its reports back. Time is the driver's.
 
 use crate::driver::Driver;
-use crate::effect::{Effect, Fault, RunEnd};
+use crate::effect::{DeferredMotion, Effect, Fault, RunEnd};
 use crate::engine::Engine;
-use crate::event::{DriverEvent, Event};
+use crate::event::{DriverEvent, Event, Verification};
 use crate::ids::CheckId;
 use crate::swap::{PreparedSwap, RetiredGraph, SwapRefusal};
 use crate::time::Time;
-use crate::verifier::{DeferredMotion, Verification, Verifier};
+use crate::verifier::Verifier;
 use motet_graph::Graph;
 use smol_str::SmolStr;
 use std::collections::VecDeque;

@@ -3,13 +3,12 @@
 use crate::belief::{Beliefs, Facts, truth_of};
 use crate::effect::Command;
 use crate::ids::GoalId;
+use crate::json;
 use crate::prepared_graph::PreparedGraph;
-use crate::query::{Answer, Pattern, Query};
-use crate::rows;
+use crate::query::{Answer, Pattern, Query, Truth};
 use crate::start::StartState;
 use crate::state::Run;
 use crate::time::Time;
-use crate::truth::Truth;
 use motet_graph::Value;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,20 +29,20 @@ pub struct Snapshot {
     pub robot: SmolStr,
     /// Believed facts in order: a later one overrides an earlier one, and one with `any` holds for every
     /// entity. Facts that are not listed are unknown.
-    #[serde(with = "rows::facts")]
-    #[schemars(with = "Vec<rows::FactRow>")]
+    #[serde(with = "json::facts")]
+    #[schemars(with = "Vec<json::FactRow>")]
     pub facts: Vec<(Query, Truth)>,
     /// Facts with `any` that hold of some entity, where it is not known of which.
     pub some: Vec<Query>,
     /// The last readings of measures and fields, with their times, by query.
     pub readings: Vec<Reading>,
     /// Entities that the engine has heard of, with the name of their kind where it is known.
-    #[serde(with = "rows::entities")]
-    #[schemars(with = "Vec<rows::EntityRow>")]
+    #[serde(with = "json::entities")]
+    #[schemars(with = "Vec<json::EntityRow>")]
     pub entities: Vec<(SmolStr, SmolStr)>,
     /// Names that are bound, in the order of the graph.
-    #[serde(with = "rows::bindings")]
-    #[schemars(with = "Vec<rows::BindingRow>")]
+    #[serde(with = "json::bindings")]
+    #[schemars(with = "Vec<json::BindingRow>")]
     pub bindings: Vec<(SmolStr, Value)>,
     /// Live goals in the order of their starts.
     pub goals: Vec<LiveGoal>,

@@ -1,10 +1,9 @@
 //! Knowledge at the beginning of a run: from the graph and from the host.
 
 use crate::belief::Beliefs;
-use crate::query::{Answer, Pattern, Query};
-use crate::rows;
+use crate::json;
+use crate::query::{Answer, Pattern, Query, Truth};
 use crate::time::Time;
-use crate::truth::Truth;
 use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, InitialFact, NodeKind, Term, Type, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,20 +15,20 @@ use smol_str::SmolStr;
 pub struct StartState {
     /// Facts with their truth values, in order: a later one overrides an earlier one, and one with `any`
     /// holds for every entity. Queries that are not facts are ignored.
-    #[serde(with = "rows::facts")]
-    #[schemars(with = "Vec<rows::FactRow>")]
+    #[serde(with = "json::facts")]
+    #[schemars(with = "Vec<json::FactRow>")]
     pub facts: Vec<(Query, Truth)>,
     /// Facts with `any` that hold for some entity, which one is not known.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub some: Vec<Query>,
     /// Entities with the names of their kinds. Effects that quantify over a kind range over these and over
     /// every entity that a graph, a result or an observation names.
-    #[serde(with = "rows::entities")]
-    #[schemars(with = "Vec<rows::EntityRow>")]
+    #[serde(with = "json::entities")]
+    #[schemars(with = "Vec<json::EntityRow>")]
     pub entities: Vec<(SmolStr, SmolStr)>,
     /// Values for bindings that the graph is to be given; others are ignored.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", with = "rows::bindings")]
-    #[schemars(with = "Vec<rows::BindingRow>")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", with = "json::bindings")]
+    #[schemars(with = "Vec<json::BindingRow>")]
     pub bindings: Vec<(SmolStr, Value)>,
 }
 
@@ -175,6 +174,37 @@ impl EntityCollector<'_> {
                 self.term(left, None);
                 self.term(right, None);
             }
+        }
+    }
+}
+
+/// Time limits and budgets of the engine.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EngineSettings {
+    /// Time limit for the answer to a cancel; after it the engine asks for a safe stop.
+    pub cancel_within: Time,
+    /// Time limit for the answer to a safe stop; after it the run ends with [`crate::Fault::NotStopped`].
+    pub safe_stop_within: Time,
+    /// The least time for which a watched condition may be unknown before its monitor fires.
+    pub unknown_for: Time,
+    /// Time limit for the verdict on a deferred motion; after it the step starts without one. `None` without
+    /// a verifier: the driver then decides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verify_within: Option<Time>,
+    /// The most transitions at one instant.
+    pub step_budget: u32,
+}
+
+impl Default for EngineSettings {
+    /// 5 s for a cancel, 5 s for a safe stop, 0.5 s unknown, nobody who verifies, 10,000,000 transitions.
+    fn default() -> Self {
+        Self {
+            cancel_within: Time::from_nanos(5_000_000_000),
+            safe_stop_within: Time::from_nanos(5_000_000_000),
+            unknown_for: Time::from_nanos(500_000_000),
+            verify_within: None,
+            step_budget: 10_000_000,
         }
     }
 }

@@ -1,20 +1,15 @@
 //! Everything that changes during a run, in flat tables by node, region, watch and binding.
 
 use crate::belief::{Beliefs, CellId};
-use crate::effect::{Command, RunEnd};
-use crate::flat_table::Table;
-use crate::goal_table::GoalTable;
-use crate::ids::CheckId;
-use crate::ids::GoalId;
-use crate::orphan::OrphanGoal;
-use crate::prepared_graph::PreparedGraph;
+use crate::effect::{Command, DeferredMotion, RunEnd};
+use crate::event::Verification;
+use crate::ids::{CheckId, GoalId, GoalTable};
+use crate::prepared_graph::{PreparedGraph, Table};
+use crate::query::Truth;
+use crate::schedule::{NodeExit, Timers, WorkList};
 use crate::time::Time;
-use crate::timers::Timers;
-use crate::trace::{EndCause, NodeEnding};
-use crate::truth::Truth;
-use crate::verifier::{DeferredMotion, Verification};
-use crate::work_list::WorkList;
-use motet_graph::{NodeId, RegionId, Value};
+use crate::trace::EndCause;
+use motet_graph::{Graph, NodeId, RegionId, Value};
 use smol_str::SmolStr;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -90,15 +85,6 @@ pub(crate) enum AfterStop {
     Exit(NodeExit),
     /// A monitor starts its body again.
     Restart,
-}
-
-/// Outcome of a node or region, with its cause and origin.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct NodeExit {
-    pub(crate) ending: NodeEnding,
-    pub(crate) cause: EndCause,
-    /// The step in which a failure arose.
-    pub(crate) origin: NodeId,
 }
 
 /// A step's state. What a field means depends on the node's kind.
@@ -289,5 +275,57 @@ impl Run {
     pub(crate) fn command(&self, plan: &PreparedGraph, node: NodeId) -> Option<Arc<Command>> {
         let worked_out = self.commands.iter().find(|(of, _)| *of == node).map(|(_, command)| command);
         worked_out.or(plan.step(node).command.as_ref()).cloned()
+    }
+}
+
+/// A goal without a step. It holds its resources until it has ended.
+#[derive(Clone, Debug)]
+pub(crate) struct OrphanGoal {
+    pub(crate) goal: GoalId,
+    pub(crate) command: Arc<Command>,
+    pub(crate) phase: Phase,
+    pub(crate) wish: GoalIntent,
+    /// Time at which its cancel or its safe stop will have taken too long.
+    pub(crate) due: Time,
+    /// Its resources, as bits of the present graph.
+    pub(crate) uses: u128,
+    /// The number of the graph that started it.
+    pub(crate) revision: u32,
+    /// Its step in that graph.
+    pub(crate) node: NodeId,
+    pub(crate) plan: Arc<PreparedGraph>,
+    /// Bindings at the time when that graph was replaced.
+    pub(crate) bindings: Arc<Vec<Option<Value>>>,
+}
+
+impl OrphanGoal {
+    /// True if it may go on for a step of the new graph: nothing has been said against it.
+    pub(crate) fn is_free(&self) -> bool {
+        matches!(self.wish, GoalIntent::None | GoalIntent::Hold)
+            && matches!(self.phase, Phase::Starting | Phase::Running | Phase::Held)
+    }
+
+    /// Its resources as bits of another graph. Of one that the other does not know, what it contains and what
+    /// contains it counts: rather too much than too little.
+    pub(crate) fn uses_in(&self, graph: &Graph) -> u128 {
+        let own = &self.plan.graph.resources;
+        let bit = |name: &str| {
+            let index = graph.resources.iter().position(|resource| resource.name == name);
+            index.and_then(|index| 1_u128.checked_shl(index as u32)).unwrap_or(0)
+        };
+        self.command.uses.iter().fold(0, |bits, name| {
+            let same = bit(name);
+            if same != 0 {
+                return bits | same;
+            }
+            let Some(place) = own.iter().position(|resource| resource.name == *name) else { return bits };
+            let related = own.iter().enumerate().filter(|(index, other)| {
+                other.contains.iter().any(|inner| inner.index() == place)
+                    || own
+                        .get(place)
+                        .is_some_and(|used| used.contains.iter().any(|inner| inner.index() == *index))
+            });
+            related.fold(bits, |bits, (_, other)| bits | bit(&other.name))
+        })
     }
 }

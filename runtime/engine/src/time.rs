@@ -7,6 +7,16 @@ use std::fmt;
 
 /// A point in time in whole nanoseconds since the run's origin, or a span of it. Integers, so that sums are
 /// exact and a replay meets the same instants.
+///
+/// ```
+/// use motet_runtime::Time;
+///
+/// let start = Time::from_secs(1.5);
+/// let later = start.after(Time::from_nanos(500_000_000));
+/// assert_eq!(later.secs(), 2.0);
+/// assert_eq!(start.since(later), Time::ZERO);
+/// assert_eq!(later.after(Time::NEVER), Time::NEVER);
+/// ```
 #[derive(
     Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default, Serialize, Deserialize, JsonSchema,
 )]

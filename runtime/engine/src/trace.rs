@@ -1,9 +1,9 @@
-//! Trace events: small records of a run in the order of their occurrence.
+//! Trace events: the transitions of a run, for journals and for people.
 
+use crate::event::Verification;
 use crate::ids::GoalId;
+use crate::query::Truth;
 use crate::time::Time;
-use crate::truth::Truth;
-use crate::verifier::Verification;
 use motet_graph::{BindingId, FailureId, NodeId, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -129,4 +129,25 @@ pub enum EndCause {
     Swap,
     /// The driver lost it, and stopped safely what it may have moved.
     Lost,
+}
+
+impl std::fmt::Display for EndCause {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Completed => "completed",
+            Self::Failed => "failed",
+            Self::Refused => "refused by the driver",
+            Self::GuardRefuted => "guard refuted",
+            Self::Deadline => "deadline",
+            Self::Exhausted => "bound reached",
+            Self::BadValue => "bad or missing value",
+            Self::Monitor => "monitor",
+            Self::SiblingFailed => "another branch failed",
+            Self::ParentEnded => "the policy ended",
+            Self::Person => "a person",
+            Self::Driver => "the driver",
+            Self::Swap => "a new policy",
+            Self::Lost => "lost by the driver",
+        })
+    }
 }

@@ -4,65 +4,11 @@
 //! ([`crate::Event::Verified`]). So it stands in the journal, a replay needs no geometry, and a search that
 //! takes its time keeps no monitor waiting.
 
-use crate::effect::{Command, Effect};
-use crate::event::Event;
+use crate::effect::{DeferredMotion, Effect};
+use crate::event::{Event, Verification};
 use crate::ids::CheckId;
-use crate::query::Query;
-use crate::truth::Truth;
-use motet_graph::Value;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use smol_str::SmolStr;
-use std::fmt;
+use crate::query::{Query, Truth};
 use std::sync::Arc;
-
-/// A motion that was left to the run.
-#[derive(Clone, PartialEq, Debug)]
-pub struct DeferredMotion {
-    /// The name of the query, `reach`.
-    pub query: SmolStr,
-    pub args: Vec<Value>,
-    /// The call that it is for.
-    pub command: Arc<Command>,
-}
-
-impl fmt::Display for DeferredMotion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}(", self.query)?;
-        for (index, arg) in self.args.iter().enumerate() {
-            let comma = if index > 0 { ", " } else { "" };
-            write!(f, "{comma}{arg}")?;
-        }
-        f.write_str(")")
-    }
-}
-
-/// The verdict on a motion.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Verification {
-    /// It has a solution.
-    Feasible,
-    /// It has none: the step ends in this failure, without moving.
-    Infeasible {
-        /// One of the failures of the call's primitive, such as `unreachable`.
-        failure: SmolStr,
-        /// Reason in words and numbers.
-        why: SmolStr,
-    },
-    /// Nobody can tell: it starts, and the driver will see.
-    Unknown { why: SmolStr },
-}
-
-impl fmt::Display for Verification {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Feasible => f.write_str("feasible"),
-            Self::Infeasible { failure, why } => write!(f, "{failure}: {why}"),
-            Self::Unknown { why } => write!(f, "unknown: {why}"),
-        }
-    }
-}
 
 /// Checks motions that the compiler deferred, in the world as a run has made it. [`crate::run`] shows the one
 /// that its observer has ([`crate::Observer::verifier`]) all events and effects, asks it, and takes its

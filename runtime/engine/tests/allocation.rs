@@ -22,7 +22,7 @@ fn begun(steps: &[StepSketch]) -> (Engine, Vec<Effect>) {
 }
 
 #[test]
-fn a_step_of_a_sequence() {
+fn engine_step_of_a_sequence() {
     let (mut engine, mut out) = begun(&vec![StepSketch::say("hello"); 1_000]);
     let mut go_on = |steps: usize| {
         for _ in 0..steps {
@@ -38,7 +38,7 @@ fn a_step_of_a_sequence() {
 }
 
 #[test]
-fn an_idle_tick_and_a_reading_that_fires_nothing() {
+fn engine_idle_tick_and_a_reading_that_fires_nothing() {
     let watch = WatchSketch::new(vocabulary::nearer("user", 0.5), ReactionSketch::Pause(60.0));
     let (mut engine, mut out) = begun(&[StepSketch::Monitor(vec![watch], vec![StepSketch::go("table")])]);
     let query = Query::Measure { measure: "distance".into(), args: vec![Value::Entity("user".into())] };

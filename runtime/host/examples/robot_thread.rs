@@ -1,17 +1,13 @@
-//! A driver for a robot that runs on a thread of its own, in real time. It loads a graph that `motet
-//! compile` wrote and
-//! runs it to the end.
+//! A driver for a robot that runs on a thread of its own, in real time. It loads a graph that `motet compile`
+//! wrote and runs it to the end.
 //!
 //! `cargo run -p motet-host --example robot_thread`
 //!
-//! The thread stands for a robot's own software. With ROS 2 actions the parts map like this: `start` sends
-//! a goal to an
-//! action server, the goal response becomes [`DriverEvent::Acknowledged`] or [`DriverEvent::Refused`], the
-//! result becomes
-//! [`DriverEvent::Ended`], feedback becomes [`DriverEvent::Feedback`], `cancel` sends a cancel request, and
-//! `safe_stop`
-//! calls the stop service of the controller. The callbacks send these events into the channel that
-//! `advance` reads.
+//! The thread stands for a robot's own software. With ROS 2 actions the parts map like this: `start` sends a
+//! goal to an action server, the goal response becomes [`DriverEvent::Acknowledged`] or
+//! [`DriverEvent::Refused`], the result becomes [`DriverEvent::Ended`], feedback becomes
+//! [`DriverEvent::Feedback`], `cancel` sends a cancel request, and `safe_stop` calls the stop service of the
+//! controller. The callbacks send these events into the channel that `advance` reads.
 
 #![allow(dead_code, reason = "the tests include this file and do not call `main`")]
 

@@ -11,7 +11,9 @@ mod simulation;
 mod stance;
 
 pub use error::{DiagnosticSink, Discard, ProjectError, reason, require};
-pub use project::{DOCUMENT, Project, ProjectBuilder, ProjectSession, named_robot, open_robot, read_scene};
+pub use project::{
+    DOCUMENT, Project, ProjectBuilder, ProjectSession, SessionInputs, named_robot, open_robot, read_scene,
+};
 pub use robot::{RobotFiles, robot_names};
 pub use saved::{SavedAddress, SavedDriver, SavedProject, SavedSimulator};
 pub use simulation::SimulationInputs;

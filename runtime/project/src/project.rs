@@ -235,27 +235,22 @@ impl Project {
             }
         };
         let (files, robot) = robot.unzip();
-        let (scene, state) = (self.scene.as_ref(), self.state.as_ref());
-        let options = CheckOptions { max_duration_secs: self.inputs.max_duration_secs };
-        let mut session = Session::builder()
-            .robot(robot.as_ref())
-            .domains(&self.domains)
-            .scene(scene)
-            .state(state)
-            .options(options)
-            .build(&mut sources);
-        let found = session.input_diagnostics().to_vec();
-        require("robot, scene, state or domain", &found, &sources, sink)?;
+        let inputs = SessionInputs {
+            robot: robot.as_ref(),
+            scene: self.scene.as_ref(),
+            state: self.state.as_ref(),
+            domains: &self.domains,
+            options: CheckOptions { max_duration_secs: self.inputs.max_duration_secs },
+        };
+        let mut session = inputs.open(&mut sources, sink)?;
         let mut geometry = None;
         if let (Some(effort), Some(files), Some(robot), Some(scene)) =
-            (self.inputs.effort, &files, &robot, scene)
+            (self.inputs.effort, &files, &robot, inputs.scene)
             && let Some(urdf) = files.body(robot, &mut sources, sink)?
         {
             require("scene", &scene::fit(scene, &urdf), &sources, sink)?;
             let budget = SearchBudget::default().times(effort.into());
-            let shared = Arc::new(Geometry::new(robot, &urdf, scene, state, budget));
-            session = session.with_geometry(Arc::clone(&shared));
-            geometry = Some(shared);
+            (session, geometry) = inputs.add_motions(session, &urdf, budget);
         }
         Ok(ProjectSession {
             session,
@@ -268,6 +263,52 @@ impl Project {
             inputs: Arc::clone(&self.inputs),
             sources,
         })
+    }
+}
+
+/// Inputs of a compiler session, in memory.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SessionInputs<'a> {
+    pub robot: Option<&'a Robot>,
+    pub scene: Option<&'a Scene>,
+    pub state: Option<&'a InitialState>,
+    pub domains: &'a [File],
+    pub options: CheckOptions,
+}
+
+impl SessionInputs<'_> {
+    /// Builds the session, in which motions are deferred to the run.
+    ///
+    /// # Errors
+    ///
+    /// The scene, the state or a domain does not fit the robot.
+    pub fn open(
+        &self,
+        sources: &mut Sources,
+        sink: &mut dyn DiagnosticSink,
+    ) -> Result<Session, ProjectError> {
+        let session = Session::builder()
+            .robot(self.robot)
+            .domains(self.domains)
+            .scene(self.scene)
+            .state(self.state)
+            .options(self.options)
+            .build(sources);
+        require("robot, scene, state or domain", session.input_diagnostics(), sources, sink)?;
+        Ok(session)
+    }
+
+    /// Lets a session search motions of the robot with this body; unchanged without a robot and a scene.
+    #[must_use]
+    pub fn add_motions(
+        &self,
+        session: Session,
+        urdf: &Urdf,
+        budget: SearchBudget,
+    ) -> (Session, Option<Arc<Geometry>>) {
+        let (Some(robot), Some(scene)) = (self.robot, self.scene) else { return (session, None) };
+        let geometry = Arc::new(Geometry::new(robot, urdf, scene, self.state, budget));
+        (session.with_geometry(Arc::clone(&geometry)), Some(geometry))
     }
 }
 

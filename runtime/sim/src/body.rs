@@ -23,6 +23,12 @@ impl BasePose {
     }
 
     /// The angle by which it would have to turn to face a point, at most π to either side.
+    ///
+    /// ```
+    /// let base = motet_sim::BasePose { x: 1.0, y: 0.0, heading: 0.0 };
+    /// assert_eq!(base.distance_to(1.0, 2.0), 2.0);
+    /// assert!((base.bearing_of(1.0, 2.0) - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn bearing_of(self, x: f64, y: f64) -> f64 {
         turned((y - self.y).atan2(x - self.x) - self.heading)
@@ -203,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_are_to_the_turned_outline() {
+    fn body_gaps_are_to_the_turned_outline() {
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} is not {b}");
         close(table().gap(0.0, 0.5), 1.6);
         close(table().gap(2.0, 2.1), 1.0);
@@ -213,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn stances_face_the_thing() {
+    fn body_stances_face_the_thing() {
         for stance in table().stances(0.25) {
             assert!((table().gap(stance.x, stance.y) - 0.25).abs() < 1e-9);
             let ahead = (stance.x + 0.3 * stance.heading.cos(), stance.y + 0.3 * stance.heading.sin());
@@ -222,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn the_grid_starts_in_the_middle() {
+    fn body_grid_starts_in_the_middle() {
         assert_eq!(table().grid(0.1).first(), Some(&[2.0, 0.5]));
         assert!(table().grid(0.1).iter().all(|[x, y]| table().gap(*x, *y) < 1e-9));
     }

@@ -5,6 +5,7 @@ use crate::motion::BaseMotion;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task, TaskContext, TaskStage};
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, PrimitiveSet, Query, Time};
+use rand::RngExt;
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
 
@@ -16,7 +17,7 @@ impl Driver for Sim {
 
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         self.pass(now);
-        let jitter = self.random.between(0.9, 1.1);
+        let jitter = 0.9 + self.random.random::<f64>() * (1.1 - 0.9);
         let fault = self.faults.of_call(&command.primitive);
         if let Some(failure) = fault.refuses {
             self.report(DriverEvent::Refused { goal, failure });

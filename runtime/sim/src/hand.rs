@@ -2,8 +2,7 @@
 
 use crate::body::BasePose;
 use crate::motion::standing_place;
-use crate::thing::{Rest, Role};
-use crate::world::SimWorld;
+use crate::world::{Rest, Role, SimWorld};
 use smol_str::SmolStr;
 
 /// A failure kind of the standard library.

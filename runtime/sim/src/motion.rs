@@ -137,7 +137,7 @@ mod tests {
         BaseSpec { drive: Drive::Omnidirectional, speed_m_per_s: 0.5, turn_rad_per_s: 1.0, radius_m: 0.2 };
 
     #[test]
-    fn the_base_keeps_its_speed() {
+    fn motion_base_keeps_its_speed() {
         let to = BasePose { x: 2.0, y: 0.0, heading: 1.0 };
         let motion = BaseMotion::new(&BASE, BasePose::default(), to, Time::from_secs(1.0)).unwrap();
         assert_eq!(motion.end(), Time::from_secs(5.0));
@@ -148,14 +148,14 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_may_go_all_round() {
+    fn motion_turn_may_go_all_round() {
         let turn = BaseMotion::turn(&BASE, BasePose::default(), std::f64::consts::TAU, Time::ZERO);
         assert!((turn.end().secs() - std::f64::consts::TAU).abs() < 1e-6);
         assert!((turn.at(Time::from_secs(2.0)).heading - 2.0).abs() < 1e-6);
     }
 
     #[test]
-    fn a_person_walks_and_stops() {
+    fn motion_person_walks_and_stops() {
         let walk = PersonWalk::new([0.0, 0.0], [3.0, 4.0], Time::from_secs(2.0), 1.0);
         assert_eq!(walk.at(Time::ZERO), [0.0, 0.0]);
         assert_eq!(walk.at(Time::from_secs(4.5)), [1.5, 2.0]);

@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn answers_come_in_order_and_then_by_default() {
+    fn people_answers_come_in_order_and_then_by_default() {
         let mut people = People::new([Some("no".to_owned()), None]);
         assert_eq!(people.answer(), Ok("no".into()));
         assert_eq!(people.answer(), Err("refused"));

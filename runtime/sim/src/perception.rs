@@ -6,9 +6,9 @@
 
 use crate::body::turned;
 use crate::camera::{CameraLens, encoded, render};
+use crate::observation::ViewDirection;
 use crate::sim::Sim;
-use crate::thing::Role;
-use crate::visibility::ViewDirection;
+use crate::world::Role;
 use motet_graph::Pose;
 use motet_runtime::{CameraImage, Detection, Perception, RgbdView, Time};
 use smol_str::SmolStr;

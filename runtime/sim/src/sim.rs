@@ -1,16 +1,17 @@
 //! The simulator: a world, the goals that run in it, and who watches it.
 
 use crate::body::BasePose;
-use crate::fault_schedule::FaultSchedule;
+use crate::faults::{FaultSchedule, Faults};
 use crate::observation::InitialFacts;
-use crate::options::SimOptions;
 use crate::people::People;
-use crate::random::SimRng;
 use crate::task::Task;
 use crate::world::SimWorld;
+use indexmap::IndexMap;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{Answer, DriverEvent, Query, Time};
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::SeedableRng;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
 
@@ -30,7 +31,7 @@ pub struct Sim {
     pub(crate) people: People,
     pub(crate) scene: Scene,
     pub(crate) faults: FaultSchedule,
-    pub(crate) random: SimRng,
+    pub(crate) random: SplitMix64,
     pub(crate) tasks: Vec<Task>,
     pub(crate) watches: Vec<(Query, Answer)>,
     pub(crate) outbox: VecDeque<(Time, DriverEvent)>,
@@ -53,7 +54,7 @@ impl Sim {
             people: People::new(answers),
             scene: scene.clone(),
             faults: FaultSchedule::new(&options.faults),
-            random: SimRng::new(options.seed),
+            random: SplitMix64::seed_from_u64(options.seed),
             tasks: Vec::new(),
             watches: Vec::new(),
             outbox: VecDeque::new(),
@@ -169,4 +170,44 @@ impl Sim {
         }
         self.watches = watches;
     }
+}
+
+/// Choices about a simulated world. The default: seed 0, nothing goes wrong, people answer as it pleases the
+/// robot.
+///
+/// ```
+/// use motet_sim::{PersonScript, SimOptions};
+///
+/// let script = PersonScript { answers: vec![Some("the red one".to_owned()), None] };
+/// let options = SimOptions { seed: 3, script, ..SimOptions::default() };
+/// assert!(options.faults.calls.is_empty());
+/// ```
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct SimOptions {
+    /// Decides how long things take, within a tenth. Same seed, same run.
+    pub seed: u64,
+    pub faults: Faults,
+    /// Scripted answers of people.
+    pub script: PersonScript,
+    /// The parent of each kind that the policy's library declares, so that a `Tray: Surface` counts as a
+    /// surface. Kinds of the standard library need not be in it.
+    pub kinds: IndexMap<SmolStr, SmolStr>,
+    /// Entities beside the scene's, with their kind, that shall have a place in the world all the same. One
+    /// of a scene with the same name counts before it.
+    pub entities: Vec<(SmolStr, SmolStr)>,
+    /// Facts that hold at the start, by fluent and arguments. The world is made such that they do: what is
+    /// told to be on the table is put there. Those of fluents that it does not simulate answer observations
+    /// of them.
+    pub initial_facts: IndexMap<(SmolStr, Vec<SmolStr>), bool>,
+    /// Position where the camera is: in the frame of the base on the floor, in m. Above its middle where that
+    /// is not said.
+    pub eye: Option<[f64; 3]>,
+}
+
+/// Scripted answers of people.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct PersonScript {
+    /// Answers to `ask` and `choose`, in order; `None` refuses. Where they have run out, people say "yes" and
+    /// take the first thing that they are offered.
+    pub answers: Vec<Option<String>>,
 }

@@ -3,8 +3,8 @@
 use crate::body::BasePose;
 use crate::command::SimCommand;
 use crate::motion::BaseMotion;
+use crate::observation::ViewDirection;
 use crate::people::People;
-use crate::visibility::ViewDirection;
 use crate::world::SimWorld;
 use motet_graph::Value;
 use motet_robots::scene::Scene;

@@ -2,9 +2,9 @@
 //! place stands in a row beside the room, an object without mass or width is light and slim.
 
 use crate::body::{BasePose, UprightBody};
-use crate::options::SimOptions;
-use crate::thing::{Door, Rest, Role, Thing};
-use crate::world::{ArmPose, HandState, SimWorld};
+use crate::observation::InitialFacts;
+use crate::sim::SimOptions;
+use crate::world::{ArmPose, Door, HandState, Rest, Role, SimWorld, Thing};
 use indexmap::IndexMap;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
@@ -232,5 +232,49 @@ impl Row {
     fn next_spot(&mut self) -> [f64; 2] {
         self.x += ROW_M;
         [self.x, self.y]
+    }
+}
+
+impl SimWorld {
+    /// Makes the facts true that are not yet, in order. A fact of something that does not exist is left out,
+    /// and so is one that can only come about, such as `visited`.
+    pub(crate) fn believe(&mut self, initial_facts: &InitialFacts) {
+        for ((fluent, args), holds) in initial_facts {
+            let args: Vec<&str> = args.iter().map(SmolStr::as_str).collect();
+            if self.fact(fluent, &args, &InitialFacts::new()).is_none_or(|is| is == *holds) {
+                continue;
+            }
+            self.make(fluent, &args, *holds);
+        }
+    }
+
+    fn make(&mut self, fluent: &str, args: &[&str], holds: bool) {
+        match (fluent, args, holds) {
+            ("on", [id, support], true) => self.lay(id, support, Rest::On((*support).into())),
+            ("in", [id, container], true) => self.lay(id, container, Rest::In((*container).into())),
+            ("on" | "in", [id, _], false) => self.set_rest(id, Rest::Free),
+            ("holding", [id], true) => self.hold_at_start(&(*id).into()),
+            ("holding", [id], false) => self.slip(id),
+            ("open", [id], open) => self.set_open(id, open),
+            ("locked", [id], locked) => self.set_locked(id, locked),
+            ("standing", ["robot"], standing) => self.standing = standing,
+            ("at", ["robot", place], true) => {
+                if let Some(stance) = self.place_for(place) {
+                    self.base = stance;
+                }
+            }
+            ("visible", [id], visible) => {
+                if let Some(thing) = self.things.get_mut(*id) {
+                    thing.visible_at_start = Some(visible);
+                }
+            }
+            (_, _, _) => {}
+        }
+    }
+
+    fn set_rest(&mut self, id: &str, rest: Rest) {
+        if let Some(thing) = self.things.get_mut(id) {
+            thing.rest = rest;
+        }
     }
 }

@@ -7,7 +7,7 @@ use motet_decode::export::{Format, Header, export};
 use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
-use motet_tests::{misses, setup};
+use motet_tests::{examples, setup};
 use serde_json::{Value, json};
 
 /// The names of a robot and a scene.
@@ -47,7 +47,7 @@ fn main() {
         .map(|(key, policies)| {
             let misses: Vec<Value> = policies
                 .iter()
-                .flat_map(|(_, [json, _])| misses::near_misses(json))
+                .flat_map(|(_, [json, _])| examples::near_misses(json))
                 .map(|(what, line)| json!({"what": what, "line": line}))
                 .collect();
             let policies: Vec<Value> = policies

@@ -1,6 +1,5 @@
-//! Writes how many tokens the examples have in both forms of the model surface, with the vocabularies
-//! cl100k and o200k:
-//! `cargo run --release -p motet-tests --bin tokens`.
+//! Writes how many tokens the examples have in both forms of the model surface, with the vocabularies cl100k
+//! and o200k: `cargo run --release -p motet-tests --bin tokens`.
 
 use motet_decode::vocabulary::Encoding;
 use motet_decode::{Grammar, Modifiers, Subset, canonical};

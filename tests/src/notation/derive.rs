@@ -1,26 +1,8 @@
 //! Random derivations of a grammar.
 
 use motet_decode::export::{EbnfExpr as Expr, EbnfGrammar as Grammar, RuleId};
-
-/// A generator of pseudo-random numbers: SplitMix64 (Steele, Lea and Flood 2014).
-#[derive(Clone, Debug)]
-pub struct Random(pub u64);
-
-impl Random {
-    /// The next number.
-    pub fn draw(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        mixed ^ (mixed >> 31)
-    }
-
-    /// A number below another.
-    pub fn below(&mut self, limit: usize) -> usize {
-        usize::try_from(self.draw() % u64::try_from(limit.max(1)).unwrap_or(1)).unwrap_or(0)
-    }
-}
+use rand::RngExt as _;
+use rand_xoshiro::SplitMix64;
 
 /// Derives texts of a grammar, longer ones rarely: above the budget it takes the shortest way.
 #[derive(Debug)]
@@ -59,27 +41,27 @@ impl<'g> Deriver<'g> {
 
     /// One text.
     #[must_use]
-    pub fn derive(&self, random: &mut Random) -> String {
+    pub fn derive(&self, random: &mut SplitMix64) -> String {
         let mut out = String::new();
         self.expr(&Expr::Rule(RuleId(0)), random, &mut out);
         out
     }
 
-    fn expr(&self, expr: &Expr, random: &mut Random, out: &mut String) {
+    fn expr(&self, expr: &Expr, random: &mut SplitMix64, out: &mut String) {
         let is_short = out.len() < self.budget;
         match expr {
             Expr::Literal(text) => out.push_str(text),
             Expr::Class(ranges) => {
-                if let Some((from, to)) = ranges.get(random.below(ranges.len())) {
+                if let Some((from, to)) = ranges.get(random.random_range(0..ranges.len())) {
                     let width = (u32::from(*to) - u32::from(*from) + 1) as usize;
-                    let step = u32::try_from(random.below(width)).unwrap_or(0);
+                    let step = u32::try_from(random.random_range(0..width)).unwrap_or(0);
                     out.extend(char::from_u32(u32::from(*from) + step));
                 }
             }
             Expr::Seq(parts) => parts.iter().for_each(|part| self.expr(part, random, out)),
             Expr::Choice(parts) => {
                 let chosen = if is_short {
-                    parts.get(random.below(parts.len()))
+                    parts.get(random.random_range(0..parts.len()))
                 } else {
                     parts.iter().min_by_key(|part| self.least(part))
                 };
@@ -89,7 +71,7 @@ impl<'g> Deriver<'g> {
             }
             Expr::Repeat(inner, least, greatest) => {
                 let free = (*greatest - *least).min(6) as usize;
-                let more = if is_short { random.below(free + 1) } else { 0 };
+                let more = if is_short { random.random_range(0..free + 1) } else { 0 };
                 for _ in 0..*least as usize + more {
                     self.expr(inner, random, out);
                 }

@@ -1,15 +1,14 @@
 //! Random values of a JSON Schema: the part of JSON Schema that is exported.
 
+use rand::RngExt as _;
+use rand_xoshiro::SplitMix64;
 use serde_json::Value;
 
-use super::Random;
-
-/// A random value of a schema with definitions, as compact JSON; above the budget arrays are as short as
-/// can be and of
-/// several alternatives the first is taken, which is never one with steps within. Panics at what is not
-/// exported.
+/// A random value of a schema with definitions, as compact JSON; above the budget arrays are as short as can
+/// be and of several alternatives the first is taken, which is never one with steps within. Panics at what is
+/// not exported.
 #[must_use]
-pub fn derive(schema: &Value, budget: usize, random: &mut Random) -> String {
+pub fn derive(schema: &Value, budget: usize, random: &mut SplitMix64) -> String {
     let mut out = String::new();
     Deriver { root: schema, budget }.value(schema, random, &mut out);
     out
@@ -22,7 +21,7 @@ struct Deriver<'s> {
 
 impl Deriver<'_> {
     #[expect(clippy::panic, reason = "a test whose schema cannot be read cannot go on")]
-    fn value(&self, schema: &Value, random: &mut Random, out: &mut String) {
+    fn value(&self, schema: &Value, random: &mut SplitMix64, out: &mut String) {
         let keys = schema.as_object().map_or(0, serde_json::Map::len);
         let is_short = out.len() < self.budget;
         if let Some(pointer) = schema["$ref"].as_str() {
@@ -34,7 +33,7 @@ impl Deriver<'_> {
         }
         if let Some(alternatives) = schema["anyOf"].as_array() {
             assert_eq!(keys, 1, "alternatives have siblings: {schema}");
-            let chosen = if is_short { random.below(alternatives.len()) } else { 0 };
+            let chosen = if is_short { random.random_range(0..alternatives.len()) } else { 0 };
             return self.value(alternatives.get(chosen).unwrap_or(&Value::Null), random, out);
         }
         match schema["type"].as_str() {
@@ -42,7 +41,7 @@ impl Deriver<'_> {
             Some("array") => {
                 let [least, greatest] =
                     ["minItems", "maxItems"].map(|key| schema[key].as_u64().unwrap_or(0) as usize);
-                let more = if is_short { random.below((greatest - least).min(5) + 1) } else { 0 };
+                let more = if is_short { random.random_range(0..(greatest - least).min(5) + 1) } else { 0 };
                 out.push('[');
                 for index in 0..least + more {
                     out.push_str(if index > 0 { "," } else { "" });
@@ -57,23 +56,23 @@ impl Deriver<'_> {
                     let [least, greatest] =
                         ["minimum", "maximum"].map(|key| schema[key].as_i64().unwrap_or(0));
                     let width = usize::try_from(greatest - least + 1).unwrap_or(1);
-                    out.push_str(&(least + random.below(width) as i64).to_string());
+                    out.push_str(&(least + random.random_range(0..width) as i64).to_string());
                 }
             },
             Some("number") => {
                 let [least, greatest] = ["minimum", "maximum"].map(|key| schema[key].as_f64().unwrap_or(0.0));
-                let part = random.below(1_000_001) as f64 / 1e6;
+                let part = random.random_range(0..1_000_001) as f64 / 1e6;
                 let value = (least + (greatest - least) * part).clamp(least, greatest);
                 out.push_str(&serde_json::to_string(&value).unwrap_or_default());
             }
-            Some("boolean") => out.push_str(if random.below(2) == 0 { "true" } else { "false" }),
+            Some("boolean") => out.push_str(if random.random_range(0..2) == 0 { "true" } else { "false" }),
             Some("null") => out.push_str("null"),
             _ => panic!("no type: {schema}"),
         }
     }
 
     #[expect(clippy::panic, reason = "a test whose schema cannot be read cannot go on")]
-    fn object(&self, schema: &Value, random: &mut Random, out: &mut String) {
+    fn object(&self, schema: &Value, random: &mut SplitMix64, out: &mut String) {
         let Some(properties) = schema["properties"].as_object() else { panic!("no properties: {schema}") };
         let required: Vec<&str> =
             schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
@@ -93,11 +92,11 @@ impl Deriver<'_> {
         out.push('}');
     }
 
-    fn string(&self, schema: &Value, random: &mut Random, out: &mut String) {
+    fn string(&self, schema: &Value, random: &mut SplitMix64, out: &mut String) {
         if schema["const"].is_string() {
             out.push_str(&schema["const"].to_string());
         } else if let Some(values) = schema["enum"].as_array() {
-            let chosen = values.get(random.below(values.len()));
+            let chosen = values.get(random.random_range(0..values.len()));
             out.push_str(&chosen.unwrap_or(&Value::Null).to_string());
         } else {
             out.push_str(&Value::from(pattern(schema["pattern"].as_str().unwrap_or(""), random)).to_string());
@@ -106,7 +105,7 @@ impl Deriver<'_> {
 }
 
 /// A random string of an anchored pattern of classes, each perhaps repeated with `*`, and escaped characters.
-fn pattern(pattern: &str, random: &mut Random) -> String {
+fn pattern(pattern: &str, random: &mut SplitMix64) -> String {
     let inner = pattern.strip_prefix('^').and_then(|rest| rest.strip_suffix('$'));
     assert!(inner.is_some(), "not anchored: {pattern}");
     let mut letters = inner.unwrap_or("").chars().peekable();
@@ -128,12 +127,12 @@ fn pattern(pattern: &str, random: &mut Random) -> String {
             }
             other => ranges.push((other, other)),
         }
-        let times = if letters.next_if_eq(&'*').is_some() { random.below(12) } else { 1 };
+        let times = if letters.next_if_eq(&'*').is_some() { random.random_range(0..12) } else { 1 };
         for _ in 0..times {
-            if let Some((from, to)) = ranges.get(random.below(ranges.len())) {
+            if let Some((from, to)) = ranges.get(random.random_range(0..ranges.len())) {
                 let width = (u32::from(*to) - u32::from(*from) + 1) as usize;
                 out.extend(char::from_u32(
-                    u32::from(*from) + u32::try_from(random.below(width)).unwrap_or(0),
+                    u32::from(*from) + u32::try_from(random.random_range(0..width)).unwrap_or(0),
                 ));
             }
         }

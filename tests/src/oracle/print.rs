@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::model::{Arg, Atom, Domain, Kind, Literal, Policy, Step};
+use super::make::{Arg, Atom, Domain, Kind, Literal, Policy, Step};
 
 fn word(kind: Kind) -> &'static str {
     match kind {

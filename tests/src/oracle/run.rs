@@ -2,19 +2,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::model::{Domain, Kind, Literal, Policy, Step};
+use super::make::{Domain, Kind, Literal, Policy, Step};
 use super::state::State;
 
-/// What the paths of a policy met.
+/// Findings on the paths of a policy.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Found {
     /// On some path a need was false where its step started.
     pub violated: bool,
     /// On some path a need was unobserved where its step started.
     pub unobserved: bool,
-    /// On some path a need was false where its step started, beside another branch: whether that branch
-    /// made it so is left
-    /// to a guard.
+    /// On some path a need was false where its step started, beside another branch: whether that branch made
+    /// it so is left to a guard.
     pub contended: bool,
     /// There were too many states to walk them all.
     pub gave_up: bool,
@@ -22,7 +21,7 @@ pub struct Found {
 
 type States = BTreeSet<State>;
 
-/// How many states a block may have.
+/// Largest number of states of a block.
 const MAX_STATES: usize = 4000;
 
 /// Walks all paths of a policy from the start of its domain.
@@ -33,7 +32,7 @@ pub fn walk(domain: &Domain, policy: &Policy) -> Found {
     walker.found
 }
 
-/// What a need that is false means.
+/// Meaning of a need that is false.
 #[derive(Clone, Copy)]
 enum Refusal {
     /// The policy is wrong, and the path ends there.
@@ -49,7 +48,7 @@ struct Walker<'a> {
     found: Found,
     /// Blocks that may run before any step.
     reactions: Vec<&'a [Step]>,
-    /// What failed in each of them.
+    /// Failures in each of them.
     escaped: Vec<Failed>,
 }
 

@@ -1,16 +1,16 @@
 //! Concrete states: every fact true, false or unobserved.
 
-use super::model::{Arg, Atom, Domain, Effect, Literal};
+use super::make::{Arg, Atom, Domain, Effect, Literal};
 
 /// Every fact of a domain, by its place.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct State {
     facts: Vec<Option<bool>>,
-    /// How often the reaction of each enclosing monitor may still run, the outermost first.
+    /// Remaining runs of the reaction of each enclosing monitor, the outermost first.
     pub(super) left: Vec<usize>,
 }
 
-/// Where the facts of each fluent begin.
+/// Index of the first fact of each fluent.
 fn offset(domain: &Domain, fluent: usize) -> usize {
     domain.arities.iter().take(fluent).map(|arity| count(domain, *arity)).sum()
 }
@@ -55,7 +55,7 @@ impl State {
         }
     }
 
-    /// What a literal is: of one with `any`, whether some fact is so.
+    /// Truth of a literal; of one with `any`, of its existential closure.
     pub(super) fn value(&self, domain: &Domain, literal: &Literal, entity: usize) -> Option<bool> {
         let values: Vec<_> = places(domain, &literal.atom, entity)
             .into_iter()
@@ -83,8 +83,7 @@ impl State {
     }
 
     /// This state with effects whose conditions are those of the state `before`: what is unmade first, so
-    /// that what is
-    /// made wins.
+    /// that what is made wins.
     pub(super) fn with_effects(
         mut self,
         domain: &Domain,

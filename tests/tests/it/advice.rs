@@ -1,6 +1,5 @@
-//! What the compiler says of common mistakes: one finding each, with the words that help. The front end's
-//! own are in
-//! `grammar/syntax/tests/syntax/messages.rs`.
+//! What the compiler says of common mistakes: one finding each, with the words that help. The front end's own
+//! are in `grammar/syntax/tests/syntax/messages.rs`.
 
 use motet_compiler::Session;
 use motet_syntax::{Severity, Source, Sources, render};
@@ -41,7 +40,7 @@ const DETECT: &str =
     r#"{"do": "go", "to": "kitchen_table"}, {"do": "detect", "what": "red mug", "as": "mug"}"#;
 
 #[test]
-fn a_binding_in_json_has_its_sign() {
+fn diagnostics_binding_in_json_has_its_sign() {
     json(
         &format!(r#"{DETECT}, {{"do": "pick", "object": "mug"}}"#),
         &["M0202: there is no `Object` `mug`; `mug` is a binding: write `$mug`"],
@@ -57,7 +56,7 @@ fn a_binding_in_json_has_its_sign() {
 }
 
 #[test]
-fn a_forgotten_sign_is_mended() {
+fn diagnostics_forgotten_sign_is_mended() {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
     let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
     let steps = format!(r#"{DETECT}, {{"do": "pick", "object": "mug"}}"#);
@@ -67,7 +66,7 @@ fn a_forgotten_sign_is_mended() {
 }
 
 #[test]
-fn ratios_lie_between_nothing_and_all() {
+fn diagnostics_ratios_lie_between_nothing_and_all() {
     text(
         "if battery() < 20 { say(\"x\") }",
         &["M0302: `20` needs a unit: a `Ratio` is expected; write `20 %`; the units are `%`"],
@@ -88,7 +87,7 @@ fn ratios_lie_between_nothing_and_all() {
 }
 
 #[test]
-fn a_binding_hides_no_entity() {
+fn diagnostics_binding_hides_no_entity() {
     let said = "M0206: `kitchen_table` is an entity, which a binding must not hide; choose another name than \
                 `kitchen_table`";
     json(
@@ -103,7 +102,7 @@ fn a_binding_hides_no_entity() {
 }
 
 #[test]
-fn an_unknown_robot_is_an_error() {
+fn diagnostics_unknown_robot_is_an_error() {
     let session = Session::builder().build(&mut Sources::default());
     let said = |text: &str| {
         let parsed = motet_syntax::read(&Source::new("p", text), Default::default());
@@ -117,7 +116,7 @@ fn an_unknown_robot_is_an_error() {
 }
 
 #[test]
-fn a_domain_is_checked_beside_a_robot() {
+fn diagnostics_domain_is_checked_beside_a_robot() {
     let mut sources = Sources::default();
     let domain = "action wave() uses elbow\naction nod()\n";
     let source = Source::new("domain.motet", domain);
@@ -134,19 +133,17 @@ fn a_domain_is_checked_beside_a_robot() {
 }
 
 #[test]
-fn quantities_are_told_in_their_own_units() {
+fn diagnostics_quantities_are_told_in_their_own_units() {
     text(
         "turn(720 deg)",
-        &[
-            "M0404: `by` of `turn` is 720 deg, but `hsr` allows -360 deg to 360 deg; write a value from -360 deg to 360 deg",
-        ],
+        &["M0404: `by` of `turn` is 720 deg, but `hsr` allows -360 deg to 360 deg; write a value from \
+             -360 deg to 360 deg"],
     );
     json(
         r#"{"do": "turn", "by": 90}"#,
-        &[
-            "M0404: `by` of `turn` is 90 rad, but `hsr` allows -6.28318531 rad to 6.28318531 rad; a number without a unit is in radians: \
-           did you mean `\"90 deg\"`?",
-        ],
+        &["M0404: `by` of `turn` is 90 rad, but `hsr` allows -6.28318531 rad to 6.28318531 rad; a number \
+             without a unit is in radians: \
+           did you mean `\"90 deg\"`?"],
     );
     text(
         "go(user) within 1000 h",
@@ -154,15 +151,14 @@ fn quantities_are_told_in_their_own_units() {
     );
     text(
         "repeat 99999999999999999999 { say(\"x\") }",
-        &[
-            "M0310: the count of a `repeat` is 100000000000000000000, but must be from 1 to 1000000; write a number from 1 to \
-           1000000",
-        ],
+        &["M0310: the count of a `repeat` is 100000000000000000000, but must be from 1 to 1000000; write \
+             a number from 1 to \
+           1000000"],
     );
 }
 
 #[test]
-fn one_mistake_is_told_once() {
+fn diagnostics_one_mistake_is_told_once() {
     json(
         r#"{"do": "go", "to": "user", "retry": "two"}"#,
         &["M0106: expected a whole number, found the string `two`; write a whole number here"],
@@ -172,7 +168,8 @@ fn one_mistake_is_told_once() {
         &["M0108: `20` is not a duration; did you mean `\"20 s\"`?"],
     );
     let found = errors(
-        r#"{"motet": 1, "policy": "p", "steps": [{"if": "holding($mug)", "then": [{"do": "say", "text": "x"}]}]}"#,
+        r#"{"motet": 1, "policy": "p", "steps": [{"if": "holding($mug)", "then": [{"do": "say",
+            "text": "x"}]}]}"#,
     );
     assert!(found.len() == 1 && found[0].starts_with("M0101"), "{found:?}");
     let found = errors(
@@ -182,18 +179,19 @@ fn one_mistake_is_told_once() {
 }
 
 #[test]
-fn help_says_what_to_write() {
+fn diagnostics_help_says_what_to_write() {
     text(
         "go(\"kitchen_table\")",
-        &[
-            "M0301: `to` of `go` takes an `Entity`, not the text \"kitchen_table\"; write `kitchen_table` without quotes",
-        ],
+        &["M0301: `to` of `go` takes an `Entity`, not the text \"kitchen_table\"; write `kitchen_table` \
+             without quotes"],
     );
     text(
         "handover(mug_1, kitchen_table)",
         &[
-            "M0501: `handover` needs `holding(mug_1)`, which does not hold at the start; call `pick` or `grasp` first",
-            "M0301: `to` of `handover` takes a `Person`, not `kitchen_table`, which is a `Surface`; write `user`",
+            "M0501: `handover` needs `holding(mug_1)`, which does not hold at the start; call `pick` or \
+             `grasp` first",
+            "M0301: `to` of `handover` takes a `Person`, not `kitchen_table`, which is a `Surface`; write \
+             `user`",
         ],
     );
     text("if holding { say(\"x\") }", &["M0202: unknown name `holding`; write `holding(object)`"]);
@@ -215,7 +213,7 @@ fn help_says_what_to_write() {
 }
 
 #[test]
-fn what_cannot_be_given_is_told_alone() {
+fn diagnostics_what_cannot_be_given_is_told_alone() {
     text(
         "go(kitchen_table) inspect(mug_1) pick(mug_1) place(mug_1, robot)",
         &["M0501: `place` needs something other than `robot`, but it is given exactly that; name another \
@@ -225,7 +223,7 @@ fn what_cannot_be_given_is_told_alone() {
 
 /// A label within the place of the finding stands under what it is about.
 #[test]
-fn labels_stand_under_their_places() {
+fn diagnostics_labels_stand_under_their_places() {
     let mut sources = Sources::default();
     let source = Source::new("p", "policy p { parallel { { open(drawer_1) } { close(drawer_1) } } }");
     let file = sources.add(source.clone());

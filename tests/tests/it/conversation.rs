@@ -46,7 +46,7 @@ fn talk(
 }
 
 #[test]
-fn a_clear_request_is_done_without_a_question() {
+fn conversation_clear_request_is_done_without_a_question() {
     for robot in ["hsr", "anymal_z1"] {
         let setting = setting(robot);
         let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
@@ -57,7 +57,7 @@ fn a_clear_request_is_done_without_a_question() {
 }
 
 #[test]
-fn of_two_mugs_the_one_that_is_meant_is_asked_for() {
+fn conversation_of_two_mugs_the_one_that_is_meant_is_asked_for() {
     let setting = setting("hsr");
     let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the mug", &["the blue one"]);
@@ -65,13 +65,14 @@ fn of_two_mugs_the_one_that_is_meant_is_asked_for() {
     assert_eq!(asked[0].kind, Kind::AmbiguousReference);
     assert_eq!(
         asked[0].question,
-        "I know two things that could be the mug: the red mug on the kitchen table and the blue mug on the wall shelf. Which one?"
+        "I know two things that could be the mug: the red mug on the kitchen table and the blue mug on the \
+         wall shelf. Which one?"
     );
     assert_eq!(sim.holds("at", &["mug_2", "user"]), Some(true));
 }
 
 #[test]
-fn an_answer_that_states_a_fact_becomes_one() {
+fn conversation_answer_that_states_a_fact_becomes_one() {
     let setting = setting("hsr");
     let mut sim = coke_in_cupboard(&setting);
     let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &["it is in the cupboard"]);
@@ -82,7 +83,7 @@ fn an_answer_that_states_a_fact_becomes_one() {
 }
 
 #[test]
-fn a_step_that_merely_failed_is_tried_again_before_anyone_is_asked() {
+fn conversation_step_that_merely_failed_is_tried_again_before_anyone_is_asked() {
     let setting = setting("hsr");
     let faults =
         Faults::from_json(r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#)
@@ -93,7 +94,7 @@ fn a_step_that_merely_failed_is_tried_again_before_anyone_is_asked() {
 }
 
 #[test]
-fn where_there_is_no_room_it_is_asked_where_else() {
+fn conversation_where_there_is_no_room_it_is_asked_where_else() {
     let setting = setting("hsr");
     let blocked =
         |nth: u32| format!(r#"{{"primitive": "place", "nth": {nth}, "then": {{"fails": "blocked"}}}}"#);
@@ -120,7 +121,7 @@ fn where_there_is_no_room_it_is_asked_where_else() {
 }
 
 #[test]
-fn who_stands_elsewhere_drives_there_before_anyone_is_asked() {
+fn conversation_who_stands_elsewhere_drives_there_before_anyone_is_asked() {
     // The fridge stands by the counter: what is taken out of it could be put there from where the robot is,
     // and there is no room.
     let setting = setting("hsr");
@@ -139,7 +140,7 @@ fn who_stands_elsewhere_drives_there_before_anyone_is_asked() {
 }
 
 #[test]
-fn where_nobody_answers_the_problem_is_the_outcome() {
+fn conversation_where_nobody_answers_the_problem_is_the_outcome() {
     let setting = setting("hsr");
     let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(&setting);
@@ -177,7 +178,7 @@ impl DialogueObserver for Interrupts {
 }
 
 #[test]
-fn a_request_in_between_takes_over() {
+fn conversation_request_in_between_takes_over() {
     for robot in ["hsr", "anymal_z1"] {
         let setting = setting(robot);
         let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
@@ -217,7 +218,7 @@ fn changes(robot: &str, request: &str, (at, says): (f64, &'static str), goal: (&
 }
 
 #[test]
-fn what_the_scene_says_of_every_entity_is_not_forgotten_between_policies() {
+fn conversation_what_the_scene_says_of_every_entity_is_not_forgotten_between_policies() {
     // Nothing was touched yet: where the mug is not is as well known as where it is.
     let goal = ("on", ["mug_1", "sink"]);
     changes("hsr", "put the red mug on the counter", (3.5, "no, put it on the sink"), goal);
@@ -230,20 +231,20 @@ fn what_the_scene_says_of_every_entity_is_not_forgotten_between_policies() {
 }
 
 #[test]
-fn a_robot_that_is_under_way_is_no_longer_where_it_was() {
+fn conversation_robot_that_is_under_way_is_no_longer_where_it_was() {
     // It carries the coke away from the counter: to put it down there it has to drive back.
     let goal = ("at", ["bottle", "user"]);
     changes("hsr", "bring me the coke", (20.4, "actually, bring me the water bottle"), goal);
 }
 
 #[test]
-fn a_thing_is_looked_for_where_it_is_believed_to_be() {
+fn conversation_thing_is_looked_for_where_it_is_believed_to_be() {
     let goal = ("at", ["apple", "user"]);
     changes("anymal_z1", "bring me the red mug", (21.5, "bring me the green apple instead"), goal);
 }
 
 #[test]
-fn what_was_taken_is_put_back_where_it_was() {
+fn conversation_what_was_taken_is_put_back_where_it_was() {
     let setting = setting("hsr");
     let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(&setting);
@@ -265,7 +266,7 @@ fn slipping(setting: &DialogueSetup) -> Sim {
 }
 
 #[test]
-fn who_says_no_is_not_taken_to_say_yes() {
+fn conversation_who_says_no_is_not_taken_to_say_yes() {
     let setting = setting("hsr");
     for no in [
         "No, leave it alone!",
@@ -281,7 +282,7 @@ fn who_says_no_is_not_taken_to_say_yes() {
 }
 
 #[test]
-fn an_answer_that_is_not_understood_is_asked_for_again_and_moves_nothing() {
+fn conversation_answer_that_is_not_understood_is_asked_for_again_and_moves_nothing() {
     let setting = setting("hsr");
     let mut sim = slipping(&setting);
     let (outcome, asked, _) =
@@ -305,7 +306,7 @@ fn says(request: &str, line: &'static str, answers: &[&'static str]) -> (Outcome
 }
 
 #[test]
-fn who_moves_stops_when_told_to() {
+fn conversation_who_moves_stops_when_told_to() {
     for line in ["stop", "never mind", "wait!", "leave it, please"] {
         let (outcome, asked, sim) = says("bring me the coke", line, &[]);
         assert_eq!((outcome, asked.len()), (Outcome::GivenUp, 0), "{line}");
@@ -314,7 +315,7 @@ fn who_moves_stops_when_told_to() {
 }
 
 #[test]
-fn a_fact_that_is_said_meanwhile_changes_the_plan_and_not_the_request() {
+fn conversation_fact_that_is_said_meanwhile_changes_the_plan_and_not_the_request() {
     let setting = setting("hsr");
     let mut sim = coke_in_cupboard(&setting);
     let mut talk = Conversation::new(&setting);
@@ -328,7 +329,7 @@ fn a_fact_that_is_said_meanwhile_changes_the_plan_and_not_the_request() {
 }
 
 #[test]
-fn a_fact_alone_is_no_request() {
+fn conversation_fact_alone_is_no_request() {
     let setting = setting("hsr");
     let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (outcome, asked, _) = talk(&setting, &mut sim, "the coke is in the fridge", &[]);
@@ -337,7 +338,7 @@ fn a_fact_alone_is_no_request() {
 }
 
 #[test]
-fn what_was_asked_for_before_is_not_forgotten() {
+fn conversation_what_was_asked_for_before_is_not_forgotten() {
     // More of it.
     let (outcome, asked, sim) = says("bring me the coke", "also bring me the apple", &[]);
     assert_eq!((outcome, asked.len()), (Outcome::Done, 0));

@@ -8,7 +8,7 @@ use motet_syntax::{FileId, Source, Sources, print};
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus");
 
 #[test]
-fn every_seed_is_survived() {
+fn reader_every_seed_is_survived() {
     let session = Session::builder().build(&mut Sources::default());
     let mut seeds = 0;
     let mut waiting = vec![PathBuf::from(CORPUS)];

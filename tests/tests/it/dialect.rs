@@ -26,7 +26,7 @@ fn becomes(list: &str, calls: &[&str]) {
 }
 
 #[test]
-fn lists_of_actions_become_policies() {
+fn dialect_lists_of_actions_become_policies() {
     let fetch = ["go(counter)", "pick(coke)", "go(user)", "handover(coke, user)"];
     becomes("go to counter, pick coke, go to user, hand over coke to user", &fetch);
     becomes(
@@ -45,14 +45,14 @@ fn lists_of_actions_become_policies() {
 }
 
 #[test]
-fn what_is_read_otherwise_is_said() {
+fn dialect_what_is_read_otherwise_is_said() {
     let warnings = read("go to table, pick up coke").unwrap().warnings.join("\n");
     assert!(warnings.contains("read `pick up` as `pick`"), "{warnings}");
     assert!(warnings.contains("took `table` to be `kitchen_table`"), "{warnings}");
 }
 
 #[test]
-fn what_is_no_action_is_refused() {
+fn dialect_what_is_no_action_is_refused() {
     assert_eq!(read(" ,\n"), Err(NoPolicy::Empty));
     assert!(matches!(read("I cannot see the coke."), Err(NoPolicy::Unknown { number: 1, .. })));
     assert!(matches!(read("go to table, juggle coke"), Err(NoPolicy::Unknown { number: 2, .. })));
@@ -65,8 +65,9 @@ fn what_is_no_action_is_refused() {
 }
 
 #[test]
-fn dialogues_are_read_and_written() {
-    let text = "<history> None </history>\n<user> Bring me the coke.\n<vision> coke: seen\n<feasibility> coke: feasible\n\
+fn dialect_dialogues_are_read_and_written() {
+    let text = "<history> None </history>\n<user> Bring me the coke.\n<vision> coke: seen\n<feasibility> \
+        coke: feasible\n\
                 <robot> go to counter, pick coke\n<user> The other one.\n<robot> Which one?\n";
     let exchanges = exchange::read(text).unwrap();
     assert_eq!(exchanges.len(), 2);
@@ -81,7 +82,7 @@ fn dialogues_are_read_and_written() {
 }
 
 #[test]
-fn what_is_no_dialogue_is_refused() {
+fn dialect_what_is_no_dialogue_is_refused() {
     assert_eq!(exchange::read(""), Err(NoDialogue::Empty));
     assert!(matches!(exchange::read("hello <user> hi"), Err(NoDialogue::BeforeTag { line: 1, .. })));
     assert!(matches!(
@@ -92,8 +93,9 @@ fn what_is_no_dialogue_is_refused() {
 }
 
 #[test]
-fn a_policy_is_written_as_a_list() {
-    let text = "policy p for hsr { go(counter) monitor when distance(user) < 0.5 m then pause during { go(user) } handover(coke, user) place(coke, fridge_1) }";
+fn dialect_policy_is_written_as_a_list() {
+    let text = "policy p for hsr { go(counter) monitor when distance(user) < 0.5 m then pause during { \
+        go(user) } handover(coke, user) place(coke, fridge_1) }";
     let parsed = motet_syntax::read(&Source::new("p.motet", text), FileId(0));
     let policy = parsed.file.policies().next().unwrap();
     let (list, left_out) = actions::write(policy, &setup::scene("kitchen"));

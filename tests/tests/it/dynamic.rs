@@ -122,7 +122,7 @@ fn in_order(log: &[String], wanted: &[&str]) {
 }
 
 #[test]
-fn the_object_is_changed_during_a_handover() {
+fn run_object_is_changed_during_a_handover() {
     let faults = r#"{"calls": [{"primitive": "handover", "nth": 1, "then": {"fails": "refused"}}]}"#;
     let (sim, log) = play("kitchen", "object_changed", faults, None);
     in_order(&log, &["handover(object: mug_1", "place(object: mug_1", "handover(object: apple", "done"]);
@@ -131,7 +131,7 @@ fn the_object_is_changed_during_a_handover() {
 }
 
 #[test]
-fn the_goal_is_changed_during_execution() {
+fn run_goal_is_changed_during_execution() {
     // On the way to the person with the mug in the hand.
     let (sim, log) = play("kitchen", "object_moved", "{}", Some((15.0, "goal_changed")));
     in_order(
@@ -143,7 +143,7 @@ fn the_goal_is_changed_during_execution() {
 }
 
 #[test]
-fn the_same_drive_goes_on_in_another_policy() {
+fn run_same_drive_goes_on_in_another_policy() {
     let (sim, log) = play("kitchen", "object_moved", "{}", Some((3.0, "object_slips")));
     in_order(&log, &["swapped to object_slips", "detect", "done"]);
     assert_eq!(log.iter().filter(|line| line.contains("go(to: kitchen_table)")).count(), 1, "{log:#?}");
@@ -151,7 +151,7 @@ fn the_same_drive_goes_on_in_another_policy() {
 }
 
 #[test]
-fn a_drawer_is_closed_only_where_it_is_open() {
+fn run_drawer_is_closed_only_where_it_is_open() {
     let (sim, log) = play("lab", "conditional_drawer_closing", "{}", None);
     in_order(&log, &["close(what: drawer_1)", "done"]);
     assert_eq!(sim.holds("open", &["drawer_1"]), Some(false));
@@ -161,7 +161,7 @@ fn a_drawer_is_closed_only_where_it_is_open() {
 }
 
 #[test]
-fn the_object_is_moved_while_the_robot_drives() {
+fn run_object_is_moved_while_the_robot_drives() {
     let faults =
         r#"{"world": [{"at": 2.0, "what": {"moves": {"object": "mug_1", "to": {"surface": "counter"}}}}]}"#;
     let (sim, log) = play("kitchen", "object_moved", faults, None);
@@ -170,7 +170,7 @@ fn the_object_is_moved_while_the_robot_drives() {
 }
 
 #[test]
-fn a_person_steps_into_the_path() {
+fn run_person_steps_into_the_path() {
     let faults = r#"{"world": [{"at": 1.0, "what": {"walks":
         {"person": "user", "from": [0.8, 1.4], "to": [0.8, -4.0], "speed": 0.5}}}]}"#;
     let (_, log) = play("kitchen", "person_in_the_way", faults, None);
@@ -179,7 +179,7 @@ fn a_person_steps_into_the_path() {
 }
 
 #[test]
-fn the_object_slips_from_the_hand() {
+fn run_object_slips_from_the_hand() {
     let faults = r#"{"world": [{"at": 15.0, "what": {"slips": "mug_1"}}]}"#;
     let (sim, log) = play("kitchen", "object_slips", faults, None);
     in_order(&log, &["pick(object: mug_1", "search", "pick(object: mug_1", "handover(object: mug_1", "done"]);
@@ -187,7 +187,7 @@ fn the_object_slips_from_the_hand() {
 }
 
 #[test]
-fn a_swap_is_the_same_in_every_run() {
+fn run_swap_is_the_same_in_every_run() {
     let once = || play("kitchen", "object_moved", "{}", Some((15.0, "goal_changed"))).1;
     assert_eq!(once(), once());
 }

@@ -8,7 +8,7 @@ use motet_decode::export::{Format, Header, export};
 use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
-use motet_tests::{misses, setup};
+use motet_tests::{examples, setup};
 
 /// How many bytes of a line an engine takes, and whether it may end there.
 fn taken(engine: &Matcher, line: &str) -> (usize, bool) {
@@ -53,7 +53,7 @@ fn llguidance_takes_the_examples_and_refuses_near_misses() {
                     &line[count..]
                 );
                 if form == Syntax::Json {
-                    for (what, miss) in misses::near_misses(&line) {
+                    for (what, miss) in examples::near_misses(&line) {
                         let verdict = taken(engine, &miss);
                         assert_ne!(verdict, (miss.len(), true), "{what} is taken: {miss}");
                         refused += 1;

@@ -20,7 +20,7 @@ fn story(body: &str) -> String {
 }
 
 #[test]
-fn a_story_tells_the_way() {
+fn explanation_story_tells_the_way() {
     let told = [
         ("rain() light()", "which `rain()` made false"),
         ("if lit() { rain() } light()", ""),

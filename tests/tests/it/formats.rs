@@ -1,6 +1,6 @@
 //! Formats of diagnostics for machines, over documents that are wrong in many ways: `sarif` has the shape
-//! that SARIF 2.1.0
-//! asks for, `llm` is short and in a useful order, `github` escapes what the workflow commands ask for.
+//! that SARIF 2.1.0 asks for, `llm` is short and in a useful order, `github` escapes what the workflow
+//! commands ask for.
 
 use motet_compiler::Session;
 use motet_syntax::{Diagnostic, Source, Sources, render};
@@ -9,10 +9,16 @@ use serde_json::{Value, json};
 
 const DOCUMENTS: [&str; 6] = [
     "policy p for hsr {\n    goo(kitchen_table)\n    wait until near(user) within 3\n    pick(mug_11)\n}\n",
-    "policy p for hsr achieves on(mug_1, counter) {\n    go(user)\n    pick(mug_1)\n    handover(mug_1, user)\n}\n",
-    "policy p for hsr {\n    go(kitchen_table)\n    let pose = locate(mug_1)\n    go(kitchen_table)\n    grasp(mug_1, pose)\n    done\n    say(\"x\")\n}\n",
-    "policy p for hsr {\n    if near(user) {\n        go(user)\n        place(mug_1, counter)\n    } else {\n        say(1)\n    }\n}\n",
-    r#"{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{"do": "go", "too": "usr"}, {"do": "pick", "object": "$mug"}]}"#,
+    "policy p for hsr achieves on(mug_1, counter) {\n    go(user)\n    pick(mug_1)\n    handover(mug_1, \
+     user)\n}\n",
+    "policy p for hsr {\n    go(kitchen_table)\n    let pose = locate(mug_1)\n    go(kitchen_table)\n    \
+     grasp(mug_1, pose)\n    done\n    say(\"x\")\n}\n",
+    "policy p for hsr {\n    if near(user) {\n        go(user)\n        place(mug_1, counter)\n    } else \
+     {\n        say(1)\n    }\n}\n",
+    concat!(
+        r#"{"motet": 1, "policy": "p", "robot": "hsr", "#,
+        r#""steps": [{"do": "go", "too": "usr"}, {"do": "pick", "object": "$mug"}]}"#
+    ),
     "{\"motet\": 1,",
 ];
 
@@ -30,10 +36,12 @@ fn said(name: &str) -> Vec<(Vec<Diagnostic>, Sources)> {
 }
 
 /// The part of SARIF 2.1.0 (OASIS Standard, sections 3.13 to 3.57) that is written: each object with the
-/// properties that the
-/// standard gives it and no other, and what it requires.
+/// properties that the standard gives it and no other, and what it requires.
 fn shape() -> Value {
-    let object = |required: &[&str], properties: Value| json!({"type": "object", "required": required, "properties": properties, "additionalProperties": false});
+    let object = |required: &[&str], properties: Value| {
+        json!({"type": "object", "required": required,
+        "properties": properties, "additionalProperties": false})
+    };
     let message = object(&[], json!({"text": {"type": "string"}, "markdown": {"type": "string"}}));
     let number = |least: u32| json!({"type": "integer", "minimum": least});
     let region = object(
@@ -47,8 +55,10 @@ fn shape() -> Value {
     let location = object(
         &["physicalLocation"],
         json!({
-            "physicalLocation": object(&["artifactLocation"], json!({"artifactLocation": artifact, "region": region})),
-            "logicalLocations": {"type": "array", "items": object(&[], json!({"fullyQualifiedName": {"type": "string"}, "kind": {"type": "string"}}))},
+            "physicalLocation": object(&["artifactLocation"], json!({"artifactLocation": artifact,
+                "region": region})),
+            "logicalLocations": {"type": "array", "items": object(&[],
+                json!({"fullyQualifiedName": {"type": "string"}, "kind": {"type": "string"}}))},
             "message": message,
         }),
     );
@@ -58,7 +68,8 @@ fn shape() -> Value {
     );
     let change = object(
         &["artifactLocation", "replacements"],
-        json!({"artifactLocation": artifact, "replacements": {"type": "array", "minItems": 1, "items": replacement}}),
+        json!({"artifactLocation": artifact, "replacements": {"type": "array", "minItems": 1,
+            "items": replacement}}),
     );
     let fix = object(
         &["artifactChanges"],
@@ -67,19 +78,23 @@ fn shape() -> Value {
     let result = object(
         &["message"],
         json!({
-            "ruleId": {"type": "string"}, "ruleIndex": number(0), "level": {"enum": ["none", "note", "warning", "error"]},
+            "ruleId": {"type": "string"}, "ruleIndex": number(0), "level": {"enum": ["none", "note",
+                "warning", "error"]},
             "message": {"type": "object", "required": ["text"]},
-            "locations": {"type": "array", "items": location}, "relatedLocations": {"type": "array", "items": location},
+            "locations": {"type": "array", "items": location}, "relatedLocations": {"type": "array",
+                "items": location},
             "fixes": {"type": "array", "uniqueItems": true, "items": fix},
         }),
     );
     let rule = object(
         &["id"],
-        json!({"id": {"type": "string"}, "shortDescription": message, "help": {"type": "object", "required": ["text"]}}),
+        json!({"id": {"type": "string"}, "shortDescription": message, "help": {"type": "object",
+            "required": ["text"]}}),
     );
     let driver = object(
         &["name"],
-        json!({"name": {"type": "string"}, "version": {"type": "string"}, "rules": {"type": "array", "uniqueItems": true, "items": rule}}),
+        json!({"name": {"type": "string"}, "version": {"type": "string"}, "rules": {"type": "array",
+            "uniqueItems": true, "items": rule}}),
     );
     let run = object(
         &["tool"],
@@ -91,7 +106,8 @@ fn shape() -> Value {
     );
     object(
         &["version", "runs"],
-        json!({"$schema": {"type": "string", "format": "uri"}, "version": {"const": "2.1.0"}, "runs": {"type": "array", "items": run}}),
+        json!({"$schema": {"type": "string", "format": "uri"}, "version": {"const": "2.1.0"},
+            "runs": {"type": "array", "items": run}}),
     )
 }
 
@@ -125,9 +141,12 @@ fn sentences_for_a_model_are_short_and_in_order() {
         "Step 1: there is no primitive or policy `goo`. Write `go`.\n\
          Step 2: `3` needs a unit: a `Duration` is expected. Write `3 s`.\n\
          Step 3: there is no `Object` `mug_11`. Write `mug_1`.\n",
-        "Step 2: `pick` needs `at(robot, mug_1) or at(robot, kitchen_table)`, which `go(user)` made false. Insert `go(mug_1)` before.\n\
-         The policy ends without `on(mug_1, counter)`, which `handover(mug_1, user)` made false. Add `pick(mug_1)`, `go(counter)`, `place(mug_1, counter)` at the end.\n\
-         Warning: Step 1: `go` moves to `user` while no monitor watches the distance. Put `monitor when distance(user) < 0.5 m for 200 ms then pause during { … }` around it.\n",
+        "Step 2: `pick` needs `at(robot, mug_1) or at(robot, kitchen_table)`, which `go(user)` made false. \
+         Insert `go(mug_1)` before.\n\
+         The policy ends without `on(mug_1, counter)`, which `handover(mug_1, user)` made false. \
+         Add `pick(mug_1)`, `go(counter)`, `place(mug_1, counter)` at the end.\n\
+         Warning: Step 1: `go` moves to `user` while no monitor watches the distance. \
+         Put `monitor when distance(user) < 0.5 m for 200 ms then pause during { … }` around it.\n",
     ];
     assert_eq!(texts.get(..2).unwrap(), expected);
 }

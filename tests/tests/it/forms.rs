@@ -36,7 +36,7 @@ fn turned(session: &Session, text: &str, form: Syntax) -> String {
 }
 
 #[test]
-fn both_forms_of_an_example_are_one_policy() {
+fn syntax_both_forms_of_an_example_are_one_policy() {
     for (path, robot, scene) in examples() {
         let (robot, scene) = (setup::robot(&robot), setup::scene(&scene));
         let mut sources = Sources::default();

@@ -8,7 +8,9 @@ use motet_compiler::{Session, Signatures};
 use motet_decode::export::{EbnfGrammar, Format, Header, ebnf, export};
 use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{Parsed, Severity, Source, Sources, Syntax};
-use motet_tests::notation::{Deriver, Notation, Random, derive_schema, read};
+use motet_tests::notation::{Deriver, Notation, derive_schema, read};
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::SeedableRng as _;
 use motet_tests::setup;
 
 /// Derivations of each combination of a robot and a subset.
@@ -92,7 +94,7 @@ fn walk(
 ) -> BTreeMap<String, usize> {
     let mut found = BTreeMap::new();
     let deriver = Deriver::new(grammar, BUDGET);
-    let mut random = Random(seed);
+    let mut random = SplitMix64::seed_from_u64(seed);
     for index in 0..count {
         let text = deriver.derive(&mut random);
         let parsed = check(session, &text, index % PROVEN == 0, &mut found);
@@ -130,7 +132,7 @@ fn what_a_grammar_generates_is_read_and_typed() {
             }
             let Some(schema) = export(Format::JsonSchema) else { continue };
             let schema = serde_json::from_str(&schema).unwrap();
-            let mut random = Random(at as u64);
+            let mut random = SplitMix64::seed_from_u64(at as u64);
             for index in 0..DERIVATIONS {
                 let text = derive_schema(&schema, BUDGET, &mut random);
                 check(session, &text, index % PROVEN == 0, &mut found);

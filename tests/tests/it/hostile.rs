@@ -24,19 +24,19 @@ fn json(steps: &str) -> String {
 }
 
 #[test]
-fn a_policy_of_as_many_steps_as_are_allowed_is_checked() {
+fn session_policy_of_as_many_steps_as_are_allowed_is_checked() {
     let steps = vec![r#"{"do": "say", "text": "x"}"#; 100_000].join(",");
     assert_eq!(codes(&json(&steps)), Vec::<String>::new());
 }
 
 #[test]
-fn one_step_more_is_refused_by_name() {
+fn session_one_step_more_is_refused_by_name() {
     let steps = vec![r#"{"do": "say", "text": "x"}"#; 100_001].join(",");
     assert_eq!(codes(&json(&steps)).len(), 1);
 }
 
 #[test]
-fn sub_policies_that_grow_beyond_the_limit_are_refused() {
+fn session_sub_policies_that_grow_beyond_the_limit_are_refused() {
     let mut text = String::from("policy p0(n: Text) { say(n) say(n) say(n) say(n) }\n");
     for level in 1..12 {
         let below = level - 1;
@@ -49,7 +49,7 @@ fn sub_policies_that_grow_beyond_the_limit_are_refused() {
 }
 
 #[test]
-fn loops_nested_too_deep_are_refused() {
+fn session_loops_nested_too_deep_are_refused() {
     let nested = |depth: usize| {
         let open = "repeat 2 { ".repeat(depth);
         format!("policy p {{ {open} say(\"x\") {} }}", "}".repeat(depth))
@@ -60,7 +60,7 @@ fn loops_nested_too_deep_are_refused() {
 }
 
 #[test]
-fn twenty_nested_branches_do_not_explode() {
+fn session_twenty_nested_branches_do_not_explode() {
     let depth = 20;
     let open = "if near(user) { go(user) ".repeat(depth);
     let close = "} else { say(\"x\") } ".repeat(depth);
@@ -68,7 +68,7 @@ fn twenty_nested_branches_do_not_explode() {
 }
 
 #[test]
-fn brackets_without_end_are_refused() {
+fn session_brackets_without_end_are_refused() {
     for bracket in ["[", "{\"if\":", "{\"not\":", "(", "not "] {
         let deep = bracket.repeat(100_000);
         assert!(!codes(&deep).is_empty(), "{bracket}");

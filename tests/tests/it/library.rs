@@ -19,12 +19,12 @@ fn check(robot: Option<&str>, scene: Option<&str>) {
 }
 
 #[test]
-fn the_standard_library_alone() {
+fn session_standard_library_alone() {
     check(None, None);
 }
 
 #[test]
-fn every_robot_in_every_scene() {
+fn session_every_robot_in_every_scene() {
     for robot in ["hsr", "anymal_z1", "panda"] {
         for scene in [None, Some("kitchen"), Some("living_room"), Some("lab")] {
             check(Some(robot), scene);
@@ -33,7 +33,7 @@ fn every_robot_in_every_scene() {
 }
 
 #[test]
-fn every_standard_policy_can_be_called_on_the_robots_that_walk_and_drive() {
+fn session_every_standard_policy_can_be_called_on_the_robots_that_walk_and_drive() {
     let calls = [
         ("wake_up() start_pose()", "fetch(\"red mug\")"),
         ("wake_up()", "put_away(mug_1, counter)"),
@@ -58,7 +58,7 @@ fn every_standard_policy_can_be_called_on_the_robots_that_walk_and_drive() {
 }
 
 #[test]
-fn a_session_elsewhere_is_a_new_one() {
+fn session_elsewhere_is_a_new_one() {
     let (robot, kitchen, lab) = (setup::robot("hsr"), setup::scene("kitchen"), setup::scene("lab"));
     let (base, _) = setup::session(Some(&robot), Some(&kitchen), &mut Sources::default());
     for scene in [&kitchen, &lab] {

@@ -46,21 +46,21 @@ fn reaches(scene: &str, goals: &[&str], facts: &[(&str, &[&str])]) {
 }
 
 #[test]
-fn goals_are_reached() {
+fn planner_goals_are_reached() {
     reaches("kitchen", &["at(coke, user)"], &[("at", &["coke", "user"])]);
     reaches("kitchen", &["on(mug_1, shelf)"], &[("on", &["mug_1", "shelf"])]);
     reaches("kitchen", &["in(sponge, drawer_1)"], &[("in", &["sponge", "drawer_1"])]);
 }
 
 #[test]
-fn a_thing_whose_name_others_have_too_is_looked_for_by_another() {
+fn planner_thing_whose_name_others_have_too_is_looked_for_by_another() {
     reaches("living_room", &["in(toy, drawer_1)"], &[("in", &["toy", "drawer_1"])]);
     let planned = plan("anymal_z1", "living_room", &["in(toy, drawer_1)"]).unwrap();
     assert!(planned.text.contains("\"toy car\""), "{}", planned.text);
 }
 
 #[test]
-fn goals_are_reached_one_after_the_other() {
+fn planner_goals_are_reached_one_after_the_other() {
     reaches(
         "kitchen",
         &["at(apple, user)", "in(bottle, trash)"],
@@ -69,14 +69,14 @@ fn goals_are_reached_one_after_the_other() {
 }
 
 #[test]
-fn what_a_plan_opens_it_closes() {
+fn planner_what_a_plan_opens_it_closes() {
     let text = plan("hsr", "kitchen", &["in(sponge, drawer_1)"]).unwrap().text;
     let (opened, closed) = (text.find("open(drawer_1)").unwrap(), text.find("close(drawer_1)").unwrap());
     assert!(opened < closed, "{text}");
 }
 
 #[test]
-fn what_cannot_be_reached_is_said_with_the_reason() {
+fn planner_what_cannot_be_reached_is_said_with_the_reason() {
     let why = |goal| match plan("hsr", "lab", &[goal]) {
         Err(PlanError::NoPlan(NoPlan::Unreachable { blocker, .. })) => blocker.unwrap_or_default(),
         other => panic!("{other:?}"),
@@ -88,7 +88,7 @@ fn what_cannot_be_reached_is_said_with_the_reason() {
 }
 
 #[test]
-fn wrong_goals_are_told_apart() {
+fn planner_wrong_goals_are_told_apart() {
     assert!(matches!(Goal::read("on(", Persistence::ToTheEnd), Err(NoPlan::NoCondition { .. })));
     let wrong = plan("hsr", "kitchen", &["on(mug_9, shelf)"]);
     assert!(matches!(wrong, Err(PlanError::NoPlan(NoPlan::Wrong { .. }))));

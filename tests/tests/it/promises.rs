@@ -1,6 +1,5 @@
 //! On top of a driver that loses, doubles, delays and swaps reports, refuses, and falls silent, the engine
-//! keeps its promises:
-//! nothing is started twice or beside what it conflicts with, and every run ends.
+//! keeps its promises: nothing is started twice or beside what it conflicts with, and every run ends.
 
 use motet_runtime::conformance::{EngineGuarantees, FaultRates, FaultyDriver};
 use motet_runtime::{Driver, Engine, RunEnd, StartState, Time, run};
@@ -27,7 +26,7 @@ fn graphs() -> Vec<motet_graph::Graph> {
 }
 
 #[test]
-fn on_any_driver_the_engine_keeps_its_promises() {
+fn engine_on_any_driver_the_engine_keeps_its_promises() {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
     let graphs = graphs();
     assert!(graphs.len() > 3, "{}", graphs.len());

@@ -25,7 +25,7 @@ fn write(session: &Session, robot: &Robot, situation: &RequestContext<'_>) -> Wr
 }
 
 #[test]
-fn the_examples_pass_the_check() {
+fn prompt_examples_pass_the_check() {
     let mut shown = 0;
     for robot in ["hsr", "anymal_z1"] {
         for scene in ["kitchen", "living_room", "lab"] {
@@ -48,7 +48,7 @@ fn the_examples_pass_the_check() {
 }
 
 #[test]
-fn a_room_is_told_as_it_is_believed_to_be() {
+fn prompt_room_is_told_as_it_is_believed_to_be() {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
     let session = setup::session(Some(&robot), Some(&scene), &mut Sources::default()).0;
     let moved = [("mug_1", Some("cupboard_1")), ("apple", None), ("user", None), ("plate", Some("shelf"))];

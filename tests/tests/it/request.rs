@@ -28,7 +28,7 @@ fn puzzles(scene: &str, request: &str) -> RequestError {
 }
 
 #[test]
-fn things_are_brought_put_and_thrown_away() {
+fn request_things_are_brought_put_and_thrown_away() {
     means("kitchen", "Bring me the coke.", &["at(coke, user)"]);
     means("kitchen", "could you please fetch the red mug for me", &["at(mug_1, user)"]);
     means("kitchen", "I'd like an apple, please", &["at(apple, user)"]);
@@ -43,7 +43,7 @@ fn things_are_brought_put_and_thrown_away() {
 }
 
 #[test]
-fn places_and_doors() {
+fn request_places_and_doors() {
     means("kitchen", "go to the kitchen table", &["at(robot, kitchen_table)"]);
     means("kitchen", "come here", &["at(robot, user)"]);
     means("kitchen", "open the fridge", &["open(fridge_1)"]);
@@ -57,7 +57,7 @@ fn places_and_doors() {
 }
 
 #[test]
-fn several_things_one_after_the_other() {
+fn request_several_things_one_after_the_other() {
     means("kitchen", "bring me the coke and the apple", &["at(coke, user)", "at(apple, user)"]);
     means(
         "kitchen",
@@ -74,7 +74,7 @@ fn several_things_one_after_the_other() {
 }
 
 #[test]
-fn what_a_thing_is_and_is_for() {
+fn request_what_a_thing_is_and_is_for() {
     means("kitchen", "bring me something to drink", &["at(bottle, user) or at(coke, user)"]);
     means("kitchen", "I spilled my drink, can you bring me something to clean it up?", &["at(sponge, user)"]);
     means("kitchen", "bring me a piece of fruit", &["at(apple, user)"]);
@@ -82,7 +82,7 @@ fn what_a_thing_is_and_is_for() {
 }
 
 #[test]
-fn what_is_asked_without_an_imperative() {
+fn request_what_is_asked_without_an_imperative() {
     means("kitchen", "I need the fridge open", &["open(fridge_1)"]);
     means("kitchen", "make sure that the top drawer is shut", &["not open(drawer_1)"]);
     means("kitchen", "I don't want the cupboard open", &["not open(cupboard_1)"]);
@@ -96,7 +96,7 @@ fn what_is_asked_without_an_imperative() {
 }
 
 #[test]
-fn pronouns_and_particles() {
+fn request_pronouns_and_particles() {
     means("kitchen", "go to the fridge and open it up", &["at(robot, fridge_1)", "open(fridge_1)"]);
     means("kitchen", "I don't need the apple any more, bin it", &["in(apple, trash)"]);
     means("living_room", "the water bottle is rubbish, throw it away", &["in(bottle_1, trash_bin)"]);
@@ -119,7 +119,7 @@ fn pronouns_and_particles() {
 }
 
 #[test]
-fn what_is_not_clear_is_asked() {
+fn request_what_is_not_clear_is_asked() {
     let ambiguous = |request| matches!(puzzles("kitchen", request), RequestError::AmbiguousReference { .. });
     assert!(ambiguous("bring me the mug"));
     assert!(matches!(puzzles("kitchen", "put the mug away"), RequestError::AmbiguousReference { .. }));
@@ -131,7 +131,7 @@ fn what_is_not_clear_is_asked() {
 }
 
 #[test]
-fn what_is_not_understood_is_said() {
+fn request_what_is_not_understood_is_said() {
     for request in [
         "",
         "wash the dishes",
@@ -169,7 +169,7 @@ fn asks(scene: &str, request: &str, asked: &str) {
 }
 
 #[test]
-fn where_a_thing_is_is_not_where_it_shall_go() {
+fn request_where_a_thing_is_is_not_where_it_shall_go() {
     means("living_room", "throw away the can on the coffee table", &["in(can, trash_bin)"]);
     means("living_room", "get rid of the cup on the low table", &["in(cup, trash_bin)"]);
     means("living_room", "throw the can on the coffee table in the bin", &["in(can, trash_bin)"]);
@@ -205,7 +205,7 @@ fn where_a_thing_is_is_not_where_it_shall_go() {
 }
 
 #[test]
-fn what_is_packed_is_told_by_what_it_is() {
+fn request_what_is_packed_is_told_by_what_it_is() {
     let not_found = |scene, request| matches!(puzzles(scene, request), RequestError::NotFound { .. });
     for request in
         ["bring me the green bottle", "get the blue bottle", "the red glass, please", "bring me the red can"]
@@ -222,7 +222,7 @@ fn what_is_packed_is_told_by_what_it_is() {
 }
 
 #[test]
-fn nothing_is_thrown_to_anybody() {
+fn request_nothing_is_thrown_to_anybody() {
     asks("kitchen", "throw the apple to me", "Shall I bring you the apple?");
     asks("living_room", "throw me the ball", "Shall I bring you the ball?");
     asks("living_room", "toss me the can", "Shall I bring you the can?");
@@ -237,7 +237,7 @@ fn nothing_is_thrown_to_anybody() {
 }
 
 #[test]
-fn what_shall_not_be_is_not_done() {
+fn request_what_shall_not_be_is_not_done() {
     not_understood(
         "lab",
         &[
@@ -252,7 +252,7 @@ fn what_shall_not_be_is_not_done() {
 }
 
 #[test]
-fn near_a_place_is_neither_on_nor_in_it() {
+fn request_near_a_place_is_neither_on_nor_in_it() {
     not_understood(
         "living_room",
         &[
@@ -274,7 +274,7 @@ fn near_a_place_is_neither_on_nor_in_it() {
 }
 
 #[test]
-fn what_is_known_and_does_not_fit_is_not_unknown() {
+fn request_what_is_known_and_does_not_fit_is_not_unknown() {
     let unfit = |scene: &str, request: &str, why: &str| {
         let puzzle = puzzles(scene, request);
         assert!(
@@ -314,7 +314,7 @@ fn tells(answer: &str, places: &[&str]) {
 }
 
 #[test]
-fn an_answer_tells_a_place_only_where_it_says_that_something_is_there() {
+fn request_answer_tells_a_place_only_where_it_says_that_something_is_there() {
     for answer in [
         "there is nothing in the fridge",
         "I looked in the fridge and it wasn't there",
@@ -341,7 +341,7 @@ fn an_answer_tells_a_place_only_where_it_says_that_something_is_there() {
 }
 
 #[test]
-fn what_is_said_beside_a_request_is_taken_in() {
+fn request_what_is_said_beside_a_request_is_taken_in() {
     let scene = setup::scene("kitchen");
     for request in [
         "the coke is in the fridge. bring it to me",
@@ -360,14 +360,14 @@ fn what_is_said_beside_a_request_is_taken_in() {
 }
 
 #[test]
-fn a_long_request_is_not_read() {
+fn request_long_request_is_not_read() {
     let long = "bring me the coke and ".repeat(5000);
     let why = puzzles("kitchen", &long).to_string();
     assert_eq!(why, "a request may have at most 4096 bytes; this one has 110000");
 }
 
 #[test]
-fn an_ordinary_word_is_no_slip() {
+fn request_ordinary_word_is_no_slip() {
     assert!(matches!(puzzles("kitchen", "bring me a cold drink"), RequestError::NotFound { .. }));
     assert!(matches!(puzzles("kitchen", "go charge"), RequestError::NotFound { .. }));
     means("kitchen", "bring me the appel", &["at(apple, user)"]);
@@ -378,7 +378,7 @@ fn an_ordinary_word_is_no_slip() {
 }
 
 #[test]
-fn what_cannot_hold_together_is_done_in_turn_or_named() {
+fn request_what_cannot_hold_together_is_done_in_turn_or_named() {
     let unfit = |scene: &str, request: &str, why: &str| assert_eq!(puzzles(scene, request).to_string(), why);
     means("kitchen", "close the drawer and open it", &["not open(drawer_1)", "open(drawer_1)"]);
     means(
@@ -404,7 +404,7 @@ fn what_cannot_hold_together_is_done_in_turn_or_named() {
 }
 
 #[test]
-fn a_thing_is_looked_for_where_it_is_taken_to_be() {
+fn request_thing_is_looked_for_where_it_is_taken_to_be() {
     means("kitchen", "find the coke", &["at(robot, counter)", "visible(coke)"]);
     means("living_room", "find the keys", &["at(robot, drawer_1)", "open(drawer_1)", "visible(keys)"]);
     means("living_room", "look for the ball in the basket", &["at(robot, basket)", "visible(ball)"]);
@@ -422,7 +422,7 @@ fn chooses(answer: &str, chosen: &[&str]) {
 }
 
 #[test]
-fn a_thing_goes_to_one_place_after_the_other_and_back_where_it_was() {
+fn request_thing_goes_to_one_place_after_the_other_and_back_where_it_was() {
     let scene = setup::scene("kitchen");
     let goals = |request: &str, situation: &RequestContext<'_>| {
         let understood = motet_requests::understand(request, situation)?;
@@ -460,7 +460,7 @@ fn a_thing_goes_to_one_place_after_the_other_and_back_where_it_was() {
 }
 
 #[test]
-fn left_and_right_are_taken_where_they_are_the_same_for_both() {
+fn request_left_and_right_are_taken_where_they_are_the_same_for_both() {
     let mut scene = setup::scene("kitchen");
     // Both mugs on one table, at a distance ahead of the robot, which looks along x from the origin.
     for (id, side) in [("mug_1", 0.3), ("mug_2", -0.3)] {
@@ -481,7 +481,7 @@ fn left_and_right_are_taken_where_they_are_the_same_for_both() {
 }
 
 #[test]
-fn one_is_chosen_in_many_ways_or_none() {
+fn request_one_is_chosen_in_many_ways_or_none() {
     for (answer, chosen) in [
         ("the red one", "mug_1"),
         ("the blue one, please", "mug_2"),

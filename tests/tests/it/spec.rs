@@ -74,11 +74,11 @@ fn is_intent(code: &str) -> bool {
 }
 
 #[test]
-fn the_prover() {
+fn spec_prover() {
     check(include_str!("../../spec/prover.md"), |code| !is_intent(code));
 }
 
 #[test]
-fn lints_of_intent() {
+fn spec_lints_of_intent() {
     check(include_str!("../../spec/intent.md"), is_intent);
 }

@@ -8,7 +8,7 @@ use motet_sim::{Sim, SimOptions};
 use motet_tests::setup;
 
 #[test]
-fn the_simulator_s_eyes_keep_the_laws() {
+fn vision_simulator_s_eyes_keep_the_laws() {
     let mut sim = Sim::new(&setup::robot("hsr"), &setup::scene("kitchen"), SimOptions::default());
     let _ = sim.advance(Time::from_secs(1.0));
     assert_eq!(
@@ -22,7 +22,7 @@ fn the_simulator_s_eyes_keep_the_laws() {
 }
 
 #[test]
-fn detections_bring_a_scene_up_to_date() {
+fn vision_detections_bring_a_scene_up_to_date() {
     let scene = setup::scene("kitchen");
     let seen = |entity: Option<&str>, class: &str, confidence| Detection {
         entity: entity.map(Into::into),
@@ -67,7 +67,7 @@ fn depth() -> DepthImage {
 }
 
 #[test]
-fn a_point_is_lifted_along_its_ray() {
+fn vision_point_is_lifted_along_its_ray() {
     let close = |found: [f64; 3], wanted: [f64; 3]| {
         let off = found.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(off < 1e-9, "{found:?} {wanted:?}");
@@ -84,7 +84,7 @@ fn a_point_is_lifted_along_its_ray() {
 }
 
 #[test]
-fn answers_are_read_however_they_come() {
+fn vision_answers_are_read_however_they_come() {
     assert_eq!(point("{\"point\": [12, 34.5]}"), Ok([12.0, 34.5]));
     assert_eq!(point("Sure! ```json\n{\"point\":[1,2]}\n``` It is {the} handle."), Ok([1.0, 2.0]));
     for hostile in [
@@ -105,13 +105,13 @@ fn answers_are_read_however_they_come() {
 }
 
 #[test]
-fn several_points_are_no_answer() {
+fn vision_several_points_are_no_answer() {
     assert_eq!(point("{\"point\": [1, 2]} {\"point\": [3, 4]}"), Err(NoPoint::Several));
     assert_eq!(NoPoint::Several.failure(), "ambiguous");
 }
 
 #[test]
-fn a_model_is_asked_for_the_point() {
+fn vision_model_is_asked_for_the_point() {
     struct Says(Result<&'static str, &'static str>);
     impl Pointer for Says {
         fn ask(&mut self, _image: &CameraImage, question: &str) -> Result<String, String> {

@@ -1,9 +1,8 @@
 //! Conditions and terms, judged against what is believed.
 
 use super::cells::{Beliefs, CellId};
-use crate::query::{Answer, Pattern, Query};
+use crate::query::{Answer, Pattern, Query, Truth};
 use crate::time::Time;
-use crate::truth::Truth;
 use crate::verifier::derived;
 use motet_graph::{Arithmetic, Comparison, Condition, Fact, FactArg, Graph, Term, Value};
 

@@ -4,9 +4,8 @@
 //! wins. A cell that has `any` itself says whether some entity fits.
 
 use super::cells::{Beliefs, CellId, PatternWrite};
-use crate::query::{Answer, Pattern};
+use crate::query::{Answer, Pattern, Truth};
 use crate::time::Time;
-use crate::truth::Truth;
 use smol_str::SmolStr;
 
 /// A change of what is believed, worked out before any change is made.

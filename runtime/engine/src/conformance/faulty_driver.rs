@@ -6,9 +6,19 @@ use crate::event::DriverEvent;
 use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use smol_str::SmolStr;
 
 /// Rates of injected faults, each in cases per 1,000.
+///
+/// ```
+/// use motet_runtime::conformance::FaultRates;
+///
+/// // One report in ten is lost; everything else goes well.
+/// let rates = FaultRates { loses: 100, ..FaultRates::default() };
+/// assert_eq!(rates.doubles, 0);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct FaultRates {
     /// A report is lost.
@@ -43,7 +53,7 @@ pub struct FaultRates {
 pub struct FaultyDriver<D> {
     inner: D,
     mischief: FaultRates,
-    dice: u64,
+    dice: SplitMix64,
     is_silent: bool,
     queue: Vec<(Time, DriverEvent)>,
     forgotten: Vec<GoalId>,
@@ -51,21 +61,14 @@ pub struct FaultyDriver<D> {
 
 impl<D: Driver> FaultyDriver<D> {
     /// Around a driver.
-    pub const fn new(inner: D, mischief: FaultRates, seed: u64) -> Self {
-        Self { inner, mischief, dice: seed, is_silent: false, queue: Vec::new(), forgotten: Vec::new() }
+    pub fn new(inner: D, mischief: FaultRates, seed: u64) -> Self {
+        let dice = SplitMix64::seed_from_u64(seed);
+        Self { inner, mischief, dice, is_silent: false, queue: Vec::new(), forgotten: Vec::new() }
     }
 
     /// True if something happens that does in so many of 1,000 cases.
     fn happens(&mut self, permille: u32) -> bool {
-        permille > 0 && self.roll() % 1_000 < u64::from(permille)
-    }
-
-    /// The next number of `SplitMix64` (Steele, Lea and Flood 2014).
-    const fn roll(&mut self) -> u64 {
-        self.dice = self.dice.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mixed = (self.dice ^ (self.dice >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        mixed ^ (mixed >> 31)
+        permille > 0 && self.dice.next_u64() % 1_000 < u64::from(permille)
     }
 
     /// True if a command reaches the driver within.
@@ -82,7 +85,7 @@ impl<D: Driver> FaultyDriver<D> {
         }
         let mut at = at;
         if self.happens(self.mischief.delays) {
-            at = at.after(Time::from_nanos(self.roll() % self.mischief.late.nanos().max(1)));
+            at = at.after(Time::from_nanos(self.dice.next_u64() % self.mischief.late.nanos().max(1)));
         }
         if self.happens(self.mischief.backwards) {
             at = Time::from_nanos(at.nanos() / 2);

@@ -5,15 +5,12 @@
 //! refuses, and falls silent. [`EngineGuarantees`] looks on while an engine runs and tells where it breaks
 //! what it promises, whatever its driver does. [`perception`] checks the laws of [`crate::Perception`].
 
-mod driver_bench;
 mod driver_laws;
 mod faulty_driver;
 mod guarantees;
 mod law;
-mod perception_laws;
 
 pub use driver_laws::{ConformanceSubject, check};
 pub use faulty_driver::{FaultRates, FaultyDriver};
 pub use guarantees::EngineGuarantees;
-pub use law::{Law, LawViolation};
-pub use perception_laws::check_perception;
+pub use law::{Law, LawViolation, check_perception};

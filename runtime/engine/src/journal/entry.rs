@@ -3,8 +3,7 @@
 use crate::driver::Capabilities;
 use crate::effect::Effect;
 use crate::event::Event;
-use crate::settings::EngineSettings;
-use crate::start::StartState;
+use crate::start::{EngineSettings, StartState};
 use crate::time::Time;
 use motet_graph::GraphDocument;
 use schemars::JsonSchema;

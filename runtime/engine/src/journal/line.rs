@@ -1,7 +1,10 @@
-//! One line: checksum, sequence number, hash of the line before, entry.
+//! Lines of a journal: an entry as JSON behind a checksum, with its number and the hash of the line before.
 
-use super::crc;
-use super::entry::JournalEntry;
+use super::entry::{JournalEntry, JournalHead, StepEntry, SwapEntry};
+use crate::effect::Effect;
+use crate::event::Event;
+use crate::time::Time;
+use motet_graph::Graph;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -43,7 +46,7 @@ pub(super) fn encode(body: &Body) -> String {
     let json = crate::json::to_json(body);
     let mut line = String::with_capacity(json.len() + CRC_DIGITS + 2);
     // Writing to a string does not fail.
-    let _ = write!(line, "{:08x} ", crc::of(json.as_bytes()));
+    let _ = write!(line, "{:08x} ", crc32fast::hash(json.as_bytes()));
     line.push_str(&json);
     line
 }
@@ -67,7 +70,7 @@ fn checked(line: &[u8]) -> Result<&[u8], LineError> {
     let is_hex = digits.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte));
     let stated = u32::from_str_radix(digits, 16).ok().filter(|_| is_hex).ok_or(LineError::NoChecksum)?;
     let json = rest.strip_prefix(b" ").ok_or(LineError::NoChecksum)?;
-    let actual = crc::of(json);
+    let actual = crc32fast::hash(json);
     if stated == actual { Ok(json) } else { Err(LineError::Checksum { stated, actual }) }
 }
 
@@ -79,4 +82,81 @@ pub(super) fn hash(line: &[u8]) -> String {
         let _ = write!(text, "{byte:02x}");
     }
     text
+}
+
+/// Numbers lines and links each to the one before.
+///
+/// ```
+/// use motet_runtime::journal::{LineChain, decode};
+/// use motet_runtime::{Event, Time};
+///
+/// let mut chain = LineChain::default();
+/// let first = chain.step(Time::ZERO, &Event::Begin, &[]);
+/// let second = chain.step(Time::from_secs(1.0), &Event::Tick, &[]);
+/// assert_eq!(decode(first.trim_end().as_bytes())?.0, 0);
+/// assert_eq!(decode(second.trim_end().as_bytes())?.0, 1);
+/// // A line whose bytes were changed is refused.
+/// assert!(decode(second.trim_end().replace("tick", "stop").as_bytes()).is_err());
+/// # Ok::<(), motet_runtime::journal::LineError>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct LineChain {
+    seq: u64,
+    prev: String,
+}
+
+impl Default for LineChain {
+    /// Before the first line.
+    fn default() -> Self {
+        Self { seq: 0, prev: hash(b"") }
+    }
+}
+
+impl LineChain {
+    /// The number that the next line gets.
+    #[must_use]
+    pub const fn next_seq(&self) -> u64 {
+        self.seq
+    }
+
+    /// The hash of the last line.
+    pub(super) fn prev(&self) -> &str {
+        &self.prev
+    }
+
+    /// A line was added.
+    pub(super) fn advance(&mut self, line: &[u8]) {
+        self.seq += 1;
+        self.prev = hash(line);
+    }
+
+    /// The line of an entry, with its line feed.
+    pub fn line(&mut self, entry: JournalEntry) -> String {
+        let body = Body { seq: self.seq, prev: std::mem::take(&mut self.prev), entry };
+        let mut line = encode(&body);
+        self.advance(line.as_bytes());
+        line.push('\n');
+        line
+    }
+
+    /// The first line.
+    pub fn head(&mut self, head: JournalHead) -> String {
+        self.line(JournalEntry::Head(Box::new(head)))
+    }
+
+    /// The line of an event with its effects.
+    pub fn step(&mut self, at: Time, event: &Event, effects: &[Effect]) -> String {
+        self.line(JournalEntry::Step(StepEntry { at, event: Some(event.clone()), effects: effects.to_vec() }))
+    }
+
+    /// The line of giving up.
+    pub fn gave_up(&mut self, at: Time, effects: &[Effect]) -> String {
+        self.line(JournalEntry::GaveUp(StepEntry { at, event: None, effects: effects.to_vec() }))
+    }
+
+    /// The line of a new policy.
+    pub fn swap(&mut self, at: Time, graph: &Graph, effects: &[Effect]) -> String {
+        let graph = motet_graph::encode::document(graph);
+        self.line(JournalEntry::Swap(Box::new(SwapEntry { at, graph, effects: effects.to_vec() })))
+    }
 }

@@ -11,22 +11,15 @@
 //! they are synced are the host's affair. An entry has to be on disk before its effects are carried out where
 //! [`must_be_durable`] says so; then a crash loses nothing that anybody acted on.
 
-mod chain;
-mod crc;
-mod driver_replay;
-mod engine_replay;
 mod entry;
 mod line;
-mod open_goals;
 mod read;
+mod replay;
 
-pub use chain::LineChain;
-pub use driver_replay::{DriverReplay, ReplayMismatch};
-pub use engine_replay::{EffectMismatch, EngineReplay, ReplayError};
 pub use entry::{JournalEntry, JournalHead, ResumeEntry, StepEntry, SwapEntry};
-pub use line::{LineError, decode};
-pub use open_goals::{OpenGoal, OpenGoals};
-pub use read::{DamageKind, JournalDamage, JournalReader, SegmentEnd, SegmentPosition};
+pub use line::{LineChain, LineError, decode};
+pub use read::{DamageKind, JournalDamage, JournalReader, OpenGoal, OpenGoals, SegmentEnd, SegmentPosition};
+pub use replay::{DriverReplay, EffectMismatch, EngineReplay, ReplayError, ReplayMismatch};
 
 use crate::effect::Effect;
 

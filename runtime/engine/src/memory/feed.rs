@@ -1,7 +1,6 @@
 //! Feeding a memory with the events that go into an engine and the effects that come out.
 
-use super::entry::{MemoryEvent, StepEnd};
-use super::store::Memory;
+use super::store::{Memory, MemoryEvent, OpenStep, StepEnd};
 use crate::effect::{Command, Effect, RunEnd};
 use crate::event::{DriverEvent, Event, Outcome};
 use crate::ids::GoalId;
@@ -9,23 +8,6 @@ use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
 use std::sync::Arc;
-
-/// A goal that has not ended.
-#[derive(Clone, PartialEq, Debug)]
-pub(super) struct OpenStep {
-    /// The policy that it is a step of.
-    revision: u32,
-    pub(super) node: NodeId,
-    pub(super) call: String,
-    pub(super) path: String,
-    pub(super) since: Time,
-    /// Question to a person, for primitives that ask one.
-    question: Option<String>,
-    /// Result that the driver reported.
-    result: Option<Value>,
-    /// The failure that the driver named.
-    kind: Option<String>,
-}
 
 impl Memory {
     /// A policy is about to run as this revision. Call it before the first event, and before the effects of a

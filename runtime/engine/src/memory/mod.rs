@@ -16,11 +16,9 @@
 //! assert_eq!(memory.short().to_string(), "request: bring me the red mug\n");
 //! ```
 
-mod entry;
 mod feed;
 mod store;
 mod views;
 
-pub use entry::{MemoryEntry, MemoryEvent, RunningStep, StepEnd};
-pub use store::{DroppedCounts, Memory, MemoryLimits};
+pub use store::{DroppedCounts, Memory, MemoryEntry, MemoryEvent, MemoryLimits, RunningStep, StepEnd};
 pub use views::{FullMemory, ShortHistory, WorkingMemory};

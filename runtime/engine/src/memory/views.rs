@@ -1,7 +1,6 @@
 //! Views of a memory. Each view is data for a program and, by `Display`, lines for a prompt.
 
-use super::entry::{MemoryEntry, MemoryEvent, RunningStep};
-use super::store::{DroppedCounts, Memory};
+use super::store::{DroppedCounts, Memory, MemoryEntry, MemoryEvent, RunningStep};
 use crate::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -2,13 +2,12 @@
 
 use super::Turn;
 use crate::belief::Freshness;
-use crate::effect::{Command, Effect};
+use crate::effect::{Command, DeferredMotion, Effect};
 use crate::prepared_graph::PreparedNode;
-use crate::state::{GoalIntent, NodeExit, Phase};
+use crate::query::Truth;
+use crate::schedule::{NodeExit, Transition};
+use crate::state::{GoalIntent, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
-use crate::truth::Truth;
-use crate::verifier::DeferredMotion;
-use crate::work_list::Transition;
 use motet_graph::{FailureId, NodeId, Term, Value, Verdict};
 use smol_str::SmolStr;
 use std::sync::Arc;

@@ -2,9 +2,8 @@
 
 use super::Turn;
 use crate::belief::{BeliefChange, Beliefs, Evaluator, Freshness, OfKind};
-use crate::query::Pattern;
+use crate::query::{Pattern, Truth};
 use crate::time::Time;
-use crate::truth::Truth;
 use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, KindId, Need, NodeId, Term, Value};
 use smol_str::SmolStr;
 

@@ -5,9 +5,9 @@ use crate::effect::{Effect, Fault};
 use crate::event::{DriverEvent, Outcome};
 use crate::ids::GoalId;
 use crate::query::{Answer, Query};
-use crate::state::{GoalIntent, NodeExit, Phase};
+use crate::schedule::{NodeExit, Transition};
+use crate::state::{GoalIntent, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
-use crate::work_list::Transition;
 use motet_graph::{FailureId, NodeId, TIMEOUT, Value};
 
 impl Turn<'_> {

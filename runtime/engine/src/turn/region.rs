@@ -1,9 +1,9 @@
 //! Control: entering regions and steps, and what follows when they end.
 
 use super::Turn;
-use crate::state::{AfterStop, NodeExit, Phase};
+use crate::schedule::{NodeExit, Transition};
+use crate::state::{AfterStop, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
-use crate::work_list::Transition;
 use motet_graph::{Ending, NodeId, NodeKind, RegionId};
 
 impl Turn<'_> {

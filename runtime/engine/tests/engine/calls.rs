@@ -7,20 +7,19 @@ use crate::script::Feed::{
 };
 use crate::script::{at, entity, holding, holding_any};
 use motet_graph::Value;
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{CallSketch, StepSketch};
+use motet_graph::arbitrary::{CallSketch, StepSketch, vocabulary as v};
 
 fn pick(object: &str) -> CallSketch {
     CallSketch::new(v::PICK, vec![v::entity(object)])
 }
 
 #[test]
-fn an_empty_policy_is_done() {
+fn call_empty_policy_is_done() {
     check!([], []);
 }
 
 #[test]
-fn one_call_after_the_other() {
+fn call_one_call_after_the_other() {
     check!(
         [StepSketch::go("table"), StepSketch::say("there")],
         [(0.1, Ack(1)), (2.0, Done(1)), (2.0, Ack(2)), (3.0, Done(2))]
@@ -28,12 +27,12 @@ fn one_call_after_the_other() {
 }
 
 #[test]
-fn an_end_without_an_acknowledgement_counts() {
+fn call_end_without_an_acknowledgement_counts() {
     check!([StepSketch::go("table")], [(2.0, Done(1))]);
 }
 
 #[test]
-fn a_failure_that_nothing_catches_ends_the_policy() {
+fn call_failure_that_nothing_catches_ends_the_policy() {
     check!(
         [StepSketch::go("table"), StepSketch::say("there")],
         [(0.1, Ack(1)), (2.0, Fails(1, "unreachable"))]
@@ -41,23 +40,23 @@ fn a_failure_that_nothing_catches_ends_the_policy() {
 }
 
 #[test]
-fn a_refusal_is_a_failure() {
+fn call_refusal_is_a_failure() {
     check!([StepSketch::go("table")], [(0.1, Refused(1, "unsafe"))]);
 }
 
 #[test]
-fn retries_start_new_goals() {
+fn call_retries_start_new_goals() {
     let go = CallSketch::new(v::GO, vec![v::entity("table")]).retry(1);
     check!([StepSketch::Call(go)], [(1.0, Fails(1, "unreachable")), (2.0, Fails(2, "unreachable"))]);
 }
 
 #[test]
-fn a_deadline_cancels_and_is_a_timeout() {
+fn call_deadline_cancels_and_is_a_timeout() {
     check!([StepSketch::go("table")], [(0.1, Ack(1)), (10.0, Tick), (10.2, Interrupted(1))]);
 }
 
 #[test]
-fn success_after_the_cancel_is_respected() {
+fn call_success_after_the_cancel_is_respected() {
     check!(
         [StepSketch::go("table"), StepSketch::say("there")],
         [(0.1, Ack(1)), (10.0, Tick), (10.2, Done(1))]
@@ -65,27 +64,27 @@ fn success_after_the_cancel_is_respected() {
 }
 
 #[test]
-fn a_cancel_waits_for_the_acknowledgement() {
+fn call_cancel_waits_for_the_acknowledgement() {
     check!([StepSketch::go("table")], [(10.0, Tick), (10.1, Ack(1)), (10.2, Interrupted(1))]);
 }
 
 #[test]
-fn an_unanswered_cancel_becomes_a_safe_stop() {
+fn call_unanswered_cancel_becomes_a_safe_stop() {
     check!([StepSketch::go("table")], [(0.1, Ack(1)), (10.0, Tick), (15.0, Tick), (16.0, Stopped(1))]);
 }
 
 #[test]
-fn an_unanswered_safe_stop_is_a_fault() {
+fn call_unanswered_safe_stop_is_a_fault() {
     check!([StepSketch::go("table")], [(0.1, Ack(1)), (10.0, Tick), (15.0, Tick), (20.0, Tick)]);
 }
 
 #[test]
-fn a_late_tick_makes_up_for_what_was_due() {
+fn call_late_tick_makes_up_for_what_was_due() {
     check!([StepSketch::go("table")], [(0.1, Ack(1)), (60.0, Tick)]);
 }
 
 #[test]
-fn a_person_stops() {
+fn call_person_stops() {
     check!(
         [StepSketch::go("table"), StepSketch::say("there")],
         [(0.1, Ack(1)), (1.0, Stop), (1.5, Interrupted(1))]
@@ -93,7 +92,7 @@ fn a_person_stops() {
 }
 
 #[test]
-fn an_interruption_by_the_driver_is_not_retried() {
+fn call_interruption_by_the_driver_is_not_retried() {
     let go = CallSketch::new(v::GO, vec![v::entity("table")]).retry(3);
     check!(
         [StepSketch::Try(vec![StepSketch::Call(go)], vec![(None, vec![])])],
@@ -102,7 +101,7 @@ fn an_interruption_by_the_driver_is_not_retried() {
 }
 
 #[test]
-fn a_result_is_bound_and_used() {
+fn call_result_is_bound_and_used() {
     let place = CallSketch::new(v::PLACE, vec![CallSketch::NEAREST, v::entity("table")]).proven();
     check!(
         [StepSketch::detect("mug"), StepSketch::Call(place)],
@@ -111,22 +110,22 @@ fn a_result_is_bound_and_used() {
 }
 
 #[test]
-fn a_result_of_the_wrong_type_is_a_failure() {
+fn call_result_of_the_wrong_type_is_a_failure() {
     check!([StepSketch::detect("mug")], [(1.0, Gives(1, Value::Int(3)))]);
 }
 
 #[test]
-fn a_guard_that_is_known_to_hold_needs_no_observation() {
+fn call_guard_that_is_known_to_hold_needs_no_observation() {
     check!([StepSketch::Call(pick("mug"))], [(1.0, Done(1))]);
 }
 
 #[test]
-fn a_guard_that_is_known_not_to_hold_refuses() {
+fn call_guard_that_is_known_not_to_hold_refuses() {
     check!([StepSketch::Call(pick("mug").proven()), StepSketch::Call(pick("cup"))], [(1.0, Done(1))]);
 }
 
 #[test]
-fn a_guard_that_is_unknown_is_observed() {
+fn call_guard_that_is_unknown_is_observed() {
     check!(
         [StepSketch::Call(pick("mug").retry(1))],
         [(1.0, Fails(1, "not_found")), (1.1, holding_any(false))]
@@ -134,7 +133,7 @@ fn a_guard_that_is_unknown_is_observed() {
 }
 
 #[test]
-fn a_retry_looks_again_at_a_guard_that_refused() {
+fn call_retry_looks_again_at_a_guard_that_refused() {
     check!(
         [StepSketch::Call(pick("mug").proven()), StepSketch::Call(pick("cup").retry(1))],
         [(1.0, Done(1)), (1.1, holding_any(false)), (2.0, Done(2)),]
@@ -151,7 +150,7 @@ fn place_after_failed_pick() -> [StepSketch; 1] {
 }
 
 #[test]
-fn a_guard_that_is_seen_to_hold() {
+fn call_guard_that_is_seen_to_hold() {
     check!(
         place_after_failed_pick(),
         [(1.0, Fails(1, "not_found")), (1.1, holding("mug", true)), (2.0, Done(2))]
@@ -159,17 +158,17 @@ fn a_guard_that_is_seen_to_hold() {
 }
 
 #[test]
-fn a_guard_that_stays_unknown_refuses() {
+fn call_guard_that_stays_unknown_refuses() {
     check!(place_after_failed_pick(), [(1.0, Fails(1, "not_found")), (1.1, holding("mug", None))]);
 }
 
 #[test]
-fn time_to_observe_is_bounded() {
+fn call_time_to_observe_is_bounded() {
     check!(place_after_failed_pick(), [(1.0, Fails(1, "not_found")), (1.5, Tick)]);
 }
 
 #[test]
-fn events_about_ended_goals_are_ignored() {
+fn call_events_about_ended_goals_are_ignored() {
     check!(
         [StepSketch::go("table"), StepSketch::say("a")],
         [(1.0, Done(1)), (1.1, Done(1)), (1.2, Ack(1)), (1.3, NotHeld(1))]
@@ -177,12 +176,12 @@ fn events_about_ended_goals_are_ignored() {
 }
 
 #[test]
-fn what_is_seen_in_passing_is_believed() {
+fn call_what_is_seen_in_passing_is_believed() {
     check!([StepSketch::Call(pick("mug"))], [(0.5, at("table", true)), (1.0, Done(1))]);
 }
 
 #[test]
-fn a_lost_goal_is_stopped_safely_and_fails() {
+fn call_lost_goal_is_stopped_safely_and_fails() {
     let go = CallSketch::new(v::GO, vec![v::entity("table")]).retry(1);
     check!(
         [StepSketch::Call(go)],
@@ -191,12 +190,12 @@ fn a_lost_goal_is_stopped_safely_and_fails() {
 }
 
 #[test]
-fn a_lost_driver_loses_every_goal() {
+fn call_lost_driver_loses_every_goal() {
     let both = StepSketch::Parallel(vec![vec![StepSketch::go("table")], vec![StepSketch::detect("mug")]]);
     check!([both], [(0.1, Ack(1)), (1.0, DriverLost), (1.5, Stopped(2)), (1.6, Stopped(1))]);
 }
 
 #[test]
-fn the_end_of_a_lost_goal_counts() {
+fn call_end_of_a_lost_goal_counts() {
     check!([StepSketch::go("table")], [(1.0, Lost(1)), (1.5, Done(1))]);
 }

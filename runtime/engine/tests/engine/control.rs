@@ -3,8 +3,7 @@
 use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Tick};
 use crate::script::{distance, entity, holding};
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{CallSketch, StepSketch};
+use motet_graph::arbitrary::{CallSketch, StepSketch, vocabulary as v};
 use motet_graph::{Condition, Ending, Fact, FactArg, Term, Value};
 use motet_runtime::{Effect, Engine, EngineSettings, Event, Fault, RunEnd, StartState, Time};
 
@@ -17,7 +16,7 @@ fn trusted() -> Condition {
 }
 
 #[test]
-fn groups_nest() {
+fn control_groups_nest() {
     check!(
         [StepSketch::Sequence(vec![StepSketch::Sequence(vec![StepSketch::say("a")]), StepSketch::say("b")])],
         [(1.0, Done(1)), (2.0, Done(2)),]
@@ -25,12 +24,12 @@ fn groups_nest() {
 }
 
 #[test]
-fn done_ends_the_policy() {
+fn control_done_ends_the_policy() {
     check!([StepSketch::Sequence(vec![StepSketch::End(Ending::Done), StepSketch::say("never")])], []);
 }
 
 #[test]
-fn fail_ends_the_policy() {
+fn control_fail_ends_the_policy() {
     check!(
         [StepSketch::Try(vec![StepSketch::End(Ending::Fail)], vec![(None, vec![StepSketch::say("never")])])],
         []
@@ -38,12 +37,12 @@ fn fail_ends_the_policy() {
 }
 
 #[test]
-fn replan_ends_the_policy() {
+fn control_replan_ends_the_policy() {
     check!([StepSketch::Inline(vec![StepSketch::End(Ending::Replan)]), StepSketch::say("never")], []);
 }
 
 #[test]
-fn done_ends_a_sub_policy() {
+fn control_done_ends_a_sub_policy() {
     check!(
         [
             StepSketch::Inline(vec![StepSketch::Sequence(vec![
@@ -57,7 +56,7 @@ fn done_ends_a_sub_policy() {
 }
 
 #[test]
-fn fail_fails_a_sub_policy() {
+fn control_fail_fails_a_sub_policy() {
     let part = StepSketch::Inline(vec![StepSketch::End(Ending::Fail)]);
     check!(
         [StepSketch::Try(vec![part], vec![(Some(vec![v::FAILED]), vec![StepSketch::say("caught")])])],
@@ -66,7 +65,7 @@ fn fail_fails_a_sub_policy() {
 }
 
 #[test]
-fn done_in_a_branch_waits_for_the_other() {
+fn control_done_in_a_branch_waits_for_the_other() {
     let part = StepSketch::Inline(vec![StepSketch::Parallel(vec![
         vec![StepSketch::go("table")],
         vec![StepSketch::say("a"), StepSketch::End(Ending::Done)],
@@ -75,7 +74,7 @@ fn done_in_a_branch_waits_for_the_other() {
 }
 
 #[test]
-fn a_known_condition_is_tested_at_once() {
+fn control_known_condition_is_tested_at_once() {
     check!(
         [StepSketch::If(held("mug"), vec![StepSketch::say("yes")], Some(vec![StepSketch::say("no")]))],
         []
@@ -83,7 +82,7 @@ fn a_known_condition_is_tested_at_once() {
 }
 
 #[test]
-fn an_unknown_condition_is_observed_first() {
+fn control_unknown_condition_is_observed_first() {
     let near = StepSketch::If(
         v::nearer("user", 1.0),
         vec![StepSketch::say("yes")],
@@ -93,12 +92,12 @@ fn an_unknown_condition_is_observed_first() {
 }
 
 #[test]
-fn a_condition_that_stays_unknown_counts_as_false() {
+fn control_condition_that_stays_unknown_counts_as_false() {
     check!([StepSketch::If(v::nearer("user", 1.0), vec![StepSketch::say("yes")], None)], [(0.5, Tick)]);
 }
 
 #[test]
-fn a_reading_that_is_no_number_counts_as_unknown() {
+fn control_reading_that_is_no_number_counts_as_unknown() {
     check!(
         [StepSketch::If(v::nearer("user", 1.0), vec![], Some(vec![StepSketch::say("no")]))],
         [(0.1, distance(f64::NAN))]
@@ -106,33 +105,33 @@ fn a_reading_that_is_no_number_counts_as_unknown() {
 }
 
 #[test]
-fn what_nobody_can_observe_counts_as_false_at_once() {
+fn control_what_nobody_can_observe_counts_as_false_at_once() {
     check!([StepSketch::If(trusted(), vec![], Some(vec![StepSketch::say("no")]))], []);
 }
 
 #[test]
-fn an_old_reading_does_not_count() {
+fn control_old_reading_does_not_count() {
     let near = || StepSketch::If(v::nearer("user", 1.0), vec![StepSketch::say("near")], None);
     check!([near(), near()], [(0.1, distance(0.4)), (5.0, Done(1)), (5.1, distance(2.0))]);
 }
 
 #[test]
-fn a_wait_ends_when_its_condition_holds() {
+fn control_wait_ends_when_its_condition_holds() {
     check!([StepSketch::Wait(v::nearer("user", 1.0), 10.0)], [(0.1, distance(3.0)), (2.0, distance(0.9))]);
 }
 
 #[test]
-fn a_wait_for_what_holds_is_over_at_once() {
+fn control_wait_for_what_holds_is_over_at_once() {
     check!([StepSketch::Wait(Condition::Not(Box::new(held("mug"))), 10.0)], []);
 }
 
 #[test]
-fn a_wait_times_out() {
+fn control_wait_times_out() {
     check!([StepSketch::Wait(held("mug"), 10.0)], [(0.1, holding("mug", false)), (10.0, Tick)]);
 }
 
 #[test]
-fn the_first_handler_that_fits_wins() {
+fn control_first_handler_that_fits_wins() {
     let handlers = vec![
         (Some(vec![v::NOT_FOUND]), vec![StepSketch::say("not this")]),
         (Some(vec![v::UNREACHABLE, v::TIMEOUT]), vec![StepSketch::say("this")]),
@@ -148,7 +147,7 @@ fn the_first_handler_that_fits_wins() {
 }
 
 #[test]
-fn a_failure_without_a_handler_goes_on_upwards() {
+fn control_failure_without_a_handler_goes_on_upwards() {
     let inner = StepSketch::Try(vec![StepSketch::go("table")], vec![(Some(vec![v::NOT_FOUND]), vec![])]);
     check!(
         [StepSketch::Try(vec![inner], vec![(None, vec![StepSketch::say("caught")])])],
@@ -157,7 +156,7 @@ fn a_failure_without_a_handler_goes_on_upwards() {
 }
 
 #[test]
-fn a_failure_in_a_handler_is_not_handled_by_it() {
+fn control_failure_in_a_handler_is_not_handled_by_it() {
     check!(
         [StepSketch::Try(vec![StepSketch::go("a")], vec![(None, vec![StepSketch::go("b")])])],
         [(1.0, Fails(1, "unreachable")), (2.0, Fails(2, "unreachable")),]
@@ -165,7 +164,7 @@ fn a_failure_in_a_handler_is_not_handled_by_it() {
 }
 
 #[test]
-fn a_failure_kind_of_the_drivers_own_is_caught_by_any() {
+fn control_failure_kind_of_the_drivers_own_is_caught_by_any() {
     check!(
         [StepSketch::Try(vec![StepSketch::go("a")], vec![(None, vec![StepSketch::say("caught")])])],
         [(1.0, Fails(1, "puncture"))]
@@ -173,23 +172,23 @@ fn a_failure_kind_of_the_drivers_own_is_caught_by_any() {
 }
 
 #[test]
-fn a_loop_without_a_test_runs_so_often() {
+fn control_loop_without_a_test_runs_so_often() {
     check!([StepSketch::Repeat(2, vec![StepSketch::say("a")], None)], [(1.0, Done(1)), (2.0, Done(2))]);
 }
 
 #[test]
-fn a_loop_ends_when_its_test_holds() {
+fn control_loop_ends_when_its_test_holds() {
     let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![v::entity("mug")]).proven());
     check!([StepSketch::Repeat(3, vec![pick], Some(held("mug")))], [(1.0, Done(1))]);
 }
 
 #[test]
-fn a_loop_whose_test_never_holds_is_exhausted() {
+fn control_loop_whose_test_never_holds_is_exhausted() {
     check!([StepSketch::Repeat(2, vec![], Some(held("mug")))], []);
 }
 
 #[test]
-fn a_test_of_a_loop_is_observed() {
+fn control_test_of_a_loop_is_observed() {
     check!(
         [StepSketch::Repeat(2, vec![], Some(v::nearer("user", 1.0)))],
         [(0.1, distance(3.0)), (0.2, distance(0.3))]
@@ -197,25 +196,25 @@ fn a_test_of_a_loop_is_observed() {
 }
 
 #[test]
-fn each_binds_every_item() {
+fn control_each_binds_every_item() {
     let list = Term::List(vec![v::entity("mug"), v::entity("cup")]);
     let go = StepSketch::Call(CallSketch::new(v::GO, vec![CallSketch::NEAREST]));
     check!([StepSketch::Each(list, 2, vec![go])], [(1.0, Done(1)), (2.0, Done(2))]);
 }
 
 #[test]
-fn a_longer_list_is_exhausted_before_the_first_item() {
+fn control_longer_list_is_exhausted_before_the_first_item() {
     let list = Term::List(vec![v::entity("mug"), v::entity("cup")]);
     check!([StepSketch::Each(list, 1, vec![StepSketch::say("never")])], []);
 }
 
 #[test]
-fn an_empty_list_is_no_failure() {
+fn control_empty_list_is_no_failure() {
     check!([StepSketch::Each(Term::Literal(Value::List(vec![])), 1, vec![StepSketch::say("never")])], []);
 }
 
 #[test]
-fn branches_run_at_once() {
+fn control_branches_run_at_once() {
     check!(
         [
             StepSketch::Parallel(vec![
@@ -230,7 +229,7 @@ fn branches_run_at_once() {
 }
 
 #[test]
-fn a_failing_branch_interrupts_the_others() {
+fn control_failing_branch_interrupts_the_others() {
     let branches = vec![
         vec![StepSketch::go("table")],
         vec![StepSketch::say("a")],
@@ -250,7 +249,7 @@ fn a_failing_branch_interrupts_the_others() {
 }
 
 #[test]
-fn a_fact_with_any_is_known_by_its_witness() {
+fn control_fact_with_any_is_known_by_its_witness() {
     let any = Condition::Fact(Fact { fluent: v::HOLDING, args: vec![FactArg::Any] });
     let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![v::entity("mug")]).proven());
     let place =
@@ -276,7 +275,7 @@ fn a_fact_with_any_is_known_by_its_witness() {
 }
 
 #[test]
-fn more_transitions_at_one_instant_than_its_budget_end_a_run() {
+fn control_more_transitions_at_one_instant_than_its_budget_end_a_run() {
     let nested = (0..10).fold(StepSketch::say("deep"), |step, _| StepSketch::Sequence(vec![step]));
     let engine = Engine::new(motet_graph::arbitrary::graph(&[nested]), &StartState::default()).unwrap();
     let mut engine = engine.with_settings(EngineSettings { step_budget: 3, ..EngineSettings::default() });

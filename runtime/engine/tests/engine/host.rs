@@ -77,23 +77,23 @@ fn check(stop_at: f64, every: f64, expected: RunEnd, ended_at: f64, reached: u32
 }
 
 #[test]
-fn a_run_ends_by_itself() {
+fn run_ends_by_itself() {
     check(100.0, f64::INFINITY, RunEnd::Done { why: None }, 4.0, 2);
 }
 
 #[test]
-fn an_onlooker_is_called_in_between() {
+fn run_onlooker_is_called_in_between() {
     check(100.0, 0.5, RunEnd::Done { why: None }, 4.0, 8);
 }
 
 #[test]
-fn an_onlooker_stops_the_run() {
+fn run_onlooker_stops_the_run() {
     // The first goal was not acknowledged, so it runs to its end, and then nothing else starts.
     check(1.0, 0.5, RunEnd::Interrupted, 2.0, 2);
 }
 
 #[test]
-fn a_driver_that_says_nothing_ends_in_a_fault() {
+fn run_driver_that_says_nothing_ends_in_a_fault() {
     let mut engine = Engine::new(graph(&[StepSketch::go("table")]), &StartState::default()).unwrap();
     let end = run(&mut engine, &mut TwoSeconds { mute: true, ..TwoSeconds::default() }, &mut (), Time::ZERO);
     assert!(matches!(end, RunEnd::Fault(Fault::NotStopped { .. })), "{end:?}");

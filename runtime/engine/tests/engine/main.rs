@@ -1,4 +1,5 @@
-//! The engine from outside: scripted runs with their effects as snapshots, and random runs against the laws.
+//! The engine from outside: scripted runs with their effects as snapshots, random runs against the laws, wire
+//! forms, journal and memory.
 
 #![allow(
     clippy::unwrap_used,
@@ -11,12 +12,16 @@
 mod calls;
 mod control;
 mod host;
+mod journal;
+mod memory;
 mod monitors;
 mod naive;
 mod random;
+mod ready;
 mod rescan;
 mod script;
 mod snapshot;
 mod swap;
 mod threads;
 mod verify;
+mod wire;

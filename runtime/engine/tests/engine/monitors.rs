@@ -3,8 +3,7 @@
 use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Interrupted, NotHeld, Stop, Tick};
 use crate::script::{distance, holding};
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
+use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, vocabulary as v};
 use motet_graph::{Condition, Ending};
 
 fn near(limit_m: f64) -> Condition {
@@ -20,7 +19,7 @@ fn over(whens: Vec<WatchSketch>, body: Vec<StepSketch>) -> Vec<StepSketch> {
 }
 
 #[test]
-fn a_monitor_that_never_fires_ends_with_its_body() {
+fn monitor_that_never_fires_ends_with_its_body() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::End(Ending::Fail))], vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(2.0)), (2.0, Done(1)),]
@@ -28,7 +27,7 @@ fn a_monitor_that_never_fires_ends_with_its_body() {
 }
 
 #[test]
-fn a_condition_that_holds_on_entry_fires_before_the_body() {
+fn monitor_condition_that_holds_on_entry_fires_before_the_body() {
     let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
     let not_held = Condition::Not(Box::new(held));
     check!(
@@ -38,7 +37,7 @@ fn a_condition_that_holds_on_entry_fires_before_the_body() {
 }
 
 #[test]
-fn an_ending_waits_for_what_runs() {
+fn monitor_ending_waits_for_what_runs() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::End(Ending::Fail))], vec![StepSketch::go("table")]),
         [
@@ -52,7 +51,7 @@ fn an_ending_waits_for_what_runs() {
 }
 
 #[test]
-fn an_ending_of_a_sub_policy() {
+fn monitor_ending_of_a_sub_policy() {
     let body = over(vec![when(near(0.5), ReactionSketch::End(Ending::Done))], vec![StepSketch::go("table")]);
     check!(
         [StepSketch::Inline(body), StepSketch::say("after")],
@@ -61,7 +60,7 @@ fn an_ending_of_a_sub_policy() {
 }
 
 #[test]
-fn a_condition_must_hold_without_a_break() {
+fn monitor_condition_must_hold_without_a_break() {
     let watch =
         WatchSketch { condition: near(0.5), hold_secs: 0.2, react: ReactionSketch::End(Ending::Fail) };
     check!(
@@ -79,7 +78,7 @@ fn a_condition_must_hold_without_a_break() {
 }
 
 #[test]
-fn a_condition_that_is_unknown_for_too_long_fires() {
+fn monitor_condition_that_is_unknown_for_too_long_fires() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::End(Ending::Fail))], vec![StepSketch::go("table")]),
         [(0.0, Ack(1)), (0.5, Tick)]
@@ -87,7 +86,7 @@ fn a_condition_that_is_unknown_for_too_long_fires() {
 }
 
 #[test]
-fn what_was_unknown_may_have_been_true() {
+fn monitor_what_was_unknown_may_have_been_true() {
     let watch =
         WatchSketch { condition: near(0.5), hold_secs: 1.0, react: ReactionSketch::End(Ending::Fail) };
     check!(
@@ -97,7 +96,7 @@ fn what_was_unknown_may_have_been_true() {
 }
 
 #[test]
-fn a_pause_holds_and_goes_on() {
+fn monitor_pause_holds_and_goes_on() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [
@@ -112,7 +111,7 @@ fn a_pause_holds_and_goes_on() {
 }
 
 #[test]
-fn a_pause_before_the_acknowledgement_holds_after_it() {
+fn monitor_pause_before_the_acknowledgement_holds_after_it() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [(0.1, distance(0.3)), (0.2, Ack(1)), (0.3, distance(3.0)),]
@@ -120,7 +119,7 @@ fn a_pause_before_the_acknowledgement_holds_after_it() {
 }
 
 #[test]
-fn what_cannot_be_held_is_cancelled_and_started_again() {
+fn monitor_what_cannot_be_held_is_cancelled_and_started_again() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [
@@ -136,7 +135,7 @@ fn what_cannot_be_held_is_cancelled_and_started_again() {
 }
 
 #[test]
-fn a_pause_that_is_over_before_the_cancel_is_answered() {
+fn monitor_pause_that_is_over_before_the_cancel_is_answered() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [
@@ -151,7 +150,7 @@ fn a_pause_that_is_over_before_the_cancel_is_answered() {
 }
 
 #[test]
-fn a_paused_call_that_ends_lets_no_other_start() {
+fn monitor_paused_call_that_ends_lets_no_other_start() {
     check!(
         over(
             vec![when(near(0.5), ReactionSketch::Pause(60.0))],
@@ -162,7 +161,7 @@ fn a_paused_call_that_ends_lets_no_other_start() {
 }
 
 #[test]
-fn all_pauses_together_are_bounded() {
+fn monitor_all_pauses_together_are_bounded() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::Pause(2.0))], vec![StepSketch::go("table")]),
         [
@@ -178,7 +177,7 @@ fn all_pauses_together_are_bounded() {
 }
 
 #[test]
-fn a_pause_on_entry_starts_nothing() {
+fn monitor_pause_on_entry_starts_nothing() {
     let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
     let not_held = Condition::Not(Box::new(held));
     check!(
@@ -188,7 +187,7 @@ fn a_pause_on_entry_starts_nothing() {
 }
 
 #[test]
-fn a_paused_wait_keeps_its_time() {
+fn monitor_paused_wait_keeps_its_time() {
     let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
     check!(
         over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::Wait(held, 10.0)]),
@@ -197,7 +196,7 @@ fn a_paused_wait_keeps_its_time() {
 }
 
 #[test]
-fn a_restart_begins_the_body_again() {
+fn monitor_restart_begins_the_body_again() {
     check!(
         over(
             vec![when(near(0.5), ReactionSketch::Restart(1))],
@@ -216,7 +215,7 @@ fn a_restart_begins_the_body_again() {
 }
 
 #[test]
-fn a_condition_that_still_holds_exhausts_the_restarts() {
+fn monitor_condition_that_still_holds_exhausts_the_restarts() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::Restart(2))], vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.2, Interrupted(1)),]
@@ -224,7 +223,7 @@ fn a_condition_that_still_holds_exhausts_the_restarts() {
 }
 
 #[test]
-fn resume_runs_a_block_and_goes_on() {
+fn monitor_resume_runs_a_block_and_goes_on() {
     check!(
         over(
             vec![when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::go("shelf")]))],
@@ -243,7 +242,7 @@ fn resume_runs_a_block_and_goes_on() {
 }
 
 #[test]
-fn resume_after_a_body_that_ended_meanwhile() {
+fn monitor_resume_after_a_body_that_ended_meanwhile() {
     check!(
         over(
             vec![when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::say("oh")]))],
@@ -254,7 +253,7 @@ fn resume_after_a_body_that_ended_meanwhile() {
 }
 
 #[test]
-fn resume_too_often_is_exhausted() {
+fn monitor_resume_too_often_is_exhausted() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::Resume(1, vec![]))], vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Interrupted(1)),]
@@ -262,7 +261,7 @@ fn resume_too_often_is_exhausted() {
 }
 
 #[test]
-fn a_failing_block_fails_the_monitor() {
+fn monitor_failing_block_fails_the_monitor() {
     let body = over(
         vec![when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::go("shelf")]))],
         vec![StepSketch::go("table")],
@@ -280,7 +279,7 @@ fn a_failing_block_fails_the_monitor() {
 }
 
 #[test]
-fn a_pause_covers_the_block_of_another_reaction() {
+fn monitor_pause_covers_the_block_of_another_reaction() {
     let whens = vec![
         when(near(0.2), ReactionSketch::Pause(60.0)),
         when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::go("shelf")])),
@@ -301,7 +300,7 @@ fn a_pause_covers_the_block_of_another_reaction() {
 }
 
 #[test]
-fn an_outer_monitor_wins() {
+fn monitor_outer_monitor_wins() {
     let inner = StepSketch::Monitor(
         vec![when(near(0.5), ReactionSketch::End(Ending::Replan))],
         vec![StepSketch::go("table")],
@@ -313,7 +312,7 @@ fn an_outer_monitor_wins() {
 }
 
 #[test]
-fn an_earlier_watch_wins() {
+fn monitor_earlier_watch_wins() {
     let whens =
         vec![when(near(0.5), ReactionSketch::Restart(1)), when(near(0.5), ReactionSketch::End(Ending::Fail))];
     check!(
@@ -323,7 +322,7 @@ fn an_earlier_watch_wins() {
 }
 
 #[test]
-fn an_inner_monitor_is_judged_again_after_an_outer_pause() {
+fn monitor_inner_monitor_is_judged_again_after_an_outer_pause() {
     let inner = StepSketch::Monitor(
         vec![when(near(0.8), ReactionSketch::End(Ending::Fail))],
         vec![StepSketch::go("table")],
@@ -341,7 +340,7 @@ fn an_inner_monitor_is_judged_again_after_an_outer_pause() {
 }
 
 #[test]
-fn an_ending_during_a_pause() {
+fn monitor_ending_during_a_pause() {
     let whens = vec![
         when(near(0.5), ReactionSketch::Pause(60.0)),
         when(near(0.2), ReactionSketch::End(Ending::Fail)),
@@ -359,7 +358,7 @@ fn an_ending_during_a_pause() {
 }
 
 #[test]
-fn a_call_makes_a_monitor_fire_before_the_next_step() {
+fn monitor_call_makes_a_monitor_fire_before_the_next_step() {
     let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
     let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![v::entity("mug")]).proven());
     check!(
@@ -369,7 +368,7 @@ fn a_call_makes_a_monitor_fire_before_the_next_step() {
 }
 
 #[test]
-fn a_person_stops_during_a_pause() {
+fn monitor_person_stops_during_a_pause() {
     check!(
         over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (2.0, Stop), (2.5, Interrupted(1)),]
@@ -377,7 +376,7 @@ fn a_person_stops_during_a_pause() {
 }
 
 #[test]
-fn one_watch_serves_all_who_need_it() {
+fn monitor_one_watch_serves_all_who_need_it() {
     let inner =
         StepSketch::Monitor(vec![when(near(0.2), ReactionSketch::Pause(1.0))], vec![StepSketch::say("a")]);
     check!(
@@ -387,7 +386,7 @@ fn one_watch_serves_all_who_need_it() {
 }
 
 #[test]
-fn a_block_that_was_about_to_run_is_dropped_when_its_monitor_is_stopped() {
+fn monitor_block_that_was_about_to_run_is_dropped_when_its_monitor_is_stopped() {
     let inner = StepSketch::Monitor(
         vec![when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::say("oh")]))],
         vec![StepSketch::go("table")],

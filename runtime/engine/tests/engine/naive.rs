@@ -564,7 +564,7 @@ fn observed(seed: u64, first: &Graph, second: &Graph, swap_at: Option<usize>) ->
 }
 
 #[test]
-fn effects_are_those_of_a_naive_interpreter() {
+fn engine_effects_are_those_of_a_naive_interpreter() {
     let cases = (prop::collection::vec(steps(), 1..3), steps(), any::<u64>(), any::<bool>());
     let config = ProptestConfig {
         cases: 1_000,

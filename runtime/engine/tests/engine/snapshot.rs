@@ -30,7 +30,7 @@ fn halfway() -> Engine {
 }
 
 #[test]
-fn it_says_what_is_held_and_bound_and_runs() {
+fn snapshot_says_what_is_held_and_bound_and_runs() {
     let snapshot = halfway().snapshot();
     assert_eq!(snapshot.at, Time::from_secs(2.5));
     assert_eq!(snapshot.bindings, vec![("it'0".into(), Value::Entity("cup_1".into()))]);
@@ -46,7 +46,7 @@ fn it_says_what_is_held_and_bound_and_runs() {
 }
 
 #[test]
-fn an_engine_that_starts_from_it_believes_the_same() {
+fn snapshot_engine_that_starts_from_it_believes_the_same() {
     let first = halfway();
     let again = Engine::new(first.graph().clone(), &first.snapshot().start_state()).unwrap();
     let beliefs = |snapshot: Snapshot| {
@@ -61,7 +61,7 @@ fn an_engine_that_starts_from_it_believes_the_same() {
 }
 
 #[test]
-fn the_words_of_the_language_stand_in_back_quotes() {
+fn snapshot_words_of_the_language_stand_in_back_quotes() {
     let grammar = include_str!("../../../../grammar/syntax/src/motet.pest");
     let rule = grammar.split("\nreserved = _{").nth(1).and_then(|rest| rest.split("~ !rest").next()).unwrap();
     let words: Vec<&str> = rule.split('"').skip(1).step_by(2).collect();

@@ -4,8 +4,7 @@
 use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Lost, Refused, Stop, Stopped, Swap, Tick};
 use crate::script::{distance, entity, holding};
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
+use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{Condition, Fact, FactArg, Graph, InitialFact, NodeId, Value};
 use motet_runtime::{
     DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, RunEnd, StartState, SwapRefusal, Time, Truth,
@@ -16,7 +15,7 @@ fn pauses(within: f64, steps: Vec<StepSketch>) -> StepSketch {
 }
 
 #[test]
-fn the_same_call_goes_on() {
+fn swap_same_call_goes_on() {
     check!(
         [StepSketch::go("table"), StepSketch::say("old")],
         [
@@ -29,7 +28,7 @@ fn the_same_call_goes_on() {
 }
 
 #[test]
-fn a_call_that_was_not_acknowledged_goes_on() {
+fn swap_call_that_was_not_acknowledged_goes_on() {
     check!(
         [StepSketch::go("table")],
         [(1.0, Swap(vec![StepSketch::go("table")])), (1.1, Ack(1)), (11.0, Tick)]
@@ -37,7 +36,7 @@ fn a_call_that_was_not_acknowledged_goes_on() {
 }
 
 #[test]
-fn another_target_is_an_update() {
+fn swap_another_target_is_an_update() {
     check!(
         [StepSketch::go("table")],
         [(0.1, Ack(1)), (1.0, Swap(vec![StepSketch::go("shelf"), StepSketch::say("new")])), (2.0, Done(1))]
@@ -45,7 +44,7 @@ fn another_target_is_an_update() {
 }
 
 #[test]
-fn what_cannot_be_updated_is_cancelled_and_waited_for() {
+fn swap_what_cannot_be_updated_is_cancelled_and_waited_for() {
     check!(
         [StepSketch::detect("mug"), StepSketch::say("old")],
         [
@@ -58,7 +57,7 @@ fn what_cannot_be_updated_is_cancelled_and_waited_for() {
 }
 
 #[test]
-fn what_does_not_conflict_starts_at_once() {
+fn swap_what_does_not_conflict_starts_at_once() {
     check!(
         [StepSketch::go("table")],
         [
@@ -71,7 +70,7 @@ fn what_does_not_conflict_starts_at_once() {
 }
 
 #[test]
-fn success_after_the_swap_is_respected() {
+fn swap_success_after_the_swap_is_respected() {
     let place = CallSketch::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]);
     check!(
         [StepSketch::pick("mug")],
@@ -80,7 +79,7 @@ fn success_after_the_swap_is_respected() {
 }
 
 #[test]
-fn failure_after_the_swap_concerns_nobody() {
+fn swap_failure_after_the_swap_concerns_nobody() {
     check!(
         [StepSketch::go("table")],
         [
@@ -93,7 +92,7 @@ fn failure_after_the_swap_concerns_nobody() {
 }
 
 #[test]
-fn a_start_that_is_refused_after_the_swap_frees_its_resources() {
+fn swap_start_that_is_refused_after_the_swap_frees_its_resources() {
     check!(
         [StepSketch::detect("mug")],
         [(1.0, Swap(vec![StepSketch::detect("cup")])), (1.5, Refused(1, "unsafe"))]
@@ -101,7 +100,7 @@ fn a_start_that_is_refused_after_the_swap_frees_its_resources() {
 }
 
 #[test]
-fn a_cancel_waits_for_the_acknowledgement_also_across_a_swap() {
+fn swap_cancel_waits_for_the_acknowledgement_also_across_a_swap() {
     check!(
         [StepSketch::detect("mug")],
         [(1.0, Swap(vec![StepSketch::detect("cup")])), (1.1, Ack(1)), (1.2, Interrupted(1)), (1.3, Ack(2))]
@@ -109,7 +108,7 @@ fn a_cancel_waits_for_the_acknowledgement_also_across_a_swap() {
 }
 
 #[test]
-fn in_the_middle_of_a_cancel_the_cancel_is_waited_for() {
+fn swap_in_the_middle_of_a_cancel_the_cancel_is_waited_for() {
     check!(
         [StepSketch::go("table")],
         [
@@ -123,7 +122,7 @@ fn in_the_middle_of_a_cancel_the_cancel_is_waited_for() {
 }
 
 #[test]
-fn a_safe_stop_that_is_pending_is_waited_for() {
+fn swap_safe_stop_that_is_pending_is_waited_for() {
     check!(
         [StepSketch::go("table")],
         [
@@ -137,7 +136,7 @@ fn a_safe_stop_that_is_pending_is_waited_for() {
 }
 
 #[test]
-fn an_unanswered_cancel_of_the_old_policy_becomes_a_safe_stop_and_a_fault() {
+fn swap_unanswered_cancel_of_the_old_policy_becomes_a_safe_stop_and_a_fault() {
     check!(
         [StepSketch::detect("mug")],
         [(0.1, Ack(1)), (1.0, Swap(vec![StepSketch::detect("cup")])), (6.0, Tick), (11.0, Tick)]
@@ -145,7 +144,7 @@ fn an_unanswered_cancel_of_the_old_policy_becomes_a_safe_stop_and_a_fault() {
 }
 
 #[test]
-fn a_goal_of_the_old_policy_that_is_lost() {
+fn swap_goal_of_the_old_policy_that_is_lost() {
     check!(
         [StepSketch::detect("mug")],
         [(0.1, Ack(1)), (1.0, Swap(vec![StepSketch::detect("cup")])), (1.5, Lost(1)), (2.0, Stopped(1))]
@@ -153,7 +152,7 @@ fn a_goal_of_the_old_policy_that_is_lost() {
 }
 
 #[test]
-fn a_held_goal_goes_on_where_nothing_holds_it() {
+fn swap_held_goal_goes_on_where_nothing_holds_it() {
     check!(
         [pauses(60.0, vec![StepSketch::go("table")])],
         [(0.1, Ack(1)), (1.0, distance(0.3)), (2.0, Swap(vec![StepSketch::go("table")]))]
@@ -161,7 +160,7 @@ fn a_held_goal_goes_on_where_nothing_holds_it() {
 }
 
 #[test]
-fn a_monitor_of_the_new_policy_is_judged_at_once() {
+fn swap_monitor_of_the_new_policy_is_judged_at_once() {
     check!(
         [pauses(60.0, vec![StepSketch::go("table")])],
         [
@@ -175,7 +174,7 @@ fn a_monitor_of_the_new_policy_is_judged_at_once() {
 }
 
 #[test]
-fn what_is_watched_by_both_stays_watched() {
+fn swap_what_is_watched_by_both_stays_watched() {
     check!(
         [pauses(60.0, vec![StepSketch::go("table")])],
         [
@@ -188,14 +187,14 @@ fn what_is_watched_by_both_stays_watched() {
 }
 
 #[test]
-fn out_of_a_parallel_into_a_parallel() {
+fn swap_out_of_a_parallel_into_a_parallel() {
     let both =
         |go: &str| StepSketch::Parallel(vec![vec![StepSketch::go(go)], vec![StepSketch::detect("mug")]]);
     check!([both("table")], [(0.1, Ack(1)), (0.1, Ack(2)), (1.0, Swap(vec![both("shelf")])), (2.0, Done(1))]);
 }
 
 #[test]
-fn the_newest_swap_wins() {
+fn swap_newest_swap_wins() {
     check!(
         [StepSketch::detect("mug")],
         [
@@ -208,12 +207,12 @@ fn the_newest_swap_wins() {
 }
 
 #[test]
-fn a_policy_that_is_done_at_once_waits_for_the_goals_of_the_one_before() {
+fn swap_policy_that_is_done_at_once_waits_for_the_goals_of_the_one_before() {
     check!([StepSketch::go("table")], [(0.1, Ack(1)), (1.0, Swap(vec![])), (1.5, Interrupted(1))]);
 }
 
 #[test]
-fn a_person_who_stops_is_not_overruled() {
+fn swap_person_who_stops_is_not_overruled() {
     check!(
         [StepSketch::go("table")],
         [(0.1, Ack(1)), (1.0, Stop), (1.1, Swap(vec![StepSketch::say("no")])), (1.5, Interrupted(1))]
@@ -221,7 +220,7 @@ fn a_person_who_stops_is_not_overruled() {
 }
 
 #[test]
-fn a_wait_and_a_queue_are_left() {
+fn swap_wait_and_a_queue_are_left() {
     let wait = StepSketch::Wait(Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")])), 5.0);
     check!([wait], [(1.0, Swap(vec![StepSketch::say("new")])), (1.5, holding("mug", true)), (2.0, Done(1))]);
 }
@@ -258,21 +257,21 @@ fn refused(graph: Graph) -> SwapRefusal {
 }
 
 #[test]
-fn an_invalid_graph_is_refused() {
+fn swap_invalid_graph_is_refused() {
     let mut graph = graph(&[StepSketch::go("table")]);
     graph.nodes[0].next = Some(NodeId(7));
     assert!(matches!(refused(graph), SwapRefusal::Invalid(_)));
 }
 
 #[test]
-fn another_robot_is_refused() {
+fn swap_another_robot_is_refused() {
     let mut graph = graph(&[StepSketch::go("table")]);
     graph.robot = "another".into();
     assert_eq!(refused(graph), SwapRefusal::Robot { running: "mock".into(), wanted: "another".into() });
 }
 
 #[test]
-fn a_start_that_does_not_hold_is_refused() {
+fn swap_start_that_does_not_hold_is_refused() {
     let mut graph = graph(&[StepSketch::go("table")]);
     graph.initial = vec![InitialFact { fact: v::fact(v::HOLDING, vec![v::entity("mug")]), value: true }];
     let SwapRefusal::Start { told, believed, .. } = refused(graph) else { panic!("another refusal") };
@@ -280,7 +279,7 @@ fn a_start_that_does_not_hold_is_refused() {
 }
 
 #[test]
-fn a_start_that_is_no_longer_known_is_refused() {
+fn swap_start_that_is_no_longer_known_is_refused() {
     // Where the robot is, is unknown after it was interrupted; so far only that it stands nowhere known is
     // not said.
     let (mut engine, mut out) = going();
@@ -317,12 +316,12 @@ fn given(name: &str) -> Graph {
 }
 
 #[test]
-fn a_name_that_is_not_bound_is_refused() {
+fn swap_name_that_is_not_bound_is_refused() {
     assert_eq!(refused(given("nobody")), SwapRefusal::Binding { name: "nobody".into() });
 }
 
 #[test]
-fn a_name_is_carried() {
+fn swap_name_is_carried() {
     let (mut engine, mut out) = going();
     let prepared = PreparedSwap::new(given("it'0"), &engine.running()).unwrap();
     engine.swap(Time::from_secs(2.0), prepared, &mut out).unwrap();
@@ -332,7 +331,7 @@ fn a_name_is_carried() {
 }
 
 #[test]
-fn a_host_gives_names_too() {
+fn swap_host_gives_names_too() {
     assert!(Engine::new(given("it"), &StartState::default()).is_err());
     let bindings = vec![("it".into(), Value::Entity("cup_2".into()))];
     let engine = Engine::new(given("it"), &StartState { bindings, ..StartState::default() }).unwrap();
@@ -340,7 +339,7 @@ fn a_host_gives_names_too() {
 }
 
 #[test]
-fn a_run_that_is_over_takes_no_swap() {
+fn swap_run_that_is_over_takes_no_swap() {
     let mut engine = Engine::new(graph(&[]), &StartState::default()).unwrap();
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
@@ -350,7 +349,7 @@ fn a_run_that_is_over_takes_no_swap() {
 }
 
 #[test]
-fn a_swap_prepared_against_an_older_graph_still_fits() {
+fn swap_prepared_against_an_older_graph_still_fits() {
     let (mut engine, mut out) = going();
     let first = PreparedSwap::new(given("it'0"), &engine.running()).unwrap();
     let second = PreparedSwap::new(given("it'0"), &engine.running()).unwrap();

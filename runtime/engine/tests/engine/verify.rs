@@ -1,7 +1,6 @@
 //! Motions that were left to the run: somebody is asked before the call starts, and what they say decides.
 
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph};
+use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{Condition, Graph, Motion, NodeKind, PrimitiveId, Verdict};
 use motet_runtime::{
     Answer, CheckId, DriverEvent, Effect, Engine, EngineSettings, Event, Outcome, Pattern, PreparedSwap,
@@ -77,13 +76,13 @@ fn unknown() -> Verification {
 }
 
 #[test]
-fn where_nobody_is_to_be_asked_the_driver_will_see() {
+fn verify_where_nobody_is_to_be_asked_the_driver_will_see() {
     let mut scene = Scene::new(&[StepSketch::go("table")], None);
     assert_eq!(scene.look().0, ["go(to: table)"]);
 }
 
 #[test]
-fn a_motion_that_is_found_or_not_known_starts() {
+fn verify_motion_that_is_found_or_not_known_starts() {
     for verdict in [Verification::Feasible, unknown()] {
         let mut scene = Scene::new(&[StepSketch::go("table")], Some(1.0));
         let (said, checks) = scene.look();
@@ -94,7 +93,7 @@ fn a_motion_that_is_found_or_not_known_starts() {
 }
 
 #[test]
-fn one_that_is_infeasible_fails_and_is_caught() {
+fn verify_one_that_is_infeasible_fails_and_is_caught() {
     let caught = StepSketch::Try(
         vec![StepSketch::go("table")],
         vec![(Some(vec![v::UNREACHABLE]), vec![StepSketch::say("no")])],
@@ -106,7 +105,7 @@ fn one_that_is_infeasible_fails_and_is_caught() {
 }
 
 #[test]
-fn a_second_verdict_and_one_that_nobody_waits_for_are_ignored() {
+fn verify_second_verdict_and_one_that_nobody_waits_for_are_ignored() {
     let mut scene = Scene::new(&[StepSketch::go("table"), StepSketch::go("sink")], Some(1.0));
     let (_, checks) = scene.look();
     scene.verdict(0.5, CheckId::from_number(77), infeasible());
@@ -116,7 +115,7 @@ fn a_second_verdict_and_one_that_nobody_waits_for_are_ignored() {
 }
 
 #[test]
-fn without_a_verdict_in_time_the_step_starts_all_the_same() {
+fn verify_without_a_verdict_in_time_the_step_starts_all_the_same() {
     let mut scene = Scene::new(&[StepSketch::go("table")], Some(1.0));
     assert_eq!(scene.engine.wake_at(), Some(Time::from_secs(1.0)));
     scene.look();
@@ -125,7 +124,7 @@ fn without_a_verdict_in_time_the_step_starts_all_the_same() {
 }
 
 #[test]
-fn what_is_interrupted_meanwhile_asks_anew() {
+fn verify_what_is_interrupted_meanwhile_asks_anew() {
     let holds = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("cup")]));
     let watch = WatchSketch::new(holds, ReactionSketch::Pause(60.0));
     let mut scene = Scene::new(&[StepSketch::Monitor(vec![watch], vec![StepSketch::go("table")])], Some(1.0));
@@ -145,7 +144,7 @@ fn what_is_interrupted_meanwhile_asks_anew() {
 }
 
 #[test]
-fn after_a_swap_the_verdict_for_the_policy_before_is_ignored() {
+fn verify_after_a_swap_the_verdict_for_the_policy_before_is_ignored() {
     let mut scene = Scene::new(&[StepSketch::go("table")], Some(1.0));
     let (_, before) = scene.look();
     let mut next = with_motions(graph(&[StepSketch::go("table")]), &[v::GO]);
@@ -161,7 +160,7 @@ fn after_a_swap_the_verdict_for_the_policy_before_is_ignored() {
 }
 
 #[test]
-fn a_retry_asks_again() {
+fn verify_retry_asks_again() {
     let go = motet_graph::arbitrary::CallSketch::new(v::GO, vec![v::entity("table")]).retry(1);
     let mut scene = Scene::new(&[StepSketch::Call(go)], Some(1.0));
     let (_, checks) = scene.look();

@@ -1,11 +1,12 @@
-//! Reading a journal from disk, segment by segment.
+//! Reading a journal from disk, segment by segment, and the errors of journals.
 
-use super::{EXTENSION, JournalError};
+use super::EXTENSION;
 use motet_runtime::journal::{
-    JournalEntry, JournalReader, LineChain, MAX_SEGMENTS, SegmentEnd, SegmentPosition,
+    JournalDamage, JournalEntry, JournalReader, LineChain, MAX_SEGMENTS, SegmentEnd, SegmentPosition,
 };
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
+use thiserror::Error;
 
 /// The end of a journal, to append to.
 #[derive(Clone, Debug)]
@@ -74,4 +75,43 @@ fn segments(folder: &Path) -> Result<Vec<(u64, PathBuf)>, JournalError> {
     }
     found.sort();
     Ok(found)
+}
+
+/// A journal that cannot be used.
+#[derive(Debug, Error)]
+pub enum JournalError {
+    /// The system says no.
+    #[error("{what} `{}`: {source}", path.display())]
+    Io {
+        /// Failed action, such as `cannot read`.
+        what: &'static str,
+        path: PathBuf,
+        source: io::Error,
+    },
+    /// It is damaged.
+    #[error("`{}`: {damage}", path.display())]
+    Damaged { path: PathBuf, damage: JournalDamage },
+    /// A folder that is to hold a new journal is not empty.
+    #[error("`{}` is not empty: a journal needs a folder of its own", path.display())]
+    NotEmpty { path: PathBuf },
+    /// There is no journal in a folder, or not even its first line was written.
+    #[error("`{}` holds no journal", path.display())]
+    None { path: PathBuf },
+    /// Another process writes it.
+    #[error("another process writes the journal in `{}`", path.display())]
+    Busy { path: PathBuf },
+    /// It has too many segments, or they do not follow from each other.
+    #[error("`{}`: {what}", path.display())]
+    Segments {
+        path: PathBuf,
+        /// Kind of a validation error.
+        what: String,
+    },
+}
+
+impl JournalError {
+    pub(super) fn io(what: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Io { what, path, source }
+    }
 }

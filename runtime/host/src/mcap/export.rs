@@ -1,12 +1,11 @@
 //! Writes the entries of a journal as messages.
 
 use super::foxglove::{FrameTransforms, McapScene, SceneUpdate, flat_schema};
-use super::message::{EffectMessage, EventMessage, GraphMessage, StateMessage};
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
 use motet_graph::GraphDocument;
 use motet_runtime::journal::{EngineReplay, JournalEntry, ReplayError};
-use motet_runtime::{Snapshot, Time};
+use motet_runtime::{Effect, Event, Snapshot, Time};
 use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
 use serde_json::Value;
@@ -199,4 +198,44 @@ fn channel(
 ) -> Result<u16, ExportError> {
     let schema = writer.add_schema(name, "jsonschema", schema.to_string().as_bytes())?;
     Ok(writer.add_channel(schema, topic, "json", &BTreeMap::new())?)
+}
+
+#[derive(Serialize, JsonSchema)]
+pub(super) struct EventMessage {
+    /// The number of the journal's entry.
+    pub(super) seq: u64,
+    /// The engine's time in ns.
+    pub(super) at: Time,
+    /// The event; absent if the engine gave up.
+    pub(super) event: Option<Event>,
+}
+
+#[derive(Serialize, JsonSchema)]
+pub(super) struct EffectMessage {
+    /// The number of the journal's entry.
+    pub(super) seq: u64,
+    /// The place among the entry's effects.
+    pub(super) index: u32,
+    /// The engine's time in ns.
+    pub(super) at: Time,
+    pub(super) effect: Effect,
+}
+
+/// On `/motet/graph`: at the beginning and at every swap.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct GraphMessage {
+    /// The number of the journal's entry.
+    pub(super) seq: u64,
+    /// The number of the graph.
+    pub(super) revision: u32,
+    pub(super) graph: GraphDocument,
+}
+
+/// On `/motet/state`: whenever what is believed, bound or running has changed.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct StateMessage {
+    /// The number of the journal's entry.
+    pub(super) seq: u64,
+    /// The state after it.
+    pub(super) state: Snapshot,
 }

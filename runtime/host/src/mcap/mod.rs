@@ -4,7 +4,6 @@
 
 mod export;
 mod foxglove;
-mod message;
 
 pub use export::{ExportError, McapExporter};
 pub use foxglove::{McapBody, McapScene, McapSolid};

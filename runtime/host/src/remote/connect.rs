@@ -10,6 +10,16 @@ use std::time::Duration;
 use thiserror::Error;
 
 /// Position where a driver is.
+///
+/// ```
+/// use motet_host::remote::DriverAddress;
+///
+/// let command: DriverAddress = "python3 'my driver.py' --rate 50".parse()?;
+/// assert_eq!(command.to_string(), "python3 my driver.py --rate 50");
+/// // Only this machine is called: the protocol has no authentication.
+/// assert!("tcp://192.0.2.1:4000".parse::<DriverAddress>().is_err());
+/// # Ok::<(), motet_host::remote::DriverAddressError>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum DriverAddress {
     /// A command with its arguments; it speaks on its standard input and output.
@@ -120,7 +130,7 @@ mod tests {
     use super::{DriverAddress, DriverAddressError};
 
     #[test]
-    fn commands_are_split_like_in_a_shell() {
+    fn driver_address_commands_are_split_like_in_a_shell() {
         let words = |text: &str| match text.parse() {
             Ok(DriverAddress::Command(words)) => words,
             other => panic!("{other:?}"),
@@ -132,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn only_this_machine_is_called() {
+    fn driver_address_only_this_machine_is_called() {
         assert!(matches!("tcp://127.0.0.1:4000".parse(), Ok(DriverAddress::Tcp(_))));
         assert!(matches!(
             "tcp://192.0.2.1:4000".parse::<DriverAddress>(),

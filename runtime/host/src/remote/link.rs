@@ -1,7 +1,8 @@
 //! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
 //! nobody.
 
-use super::settings::{MAX_LINE_BYTES, MAX_WAITING};
+use super::protocol::{MAX_LINE_BYTES, MAX_WAITING};
+use motet_runtime::Time;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::{Shutdown, TcpStream};
@@ -180,5 +181,29 @@ fn speak(mut writer: Box<dyn Write + Send>, lines: &Receiver<String>) {
             // The reader notices.
             return;
         }
+    }
+}
+
+/// Time that began at an instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock {
+    origin: Instant,
+    from: Time,
+}
+
+impl Clock {
+    /// It is `from` now.
+    pub(super) fn new(from: Time) -> Self {
+        Self { origin: Instant::now(), from }
+    }
+
+    pub(super) fn now(&self) -> Time {
+        let passed = u64::try_from(self.origin.elapsed().as_nanos()).unwrap_or(u64::MAX);
+        self.from.after(Time::from_nanos(passed))
+    }
+
+    /// Duration until a time; `None` for [`Time::NEVER`].
+    pub(super) fn left(&self, until: Time) -> Option<Duration> {
+        (until != Time::NEVER).then(|| Duration::from_nanos(until.since(self.now()).nanos()))
     }
 }

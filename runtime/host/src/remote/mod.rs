@@ -5,16 +5,12 @@
 //! host sees. A goal's number makes every command idempotent: to say it again does nothing new. So an answer
 //! that never comes means unknown, never refused: a start is said again once, and then its goal is lost.
 
-mod clock;
 mod connect;
 mod driver;
-mod hello;
 mod link;
 pub mod protocol;
-mod resume;
-mod settings;
 
 pub use connect::{DriverAddress, DriverAddressError};
 pub use driver::RemoteDriver;
 pub use link::LinkError;
-pub use settings::DriverTimeouts;
+pub use protocol::DriverTimeouts;

@@ -1,12 +1,13 @@
 //! Messages of the driver protocol. Values, queries, commands and outcomes have the JSON form of
 //! `motet-runtime`.
 
-use super::settings::MAX_DEPTH;
+use motet_graph::{Graph, Type};
 use motet_runtime::{Answer, Capabilities, Command, GoalId, Outcome, Query};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The version of the protocol.
 pub const VERSION: u32 = 1;
@@ -220,6 +221,14 @@ pub struct RpcError {
 }
 
 /// The line of a call, without a line feed.
+///
+/// ```
+/// use motet_host::remote::protocol::{DriverCall, GoalParams, say};
+/// use motet_runtime::GoalId;
+///
+/// let line = say(3, &DriverCall::Cancel(GoalParams { goal: GoalId::from_number(7) }));
+/// assert_eq!(line, r#"{"jsonrpc":"2.0","id":3,"method":"cancel","params":{"goal":7}}"#);
+/// ```
 #[must_use]
 pub fn say(id: u64, call: &DriverCall) -> String {
     let mut message = Map::new();
@@ -235,6 +244,15 @@ pub fn say(id: u64, call: &DriverCall) -> String {
 }
 
 /// Parses a line from a driver.
+///
+/// ```
+/// use motet_host::remote::protocol::{DriverMessage, hear};
+///
+/// let message = hear(r#"{"jsonrpc": "2.0", "id": 3, "result": {}}"#)?;
+/// assert!(matches!(message, DriverMessage::Answer(3, Ok(_))));
+/// assert!(hear("ready!").is_err());
+/// # Ok::<(), String>(())
+/// ```
 ///
 /// # Errors
 ///
@@ -300,4 +318,100 @@ struct ProtocolSchema {
 #[must_use]
 pub fn schema() -> schemars::Schema {
     schemars::schema_for!(ProtocolSchema)
+}
+
+impl Hello {
+    /// The greeting before a graph is run.
+    #[must_use]
+    pub fn of(graph: &Graph) -> Self {
+        let primitive = |primitive: &motet_graph::Primitive| CalledPrimitive {
+            name: primitive.name.to_string(),
+            result: primitive.result.as_ref().map(|ty| text(graph, ty)),
+        };
+        Self {
+            protocol: VERSION,
+            robot: graph.robot.to_string(),
+            policy: graph.policy.to_string(),
+            primitives: graph.primitives.iter().map(primitive).collect(),
+        }
+    }
+}
+
+/// A type as the language writes it.
+fn text(graph: &Graph, ty: &Type) -> String {
+    match ty {
+        Type::Bool => "Bool".to_owned(),
+        Type::Int => "Int".to_owned(),
+        Type::Number => "Number".to_owned(),
+        Type::Text => "Text".to_owned(),
+        Type::Pose => "Pose".to_owned(),
+        Type::Quantity(name) | Type::Case(name) => name.to_string(),
+        Type::Entity(kind) => {
+            graph.kinds.get(kind.index()).map_or_else(|| "Entity".to_owned(), |kind| kind.name.to_string())
+        }
+        Type::List(inner) => format!("List<{}>", text(graph, inner)),
+    }
+}
+
+/// The longest line in bytes that a driver may say.
+pub(crate) const MAX_LINE_BYTES: usize = 1024 * 1024;
+/// The longest failure kind in bytes that a driver may name. Another one, or one that is no name, counts as
+/// `failed`.
+pub(crate) const MAX_KIND_BYTES: usize = 64;
+/// The most lines that wait to be heard, and the most that wait to be said.
+pub(crate) const MAX_WAITING: usize = 1_024;
+/// Greatest nesting depth of a driver's message, so that a journal with it can be read again.
+pub(crate) const MAX_DEPTH: usize = 32;
+/// The most characters of a feedback that are kept.
+pub(crate) const MAX_FEEDBACK: usize = 1_000;
+/// Number of times a start is said before its goal counts as lost.
+pub(crate) const SAYINGS: u32 = 2;
+
+/// Time limits for a driver in another process.
+///
+/// ```
+/// use motet_host::remote::DriverTimeouts;
+/// use std::time::Duration;
+///
+/// let patient = DriverTimeouts { silence: Duration::from_secs(20), ..DriverTimeouts::default() };
+/// assert!(patient.recovery() > DriverTimeouts::default().recovery());
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct DriverTimeouts {
+    /// To answer the greeting after it was started or called.
+    pub greeting: Duration,
+    /// To answer a command. It is an answer to have heard it; what it does may take as long as it takes.
+    pub answer: Duration,
+    /// Silence of either side after which the host asks for a sign of life.
+    pub heartbeat: Duration,
+    /// Silence of the driver after which it counts as lost.
+    pub silence: Duration,
+    /// Number of times it is started or called again after it was gone.
+    pub restarts: u32,
+    /// Time limit for a process to stop all motion and to end after `bye`. Then it is killed.
+    pub farewell: Duration,
+}
+
+impl Default for DriverTimeouts {
+    /// 10 s for the greeting, 2 s for an answer, a sign of life every second and at least every 5 s, 3
+    /// restarts, 5 s to end.
+    fn default() -> Self {
+        Self {
+            greeting: Duration::from_secs(10),
+            answer: Duration::from_secs(2),
+            heartbeat: Duration::from_secs(1),
+            silence: Duration::from_secs(5),
+            restarts: 3,
+            farewell: Duration::from_secs(5),
+        }
+    }
+}
+
+impl DriverTimeouts {
+    /// The longest that it takes until a driver that went silent is noticed, called again, greeted and told:
+    /// how long a safe stop has to be waited for at least.
+    #[must_use]
+    pub const fn recovery(&self) -> Duration {
+        self.silence.saturating_add(self.greeting).saturating_add(self.answer)
+    }
 }

@@ -9,7 +9,7 @@ use motet_runtime::{Command, Driver, Query, Time};
 const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/drivers/echo.py");
 
 #[test]
-fn the_example_in_python_keeps_the_laws() {
+fn remote_driver_example_in_python_keeps_the_laws() {
     let python = std::process::Command::new("python3").arg("--version").output();
     if !python.is_ok_and(|output| output.status.success()) {
         println!("skipped: there is no python3");

@@ -74,7 +74,7 @@ fn segments(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn segments_are_read_as_one() {
+fn journal_segments_are_read_as_one() {
     let folder = folder("segments");
     assert_eq!(record(&folder, 20, 1_000), RunEnd::Done { why: None });
     assert!(segments(&folder).len() > 5);
@@ -87,7 +87,7 @@ fn segments_are_read_as_one() {
 }
 
 #[test]
-fn cut_at_every_byte_it_is_opened_and_written_on() {
+fn journal_cut_at_every_byte_it_is_opened_and_written_on() {
     let whole = folder("whole");
     record(&whole, 2, u64::MAX);
     let bytes = fs::read(&segments(&whole)[0]).unwrap();
@@ -116,7 +116,7 @@ fn cut_at_every_byte_it_is_opened_and_written_on() {
 }
 
 #[test]
-fn damage_in_the_middle_is_not_cut_off() {
+fn journal_damage_in_the_middle_is_not_cut_off() {
     let folder = folder("damage");
     record(&folder, 3, u64::MAX);
     let segment = segments(&folder)[0].clone();
@@ -131,7 +131,7 @@ fn damage_in_the_middle_is_not_cut_off() {
 }
 
 #[test]
-fn one_process_at_a_time_and_nothing_is_overwritten() {
+fn journal_one_process_at_a_time_and_nothing_is_overwritten() {
     let folder = folder("busy");
     let graph = graph(&[StepSketch::say("hello")]);
     let writer = JournalWriter::create(&folder, JournalHead::new(&graph)).unwrap();
@@ -162,7 +162,7 @@ impl Observer for Full {
 }
 
 #[test]
-fn where_nothing_can_be_written_nothing_starts() {
+fn journal_where_nothing_can_be_written_nothing_starts() {
     let mut engine = Engine::new(graph(&vec![StepSketch::say("hello"); 9]), &StartState::default()).unwrap();
     let mut full = Full { writes: 0, starts: 0 };
     let end = run(&mut engine, &mut OneSecond::default(), &mut full, Time::ZERO);
@@ -187,7 +187,7 @@ impl Observer for Swapping {
 }
 
 #[test]
-fn a_policy_that_takes_over_is_written_down_and_replayed() {
+fn journal_policy_that_takes_over_is_written_down_and_replayed() {
     let folder = folder("swap");
     let saying = |text: &str, calls: usize| graph(&vec![StepSketch::say(text); calls]);
     let first = saying("first", 3);

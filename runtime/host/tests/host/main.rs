@@ -10,4 +10,5 @@
 
 mod conformance;
 mod journal;
+mod protocol;
 mod robot_thread;

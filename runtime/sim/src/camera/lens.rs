@@ -106,7 +106,7 @@ mod tests {
     use motet_robots::quaternion::rotate;
 
     #[test]
-    fn the_quaternion_is_that_of_the_axes() {
+    fn lens_quaternion_is_that_of_the_axes() {
         for (heading, below) in [(0.0, 0.0), (0.7, 0.3), (-2.9, -0.4), (3.1, 1.5)] {
             let lens = CameraLens::new([0.0; 3], heading, below);
             for (axis, unit) in lens.axes.iter().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn it_looks_at_the_point() {
+    fn lens_looks_at_the_point() {
         let lens = CameraLens::towards([1.0, 2.0, 1.2], [0.0, 3.0, 0.7], 0.0);
         let ray = lens.ray(0, 0);
         let ahead = lens.axes[2];

@@ -5,13 +5,10 @@
 //! ray meets it, [`lens`] which ray a pixel is, and [`render`] puts these together. There are no walls, no
 //! shadows and no robot in a picture: it is for telling things apart, not for beauty.
 
-mod colour;
 mod lens;
-mod png;
 mod render;
 mod scenery;
 mod solid;
 
 pub(crate) use lens::CameraLens;
-pub(crate) use png::encoded;
-pub(crate) use render::render;
+pub(crate) use render::{encoded, render};

@@ -1,12 +1,11 @@
-//! A picture: of each pixel the colour and the depth of the nearest surface along its ray.
+//! Pictures: of each pixel the colour and the depth of the nearest surface along its ray; and their encoding
+//! as PNG.
 
-use motet_runtime::DepthImage;
-
-use super::colour::Colour;
 use super::lens::{CameraLens, SIZE, dot};
-use super::scenery::{Painted, scenery};
+use super::scenery::{Colour, Painted, scenery};
 use crate::world::SimWorld;
 use motet_robots::scene::Scene;
+use motet_runtime::DepthImage;
 
 /// Distance that the camera measures, in m: what is beyond is the background.
 const FAR_M: f64 = 10.0;
@@ -77,4 +76,17 @@ fn ground([x, y, z]: [f64; 3], [dx, dy, dz]: [f64; 3]) -> (f64, Colour) {
 fn lit(colour: Colour, normal: [f64; 3]) -> Colour {
     let share = AMBIENT + (1.0 - AMBIENT) * dot(normal, LIGHT).clamp(0.0, 1.0);
     colour.map(|part| (f64::from(part) * share).round() as u8)
+}
+
+/// A picture as a PNG; none where it is no picture.
+pub(crate) fn encoded(shot: &RenderedView) -> Option<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let (width, height) = (u32::try_from(shot.depth.width).ok()?, u32::try_from(shot.depth.height).ok()?);
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header().ok()?;
+    writer.write_image_data(&shot.colours).ok()?;
+    writer.finish().ok()?;
+    Some(bytes)
 }

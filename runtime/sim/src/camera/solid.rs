@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_meet_the_near_side() {
+    fn solid_rays_meet_the_near_side() {
         let ahead = [1.0, 0.0, 0.0];
         let cube = Form::Box([0.5; 3]);
         let can = Form::Cylinder { radius: 0.5, half: 0.5 };
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn from_within_nothing_is_met() {
+    fn solid_from_within_nothing_is_met() {
         assert_eq!(met(Form::Sphere { radius: 0.5 }, 0.0, [2.0, 0.0, 1.0], [1.0, 0.0, 0.0]), None);
         assert_eq!(met(Form::Box([0.5; 3]), 0.0, [2.0, 0.0, 1.0], [1.0, 0.0, 0.0]), None);
     }

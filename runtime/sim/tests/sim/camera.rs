@@ -21,7 +21,7 @@ fn seen(sim: &mut Sim, of: &str) -> RgbdView {
 }
 
 #[test]
-fn a_thing_is_in_the_middle_of_its_picture_in_its_colour_and_as_far_as_it_is() {
+fn camera_thing_is_in_the_middle_of_its_picture_in_its_colour_and_as_far_as_it_is() {
     let mut sim = sim("hsr", "kitchen", SimOptions { eye: Some([0.1, 0.0, 1.0]), ..SimOptions::default() });
     for (of, strongest) in [("mug_1", 0), ("apple", 1)] {
         let view = seen(&mut sim, of);
@@ -38,9 +38,10 @@ fn a_thing_is_in_the_middle_of_its_picture_in_its_colour_and_as_far_as_it_is() {
 }
 
 #[test]
-fn what_is_shut_in_is_not_seen_until_it_is_open() {
+fn camera_what_is_shut_in_is_not_seen_until_it_is_open() {
     let shut = r#"{"motet_scene": 1, "robot": {"base": [0, 0, 0]}, "entities": [
-        {"id": "fridge", "kind": "Container", "pose": {"xyz": [1.5, 0, 0.7], "rpy": [0, 0, 3.14159]}, "fixed": true,
+        {"id": "fridge", "kind": "Container", "pose": {"xyz": [1.5, 0, 0.7], "rpy": [0, 0, 3.14159]},
+            "fixed": true,
          "shape": {"box": [0.6, 0.6, 1.4]}, "open": OPEN,
          "travel": {"hinge": {"axis": [0, 0, -1], "at": [0.3, -0.3, 0.0], "angle": 1.57}}},
         {"id": "red_can", "kind": "Object", "pose": {"xyz": [1.5, 0, 0.7]}, "in": "fridge",
@@ -56,11 +57,12 @@ fn what_is_shut_in_is_not_seen_until_it_is_open() {
 }
 
 #[test]
-fn the_camera_turns_to_where_there_is_something_to_see() {
+fn camera_turns_to_where_there_is_something_to_see() {
     let room = |y: f64| {
         crate::scene(&format!(
             r#"{{"motet_scene": 1, "robot": {{"base": [0, 0, 0]}}, "entities": [
-            {{"id": "red_ball", "kind": "Object", "pose": {{"xyz": [0.5, {y}, 0.6]}}, "shape": {{"sphere": {{"radius": 0.1}}}}}}]}}"#
+            {{"id": "red_ball", "kind": "Object", "pose": {{"xyz": [0.5, {y}, 0.6]}},
+                "shape": {{"sphere": {{"radius": 0.1}}}}}}]}}"#
         ))
     };
     for y in [-1.0, 0.0, 1.0] {
@@ -72,7 +74,7 @@ fn the_camera_turns_to_where_there_is_something_to_see() {
 }
 
 #[test]
-fn pictures_keep_the_laws_and_are_the_same_of_the_same_world() {
+fn camera_pictures_keep_the_laws_and_are_the_same_of_the_same_world() {
     for (robot, room) in [("hsr", "kitchen"), ("anymal_z1", "living_room"), ("panda", "lab")] {
         let mut eyes = sim(robot, room, SimOptions::default());
         assert_eq!(check_perception(&mut eyes, &[Time::ZERO]), [""; 0], "{robot} in {room}");

@@ -30,13 +30,13 @@ fn laws(fresh: &mut dyn FnMut() -> Box<dyn Driver>) -> (BTreeSet<Law>, Vec<Strin
 }
 
 #[test]
-fn the_simulator_keeps_the_laws() {
+fn sim_simulator_keeps_the_laws() {
     let (_, told) = laws(&mut || Box::new(kitchen()));
     assert_eq!(told, [""; 0]);
 }
 
 #[test]
-fn what_breaks_a_law_is_named() {
+fn sim_what_breaks_a_law_is_named() {
     let late = Time::from_secs(300.0);
     for (name, mischief, expected) in [
         (
@@ -82,7 +82,7 @@ fn what_breaks_a_law_is_named() {
 }
 
 #[test]
-fn a_driver_that_is_never_the_same_is_named() {
+fn sim_driver_that_is_never_the_same_is_named() {
     let mut seed = 0;
     let (laws, _) = laws(&mut || {
         seed += 1;

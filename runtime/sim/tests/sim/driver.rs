@@ -17,7 +17,7 @@ fn reading(event: Option<DriverEvent>) -> f64 {
 }
 
 #[test]
-fn a_watch_follows_the_base() {
+fn sim_watch_follows_the_base() {
     let mut bench = Bench::kitchen();
     bench.sim.watch(bench.now, &distance());
     let first = reading(bench.next(1.0));
@@ -34,7 +34,7 @@ fn a_watch_follows_the_base() {
 }
 
 #[test]
-fn an_observation_is_answered_once() {
+fn sim_observation_is_answered_once() {
     let mut bench = Bench::kitchen();
     let holding = Query::Fact { fluent: "holding".into(), args: vec![Pattern::Any] };
     let unknown = Query::Fact { fluent: "stirred".into(), args: vec![Pattern::Is(entity("mug_1"))] };
@@ -46,7 +46,7 @@ fn an_observation_is_answered_once() {
 }
 
 #[test]
-fn a_cancelled_drive_stops_where_it_is() {
+fn sim_cancelled_drive_stops_where_it_is() {
     let mut bench = Bench::kitchen();
     let goal = bench.start("go", &[("to", entity("kitchen_table"))]);
     bench.next(1.0);
@@ -63,7 +63,7 @@ fn a_cancelled_drive_stops_where_it_is() {
 }
 
 #[test]
-fn a_held_goal_waits() {
+fn sim_held_goal_waits() {
     for (primitive, args) in
         [("go", [("to", entity("kitchen_table"))]), ("stir", [("what", entity("mug_1"))])]
     {
@@ -85,7 +85,7 @@ fn a_held_goal_waits() {
 }
 
 #[test]
-fn the_seed_decides_all() {
+fn sim_seed_decides_all() {
     let run = |seed| {
         let mut bench = Bench::with(SimOptions { seed, ..SimOptions::default() });
         bench.sim.watch(bench.now, &distance());

@@ -93,7 +93,7 @@ fn fetch(faults: &str, retries: u32) -> (RunEnd, motet_sim::Sim) {
 }
 
 #[test]
-fn a_policy_runs_to_its_goal() {
+fn sim_policy_runs_to_its_goal() {
     let (end, sim) = fetch("{}", 0);
     assert_eq!(end, RunEnd::Done { why: None });
     assert_eq!(sim.holds("at", &["mug_1", "user"]), Some(true));
@@ -101,14 +101,14 @@ fn a_policy_runs_to_its_goal() {
 }
 
 #[test]
-fn a_retry_gets_over_a_fault() {
+fn sim_retry_gets_over_a_fault() {
     let slips = r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#;
     assert!(matches!(fetch(slips, 0).0, RunEnd::Failed { kind, .. } if kind == "slipped"));
     assert_eq!(fetch(slips, 1).0, RunEnd::Done { why: None });
 }
 
 #[test]
-fn a_deadline_ends_what_hangs() {
+fn sim_deadline_ends_what_hangs() {
     let hangs = r#"{"calls": [{"primitive": "pick", "then": "hangs"}]}"#;
     assert!(matches!(fetch(hangs, 0).0, RunEnd::Failed { kind, .. } if kind == "timeout"));
 }

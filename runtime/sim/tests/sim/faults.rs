@@ -4,7 +4,7 @@ use crate::{Bench, entity};
 use motet_runtime::{Driver, DriverEvent, Outcome};
 
 #[test]
-fn the_nth_call_fails() {
+fn faults_nth_call_fails() {
     let mut bench = Bench::faulty(
         r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}},
                       {"primitive": "pick", "nth": 3, "then": {"refuses": "unsafe"}}]}"#,
@@ -19,7 +19,7 @@ fn the_nth_call_fails() {
 }
 
 #[test]
-fn a_call_is_slow_or_hangs() {
+fn faults_call_is_slow_or_hangs() {
     let mut bench = Bench::kitchen();
     bench.does("go", &[("to", entity("mug_1"))]);
     let plain = bench.now;
@@ -36,7 +36,7 @@ fn a_call_is_slow_or_hangs() {
 }
 
 #[test]
-fn the_world_changes_by_itself() {
+fn faults_world_changes_by_itself() {
     let mut bench = Bench::faulty(
         r#"{"world": [{"at": 30, "what": {"slips": "mug_1"}},
                       {"at": 60, "what": {"moves": {"object": "mug_2", "to": {"surface": "counter"}}}},
@@ -67,7 +67,7 @@ fn the_world_changes_by_itself() {
 }
 
 #[test]
-fn a_person_walks_away_and_is_followed() {
+fn faults_person_walks_away_and_is_followed() {
     let mut bench = Bench::faulty(
         r#"{"world": [{"at": 1, "what": {"walks": {"person": "user", "to": [-1.0, 0.0], "speed": 0.2}}}]}"#,
     );

@@ -16,7 +16,7 @@ fn walker() -> Bench {
 }
 
 #[test]
-fn an_arm_has_postures() {
+fn sim_arm_has_postures() {
     let mut bench = walker();
     let mut posture = |primitive: &str, args: &[(&str, Value)], holds: [bool; 3]| {
         bench.does(primitive, args);
@@ -34,7 +34,7 @@ fn an_arm_has_postures() {
 }
 
 #[test]
-fn a_hand_carries_only_so_much() {
+fn sim_hand_carries_only_so_much() {
     let mut bench = Bench::of(sim("hsr", "lab", SimOptions::default()));
     bench.does("go", &[("to", entity("vise"))]);
     bench.is("reachable", &["vise"], false);
@@ -43,7 +43,7 @@ fn a_hand_carries_only_so_much() {
 }
 
 #[test]
-fn what_is_locked_stays_shut() {
+fn sim_what_is_locked_stays_shut() {
     let mut bench = Bench::faulty(r#"{"world": [{"at": 0, "what": {"locks": "drawer_1"}}]}"#);
     bench.does("go", &[("to", entity("drawer_1"))]);
     bench.is("locked", &["drawer_1"], true);
@@ -52,7 +52,7 @@ fn what_is_locked_stays_shut() {
 }
 
 #[test]
-fn a_person_is_served_from_more_than_half_a_metre() {
+fn sim_person_is_served_from_more_than_half_a_metre() {
     for (robot, room, rim) in [("hsr", "kitchen", 0.23), ("anymal_z1", "lab", 0.55)] {
         let mut bench = Bench::of(sim(robot, room, SimOptions::default()));
         bench.does("go", &[("to", entity("user"))]);
@@ -64,7 +64,7 @@ fn a_person_is_served_from_more_than_half_a_metre() {
 }
 
 #[test]
-fn only_what_the_card_lists_is_observed() {
+fn sim_only_what_the_card_lists_is_observed() {
     for (robot, room, known) in [("hsr", "kitchen", true), ("anymal_z1", "lab", false)] {
         let mut bench = Bench::of(sim(robot, room, SimOptions::default()));
         let force = Query::Measure { measure: "force".into(), args: Vec::new() };
@@ -75,7 +75,7 @@ fn only_what_the_card_lists_is_observed() {
 }
 
 #[test]
-fn a_refusal_ends_a_call_before_it_begins() {
+fn sim_refusal_ends_a_call_before_it_begins() {
     let mut bench = Bench::faulty(r#"{"calls": [{"primitive": "home", "then": {"refuses": "unsafe"}}]}"#);
     let goal = bench.start("home", &[]);
     let refused = DriverEvent::Refused { goal, failure: "unsafe".into() };

@@ -6,7 +6,7 @@ use motet_runtime::{Outcome, Time};
 use motet_sim::{PersonScript, SimOptions};
 
 #[test]
-fn it_fetches_a_mug() {
+fn sim_fetches_a_mug() {
     let mut bench = Bench::kitchen();
     bench.does("go", &[("to", entity("kitchen_table"))]);
     // 1.8 m to the table's edge at 0.22 m/s, less the room that the base needs.
@@ -36,7 +36,7 @@ fn it_fetches_a_mug() {
 }
 
 #[test]
-fn everything_on_the_furniture_can_be_taken_and_put_elsewhere() {
+fn sim_everything_on_the_furniture_can_be_taken_and_put_elsewhere() {
     for object in ["mug_1", "apple", "mug_2", "bottle", "coke", "sponge"] {
         let mut bench = Bench::kitchen();
         bench.does("go", &[("to", entity(object))]);
@@ -54,7 +54,7 @@ fn everything_on_the_furniture_can_be_taken_and_put_elsewhere() {
 }
 
 #[test]
-fn a_drawer_opens_and_closes_about_what_lies_in_it() {
+fn sim_drawer_opens_and_closes_about_what_lies_in_it() {
     let mut bench = Bench::kitchen();
     bench.fails("open", &[("what", entity("drawer_1"))], "unreachable");
     bench.does("go", &[("to", entity("mug_1"))]);
@@ -80,7 +80,7 @@ fn a_drawer_opens_and_closes_about_what_lies_in_it() {
 }
 
 #[test]
-fn failures_tell_the_truth() {
+fn sim_failures_tell_the_truth() {
     let mut bench = Bench::kitchen();
     bench.fails("pick", &[("object", entity("mug_2"))], "unreachable");
     bench.fails("pick", &[("object", entity("unicorn"))], "not_found");
@@ -95,7 +95,7 @@ fn failures_tell_the_truth() {
 }
 
 #[test]
-fn it_looks_for_things_where_it_is_told() {
+fn sim_looks_for_things_where_it_is_told() {
     let mut bench = Bench::kitchen();
     let found = bench.call("search", &[("what", text("water bottle")), ("around", entity("counter"))]);
     assert_eq!(found, Outcome::Success(Some(entity("bottle"))));
@@ -110,7 +110,7 @@ fn it_looks_for_things_where_it_is_told() {
 }
 
 #[test]
-fn people_answer_from_the_script() {
+fn sim_people_answer_from_the_script() {
     let script = PersonScript { answers: vec![Some("tea".into()), Some("blue mug".into()), None] };
     let mut bench = Bench::with(SimOptions { script, ..SimOptions::default() });
     let among = Value::List(vec![entity("mug_1"), entity("mug_2")]);
@@ -125,7 +125,7 @@ fn people_answer_from_the_script() {
 }
 
 #[test]
-fn what_it_does_not_know_succeeds() {
+fn sim_what_it_does_not_know_succeeds() {
     let mut bench = Bench::kitchen();
     assert_eq!(bench.call("stir", &[("what", entity("mug_1"))]), Outcome::Success(None));
     assert!((9.0..11.0).contains(&bench.now.secs()), "{}", bench.now);
@@ -136,7 +136,7 @@ fn what_it_does_not_know_succeeds() {
 }
 
 #[test]
-fn what_it_is_told_is_so() {
+fn sim_what_it_is_told_is_so() {
     let facts = [
         ("holding", &["apple"][..], true),
         ("open", &["drawer_1"], true),

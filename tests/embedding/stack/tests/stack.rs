@@ -43,11 +43,8 @@ fn answers(name: &str, queries: &[MotionQuery], holding: bool) {
             MotionAnswer::Feasible(witness) => {
                 let start: &Configuration = context.start();
                 assert_eq!(witness.path.first(), Some(start), "{name}: {query}");
-                drop((
-                    context.after_reach(&witness),
-                    context.after_put(&witness),
-                    context.after_pull(&witness),
-                ));
+                drop((context.after_reach(&witness), context.after_put(&witness)));
+                drop(context.after_pull(&witness));
             }
             MotionAnswer::Infeasible(why) => drop(context.explain(query, &why, BUDGET)),
             MotionAnswer::Unknown(_) => {}

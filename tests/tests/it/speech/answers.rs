@@ -4,7 +4,7 @@ use motet_requests::RequestContext;
 use motet_tests::setup;
 
 #[test]
-fn who_wants_another_try_says_so_in_many_ways() {
+fn answer_who_wants_another_try_says_so_in_many_ways() {
     for answer in [
         "Give it another shot.",
         "don't give up, try again!",
@@ -83,7 +83,7 @@ fn told(answer: &str) -> Vec<String> {
 }
 
 #[test]
-fn where_a_thing_is_is_told_in_many_ways() {
+fn answer_where_a_thing_is_is_told_in_many_ways() {
     for answer in [
         "Isn't it in the fridge?",
         "Tommy put it in the fridge, I saw him do it!",

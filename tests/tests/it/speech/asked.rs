@@ -4,7 +4,7 @@ use super::{goals, mean, not_taken};
 use motet_requests::RequestError;
 
 #[test]
-fn what_somebody_cannot_do_or_forgot_is_done_where_they_ask_for_it() {
+fn request_what_somebody_cannot_do_or_forgot_is_done_where_they_ask_for_it() {
     mean(
         &["not open(fridge_1)"],
         &[
@@ -43,7 +43,7 @@ fn what_somebody_cannot_do_or_forgot_is_done_where_they_ask_for_it() {
 }
 
 #[test]
-fn children_and_foreigners_say_who_shall_do_it() {
+fn request_children_and_foreigners_say_who_shall_do_it() {
     mean(
         &["at(coke, user)"],
         &[
@@ -86,7 +86,7 @@ fn children_and_foreigners_say_who_shall_do_it() {
 }
 
 #[test]
-fn what_is_forbidden_beside_is_no_part_of_what_is_asked_for() {
+fn request_what_is_forbidden_beside_is_no_part_of_what_is_asked_for() {
     mean(
         &["on(sponge, counter)"],
         &[
@@ -123,7 +123,7 @@ fn what_is_forbidden_beside_is_no_part_of_what_is_asked_for() {
 }
 
 #[test]
-fn what_shall_be_done_with_it_is_asked_where_it_is_not_said() {
+fn request_what_shall_be_done_with_it_is_asked_where_it_is_not_said() {
     for request in [
         "Would you mind taking care of the sponge for me?",
         "I need your help with the sponge.",
@@ -137,7 +137,7 @@ fn what_shall_be_done_with_it_is_asked_where_it_is_not_said() {
 }
 
 #[test]
-fn what_somebody_else_wants_is_done_where_the_speaker_asks_for_it() {
+fn request_what_somebody_else_wants_is_done_where_the_speaker_asks_for_it() {
     mean(
         &["on(sponge, counter)"],
         &[
@@ -168,7 +168,7 @@ fn what_somebody_else_wants_is_done_where_the_speaker_asks_for_it() {
 }
 
 #[test]
-fn what_is_left_out_is_what_was_named_just_before() {
+fn request_what_is_left_out_is_what_was_named_just_before() {
     mean(
         &["at(coke, user)"],
         &["I want the coke! Gimme, gimme!", "Need the coke. Here. Now.", "Give it here, the coke."],

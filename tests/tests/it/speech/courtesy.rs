@@ -3,7 +3,7 @@
 use super::{mean, not_taken};
 
 #[test]
-fn whom_one_speaks_to_and_what_one_thinks_meanwhile_is_passed_over() {
+fn request_whom_one_speaks_to_and_what_one_thinks_meanwhile_is_passed_over() {
     mean(
         &["at(coke, user)"],
         &[
@@ -24,7 +24,7 @@ fn whom_one_speaks_to_and_what_one_thinks_meanwhile_is_passed_over() {
 }
 
 #[test]
-fn reasons_stand_before_or_behind_what_is_asked_for() {
+fn request_reasons_stand_before_or_behind_what_is_asked_for() {
     mean(
         &["at(bottle, user)"],
         &[
@@ -56,7 +56,7 @@ fn reasons_stand_before_or_behind_what_is_asked_for() {
 }
 
 #[test]
-fn who_is_asked_may_be_anyone_and_how_may_be_said() {
+fn request_who_is_asked_may_be_anyone_and_how_may_be_said() {
     mean(
         &["at(sponge, user)"],
         &[
@@ -99,7 +99,7 @@ fn who_is_asked_may_be_anyone_and_how_may_be_said() {
 }
 
 #[test]
-fn what_is_asked_for_in_passing_is_done() {
+fn request_what_is_asked_for_in_passing_is_done() {
     mean(
         &["not open(fridge_1)"],
         &[
@@ -131,7 +131,7 @@ fn what_is_asked_for_in_passing_is_done() {
 }
 
 #[test]
-fn how_people_ask_is_composed_and_no_table() {
+fn request_how_people_ask_is_composed_and_no_table() {
     mean(
         &["at(coke, user)"],
         &[
@@ -197,7 +197,7 @@ fn how_people_ask_is_composed_and_no_table() {
 }
 
 #[test]
-fn why_and_by_when_is_passed_over_and_a_condition_is_not() {
+fn request_why_and_by_when_is_passed_over_and_a_condition_is_not() {
     mean(
         &["on(sponge, counter)"],
         &[

@@ -4,7 +4,7 @@ use super::{goals, mean, not_taken};
 use motet_requests::RequestError;
 
 #[test]
-fn a_place_can_come_first_or_without_a_verb() {
+fn request_place_can_come_first_or_without_a_verb() {
     mean(
         &["in(apple, trash)"],
         &["The apple is rotten, into the bin with it!", "Into the trash with the apple."],
@@ -47,7 +47,7 @@ fn a_place_can_come_first_or_without_a_verb() {
 }
 
 #[test]
-fn where_something_goes_may_be_said_in_a_clause_of_its_own() {
+fn request_where_something_goes_may_be_said_in_a_clause_of_its_own() {
     mean(
         &["in(sponge, drawer_1)"],
         &[
@@ -117,7 +117,7 @@ fn where_something_goes_may_be_said_in_a_clause_of_its_own() {
 }
 
 #[test]
-fn what_is_spoken_of_and_not_clear_is_asked_of_and_not_guessed() {
+fn request_what_is_spoken_of_and_not_clear_is_asked_of_and_not_guessed() {
     for request in [
         "You know the mug lives in the top drawer, so pop it back in there for me.",
         "I'll tell you later where the mug goes, for now just pick it up.",
@@ -129,7 +129,7 @@ fn what_is_spoken_of_and_not_clear_is_asked_of_and_not_guessed() {
 }
 
 #[test]
-fn what_is_held_is_held() {
+fn request_what_is_held_is_held() {
     mean(
         &["holding(bottle)"],
         &[
@@ -153,7 +153,7 @@ fn what_is_held_is_held() {
 }
 
 #[test]
-fn a_place_may_follow_in_a_clause_of_its_own_or_tell_only_where_a_thing_lives() {
+fn request_place_may_follow_in_a_clause_of_its_own_or_tell_only_where_a_thing_lives() {
     mean(
         &["in(sponge, drawer_1)"],
         &[

@@ -6,13 +6,14 @@ use motet_syntax::print;
 use motet_tests::setup;
 
 #[test]
-fn what_is_wished_is_done_where_it_is_asked_for() {
+fn request_what_is_wished_is_done_where_it_is_asked_for() {
     mean(
         &["in(sponge, drawer_1)"],
         &[
             "I'd rather have the sponge in the top drawer, out of sight. Do that for me.",
             "I promised I'd put the sponge in the top drawer, but I am too small. You do it!",
-            "I meant to put the sponge in the top drawer this morning and never got round to it. Can you do it?",
+            "I meant to put the sponge in the top drawer this morning and never got round to it. Can you do \
+             it?",
             "Hide the sponge in the top drawer before anyone sees it.",
             "Shove the sponge in the top drawer so I don't get yelled at.",
             "Please to put the sponge in the top drawer.",
@@ -75,7 +76,7 @@ fn what_is_wished_is_done_where_it_is_asked_for() {
 }
 
 #[test]
-fn who_wants_something_later_or_can_do_it_speaks_of_it_alone() {
+fn request_who_wants_something_later_or_can_do_it_speaks_of_it_alone() {
     mean(&["on(sponge, counter)"], &["Just leave the sponge on the counter and I'll take it later."]);
     mean(
         &["at(sponge, user)"],
@@ -121,13 +122,13 @@ fn who_wants_something_later_or_can_do_it_speaks_of_it_alone() {
 }
 
 #[test]
-fn a_thing_that_is_wanted_where_it_is_believed_to_be_is_looked_at() {
+fn request_thing_that_is_wanted_where_it_is_believed_to_be_is_looked_at() {
     mean(&["at(robot, counter)", "visible(coke)", "on(coke, counter)"], &["put the coke on the counter"]);
     mean(&["on(coke, sink)"], &["put the coke on the sink"]);
 }
 
 #[test]
-fn what_would_be_nice_is_wanted() {
+fn request_what_would_be_nice_is_wanted() {
     mean(
         &["at(coke, user)"],
         &[

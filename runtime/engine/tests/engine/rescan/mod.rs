@@ -253,7 +253,7 @@ fn compare(graphs: &[Graph], acts: &[(u64, Act)], counts: &Counts) -> Result<(),
 }
 
 #[test]
-fn what_runs_at_once_goes_as_in_a_naive_interpreter() {
+fn engine_what_runs_at_once_goes_as_in_a_naive_interpreter() {
     let cases = (prop::collection::vec(steps(), 1..3), steps(), prop::collection::vec(acts(), 12));
     let config = ProptestConfig {
         cases: 1_000,

@@ -2,10 +2,9 @@
 
 use super::super::link::LinkError;
 use super::super::protocol::{
-    DriverCall, DriverMessage, DriverReport, EmptyParams, GoalParams, QueryParams, QueryResult, REFUSED,
-    RefusedData, RpcError, hear,
+    DriverCall, DriverMessage, DriverReport, EmptyParams, GoalParams, MAX_FEEDBACK, MAX_KIND_BYTES,
+    QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear,
 };
-use super::super::settings::{MAX_FEEDBACK, MAX_KIND_BYTES, SAYINGS};
 use super::{RemoteDriver, Waiting, failed, nonsense};
 use motet_runtime::{Answer, DriverEvent, Outcome};
 use serde_json::Value;
@@ -72,7 +71,7 @@ impl RemoteDriver {
 
     /// The failure kind that a driver names: a name of at most [`MAX_KIND_BYTES`]. Anything else is `failed`,
     /// and is told to people.
-    pub(in super::super) fn kind(&mut self, named: &str) -> SmolStr {
+    pub(super) fn kind(&mut self, named: &str) -> SmolStr {
         let mut letters = named.chars();
         let is_name = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
             && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
@@ -85,7 +84,7 @@ impl RemoteDriver {
     }
 
     /// An outcome whose failure has a name.
-    pub(in super::super) fn named(&mut self, outcome: Outcome) -> Outcome {
+    pub(super) fn named(&mut self, outcome: Outcome) -> Outcome {
         match outcome {
             Outcome::Failure(kind) => Outcome::Failure(self.kind(&kind)),
             Outcome::Success(_) | Outcome::Interrupted => outcome,
