@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use motet_decode::{Subset, canonical};
 use motet_planner::builtin::{PlanError, PlannedRequest};
-use motet_planner::dialect::{actions, exchange};
 use motet_planner::dialogue::Problem;
+use motet_planner::inteliplan::{actions, exchange};
 use motet_planner::model;
 use motet_planner::prompt;
 use motet_planner::{Builtin, PlanRequest, Planner};

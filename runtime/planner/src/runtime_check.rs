@@ -1,6 +1,5 @@
-//! Motions that the compiler left to the run, checked in the room as the run has left it, by the geometry
-//! that the compiler
-//! itself uses.
+//! Run-time checks of the motions that the compiler deferred, in the scene as the run has left it, with the
+//! compiler's own geometry.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -13,33 +12,31 @@ use motet_runtime::{
     Time, Verification, Verifier,
 };
 
-/// Time that the engine waits for a verdict: longer than any search within its budget.
+/// Time limit of the engine for a verdict: longer than any search within its budget.
 pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
 
-/// Checks motions along the way that a run takes.
+/// Checks the deferred motions of a run, and tracks the scene along the run.
 #[derive(Debug)]
 pub struct Guard(How);
 
 #[derive(Debug)]
 enum How {
-    /// In the calls themselves.
+    /// Searches inside the calls.
     AtOnce { way: SearchPath, verdicts: VecDeque<(CheckId, Verification)> },
-    /// On a thread of its own, which is told everything in order and ends once nobody tells it any more.
+    /// Thread that receives every event in order and ends with the last sender.
     Beside { thread: Sender<GuardMessage>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
 }
 
-/// When motions are searched for that were left to a run.
+/// Schedule of the motion searches in a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CheckMode {
-    /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
+    /// Search when a verdict is requested. In virtual time this takes no time, so every run is the same.
     AtOnce,
-    /// On a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor
-    /// by what follows from a
-    /// step for the next.
+    /// Search on a thread of its own, so that neither a search nor the tracking of the scene delays the run.
     Beside,
 }
 
-/// Message to a guard's thread.
+/// Message to the thread of the checks.
 #[derive(Debug)]
 enum GuardMessage {
     Reported(DriverEvent),
@@ -48,7 +45,7 @@ enum GuardMessage {
 }
 
 impl Guard {
-    /// For a run that begins where a course does.
+    /// Guard for a run that begins in the tracker's state.
     #[must_use]
     pub fn new(course: WorldTracker, verifies: CheckMode) -> Self {
         match verifies {
@@ -128,7 +125,7 @@ impl Verifier for Guard {
     }
 }
 
-/// The way of a run, followed from what is told of it.
+/// Tracker of the scene along a run.
 #[derive(Debug)]
 struct SearchPath {
     course: WorldTracker,
@@ -136,7 +133,7 @@ struct SearchPath {
 }
 
 impl SearchPath {
-    /// Takes something in; gives the verdict where that is a question.
+    /// Takes in a message; returns the verdict if the message requests one.
     fn hear(&mut self, told: GuardMessage) -> Option<(CheckId, Verification)> {
         match told {
             GuardMessage::Reported(event) => self.report(&event),

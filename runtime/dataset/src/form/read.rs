@@ -1,6 +1,6 @@
 //! From lines to what a model is shown and shall answer, whichever form they are in.
 
-use motet_planner::dialect::exchange;
+use motet_planner::inteliplan::exchange;
 use serde_json::Value;
 use smol_str::SmolStr;
 

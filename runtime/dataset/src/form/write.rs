@@ -1,6 +1,6 @@
 //! From rows to lines.
 
-use motet_planner::dialect::exchange::Exchange;
+use motet_planner::inteliplan::exchange::Exchange;
 use serde_json::{Value, json};
 
 use super::Form;
