@@ -14,8 +14,7 @@ mod spanned;
 use std::borrow::Cow;
 
 pub(crate) use de::{Fault, MIXED, OPEN, deserialize};
-pub use parse::MAX_BRACKETS;
-pub(crate) use parse::parse_json;
+pub use parse::{MAX_BRACKETS, parse_json};
 pub(crate) use schema::phrase;
 pub use schema::{Mismatch, MismatchKind, check_schema};
 pub use spanned::{Lenient, Spanned};
