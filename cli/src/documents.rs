@@ -7,11 +7,12 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
+use motet_compiler::{Library, make_explicit};
 use motet_project::files::{Bytes, decode, read_bounded, read_file};
 use motet_project::{DOCUMENT, ProjectError};
-use motet_syntax::ast::{self, MAX_BYTES};
+use motet_syntax::ast::{self, Item, MAX_BYTES, Policy};
 use motet_syntax::errors::too_large;
-use motet_syntax::{Diagnostic, Parsed, Source, Span, Syntax};
+use motet_syntax::{Diagnostic, Parsed, Source, Span, Syntax, print};
 use serde::de::IgnoredAny;
 
 use crate::error::CliError;
@@ -285,5 +286,46 @@ fn failed_path(error: &ignore::Error) -> Option<&Path> {
         | ignore::Error::Glob { .. }
         | ignore::Error::UnrecognizedFileType(_)
         | ignore::Error::InvalidDefinition => None,
+    }
+}
+
+/// Writes a document, or one policy of it, in a syntax.
+///
+/// # Errors
+///
+/// Reason why the syntax cannot express the document, as one clause.
+pub(crate) fn write(
+    parsed: &Parsed,
+    policy: Option<&str>,
+    library: &Library,
+    syntax: Syntax,
+) -> Result<String, String> {
+    let mut file = parsed.file.clone();
+    if let Some(name) = policy {
+        file.items.retain(|item| matches!(item, Item::Policy(policy) if policy.name.text == name));
+        if file.items.is_empty() {
+            return Err(format!("there is no policy `{name}`"));
+        }
+    }
+    for item in &mut file.items {
+        if let Item::Policy(policy) = item {
+            make_explicit(policy, library, syntax);
+        }
+    }
+    match syntax {
+        Syntax::Text => Ok(print::text(&file)),
+        Syntax::Json => Ok(print::policy_json(only(&file.items)?)),
+    }
+}
+
+/// Only policy of a document, which has no parameters.
+fn only(items: &[Item]) -> Result<&Policy, String> {
+    let rule = "a JSON document holds exactly one policy without parameters";
+    match items {
+        [Item::Policy(policy)] if policy.params.is_empty() => Ok(policy),
+        [Item::Policy(policy)] => Err(format!("`{}` has parameters, and {rule}", policy.name.text)),
+        [] => Err(format!("there is no policy, and {rule}")),
+        [_] => Err(format!("there is no policy but another declaration, and {rule}")),
+        more => Err(format!("there are {} declarations, and {rule}", more.len())),
     }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum, value_parser};
+use motet_decode::export::Dialect;
 use motet_planner::runtime_check::CheckMode;
 use motet_project::{Project, ProjectBuilder};
 use motet_syntax::Syntax;
@@ -85,7 +86,8 @@ pub(crate) struct MotionArgs {
     #[arg(long)]
     pub(crate) no_geometry: bool,
     /// Search budget of a motion: 4 tries four times as often before the motion is deferred to the run
-    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1,
+          value_parser = value_parser!(u16).range(1..=1000))]
     pub(crate) effort: u16,
 }
 
@@ -148,13 +150,41 @@ impl From<SyntaxArg> for Syntax {
     }
 }
 
+/// Dialect of a model server. A new one is a case of [`Dialect`] first.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum ServerDialect {
+    /// vLLM 0.12 and later
+    Vllm,
+    /// Server of llama.cpp
+    Llamacpp,
+    /// Ollama, at its own chat address
+    Ollama,
+    Sglang,
+    /// OpenAI, and servers that speak like it
+    Openai,
+}
+
+impl From<ServerDialect> for Dialect {
+    fn from(server: ServerDialect) -> Self {
+        match server {
+            ServerDialect::Vllm => Self::Vllm,
+            ServerDialect::Llamacpp => Self::LlamaCpp,
+            ServerDialect::Ollama => Self::Ollama,
+            ServerDialect::Sglang => Self::Sglang,
+            ServerDialect::Openai => Self::OpenAi,
+        }
+    }
+}
+
+/// Settings of a simulated run.
 #[derive(Args, Debug)]
 pub(crate) struct SimulationArgs {
     /// Speed relative to real time: a factor, or `max` for as fast as possible
     #[arg(long, default_value = "1", value_name = "max|FACTOR", allow_negative_numbers = true)]
     pub(crate) speed: Speed,
     /// Seed of all randomness in the simulation
-    #[arg(long, default_value_t = 0, value_name = "NUMBER", value_parser = seed, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0, value_name = "NUMBER", value_parser = seed,
+          allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// JSON file with faults to inject
     #[arg(long, value_name = "FILE")]

@@ -1,12 +1,10 @@
 //! The `motet` command: reads the command line, calls the subcommand, and turns its result into an exit code.
 
 mod command;
-mod convert;
 mod documents;
 mod error;
 mod flags;
 mod output;
-mod progress;
 mod report;
 mod run_view;
 mod runner;

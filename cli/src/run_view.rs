@@ -1,7 +1,6 @@
 //! Views of a run: redrawn in place on a terminal, line by line, or as JSON events.
 
 pub(crate) mod events;
-mod lines;
 mod screen;
 mod tree;
 
@@ -55,7 +54,7 @@ pub(crate) fn view(format: OutputFormat, graph: &Graph, colors: Colors, clock: C
         OutputFormat::Human if io::stdout().is_terminal() => {
             Box::new(screen::Screen::new(graph, colors.stdout, clock))
         }
-        OutputFormat::Human => Box::new(lines::Lines::new(graph, colors.stdout, clock)),
+        OutputFormat::Human => Box::new(screen::Lines::new(graph, colors.stdout, clock)),
     }
 }
 

@@ -6,8 +6,7 @@ use clap::{Args, ValueEnum};
 use motet_graph::draw;
 use motet_syntax::Syntax;
 
-use crate::convert;
-use crate::documents::one_document;
+use crate::documents::{self, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::{FormatArgs, SessionArgs};
 use crate::output::{Colors, note};
@@ -86,8 +85,8 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
         Emit::Tree => Ok(draw::text(&graph)),
         Emit::Mermaid => Ok(draw::mermaid(&graph)),
         Emit::Dot => Ok(draw::dot(&graph)),
-        Emit::Json => convert::write(&parsed, policy, library, Syntax::Json),
-        Emit::Text => convert::write(&parsed, policy, library, Syntax::Text),
+        Emit::Json => documents::write(&parsed, policy, library, Syntax::Json),
+        Emit::Text => documents::write(&parsed, policy, library, Syntax::Text),
     };
     let mut text = match written {
         Ok(text) => text,

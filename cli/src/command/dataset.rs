@@ -1,6 +1,5 @@
 //! `motet dataset`: generates and lints instruction and policy pairs for fine-tuning.
 
-mod images;
 mod lint;
 mod make;
 

@@ -1,9 +1,6 @@
 //! `motet decode`: the continuations of a policy prefix, as words, bytes or tokens.
 
-mod next;
-mod place;
-mod refused;
-mod tokens;
+mod continuations;
 
 use std::path::{Path, PathBuf};
 
@@ -19,6 +16,7 @@ use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
 use crate::output::Colors;
 use crate::report::Report;
+use continuations::{describe_tokens, next_words, read_vocabulary, refused};
 
 /// Flags of `motet decode`.
 #[derive(Args, Debug)]
@@ -89,8 +87,8 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
         return Ok(Exit::Findings);
     }
     let tokens = args.tokenizer.as_ref().map(|name| {
-        let vocabulary = tokens::vocabulary(name, args.end.as_deref())?;
-        tokens::describe(&prepared, &vocabulary, &prefix, args.budget)
+        let vocabulary = read_vocabulary(name, args.end.as_deref())?;
+        describe_tokens(&prepared, &vocabulary, &prefix, args.budget)
     });
     report.out.text(&continuations(&mut acceptor, (&session, syntax), args.explain));
     report.out.text(&tokens.transpose()?.unwrap_or_default());
@@ -108,11 +106,11 @@ fn continuations(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax),
     if acceptor.is_accepting() {
         text.push_str("the policy is complete: only the end may follow\n");
     } else if explain {
-        let next = next::next(acceptor, syntax);
+        let next = next_words(acceptor, syntax);
         text.push_str(&next.describe(&session.signatures(), acceptor));
         // The text syntax has no list of the words that names and types alone would allow.
         if syntax == Syntax::Json {
-            text.push_str(&refused::refused(acceptor, &session.signatures(), &next));
+            text.push_str(&refused(acceptor, &session.signatures(), &next));
         }
     } else {
         text.push_str(&format!("may follow: {}\n", quoted(&acceptor.next_bytes())));
@@ -144,7 +142,7 @@ fn refusal(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax), rest:
             text.push_str(&format!("why: {line}\n"));
         }
     }
-    let next = next::next(acceptor, syntax);
+    let next = next_words(acceptor, syntax);
     text.push_str(&next.describe(&session.signatures(), acceptor));
     text
 }

@@ -1,16 +1,18 @@
 //! `motet do`: carries out a request in simulation: plans, checks, runs, asks, and replans.
 
-mod camera;
 mod observer;
 mod operator;
 mod planner;
 mod record;
 
 use std::cell::RefCell;
+use std::iter;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::str::FromStr;
+use std::sync::LazyLock;
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum, value_parser};
 use motet_planner::Planner;
 use motet_planner::dialogue::{Conversation, DialogueSetup, Outcome};
@@ -21,7 +23,7 @@ use motet_syntax::Sources;
 
 use super::run;
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, OutputFormat, SessionArgs, SimulationArgs, duration};
+use crate::flags::{DiagnosticFormat, OutputFormat, ServerDialect, SessionArgs, SimulationArgs, duration};
 use crate::output::{Colors, note};
 use crate::report::Report;
 use crate::runner::catch_interrupts;
@@ -104,19 +106,25 @@ struct ModelArgs {
     fallback: bool,
 }
 
-/// Dialect in which a server takes a grammar.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-enum GrammarDialect {
-    /// Send no grammar
-    None,
-    /// vLLM 0.12 and later
-    Vllm,
-    /// Server of llama.cpp
-    Llamacpp,
-    /// Ollama, at its own chat address
-    Ollama,
-    Sglang,
-    Openai,
+/// Dialect in which a server takes a grammar, if it gets one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct GrammarDialect(Option<ServerDialect>);
+
+impl ValueEnum for GrammarDialect {
+    fn value_variants<'a>() -> &'a [Self] {
+        static ALL: LazyLock<Vec<GrammarDialect>> = LazyLock::new(|| {
+            let servers = ServerDialect::value_variants().iter().copied().map(Some);
+            iter::once(None).chain(servers).map(GrammarDialect).collect()
+        });
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self.0 {
+            None => Some(PossibleValue::new("none").help("Send no grammar")),
+            Some(server) => server.to_possible_value(),
+        }
+    }
 }
 
 /// Request that is typed at a time of the run.
@@ -208,8 +216,8 @@ fn carry_out(
     let driver: &mut dyn Driver = if args.model.camera {
         conversation = conversation.with_eyes(eyes);
         let is_shown = args.format == OutputFormat::Human;
-        let log = camera::PointLog { is_shown, record: record.clone() };
-        pointing = camera::pointing(&args.model, &mut robot, &mut sight, &setting.scene, log)?;
+        let log = observer::PointLog { is_shown, record: record.clone() };
+        pointing = observer::pointing(&args.model, &mut robot, &mut sight, &setting.scene, log)?;
         &mut pointing
     } else {
         &mut robot

@@ -79,7 +79,7 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     Runner { engine, driver: &mut driver, journal, from: Time::ZERO, events }.run(paced)
 }
 
-/// EngineSettings of the engine: a safe stop may take as long as it takes to reach a silent driver again.
+/// Settings of the engine: a safe stop may take as long as it takes to reach a silent driver again.
 fn settings() -> EngineSettings {
     let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
     EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() }

@@ -96,7 +96,7 @@ struct SceneReplay {
 }
 
 impl SceneReplay {
-    /// EngineReplay from the head of a journal; `None` if the run was not a simulation.
+    /// Replay from the head of a journal; `None` if the run was not a simulation.
     fn of(driver: &serde_json::Value) -> Option<Self> {
         match SavedDriver::from_json(driver).ok()? {
             SavedDriver::Simulator(saved) => {

@@ -8,7 +8,6 @@ use motet_project::Project;
 use motet_project::files::Bytes;
 use motet_syntax::{Parsed, Severity, print};
 
-use crate::convert;
 use crate::documents::{self, Document, Flow, Input, is_reply};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, SyntaxArg};
@@ -114,7 +113,7 @@ impl Tally {
             self.failed += 1;
             return Ok(());
         }
-        match convert::write(&parsed, None, opened.session.library(), to.into()) {
+        match documents::write(&parsed, None, opened.session.library(), to.into()) {
             Ok(text) => {
                 let text = match to {
                     SyntaxArg::Json if self.is_batch => one_line(&text),

@@ -7,7 +7,7 @@ use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
 use motet_syntax::Source;
 
-use crate::convert;
+use crate::documents;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
 use crate::output::{Colors, note};
@@ -65,7 +65,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
         Ok(planned) => {
             let sources = opened.sources(Source::new("plan.motet", planned.text.as_str()));
             report.print(&planned.compiled.diagnostics, &sources);
-            match convert::write(&planned.parsed, None, opened.session.library(), args.to.into()) {
+            match documents::write(&planned.parsed, None, opened.session.library(), args.to.into()) {
                 Ok(text) => report.out.line(text.trim_end()),
                 Err(why) => return Ok(refuse(&why.to_string())),
             }

@@ -99,7 +99,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<Exit, CliError> {
     report::close(&mut out, Ok(exit))
 }
 
-/// EngineReplay up to a moment or to the first difference.
+/// Replay up to a moment or to the first difference.
 #[derive(Debug, Default)]
 struct Player {
     replay: Option<EngineReplay>,

@@ -1,7 +1,5 @@
 //! The small commands from outside: `robots`, `explain`, `schema`, `completions`.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::collections::BTreeSet;
 
 use crate::support::Place;

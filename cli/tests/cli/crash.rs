@@ -1,7 +1,5 @@
 //! Drivers in another process and a host that end at bad moments.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use crate::drive::{AWAY, has_python, odd, recorded};
 use crate::support::{Place, eventually};
 use std::process::{Child, Command, Stdio};

@@ -1,12 +1,5 @@
 //! `motet drive`: the example driver in another process, and drivers that misbehave.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and says why it is skipped"
-)]
-
 use crate::support::{GOOD, Place, eventually};
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpStream;

@@ -1,8 +1,6 @@
 //! `motet grammar` and `motet grammar probe`, against a server on the loopback that obeys, and one that does
 //! not.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::sync::{Arc, Mutex};

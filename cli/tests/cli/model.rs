@@ -1,7 +1,5 @@
 //! `motet do` with a model on a server, there or not.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
 use crate::grammar::{scripted, server};
 use crate::support::Place;
 use serde_json::{Value, json};

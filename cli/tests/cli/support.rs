@@ -1,7 +1,5 @@
 //! Runs the built command as a user would, in a folder of its own.
 
-#![allow(clippy::expect_used, reason = "a test that cannot be set up has failed")]
-
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

@@ -12,7 +12,7 @@ use motet_project::files::read_small;
 use serde_json::json;
 
 use super::record::ConversationRecord;
-use super::{DoArgs, GrammarDialect, ModelArgs};
+use super::{DoArgs, ModelArgs};
 use crate::command::grammar;
 use crate::error::CliError;
 use crate::flags::OutputFormat;
@@ -37,7 +37,7 @@ pub(super) fn planner(
         }
         let unused = [
             ("--model", flags.model != "default"),
-            ("--dialect", flags.dialect != GrammarDialect::None),
+            ("--dialect", flags.dialect.0.is_some()),
             ("--image", !flags.image.is_empty()),
             ("--key-from", flags.key_from.is_some()),
             ("--eager", flags.eager),
@@ -78,14 +78,7 @@ pub(super) fn client(flags: &ModelArgs) -> Result<Client, CliError> {
 }
 
 fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
-    let dialect = match args.dialect {
-        GrammarDialect::None => None,
-        GrammarDialect::Vllm => Some(Dialect::Vllm),
-        GrammarDialect::Llamacpp => Some(Dialect::LlamaCpp),
-        GrammarDialect::Ollama => Some(Dialect::Ollama),
-        GrammarDialect::Sglang => Some(Dialect::Sglang),
-        GrammarDialect::Openai => Some(Dialect::OpenAi),
-    };
+    let dialect = args.dialect.0.map(Dialect::from);
     let takes_lark = matches!(dialect, Some(Dialect::Vllm | Dialect::Sglang | Dialect::LlamaCpp));
     if args.lark && !takes_lark {
         let why = "--lark is for servers with llguidance: give --dialect vllm, sglang or llamacpp";
