@@ -1,4 +1,4 @@
-//! Runs an engine on a driver: paced by the wall clock, shown by a view, recorded in a journal, stopped by
+//! Runs an engine on a driver, in this process or another: paced by the wall clock, shown by a view, recorded in a journal, stopped by
 //! Ctrl-C.
 
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -6,11 +6,14 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
+use motet_host::remote::protocol::Hello;
+use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::runtime_check::Guard;
 use motet_runtime::{Driver, Effect, Engine, Event, Observer, RunControl, RunEnd, Time, Verifier, resume};
 
 use crate::error::{CliError, Exit};
 use crate::flags::Speed;
+use crate::output::{escape, note};
 use crate::run_view::View;
 
 /// Interval at which a waiting run checks for an interrupt.
@@ -172,4 +175,15 @@ pub(crate) const fn exit_of(end: &RunEnd) -> Exit {
 /// Error of reading or writing a journal.
 pub(crate) fn journal_error(error: JournalError) -> CliError {
     CliError::Message(error.to_string())
+}
+
+/// Starts a driver process, or connects to it.
+///
+/// # Errors
+///
+/// The driver cannot be reached, or does not speak the protocol.
+pub(crate) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
+    let log = |text: &str| note(&format!("driver: {}", escape(text)));
+    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))
+        .map_err(|breakage| CliError::Message(format!("{} ({address})", escape(&breakage.to_string()))))
 }

@@ -16,7 +16,7 @@ use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
 use crate::output::Colors;
 use crate::report::Report;
-use continuations::{describe_tokens, next_words, read_vocabulary, refused};
+use continuations::{describe_tokens, next_words, quoted, read_vocabulary, refused};
 
 /// Flags of `motet decode`.
 #[derive(Args, Debug)]
@@ -145,11 +145,6 @@ fn refusal(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax), rest:
     let next = next_words(acceptor, syntax);
     text.push_str(&next.describe(&session.signatures(), acceptor));
     text
-}
-
-/// Bytes as a JSON string.
-pub(super) fn quoted(bytes: &[u8]) -> String {
-    serde_json::Value::from(String::from_utf8_lossy(bytes)).to_string()
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, CliError> {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use motet::run::{create_journal, engine, start_state};
 use motet_host::remote::protocol::Hello;
-use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
+use motet_host::remote::{DriverAddress, DriverTimeouts};
 use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_project::{SavedDriver, SavedProject};
 use motet_runtime::{Driver, EngineSettings, Event, Time};
@@ -13,10 +13,10 @@ use motet_runtime::{Driver, EngineSettings, Event, Time};
 use super::run::compile;
 use crate::error::{CliError, Exit};
 use crate::flags::{OutputFormat, SessionArgs, Speed};
-use crate::output::{Colors, escape, note};
+use crate::output::Colors;
 use crate::report::Report;
 use crate::run_view::{Clock, view};
-use crate::runner::{PacedView, Runner};
+use crate::runner::{PacedView, Runner, connect};
 
 /// Flags of `motet drive`.
 #[derive(Args, Debug)]
@@ -83,15 +83,4 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
 fn settings() -> EngineSettings {
     let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
     EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() }
-}
-
-/// Starts a driver process, or connects to it.
-///
-/// # Errors
-///
-/// The driver cannot be reached, or does not speak the protocol.
-pub(super) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
-    let log = |text: &str| note(&format!("driver: {}", escape(text)));
-    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))
-        .map_err(|breakage| CliError::Message(format!("{} ({address})", escape(&breakage.to_string()))))
 }

@@ -19,14 +19,13 @@ use motet_runtime::{Driver, EngineSettings, Event, Time, Verifier as _};
 use motet_sim::Sim;
 use motet_syntax::{Parsed, Severity};
 
-use super::drive::connect;
 use crate::documents::one_document;
 use crate::error::{CliError, Exit};
 use crate::flags::{OutputFormat, SessionArgs, SimulationArgs};
 use crate::output::{Colors, count, note};
 use crate::report::Report;
 use crate::run_view::{Clock, events, view};
-use crate::runner::{PacedView, Runner, exit_of, journal_error};
+use crate::runner::{PacedView, Runner, connect, exit_of, journal_error};
 
 /// Flags of `motet run`.
 #[derive(Args, Debug)]

@@ -71,7 +71,8 @@ pub(crate) fn scripted(status: &'static str, messages: Vec<String>) -> (String, 
             let (mut stream, _) = listener.accept().unwrap();
             bodies.lock().unwrap().push(request(&mut stream));
             let head = format!(
-                "HTTP/1.1 {status}\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+                "HTTP/1.1 {status}\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: \
+                    close\r\n\r\n",
                 message.len()
             );
             stream.write_all(head.as_bytes()).unwrap();

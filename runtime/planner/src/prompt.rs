@@ -290,7 +290,8 @@ fn rules(robot: &Robot) -> String {
          {{\"try\": […], \"catch\": [{{\"on\": [FAILURE], \"steps\": […]}}]}}, \
          {{\"monitor\": [{{\"when\": C, \"then\": {{\"react\": \"pause\"}}}}], \"during\": […]}}, \
          {{\"end\": \"done\"}}, {{\"end\": \"replan\", \"why\": TEXT}}. A condition C is a text such as \
-         \"holding(mug_1)\" or \"distance(user) < 0.5 m\". Name things by their ids. Where it is not clear what \
+         \"holding(mug_1)\" or \"distance(user) < 0.5 m\". Name things by their ids. Where it is not clear \
+             what \
          is meant, ask: {{\"do\": \"ask\", \"question\": TEXT, \"as\": \"answer\"}}, then \
          {{\"end\": \"replan\", \"why\": \"$answer\"}}.\n",
         robot.title, robot.name, robot.name

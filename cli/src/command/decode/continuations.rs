@@ -10,7 +10,6 @@ use motet_decode::vocabulary::{Encoding, MAX_FILE_BYTES};
 use motet_decode::{Acceptor, AcceptorFactory, EndToken, Vocabulary};
 use motet_syntax::{Diagnostic, Syntax};
 
-use super::quoted;
 use crate::error::CliError;
 
 /// Innermost JSON object of a prefix, and the key whose value comes next.
@@ -432,4 +431,9 @@ pub(super) fn describe_tokens(
         text.push_str(&format!("  … {} more\n", tokens.len() - SHOWN));
     }
     Ok(text)
+}
+
+/// Bytes as a JSON string.
+pub(super) fn quoted(bytes: &[u8]) -> String {
+    serde_json::Value::from(String::from_utf8_lossy(bytes)).to_string()
 }

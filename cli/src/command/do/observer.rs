@@ -15,10 +15,10 @@ use motet_runtime::{
 };
 use serde_json::json;
 
+use super::flags::{DoArgs, ModelArgs, ScheduledRequest};
 use super::operator::OperatorInput;
 use super::planner::{client, printable};
 use super::record::{ConversationRecord, RunJournal};
-use super::{DoArgs, ModelArgs, ScheduledRequest};
 use crate::command::run::paced_view;
 use crate::error::CliError;
 use crate::flags::OutputFormat;

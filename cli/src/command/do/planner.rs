@@ -11,8 +11,8 @@ use motet_planner::{Builtin, PlanRequest, Planner, RemainingSteps, Wait};
 use motet_project::files::read_small;
 use serde_json::json;
 
+use super::flags::{DoArgs, ModelArgs};
 use super::record::ConversationRecord;
-use super::{DoArgs, ModelArgs};
 use crate::command::grammar;
 use crate::error::CliError;
 use crate::flags::OutputFormat;

@@ -354,7 +354,8 @@ fn asked(ask: &PlanRequest<'_>) -> String {
 /// Message to the model about a wrong reply.
 fn again(findings: &str) -> String {
     format!(
-        "That policy cannot be carried out:\n{findings}\nAnswer the request again with one whole policy that mends \
+        "That policy cannot be carried out:\n{findings}\nAnswer the request again with one whole policy \
+            that mends \
          this, and nothing else."
     )
 }

@@ -73,7 +73,8 @@ pub fn ground(
     used_for: &str,
 ) -> Result<Pose, NoPoint> {
     let question = format!(
-        "The image has {} x {} pixels. Where on the {object} is {used_for}? Answer with one point in pixels from \
+        "The image has {} x {} pixels. Where on the {object} is {used_for}? Answer with one point in pixels \
+            from \
          the top left corner, as JSON and nothing else: {{\"point\": [u, v]}}",
         view.depth.width, view.depth.height
     );
