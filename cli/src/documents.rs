@@ -18,10 +18,6 @@ use serde::de::IgnoredAny;
 use crate::error::CliError;
 
 /// Reads stdin.
-///
-/// # Errors
-///
-/// Stdin cannot be read.
 pub(crate) fn read_stdin() -> Result<Bytes, CliError> {
     read_bounded(io::stdin().lock(), None).map_err(|source| CliError::read("-", source))
 }
@@ -59,10 +55,6 @@ pub(crate) struct Inputs {
 }
 
 /// Finds the inputs behind the paths of the command line.
-///
-/// # Errors
-///
-/// A path does not exist, or a folder cannot be listed.
 pub(crate) fn collect(paths: &[PathBuf]) -> Result<Inputs, CliError> {
     let mut found = Inputs { inputs: Vec::new(), size: 0, skipped: Vec::new() };
     for path in paths {
@@ -96,10 +88,6 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
 
 impl Input {
     /// Reads the documents one after the other, until `each` stops it.
-    ///
-    /// # Errors
-    ///
-    /// The input cannot be read.
     pub(crate) fn documents(
         &self,
         each: &mut dyn FnMut(Document) -> Result<Flow, CliError>,
@@ -136,10 +124,6 @@ impl Input {
 }
 
 /// Reads a file or stdin with one document.
-///
-/// # Errors
-///
-/// The path is a folder, or cannot be read.
 pub(crate) fn one_document(path: &Path) -> Result<Document, CliError> {
     let input = if path.as_os_str() == "-" { Input::Stdin } else { Input::File(path.to_owned()) };
     let mut found = None;
@@ -290,10 +274,6 @@ fn failed_path(error: &ignore::Error) -> Option<&Path> {
 }
 
 /// Writes a document, or one policy of it, in a syntax.
-///
-/// # Errors
-///
-/// Reason why the syntax cannot express the document, as one clause.
 pub(crate) fn write(
     parsed: &Parsed,
     policy: Option<&str>,

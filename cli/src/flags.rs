@@ -192,10 +192,6 @@ pub(crate) struct SimulationArgs {
 }
 
 /// Reads a seed.
-///
-/// # Errors
-///
-/// Advice for clap to print.
 pub(crate) fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| format!("write a whole number from 0 to {}, such as 7", u64::MAX))
 }
@@ -236,10 +232,6 @@ impl FromStr for Speed {
 }
 
 /// Reads a duration such as `90s`, `10 min` or `1h`; in seconds.
-///
-/// # Errors
-///
-/// Advice for clap to print.
 pub(crate) fn duration(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.').unwrap_or(text.len());

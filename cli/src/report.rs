@@ -27,7 +27,7 @@ pub(crate) struct Report {
 
 impl Report {
     /// Report in a format.
-    pub(crate) fn new(format: DiagnosticFormat, colors: Colors) -> Self {
+    fn new(format: DiagnosticFormat, colors: Colors) -> Self {
         Self {
             format,
             colors,
@@ -37,6 +37,29 @@ impl Report {
             errors: 0,
             warnings: 0,
         }
+    }
+
+    /// Runs a command with a report, and closes the report.
+    pub(crate) fn run(
+        format: DiagnosticFormat,
+        colors: Colors,
+        command: impl FnOnce(&mut Self) -> Result<Exit, CliError>,
+    ) -> Result<Exit, CliError> {
+        let mut report = Self::new(format, colors);
+        let result = command(&mut report);
+        report.close(result)
+    }
+
+    /// Runs a command that prints a result: its diagnostics are held back until the end.
+    pub(crate) fn run_held(
+        format: DiagnosticFormat,
+        colors: Colors,
+        command: impl FnOnce(&mut Self) -> Result<Exit, CliError>,
+    ) -> Result<Exit, CliError> {
+        Self::run(format, colors, |report| {
+            report.hold();
+            command(report)
+        })
     }
 
     /// Counts warnings that are not diagnostics.
@@ -100,11 +123,7 @@ impl Report {
     }
 
     /// Prints the collected diagnostics, and passes on the result of the command.
-    ///
-    /// # Errors
-    ///
-    /// Those of the result, or stdout cannot be written.
-    pub(crate) fn close(mut self, result: Result<Exit, CliError>) -> Result<Exit, CliError> {
+    fn close(mut self, result: Result<Exit, CliError>) -> Result<Exit, CliError> {
         if self.is_held || self.format == DiagnosticFormat::Sarif {
             let text = self.text(&self.collected.diagnostics, &self.collected.sources);
             if self.is_held && self.out.is_used() {
@@ -132,10 +151,6 @@ fn width() -> usize {
 }
 
 /// Result of a command, or the error of writing stdout.
-///
-/// # Errors
-///
-/// Those of the result, or stdout cannot be written.
 pub(crate) fn close(out: &mut Output, result: Result<Exit, CliError>) -> Result<Exit, CliError> {
     match out.take_error() {
         Some(source) => Err(CliError::Write { path: PathBuf::from("stdout"), source }),

@@ -1,5 +1,5 @@
-//! Runs an engine on a driver, in this process or another: paced by the wall clock, shown by a view, recorded in a journal, stopped by
-//! Ctrl-C.
+//! Runs an engine on a driver, in this process or another: paced by the wall clock, shown by a view,
+//! recorded in a journal, stopped by Ctrl-C.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
@@ -23,10 +23,6 @@ const SLICE: Duration = Duration::from_millis(50);
 static PRESSED: AtomicU32 = AtomicU32::new(0);
 
 /// Turns Ctrl-C into a request to stop; the second one ends the process.
-///
-/// # Errors
-///
-/// The operating system refuses the handler.
 pub(crate) fn catch_interrupts() -> Result<(), CliError> {
     ctrlc::set_handler(|| {
         if PRESSED.fetch_add(1, Ordering::SeqCst) > 0 {
@@ -143,10 +139,6 @@ pub(crate) struct Runner<'a> {
 
 impl Runner<'_> {
     /// Runs to the end.
-    ///
-    /// # Errors
-    ///
-    /// Ctrl-C cannot be handled, or the journal cannot be written, which stops the run.
     pub(crate) fn run(mut self, mut paced: PacedView) -> Result<Exit, CliError> {
         catch_interrupts()?;
         let end = match self.journal {
@@ -178,10 +170,6 @@ pub(crate) fn journal_error(error: JournalError) -> CliError {
 }
 
 /// Starts a driver process, or connects to it.
-///
-/// # Errors
-///
-/// The driver cannot be reached, or does not speak the protocol.
 pub(crate) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
     let log = |text: &str| note(&format!("driver: {}", escape(text)));
     RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))

@@ -38,18 +38,14 @@ pub(crate) struct CheckArgs {
 const MAX_FIXES: usize = 100;
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// A document cannot be read, or the robot, the scene or another input cannot be used.
 pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.format, colors);
-    // The fixed document goes to stdout.
-    if args.fix && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
-        report.hold();
-    }
-    let result = check(args, &mut report);
-    report.close(result)
+    Report::run(args.format.format, colors, |report| {
+        // The fixed document goes to stdout.
+        if args.fix && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
+            report.hold();
+        }
+        check(args, report)
+    })
 }
 
 fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {

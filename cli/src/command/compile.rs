@@ -56,17 +56,13 @@ enum Emit {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The policy cannot be read, or the robot, the scene or another input cannot be used.
 pub(crate) fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.format, colors);
-    if args.output.is_none() {
-        report.hold();
-    }
-    let result = compile(args, &mut report);
-    report.close(result)
+    Report::run(args.format.format, colors, |report| {
+        if args.output.is_none() {
+            report.hold();
+        }
+        compile(args, report)
+    })
 }
 
 fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {

@@ -132,18 +132,11 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// A file cannot be read or written, or has errors.
 pub(crate) fn run(args: &DatasetArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = match &args.command {
-        Some(DatasetCommand::Lint(args)) => lint::lint(args, &mut report),
-        None => make(&args.make, &mut report),
-    };
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| match &args.command {
+        Some(DatasetCommand::Lint(args)) => lint::lint(args, report),
+        None => make(&args.make, report),
+    })
 }
 
 fn body(name: &str, report: &mut Report) -> Result<Body, CliError> {
@@ -156,10 +149,6 @@ fn effort(args: &MotionArgs) -> Option<SearchBudget> {
 }
 
 /// Generates a dataset.
-///
-/// # Errors
-///
-/// A file cannot be read or written, or has errors.
 fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
     let Some(folder) = &args.out else {
         return Err(CliError::Message("give a folder with --out FOLDER".to_owned()));

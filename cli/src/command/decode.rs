@@ -54,15 +54,8 @@ pub(crate) struct DecodeArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The prefix, the tokenizer or another input cannot be read.
 pub(crate) fn run(args: &DecodeArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = decode(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| decode(args, report))
 }
 
 fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {

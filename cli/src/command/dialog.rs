@@ -41,15 +41,8 @@ pub(crate) struct DialogArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The file, the robot or the scene cannot be used.
 pub(crate) fn run(args: &DialogArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = converse(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| converse(args, report))
 }
 
 fn converse(args: &DialogArgs, report: &mut Report) -> Result<Exit, CliError> {

@@ -28,15 +28,8 @@ use operator::{AskingDriver, OperatorInput, OperatorPrompt};
 use record::ConversationRecord;
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The robot, the scene or another input cannot be used, or the record cannot be written.
 pub(crate) fn run(args: &DoArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = plan_and_run(args, colors, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| plan_and_run(args, colors, report))
 }
 
 fn plan_and_run(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {

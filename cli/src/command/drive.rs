@@ -44,14 +44,8 @@ pub(crate) struct DriveArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The policy cannot be read, the driver cannot be reached, or the journal cannot be written.
 pub(crate) fn run(args: &DriveArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.into(), colors);
-    let result = check_and_drive(args, colors, &mut report);
-    report.close(result)
+    Report::run(args.format.into(), colors, |report| check_and_drive(args, colors, report))
 }
 
 fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {

@@ -43,10 +43,6 @@ struct McapArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The journal cannot be read, or the file cannot be written.
 pub(crate) fn run(args: &ExportArgs) -> Result<Exit, CliError> {
     let ExportCommand::Mcap(args) = &args.command;
     // An earlier file, which may be the journal itself, stays until the new one is complete.

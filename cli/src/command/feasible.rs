@@ -59,14 +59,8 @@ pub(crate) struct FeasibleArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The robot, the scene or a motion has errors, or the drawing cannot be written.
 pub(crate) fn run(args: &FeasibleArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.into(), colors);
-    let result = answer(args, &mut report);
-    report.close(result)
+    Report::run(args.format.into(), colors, |report| answer(args, report))
 }
 
 fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {

@@ -41,18 +41,14 @@ pub(crate) struct FmtArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// A file cannot be read or written.
 pub(crate) fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.format, colors);
-    // The documents go to stdout.
-    if args.to.is_some() || args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
-        report.hold();
-    }
-    let result = fmt(args, &mut report);
-    report.close(result)
+    Report::run(args.format.format, colors, |report| {
+        // The documents go to stdout.
+        if args.to.is_some() || args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
+            report.hold();
+        }
+        fmt(args, report)
+    })
 }
 
 fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, CliError> {

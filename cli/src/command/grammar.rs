@@ -112,18 +112,11 @@ const SYSTEM: &str = "You write a policy for a robot: the steps that do what you
                       Write the policy and nothing else.";
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The robot, the scene or another input cannot be used, or the server cannot be asked.
 pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, CliError> {
     if let Some(GrammarCommand::Probe(probe)) = &args.command {
         return probe_server(probe);
     }
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = print(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| print(args, report))
 }
 
 fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -188,10 +181,6 @@ fn notation(args: &GrammarArgs) -> Notation {
 const SHOWN_CHARS: usize = 80;
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The server cannot be reached, refuses the request, or does not answer with a chat message.
 fn probe_server(args: &ProbeArgs) -> Result<Exit, CliError> {
     let dialect = Dialect::from(args.dialect);
     let url = ServerUrl::new(&args.url, Some(dialect)).map_err(CliError::Message)?;
@@ -241,10 +230,6 @@ fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliE
 }
 
 /// Reads the server's key from an environment variable.
-///
-/// # Errors
-///
-/// The variable is not set.
 pub(super) fn key(variable: &str) -> Result<ApiKey, CliError> {
     ApiKey::from_variable(variable)
         .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))

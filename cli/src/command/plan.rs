@@ -33,15 +33,8 @@ pub(crate) struct PlanArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The robot, the scene or another input cannot be used.
 pub(crate) fn run(args: &PlanArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = plan(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| plan(args, report))
 }
 
 fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {

@@ -67,10 +67,6 @@ impl Moment {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The journal cannot be read, or is damaged.
 pub(crate) fn run(args: &ReplayArgs) -> Result<Exit, CliError> {
     let mut player = Player::default();
     let last = args.until.or(args.at);

@@ -62,19 +62,13 @@ enum RobotsCommand {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// There is no such robot, or its card has errors.
 pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    let result = match &args.command {
-        None | Some(RobotsCommand::List) => list(&mut report),
-        Some(RobotsCommand::Show { name }) => show(name, &mut report),
-        Some(RobotsCommand::Check { name }) => check(name, &mut report),
-        Some(RobotsCommand::Add { urdf, to, srdf }) => add(urdf, to.as_deref(), srdf.as_deref(), &mut report),
-    };
-    report.close(result)
+    Report::run(DiagnosticFormat::Human, colors, |report| match &args.command {
+        None | Some(RobotsCommand::List) => list(report),
+        Some(RobotsCommand::Show { name }) => show(name, report),
+        Some(RobotsCommand::Check { name }) => check(name, report),
+        Some(RobotsCommand::Add { urdf, to, srdf }) => add(urdf, to.as_deref(), srdf.as_deref(), report),
+    })
 }
 
 fn list(report: &mut Report) -> Result<Exit, CliError> {
@@ -185,10 +179,6 @@ fn range(range: &Range, unit: &str) -> String {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// There is no such robot, or its files cannot be read.
 fn check(name: &str, report: &mut Report) -> Result<Exit, CliError> {
     let files = RobotFiles::find(name)?;
     let mut sources = Sources::default();
@@ -327,10 +317,6 @@ fn solver(solver: &IkSolver) -> &'static str {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The URDF cannot be read, or the card exists already or cannot be written.
 fn add(path: &Path, to: Option<&Path>, srdf: Option<&Path>, report: &mut Report) -> Result<Exit, CliError> {
     let mut sources = Sources::default();
     let (source, file, mut diagnostics) =

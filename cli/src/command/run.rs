@@ -66,18 +66,12 @@ pub(crate) struct RunArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The policy or another input cannot be read.
 pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.into(), colors);
-    let result = match (&args.resume, &args.file) {
-        (Some(folder), _) => resume(folder, args, colors, &mut report),
-        (None, Some(file)) => check_and_run(file, args, colors, &mut report),
+    Report::run(args.format.into(), colors, |report| match (&args.resume, &args.file) {
+        (Some(folder), _) => resume(folder, args, colors, report),
+        (None, Some(file)) => check_and_run(file, args, colors, report),
         (None, None) => Err(CliError::Message("a policy is needed".to_owned())),
-    };
-    report.close(result)
+    })
 }
 
 fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
@@ -166,11 +160,6 @@ pub(super) fn paced_view(
 }
 
 /// Simulator for policies that are not known yet. `eye` is the camera's position in the base's frame, in m.
-///
-/// # Errors
-///
-/// The file of faults cannot be read, has errors, or names something that the robot or the scene does not
-/// have.
 pub(super) fn simulator(
     (robot, session): (&Robot, &Session),
     scene: &Scene,
@@ -187,10 +176,6 @@ pub(super) fn simulator(
 }
 
 /// Rebuilds the engine and the simulator from a journal, and continues.
-///
-/// # Errors
-///
-/// The journal cannot be read or is damaged, or the replay differs from it.
 fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
     let mut entries = Vec::new();
     let (mut writer, tail) =

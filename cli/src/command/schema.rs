@@ -33,10 +33,6 @@ enum FileFormat {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// Stdout cannot be written.
 pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, CliError> {
     let schema = match args.of {
         FileFormat::Policy => motet_syntax::json::policy_schema(),

@@ -24,10 +24,6 @@ use crate::report::Report;
 pub(super) const ROOMS: &str = "scenes.jsonl";
 
 /// Lints files of rows.
-///
-/// # Errors
-///
-/// A file cannot be read, or a robot or a room has errors.
 pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliError> {
     let worlds = worlds(args, report)?;
     let mut shelf = Images::default();
@@ -161,10 +157,6 @@ impl Shelf for Images {
 
 impl Images {
     /// Images beside files of rows to which no row refers, in these files or in others of their folders.
-    ///
-    /// # Errors
-    ///
-    /// A line of another file is too long for a row.
     pub(super) fn unused(mut self, files: &[PathBuf]) -> Result<Vec<Finding>, CliError> {
         let folders: BTreeSet<PathBuf> = files.iter().map(|file| folder(file)).collect();
         let mut folders_with_images: BTreeSet<PathBuf> = self.0.keys().map(|path| folder(path)).collect();

@@ -377,10 +377,6 @@ impl Next {
 const SHOWN: usize = 32;
 
 /// Reads the vocabulary of an encoding or a file.
-///
-/// # Errors
-///
-/// The file cannot be read, or is not a vocabulary.
 pub(super) fn read_vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, CliError> {
     let wrong = |error: motet_decode::VocabularyError| CliError::Message(format!("`{name}`: {error}"));
     if let Some(encoding) = Encoding::named(name) {
@@ -403,10 +399,6 @@ pub(super) fn read_vocabulary(name: &str, end: Option<&str>) -> Result<Vocabular
 }
 
 /// Describes the tokens that may follow an accepted prefix.
-///
-/// # Errors
-///
-/// No policy fits into the budget.
 pub(super) fn describe_tokens(
     prepared: &AcceptorFactory,
     vocabulary: &Vocabulary,

@@ -197,10 +197,6 @@ pub(super) struct PointLog {
 }
 
 /// Driver whose `ground` asks the model of the flags.
-///
-/// # Errors
-///
-/// The address, an image or the key cannot be used.
 pub(super) fn pointing<'d>(
     model: &ModelArgs,
     driver: &'d mut dyn Driver,

@@ -20,10 +20,6 @@ use crate::output::{Colors, note};
 use crate::runner::is_interrupted;
 
 /// Planner of the flags.
-///
-/// # Errors
-///
-/// The address, an image or the key cannot be used.
 pub(super) fn planner(
     args: &DoArgs,
     colors: Colors,
@@ -67,10 +63,6 @@ pub(super) fn planner(
 }
 
 /// Connection to the server of the flags.
-///
-/// # Errors
-///
-/// The address, an image or the key cannot be used.
 pub(super) fn client(flags: &ModelArgs) -> Result<Client, CliError> {
     let settings = settings(flags)?;
     let name = settings.address.to_string();
