@@ -106,8 +106,9 @@ fn broken_links(root: &Path, page: &str, text: &str) -> Vec<String> {
 /// stands for any name; of a path with `*` only the folders before it are looked up.
 fn broken_paths(root: &Path, page: &str, text: &str) -> Vec<String> {
     let is_path = |token: &str| {
-        let top = token.split_once('/').map(|(top, _)| root.join(top));
-        top.is_some_and(|top| !top.ends_with("target") && top.is_dir())
+        let top = token.split_once('/').map_or("", |(top, _)| top);
+        !["", "target"].contains(&top)
+            && root.join(top).is_dir()
             && token.chars().all(|c| c.is_ascii_alphanumeric() || "/._-*".contains(c))
     };
     let is_fixed = |segment: &&str| {
