@@ -17,12 +17,12 @@ pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
 
 /// Checks the deferred motions of a run, and tracks the scene along the run.
 #[derive(Debug)]
-pub struct Guard(How);
+pub struct Guard(Schedule);
 
 #[derive(Debug)]
-enum How {
+enum Schedule {
     /// Searches inside the calls.
-    AtOnce { way: SearchPath, verdicts: VecDeque<(CheckId, Verification)> },
+    AtOnce { tracker: RunTracker, verdicts: VecDeque<(CheckId, Verification)> },
     /// Thread that receives every event in order and ends with the last sender.
     Beside { thread: Sender<GuardMessage>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
 }
@@ -50,36 +50,36 @@ impl Guard {
     pub fn new(course: WorldTracker, verifies: CheckMode) -> Self {
         match verifies {
             CheckMode::AtOnce => {
-                let way = SearchPath { course, live: BTreeMap::new() };
-                Self(How::AtOnce { way, verdicts: VecDeque::new() })
+                let tracker = RunTracker { course, live: BTreeMap::new() };
+                Self(Schedule::AtOnce { tracker, verdicts: VecDeque::new() })
             }
             CheckMode::Beside => Self::beside(course),
         }
     }
 
     fn beside(course: WorldTracker) -> Self {
-        let (thread, told) = mpsc::channel();
+        let (thread, message) = mpsc::channel();
         let (answers, verdicts) = mpsc::channel();
         std::thread::spawn(move || {
-            let mut way = SearchPath { course, live: BTreeMap::new() };
-            for one in told {
-                if let Some(verdict) = way.hear(one)
+            let mut tracker = RunTracker { course, live: BTreeMap::new() };
+            for one in message {
+                if let Some(verdict) = tracker.hear(one)
                     && answers.send(verdict).is_err()
                 {
                     return;
                 }
             }
         });
-        Self(How::Beside { thread, verdicts, awaited: 0 })
+        Self(Schedule::Beside { thread, verdicts, awaited: 0 })
     }
 
-    fn tell(&mut self, told: GuardMessage) {
+    fn tell(&mut self, message: GuardMessage) {
         match &mut self.0 {
-            How::AtOnce { way, verdicts } => verdicts.extend(way.hear(told)),
-            How::Beside { thread, awaited, .. } => {
-                *awaited += usize::from(matches!(told, GuardMessage::Asked(..)));
+            Schedule::AtOnce { tracker, verdicts } => verdicts.extend(tracker.hear(message)),
+            Schedule::Beside { thread, awaited, .. } => {
+                *awaited += usize::from(matches!(message, GuardMessage::Asked(..)));
                 // A thread that is gone gives no verdicts; the engine does not wait for them for ever.
-                let _ = thread.send(told);
+                let _ = thread.send(message);
             }
         }
     }
@@ -104,8 +104,8 @@ impl Verifier for Guard {
 
     fn verdict(&mut self) -> Option<(CheckId, Verification)> {
         match &mut self.0 {
-            How::AtOnce { verdicts, .. } => verdicts.pop_front(),
-            How::Beside { verdicts, awaited, .. } => {
+            Schedule::AtOnce { verdicts, .. } => verdicts.pop_front(),
+            Schedule::Beside { verdicts, awaited, .. } => {
                 let verdict = verdicts.try_recv();
                 match verdict {
                     Ok(_) => *awaited = awaited.saturating_sub(1),
@@ -119,23 +119,23 @@ impl Verifier for Guard {
 
     fn is_busy(&self) -> bool {
         match &self.0 {
-            How::AtOnce { .. } => false,
-            How::Beside { awaited, .. } => *awaited > 0,
+            Schedule::AtOnce { .. } => false,
+            Schedule::Beside { awaited, .. } => *awaited > 0,
         }
     }
 }
 
 /// Tracker of the scene along a run.
 #[derive(Debug)]
-struct SearchPath {
+struct RunTracker {
     course: WorldTracker,
     live: BTreeMap<GoalId, Arc<Command>>,
 }
 
-impl SearchPath {
+impl RunTracker {
     /// Takes in a message; returns the verdict if the message requests one.
-    fn hear(&mut self, told: GuardMessage) -> Option<(CheckId, Verification)> {
-        match told {
+    fn hear(&mut self, message: GuardMessage) -> Option<(CheckId, Verification)> {
+        match message {
             GuardMessage::Reported(event) => self.report(&event),
             GuardMessage::Began(goal, command) => self.began(goal, command),
             GuardMessage::Asked(check, motion) => return Some((check, self.motion(&motion))),

@@ -22,7 +22,7 @@ use crate::runtime_check::Guard;
 use crate::{PlanRequest, Planner, RemainingSteps, Wait};
 
 /// Reason to stop a run before its end.
-pub(super) enum Pending {
+pub(super) enum StopReason {
     /// A new request that cannot take over as it is.
     Request(String),
     /// Objects that are elsewhere than believed, so that the same request must be planned anew.
@@ -32,7 +32,7 @@ pub(super) enum Pending {
 }
 
 /// Observer of a run that takes new requests and swaps policies.
-pub(super) struct Live<'r, 'a> {
+pub(super) struct LiveRun<'r, 'a> {
     talk: &'r mut Conversation<'a>,
     planner: &'r mut dyn Planner,
     watcher: &'r mut dyn DialogueObserver,
@@ -40,7 +40,7 @@ pub(super) struct Live<'r, 'a> {
     /// The latest time.
     pub(super) now: Time,
     /// Reason for which the run is being stopped.
-    pub(super) pending: Option<Pending>,
+    pub(super) pending: Option<StopReason>,
     /// Request that the run carries out.
     task: String,
     /// The request that took over.
@@ -50,7 +50,7 @@ pub(super) struct Live<'r, 'a> {
     /// A policy that waits to take over, with its request.
     next: Option<(PlannedRequest, Option<String>)>,
     /// State of an early start, while the rest of the policy is still being written.
-    pub(super) first: Option<First>,
+    pub(super) first: Option<EarlyStart>,
     /// The steps of the running policy that were started.
     started: Vec<NodeId>,
     /// Checker of motions that the compiler deferred.
@@ -58,7 +58,7 @@ pub(super) struct Live<'r, 'a> {
 }
 
 /// Ending of a run.
-pub(super) struct Ran {
+pub(super) struct RunResult {
     pub(super) end: RunEnd,
     /// Graph that ran last.
     pub(super) graph: Arc<Graph>,
@@ -70,7 +70,7 @@ pub(super) struct Ran {
     pub(super) stood_wrong: bool,
 }
 
-impl<'r, 'a> Live<'r, 'a> {
+impl<'r, 'a> LiveRun<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
         planner: &'r mut dyn Planner,
@@ -125,7 +125,7 @@ impl<'r, 'a> Live<'r, 'a> {
         answered: PlannedRequest,
         driver: &mut dyn Driver,
         scene: &Scene,
-    ) -> Result<Ran, Problem> {
+    ) -> Result<RunResult, Problem> {
         let Some(graph) = answered.planned.compiled.graph.clone() else {
             return Err(Problem::nothing("there is no graph to run"));
         };
@@ -141,9 +141,9 @@ impl<'r, 'a> Live<'r, 'a> {
         self.talk.memory.policy(self.now, 0, shared);
         self.first = match self.planner.rest(Wait::Not) {
             RemainingSteps::Nothing => None,
-            RemainingSteps::Coming => Some(First::new(None, &answered)),
+            RemainingSteps::Coming => Some(EarlyStart::new(None, &answered)),
             rest @ (RemainingSteps::Whole(_) | RemainingSteps::Broken | RemainingSteps::Stopped) => {
-                Some(First::new(Some(rest), &answered))
+                Some(EarlyStart::new(Some(rest), &answered))
             }
         };
         let from = self.now;
@@ -151,7 +151,7 @@ impl<'r, 'a> Live<'r, 'a> {
             Some(scribe) => scribe.run(&mut engine, driver, self, from),
             None => motet_runtime::run(&mut engine, driver, self, from),
         };
-        self.pending = self.pending.take().or(self.awaited.take().map(Pending::Request));
+        self.pending = self.pending.take().or(self.awaited.take().map(StopReason::Request));
         // Behind its first step, a policy that is still being written goes on.
         if self.first.is_none() || self.pending.is_some() || !matches!(end, RunEnd::Done { .. }) {
             self.watcher.ended(self.now, &end);
@@ -176,11 +176,11 @@ impl<'r, 'a> Live<'r, 'a> {
         }
         let (was_refused, stood_wrong) =
             (self.was_refused(&end), self.stood_wrong(&end, engine.graph(), &bound));
-        Ok(Ran { end, graph: Arc::new(engine.graph().clone()), bound, was_refused, stood_wrong })
+        Ok(RunResult { end, graph: Arc::new(engine.graph().clone()), bound, was_refused, stood_wrong })
     }
 }
 
-impl Live<'_, '_> {
+impl LiveRun<'_, '_> {
     /// Returns a finished policy that can take over: for a new request, or the rest of an early start.
     fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
         if let Some(request) = self.awaited.take() {
@@ -197,7 +197,7 @@ impl Live<'_, '_> {
                 RemainingSteps::Nothing | RemainingSteps::Broken | RemainingSteps::Stopped => None,
             };
             if prepared.is_none() {
-                self.pending = Some(Pending::Request(request));
+                self.pending = Some(StopReason::Request(request));
             }
             return prepared;
         }
@@ -255,7 +255,7 @@ fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedL
     (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
 }
 
-impl Observer for Live<'_, '_> {
+impl Observer for LiveRun<'_, '_> {
     fn event(&mut self, now: Time, event: &Event) {
         self.now = self.now.max(now);
         self.talk.memory.event(now, event);
@@ -289,7 +289,7 @@ impl Observer for Live<'_, '_> {
         let Some(said) = self.watcher.request(now) else { return self.written(engine) };
         self.talk.memory.instruct(now, &said);
         if stops(&said) {
-            self.pending = Some(Pending::Stop);
+            self.pending = Some(StopReason::Stop);
             return None;
         }
         let request = match added(&said) {
@@ -304,7 +304,7 @@ impl Observer for Live<'_, '_> {
         if !self.planner.reads_answers()
             && let Some(told) = statement(&request, &known.situation(&scene))
         {
-            self.pending = Some(Pending::Statement(told));
+            self.pending = Some(StopReason::Statement(told));
             return None;
         }
         let meant = std::mem::take(&mut self.meant);
@@ -329,7 +329,7 @@ impl Observer for Live<'_, '_> {
             }
             // It needs a question, or another start: the robot stops, and it is the next request.
             None => {
-                self.pending = Some(Pending::Request(request));
+                self.pending = Some(StopReason::Request(request));
                 None
             }
         }
@@ -352,7 +352,7 @@ impl Observer for Live<'_, '_> {
             (Err(refusal), Some((_, request))) => {
                 self.watcher.swapped(now, Some(&refusal));
                 if let Some(request) = request {
-                    self.pending = Some(Pending::Request(request));
+                    self.pending = Some(StopReason::Request(request));
                 }
             }
             (_, None) => {}
@@ -365,7 +365,7 @@ impl Observer for Live<'_, '_> {
 }
 
 /// The first step of a policy that is still being written.
-pub(super) struct First {
+pub(super) struct EarlyStart {
     /// Fate of the remaining steps, once it is known: a whole policy that could not take over at once, or
     /// none.
     pub(super) rest: Option<RemainingSteps>,
@@ -375,7 +375,7 @@ pub(super) struct First {
 }
 
 /// Continuation after a first step.
-pub(super) enum After {
+pub(super) enum Continuation {
     Done,
     /// A person stopped the planning.
     Stopped,
@@ -385,7 +385,7 @@ pub(super) enum After {
     PlansAnew,
 }
 
-impl First {
+impl EarlyStart {
     pub(super) fn new(rest: Option<RemainingSteps>, answered: &PlannedRequest) -> Self {
         Self { rest, bound: Vec::new(), understood: answered.understood.clone() }
     }
@@ -395,25 +395,28 @@ impl Conversation<'_> {
     /// Chooses the continuation after the first step of a policy has ended.
     pub(super) fn after_first(
         &self,
-        first: First,
+        first: EarlyStart,
         planner: &mut dyn Planner,
         base: Option<[f64; 3]>,
-    ) -> After {
+    ) -> Continuation {
         let policy = match first.rest.unwrap_or_else(|| planner.rest(Wait::ToTheEnd)) {
             RemainingSteps::Whole(policy) => policy,
-            RemainingSteps::Stopped => return After::Stopped,
+            RemainingSteps::Stopped => return Continuation::Stopped,
             RemainingSteps::Nothing | RemainingSteps::Coming | RemainingSteps::Broken => {
-                return After::PlansAnew;
+                return Continuation::PlansAnew;
             }
         };
-        let Ok(rest) = without_first_step(&policy, &first.bound) else { return After::PlansAnew };
-        let Some(rest) = rest else { return After::Done };
+        let Ok(rest) = without_first_step(&policy, &first.bound) else { return Continuation::PlansAnew };
+        let Some(rest) = rest else { return Continuation::Done };
         let scene = self.known.scene(&self.setting.scene);
         match judge(&self.session(&scene, &self.known, base), &rest) {
             ReplyVerdict::Good { planned, changed, .. } if changed.is_empty() => {
-                After::Runs(Box::new(PlannedRequest { understood: first.understood, planned: *planned }))
+                Continuation::Runs(Box::new(PlannedRequest {
+                    understood: first.understood,
+                    planned: *planned,
+                }))
             }
-            ReplyVerdict::Good { .. } | ReplyVerdict::Bad { .. } => After::PlansAnew,
+            ReplyVerdict::Good { .. } | ReplyVerdict::Bad { .. } => Continuation::PlansAnew,
         }
     }
 }

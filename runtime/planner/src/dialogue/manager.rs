@@ -8,7 +8,7 @@ use smol_str::SmolStr;
 
 use super::answer::{self, Answer, Polarity, polarity};
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
-use super::live_run::{After, Live, Pending, Ran};
+use super::live_run::{Continuation, LiveRun, RunResult, StopReason};
 use super::problem::{Kind, Problem};
 use crate::Planner;
 use crate::builtin::{PlanError, PlannedRequest};
@@ -55,9 +55,9 @@ impl Conversation<'_> {
     ) -> (Outcome, Time) {
         self.hear(request);
         self.memory.instruct(from, request);
-        let mut pursuit = Pursuit::new(self, (planner, person, watcher), request, from);
-        let outcome = pursuit.pursue(driver);
-        (outcome, pursuit.now)
+        let mut manager = DialogueManager::new(self, (planner, person, watcher), request, from);
+        let outcome = manager.pursue(driver);
+        (outcome, manager.now)
     }
 }
 
@@ -84,7 +84,7 @@ impl Task {
 }
 
 /// Result of a round.
-enum Next {
+enum RoundResult {
     Round,
     Over(Outcome),
     /// A problem. The flag is set if a guard or the robot's place caused it, which another plan may avoid.
@@ -92,7 +92,7 @@ enum Next {
 }
 
 /// A request in progress, with its planner, person and observer.
-pub(super) struct Pursuit<'r, 'a> {
+pub(super) struct DialogueManager<'r, 'a> {
     talk: &'r mut Conversation<'a>,
     planner: &'r mut dyn Planner,
     person: &'r mut dyn Person,
@@ -104,7 +104,7 @@ pub(super) struct Pursuit<'r, 'a> {
     ready: Option<PlannedRequest>,
 }
 
-impl<'r, 'a> Pursuit<'r, 'a> {
+impl<'r, 'a> DialogueManager<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
         (planner, person, watcher): (&'r mut dyn Planner, &'r mut dyn Person, &'r mut dyn DialogueObserver),
@@ -129,9 +129,9 @@ impl<'r, 'a> Pursuit<'r, 'a> {
                 Err(why) => self.unplanned(&why, &scene),
             };
             let (problem, was_refused) = match next {
-                Next::Round => continue,
-                Next::Over(outcome) => return outcome,
-                Next::Problem(problem, was_refused) => (problem, was_refused),
+                RoundResult::Round => continue,
+                RoundResult::Over(outcome) => return outcome,
+                RoundResult::Problem(problem, was_refused) => (problem, was_refused),
             };
             // What merely did not work, or was not as it was believed, is tried again before somebody is
             // troubled.
@@ -159,9 +159,9 @@ impl<'r, 'a> Pursuit<'r, 'a> {
     }
 
     /// Runs a policy and evaluates its ending.
-    fn run(&mut self, answered: PlannedRequest, driver: &mut dyn Driver, scene: &Scene) -> Next {
+    fn run(&mut self, answered: PlannedRequest, driver: &mut dyn Driver, scene: &Scene) -> RoundResult {
         let told = (self.task.request.clone(), self.task.meant.clone());
-        let mut live = Live::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
+        let mut live = LiveRun::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
         let ran = live.run(answered, driver, scene);
         self.now = live.now;
         let (pending, first, request) = (live.pending.take(), live.first.take(), live.request.take());
@@ -169,39 +169,39 @@ impl<'r, 'a> Pursuit<'r, 'a> {
             let before = std::mem::take(&mut self.task.request);
             self.task = Task { tries: self.task.tries, ..Task::new(request, Some(before)) };
         }
-        let Ran { end, graph, bound, was_refused, stood_wrong } = match ran {
+        let RunResult { end, graph, bound, was_refused, stood_wrong } = match ran {
             Ok(ran) => ran,
-            Err(problem) => return Next::Over(Outcome::Failed(problem)),
+            Err(problem) => return RoundResult::Over(Outcome::Failed(problem)),
         };
         match (pending, &end) {
-            (Some(Pending::Request(request)), _) => {
+            (Some(StopReason::Request(request)), _) => {
                 self.talk.hear(&request);
                 let before = std::mem::take(&mut self.task.request);
                 self.task = Task::new(request, Some(before));
-                return Next::Round;
+                return RoundResult::Round;
             }
-            (Some(Pending::Statement(located)), _) => {
+            (Some(StopReason::Statement(located)), _) => {
                 located.iter().for_each(|one| self.talk.known.hear(one));
-                return Next::Round;
+                return RoundResult::Round;
             }
-            (Some(Pending::Stop), _) => return Next::Over(Outcome::GivenUp),
-            (None, RunEnd::Interrupted) => return Next::Over(Outcome::Stopped),
+            (Some(StopReason::Stop), _) => return RoundResult::Over(Outcome::GivenUp),
+            (None, RunEnd::Interrupted) => return RoundResult::Over(Outcome::Stopped),
             (None, _) => {}
         }
         if let (Some(first), RunEnd::Done { .. }) = (first, &end) {
             match self.talk.after_first(first, self.planner, driver.base()) {
-                After::Done => return Next::Over(Outcome::Done),
-                After::Stopped => return Next::Over(Outcome::Stopped),
-                After::Runs(answered) => self.ready = Some(*answered),
-                After::PlansAnew => {}
+                Continuation::Done => return RoundResult::Over(Outcome::Done),
+                Continuation::Stopped => return RoundResult::Over(Outcome::Stopped),
+                Continuation::Runs(answered) => self.ready = Some(*answered),
+                Continuation::PlansAnew => {}
             }
-            return Next::Round;
+            return RoundResult::Round;
         }
         if stood_wrong {
             self.talk.known.doubt_standing();
         }
         match Problem::of_run(&end, (&graph, &bound), scene) {
-            Some(problem) => Next::Problem(problem, was_refused || stood_wrong),
+            Some(problem) => RoundResult::Problem(problem, was_refused || stood_wrong),
             None => self.done(),
         }
     }
@@ -231,36 +231,36 @@ impl<'r, 'a> Pursuit<'r, 'a> {
     }
 
     /// Ends a request, and continues with the request that it replaced.
-    fn done(&mut self) -> Next {
-        let Some(before) = self.task.before.take() else { return Next::Over(Outcome::Done) };
+    fn done(&mut self) -> RoundResult {
+        let Some(before) = self.task.before.take() else { return RoundResult::Over(Outcome::Done) };
         self.goes_on(&Problem::half_done(&before), before, Outcome::Done)
     }
 
     /// Handles a request that got no policy.
-    fn unplanned(&mut self, why: &PlanError, scene: &Scene) -> Next {
+    fn unplanned(&mut self, why: &PlanError, scene: &Scene) -> RoundResult {
         let problem = Problem::of_planning(why, scene);
         match (why, self.task.before.clone()) {
-            (PlanError::Stopped, _) => Next::Over(Outcome::Stopped),
+            (PlanError::Stopped, _) => RoundResult::Over(Outcome::Stopped),
             // No answer of a person brings a model back.
-            (PlanError::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
+            (PlanError::NoModel { .. }, _) => RoundResult::Over(Outcome::Failed(problem)),
             // Something that is not understood was said in between.
             (PlanError::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
                 let question = Problem::interrupted(&self.task.request, &before);
                 self.goes_on(&question, before, Outcome::GivenUp)
             }
-            (_, _) => Next::Problem(problem, false),
+            (_, _) => RoundResult::Problem(problem, false),
         }
     }
 
     /// Resumes the replaced request if a person agrees.
-    fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> Next {
+    fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> RoundResult {
         let answer = self.person.ask(question);
         self.watcher.asked(question, answer.as_deref());
         if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
-            return Next::Over(or);
+            return RoundResult::Over(or);
         }
         self.task = Task::new(before, None);
-        Next::Round
+        RoundResult::Round
     }
 
     /// Asks a person about a problem until the answer is understood. Returns the outcome if the answer ends

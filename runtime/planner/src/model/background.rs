@@ -17,14 +17,14 @@ use super::stream_reader::{StreamReader, StreamVerdict};
 use crate::builtin::Planned;
 
 /// The rest of a policy whose first step was returned.
-pub(super) struct Later {
+pub(super) struct PendingRest {
     pub(super) reply: Box<dyn Reply>,
     pub(super) reading: StreamReader<'static>,
     pub(super) round: u32,
 }
 
 /// Progress of the remaining policy.
-pub(super) enum Came {
+pub(super) enum RestProgress {
     /// A part of it.
     Some(String),
     Nothing,
@@ -35,25 +35,25 @@ pub(super) enum Came {
     Failed(ModelError),
 }
 
-impl Later {
+impl PendingRest {
     /// Reads on, waiting at most `wait`.
-    pub(super) fn next(&mut self, wait: Duration) -> Came {
+    pub(super) fn next(&mut self, wait: Duration) -> RestProgress {
         match self.reply.next(wait) {
-            News::Nothing | News::Retrying { .. } => Came::Nothing,
+            News::Nothing | News::Retrying { .. } => RestProgress::Nothing,
             News::Piece(piece) => match self.reading.push(&piece) {
-                StreamVerdict::GoOn | StreamVerdict::Steps(_) => Came::Some(piece),
-                StreamVerdict::Whole => Came::Whole(self.reading.policy().to_owned()),
-                StreamVerdict::Wrong(wrong) => Came::Wrong(wrong.findings),
+                StreamVerdict::GoOn | StreamVerdict::Steps(_) => RestProgress::Some(piece),
+                StreamVerdict::Whole => RestProgress::Whole(self.reading.policy().to_owned()),
+                StreamVerdict::Wrong(wrong) => RestProgress::Wrong(wrong.findings),
             },
             // A reply in the text form is no object that could be followed.
             News::End(Finish::Stop) if self.reading.policy().is_empty() => {
-                Came::Whole(self.reading.reply().to_owned())
+                RestProgress::Whole(self.reading.reply().to_owned())
             }
-            News::End(Finish::Stop) => Came::Whole(self.reading.policy().to_owned()),
-            News::End(Finish::Length) => {
-                Came::Failed(ModelError::CutOff { why: "it had written as much as it may".to_owned() })
-            }
-            News::Failed(why) => Came::Failed(why),
+            News::End(Finish::Stop) => RestProgress::Whole(self.reading.policy().to_owned()),
+            News::End(Finish::Length) => RestProgress::Failed(ModelError::CutOff {
+                why: "it had written as much as it may".to_owned(),
+            }),
+            News::Failed(why) => RestProgress::Failed(why),
         }
     }
 }

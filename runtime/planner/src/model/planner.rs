@@ -8,7 +8,7 @@ use motet_decode::{AcceptorFactory, Grammar, Subset};
 use motet_syntax::ast::Expr;
 use motet_syntax::{Diagnostic, Sources, render};
 
-use super::background::{Came, Later, first_step};
+use super::background::{PendingRest, RestProgress, first_step};
 use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 use super::chat::{ModelEvent, ModelObserver};
 use super::reply_verdict;
@@ -61,7 +61,7 @@ pub struct ModelPlanner<'m> {
     listener: Box<dyn ModelObserver + 'm>,
     settings: Settings,
     /// The rest of a policy whose first step was returned.
-    later: Option<Later>,
+    later: Option<PendingRest>,
     ready: Option<KeptParts>,
 }
 
@@ -75,7 +75,7 @@ struct KeptParts {
 }
 
 /// Position in a reply up to which it is read.
-enum Read {
+enum ReadEnd {
     /// To the end of the reply or of its policy.
     Ended(StreamVerdict),
     /// To the end of the first step, if that may start.
@@ -83,7 +83,7 @@ enum Read {
 }
 
 /// Result of one round.
-enum Round {
+enum RoundResult {
     Good(Box<Planned>),
     /// The reply as far as it was read, and its errors.
     Bad(String, Vec<Diagnostic>),
@@ -130,8 +130,8 @@ impl<'m> ModelPlanner<'m> {
             let name = self.model.name();
             self.listener.hear(&ModelEvent::Asked { round, model: &name, chat: &chat });
             match self.round(session, ready, (&chat, &mut goal), round) {
-                Round::Good(planned) => return Ok(*planned),
-                Round::Bad(reply, findings) => {
+                RoundResult::Good(planned) => return Ok(*planned),
+                RoundResult::Bad(reply, findings) => {
                     let words = render::llm(&findings, &Sources::default());
                     self.listener.hear(&ModelEvent::Refused { round, reply: &reply, findings: &words });
                     chat = first.to_vec();
@@ -139,8 +139,8 @@ impl<'m> ModelPlanner<'m> {
                     chat.insert(first.len(), Message::new(Role::Assistant, reply.as_str()));
                     last = PlanError::Refused { text: reply, diagnostics: findings };
                 }
-                Round::Failed(ModelError::Cancelled) => return Err(PlanError::Stopped),
-                Round::Failed(why) => {
+                RoundResult::Failed(ModelError::Cancelled) => return Err(PlanError::Stopped),
+                RoundResult::Failed(why) => {
                     let is_lasting = why.is_lasting();
                     last = PlanError::NoModel { why: format!("{name}: {why}") };
                     if is_lasting {
@@ -158,53 +158,53 @@ impl<'m> ModelPlanner<'m> {
         ready: &KeptParts,
         (chat, goal): (&[Message], &mut Option<Expr>),
         round: u32,
-    ) -> Round {
+    ) -> RoundResult {
         let mut reading = StreamReader::new(session, ready.acceptors.acceptor(POLICY_BYTES));
         let mut reply = match self.model.ask(chat, &ready.grammar) {
             Ok(reply) => reply,
             Err(why) => return self.failed(round, "", why),
         };
         match self.read(&mut reading, &mut *reply, session) {
-            Ok(Read::First(planned)) => {
+            Ok(ReadEnd::First(planned)) => {
                 self.listener.hear(&ModelEvent::Begun { reply: reading.reply() });
-                self.later = Some(Later { reply, reading: reading.into_owned(), round });
-                Round::Good(planned)
+                self.later = Some(PendingRest { reply, reading: reading.into_owned(), round });
+                RoundResult::Good(planned)
             }
-            Ok(Read::Ended(StreamVerdict::Wrong(Wrong { at, findings }))) => {
+            Ok(ReadEnd::Ended(StreamVerdict::Wrong(Wrong { at, findings }))) => {
                 self.listener.hear(&ModelEvent::Stopped { at });
-                Round::Bad(reading.reply().to_owned(), findings)
+                RoundResult::Bad(reading.reply().to_owned(), findings)
             }
-            Ok(Read::Ended(verdict)) => {
+            Ok(ReadEnd::Ended(verdict)) => {
                 let whole = if verdict == StreamVerdict::Whole { reading.policy() } else { reading.reply() };
                 match judge(session, whole) {
                     ReplyVerdict::Good { planned, mended, changed } => {
                         // Other steps than were written are the model's to write, as long as it may.
                         if !changed.is_empty() && round < self.settings.repairs {
-                            return Round::Bad(reading.reply().to_owned(), changed);
+                            return RoundResult::Bad(reading.reply().to_owned(), changed);
                         }
                         // A model is told once that this is not what was asked for; it may know better what
                         // was meant.
                         let wanted = goal.take().filter(|_| round < self.settings.repairs);
                         let findings = wanted.map(|goal| reply_verdict::missed(session, &planned, &goal));
                         if let Some(findings) = findings.filter(|findings| !findings.is_empty()) {
-                            return Round::Bad(reading.reply().to_owned(), findings);
+                            return RoundResult::Bad(reading.reply().to_owned(), findings);
                         }
                         if !mended.is_empty() {
                             self.listener.hear(&ModelEvent::Mended { titles: &mended });
                         }
                         self.listener.hear(&ModelEvent::Taken { round, reply: reading.reply() });
-                        Round::Good(planned)
+                        RoundResult::Good(planned)
                     }
-                    ReplyVerdict::Bad { findings } => Round::Bad(reading.reply().to_owned(), findings),
+                    ReplyVerdict::Bad { findings } => RoundResult::Bad(reading.reply().to_owned(), findings),
                 }
             }
             Err(why) => self.failed(round, reading.reply(), why),
         }
     }
 
-    fn failed(&mut self, round: u32, reply: &str, why: ModelError) -> Round {
+    fn failed(&mut self, round: u32, reply: &str, why: ModelError) -> RoundResult {
         self.listener.hear(&ModelEvent::Failed { round, reply, why: &why });
-        Round::Failed(why)
+        RoundResult::Failed(why)
     }
 
     /// Reads until the reply is complete, wrong, or ends. Returning closes the connection.
@@ -213,7 +213,7 @@ impl<'m> ModelPlanner<'m> {
         reading: &mut StreamReader<'_>,
         reply: &mut dyn Reply,
         session: &Session,
-    ) -> Result<Read, ModelError> {
+    ) -> Result<ReadEnd, ModelError> {
         let mut begins = self.settings.start == Start::FirstStep;
         loop {
             if self.listener.is_stopped() {
@@ -233,16 +233,16 @@ impl<'m> ModelPlanner<'m> {
                         StreamVerdict::Steps(_) if std::mem::take(&mut begins) => {
                             let first = reading.first().and_then(|first| first_step(session, &first));
                             if let Some(planned) = first {
-                                return Ok(Read::First(planned));
+                                return Ok(ReadEnd::First(planned));
                             }
                         }
                         StreamVerdict::GoOn | StreamVerdict::Steps(_) => {}
                         end @ (StreamVerdict::Whole | StreamVerdict::Wrong(_)) => {
-                            return Ok(Read::Ended(end));
+                            return Ok(ReadEnd::Ended(end));
                         }
                     }
                 }
-                News::End(Finish::Stop) => return Ok(Read::Ended(StreamVerdict::GoOn)),
+                News::End(Finish::Stop) => return Ok(ReadEnd::Ended(StreamVerdict::GoOn)),
                 News::End(Finish::Length) => {
                     let why = "it had written as much as it may".to_owned();
                     return Err(ModelError::CutOff { why });
@@ -278,7 +278,7 @@ impl Planner for ModelPlanner<'_> {
         let Ok(reply) = self.model.ask(&chat, &ready.grammar) else { return false };
         let acceptor = ready.acceptors.acceptor(POLICY_BYTES);
         let reading = StreamReader::new(ask.session, acceptor).into_owned();
-        self.later = Some(Later { reply, reading, round: 0 });
+        self.later = Some(PendingRest { reply, reading, round: 0 });
         true
     }
 
@@ -292,21 +292,21 @@ impl Planner for ModelPlanner<'_> {
             let came = later.next(if wait == Wait::ToTheEnd { SLICE } else { Duration::ZERO });
             let (round, reply) = (later.round, later.reading.reply());
             match came {
-                Came::Some(piece) => self.listener.hear(&ModelEvent::Wrote(&piece)),
-                Came::Nothing if wait == Wait::ToTheEnd => {}
-                Came::Nothing => return RemainingSteps::Coming,
-                Came::Whole(policy) => {
+                RestProgress::Some(piece) => self.listener.hear(&ModelEvent::Wrote(&piece)),
+                RestProgress::Nothing if wait == Wait::ToTheEnd => {}
+                RestProgress::Nothing => return RemainingSteps::Coming,
+                RestProgress::Whole(policy) => {
                     self.listener.hear(&ModelEvent::Taken { round, reply });
                     self.later = None;
                     return RemainingSteps::Whole(policy);
                 }
-                Came::Wrong(findings) => {
+                RestProgress::Wrong(findings) => {
                     let findings = render::llm(&findings, &Sources::default());
                     self.listener.hear(&ModelEvent::Refused { round, reply, findings: &findings });
                     self.later = None;
                     return RemainingSteps::Broken;
                 }
-                Came::Failed(why) => {
+                RestProgress::Failed(why) => {
                     self.listener.hear(&ModelEvent::Failed { round, reply, why: &why });
                     self.later = None;
                     return RemainingSteps::Broken;

@@ -25,7 +25,7 @@ pub struct StreamReader<'s> {
     session: Cow<'s, Session>,
     /// Acceptor, while the reply stays in the canonical subset.
     acceptor: Option<Acceptor>,
-    scan: Scan,
+    scan: Scanner,
     reply: String,
     /// Place where the reply left the canonical subset, until the reason is known.
     suspect: Option<Suspect>,
@@ -73,7 +73,7 @@ impl<'s> StreamReader<'s> {
     /// Starts to read a reply, with the session's acceptor or none.
     #[must_use]
     pub fn new(session: &'s Session, acceptor: Option<Acceptor>) -> Self {
-        let (scan, reply) = (Scan::default(), String::new());
+        let (scan, reply) = (Scanner::default(), String::new());
         Self {
             session: Cow::Borrowed(session),
             acceptor,
@@ -120,7 +120,7 @@ impl<'s> StreamReader<'s> {
             let at = self.reply.len();
             self.reply.push(letter);
             let mark = self.scan.push(letter);
-            if mark == Mark::Nothing {
+            if mark == CharEffect::Nothing {
                 continue;
             }
             self.follow(letter, at);
@@ -144,16 +144,16 @@ impl<'s> StreamReader<'s> {
         }
     }
 
-    fn judge(&mut self, mark: Mark) -> StreamVerdict {
+    fn judge(&mut self, mark: CharEffect) -> StreamVerdict {
         match mark {
-            Mark::Nothing | Mark::Kept => StreamVerdict::GoOn,
-            Mark::End => StreamVerdict::Whole,
-            Mark::StepEnd => self.step(),
-            Mark::StringEnd { from } => match self.suspect {
+            CharEffect::Nothing | CharEffect::Kept => StreamVerdict::GoOn,
+            CharEffect::End => StreamVerdict::Whole,
+            CharEffect::StepEnd => self.step(),
+            CharEffect::StringEnd { from } => match self.suspect {
                 Some(suspect) if suspect.string == Some(from) => self.ask(suspect, from),
                 _ => StreamVerdict::GoOn,
             },
-            Mark::Closed { from } => match self.suspect {
+            CharEffect::Closed { from } => match self.suspect {
                 Some(suspect) if suspect.object == from => {
                     let verdict = self.ask(suspect, from);
                     self.suspect = None;
@@ -220,9 +220,9 @@ impl<'s> StreamReader<'s> {
 
     /// Byte of the reply that became a byte of the scanned text. O(reply).
     fn in_reply(&self, byte: usize) -> usize {
-        let mut scan = Scan::default();
+        let mut scan = Scanner::default();
         for (at, letter) in self.reply.char_indices() {
-            if scan.push(letter) != Mark::Nothing && scan.text.len() > byte {
+            if scan.push(letter) != CharEffect::Nothing && scan.text.len() > byte {
                 return at;
             }
         }
@@ -232,7 +232,7 @@ impl<'s> StreamReader<'s> {
 
 /// Effect of one character of a reply.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Mark {
+pub(super) enum CharEffect {
     /// Outside of the object, or white space between its parts.
     Nothing,
     /// One more character of the object.
@@ -255,7 +255,7 @@ pub(super) enum Mark {
 
 /// Text before the object, reduced to the parts that decide its meaning.
 #[derive(Clone, Debug, Default)]
-struct Before {
+struct Preamble {
     head: String,
     /// Beginning of the current line.
     line: String,
@@ -267,7 +267,7 @@ struct Before {
 const THINKS: &str = "<think>";
 const HAS_THOUGHT: &str = "</think>";
 
-impl Before {
+impl Preamble {
     /// Takes a character. Returns `false` inside a thought.
     fn push(&mut self, letter: char) -> bool {
         if self.is_thought {
@@ -292,12 +292,12 @@ impl Before {
     }
 }
 
-/// Scanner of the object. All offsets are in [`Scan::text`].
+/// Scanner of the object. All offsets are in [`Scanner::text`].
 #[derive(Clone, Debug, Default)]
-pub(super) struct Scan {
+pub(super) struct Scanner {
     /// The object so far, without white space between its parts.
     pub(super) text: String,
-    before: Before,
+    before: Preamble,
     /// Open brackets: the closing character and the offset of the opening one.
     open: Vec<(char, usize)>,
     string: Option<usize>,
@@ -312,11 +312,11 @@ pub(super) struct Scan {
     is_text: bool,
 }
 
-impl Scan {
+impl Scanner {
     /// Takes a character.
-    pub(super) fn push(&mut self, letter: char) -> Mark {
+    pub(super) fn push(&mut self, letter: char) -> CharEffect {
         if self.is_over || self.is_text {
-            return Mark::Nothing;
+            return CharEffect::Nothing;
         }
         if self.open.is_empty() {
             return self.begin(letter);
@@ -326,7 +326,7 @@ impl Scan {
             return self.in_string(letter, from);
         }
         if letter.is_ascii_whitespace() {
-            return Mark::Nothing;
+            return CharEffect::Nothing;
         }
         let at = self.text.len();
         self.text.push(letter);
@@ -342,7 +342,7 @@ impl Scan {
             '}' | ']' => return self.close(letter),
             _ => {}
         }
-        Mark::Kept
+        CharEffect::Kept
     }
 
     /// Text that would close everything open.
@@ -360,22 +360,22 @@ impl Scan {
         self.string
     }
 
-    fn begin(&mut self, letter: char) -> Mark {
+    fn begin(&mut self, letter: char) -> CharEffect {
         if !self.before.push(letter) || letter != '{' {
-            return Mark::Nothing;
+            return CharEffect::Nothing;
         }
         if self.before.line.starts_with("policy ") {
             self.is_text = true;
-            return Mark::Nothing;
+            return CharEffect::Nothing;
         }
         self.open.push(('}', 0));
         self.text.push(letter);
-        Mark::Kept
+        CharEffect::Kept
     }
 
-    fn in_string(&mut self, letter: char, from: usize) -> Mark {
+    fn in_string(&mut self, letter: char, from: usize) -> CharEffect {
         if std::mem::take(&mut self.is_escaped) {
-            return Mark::Kept;
+            return CharEffect::Kept;
         }
         match letter {
             '\\' => self.is_escaped = true,
@@ -385,27 +385,29 @@ impl Scan {
                     let string = self.text.get(from + 1..self.text.len() - 1);
                     self.key = string.unwrap_or_default().to_owned();
                 }
-                return Mark::StringEnd { from };
+                return CharEffect::StringEnd { from };
             }
             _ => {}
         }
-        Mark::Kept
+        CharEffect::Kept
     }
 
-    fn close(&mut self, letter: char) -> Mark {
+    fn close(&mut self, letter: char) -> CharEffect {
         // A bracket that closes something else is left to the reader of JSON.
-        let Some((_, from)) = self.open.pop_if(|(closer, _)| *closer == letter) else { return Mark::Kept };
+        let Some((_, from)) = self.open.pop_if(|(closer, _)| *closer == letter) else {
+            return CharEffect::Kept;
+        };
         match self.open.len() {
             0 => {
                 self.is_over = true;
-                Mark::End
+                CharEffect::End
             }
             1 => {
                 self.in_steps = false;
-                Mark::Closed { from }
+                CharEffect::Closed { from }
             }
-            2 if self.in_steps => Mark::StepEnd,
-            _ => Mark::Closed { from },
+            2 if self.in_steps => CharEffect::StepEnd,
+            _ => CharEffect::Closed { from },
         }
     }
 }
