@@ -17,7 +17,7 @@ use serde::de::IgnoredAny;
 
 use crate::error::CliError;
 
-/// Reads stdin.
+/// Reads all of stdin.
 pub(crate) fn read_stdin() -> Result<Bytes, CliError> {
     read_bounded(io::stdin().lock(), None).map_err(|source| CliError::read("-", source))
 }

@@ -118,6 +118,7 @@ pub(crate) enum DiagnosticFormat {
 /// Format of results that are not diagnostics.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
 pub(crate) enum OutputFormat {
+    /// Text for people
     #[default]
     Human,
     /// One JSON object per line
@@ -138,6 +139,7 @@ impl From<OutputFormat> for DiagnosticFormat {
 pub(crate) enum SyntaxArg {
     /// Text, as in .motet files
     Text,
+    /// JSON, as language models write it
     Json,
 }
 
@@ -159,6 +161,7 @@ pub(crate) enum ServerDialect {
     Llamacpp,
     /// Ollama, at its own chat address
     Ollama,
+    /// Server of SGLang
     Sglang,
     /// OpenAI, and servers that speak like it
     Openai,

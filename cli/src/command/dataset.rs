@@ -116,6 +116,7 @@ struct LintArgs {
 /// Format of rows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
 enum RowFormat {
+    /// TRL: `messages` with roles
     #[default]
     Trl,
     /// LLaMA-Factory: `conversations` and `system`, with a dataset_info.json

@@ -25,8 +25,6 @@ pub(crate) struct DoArgs {
     pub(super) request: String,
     #[command(flatten)]
     pub(super) session: SessionArgs,
-    #[command(flatten)]
-    pub(super) model: ModelArgs,
     /// Source of answers to questions: `terminal`, `never`, or `script FILE` with one answer per line
     #[arg(long, num_args = 1..=2, value_names = ["terminal|script|never", "FILE"])]
     pub(super) ask: Vec<String>,
@@ -45,6 +43,9 @@ pub(crate) struct DoArgs {
     /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(super) format: OutputFormat,
+    // Last, since its heading holds for all flags after it.
+    #[command(flatten)]
+    pub(super) model: ModelArgs,
 }
 
 /// Model that plans.
