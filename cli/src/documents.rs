@@ -7,20 +7,17 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
+use motet_compiler::{Library, make_explicit};
 use motet_project::files::{Bytes, decode, read_bounded, read_file};
 use motet_project::{DOCUMENT, ProjectError};
-use motet_syntax::ast::{self, MAX_BYTES};
+use motet_syntax::ast::{self, Item, MAX_BYTES, Policy};
 use motet_syntax::errors::too_large;
-use motet_syntax::{Diagnostic, Parsed, Source, Span, Syntax};
+use motet_syntax::{Diagnostic, Parsed, Source, Span, Syntax, print};
 use serde::de::IgnoredAny;
 
 use crate::error::CliError;
 
-/// Reads stdin.
-///
-/// # Errors
-///
-/// Stdin cannot be read.
+/// Reads all of stdin.
 pub(crate) fn read_stdin() -> Result<Bytes, CliError> {
     read_bounded(io::stdin().lock(), None).map_err(|source| CliError::read("-", source))
 }
@@ -58,10 +55,6 @@ pub(crate) struct Inputs {
 }
 
 /// Finds the inputs behind the paths of the command line.
-///
-/// # Errors
-///
-/// A path does not exist, or a folder cannot be listed.
 pub(crate) fn collect(paths: &[PathBuf]) -> Result<Inputs, CliError> {
     let mut found = Inputs { inputs: Vec::new(), size: 0, skipped: Vec::new() };
     for path in paths {
@@ -95,10 +88,6 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
 
 impl Input {
     /// Reads the documents one after the other, until `each` stops it.
-    ///
-    /// # Errors
-    ///
-    /// The input cannot be read.
     pub(crate) fn documents(
         &self,
         each: &mut dyn FnMut(Document) -> Result<Flow, CliError>,
@@ -135,10 +124,6 @@ impl Input {
 }
 
 /// Reads a file or stdin with one document.
-///
-/// # Errors
-///
-/// The path is a folder, or cannot be read.
 pub(crate) fn one_document(path: &Path) -> Result<Document, CliError> {
     let input = if path.as_os_str() == "-" { Input::Stdin } else { Input::File(path.to_owned()) };
     let mut found = None;
@@ -285,5 +270,42 @@ fn failed_path(error: &ignore::Error) -> Option<&Path> {
         | ignore::Error::Glob { .. }
         | ignore::Error::UnrecognizedFileType(_)
         | ignore::Error::InvalidDefinition => None,
+    }
+}
+
+/// Writes a document, or one policy of it, in a syntax.
+pub(crate) fn write(
+    parsed: &Parsed,
+    policy: Option<&str>,
+    library: &Library,
+    syntax: Syntax,
+) -> Result<String, String> {
+    let mut file = parsed.file.clone();
+    if let Some(name) = policy {
+        file.items.retain(|item| matches!(item, Item::Policy(policy) if policy.name.text == name));
+        if file.items.is_empty() {
+            return Err(format!("there is no policy `{name}`"));
+        }
+    }
+    for item in &mut file.items {
+        if let Item::Policy(policy) = item {
+            make_explicit(policy, library, syntax);
+        }
+    }
+    match syntax {
+        Syntax::Text => Ok(print::text(&file)),
+        Syntax::Json => Ok(print::policy_json(only(&file.items)?)),
+    }
+}
+
+/// Only policy of a document, which has no parameters.
+fn only(items: &[Item]) -> Result<&Policy, String> {
+    let rule = "a JSON document holds exactly one policy without parameters";
+    match items {
+        [Item::Policy(policy)] if policy.params.is_empty() => Ok(policy),
+        [Item::Policy(policy)] => Err(format!("`{}` has parameters, and {rule}", policy.name.text)),
+        [] => Err(format!("there is no policy, and {rule}")),
+        [_] => Err(format!("there is no policy but another declaration, and {rule}")),
+        more => Err(format!("there are {} declarations, and {rule}", more.len())),
     }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum, value_parser};
+use motet_decode::export::Dialect;
 use motet_planner::runtime_check::CheckMode;
 use motet_project::{Project, ProjectBuilder};
 use motet_syntax::Syntax;
@@ -85,7 +86,8 @@ pub(crate) struct MotionArgs {
     #[arg(long)]
     pub(crate) no_geometry: bool,
     /// Search budget of a motion: 4 tries four times as often before the motion is deferred to the run
-    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1,
+          value_parser = value_parser!(u16).range(1..=1000))]
     pub(crate) effort: u16,
 }
 
@@ -116,6 +118,7 @@ pub(crate) enum DiagnosticFormat {
 /// Format of results that are not diagnostics.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
 pub(crate) enum OutputFormat {
+    /// Text for people
     #[default]
     Human,
     /// One JSON object per line
@@ -136,6 +139,7 @@ impl From<OutputFormat> for DiagnosticFormat {
 pub(crate) enum SyntaxArg {
     /// Text, as in .motet files
     Text,
+    /// JSON, as language models write it
     Json,
 }
 
@@ -148,13 +152,42 @@ impl From<SyntaxArg> for Syntax {
     }
 }
 
+/// Dialect of a model server. A new one is a case of [`Dialect`] first.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum ServerDialect {
+    /// vLLM 0.12 and later
+    Vllm,
+    /// Server of llama.cpp
+    Llamacpp,
+    /// Ollama, at its own chat address
+    Ollama,
+    /// Server of SGLang
+    Sglang,
+    /// OpenAI, and servers that speak like it
+    Openai,
+}
+
+impl From<ServerDialect> for Dialect {
+    fn from(server: ServerDialect) -> Self {
+        match server {
+            ServerDialect::Vllm => Self::Vllm,
+            ServerDialect::Llamacpp => Self::LlamaCpp,
+            ServerDialect::Ollama => Self::Ollama,
+            ServerDialect::Sglang => Self::Sglang,
+            ServerDialect::Openai => Self::OpenAi,
+        }
+    }
+}
+
+/// Settings of a simulated run.
 #[derive(Args, Debug)]
 pub(crate) struct SimulationArgs {
     /// Speed relative to real time: a factor, or `max` for as fast as possible
     #[arg(long, default_value = "1", value_name = "max|FACTOR", allow_negative_numbers = true)]
     pub(crate) speed: Speed,
     /// Seed of all randomness in the simulation
-    #[arg(long, default_value_t = 0, value_name = "NUMBER", value_parser = seed, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0, value_name = "NUMBER", value_parser = seed,
+          allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// JSON file with faults to inject
     #[arg(long, value_name = "FILE")]
@@ -162,10 +195,6 @@ pub(crate) struct SimulationArgs {
 }
 
 /// Reads a seed.
-///
-/// # Errors
-///
-/// Advice for clap to print.
 pub(crate) fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| format!("write a whole number from 0 to {}, such as 7", u64::MAX))
 }
@@ -206,10 +235,6 @@ impl FromStr for Speed {
 }
 
 /// Reads a duration such as `90s`, `10 min` or `1h`; in seconds.
-///
-/// # Errors
-///
-/// Advice for clap to print.
 pub(crate) fn duration(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.').unwrap_or(text.len());

@@ -1,22 +1,20 @@
 //! The `motet` command: reads the command line, calls the subcommand, and turns its result into an exit code.
 
 mod command;
-mod convert;
 mod documents;
 mod error;
 mod flags;
 mod output;
-mod progress;
 mod report;
 mod run_view;
 mod runner;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
 
 use error::{CliError, Exit};
-use output::{Colors, note};
+use output::{ColorChoice, Colors, note};
 
 /// Check, format, compile, plan and run robot policies written in Motet
 #[derive(Parser, Debug)]
@@ -34,15 +32,6 @@ pub(crate) struct Cli {
     /// Colours; `auto` uses them in a terminal, unless NO_COLOR is set
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     color: ColorChoice,
-}
-
-/// Colours of the output.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
-pub(crate) enum ColorChoice {
-    #[default]
-    Auto,
-    Always,
-    Never,
 }
 
 /// Subcommands; each has a file of its name in `command`.

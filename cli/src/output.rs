@@ -2,7 +2,16 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use crate::ColorChoice;
+use clap::ValueEnum;
+
+/// Colours of the output.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub(crate) enum ColorChoice {
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
 
 /// Colours of the output streams.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -1,9 +1,11 @@
 //! Diagnostics of a command: printed to stdout in the chosen format, and counted.
 
 use std::collections::HashMap;
+use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use motet_project::DiagnosticSink;
 use motet_syntax::{Diagnostic, FileId, Severity, Sources, Span, render};
 
@@ -25,7 +27,7 @@ pub(crate) struct Report {
 
 impl Report {
     /// Report in a format.
-    pub(crate) fn new(format: DiagnosticFormat, colors: Colors) -> Self {
+    fn new(format: DiagnosticFormat, colors: Colors) -> Self {
         Self {
             format,
             colors,
@@ -35,6 +37,29 @@ impl Report {
             errors: 0,
             warnings: 0,
         }
+    }
+
+    /// Runs a command with a report, and closes the report.
+    pub(crate) fn run(
+        format: DiagnosticFormat,
+        colors: Colors,
+        command: impl FnOnce(&mut Self) -> Result<Exit, CliError>,
+    ) -> Result<Exit, CliError> {
+        let mut report = Self::new(format, colors);
+        let result = command(&mut report);
+        report.close(result)
+    }
+
+    /// Runs a command that prints a result: its diagnostics are held back until the end.
+    pub(crate) fn run_held(
+        format: DiagnosticFormat,
+        colors: Colors,
+        command: impl FnOnce(&mut Self) -> Result<Exit, CliError>,
+    ) -> Result<Exit, CliError> {
+        Self::run(format, colors, |report| {
+            report.hold();
+            command(report)
+        })
     }
 
     /// Counts warnings that are not diagnostics.
@@ -98,11 +123,7 @@ impl Report {
     }
 
     /// Prints the collected diagnostics, and passes on the result of the command.
-    ///
-    /// # Errors
-    ///
-    /// Those of the result, or stdout cannot be written.
-    pub(crate) fn close(mut self, result: Result<Exit, CliError>) -> Result<Exit, CliError> {
+    fn close(mut self, result: Result<Exit, CliError>) -> Result<Exit, CliError> {
         if self.is_held || self.format == DiagnosticFormat::Sarif {
             let text = self.text(&self.collected.diagnostics, &self.collected.sources);
             if self.is_held && self.out.is_used() {
@@ -130,10 +151,6 @@ fn width() -> usize {
 }
 
 /// Result of a command, or the error of writing stdout.
-///
-/// # Errors
-///
-/// Those of the result, or stdout cannot be written.
 pub(crate) fn close(out: &mut Output, result: Result<Exit, CliError>) -> Result<Exit, CliError> {
     match out.take_error() {
         Some(source) => Err(CliError::Write { path: PathBuf::from("stdout"), source }),
@@ -186,5 +203,48 @@ impl Collected {
                 file
             }
         };
+    }
+}
+
+/// Number of inputs above which a bar is shown.
+const BATCH: usize = 8;
+
+/// Progress bar over the bytes of the inputs; hidden for a few inputs, or without a terminal.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    /// Bar for `inputs` documents with `bytes` in total.
+    pub(crate) fn new(inputs: usize, bytes: u64, verb: &'static str) -> Self {
+        let is_batch = inputs > BATCH || bytes > 1 << 20;
+        // On the terminal that shows the findings too, the bar would tear them apart.
+        if !is_batch || !io::stderr().is_terminal() || io::stdout().is_terminal() && inputs <= BATCH {
+            return Self { bar: ProgressBar::hidden() };
+        }
+        let bar = ProgressBar::with_draw_target(Some(bytes), ProgressDrawTarget::stderr_with_hz(10));
+        let template = "{msg} {wide_bar} {bytes}/{total_bytes} {eta}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        bar.set_message(verb);
+        Self { bar }
+    }
+
+    /// Advances the bar by a document of this size.
+    pub(crate) fn advance(&self, bytes: usize) {
+        self.bar.inc(bytes as u64);
+    }
+
+    /// Hides the bar while `print` runs.
+    pub(crate) fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
+        self.bar.suspend(print)
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
     }
 }

@@ -1,17 +1,15 @@
 //! Views of a run: redrawn in place on a terminal, line by line, or as JSON events.
 
 pub(crate) mod events;
-mod lines;
 mod screen;
 mod tree;
 
-use std::collections::BTreeMap;
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
 
+use motet_graph::Graph;
 use motet_graph::draw::Names;
-use motet_graph::{FailureId, Graph};
-use motet_runtime::{DriverEvent, Effect, Event, Outcome, RunEnd, Time};
+use motet_runtime::{Effect, Event, RunEnd, Time};
 
 use crate::flags::OutputFormat;
 use crate::output::{Colors, escape};
@@ -55,7 +53,7 @@ pub(crate) fn view(format: OutputFormat, graph: &Graph, colors: Colors, clock: C
         OutputFormat::Human if io::stdout().is_terminal() => {
             Box::new(screen::Screen::new(graph, colors.stdout, clock))
         }
-        OutputFormat::Human => Box::new(lines::Lines::new(graph, colors.stdout, clock)),
+        OutputFormat::Human => Box::new(screen::Lines::new(graph, colors.stdout, clock)),
     }
 }
 
@@ -126,36 +124,4 @@ fn summary(
     };
     text.push_str(&format!("\n  {}{clock}, {steps} done, {} failed", duration(now), tree.failed));
     text
-}
-
-/// Names of the failure kinds that a driver invented: neither the graph nor the trace has them, but the
-/// events of the driver.
-#[derive(Debug, Default)]
-struct FailureNames {
-    last: Option<String>,
-    known: BTreeMap<usize, String>,
-}
-
-impl FailureNames {
-    /// Takes an event before the engine handles it.
-    fn event(&mut self, event: &Event) {
-        self.last = match event {
-            Event::Driver(
-                DriverEvent::Ended { outcome: Outcome::Failure(kind), .. }
-                | DriverEvent::Refused { failure: kind, .. },
-            ) => Some(kind.to_string()),
-            _ => None,
-        };
-    }
-
-    /// Name of a failure kind: that of the graph, or the driver's when its number first appeared.
-    fn name(&mut self, graph: &Graph, kind: FailureId) -> String {
-        if kind.index() < graph.failures.len() {
-            return Names(graph).failure(kind).to_owned();
-        }
-        match self.last.clone() {
-            Some(last) => self.known.entry(kind.index()).or_insert(last).clone(),
-            None => self.known.get(&kind.index()).map_or_else(|| "?".to_owned(), String::clone),
-        }
-    }
 }

@@ -1,16 +1,19 @@
-//! Runs an engine on a driver: paced by the wall clock, shown by a view, recorded in a journal, stopped by
-//! Ctrl-C.
+//! Runs an engine on a driver, in this process or another: paced by the wall clock, shown by a view,
+//! recorded in a journal, stopped by Ctrl-C.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
+use motet_host::remote::protocol::Hello;
+use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::runtime_check::Guard;
 use motet_runtime::{Driver, Effect, Engine, Event, Observer, RunControl, RunEnd, Time, Verifier, resume};
 
 use crate::error::{CliError, Exit};
 use crate::flags::Speed;
+use crate::output::{escape, note};
 use crate::run_view::View;
 
 /// Interval at which a waiting run checks for an interrupt.
@@ -20,10 +23,6 @@ const SLICE: Duration = Duration::from_millis(50);
 static PRESSED: AtomicU32 = AtomicU32::new(0);
 
 /// Turns Ctrl-C into a request to stop; the second one ends the process.
-///
-/// # Errors
-///
-/// The operating system refuses the handler.
 pub(crate) fn catch_interrupts() -> Result<(), CliError> {
     ctrlc::set_handler(|| {
         if PRESSED.fetch_add(1, Ordering::SeqCst) > 0 {
@@ -140,10 +139,6 @@ pub(crate) struct Runner<'a> {
 
 impl Runner<'_> {
     /// Runs to the end.
-    ///
-    /// # Errors
-    ///
-    /// Ctrl-C cannot be handled, or the journal cannot be written, which stops the run.
     pub(crate) fn run(mut self, mut paced: PacedView) -> Result<Exit, CliError> {
         catch_interrupts()?;
         let end = match self.journal {
@@ -172,4 +167,11 @@ pub(crate) const fn exit_of(end: &RunEnd) -> Exit {
 /// Error of reading or writing a journal.
 pub(crate) fn journal_error(error: JournalError) -> CliError {
     CliError::Message(error.to_string())
+}
+
+/// Starts a driver process, or connects to it.
+pub(crate) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
+    let log = |text: &str| note(&format!("driver: {}", escape(text)));
+    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))
+        .map_err(|breakage| CliError::Message(format!("{} ({address})", escape(&breakage.to_string()))))
 }

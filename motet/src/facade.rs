@@ -41,6 +41,13 @@ pub struct CheckedPolicy {
 
 impl CheckedPolicy {
     /// Execution graph, which a robot's own computer can run without the compiler.
+    ///
+    /// ```
+    /// let motet = motet::Motet::open("hsr", "kitchen")?;
+    /// let policy = motet.compile("policy greet { say(\"Hello!\") done }")?;
+    /// assert_eq!(policy.graph().policy, "greet");
+    /// # Ok::<(), motet::Error>(())
+    /// ```
     #[must_use]
     pub fn graph(&self) -> &Graph {
         &self.graph

@@ -22,7 +22,10 @@ pub use {
     motet_syntax as syntax,
 };
 
-// The page of the book compiles and runs.
+// The Rust of the book compiles and runs.
 #[cfg(doctest)]
 #[doc = include_str!("../../docs/embedding.md")]
 mod embedding_page {}
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/runtime.md")]
+mod runtime_page {}

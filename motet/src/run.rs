@@ -61,7 +61,7 @@ pub fn create_journal(
     Ok(JournalWriter::create(folder, head)?)
 }
 
-/// JournalHead of the journal of a run that begins now, at time 0, without a description of the driver.
+/// Head of the journal of a run that begins now, at time 0, without a description of the driver.
 #[must_use]
 pub fn journal_head(engine: &Engine, start: &StartState) -> JournalHead {
     JournalHead {

@@ -1,5 +1,5 @@
-//! Checks of the documentation: every page is in the book, every link leads somewhere, and every command
-//! runs.
+//! Checks of the documentation: every page is in the book, every link and every path of the repository leads
+//! somewhere, and every command runs.
 //!
 //! A fenced block acts by its language:
 //! - `sh` runs as one script and must exit with 0;
@@ -45,9 +45,13 @@ pub(crate) fn run(root: &Path, motet: &Path, only: Option<&str>) -> Result<bool,
     let motet = motet.canonicalize().map_err(|error| format!("{}: {error}", motet.display()))?;
     let pages = pages(root)?;
     let mut problems = unlisted(root, &pages)?;
-    for page in pages.iter().filter(|page| only.is_none_or(|only| page.as_str() == only)) {
+    for page in pages.iter().map(String::as_str).chain(["ARCHITECTURE.md", "CONTRIBUTING.md"]) {
         let text = read(&root.join(page))?;
         problems.extend(broken_links(root, page, &text));
+        problems.extend(broken_paths(root, page, &text));
+    }
+    for page in pages.iter().filter(|page| only.is_none_or(|only| page.as_str() == only)) {
+        let text = read(&root.join(page))?;
         let (ran, skipped, failed) = run_blocks(root, page, &text, &motet)?;
         println!("{page}: {ran} blocks ran, {skipped} did not, {} failed", failed.len());
         problems.extend(failed);
@@ -93,6 +97,32 @@ fn broken_links(root: &Path, page: &str, text: &str) -> Vec<String> {
             && !anchors(&std::fs::read_to_string(&path).unwrap_or_default()).contains(anchor)
         {
             broken.push(format!("{page}:{line}: no heading `#{anchor}` in `{file}`"));
+        }
+    }
+    broken
+}
+
+/// Paths in backticks that begin with a folder of the repository and lead to nothing. A segment in capitals
+/// stands for any name; of a path with `*` only the folders before it are looked up.
+fn broken_paths(root: &Path, page: &str, text: &str) -> Vec<String> {
+    let is_path = |token: &str| {
+        let top = token.split_once('/').map_or("", |(top, _)| top);
+        !["", "target"].contains(&top)
+            && root.join(top).is_dir()
+            && token.chars().all(|c| c.is_ascii_alphanumeric() || "/._-*".contains(c))
+    };
+    let is_fixed = |segment: &&str| {
+        !segment.contains('*') && !segment.chars().all(|c| c.is_ascii_uppercase() || c == '_')
+    };
+    let mut broken = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        // Every other part stands between backticks.
+        for token in line.split('`').skip(1).step_by(2).filter(|token| is_path(token)) {
+            let path: Vec<&str> = token.split('/').filter(|part| !part.is_empty()).collect();
+            let known: Vec<&str> = path.into_iter().take_while(is_fixed).collect();
+            if !root.join(known.join("/")).exists() {
+                broken.push(format!("{page}:{}: no path `{token}`", number + 1));
+            }
         }
     }
     broken
@@ -324,6 +354,17 @@ mod tests {
     fn commands_keep_what_each_prints() {
         let found = commands("$ a\nx\n$ b\n");
         assert_eq!(found, [("a".to_owned(), "x\n".to_owned()), ("b".to_owned(), String::new())]);
+    }
+
+    #[test]
+    fn broken_paths_looks_up_paths_of_the_repository() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let found = broken_paths(
+            &root,
+            "a.md",
+            "`xtask/src/docs.rs`, `xtask/no.rs`, `a/b`, `xtask/NAME/x`, `xtask/*.rs`",
+        );
+        assert_eq!(found, ["a.md:1: no path `xtask/no.rs`"]);
     }
 
     #[test]

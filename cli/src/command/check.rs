@@ -12,7 +12,7 @@ use crate::documents::{self, Document, Flow, is_reply};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, FormatArgs, SessionArgs};
 use crate::output::{Colors, count, count_irregular, note};
-use crate::progress::Progress;
+use crate::report::Progress;
 use crate::report::Report;
 
 /// Flags of `motet check`.
@@ -38,18 +38,14 @@ pub(crate) struct CheckArgs {
 const MAX_FIXES: usize = 100;
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// A document cannot be read, or the robot, the scene or another input cannot be used.
 pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.format, colors);
-    // The fixed document goes to stdout.
-    if args.fix && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
-        report.hold();
-    }
-    let result = check(args, &mut report);
-    report.close(result)
+    Report::run(args.format.format, colors, |report| {
+        // The fixed document goes to stdout.
+        if args.fix && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
+            report.hold();
+        }
+        check(args, report)
+    })
 }
 
 fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -137,30 +133,20 @@ impl Tally {
         self.documents += 1;
         let (source, parsed) = found.parse();
         let opened = project.session_for(&parsed.file, report)?;
-        let runnable = parsed.file.runnable();
         if opened.robot.is_none() && parsed.file.runnable().next().is_some() {
             self.without_robot += usize::from(named_robot(&parsed.file).is_none());
         }
-        // Compiling checks too, and counts the motions. A document with one policy is only compiled.
-        let diagnostics = if parsed.file.items.len() == 1 && parsed.file.runnable().count() == 1 {
-            let compiled = opened.session.compile(&parsed, None);
-            self.unseen += compiled.skipped_motions;
-            self.motions += compiled.graph.as_ref().map_or(0, deferred_motions);
-            compiled.diagnostics
-        } else {
-            for policy in runnable {
-                let compiled = opened.session.compile(&parsed, Some(&policy.name.text));
-                self.unseen += compiled.skipped_motions;
-                self.motions += compiled.graph.as_ref().map_or(0, deferred_motions);
-            }
-            opened.session.check(&parsed)
-        };
+        let checked = opened.session.check_document(&parsed);
+        for policy in &checked.policies {
+            self.unseen += policy.skipped_motions;
+            self.motions += policy.graph.as_ref().map_or(0, deferred_motions);
+        }
         if let Bytes::All(bytes) = &found.bytes {
             progress.advance(bytes.len());
         }
-        if !diagnostics.is_empty() {
+        if !checked.diagnostics.is_empty() {
             let sources = opened.sources(source);
-            progress.suspend(|| report.print(&diagnostics, &sources));
+            progress.suspend(|| report.print(&checked.diagnostics, &sources));
         }
         Ok(())
     }

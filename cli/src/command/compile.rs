@@ -6,8 +6,7 @@ use clap::{Args, ValueEnum};
 use motet_graph::draw;
 use motet_syntax::Syntax;
 
-use crate::convert;
-use crate::documents::one_document;
+use crate::documents::{self, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::{FormatArgs, SessionArgs};
 use crate::output::{Colors, note};
@@ -57,17 +56,13 @@ enum Emit {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The policy cannot be read, or the robot, the scene or another input cannot be used.
 pub(crate) fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.format, colors);
-    if args.output.is_none() {
-        report.hold();
-    }
-    let result = compile(args, &mut report);
-    report.close(result)
+    Report::run(args.format.format, colors, |report| {
+        if args.output.is_none() {
+            report.hold();
+        }
+        compile(args, report)
+    })
 }
 
 fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -86,8 +81,8 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
         Emit::Tree => Ok(draw::text(&graph)),
         Emit::Mermaid => Ok(draw::mermaid(&graph)),
         Emit::Dot => Ok(draw::dot(&graph)),
-        Emit::Json => convert::write(&parsed, policy, library, Syntax::Json),
-        Emit::Text => convert::write(&parsed, policy, library, Syntax::Text),
+        Emit::Json => documents::write(&parsed, policy, library, Syntax::Json),
+        Emit::Text => documents::write(&parsed, policy, library, Syntax::Text),
     };
     let mut text = match written {
         Ok(text) => text,

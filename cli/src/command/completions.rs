@@ -18,10 +18,6 @@ pub(crate) struct CompletionsArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// Stdout cannot be written.
 pub(crate) fn run(args: &CompletionsArgs) -> Result<Exit, CliError> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "motet", &mut script);

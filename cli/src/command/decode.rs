@@ -1,9 +1,6 @@
 //! `motet decode`: the continuations of a policy prefix, as words, bytes or tokens.
 
-mod next;
-mod place;
-mod refused;
-mod tokens;
+mod continuations;
 
 use std::path::{Path, PathBuf};
 
@@ -19,6 +16,7 @@ use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
 use crate::output::Colors;
 use crate::report::Report;
+use continuations::{describe_tokens, next_words, quoted, read_vocabulary, refused};
 
 /// Flags of `motet decode`.
 #[derive(Args, Debug)]
@@ -56,15 +54,8 @@ pub(crate) struct DecodeArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The prefix, the tokenizer or another input cannot be read.
 pub(crate) fn run(args: &DecodeArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = decode(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| decode(args, report))
 }
 
 fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -89,8 +80,8 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
         return Ok(Exit::Findings);
     }
     let tokens = args.tokenizer.as_ref().map(|name| {
-        let vocabulary = tokens::vocabulary(name, args.end.as_deref())?;
-        tokens::describe(&prepared, &vocabulary, &prefix, args.budget)
+        let vocabulary = read_vocabulary(name, args.end.as_deref())?;
+        describe_tokens(&prepared, &vocabulary, &prefix, args.budget)
     });
     report.out.text(&continuations(&mut acceptor, (&session, syntax), args.explain));
     report.out.text(&tokens.transpose()?.unwrap_or_default());
@@ -108,11 +99,11 @@ fn continuations(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax),
     if acceptor.is_accepting() {
         text.push_str("the policy is complete: only the end may follow\n");
     } else if explain {
-        let next = next::next(acceptor, syntax);
+        let next = next_words(acceptor, syntax);
         text.push_str(&next.describe(&session.signatures(), acceptor));
         // The text syntax has no list of the words that names and types alone would allow.
         if syntax == Syntax::Json {
-            text.push_str(&refused::refused(acceptor, &session.signatures(), &next));
+            text.push_str(&refused(acceptor, &session.signatures(), &next));
         }
     } else {
         text.push_str(&format!("may follow: {}\n", quoted(&acceptor.next_bytes())));
@@ -144,14 +135,9 @@ fn refusal(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax), rest:
             text.push_str(&format!("why: {line}\n"));
         }
     }
-    let next = next::next(acceptor, syntax);
+    let next = next_words(acceptor, syntax);
     text.push_str(&next.describe(&session.signatures(), acceptor));
     text
-}
-
-/// Bytes as a JSON string.
-pub(super) fn quoted(bytes: &[u8]) -> String {
-    serde_json::Value::from(String::from_utf8_lossy(bytes)).to_string()
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, CliError> {

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use clap::Args;
 use motet_planner::builtin;
-use motet_planner::dialect::actions;
-use motet_planner::dialect::exchange::{self, Exchange};
 use motet_planner::dialogue::Problem;
+use motet_planner::inteliplan::actions;
+use motet_planner::inteliplan::exchange::{self, Exchange};
 use motet_planner::prompt;
 use motet_project::files::read_small;
 use motet_project::{DOCUMENT, ProjectSession};
@@ -15,7 +15,7 @@ use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use motet_syntax::{Severity, Source};
 
-use crate::convert;
+use crate::documents;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
 use crate::output::{Colors, note};
@@ -41,15 +41,8 @@ pub(crate) struct DialogArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The file, the robot or the scene cannot be used.
 pub(crate) fn run(args: &DialogArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = converse(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| converse(args, report))
 }
 
 fn converse(args: &DialogArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -113,7 +106,7 @@ fn plan(
     let diagnostics = opened.session.check(&parsed);
     let is_wrong = diagnostics.iter().any(|found| found.severity == Severity::Error);
     report.print(&diagnostics, &opened.sources(source));
-    match convert::write(&parsed, None, opened.session.library(), to.into()) {
+    match documents::write(&parsed, None, opened.session.library(), to.into()) {
         // Several JSON documents are printed on one line each.
         Ok(text) if to == SyntaxArg::Json && !is_only => {
             report.out.line(&text.lines().map(str::trim).collect::<Vec<_>>().join(" "));

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use motet::run::{create_journal, engine, start_state};
 use motet_host::remote::protocol::Hello;
-use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
+use motet_host::remote::{DriverAddress, DriverTimeouts};
 use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_project::{SavedDriver, SavedProject};
 use motet_runtime::{Driver, EngineSettings, Event, Time};
@@ -13,10 +13,10 @@ use motet_runtime::{Driver, EngineSettings, Event, Time};
 use super::run::compile;
 use crate::error::{CliError, Exit};
 use crate::flags::{OutputFormat, SessionArgs, Speed};
-use crate::output::{Colors, escape, note};
+use crate::output::Colors;
 use crate::report::Report;
 use crate::run_view::{Clock, view};
-use crate::runner::{PacedView, Runner};
+use crate::runner::{PacedView, Runner, connect};
 
 /// Flags of `motet drive`.
 #[derive(Args, Debug)]
@@ -44,14 +44,8 @@ pub(crate) struct DriveArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The policy cannot be read, the driver cannot be reached, or the journal cannot be written.
 pub(crate) fn run(args: &DriveArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.into(), colors);
-    let result = check_and_drive(args, colors, &mut report);
-    report.close(result)
+    Report::run(args.format.into(), colors, |report| check_and_drive(args, colors, report))
 }
 
 fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
@@ -79,19 +73,8 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     Runner { engine, driver: &mut driver, journal, from: Time::ZERO, events }.run(paced)
 }
 
-/// EngineSettings of the engine: a safe stop may take as long as it takes to reach a silent driver again.
+/// Settings of the engine: a safe stop may take as long as it takes to reach a silent driver again.
 fn settings() -> EngineSettings {
     let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
     EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() }
-}
-
-/// Starts a driver process, or connects to it.
-///
-/// # Errors
-///
-/// The driver cannot be reached, or does not speak the protocol.
-pub(super) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
-    let log = |text: &str| note(&format!("driver: {}", escape(text)));
-    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))
-        .map_err(|breakage| CliError::Message(format!("{} ({address})", escape(&breakage.to_string()))))
 }

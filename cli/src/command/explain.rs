@@ -18,10 +18,6 @@ pub(crate) struct ExplainArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// No diagnostic has this code.
 pub(crate) fn run(args: &ExplainArgs) -> Result<Exit, CliError> {
     let mut out = Output::default();
     let result = match &args.code {

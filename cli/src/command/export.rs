@@ -43,10 +43,6 @@ struct McapArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The journal cannot be read, or the file cannot be written.
 pub(crate) fn run(args: &ExportArgs) -> Result<Exit, CliError> {
     let ExportCommand::Mcap(args) = &args.command;
     // An earlier file, which may be the journal itself, stays until the new one is complete.
@@ -96,7 +92,7 @@ struct SceneReplay {
 }
 
 impl SceneReplay {
-    /// EngineReplay from the head of a journal; `None` if the run was not a simulation.
+    /// Replay from the head of a journal; `None` if the run was not a simulation.
     fn of(driver: &serde_json::Value) -> Option<Self> {
         match SavedDriver::from_json(driver).ok()? {
             SavedDriver::Simulator(saved) => {

@@ -1,21 +1,21 @@
 //! `motet feasible`: decides which motions are feasible for a robot in a scene, with the path or the reason.
 
 mod drawing;
-mod wire;
 
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use motet_compiler::Session;
 use motet_geometry::planning::{
-    GraspSide, InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState,
-    SearchBudget, UnknownReason,
+    Configuration, GraspSide, InfeasibleReason, MotionAnswer, MotionQuery, MotionWitness, QueryContext,
+    RobotModel, SceneState, SearchBudget, UnknownReason, components,
 };
 use motet_project::{open_robot, read_scene, require};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::ast::{Arg, ExprKind};
 use motet_syntax::text::parse_condition;
 use motet_syntax::{Diagnostic, FileId, Source, Sources, Span, suggest};
+use serde_json::{Map, Value, json};
 use smol_str::SmolStr;
 
 use crate::error::{CliError, Exit};
@@ -30,7 +30,8 @@ use crate::report::Report;
     motet feasible --robot hsr --scene kitchen --for 'reach(coke, top)' --svg coke.svg\n  \
     motet feasible --robot hsr --scene kitchen --all --format json\n\n\
     A motion is go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY),\n\
-    offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME). The scene defines the object in the hand:\n\
+    offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME).\n\
+    The scene defines the object in the hand:\n\
     \"robot\": {\"holding\": …}.\n\
     Exit codes: 0 all motions of --for are feasible, 1 one is not or is unknown, 2 could not run.")]
 pub(crate) struct FeasibleArgs {
@@ -48,7 +49,8 @@ pub(crate) struct FeasibleArgs {
     #[arg(long, conflicts_with = "motions")]
     all: bool,
     /// Search budget of a motion: 4 tries four times as often
-    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1,
+          value_parser = value_parser!(u16).range(1..=1000))]
     effort: u16,
     /// Format of the answers
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
@@ -59,14 +61,8 @@ pub(crate) struct FeasibleArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The robot, the scene or a motion has errors, or the drawing cannot be written.
 pub(crate) fn run(args: &FeasibleArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.into(), colors);
-    let result = answer(args, &mut report);
-    report.close(result)
+    Report::run(args.format.into(), colors, |report| answer(args, report))
 }
 
 fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -101,7 +97,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
         }
         match args.format {
             OutputFormat::Human => report.out.text(&describe(&query, &answer)),
-            OutputFormat::Json => report.out.line(&wire::line(&machine, &query, &answer)),
+            OutputFormat::Json => report.out.line(&json_line(&machine, &query, &answer)),
         }
         if !args.all && !matches!(answer, MotionAnswer::Feasible(_)) {
             exit = Exit::Findings;
@@ -125,7 +121,8 @@ fn parse_motions(
             what: "motion",
             name: motion.clone(),
             help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), \
-                   put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME)"
+                   put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) \
+                   or posture(NAME)"
                 .to_owned(),
         })?;
         let entities = || scene.entities.keys().map(SmolStr::as_str);
@@ -270,8 +267,71 @@ fn numbers(reason: &InfeasibleReason) -> Vec<(&'static str, f64)> {
     }
 }
 
+/// MotionAnswer as a line of JSON.
+fn json_line(machine: &RobotModel, query: &MotionQuery, answer: &MotionAnswer) -> String {
+    let mut object = Map::new();
+    object.insert("query".into(), query.to_string().into());
+    match answer {
+        MotionAnswer::Feasible(witness) => {
+            object.insert("answer".into(), "feasible".into());
+            object.insert("witness".into(), witness_json(machine, witness));
+        }
+        MotionAnswer::Infeasible(why) => {
+            object.insert("answer".into(), "infeasible".into());
+            object.insert("reason".into(), why.reason.name().into());
+            object.insert("says".into(), why.reason.to_string().into());
+            for (name, value) in numbers(&why.reason) {
+                object.insert(name.into(), json!(value));
+            }
+            object.insert("change".into(), why.change.clone().into());
+            object.insert("certified".into(), why.certified.into());
+        }
+        MotionAnswer::Unknown(unknown) => {
+            object.insert("answer".into(), "unknown".into());
+            let why = match unknown {
+                UnknownReason::Budget => "the search ran out of its budget",
+                UnknownReason::Because(why) => why.as_str(),
+            };
+            object.insert("says".into(), why.into());
+        }
+    }
+    Value::Object(object).to_string()
+}
+
+fn witness_json(machine: &RobotModel, witness: &MotionWitness) -> Value {
+    let grasp = witness.grasp.as_ref().map(|grasp| {
+        let side = match grasp.side {
+            GraspSide::Top => "top",
+            GraspSide::Side => "side",
+            GraspSide::Front => "front",
+        };
+        let pose = |(xyz, turn): ([f64; 3], [f64; 4])| json!({"xyz": xyz, "quaternion_xyzw": turn});
+        json!({
+            "object": grasp.object, "side": side, "width": grasp.width,
+            "map_from_tip": pose(components(&grasp.map_from_tip)),
+            "tip_from_object": pose(components(&grasp.tip_from_object)),
+        })
+    });
+    json!({
+        "path": witness.path.iter().map(|at| state(machine, at)).collect::<Vec<_>>(),
+        "grasp": grasp,
+        "margins": {
+            "clearance": witness.margins.clearance,
+            "limit": witness.margins.limit,
+            "payload": witness.margins.payload,
+        },
+    })
+}
+
+fn state(machine: &RobotModel, state: &Configuration) -> Value {
+    let names = machine.tree().dofs().iter().map(|dof| dof.name.to_string());
+    let joints: Map<String, Value> = names.zip(state.joints.iter().map(|value| json!(value))).collect();
+    json!({"base": state.base, "joints": joints})
+}
+
 #[cfg(test)]
 mod tests {
+
     #[test]
     fn degrees_are_within_a_half_turn() {
         for (angle, shown) in [(-3.16, 179.0), (3.15, 180.0), (0.0, 0.0), (7.0, 41.0), (-1.57, -90.0)] {

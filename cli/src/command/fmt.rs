@@ -8,7 +8,6 @@ use motet_project::Project;
 use motet_project::files::Bytes;
 use motet_syntax::{Parsed, Severity, print};
 
-use crate::convert;
 use crate::documents::{self, Document, Flow, Input, is_reply};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, SyntaxArg};
@@ -42,18 +41,14 @@ pub(crate) struct FmtArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// A file cannot be read or written.
 pub(crate) fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(args.format.format, colors);
-    // The documents go to stdout.
-    if args.to.is_some() || args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
-        report.hold();
-    }
-    let result = fmt(args, &mut report);
-    report.close(result)
+    Report::run(args.format.format, colors, |report| {
+        // The documents go to stdout.
+        if args.to.is_some() || args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
+            report.hold();
+        }
+        fmt(args, report)
+    })
 }
 
 fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -114,7 +109,7 @@ impl Tally {
             self.failed += 1;
             return Ok(());
         }
-        match convert::write(&parsed, None, opened.session.library(), to.into()) {
+        match documents::write(&parsed, None, opened.session.library(), to.into()) {
             Ok(text) => {
                 let text = match to {
                     SyntaxArg::Json if self.is_batch => one_line(&text),

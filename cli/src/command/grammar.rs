@@ -1,16 +1,16 @@
 //! `motet grammar`: the grammar of policies for constrained decoding, or a chat request that uses it.
 
-mod probe;
-
-pub(super) use probe::key;
+use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
-use motet_decode::export::{self, Dialect, Format as Notation, Header, Prompt, request_body};
+use motet_client::{ApiKey, Client, ClientSettings, ServerUrl, content};
+use motet_decode::export::{self, Dialect, Format as Notation, Header, Prompt, probe_body, request_body};
 use motet_decode::{Grammar, Modifiers, Subset};
+use serde_json::Value;
 
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
-use crate::output::{Colors, note};
+use crate::flags::{DiagnosticFormat, EnvironmentArgs, ServerDialect, SyntaxArg};
+use crate::output::{Colors, Output, note};
 use crate::report::Report;
 
 /// Flags of `motet grammar`.
@@ -48,7 +48,7 @@ pub(crate) struct GrammarArgs {
     llguidance: bool,
     /// Print the body of a chat request with the grammar, in the dialect of a server
     #[arg(long, value_enum, value_name = "SERVER", conflicts_with = "format")]
-    request: Option<Server>,
+    request: Option<ServerDialect>,
     /// Model of the request
     #[arg(long, default_value = "MODEL", value_name = "NAME")]
     model: String,
@@ -75,7 +75,7 @@ struct ProbeArgs {
     url: String,
     /// Dialect of the server
     #[arg(long, value_enum, default_value = "openai", value_name = "SERVER")]
-    dialect: Server,
+    dialect: ServerDialect,
     /// Model to ask
     #[arg(long, default_value = "default", value_name = "NAME")]
     model: String,
@@ -100,18 +100,6 @@ enum GrammarFormat {
     RegexFreeEbnf,
 }
 
-/// Dialect of a server.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-enum Server {
-    /// vLLM 0.12 and later
-    Vllm,
-    /// Server of llama.cpp
-    Llamacpp,
-    Ollama,
-    Sglang,
-    Openai,
-}
-
 /// Reads a nesting depth. A document nests at most 64 deep, and each block with its conditions takes several
 /// levels.
 fn depth(text: &str) -> Result<usize, String> {
@@ -124,18 +112,11 @@ const SYSTEM: &str = "You write a policy for a robot: the steps that do what you
                       Write the policy and nothing else.";
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The robot, the scene or another input cannot be used, or the server cannot be asked.
 pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, CliError> {
     if let Some(GrammarCommand::Probe(probe)) = &args.command {
-        return probe::run(probe);
+        return probe_server(probe);
     }
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = print(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| print(args, report))
 }
 
 fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -156,7 +137,7 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
     let text = match args.request {
         Some(server) => {
             let prompt = Prompt { model: &args.model, system: SYSTEM, user: &args.ask };
-            let body = request_body(dialect(server), &grammar, prompt)
+            let body = request_body(server.into(), &grammar, prompt)
                 .ok_or_else(|| needs_json("this server takes"))?;
             format!("{body}\n")
         }
@@ -174,7 +155,7 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
 fn concerns(args: &GrammarArgs, server: Option<Dialect>) -> bool {
     let Some(server) = server else { return true };
     match (args.request, notation(args)) {
-        (Some(asked), _) => dialect(asked) == server,
+        (Some(asked), _) => Dialect::from(asked) == server,
         (None, Notation::JsonSchema) => true,
         (None, Notation::Gbnf) => server == Dialect::LlamaCpp,
         (None, Notation::Lark | Notation::RegexFreeEbnf) => false,
@@ -196,12 +177,60 @@ fn notation(args: &GrammarArgs) -> Notation {
     }
 }
 
-fn dialect(server: Server) -> Dialect {
-    match server {
-        Server::Vllm => Dialect::Vllm,
-        Server::Llamacpp => Dialect::LlamaCpp,
-        Server::Ollama => Dialect::Ollama,
-        Server::Sglang => Dialect::Sglang,
-        Server::Openai => Dialect::OpenAi,
+/// Number of characters of an answer that are shown.
+const SHOWN_CHARS: usize = 80;
+
+/// Runs the command.
+fn probe_server(args: &ProbeArgs) -> Result<Exit, CliError> {
+    let dialect = Dialect::from(args.dialect);
+    let url = ServerUrl::new(&args.url, Some(dialect)).map_err(CliError::Message)?;
+    let (body, demanded) = probe_body(dialect, &args.model);
+    let answer = ask(args, url.clone(), &body)?;
+    let said = content(&answer)
+        .ok_or_else(|| CliError::Message(format!("`{url}` did not answer with a chat message")))?;
+    let is_held = serde_json::from_str::<Value>(said.trim()).is_ok_and(|answer| answer == demanded);
+    if !is_held && is_cut(said, &demanded) {
+        return Err(CliError::Message(format!(
+            "`{url}` cut its answer off at `{}`, so the test is inconclusive",
+            said.trim()
+        )));
     }
+    let mut out = Output::default();
+    let exit = if is_held {
+        out.line(&format!("{url}: the server enforces the grammar"));
+        Exit::Success
+    } else {
+        let shown: String = said.trim().chars().take(SHOWN_CHARS).collect();
+        out.line(&format!(
+            "{url}: the server ignores the grammar: restricted to {demanded}, it answered `{shown}`"
+        ));
+        Exit::Findings
+    };
+    crate::report::close(&mut out, Ok(exit))
+}
+
+/// Is `true` if an answer is a proper prefix of the one that the grammar demands.
+fn is_cut(said: &str, demanded: &Value) -> bool {
+    let bare = |text: &str| text.chars().filter(|letter| !letter.is_whitespace()).collect::<String>();
+    bare(&demanded.to_string()).starts_with(&bare(said))
+}
+
+fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliError> {
+    let failed = |why: String| CliError::Message(format!("cannot ask `{address}`: {why}"));
+    let timeout = Duration::from_secs(args.timeout);
+    let key = args.key_from.as_deref().map(key).transpose()?;
+    let settings = ClientSettings {
+        key,
+        timeout,
+        idle_timeout: timeout,
+        ..ClientSettings::new(address.clone(), &args.model)
+    };
+    let answer = Client::new(settings).and_then(|client| client.once(body));
+    answer.map_err(|why| failed(why.to_string()))
+}
+
+/// Reads the server's key from an environment variable.
+pub(super) fn key(variable: &str) -> Result<ApiKey, CliError> {
+    ApiKey::from_variable(variable)
+        .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }

@@ -49,18 +49,14 @@ struct PddlArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// A file cannot be read or written.
 pub(crate) fn run(args: &ImportArgs, colors: Colors) -> Result<Exit, CliError> {
     let ImportCommand::Pddl(args) = &args.command;
-    let mut report = Report::new(args.format.format, colors);
-    if args.output.is_none() {
-        report.hold();
-    }
-    let result = pddl(args, &mut report);
-    report.close(result)
+    Report::run(args.format.format, colors, |report| {
+        if args.output.is_none() {
+            report.hold();
+        }
+        pddl(args, report)
+    })
 }
 
 fn pddl(args: &PddlArgs, report: &mut Report) -> Result<Exit, CliError> {

@@ -7,7 +7,7 @@ use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
 use motet_syntax::Source;
 
-use crate::convert;
+use crate::documents;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
 use crate::output::{Colors, note};
@@ -33,15 +33,8 @@ pub(crate) struct PlanArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The robot, the scene or another input cannot be used.
 pub(crate) fn run(args: &PlanArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = plan(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| plan(args, report))
 }
 
 fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -65,7 +58,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
         Ok(planned) => {
             let sources = opened.sources(Source::new("plan.motet", planned.text.as_str()));
             report.print(&planned.compiled.diagnostics, &sources);
-            match convert::write(&planned.parsed, None, opened.session.library(), args.to.into()) {
+            match documents::write(&planned.parsed, None, opened.session.library(), args.to.into()) {
                 Ok(text) => report.out.line(text.trim_end()),
                 Err(why) => return Ok(refuse(&why.to_string())),
             }

@@ -26,15 +26,8 @@ pub(crate) struct PromptArgs {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The robot, the scene or another input cannot be used.
 pub(crate) fn run(args: &PromptArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    report.hold();
-    let result = write(args, &mut report);
-    report.close(result)
+    Report::run_held(DiagnosticFormat::Human, colors, |report| write(args, report))
 }
 
 fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, CliError> {

@@ -67,10 +67,6 @@ impl Moment {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// The journal cannot be read, or is damaged.
 pub(crate) fn run(args: &ReplayArgs) -> Result<Exit, CliError> {
     let mut player = Player::default();
     let last = args.until.or(args.at);
@@ -99,7 +95,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<Exit, CliError> {
     report::close(&mut out, Ok(exit))
 }
 
-/// EngineReplay up to a moment or to the first difference.
+/// Replay up to a moment or to the first difference.
 #[derive(Debug, Default)]
 struct Player {
     replay: Option<EngineReplay>,

@@ -1,20 +1,25 @@
 //! `motet robots`: lists and shows robots, checks their files, and writes the card of a new one.
 
-mod add;
-mod check;
-
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use motet_project::{RobotFiles, robot_names};
-use motet_robots::card::{Drive, Range, Robot};
+use motet_compiler::Session;
+use motet_geometry::kinematics::KinematicChain;
+use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
+use motet_project::files::{add_source, read_small};
+use motet_project::{Discard, ProjectError, RobotFiles, find_stance, require, robot_names};
+use motet_robots::card::{DraftInputs, DraftStance, Drive, Range, Robot};
+use motet_robots::scene::Scene;
+use motet_robots::srdf::{self, Srdf};
+use motet_robots::urdf::Urdf;
+use motet_robots::{card, urdf};
 use motet_syntax::ast::{Item, PrimitiveDecl, TypeExpr};
 use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Source, Sources};
 
 use crate::error::{CliError, Exit};
 use crate::flags::DiagnosticFormat;
-use crate::output::Colors;
+use crate::output::{Colors, count};
 use crate::report::Report;
 
 /// Flags of `motet robots`.
@@ -57,21 +62,13 @@ enum RobotsCommand {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// There is no such robot, or its card has errors.
 pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, CliError> {
-    let mut report = Report::new(DiagnosticFormat::Human, colors);
-    let result = match &args.command {
-        None | Some(RobotsCommand::List) => list(&mut report),
-        Some(RobotsCommand::Show { name }) => show(name, &mut report),
-        Some(RobotsCommand::Check { name }) => check::run(name, &mut report),
-        Some(RobotsCommand::Add { urdf, to, srdf }) => {
-            add::run(urdf, to.as_deref(), srdf.as_deref(), &mut report)
-        }
-    };
-    report.close(result)
+    Report::run(DiagnosticFormat::Human, colors, |report| match &args.command {
+        None | Some(RobotsCommand::List) => list(report),
+        Some(RobotsCommand::Show { name }) => show(name, report),
+        Some(RobotsCommand::Check { name }) => check(name, report),
+        Some(RobotsCommand::Add { urdf, to, srdf }) => add(urdf, to.as_deref(), srdf.as_deref(), report),
+    })
 }
 
 fn list(report: &mut Report) -> Result<Exit, CliError> {
@@ -179,4 +176,245 @@ fn range(range: &Range, unit: &str) -> String {
     let round = |value: f64| (value * 1000.0).round() / 1000.0;
     let space = if unit.is_empty() { "" } else { " " };
     format!("{} .. {}{space}{unit}", round(range.least), round(range.greatest))
+}
+
+/// Runs the command.
+fn check(name: &str, report: &mut Report) -> Result<Exit, CliError> {
+    let files = RobotFiles::find(name)?;
+    let mut sources = Sources::default();
+    let found = files.card(&mut sources, report).and_then(|robot| {
+        // Both are checked, so that one run reports all errors.
+        let diagnostics = Session::builder().robot(&robot).build(&mut sources).input_diagnostics().to_vec();
+        let declared = require("robot card", &diagnostics, &sources, report);
+        let urdf = files.body(&robot, &mut sources, report)?;
+        declared.map(|()| (robot, urdf))
+    });
+    match found {
+        Ok((robot, urdf)) => {
+            let described = urdf.map_or_else(
+                || BodyReport { lines: vec![NO_BODY.to_owned()], warnings: 0 },
+                |urdf| describe(&robot, &urdf),
+            );
+            report.count_warnings(described.warnings);
+            let title = robot.title.escape_debug();
+            report.out.line(&format!("{title} ({}): {}", robot.name, report.tally()));
+            for line in described.lines {
+                report.out.line(&format!("  {line}"));
+            }
+            Ok(Exit::Success)
+        }
+        // The errors have been printed.
+        Err(ProjectError::Invalid { .. }) => Ok(Exit::Findings),
+        Err(other) => Err(other.into()),
+    }
+}
+
+const NO_BODY: &str = "the card names no URDF under [model], so no motion can be computed";
+
+/// Description of a body.
+struct BodyReport {
+    lines: Vec<String>,
+    /// Number of warnings among the lines.
+    warnings: usize,
+}
+
+impl BodyReport {
+    fn warn(&mut self, posture: &str, what: &str, help: &str) {
+        self.warnings += 1;
+        self.lines.push(format!("{posture:8}  warning: {what}"));
+        self.lines.push(format!("{:8}  help: {help}", ""));
+    }
+}
+
+fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
+    let machine = RobotModel::new(robot, urdf);
+    let tree = machine.tree();
+    let solids: usize = urdf.links.iter().map(|link| link.collisions.len()).sum();
+    let mut lines = vec![format!(
+        "body      {}, {} ({} independently), {} for collision",
+        count(urdf.links.len(), "link"),
+        count(urdf.joints.len(), "joint"),
+        match tree.dofs().len() {
+            1 => "1 moves".to_owned(),
+            moving => format!("{moving} move"),
+        },
+        count(solids, "shape"),
+    )];
+    let base = robot.model.as_ref().and_then(|model| model.base.as_deref());
+    let base = base.and_then(|base| tree.link(base).ok()).unwrap_or(tree.root());
+    for (name, hand) in &robot.hands {
+        let tip = hand.tip.as_deref().and_then(|tip| tree.link(tip).ok());
+        let Some(chain) = tip.and_then(|tip| KinematicChain::new(tree, base, tip)) else {
+            lines.push(format!("{name:8}  not connected to the base link"));
+            continue;
+        };
+        // The height of the base does not change the solver.
+        let found = IkSolver::of(&chain, robot.base.drive, 0.0);
+        lines.push(format!("{name:8}  {}: {}", count(chain.dofs.len(), "joint"), solver(&found)));
+    }
+    lines.extend(machine.body().uncovered_links().iter().filter_map(|link| {
+        Some(format!(
+            "the mesh of `{}` was not read, so no motion is computed",
+            tree.links().get(*link)?.escape_debug()
+        ))
+    }));
+    let mut described = BodyReport { lines, warnings: 0 };
+    postures(&machine, &mut described);
+    described
+}
+
+/// Tolerance of a part below the floor, in m: the accuracy of a foot's height.
+const FLOOR_TOLERANCE: f64 = 0.01;
+
+/// Describes contacts and parts below the floor in each posture.
+fn postures(machine: &RobotModel, described: &mut BodyReport) {
+    let scene = Scene::default();
+    let mut world = SceneState::new(machine, &scene);
+    for posture in machine.card().postures.keys() {
+        let Some(joints) = machine.posture(posture, machine.rest()) else { continue };
+        world.robot.joints = joints;
+        let room = QueryContext::new(machine, &scene, &world);
+        let name = posture.escape_debug().to_string();
+        let touch = room.contact(&world.robot, AllowedCollisions::default());
+        let sunk = machine.lowest(&world.robot, |_| true).filter(|(_, height)| *height < -FLOOR_TOLERANCE);
+        if touch.is_none() && sunk.is_none() {
+            described.lines.push(format!("{name:8}  touches neither itself nor the floor"));
+        }
+        if let Some(Contact { link, other, is_own }) = touch {
+            let (link, other) = (link.escape_debug(), other.escape_debug());
+            let instead = format!("give joints other positions under `[postures.{name}]`");
+            let help = if is_own {
+                format!(
+                    "{instead}, or allow the contact by an SRDF, named as `srdf` in `[model]`: \
+                     `<disable_collisions link1=\"{link}\" link2=\"{other}\"/>`"
+                )
+            } else {
+                format!("{instead}, or a greater `height` in `[model]`")
+            };
+            described.warn(&name, &format!("`{link}` touches `{other}`"), &help);
+        }
+        if let Some((link, height)) = sunk {
+            let base = machine.card().model.as_ref().map_or(0.0, |model| model.height_m);
+            let what = format!("`{}` is {:.2} m below the floor", link.escape_debug(), -height);
+            let help = format!(
+                "`height` in `[model]` is the height of the base link above the floor; \
+                 {:.3} m puts this part on the floor",
+                base - height
+            );
+            described.warn(&name, &what, &help);
+        }
+    }
+}
+
+/// Name of the inverse kinematics of a hand.
+fn solver(solver: &IkSolver) -> &'static str {
+    match solver {
+        IkSolver::Lift(_) => "closed form: a lift and a wrist with intersecting axes",
+        IkSolver::Parallel(_) => "closed form: six joints, three of them parallel",
+        IkSolver::Seven(_) => "closed form: seven joints with shoulder, elbow and wrist",
+        IkSolver::Steps(_) => "numeric",
+    }
+}
+
+/// Runs the command.
+fn add(path: &Path, to: Option<&Path>, srdf: Option<&Path>, report: &mut Report) -> Result<Exit, CliError> {
+    let mut sources = Sources::default();
+    let (source, file, mut diagnostics) =
+        add_source(&path.display().to_string(), &read_small(path)?, &mut sources);
+    let (robot, more) = urdf::read(&source, file);
+    diagnostics.extend(more);
+    let is_sound = require("URDF", &diagnostics, &sources, report).is_ok();
+    // Bytes that are not text may still parse as an empty robot.
+    let Some(robot) = robot.filter(|_| is_sound) else { return Ok(Exit::Findings) };
+    let folder = to.unwrap_or(folder_of(path));
+    let target = folder.join("robot.toml");
+    if target.exists() {
+        return Err(CliError::Message(format!("`{}` exists already", target.display())));
+    }
+    let srdf = srdf.map_or_else(|| srdf_beside(path), |given| Some(given.to_owned()));
+    let srdf_read = match &srdf {
+        Some(path) => {
+            let Some(srdf) = read_srdf(path, &robot, &mut sources, report)? else {
+                return Ok(Exit::Findings);
+            };
+            Some((srdf, relative_to(path, folder)?))
+        }
+        None => None,
+    };
+    let file = relative_to(path, folder)?;
+    let mut beside =
+        DraftInputs { srdf: srdf_read.as_ref().map(|(srdf, name)| (srdf, name.as_str())), stance: None };
+    let stance = stance_of(folder, &card::draft(&robot, &file, &beside));
+    let touch = stance.as_ref().and_then(|stance| stance.touch.clone());
+    beside.stance = stance;
+    let text = card::draft(&robot, &file, &beside);
+    let write = |source| CliError::Write { path: target.clone(), source };
+    std::fs::create_dir_all(folder).map_err(write)?;
+    std::fs::write(&target, &text).map_err(write)?;
+    let guesses = text.lines().filter(|line| line.contains("guessed")).count();
+    report.out.line(&format!("wrote {}, with {guesses} guesses to review", target.display()));
+    if let Some((_, name)) = &srdf_read {
+        report.out.line(&format!("used the SRDF {}", name.escape_debug()));
+    }
+    if let Some([one, other]) = touch {
+        let (one, other) = (one.escape_debug(), other.escape_debug());
+        report.out.line(&format!(
+            "warning: `{one}` touches `{other}`, and no posture without contact was found: \
+             no motion can start"
+        ));
+    }
+    report.out.line(&format!("next: motet robots check {}", folder.display()));
+    Ok(Exit::Success)
+}
+
+/// Reads the SRDF; `None` if it has errors, which go to the report.
+fn read_srdf(
+    path: &Path,
+    robot: &Urdf,
+    sources: &mut Sources,
+    report: &mut Report,
+) -> Result<Option<Srdf>, CliError> {
+    let (source, file, mut diagnostics) =
+        add_source(&path.display().to_string(), &read_small(path)?, sources);
+    let (srdf, more) = srdf::read(&source, file, robot);
+    diagnostics.extend(more);
+    let is_sound = require("SRDF", &diagnostics, sources, report).is_ok();
+    Ok(srdf.filter(|_| is_sound))
+}
+
+/// Stance of the robot of a card; `None` if its body has errors, which `motet robots check` reports.
+fn stance_of(folder: &Path, card: &str) -> Option<DraftStance> {
+    let mut sources = Sources::default();
+    let files = RobotFiles::draft(folder, card);
+    let robot = files.card(&mut sources, &mut Discard).ok()?;
+    let body = files.body(&robot, &mut sources, &mut Discard).ok()??;
+    Some(find_stance(&robot, &body))
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// SRDF beside a URDF: the one of the same name, or else the only one.
+fn srdf_beside(path: &Path) -> Option<PathBuf> {
+    let same = path.with_extension("srdf");
+    if same.is_file() {
+        return Some(same);
+    }
+    let is_srdf = |path: &PathBuf| path.extension().is_some_and(|end| end == "srdf") && path.is_file();
+    let inside = std::fs::read_dir(folder_of(path)).ok()?;
+    let mut found = inside.flatten().map(|entry| entry.path()).filter(is_srdf);
+    found.next().filter(|_| found.next().is_none())
+}
+
+/// Path of a file in the card: its name if the file is in the card's folder, otherwise its absolute path.
+fn relative_to(path: &Path, folder: &Path) -> Result<String, CliError> {
+    let whole = |path: &Path| -> Result<PathBuf, CliError> {
+        path.canonicalize().map_err(|source| CliError::read(path, source))
+    };
+    // A folder that does not exist yet holds no file.
+    let is_there =
+        folder.canonicalize().is_ok_and(|folder| whole(folder_of(path)).is_ok_and(|own| own == folder));
+    let seen = if is_there { path.file_name().map(PathBuf::from) } else { Some(whole(path)?) };
+    Ok(seen.unwrap_or_default().display().to_string())
 }

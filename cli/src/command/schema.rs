@@ -10,6 +10,7 @@ use crate::report;
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  motet schema policy > policy.schema.json")]
 pub(crate) struct SchemaArgs {
+    /// File format to describe
     #[arg(value_enum, value_name = "FORMAT")]
     of: FileFormat,
 }
@@ -19,6 +20,7 @@ pub(crate) struct SchemaArgs {
 enum FileFormat {
     /// Policy in JSON
     Policy,
+    /// Scene of a room
     Scene,
     /// Robot card (robot.toml, as JSON)
     Robot,
@@ -33,10 +35,6 @@ enum FileFormat {
 }
 
 /// Runs the command.
-///
-/// # Errors
-///
-/// Stdout cannot be written.
 pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, CliError> {
     let schema = match args.of {
         FileFormat::Policy => motet_syntax::json::policy_schema(),

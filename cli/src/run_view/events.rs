@@ -10,8 +10,8 @@ use motet_runtime::{
 use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
 
-use super::tree;
-use super::{FailureNames, View};
+use super::View;
+use super::tree::{self, FailureNames};
 use crate::output::Output;
 
 /// View that prints each event as JSON.

@@ -1,13 +1,15 @@
 //! Steps of a policy as rows of a tree, each with its status. The trace of the engine updates them; views
 //! draw them.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use motet_graph::draw::Names;
-use motet_graph::{Graph, NodeId, NodeKind, ROOT, Reaction, RegionId};
-use motet_runtime::{Event, NodeEnding, Time, TraceEvent, TraceEventKind, Verification};
+use motet_graph::{FailureId, Graph, NodeId, NodeKind, ROOT, Reaction, RegionId};
+use motet_runtime::{
+    DriverEvent, Event, NodeEnding, Outcome, Time, TraceEvent, TraceEventKind, Verification,
+};
 
-use super::FailureNames;
 use crate::output::escape;
 
 /// Status of a step.
@@ -305,6 +307,38 @@ fn branches(graph: &Graph, kind: &NodeKind, depth: usize, open: &mut Vec<Open>) 
                 open.push(Open::Heading(format!("branch {}", index + 1), inner));
                 open.push(Open::Region(*branch, inner + 1));
             }
+        }
+    }
+}
+
+/// Names of the failure kinds that a driver invented: neither the graph nor the trace has them, but the
+/// events of the driver.
+#[derive(Debug, Default)]
+pub(super) struct FailureNames {
+    last: Option<String>,
+    known: BTreeMap<usize, String>,
+}
+
+impl FailureNames {
+    /// Takes an event before the engine handles it.
+    pub(super) fn event(&mut self, event: &Event) {
+        self.last = match event {
+            Event::Driver(
+                DriverEvent::Ended { outcome: Outcome::Failure(kind), .. }
+                | DriverEvent::Refused { failure: kind, .. },
+            ) => Some(kind.to_string()),
+            _ => None,
+        };
+    }
+
+    /// Name of a failure kind: that of the graph, or the driver's when its number first appeared.
+    pub(super) fn name(&mut self, graph: &Graph, kind: FailureId) -> String {
+        if kind.index() < graph.failures.len() {
+            return Names(graph).failure(kind).to_owned();
+        }
+        match self.last.clone() {
+            Some(last) => self.known.entry(kind.index()).or_insert(last).clone(),
+            None => self.known.get(&kind.index()).map_or_else(|| "?".to_owned(), String::clone),
         }
     }
 }

@@ -1,7 +1,5 @@
 //! The small commands from outside: `robots`, `explain`, `schema`, `completions`.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::collections::BTreeSet;
 
 use crate::support::Place;
@@ -65,7 +63,8 @@ fn answers() {
         ),
         ("feasible --help", 0, &["out:--effort", "out:put(OBJECT, ENTITY)"]),
         (
-            "feasible --robot hsr --scene kitchen --for go_to(sink) --for reach(coke) --format json --svg room.svg",
+            "feasible --robot hsr --scene kitchen --for go_to(sink) --for reach(coke) --format json --svg \
+                room.svg",
             0,
             &["out:{\"query\":\"go_to(sink)\",\"answer\":\"feasible\"", "out:\"margins\""],
         ),
@@ -196,7 +195,8 @@ fn writes_a_first_card_and_checks_it() {
 const ELBOW: &str = "<robot name='elbow'>
   <link name='base'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>
   <link name='boom'/>
-  <link name='tip'><collision><geometry><mesh filename='package://elbow/tip.obj'/></geometry></collision></link>
+  <link name='tip'><collision><geometry><mesh filename='package://elbow/tip.obj'/></geometry></collision>\
+    </link>
   <joint name='turn' type='revolute'><parent link='base'/><child link='boom'/>
   <limit lower='-1' upper='1' velocity='1' effort='1'/></joint>
   <joint name='bend' type='prismatic'><parent link='boom'/><child link='tip'/><axis xyz='1 0 0'/>
@@ -247,16 +247,20 @@ fn reads_what_a_card_says_of_the_body() {
 /// An arm of three joints, the last link of which is in the base where every joint is at 0, and something
 /// else that moves.
 const FOLDED: &str = "<robot name='folded'>
-  <link name='base'><collision><origin xyz='0 0 0.5'/><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>
+  <link name='base'><collision><origin xyz='0 0 0.5'/><geometry><box size='0.2 0.2 0.2'/></geometry>\
+    </collision></link>
   <link name='one'/><link name='two'/>
-  <link name='tool0'><collision><origin xyz='-0.3 0 0'/><geometry><box size='0.6 0.05 0.05'/></geometry></collision></link>
+  <link name='tool0'><collision><origin xyz='-0.3 0 0'/><geometry><box size='0.6 0.05 0.05'/></geometry>\
+    </collision></link>
   <link name='neck'/>
   <link name='lid'><collision><geometry><box size='0.2 0.2 0.02'/></geometry></collision></link>
-  <joint name='turn' type='revolute'><origin xyz='0 0 0.5'/><parent link='base'/><child link='one'/><axis xyz='0 0 1'/>
+  <joint name='turn' type='revolute'><origin xyz='0 0 0.5'/><parent link='base'/><child link='one'/><axis \
+    xyz='0 0 1'/>
   <limit lower='-3' upper='3' velocity='1' effort='1'/></joint>
   <joint name='lift' type='revolute'><parent link='one'/><child link='two'/><axis xyz='0 1 0'/>
   <limit lower='-1' upper='0' velocity='1' effort='1'/></joint>
-  <joint name='bend' type='revolute'><origin xyz='0.5 0 0'/><parent link='two'/><child link='tool0'/><axis xyz='0 1 0'/>
+  <joint name='bend' type='revolute'><origin xyz='0.5 0 0'/><parent link='two'/><child link='tool0'/><axis \
+    xyz='0 1 0'/>
   <limit lower='0' upper='3' velocity='1' effort='1'/></joint>
   <joint name='nod' type='continuous'><origin xyz='0 0 0.7'/><parent link='base'/><child link='neck'/></joint>
   <joint name='open' type='prismatic'><parent link='neck'/><child link='lid'/><axis xyz='0 0 -1'/>
@@ -284,7 +288,8 @@ fn a_first_card_has_a_posture_that_touches_nothing() {
     assert!(place.read("shut/robot.toml").contains("# In it `"));
     place.run("robots check shut").check(0, &["out:no errors, 2 warnings\n", "out:touches `"]);
     // A shape of the arm that is below the floor wherever its joints are raises the base.
-    let low = "<link name='one'><collision><origin xyz='0 0 -0.59'/><geometry><sphere radius='0.02'/></geometry></collision></link>";
+    let low = "<link name='one'><collision><origin xyz='0 0 -0.59'/><geometry><sphere radius='0.02'/>\
+        </geometry></collision></link>";
     let place = place.file("low/robot.urdf", FOLDED.replace("<link name='one'/>", low));
     place.run("robots add low/robot.urdf").check(0, &["out:wrote low/robot.toml"]);
     assert!(place.read("low/robot.toml").contains("height = \"0.11"), "{}", place.read("low/robot.toml"));
@@ -293,8 +298,10 @@ fn a_first_card_has_a_posture_that_touches_nothing() {
 
 #[test]
 fn a_first_card_stands_on_its_wheels() {
-    let urdf = "<robot name='cart'><link name='base'/><link name='wheel'><collision><geometry><sphere radius='0.1'/></geometry>
-      </collision></link><joint name='wheel_joint' type='continuous'><origin xyz='0 0 -0.05'/><parent link='base'/>
+    let urdf = "<robot name='cart'><link name='base'/><link name='wheel'><collision><geometry><sphere \
+        radius='0.1'/></geometry>
+      </collision></link><joint name='wheel_joint' type='continuous'><origin xyz='0 0 -0.05'/><parent \
+        link='base'/>
       <child link='wheel'/><axis xyz='0 1 0'/></joint></robot>";
     let place = Place::new("robots_height").file("cart/robot.urdf", urdf);
     place.run("robots add cart/robot.urdf").check(0, &[]);
@@ -316,7 +323,8 @@ fn a_first_card_stands_on_its_wheels() {
 #[test]
 fn a_first_card_is_made_with_the_srdf_beside_the_urdf() {
     let srdf = "<robot name='folded'><group name='arm'><chain base_link='base' tip_link='two'/></group>
-      <group name='hand'><link name='tool0'/></group><end_effector name='hand' group='hand' parent_link='tool0'/>
+      <group name='hand'><link name='tool0'/></group><end_effector name='hand' group='hand' \
+        parent_link='tool0'/>
       <disable_collisions link1='base' link2='tool0'/></robot>";
     let place = Place::new("robots_srdf").file("a/robot.urdf", FOLDED).file("a/moveit.srdf", srdf);
     place.run("robots add a/robot.urdf").check(0, &["out:used the SRDF moveit.srdf"]);

@@ -1,13 +1,12 @@
 //! Drivers in another process and a host that end at bad moments.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use crate::drive::{AWAY, has_python, odd, recorded};
 use crate::support::{Place, eventually};
 use std::process::{Child, Command, Stdio};
 
 /// Replies of a simple driver: it accepts each start and ends it at once.
-const AT_ONCE: &str = "    if m['method'] == 'start':\n        say({'id': m['id'], 'result': {}})\n        say({'method': 'ended', \
+const AT_ONCE: &str = "    if m['method'] == 'start':\n        say({'id': m['id'], 'result': {}})\n        \
+    say({'method': 'ended', \
      'params': {'goal': m['params']['goal'], 'outcome': {'success': None}}})\n";
 
 /// A policy and a driver in a folder, which runs there.
@@ -74,7 +73,8 @@ fn an_interrupt_at_the_terminal_leaves_the_driver_alive() {
     }
     let place = place(
         "crash_interrupt",
-        "    if 'id' in m: say({'id': m['id'], 'result': {}})\n    if m['method'] == 'cancel': say({'method': 'ended', \
+        "    if 'id' in m: say({'id': m['id'], 'result': {}})\n    if m['method'] == 'cancel': \
+            say({'method': 'ended', \
          'params': {'goal': m['params']['goal'], 'outcome': 'interrupted'}})\n",
     );
     let host = drive(&place);
@@ -97,7 +97,8 @@ fn what_is_nested_too_deep_for_a_journal_is_refused() {
         "crash_deep",
         "    goal = {'goal': m['params'].get('goal')}\n    \
          if m['method'] == 'safe_stop': say({'method': 'stopped', 'params': goal})\n    \
-         if m['method'] == 'start':\n        value = {'entity': 'mug_1'}\n        for _ in range(60): value = {'list': [value]}\n        \
+         if m['method'] == 'start':\n        value = {'entity': 'mug_1'}\n        for _ in range(60): value \
+             = {'list': [value]}\n        \
          say({'method': 'ended', 'params': dict(goal, outcome={'success': value})})\n",
     );
     let ran = place.run_args(&line());

@@ -50,7 +50,8 @@ fn words_are_explained() {
 #[test]
 fn a_refusal_has_a_place_and_a_reason() {
     let twice = format!(
-        "{HEAD}{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"pick\",\"object\":\"mug_2\",\"from\":\"auto\"}}"
+        "{HEAD}{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"pick\",\
+            \"object\":\"mug_2\",\"from\":\"auto\"}}"
     );
     let ran = decode("decode_refused", "", &twice);
     ran.check(

@@ -2,9 +2,12 @@
 
 use crate::support::Place;
 
-const TEXT: &str = "<history> The user asked for the coke. <user> Yes, bring it to me, please. <vision> coke: seen \
-                    <feasibility> coke: feasible <robot> go to counter, pick up coke, go to user, hand over coke to user\n\
-                    <user> Put the red mug in the sink.\n<robot> 1. go to table\n2. pick the red mug\n3. go to sink\n4. place it on sink\n";
+const TEXT: &str = "<history> The user asked for the coke. <user> Yes, bring it to me, please. <vision> \
+    coke: seen \
+                    <feasibility> coke: feasible <robot> go to counter, pick up coke, go to user, hand over \
+                      coke to user\n\
+                    <user> Put the red mug in the sink.\n<robot> 1. go to table\n2. pick the red mug\n3. go \
+                      to sink\n4. place it on sink\n";
 const WORLD: &str = "--robot hsr --scene kitchen --no-geometry";
 
 #[test]

@@ -1,12 +1,5 @@
 //! `motet drive`: the example driver in another process, and drivers that misbehave.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and says why it is skipped"
-)]
-
 use crate::support::{GOOD, Place, eventually};
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpStream;
@@ -112,8 +105,10 @@ fn what_a_driver_says_neither_steers_the_terminal_nor_fills_it() {
     let start = "    if m['method'] == 'start':\n        say({'id': m['id'], 'result': {}})\n";
     let ends = |kind: &str| {
         format!(
-            "{start}        say({{'method': 'feedback', 'params': {{'goal': m['params']['goal'], 'text': 'a\\x1b[2Jb'}}}})\n        \
-             say({{'method': 'ended', 'params': {{'goal': m['params']['goal'], 'outcome': {{'failure': {kind}}}}}}})\n"
+            "{start}        say({{'method': 'feedback', 'params': {{'goal': m['params']['goal'], 'text': \
+                'a\\x1b[2Jb'}}}})\n        \
+             say({{'method': 'ended', 'params': {{'goal': m['params']['goal'], 'outcome': {{'failure': \
+                 {kind}}}}}}})\n"
         )
     };
     for (name, kind, texts) in [

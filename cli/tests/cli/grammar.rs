@@ -1,8 +1,6 @@
 //! `motet grammar` and `motet grammar probe`, against a server on the loopback that obeys, and one that does
 //! not.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::sync::{Arc, Mutex};
@@ -73,7 +71,8 @@ pub(crate) fn scripted(status: &'static str, messages: Vec<String>) -> (String, 
             let (mut stream, _) = listener.accept().unwrap();
             bodies.lock().unwrap().push(request(&mut stream));
             let head = format!(
-                "HTTP/1.1 {status}\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+                "HTTP/1.1 {status}\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: \
+                    close\r\n\r\n",
                 message.len()
             );
             stream.write_all(head.as_bytes()).unwrap();

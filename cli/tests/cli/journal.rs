@@ -1,13 +1,6 @@
 //! `motet run --record`, `motet replay` and `motet run --resume` from outside, also after a kill at a random
 //! moment.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::string_slice,
-    reason = "a test fails by panicking"
-)]
-
 use crate::support::{GOOD, Place};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng as _, SeedableRng as _};

@@ -1,6 +1,16 @@
 //! The command from outside: the built binary is run as a user runs it. One program, so that it is linked
 //! once.
 
+#![allow(
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::string_slice,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking, and prints why it is skipped"
+)]
+
 mod check;
 mod commands;
 mod crash;

@@ -1,7 +1,5 @@
 //! `motet do` with a model on a server, there or not.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
 use crate::grammar::{scripted, server};
 use crate::support::Place;
 use serde_json::{Value, json};
@@ -11,7 +9,10 @@ const DO: &str = "do go_to_the_counter --robot hsr --scene kitchen --no-geometry
 #[test]
 fn a_reply_is_carried_out_and_kept_and_the_key_is_not() {
     let place = Place::new("model_there").file("room.png", [0x89, b'P', b'N', b'G']);
-    let reply = r#"{"choices": [{"message": {"content": "Here it is:\n```\npolicy go_there for hsr {\n    go(counter)\n}\n```\n"}}]}"#;
+    let reply = concat!(
+        r#"{"choices": [{"message": {"content": "Here it is:\n```\npolicy go_there for hsr {"#,
+        r#"\n    go(counter)\n}\n```\n"}}]}"#
+    );
     let url = server("200 OK", reply);
     let line = format!("{DO} --planner {url} --model m --image room.png --key-from SOME_KEY --record kept");
     let ran = place.run_with(&line, b"", &[("SOME_KEY", "very-secret")]);

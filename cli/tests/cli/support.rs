@@ -1,7 +1,5 @@
 //! Runs the built command as a user would, in a folder of its own.
 
-#![allow(clippy::expect_used, reason = "a test that cannot be set up has failed")]
-
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -12,9 +10,9 @@ use std::time::Duration;
 pub(crate) struct Ran {
     /// The exit code.
     pub(crate) code: Option<i32>,
-    /// Standard output.
+    /// Text on standard output.
     pub(crate) stdout: String,
-    /// Standard error.
+    /// Text on standard error.
     pub(crate) stderr: String,
 }
 
@@ -131,7 +129,8 @@ impl Ran {
 }
 
 /// A policy that is right.
-pub(crate) const GOOD: &str = "policy tidy for hsr {\n    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    pick(mug)\n    go(counter)\n    place(mug, counter)\n}\n";
+pub(crate) const GOOD: &str = "policy tidy for hsr {\n    go(kitchen_table)\n    let mug = detect(\"red \
+    mug\")\n    pick(mug)\n    go(counter)\n    place(mug, counter)\n}\n";
 
 /// The same in JSON.
 pub(crate) const GOOD_JSON: &str = r#"{"motet": 1, "policy": "tidy", "robot": "hsr", "steps": [

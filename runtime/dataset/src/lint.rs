@@ -3,7 +3,7 @@
 
 use indexmap::IndexMap;
 use motet_geometry::planning::SearchBudget;
-use motet_planner::dialect::actions;
+use motet_planner::inteliplan::actions;
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use rustc_hash::{FxHashMap, FxHashSet};

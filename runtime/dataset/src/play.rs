@@ -8,7 +8,7 @@ use std::time::Duration;
 use motet_compiler::CheckOptions;
 use motet_decode::{Grammar, Subset, canonical};
 use motet_planner::builtin::{PlanError, PlannedRequest};
-use motet_planner::dialect::{actions, exchange};
+use motet_planner::inteliplan::{actions, exchange};
 use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
 use motet_planner::{Builtin, PlanRequest, Planner, model, prompt};
 use motet_robots::scene::{Entity, Scene};

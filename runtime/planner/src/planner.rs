@@ -8,14 +8,14 @@ use motet_runtime::memory::Memory;
 use crate::builtin::{self, PlanError, PlannedRequest};
 use motet_requests::RequestContext;
 
-/// Makes policies of requests.
+/// Planner of policies for requests.
 pub trait Planner {
-    /// A policy for a request, or why there is none. It is asked again after a failure, with what is known
-    /// by then.
+    /// Plans a policy for a request. The dialogue asks again after a failure, with the knowledge at that
+    /// time.
     ///
     /// # Errors
     ///
-    /// Why there is none.
+    /// The reason why there is no policy.
     fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError>;
 
     /// Returns `true` if the planner can use any answer. Otherwise the dialogue repeats a question whose
@@ -24,40 +24,39 @@ pub trait Planner {
         false
     }
 
-    /// Begins to plan for a request while something runs, which nobody must keep waiting; [`Planner::rest`]
-    /// gives what comes
-    /// of it. False where [`Planner::plan`] answers at once.
+    /// Begins to plan for a request during a run without blocking; [`Planner::rest`] returns the result.
+    /// Returns `false` if the planner only plans in [`Planner::plan`].
     fn begin(&mut self, _ask: &PlanRequest<'_>) -> bool {
         false
     }
 
-    /// The rest of the policy that was given last, where that was only its first step, or what was begun.
+    /// The rest of the last policy if only its first step was returned, or the policy of [`Planner::begin`].
     fn rest(&mut self, _wait: Wait) -> RemainingSteps {
         RemainingSteps::Nothing
     }
 }
 
-/// Decision to wait for more, or not.
+/// Decision to wait for the rest, or not.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Wait {
-    /// No: what has come has come.
+    /// Take the pieces that have arrived.
     Not,
-    /// Yes, until it is complete.
+    /// Wait until the policy is complete.
     ToTheEnd,
 }
 
 /// The rest of a policy that is still being written.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum RemainingSteps {
-    /// There is none: what was given was the whole.
+    /// The returned policy was complete.
     Nothing,
-    /// It has not come yet.
+    /// The rest has not arrived yet.
     Coming,
-    /// The whole policy, first step and all, as it was written.
+    /// The whole policy, including its first step, as it was written.
     Whole(String),
-    /// It cannot be used: what follows the first step has to be planned anew.
+    /// The rest cannot be used: the request must be planned anew after the first step.
     Broken,
-    /// A person stopped it.
+    /// A person stopped the planning.
     Stopped,
 }
 
@@ -77,7 +76,7 @@ pub struct PlanRequest<'a> {
     pub image: Option<&'a CameraImage>,
 }
 
-/// The planner that needs no model.
+/// The built-in planner, which needs no model.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Builtin;
 

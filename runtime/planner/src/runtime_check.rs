@@ -1,6 +1,5 @@
-//! Motions that the compiler left to the run, checked in the room as the run has left it, by the geometry
-//! that the compiler
-//! itself uses.
+//! Run-time checks of the motions that the compiler deferred, in the scene as the run has left it, with the
+//! compiler's own geometry.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -13,33 +12,31 @@ use motet_runtime::{
     Time, Verification, Verifier,
 };
 
-/// Time that the engine waits for a verdict: longer than any search within its budget.
+/// Time limit of the engine for a verdict: longer than any search within its budget.
 pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
 
-/// Checks motions along the way that a run takes.
+/// Checks the deferred motions of a run, and tracks the scene along the run.
 #[derive(Debug)]
-pub struct Guard(How);
+pub struct Guard(Schedule);
 
 #[derive(Debug)]
-enum How {
-    /// In the calls themselves.
-    AtOnce { way: SearchPath, verdicts: VecDeque<(CheckId, Verification)> },
-    /// On a thread of its own, which is told everything in order and ends once nobody tells it any more.
+enum Schedule {
+    /// Searches inside the calls.
+    AtOnce { tracker: RunTracker, verdicts: VecDeque<(CheckId, Verification)> },
+    /// Thread that receives every event in order and ends with the last sender.
     Beside { thread: Sender<GuardMessage>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
 }
 
-/// When motions are searched for that were left to a run.
+/// Schedule of the motion searches in a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CheckMode {
-    /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
+    /// Search when a verdict is requested. In virtual time this takes no time, so every run is the same.
     AtOnce,
-    /// On a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor
-    /// by what follows from a
-    /// step for the next.
+    /// Search on a thread of its own, so that neither a search nor the tracking of the scene delays the run.
     Beside,
 }
 
-/// Message to a guard's thread.
+/// Message to the thread of the checks.
 #[derive(Debug)]
 enum GuardMessage {
     Reported(DriverEvent),
@@ -48,41 +45,41 @@ enum GuardMessage {
 }
 
 impl Guard {
-    /// For a run that begins where a course does.
+    /// Guard for a run that begins in the tracker's state.
     #[must_use]
     pub fn new(course: WorldTracker, verifies: CheckMode) -> Self {
         match verifies {
             CheckMode::AtOnce => {
-                let way = SearchPath { course, live: BTreeMap::new() };
-                Self(How::AtOnce { way, verdicts: VecDeque::new() })
+                let tracker = RunTracker { course, live: BTreeMap::new() };
+                Self(Schedule::AtOnce { tracker, verdicts: VecDeque::new() })
             }
             CheckMode::Beside => Self::beside(course),
         }
     }
 
     fn beside(course: WorldTracker) -> Self {
-        let (thread, told) = mpsc::channel();
+        let (thread, message) = mpsc::channel();
         let (answers, verdicts) = mpsc::channel();
         std::thread::spawn(move || {
-            let mut way = SearchPath { course, live: BTreeMap::new() };
-            for one in told {
-                if let Some(verdict) = way.hear(one)
+            let mut tracker = RunTracker { course, live: BTreeMap::new() };
+            for one in message {
+                if let Some(verdict) = tracker.hear(one)
                     && answers.send(verdict).is_err()
                 {
                     return;
                 }
             }
         });
-        Self(How::Beside { thread, verdicts, awaited: 0 })
+        Self(Schedule::Beside { thread, verdicts, awaited: 0 })
     }
 
-    fn tell(&mut self, told: GuardMessage) {
+    fn tell(&mut self, message: GuardMessage) {
         match &mut self.0 {
-            How::AtOnce { way, verdicts } => verdicts.extend(way.hear(told)),
-            How::Beside { thread, awaited, .. } => {
-                *awaited += usize::from(matches!(told, GuardMessage::Asked(..)));
+            Schedule::AtOnce { tracker, verdicts } => verdicts.extend(tracker.hear(message)),
+            Schedule::Beside { thread, awaited, .. } => {
+                *awaited += usize::from(matches!(message, GuardMessage::Asked(..)));
                 // A thread that is gone gives no verdicts; the engine does not wait for them for ever.
-                let _ = thread.send(told);
+                let _ = thread.send(message);
             }
         }
     }
@@ -107,8 +104,8 @@ impl Verifier for Guard {
 
     fn verdict(&mut self) -> Option<(CheckId, Verification)> {
         match &mut self.0 {
-            How::AtOnce { verdicts, .. } => verdicts.pop_front(),
-            How::Beside { verdicts, awaited, .. } => {
+            Schedule::AtOnce { verdicts, .. } => verdicts.pop_front(),
+            Schedule::Beside { verdicts, awaited, .. } => {
                 let verdict = verdicts.try_recv();
                 match verdict {
                     Ok(_) => *awaited = awaited.saturating_sub(1),
@@ -122,23 +119,23 @@ impl Verifier for Guard {
 
     fn is_busy(&self) -> bool {
         match &self.0 {
-            How::AtOnce { .. } => false,
-            How::Beside { awaited, .. } => *awaited > 0,
+            Schedule::AtOnce { .. } => false,
+            Schedule::Beside { awaited, .. } => *awaited > 0,
         }
     }
 }
 
-/// The way of a run, followed from what is told of it.
+/// Tracker of the scene along a run.
 #[derive(Debug)]
-struct SearchPath {
+struct RunTracker {
     course: WorldTracker,
     live: BTreeMap<GoalId, Arc<Command>>,
 }
 
-impl SearchPath {
-    /// Takes something in; gives the verdict where that is a question.
-    fn hear(&mut self, told: GuardMessage) -> Option<(CheckId, Verification)> {
-        match told {
+impl RunTracker {
+    /// Takes in a message; returns the verdict if the message requests one.
+    fn hear(&mut self, message: GuardMessage) -> Option<(CheckId, Verification)> {
+        match message {
             GuardMessage::Reported(event) => self.report(&event),
             GuardMessage::Began(goal, command) => self.began(goal, command),
             GuardMessage::Asked(check, motion) => return Some((check, self.motion(&motion))),

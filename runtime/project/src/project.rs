@@ -345,6 +345,15 @@ impl ProjectSession {
 
 /// Robot and, if its card names a URDF, its body.
 ///
+/// ```
+/// use motet_project::{Discard, open_robot};
+///
+/// let (robot, urdf) = open_robot("panda", &mut Default::default(), &mut Discard)?;
+/// assert_eq!(robot.name, "panda");
+/// assert!(urdf.is_some());
+/// # Ok::<(), motet_project::ProjectError>(())
+/// ```
+///
 /// # Errors
 ///
 /// There is no such robot, or a file of it cannot be read or has errors.
@@ -366,6 +375,14 @@ pub fn named_robot(document: &File) -> Option<String> {
 }
 
 /// Reads a scene by a built-in name or from a JSON file.
+///
+/// ```
+/// use motet_project::{Discard, read_scene};
+///
+/// let kitchen = read_scene("kitchen", &mut Default::default(), &mut Discard)?;
+/// assert!(kitchen.entities.contains_key("mug_1"));
+/// # Ok::<(), motet_project::ProjectError>(())
+/// ```
 ///
 /// # Errors
 ///

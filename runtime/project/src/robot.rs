@@ -1,13 +1,23 @@
 //! Robots by name: built in, or a folder of the user's own with a `robot.toml`.
 
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use motet_geometry::kinematics::{Dof, quasi_random};
+use motet_geometry::planning::{
+    AllowedCollisions, Configuration, HandModel, MIN_CLEARANCE, QueryContext, RobotModel, SceneState,
+};
 use motet_robots::builtin;
-use motet_robots::card::{self, Robot};
+use motet_robots::card::{self, DraftStance, ModelFile, ModelSpec, Robot};
+use motet_robots::mesh::{self, MeshFile};
+use motet_robots::scene::Scene;
+use motet_robots::srdf;
+use motet_robots::urdf::{self, Urdf};
 use motet_syntax::{Sources, suggest};
 
 use crate::error::{DiagnosticSink, ProjectError, invalid, require};
-use crate::files::{add_source, read_small};
+use crate::files::{add_source, read_optional, read_small};
 
 /// Files of one robot: its card, its declarations, and the folder with its URDF, SRDF and meshes.
 #[derive(Clone, Debug)]
@@ -30,6 +40,10 @@ pub(crate) enum Home {
 }
 
 /// Names of the built-in robots.
+///
+/// ```
+/// assert!(motet_project::robot_names().any(|name| name == "hsr"));
+/// ```
 pub fn robot_names() -> impl Iterator<Item = &'static str> {
     builtin::ROBOTS.iter().map(|robot| robot.name)
 }
@@ -116,4 +130,225 @@ impl RobotFiles {
         require("robot card", &diagnostics, sources, sink)?;
         robot.ok_or_else(|| invalid("robot card", diagnostics, sources))
     }
+}
+
+impl RobotFiles {
+    /// Reads the URDF that the card names, with solids for its meshes and with the pairs of links that the
+    /// SRDF allows to touch. `None` if the card names no URDF.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be read, has errors, or does not fit the card.
+    pub fn body(
+        &self,
+        robot: &Robot,
+        sources: &mut Sources,
+        sink: &mut dyn DiagnosticSink,
+    ) -> Result<Option<Urdf>, ProjectError> {
+        let Some(model) = &robot.model else { return Ok(None) };
+        let (toml, toml_id, _) = add_source(&self.name, &self.toml, sources);
+        let missing = |which| card::missing(&toml, toml_id, which);
+        let Some((name, bytes)) = self.urdf(model)? else {
+            let found = missing(ModelFile::Urdf);
+            require("robot card", found.as_slice(), sources, sink)?;
+            return Err(invalid("robot card", found.into_iter().collect(), sources));
+        };
+        let (source, file, mut diagnostics) = add_source(&name, &bytes, sources);
+        let (urdf, more) = urdf::read(&source, file);
+        diagnostics.extend(more);
+        require("URDF", &diagnostics, sources, sink)?;
+        let Some(urdf) = urdf else { return Err(invalid("URDF", diagnostics, sources)) };
+        // The remaining files are read even so: one pass reports all that is wrong with them.
+        let fits = require("robot card", &card::fit(&toml, toml_id, &urdf), sources, sink);
+        self.missing_packages(model, |at| sink.report(missing(ModelFile::Package(at)).as_slice(), sources));
+        let folders = self.mesh_folders(model);
+        let (mut urdf, found) = mesh::attach(&source, file, urdf, |name| folders.find(name));
+        let meshes = require("URDF", &found, sources, sink);
+        match self.srdf(model)? {
+            Srdf::None => {}
+            Srdf::Missing => require("robot card", missing(ModelFile::Srdf).as_slice(), sources, sink)?,
+            Srdf::Text(name, bytes) => {
+                let (source, file, mut diagnostics) = add_source(&name, &bytes, sources);
+                let (srdf, more) = srdf::read(&source, file, &urdf);
+                diagnostics.extend(more);
+                require("SRDF", &diagnostics, sources, sink)?;
+                urdf.may_touch = srdf.map(|srdf| srdf.disabled).unwrap_or_default();
+            }
+        }
+        fits.and(meshes).map(|()| Some(urdf))
+    }
+
+    /// Name and content of the URDF; `None` if it does not exist.
+    fn urdf(&self, model: &ModelSpec) -> Result<Option<(String, Vec<u8>)>, ProjectError> {
+        match &self.home {
+            Home::BuiltIn(name) => {
+                let text = builtin::robot_texts(name).map_or("", |texts| texts.urdf);
+                Ok(Some((format!("{name}/{}", model.urdf), text.as_bytes().to_vec())))
+            }
+            Home::Folder(folder) => read_optional(&folder.join(&model.urdf)),
+        }
+    }
+
+    fn srdf(&self, model: &ModelSpec) -> Result<Srdf, ProjectError> {
+        let (Home::Folder(folder), Some(file)) = (&self.home, &model.srdf) else { return Ok(Srdf::None) };
+        Ok(read_optional(&folder.join(file))?.map_or(Srdf::Missing, |(name, bytes)| Srdf::Text(name, bytes)))
+    }
+
+    /// Passes the index of each package folder that does not exist.
+    fn missing_packages(&self, model: &ModelSpec, mut each: impl FnMut(usize)) {
+        let Home::Folder(folder) = &self.home else { return };
+        for (package, at) in model.packages.iter().zip(0..) {
+            if !folder.join(package).is_dir() {
+                each(at);
+            }
+        }
+    }
+
+    fn mesh_folders(&self, model: &ModelSpec) -> MeshFolders {
+        let Home::Folder(folder) = &self.home else { return MeshFolders::default() };
+        let urdf = folder.join(&model.urdf);
+        let own = urdf.parent().unwrap_or(folder).to_owned();
+        let packages: Vec<PathBuf> = model.packages.iter().map(|package| folder.join(package)).collect();
+        let allowed = [folder.clone(), own.clone()].into_iter().chain(packages.iter().cloned());
+        let allowed = allowed.filter_map(|folder| fs::canonicalize(folder).ok()).collect();
+        let text = |path: &PathBuf| path.display().to_string();
+        MeshFolders { own: text(&own), packages: packages.iter().map(text).collect(), allowed }
+    }
+}
+
+enum Srdf {
+    None,
+    Missing,
+    Text(String, Vec<u8>),
+}
+
+/// Folders in which the meshes of a URDF are searched.
+#[derive(Default)]
+struct MeshFolders {
+    /// Folder of the URDF.
+    own: String,
+    /// Package folders, in the order of the card.
+    packages: Vec<String>,
+    /// Canonical folders below which a mesh must be: no link leads out of them.
+    allowed: Vec<PathBuf>,
+}
+
+impl MeshFolders {
+    fn find(&self, name: &str) -> MeshFile {
+        let looked = mesh::locate(name, &self.own, &self.packages);
+        let mut there: Vec<PathBuf> = looked.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
+        // Files first.
+        there.sort_by_key(|path| !path.is_file());
+        let Some(path) = there.first() else {
+            // `locate` gives no candidate for a name that leaves its package.
+            let leaves = looked.is_empty() && name.split('/').any(|part| part == "..");
+            return if leaves { MeshFile::Outside } else { MeshFile::Missing(looked) };
+        };
+        if !self.allowed.iter().any(|folder| path.starts_with(folder)) {
+            return MeshFile::Outside;
+        }
+        if !path.is_file() {
+            return MeshFile::NotAFile;
+        }
+        let mut bytes = Vec::new();
+        // One byte above the limit shows that the file is too large.
+        let read = File::open(path).and_then(|file| file.take(mesh::MAX_BYTES + 1).read_to_end(&mut bytes));
+        match read {
+            Ok(_) if bytes.len() as u64 > mesh::MAX_BYTES => MeshFile::TooLarge,
+            Ok(_) => MeshFile::Bytes(bytes),
+            Err(_) => MeshFile::Missing(looked),
+        }
+    }
+}
+
+/// Maximum number of postures that are tried besides the one with every joint at 0.
+const POSTURES: usize = 256;
+
+/// Finds the stance of a robot whose card has none.
+#[must_use]
+pub fn find_stance(robot: &Robot, urdf: &Urdf) -> DraftStance {
+    let machine = RobotModel::new(robot, urdf);
+    let is_arm = |hand: &HandModel, link: usize| hand.carried.get(link) == Some(&true);
+    if machine.drives() {
+        let stands = |link: usize| !machine.hand().is_some_and(|hand| is_arm(hand, link));
+        let height = above(&machine, stands, 0.0);
+        let raised = (height > 0.0).then(|| raised(robot, urdf, height));
+        return posture(raised.as_ref().unwrap_or(&machine), height).0;
+    }
+    let (stance, against) = posture(&machine, 0.0);
+    // What is bolted down is on the floor, unless a shape of the arm then is below it wherever its joints
+    // are.
+    let height =
+        if against == Some(Against::Floor) { above(&machine, |_| true, MIN_CLEARANCE + 1e-3) } else { 0.0 };
+    let above = (height > 0.0).then(|| posture(&raised(robot, urdf, height), height).0);
+    above.filter(|above| above.touch.is_none()).unwrap_or(stance)
+}
+
+/// Robot model with its base link raised to `height_m` above the floor.
+fn raised(robot: &Robot, urdf: &Urdf, height_m: f64) -> RobotModel {
+    let mut robot = robot.clone();
+    if let Some(model) = &mut robot.model {
+        model.height_m = height_m;
+    }
+    RobotModel::new(&robot, urdf)
+}
+
+/// Other side of a contact.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Against {
+    Itself,
+    Floor,
+}
+
+/// The first posture of the arm in which nothing touches, at a height; where there is none, what the robot
+/// touches in the first that was tried.
+fn posture(machine: &RobotModel, height_m: f64) -> (DraftStance, Option<Against>) {
+    let scene = Scene::default();
+    let world = SceneState::new(machine, &scene);
+    let room = QueryContext::new(machine, &scene, &world);
+    let touch = |joints: &[f64]| {
+        let state = Configuration { base: [0.0; 3], joints: joints.to_vec() };
+        room.contact(&state, AllowedCollisions::default())
+    };
+    let Some(first) = touch(machine.rest()) else {
+        return (DraftStance { height_m, ..DraftStance::default() }, None);
+    };
+    let found = machine.hand().and_then(|hand| {
+        let chain = hand.solver.chain();
+        (0..POSTURES).map(|index| written(&chain.dofs, index)).find(|values| {
+            let mut joints = machine.rest().to_vec();
+            for (at, value) in chain.in_tree.iter().zip(values) {
+                if let Some(slot) = joints.get_mut(*at) {
+                    *slot = *value;
+                }
+            }
+            touch(&joints).is_none()
+        })
+    });
+    let dofs = machine.hand().map(|hand| hand.solver.chain().dofs.as_slice()).unwrap_or_default();
+    // In a room without a thing, what is not the robot's own is the floor.
+    let against = if first.is_own { Against::Itself } else { Against::Floor };
+    let against = found.is_none().then_some(against);
+    let touch = against.map(|_| [first.link, first.other]);
+    let joints = dofs.iter().map(|dof| dof.name.clone()).zip(found.into_iter().flatten());
+    (DraftStance { height_m, joints: joints.collect(), touch }, against)
+}
+
+/// Height of the base link above the floor, in m and rounded up to a millimetre, with which the chosen links
+/// clear the floor by `gap`; 0 if the base link may be on the floor.
+fn above(machine: &RobotModel, counts: impl Fn(usize) -> bool, gap: f64) -> f64 {
+    let state = Configuration { base: [0.0; 3], joints: machine.rest().to_vec() };
+    let below = machine.lowest(&state, counts).map_or(0.0, |(_, height)| gap - height);
+    // Less than a hundredth of a millimetre is rounding.
+    if below > 1e-5 { ((below - 1e-5) * 1e3).ceil() / 1e3 } else { 0.0 }
+}
+
+/// Posture number `index`, rounded to three digits as in a card: the middle of the limits, then a Halton
+/// sequence over them.
+fn written(dofs: &[Dof], index: usize) -> Vec<f64> {
+    let values = quasi_random(dofs, index).into_iter().zip(dofs).map(|(value, dof)| {
+        let value = (value * 1e3).round() / 1e3;
+        dof.limits.map_or(value, |(lower, upper)| value.clamp(lower, upper))
+    });
+    values.collect()
 }

@@ -1,17 +1,18 @@
-//! SimOptions of a simulated run: seed, faults and answers from files, and the entities and facts of a
-//! compiled policy.
+//! Inputs of a simulated run: seed, faults and answers from files, and the entities and facts of a compiled
+//! policy. Each name in a file of faults is looked up before the run, because a fault with an unknown name
+//! would silently never happen.
 
 use std::path::Path;
 
 use motet_compiler::signature::Signatures;
 use motet_graph::{FactArg, Graph, Term, Value};
 use motet_sim::{Faults, PersonScript, SimOptions};
-use motet_syntax::Source;
 use motet_syntax::ast::{File, Item};
+use motet_syntax::located::{Located, LocatedValue, parse_json};
+use motet_syntax::{FileId, Source, suggest};
 use smol_str::SmolStr;
 
 use crate::error::{DiagnosticSink, ProjectError};
-use crate::fault_names;
 use crate::files::read_json;
 
 /// Inputs of a simulated run, read before the policy is known.
@@ -65,14 +66,14 @@ impl SimulationInputs {
     ///
     /// [`ProjectError::FaultNames`] with a line for each unknown name.
     pub fn check_names(&self, known: &Signatures) -> Result<(), ProjectError> {
-        let unknown = self.source.as_ref().map(|source| fault_names::unknown(source, known));
+        let unknown = self.source.as_ref().map(|source| unknown_names(source, known));
         match unknown {
             Some(unknown) if !unknown.is_empty() => Err(ProjectError::FaultNames(unknown)),
             Some(_) | None => Ok(()),
         }
     }
 
-    /// SimOptions without a policy. `eye` is the camera's position in the base's frame, in m.
+    /// Options without a policy. `eye` is the camera's position in the base's frame, in m.
     #[must_use]
     pub fn without_policy(self, eye: Option<[f64; 3]>) -> SimOptions {
         SimOptions {
@@ -84,7 +85,7 @@ impl SimulationInputs {
         }
     }
 
-    /// SimOptions for a compiled policy. The entities of `files`, the document and its domains, get a place
+    /// Options for a compiled policy. The entities of `files`, the document and its domains, get a place
     /// in the simulated scene too.
     #[must_use]
     pub fn for_policy(self, graph: &Graph, files: &[&File]) -> SimOptions {
@@ -124,4 +125,66 @@ fn initial_fact(graph: &Graph, fact: &motet_graph::Fact) -> Option<(SmolStr, Vec
         FactArg::Term(_) | FactArg::Any => None,
     });
     Some((name, args.collect::<Option<Vec<_>>>()?))
+}
+
+/// Category of a name.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum NameKind {
+    Primitive,
+    Failure,
+    Entity,
+}
+
+/// Describes each unknown name of a file of faults in a line with its place.
+fn unknown_names(source: &Source, known: &Signatures) -> Vec<String> {
+    let (tree, _) = parse_json(&source.text, FileId(0));
+    let mut names = Vec::new();
+    if let Some(tree) = &tree {
+        collect_names(tree, &mut names);
+    }
+    names.into_iter().filter_map(|(kind, name)| describe_unknown(source, kind, name, known)).collect()
+}
+
+/// Collects the values of the keys that hold a name. The shape of the file has been checked before.
+fn collect_names<'t>(tree: &'t Located<'_>, names: &mut Vec<(NameKind, &'t Located<'t>)>) {
+    if let LocatedValue::Array(items) = &tree.value {
+        items.iter().for_each(|item| collect_names(item, names));
+    }
+    for (key, value) in tree.members() {
+        let kind = match key.text() {
+            Some("primitive") => Some(NameKind::Primitive),
+            Some("fails" | "refuses") => Some(NameKind::Failure),
+            Some(
+                "object" | "person" | "surface" | "container" | "slips" | "opens" | "closes" | "locks"
+                | "unlocks",
+            ) => Some(NameKind::Entity),
+            _ => None,
+        };
+        match kind {
+            Some(kind) => names.push((kind, value)),
+            None => collect_names(value, names),
+        }
+    }
+}
+
+fn describe_unknown(
+    source: &Source,
+    kind: NameKind,
+    name: &Located<'_>,
+    known: &Signatures,
+) -> Option<String> {
+    let text = name.text()?;
+    let primitives = known.callables.iter().filter(|callable| !callable.is_policy);
+    let (what, all): (_, Vec<&str>) = match kind {
+        NameKind::Primitive => ("primitive", primitives.map(|callable| callable.name.as_str()).collect()),
+        NameKind::Failure => ("failure", known.failures.iter().map(SmolStr::as_str).collect()),
+        NameKind::Entity => ("entity", known.entities.iter().map(|(name, _)| name.as_str()).collect()),
+    };
+    if all.contains(&text) {
+        return None;
+    }
+    let (line, column) = source.line_column(name.span.start);
+    let near =
+        suggest::closest(text, all).map_or_else(String::new, |near| format!(": did you mean `{near}`?"));
+    Some(format!("{}:{line}:{column}: there is no {what} `{text}`{near}", source.name))
 }

@@ -1,6 +1,6 @@
 //! InteLiPlan's dialect: tagged texts, and lists of actions that become policies which run.
-use motet_planner::dialect::actions::{self, Loose, NoPolicy};
-use motet_planner::dialect::exchange::{self, Exchange, NoDialogue};
+use motet_planner::inteliplan::actions::{self, Loose, NoPolicy};
+use motet_planner::inteliplan::exchange::{self, Exchange, NoDialogue};
 use motet_requests::RequestContext;
 use motet_syntax::{FileId, Severity, Source, Sources};
 use motet_tests::setup;

@@ -110,7 +110,8 @@ mod tests {
     #[test]
     fn measures_find_wh_words_short_and_missing_comments() {
         let found = figures(
-            "//! A module of things.\n/// What it is.\npub fn a() {}\n\n/// Name.\npub fn b() {}\n\npub fn c() {}\n",
+            "//! A module of things.\n/// What it is.\npub fn a() {}\n\n/// Name.\npub fn b() {}\n\npub fn \
+                c() {}\n",
         );
         let places: Vec<usize> = found.iter().map(|(_, places)| places.len()).collect();
         assert_eq!(places, [1, 1, 1]);

@@ -8,13 +8,17 @@ use motet_graph::Graph;
 use motet_planner::builtin::PlannedRequest;
 use motet_planner::dialogue::{DialogueObserver, Outcome, Problem, RunRecorder};
 use motet_planner::runtime_check::CheckMode;
-use motet_runtime::{Effect, Engine, Observer as _, RunControl, RunEnd, StartState, SwapRefusal, Time};
+use motet_planner::vision::{GroundedPoint, GroundingDriver};
+use motet_robots::scene::Scene;
+use motet_runtime::{
+    Driver, Effect, Engine, Observer as _, Perception, RunControl, RunEnd, StartState, SwapRefusal, Time,
+};
 use serde_json::json;
 
+use super::flags::{DoArgs, ModelArgs, ScheduledRequest};
 use super::operator::OperatorInput;
-use super::planner::printable;
+use super::planner::{client, printable};
 use super::record::{ConversationRecord, RunJournal};
-use super::{DoArgs, ScheduledRequest};
 use crate::command::run::paced_view;
 use crate::error::CliError;
 use crate::flags::OutputFormat;
@@ -183,5 +187,47 @@ impl DialogueObserver for RunObserver<'_> {
     fn asked(&mut self, problem: &Problem, answer: Option<&str>) {
         let (kind, question) = (problem.kind.name(), problem.question.clone());
         self.write("question", json!({"kind": kind, "question": question, "answer": answer}));
+    }
+}
+
+/// Log of the points that a model gives.
+pub(super) struct PointLog {
+    pub(super) is_shown: bool,
+    pub(super) record: Option<ConversationRecord>,
+}
+
+/// Driver whose `ground` asks the model of the flags.
+pub(super) fn pointing<'d>(
+    model: &ModelArgs,
+    driver: &'d mut dyn Driver,
+    eyes: &'d mut dyn Perception,
+    scene: &'d Scene,
+    log: PointLog,
+) -> Result<GroundingDriver<'d>, CliError> {
+    let client = client(model)?;
+    Ok(GroundingDriver::new(driver, eyes, scene, Box::new(client))
+        .with_listener(move |pointed| log.add(pointed)))
+}
+
+impl PointLog {
+    fn add(&self, GroundedPoint { object, used_for, found }: GroundedPoint<'_>) {
+        let used_for = printable(used_for);
+        let (words, more) = match found {
+            Ok(pose) => {
+                let [x, y, z] = pose.xyz;
+                (format!("at ({x:.2}, {y:.2}, {z:.2}) m"), json!({"xyz": pose.xyz}))
+            }
+            Err(why) => (format!("no point: {why}"), json!({"why": why.to_string()})),
+        };
+        if self.is_shown {
+            note(&printable(&format!("  {used_for} of {object}: {words}")));
+        }
+        if let Some(record) = &self.record {
+            let mut line = json!({"object": object.as_str(), "use": used_for});
+            if let (Some(line), Some(more)) = (line.as_object_mut(), more.as_object()) {
+                line.extend(more.clone());
+            }
+            record.write("pointed", line);
+        }
     }
 }

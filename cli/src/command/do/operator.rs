@@ -37,10 +37,6 @@ pub(super) enum OperatorInput {
 
 impl OperatorInput {
     /// Reads the flag `--ask`.
-    ///
-    /// # Errors
-    ///
-    /// The flag has another value, or its file cannot be read.
     pub(super) fn read(words: &[String]) -> Result<Self, CliError> {
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         match words.as_slice() {

@@ -11,8 +11,8 @@ use motet_planner::{Builtin, PlanRequest, Planner, RemainingSteps, Wait};
 use motet_project::files::read_small;
 use serde_json::json;
 
+use super::flags::{DoArgs, ModelArgs};
 use super::record::ConversationRecord;
-use super::{DoArgs, GrammarDialect, ModelArgs};
 use crate::command::grammar;
 use crate::error::CliError;
 use crate::flags::OutputFormat;
@@ -20,10 +20,6 @@ use crate::output::{Colors, note};
 use crate::runner::is_interrupted;
 
 /// Planner of the flags.
-///
-/// # Errors
-///
-/// The address, an image or the key cannot be used.
 pub(super) fn planner(
     args: &DoArgs,
     colors: Colors,
@@ -37,7 +33,7 @@ pub(super) fn planner(
         }
         let unused = [
             ("--model", flags.model != "default"),
-            ("--dialect", flags.dialect != GrammarDialect::None),
+            ("--dialect", flags.dialect.0.is_some()),
             ("--image", !flags.image.is_empty()),
             ("--key-from", flags.key_from.is_some()),
             ("--eager", flags.eager),
@@ -67,10 +63,6 @@ pub(super) fn planner(
 }
 
 /// Connection to the server of the flags.
-///
-/// # Errors
-///
-/// The address, an image or the key cannot be used.
 pub(super) fn client(flags: &ModelArgs) -> Result<Client, CliError> {
     let settings = settings(flags)?;
     let name = settings.address.to_string();
@@ -78,14 +70,7 @@ pub(super) fn client(flags: &ModelArgs) -> Result<Client, CliError> {
 }
 
 fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
-    let dialect = match args.dialect {
-        GrammarDialect::None => None,
-        GrammarDialect::Vllm => Some(Dialect::Vllm),
-        GrammarDialect::Llamacpp => Some(Dialect::LlamaCpp),
-        GrammarDialect::Ollama => Some(Dialect::Ollama),
-        GrammarDialect::Sglang => Some(Dialect::Sglang),
-        GrammarDialect::Openai => Some(Dialect::OpenAi),
-    };
+    let dialect = args.dialect.0.map(Dialect::from);
     let takes_lark = matches!(dialect, Some(Dialect::Vllm | Dialect::Sglang | Dialect::LlamaCpp));
     if args.lark && !takes_lark {
         let why = "--lark is for servers with llguidance: give --dialect vllm, sglang or llamacpp";

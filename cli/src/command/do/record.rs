@@ -31,10 +31,6 @@ struct RecordFiles {
 
 impl ConversationRecord {
     /// Creates the folder.
-    ///
-    /// # Errors
-    ///
-    /// The folder cannot be written to, or holds a record.
     pub(super) fn create(folder: &Path) -> Result<Self, CliError> {
         let cannot = |path: &Path| {
             let path = path.to_owned();

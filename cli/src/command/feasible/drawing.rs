@@ -69,8 +69,9 @@ pub(super) fn top_view(
     let [legend, row] = LEGEND;
     let (width, height) = (wide + legend, high.max(row * (answers.len() as f64 + 2.0)));
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\" \
-         font-size=\"11\">\n<style>{STYLE}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#faf9f6\"/>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" \
+         font-family=\"sans-serif\" font-size=\"11\">\n<style>{STYLE}</style>\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#faf9f6\"/>\n"
     );
     // Writing to a string does not fail.
     for Patch { class, ink, points } in &patches {

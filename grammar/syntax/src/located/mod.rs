@@ -16,8 +16,7 @@ use std::marker::PhantomData;
 use std::ops::Deref;
 
 pub(crate) use de::{Fault, MIXED, OPEN, deserialize};
-pub use parse::MAX_BRACKETS;
-pub(crate) use parse::parse_json;
+pub use parse::{MAX_BRACKETS, parse_json};
 pub(crate) use schema::phrase;
 pub use schema::{Mismatch, MismatchKind, check_schema};
 use schemars::{JsonSchema, Schema, SchemaGenerator};

@@ -24,7 +24,8 @@ type Parsed<T> = Result<T, Box<Diagnostic>>;
 
 /// Parses a document. Returns its tree where the syntax is right, and all diagnostics. Recursion is bounded
 /// by [`MAX_BRACKETS`]. O(bytes).
-pub(crate) fn parse_json(text: &str, file: FileId) -> (Option<Located<'_>>, Vec<Diagnostic>) {
+#[must_use]
+pub fn parse_json(text: &str, file: FileId) -> (Option<Located<'_>>, Vec<Diagnostic>) {
     let mut parser = Parser {
         text,
         bytes: text.as_bytes(),

@@ -1,31 +1,30 @@
-//! A conversation: requests carried out one after the other, with new plans and questions, in a world that
-//! lasts.
+//! A conversation: the environment, the knowledge and the memory that last from one request to the next, and
+//! the observers of a dialogue. The dialogue manager carries out its requests.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
 
 use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_graph::Graph;
+use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_runtime::{
-    CameraImage, Capabilities, Driver, Engine, EngineSettings, Perception, StartState, Time,
+    CameraImage, Capabilities, Driver, Effect, Engine, EngineSettings, Event, Observer, Perception,
+    RunControl, RunEnd, StartState, SwapRefusal, Time,
 };
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
 use smol_str::SmolStr;
 
 use super::knowledge::Knowledge;
-use super::manager::Pursuit;
-use super::observer::{DialogueObserver, Person};
 use super::problem::{Kind, Problem};
 use crate::builtin::{PlanError, PlannedRequest};
-use crate::runtime_check::WITHIN;
+use crate::runtime_check::{CheckMode, WITHIN};
 use crate::{PlanRequest, Planner};
-use motet_requests::RequestContext;
 
-/// In which world requests are carried out.
+/// Environment in which requests are carried out.
 #[derive(Clone, Debug)]
 pub struct DialogueSetup {
     pub robot: Robot,
@@ -33,8 +32,8 @@ pub struct DialogueSetup {
     pub scene: Scene,
     /// Declarations on top of the library.
     pub domains: Vec<File>,
-    /// The robot's body in the scene, where motions are checked beforehand: as long as all is as the scene
-    /// says.
+    /// The robot's body in the scene; with it, motions are checked before a run as long as every object is
+    /// at its place in the scene.
     pub geometry: Option<Arc<Geometry>>,
     /// Settings of the check.
     pub options: CheckOptions,
@@ -49,11 +48,11 @@ pub enum Outcome {
     GivenUp,
     /// A person stopped the robot.
     Stopped,
-    /// It could not be done, and nobody said what to do instead.
+    /// The request could not be done, and nobody said how to go on.
     Failed(Problem),
 }
 
-/// Carries out requests, one after the other, in a world that lasts.
+/// Carries out requests one after the other. Knowledge and memory last from one request to the next.
 pub struct Conversation<'a> {
     pub(super) setting: &'a DialogueSetup,
     /// Knowledge beyond the given scene.
@@ -73,31 +72,13 @@ impl<'a> Conversation<'a> {
         Self { setting, known, memory, base: OnceCell::new(), eyes: None }
     }
 
-    /// The same with eyes, from which a fresh image goes to who plans, each time anew.
+    /// Adds a camera: each plan gets a fresh image.
     #[must_use]
     pub fn with_eyes(self, eyes: impl Perception + 'a) -> Self {
         Self { eyes: Some(Box::new(eyes)), ..self }
     }
 
-    /// Carries out a request to its end. Runs from the driver's present time `from`; gives the time at the
-    /// end too.
-    pub fn carry_out(
-        &mut self,
-        request: &str,
-        planner: &mut dyn Planner,
-        driver: &mut dyn Driver,
-        person: &mut dyn Person,
-        watcher: &mut dyn DialogueObserver,
-        from: Time,
-    ) -> (Outcome, Time) {
-        self.hear(request);
-        self.memory.instruct(from, request);
-        let mut pursuit = Pursuit::new(self, (planner, person, watcher), request, from);
-        let outcome = pursuit.pursue(driver);
-        (outcome, pursuit.now)
-    }
-
-    /// Takes in what a request says of where things are.
+    /// Takes in the locations that a request states.
     pub(super) fn hear(&mut self, request: &str) {
         let scene = self.known.scene(&self.setting.scene);
         if let Ok(understood) = motet_requests::understand(request, &self.known.situation(&scene)) {
@@ -108,12 +89,12 @@ impl<'a> Conversation<'a> {
         }
     }
 
-    /// A fresh image, where there are eyes.
+    /// A fresh image, if there is a camera.
     pub(super) fn look(&mut self, now: Time) -> Option<CameraImage> {
         self.eyes.as_mut()?.image(now)
     }
 
-    /// A session in what is known; with motions where it is known where everything is.
+    /// A session in the known state; with motions if the place of every object is known.
     pub(super) fn session(&self, scene: &Scene, known: &Knowledge, base: Option<[f64; 3]>) -> Session {
         let session = self.base().with_scene(Some(scene), Some(&known.state()));
         let Some(geometry) = &self.setting.geometry else { return session };
@@ -126,7 +107,7 @@ impl<'a> Conversation<'a> {
         }
     }
 
-    /// The library, in the scene as the setting has it.
+    /// Session of the library in the scene of the setup.
     pub(super) fn base(&self) -> &Session {
         let DialogueSetup { robot, domains, options, scene, .. } = self.setting;
         self.base.get_or_init(|| {
@@ -166,7 +147,7 @@ impl<'a> Conversation<'a> {
         }
     }
 
-    /// An engine for a policy, in the state that is known, with that state.
+    /// Engine for a policy in the known state, and its start state.
     pub(super) fn engine(
         &self,
         graph: Graph,
@@ -188,4 +169,76 @@ impl<'a> Conversation<'a> {
             said: None,
         })
     }
+}
+
+/// Person who answers the robot's questions.
+pub trait Person {
+    /// Asks a question. `None` if nobody answers.
+    fn ask(&mut self, problem: &Problem) -> Option<String>;
+}
+
+/// Person who never answers.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoOperator;
+
+impl Person for NoOperator {
+    fn ask(&mut self, _problem: &Problem) -> Option<String> {
+        None
+    }
+}
+
+/// Observer of a dialogue, which may also bring new requests.
+pub trait DialogueObserver {
+    /// Recorder of the run that is about to begin, if there is one. The engine has handled no event yet.
+    fn scribe(&mut self, _engine: &Engine, _start: &StartState) -> Option<Box<dyn RunRecorder>> {
+        None
+    }
+    /// A policy is about to run, or to take over.
+    fn planned(&mut self, _answered: &PlannedRequest, _graph: &Arc<Graph>) {}
+    /// An event is about to be handled.
+    fn event(&mut self, _now: Time, _event: &Event) {}
+    /// An effect is about to be carried out.
+    fn effect(&mut self, _now: Time, _effect: &Effect) {}
+    /// Notes that time has passed, and decides if the run continues. An observer that paces the run waits
+    /// here.
+    fn reached(&mut self, _now: Time) -> RunControl {
+        RunControl::Continue
+    }
+    /// Longest span without a call of [`DialogueObserver::reached`].
+    fn at_least_every(&self) -> Time {
+        Time::NEVER
+    }
+    /// Schedule of the checks of deferred motions.
+    fn verifies(&self) -> CheckMode {
+        CheckMode::AtOnce
+    }
+    /// Returns a request that somebody made during the run.
+    fn request(&mut self, _now: Time) -> Option<String> {
+        None
+    }
+    /// Returns `true` once a person wants everything to stop, also during a question.
+    fn is_stopped(&self) -> bool {
+        false
+    }
+    /// Notes that a policy took over, or could not.
+    fn swapped(&mut self, _now: Time, _refusal: Option<&SwapRefusal>) {}
+    /// A run has ended.
+    fn ended(&mut self, _now: Time, _end: &RunEnd) {}
+    /// Notes a question before it is asked, or its answer.
+    fn asked(&mut self, _problem: &Problem, _answer: Option<&str>) {}
+}
+
+/// Observer that does nothing.
+impl DialogueObserver for () {}
+
+/// Recorder of one run.
+pub trait RunRecorder {
+    /// Runs an engine to its end as [`motet_runtime::run`] does, and records its events and effects.
+    fn run(
+        self: Box<Self>,
+        engine: &mut Engine,
+        driver: &mut dyn Driver,
+        onlooker: &mut dyn Observer,
+        from: Time,
+    ) -> RunEnd;
 }

@@ -1,39 +1,38 @@
-//! A run with somebody beside it: what happens is remembered, and a new request takes over in the middle of
-//! it.
+//! A run with a person beside it: the memory records its events, and a new request takes over in the middle
+//! of it.
 
 use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, NodeKind, Value};
+use motet_requests::{Intent, ReportedLocation, RequestContext};
+use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Driver, Effect, Engine, Event, Observer, PreparedSwap, RetiredGraph, RunControl, RunEnd, SwapRefusal,
-    Time, Verifier,
+    Answer, Driver, DriverEvent, Effect, Engine, Event, Observer, Pattern, PreparedSwap, Query, RetiredGraph,
+    RunControl, RunEnd, SwapRefusal, Time, Truth, Verifier,
 };
 use smol_str::SmolStr;
 
-use super::early_start::First;
-use super::polarity;
+use super::answer::{added, stops};
 use super::problem::named_entity;
-use super::proprioception::sense;
 use super::{Conversation, DialogueObserver, Problem};
 use crate::builtin::PlannedRequest;
-use crate::model::{ReplyVerdict, judge};
+use crate::model::{ReplyVerdict, judge, without_first_step};
 use crate::runtime_check::Guard;
 use crate::{PlanRequest, Planner, RemainingSteps, Wait};
-use motet_requests::{Intent, ReportedLocation, RequestContext};
 
 /// Reason to stop a run before its end.
-pub(super) enum Pending {
-    /// A new request, which cannot take over as it stands.
+pub(super) enum StopReason {
+    /// A new request that cannot take over as it is.
     Request(String),
-    /// Something is elsewhere than was thought, so that the same has to be planned anew.
+    /// Objects that are elsewhere than believed, so that the same request must be planned anew.
     Statement(Vec<ReportedLocation>),
-    /// A person says so.
+    /// A person stopped the robot.
     Stop,
 }
 
-/// The eyes and ears of a run.
-pub(super) struct Live<'r, 'a> {
+/// Observer of a run that takes new requests and swaps policies.
+pub(super) struct LiveRun<'r, 'a> {
     talk: &'r mut Conversation<'a>,
     planner: &'r mut dyn Planner,
     watcher: &'r mut dyn DialogueObserver,
@@ -41,7 +40,7 @@ pub(super) struct Live<'r, 'a> {
     /// The latest time.
     pub(super) now: Time,
     /// Reason for which the run is being stopped.
-    pub(super) pending: Option<Pending>,
+    pub(super) pending: Option<StopReason>,
     /// Request that the run carries out.
     task: String,
     /// The request that took over.
@@ -51,7 +50,7 @@ pub(super) struct Live<'r, 'a> {
     /// A policy that waits to take over, with its request.
     next: Option<(PlannedRequest, Option<String>)>,
     /// State of an early start, while the rest of the policy is still being written.
-    pub(super) first: Option<First>,
+    pub(super) first: Option<EarlyStart>,
     /// The steps of the running policy that were started.
     started: Vec<NodeId>,
     /// Checker of motions that the compiler deferred.
@@ -59,7 +58,7 @@ pub(super) struct Live<'r, 'a> {
 }
 
 /// Ending of a run.
-pub(super) struct Ran {
+pub(super) struct RunResult {
     pub(super) end: RunEnd,
     /// Graph that ran last.
     pub(super) graph: Arc<Graph>,
@@ -71,7 +70,7 @@ pub(super) struct Ran {
     pub(super) stood_wrong: bool,
 }
 
-impl<'r, 'a> Live<'r, 'a> {
+impl<'r, 'a> LiveRun<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
         planner: &'r mut dyn Planner,
@@ -126,7 +125,7 @@ impl<'r, 'a> Live<'r, 'a> {
         answered: PlannedRequest,
         driver: &mut dyn Driver,
         scene: &Scene,
-    ) -> Result<Ran, Problem> {
+    ) -> Result<RunResult, Problem> {
         let Some(graph) = answered.planned.compiled.graph.clone() else {
             return Err(Problem::nothing("there is no graph to run"));
         };
@@ -142,9 +141,9 @@ impl<'r, 'a> Live<'r, 'a> {
         self.talk.memory.policy(self.now, 0, shared);
         self.first = match self.planner.rest(Wait::Not) {
             RemainingSteps::Nothing => None,
-            RemainingSteps::Coming => Some(First::new(None, &answered)),
+            RemainingSteps::Coming => Some(EarlyStart::new(None, &answered)),
             rest @ (RemainingSteps::Whole(_) | RemainingSteps::Broken | RemainingSteps::Stopped) => {
-                Some(First::new(Some(rest), &answered))
+                Some(EarlyStart::new(Some(rest), &answered))
             }
         };
         let from = self.now;
@@ -152,7 +151,7 @@ impl<'r, 'a> Live<'r, 'a> {
             Some(scribe) => scribe.run(&mut engine, driver, self, from),
             None => motet_runtime::run(&mut engine, driver, self, from),
         };
-        self.pending = self.pending.take().or(self.awaited.take().map(Pending::Request));
+        self.pending = self.pending.take().or(self.awaited.take().map(StopReason::Request));
         // Behind its first step, a policy that is still being written goes on.
         if self.first.is_none() || self.pending.is_some() || !matches!(end, RunEnd::Done { .. }) {
             self.watcher.ended(self.now, &end);
@@ -177,13 +176,12 @@ impl<'r, 'a> Live<'r, 'a> {
         }
         let (was_refused, stood_wrong) =
             (self.was_refused(&end), self.stood_wrong(&end, engine.graph(), &bound));
-        Ok(Ran { end, graph: Arc::new(engine.graph().clone()), bound, was_refused, stood_wrong })
+        Ok(RunResult { end, graph: Arc::new(engine.graph().clone()), bound, was_refused, stood_wrong })
     }
 }
 
-impl Live<'_, '_> {
-    /// Returns a policy that has been written meanwhile and can take over: for a new request, or the rest of
-    /// an early start.
+impl LiveRun<'_, '_> {
+    /// Returns a finished policy that can take over: for a new request, or the rest of an early start.
     fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
         if let Some(request) = self.awaited.take() {
             let prepared = match self.planner.rest(Wait::Not) {
@@ -199,7 +197,7 @@ impl Live<'_, '_> {
                 RemainingSteps::Nothing | RemainingSteps::Broken | RemainingSteps::Stopped => None,
             };
             if prepared.is_none() {
-                self.pending = Some(Pending::Request(request));
+                self.pending = Some(StopReason::Request(request));
             }
             return prepared;
         }
@@ -214,7 +212,7 @@ impl Live<'_, '_> {
         self.prepared(&policy, understood, None, engine)
     }
 
-    /// A policy that was written, ready to take over in what is believed now.
+    /// Prepares a finished policy to take over in the present beliefs.
     fn prepared(
         &mut self,
         policy: &str,
@@ -238,7 +236,7 @@ impl Live<'_, '_> {
     }
 }
 
-/// The last thing that a call names: where it leads.
+/// Last entity among the arguments of a call: its destination.
 fn leads_to(graph: &Graph, node: NodeId, bound: &[(SmolStr, Value)]) -> Option<SmolStr> {
     let NodeKind::Call(call) = &graph.nodes.get(node.index())?.kind else { return None };
     call.args.iter().filter_map(|arg| named_entity(graph, bound, arg)).next_back()
@@ -257,7 +255,7 @@ fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedL
     (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
 }
 
-impl Observer for Live<'_, '_> {
+impl Observer for LiveRun<'_, '_> {
     fn event(&mut self, now: Time, event: &Event) {
         self.now = self.now.max(now);
         self.talk.memory.event(now, event);
@@ -290,11 +288,11 @@ impl Observer for Live<'_, '_> {
         }
         let Some(said) = self.watcher.request(now) else { return self.written(engine) };
         self.talk.memory.instruct(now, &said);
-        if polarity::stops(&said) {
-            self.pending = Some(Pending::Stop);
+        if stops(&said) {
+            self.pending = Some(StopReason::Stop);
             return None;
         }
-        let request = match polarity::added(&said) {
+        let request = match added(&said) {
             Some(more) => format!("{} and {more}", self.task),
             None => said,
         };
@@ -306,7 +304,7 @@ impl Observer for Live<'_, '_> {
         if !self.planner.reads_answers()
             && let Some(told) = statement(&request, &known.situation(&scene))
         {
-            self.pending = Some(Pending::Statement(told));
+            self.pending = Some(StopReason::Statement(told));
             return None;
         }
         let meant = std::mem::take(&mut self.meant);
@@ -331,7 +329,7 @@ impl Observer for Live<'_, '_> {
             }
             // It needs a question, or another start: the robot stops, and it is the next request.
             None => {
-                self.pending = Some(Pending::Request(request));
+                self.pending = Some(StopReason::Request(request));
                 None
             }
         }
@@ -354,7 +352,7 @@ impl Observer for Live<'_, '_> {
             (Err(refusal), Some((_, request))) => {
                 self.watcher.swapped(now, Some(&refusal));
                 if let Some(request) = request {
-                    self.pending = Some(Pending::Request(request));
+                    self.pending = Some(StopReason::Request(request));
                 }
             }
             (_, None) => {}
@@ -364,4 +362,110 @@ impl Observer for Live<'_, '_> {
     fn at_least_every(&self) -> Time {
         self.watcher.at_least_every()
     }
+}
+
+/// The first step of a policy that is still being written.
+pub(super) struct EarlyStart {
+    /// Fate of the remaining steps, once it is known: a whole policy that could not take over at once, or
+    /// none.
+    pub(super) rest: Option<RemainingSteps>,
+    /// Bindings of the first step.
+    pub(super) bound: Vec<(SmolStr, Value)>,
+    pub(super) understood: Intent,
+}
+
+/// Continuation after a first step.
+pub(super) enum Continuation {
+    Done,
+    /// A person stopped the planning.
+    Stopped,
+    /// The rest of the policy.
+    Runs(Box<PlannedRequest>),
+    /// Another policy: the rest cannot be used.
+    PlansAnew,
+}
+
+impl EarlyStart {
+    pub(super) fn new(rest: Option<RemainingSteps>, answered: &PlannedRequest) -> Self {
+        Self { rest, bound: Vec::new(), understood: answered.understood.clone() }
+    }
+}
+
+impl Conversation<'_> {
+    /// Chooses the continuation after the first step of a policy has ended.
+    pub(super) fn after_first(
+        &self,
+        first: EarlyStart,
+        planner: &mut dyn Planner,
+        base: Option<[f64; 3]>,
+    ) -> Continuation {
+        let policy = match first.rest.unwrap_or_else(|| planner.rest(Wait::ToTheEnd)) {
+            RemainingSteps::Whole(policy) => policy,
+            RemainingSteps::Stopped => return Continuation::Stopped,
+            RemainingSteps::Nothing | RemainingSteps::Coming | RemainingSteps::Broken => {
+                return Continuation::PlansAnew;
+            }
+        };
+        let Ok(rest) = without_first_step(&policy, &first.bound) else { return Continuation::PlansAnew };
+        let Some(rest) = rest else { return Continuation::Done };
+        let scene = self.known.scene(&self.setting.scene);
+        match judge(&self.session(&scene, &self.known, base), &rest) {
+            ReplyVerdict::Good { planned, changed, .. } if changed.is_empty() => {
+                Continuation::Runs(Box::new(PlannedRequest {
+                    understood: first.understood,
+                    planned: *planned,
+                }))
+            }
+            ReplyVerdict::Good { .. } | ReplyVerdict::Bad { .. } => Continuation::PlansAnew,
+        }
+    }
+}
+
+/// Asks a driver for all facts about the robot itself that its card lists as observable. Returns the answers
+/// in order, and the time after them, at most the card's `observe_within` later.
+pub(super) fn sense(
+    driver: &mut dyn Driver,
+    robot: &Robot,
+    scene: &Scene,
+    now: Time,
+) -> (Vec<(Query, Truth)>, Time) {
+    let is = |value: Value| Pattern::Is(value);
+    let entity = |id: &SmolStr| is(Value::Entity(id.clone()));
+    let mut queries = Vec::new();
+    let mut ask = |fluent: &str, args: Vec<Pattern>| {
+        if robot.observes.iter().any(|known| known == fluent) {
+            queries.push(Query::Fact { fluent: fluent.into(), args });
+        }
+    };
+    for hand in robot.hands.keys() {
+        ask("free", vec![is(Value::Case(hand.clone()))]);
+    }
+    for one in scene.entities.values() {
+        if one.kind == "Object" {
+            ask("holding", vec![entity(&one.id)]);
+        } else {
+            ask("at", vec![is(Value::Entity(SmolStr::new_static("robot"))), entity(&one.id)]);
+        }
+    }
+    for query in &queries {
+        driver.observe(now, query);
+    }
+    let until = Time::from_secs(now.secs() + robot.observe_within_secs);
+    let (mut seen, mut at, mut left) = (Vec::new(), now, queries.len());
+    while left > 0 {
+        let Some((time, event)) = driver.advance(until) else {
+            at = at.max(until);
+            break;
+        };
+        at = at.max(time);
+        if let DriverEvent::Observed { query, answer } = event
+            && queries.contains(&query)
+        {
+            left -= 1;
+            if let Answer::Truth(holds) = answer {
+                seen.push((query, if holds { Truth::True } else { Truth::False }));
+            }
+        }
+    }
+    (seen, at)
 }

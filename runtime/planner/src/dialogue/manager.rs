@@ -1,19 +1,17 @@
-//! One request, pursued to its end: planned, run, tried again, asked about, and planned anew with the answer.
+//! The dialogue manager: plans a request, runs the policy, retries, asks about problems, and plans anew with
+//! the answers.
 
+use motet_requests::{ReportedLocation, RequestError};
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, RunEnd, Time};
 use smol_str::SmolStr;
 
-use super::answer::{self, Answer};
-use super::conversation::{Conversation, Outcome};
-use super::early_start::After;
-use super::live_run::{Live, Pending, Ran};
-use super::observer::{DialogueObserver, Person};
-use super::polarity::{Polarity, polarity};
+use super::answer::{self, Answer, Polarity, polarity};
+use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
+use super::live_run::{Continuation, LiveRun, RunResult, StopReason};
 use super::problem::{Kind, Problem};
 use crate::Planner;
 use crate::builtin::{PlanError, PlannedRequest};
-use motet_requests::{ReportedLocation, RequestError};
 
 /// The most policies for one request.
 const MAX_ROUNDS: usize = 12;
@@ -22,14 +20,55 @@ const MAX_QUESTIONS: usize = 6;
 /// Number of new plans for a failed step before the robot asks a person.
 const TRIES: usize = 2;
 
+impl Conversation<'_> {
+    /// Carries out a request to its end, starting at the driver's time `from`. Returns the outcome and the
+    /// time at the end.
+    ///
+    /// ```
+    /// use motet_planner::Builtin;
+    /// use motet_planner::dialogue::{Conversation, DialogueSetup, NoOperator, Outcome};
+    /// use motet_runtime::Time;
+    /// use motet_sim::{Sim, SimOptions};
+    ///
+    /// let setup = DialogueSetup {
+    ///     robot: motet_robots::builtin::robot("hsr").unwrap().robot,
+    ///     scene: motet_robots::builtin::scene("kitchen").unwrap(),
+    ///     domains: Vec::new(),
+    ///     geometry: None,
+    ///     options: Default::default(),
+    /// };
+    /// let mut robot = Sim::new(&setup.robot, &setup.scene, SimOptions::default());
+    /// let mut conversation = Conversation::new(&setup);
+    /// let request = "bring me the coke";
+    /// let (outcome, _) =
+    ///     conversation.carry_out(request, &mut Builtin, &mut robot, &mut NoOperator, &mut (), Time::ZERO);
+    /// assert_eq!(outcome, Outcome::Done);
+    /// ```
+    pub fn carry_out(
+        &mut self,
+        request: &str,
+        planner: &mut dyn Planner,
+        driver: &mut dyn Driver,
+        person: &mut dyn Person,
+        watcher: &mut dyn DialogueObserver,
+        from: Time,
+    ) -> (Outcome, Time) {
+        self.hear(request);
+        self.memory.instruct(from, request);
+        let mut manager = DialogueManager::new(self, (planner, person, watcher), request, from);
+        let outcome = manager.pursue(driver);
+        (outcome, manager.now)
+    }
+}
+
 /// Progress of one request.
 struct Task {
     request: String,
-    /// The request that it took the place of, which may not be done.
+    /// The request that this one replaced, if that is still open.
     before: Option<String>,
     /// Resolved meanings of ambiguous words.
     meant: Vec<(String, SmolStr)>,
-    /// Further places to look for a thing, the next one first.
+    /// Further places to look for an object, the next one first.
     elsewhere: Vec<ReportedLocation>,
     questions: usize,
     tries: usize,
@@ -45,15 +84,15 @@ impl Task {
 }
 
 /// Result of a round.
-enum Next {
+enum RoundResult {
     Round,
     Over(Outcome),
     /// A problem. The flag is set if a guard or the robot's place caused it, which another plan may avoid.
     Problem(Problem, bool),
 }
 
-/// A request with all who have to do with it.
-pub(super) struct Pursuit<'r, 'a> {
+/// A request in progress, with its planner, person and observer.
+pub(super) struct DialogueManager<'r, 'a> {
     talk: &'r mut Conversation<'a>,
     planner: &'r mut dyn Planner,
     person: &'r mut dyn Person,
@@ -61,11 +100,11 @@ pub(super) struct Pursuit<'r, 'a> {
     task: Task,
     /// The latest time.
     pub(super) now: Time,
-    /// The rest of a policy of which the first step was run.
+    /// Remaining policy after an early start of its first step.
     ready: Option<PlannedRequest>,
 }
 
-impl<'r, 'a> Pursuit<'r, 'a> {
+impl<'r, 'a> DialogueManager<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
         (planner, person, watcher): (&'r mut dyn Planner, &'r mut dyn Person, &'r mut dyn DialogueObserver),
@@ -76,7 +115,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         Self { talk, planner, person, watcher, task, now, ready: None }
     }
 
-    /// To its end.
+    /// Pursues the request to its end.
     pub(super) fn pursue(&mut self, driver: &mut dyn Driver) -> Outcome {
         let mut latest = None;
         for _ in 0..MAX_ROUNDS {
@@ -90,9 +129,9 @@ impl<'r, 'a> Pursuit<'r, 'a> {
                 Err(why) => self.unplanned(&why, &scene),
             };
             let (problem, was_refused) = match next {
-                Next::Round => continue,
-                Next::Over(outcome) => return outcome,
-                Next::Problem(problem, was_refused) => (problem, was_refused),
+                RoundResult::Round => continue,
+                RoundResult::Over(outcome) => return outcome,
+                RoundResult::Problem(problem, was_refused) => (problem, was_refused),
             };
             // What merely did not work, or was not as it was believed, is tried again before somebody is
             // troubled.
@@ -119,10 +158,10 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         self.talk.plan_for((&self.task.request, image.as_ref()), &self.task.meant, self.planner, world)
     }
 
-    /// Runs a policy, and sees what became of it.
-    fn run(&mut self, answered: PlannedRequest, driver: &mut dyn Driver, scene: &Scene) -> Next {
+    /// Runs a policy and evaluates its ending.
+    fn run(&mut self, answered: PlannedRequest, driver: &mut dyn Driver, scene: &Scene) -> RoundResult {
         let told = (self.task.request.clone(), self.task.meant.clone());
-        let mut live = Live::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
+        let mut live = LiveRun::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
         let ran = live.run(answered, driver, scene);
         self.now = live.now;
         let (pending, first, request) = (live.pending.take(), live.first.take(), live.request.take());
@@ -130,44 +169,44 @@ impl<'r, 'a> Pursuit<'r, 'a> {
             let before = std::mem::take(&mut self.task.request);
             self.task = Task { tries: self.task.tries, ..Task::new(request, Some(before)) };
         }
-        let Ran { end, graph, bound, was_refused, stood_wrong } = match ran {
+        let RunResult { end, graph, bound, was_refused, stood_wrong } = match ran {
             Ok(ran) => ran,
-            Err(problem) => return Next::Over(Outcome::Failed(problem)),
+            Err(problem) => return RoundResult::Over(Outcome::Failed(problem)),
         };
         match (pending, &end) {
-            (Some(Pending::Request(request)), _) => {
+            (Some(StopReason::Request(request)), _) => {
                 self.talk.hear(&request);
                 let before = std::mem::take(&mut self.task.request);
                 self.task = Task::new(request, Some(before));
-                return Next::Round;
+                return RoundResult::Round;
             }
-            (Some(Pending::Statement(located)), _) => {
+            (Some(StopReason::Statement(located)), _) => {
                 located.iter().for_each(|one| self.talk.known.hear(one));
-                return Next::Round;
+                return RoundResult::Round;
             }
-            (Some(Pending::Stop), _) => return Next::Over(Outcome::GivenUp),
-            (None, RunEnd::Interrupted) => return Next::Over(Outcome::Stopped),
+            (Some(StopReason::Stop), _) => return RoundResult::Over(Outcome::GivenUp),
+            (None, RunEnd::Interrupted) => return RoundResult::Over(Outcome::Stopped),
             (None, _) => {}
         }
         if let (Some(first), RunEnd::Done { .. }) = (first, &end) {
             match self.talk.after_first(first, self.planner, driver.base()) {
-                After::Done => return Next::Over(Outcome::Done),
-                After::Stopped => return Next::Over(Outcome::Stopped),
-                After::Runs(answered) => self.ready = Some(*answered),
-                After::PlansAnew => {}
+                Continuation::Done => return RoundResult::Over(Outcome::Done),
+                Continuation::Stopped => return RoundResult::Over(Outcome::Stopped),
+                Continuation::Runs(answered) => self.ready = Some(*answered),
+                Continuation::PlansAnew => {}
             }
-            return Next::Round;
+            return RoundResult::Round;
         }
         if stood_wrong {
             self.talk.known.doubt_standing();
         }
         match Problem::of_run(&end, (&graph, &bound), scene) {
-            Some(problem) => Next::Problem(problem, was_refused || stood_wrong),
+            Some(problem) => RoundResult::Problem(problem, was_refused || stood_wrong),
             None => self.done(),
         }
     }
 
-    /// Takes in the first place of each thing; gives the others, in order.
+    /// Takes in the first place of each object; returns the others in order.
     fn hear_first(&mut self, located: Vec<ReportedLocation>) -> Vec<ReportedLocation> {
         let mut heard: Vec<SmolStr> = Vec::new();
         let mut others = Vec::new();
@@ -182,7 +221,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         others
     }
 
-    /// Moves on to the next place where a person said the thing might be. Returns `false` if there is none.
+    /// Moves on to the next place that a person named for the object. Returns `false` if there is none.
     fn looks_elsewhere(&mut self, problem: &Problem) -> bool {
         let elsewhere = &mut self.task.elsewhere;
         let next = elsewhere.iter().position(|next| Some(&next.thing) == problem.about.as_ref());
@@ -191,41 +230,41 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         true
     }
 
-    /// A request is done. What it took the place of may not be.
-    fn done(&mut self) -> Next {
-        let Some(before) = self.task.before.take() else { return Next::Over(Outcome::Done) };
+    /// Ends a request, and continues with the request that it replaced.
+    fn done(&mut self) -> RoundResult {
+        let Some(before) = self.task.before.take() else { return RoundResult::Over(Outcome::Done) };
         self.goes_on(&Problem::half_done(&before), before, Outcome::Done)
     }
 
-    /// There is no policy.
-    fn unplanned(&mut self, why: &PlanError, scene: &Scene) -> Next {
+    /// Handles a request that got no policy.
+    fn unplanned(&mut self, why: &PlanError, scene: &Scene) -> RoundResult {
         let problem = Problem::of_planning(why, scene);
         match (why, self.task.before.clone()) {
-            (PlanError::Stopped, _) => Next::Over(Outcome::Stopped),
+            (PlanError::Stopped, _) => RoundResult::Over(Outcome::Stopped),
             // No answer of a person brings a model back.
-            (PlanError::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
+            (PlanError::NoModel { .. }, _) => RoundResult::Over(Outcome::Failed(problem)),
             // Something that is not understood was said in between.
             (PlanError::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
                 let question = Problem::interrupted(&self.task.request, &before);
                 self.goes_on(&question, before, Outcome::GivenUp)
             }
-            (_, _) => Next::Problem(problem, false),
+            (_, _) => RoundResult::Problem(problem, false),
         }
     }
 
-    /// Goes on with what was asked for before, where a person says yes.
-    fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> Next {
+    /// Resumes the replaced request if a person agrees.
+    fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> RoundResult {
         let answer = self.person.ask(question);
         self.watcher.asked(question, answer.as_deref());
         if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
-            return Next::Over(or);
+            return RoundResult::Over(or);
         }
         self.task = Task::new(before, None);
-        Next::Round
+        RoundResult::Round
     }
 
-    /// Asks a person what to do about a problem, until the answer is understood; the outcome, where that
-    /// ends it.
+    /// Asks a person about a problem until the answer is understood. Returns the outcome if the answer ends
+    /// the request.
     fn ask(&mut self, problem: Problem, scene: &Scene) -> Option<Outcome> {
         // What an answer says beside what is understood of it is for who plans.
         let is_told = self.planner.reads_answers();

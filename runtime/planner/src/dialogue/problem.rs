@@ -17,9 +17,9 @@ pub enum Kind {
     NotFound,
     /// No motion leads there, or something is in the way.
     NotReachable,
-    /// More than one thing is called so.
+    /// Several objects have the name.
     AmbiguousReference,
-    /// It is not clear what to do.
+    /// The request does not say what to do.
     AmbiguousTask,
     /// A step was tried and did not work.
     ActionFailed,
@@ -33,14 +33,14 @@ pub struct Problem {
     pub question: String,
     /// Possible answers; empty if any answer is possible.
     pub options: Vec<SmolStr>,
-    /// The thing that it is about.
+    /// Subject of the problem.
     pub about: Option<SmolStr>,
-    /// As it was said, where words are the problem.
+    /// Subject in the person's words, if the words are the problem.
     pub said: Option<String>,
 }
 
 impl Kind {
-    /// As it is written in records and tables.
+    /// Name in records and tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -208,7 +208,7 @@ fn holders(scene: &Scene) -> Vec<SmolStr> {
     holds.map(|entity| entity.id.clone()).collect()
 }
 
-/// ` on the counter`, where a thing was thought to be.
+/// Believed place of an object in words, such as ` on the counter`.
 fn believed(scene: &Scene, id: Option<&SmolStr>) -> String {
     let entity = id.and_then(|id| scene.entities.get(id));
     match entity.map(|entity| (&entity.on, &entity.inside)) {
@@ -226,7 +226,7 @@ pub(crate) fn called(scene: &Scene, id: &str) -> String {
     name.map_or_else(|| id.replace(['_', '-'], " "), ToString::to_string)
 }
 
-/// `the red mug on the table`
+/// Name with article and place, such as `the red mug on the table`.
 fn described(scene: &Scene, id: &SmolStr) -> String {
     format!("the {}{}", called(scene, id), believed(scene, Some(id)))
 }
@@ -270,7 +270,7 @@ impl Problem {
         Self { kind: Kind::AmbiguousTask, question, options, about: None, said: None }
     }
 
-    /// Something that no answer mends.
+    /// Problem that no answer solves.
     pub(super) fn nothing(what: &str) -> Self {
         Self {
             kind: Kind::ActionFailed,
@@ -282,7 +282,7 @@ impl Problem {
     }
 }
 
-/// The entity that an argument names, by itself or by what it is bound to.
+/// Entity of an argument, given by itself or by a binding.
 pub(super) fn named_entity(graph: &Graph, bound: &[(SmolStr, Value)], arg: &Term) -> Option<SmolStr> {
     let value = match arg {
         Term::Literal(value) => value,

@@ -1,10 +1,8 @@
-//! A policy whose first step begins while the rest is still being written.
+//! Early start: the first step of a policy runs while the model still writes the rest.
 //!
-//! The first step is a policy of its own once it is complete, provided that nothing behind it can speak
-//! against it: all that
-//! it needs is proven and its motions have witnesses, where motions are computed. What follows can still
-//! turn out to be
-//! wrong; then it is planned anew from where that step has led.
+//! A complete first step is a policy of its own if no later step can refute it: all its needs are proven,
+//! and its motions have witnesses if motions are computed. The rest can still be wrong; then the request is
+//! planned anew from the state after the first step.
 
 use std::time::Duration;
 
@@ -18,49 +16,49 @@ use super::reply_verdict::{ReplyVerdict, judge};
 use super::stream_reader::{StreamReader, StreamVerdict};
 use crate::builtin::Planned;
 
-/// The rest of a policy whose first step was given out.
-pub(super) struct Later {
+/// The rest of a policy whose first step was returned.
+pub(super) struct PendingRest {
     pub(super) reply: Box<dyn Reply>,
     pub(super) reading: StreamReader<'static>,
     pub(super) round: u32,
 }
 
 /// Progress of the remaining policy.
-pub(super) enum Came {
-    /// Something, and not yet all.
+pub(super) enum RestProgress {
+    /// A part of it.
     Some(String),
     Nothing,
     /// The whole policy.
     Whole(String),
-    /// Nothing that can be used.
+    /// No usable rest of the policy.
     Wrong(Vec<motet_syntax::Diagnostic>),
     Failed(ModelError),
 }
 
-impl Later {
-    /// Reads on, waiting at most so long.
-    pub(super) fn next(&mut self, wait: Duration) -> Came {
+impl PendingRest {
+    /// Reads on, waiting at most `wait`.
+    pub(super) fn next(&mut self, wait: Duration) -> RestProgress {
         match self.reply.next(wait) {
-            News::Nothing | News::Retrying { .. } => Came::Nothing,
+            News::Nothing | News::Retrying { .. } => RestProgress::Nothing,
             News::Piece(piece) => match self.reading.push(&piece) {
-                StreamVerdict::GoOn | StreamVerdict::Steps(_) => Came::Some(piece),
-                StreamVerdict::Whole => Came::Whole(self.reading.policy().to_owned()),
-                StreamVerdict::Wrong(wrong) => Came::Wrong(wrong.findings),
+                StreamVerdict::GoOn | StreamVerdict::Steps(_) => RestProgress::Some(piece),
+                StreamVerdict::Whole => RestProgress::Whole(self.reading.policy().to_owned()),
+                StreamVerdict::Wrong(wrong) => RestProgress::Wrong(wrong.findings),
             },
             // A reply in the text form is no object that could be followed.
             News::End(Finish::Stop) if self.reading.policy().is_empty() => {
-                Came::Whole(self.reading.reply().to_owned())
+                RestProgress::Whole(self.reading.reply().to_owned())
             }
-            News::End(Finish::Stop) => Came::Whole(self.reading.policy().to_owned()),
-            News::End(Finish::Length) => {
-                Came::Failed(ModelError::CutOff { why: "it had written as much as it may".to_owned() })
-            }
-            News::Failed(why) => Came::Failed(why),
+            News::End(Finish::Stop) => RestProgress::Whole(self.reading.policy().to_owned()),
+            News::End(Finish::Length) => RestProgress::Failed(ModelError::CutOff {
+                why: "it had written as much as it may".to_owned(),
+            }),
+            News::Failed(why) => RestProgress::Failed(why),
         }
     }
 }
 
-/// The first step of a policy that is being written, as a policy of its own, where it may begin.
+/// The first step of an unfinished policy as a policy of its own, if it may start.
 pub(super) fn first_step(session: &Session, policy: &str) -> Option<Box<Planned>> {
     let mut policy: Map<String, Json> = serde_json::from_str(policy).ok()?;
     // What the whole policy reaches, one step need not.
@@ -91,13 +89,12 @@ fn is_certain(graph: &Graph) -> bool {
     certain && calls > 0
 }
 
-/// A policy without its first step, in which names of that step stand for what they were bound to; none
-/// where nothing is
-/// left of it.
+/// A policy without its first step, in which bindings of that step are replaced by their values; `None` if
+/// nothing is left.
 ///
 /// # Errors
 ///
-/// It is no policy as a whole.
+/// The text is not a policy.
 pub fn without_first_step(
     policy: &str,
     bound: &[(SmolStr, Value)],
@@ -126,7 +123,7 @@ fn fill_in(json: &mut Json, bound: &[(SmolStr, Value)]) {
     }
 }
 
-/// A value as a policy has it; none of a pose, which has no name.
+/// A value in policy syntax; `None` for a pose, which has no name.
 fn written(value: &Value) -> Option<Json> {
     Some(match value {
         Value::Entity(name) | Value::Case(name) => Json::String(name.to_string()),

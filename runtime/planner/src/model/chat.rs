@@ -1,4 +1,4 @@
-//! A model as the planner sees it: a chat goes out, a reply comes in piece by piece.
+//! Interface to a model: a chat goes out, a reply comes in piece by piece; and the events of that exchange.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -37,20 +37,19 @@ impl Message {
 
 /// A language or vision-language model that answers chats.
 pub trait Model {
-    /// Sends a chat. The reply is to keep to what `constraint` offers, where whoever answers can be held to
-    /// that; nobody
-    /// relies on it. Does not wait.
+    /// Sends a chat without waiting for the reply. A server that can constrain its model should enforce
+    /// `constraint`; the planner does not rely on it.
     ///
     /// # Errors
     ///
-    /// The chat cannot be sent like that.
+    /// The chat cannot be sent.
     fn ask(&mut self, chat: &[Message], constraint: &Grammar) -> Result<Box<dyn Reply>, ModelError>;
 
     /// Display name: the model's name and address.
     fn name(&self) -> String;
 }
 
-/// A reply on its way. To drop it is to hang up.
+/// A reply in transit. Dropping it closes the connection.
 pub trait Reply {
     /// Waits at most `wait` for the next piece of the reply. After [`News::End`] and [`News::Failed`]
     /// nothing follows.
@@ -63,52 +62,52 @@ pub enum News {
     Nothing,
     /// The next piece of its text.
     Piece(String),
-    /// Something went wrong before the first piece, and is tried again after a while.
+    /// A failure before the first piece; the request is repeated after a while.
     Retrying {
         why: String,
-        /// After how long.
+        /// Waiting time before the repetition.
         after: Duration,
     },
-    /// It is complete.
+    /// The reply is complete.
     End(Finish),
-    /// It will not be complete.
+    /// The reply failed.
     Failed(ModelError),
 }
 
 /// Ending of a reply.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Finish {
-    /// The model had no more to say.
+    /// The model ended its reply.
     Stop,
-    /// It had written as much as it may.
+    /// The reply reached the server's length limit.
     Length,
 }
 
 /// Reasons for a missing or incomplete reply.
 #[derive(Error, Clone, PartialEq, Debug)]
 pub enum ModelError {
-    /// There is no connection.
+    /// The server cannot be reached.
     #[error("it cannot be reached: {why}")]
     Unreachable { why: String },
-    /// The request was refused: no key, no such model, a grammar that it does not take.
+    /// The server refused the request: no key, no such model, an unsupported grammar.
     #[error("it refuses the request: {why}")]
     Refused {
-        /// In its words.
+        /// The server's message.
         why: String,
     },
-    /// It was busy, or failed, each time it was asked.
+    /// The server was busy or failed at every attempt.
     #[error("it is busy or fails: {why}")]
     Busy {
-        /// In its words.
+        /// The server's message.
         why: String,
     },
-    /// It took too long.
+    /// The reply took too long.
     #[error("it did not answer within {secs} s")]
     TimedOut {
         /// Waiting time in s.
         secs: f64,
     },
-    /// It wrote more than is read.
+    /// The reply is too long.
     #[error("its reply is longer than {bytes} bytes")]
     TooLong {
         /// Limit in bytes.
@@ -120,7 +119,7 @@ pub enum ModelError {
     /// The response is not a reply to a chat.
     #[error("its answer is no reply: {why}")]
     Malformed { why: String },
-    /// The reply was given up here.
+    /// The planner gave the reply up.
     #[error("the reply was cancelled")]
     Cancelled,
 }
@@ -137,3 +136,60 @@ impl ModelError {
         }
     }
 }
+
+/// Event of the exchange with a model.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum ModelEvent<'a> {
+    /// A chat is sent; round 0 is the first.
+    Asked { round: u32, model: &'a str, chat: &'a [Message] },
+    /// The server is asked again after a while.
+    Retrying {
+        why: &'a str,
+        /// Waiting time before the next attempt.
+        after: Duration,
+    },
+    /// The model wrote the next piece of its reply.
+    Wrote(&'a str),
+    /// The reply was wrong and was not read further.
+    Stopped {
+        /// Byte of the reply at which it was stopped.
+        at: usize,
+    },
+    /// Known fixes were applied to the reply.
+    Mended { titles: &'a [String] },
+    /// A round failed. The diagnostics go back to the model, or to a person after the last round.
+    Refused {
+        round: u32,
+        /// Reply, as far as it was read.
+        reply: &'a str,
+        /// Errors of the reply, one per line.
+        findings: &'a str,
+    },
+    /// A round brought no whole reply.
+    Failed {
+        round: u32,
+        /// Reply, as far as it arrived.
+        reply: &'a str,
+        why: &'a ModelError,
+    },
+    /// The reply is a policy that passes the check.
+    Taken { round: u32, reply: &'a str },
+    /// The first step starts while the rest is still being written.
+    Begun {
+        /// Reply so far.
+        reply: &'a str,
+    },
+}
+
+/// Observer of the exchange with a model, which may stop it.
+pub trait ModelObserver {
+    /// Receives each event of the exchange.
+    fn hear(&mut self, _happening: &ModelEvent<'_>) {}
+    /// Returns `true` once a person wants the exchange to stop. The planner calls it often.
+    fn is_stopped(&self) -> bool {
+        false
+    }
+}
+
+/// Observer that does nothing.
+impl ModelObserver for () {}

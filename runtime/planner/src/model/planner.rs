@@ -1,4 +1,4 @@
-//! The planner: a prompt out, a reply in, and what is wrong with it back to the model, a few times at most.
+//! The model planner: sends a prompt, reads the reply, and returns errors to the model for a few rounds.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -8,10 +8,10 @@ use motet_decode::{AcceptorFactory, Grammar, Subset};
 use motet_syntax::ast::Expr;
 use motet_syntax::{Diagnostic, Sources, render};
 
-use super::background::{Came, Later, first_step};
+use super::background::{PendingRest, RestProgress, first_step};
 use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
-use super::goal_check;
-use super::observer::{ModelEvent, ModelObserver};
+use super::chat::{ModelEvent, ModelObserver};
+use super::reply_verdict;
 use super::reply_verdict::{ReplyVerdict, judge};
 use super::stream_reader::{StreamReader, StreamVerdict, Wrong};
 use crate::builtin::{PlanError, Planned, PlannedRequest};
@@ -21,12 +21,12 @@ use motet_requests::Intent;
 
 /// Waiting time for a piece of a reply between two looks at the stop request.
 const SLICE: Duration = Duration::from_millis(50);
-/// The most bytes of a policy for which room is kept by the acceptor.
+/// Maximum number of bytes of a policy for which the acceptor keeps room.
 const POLICY_BYTES: usize = 16 << 10;
-/// The most bytes of a reply that are read, thoughts included.
+/// Maximum number of bytes of a reply, thoughts included.
 const REPLY_BYTES: usize = 256 << 10;
 
-/// When a policy begins to run.
+/// Moment at which a policy starts to run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Start {
     /// Once it is complete.
@@ -41,11 +41,11 @@ pub enum Start {
 pub struct Settings {
     /// Number of times that a wrong reply goes back to the model with the reason.
     pub repairs: u32,
-    /// The most tokens of a prompt, as far as bytes tell.
+    /// Maximum number of tokens of a prompt, estimated from bytes.
     pub tokens: usize,
     /// Canonical subset that constrains the model.
     pub surface: Subset,
-    /// When a policy begins to run.
+    /// Moment at which a policy starts to run.
     pub start: Start,
 }
 
@@ -55,13 +55,13 @@ impl Default for Settings {
     }
 }
 
-/// Plans by asking a model.
+/// Planner that asks a model.
 pub struct ModelPlanner<'m> {
     model: Box<dyn Model + 'm>,
     listener: Box<dyn ModelObserver + 'm>,
     settings: Settings,
-    /// The rest of the policy of which the first step was given out.
-    later: Option<Later>,
+    /// The rest of a policy whose first step was returned.
+    later: Option<PendingRest>,
     ready: Option<KeptParts>,
 }
 
@@ -74,20 +74,20 @@ struct KeptParts {
     acceptors: AcceptorFactory,
 }
 
-/// StreamReader position in a reply.
-enum Read {
-    /// To its end, or to where this ends it.
+/// Position in a reply up to which it is read.
+enum ReadEnd {
+    /// To the end of the reply or of its policy.
     Ended(StreamVerdict),
-    /// To the end of its first step, which may begin.
+    /// To the end of the first step, if that may start.
     First(Box<Planned>),
 }
 
 /// Result of one round.
-enum Round {
+enum RoundResult {
     Good(Box<Planned>),
-    /// The reply as far as it was read, and what is wrong with it.
+    /// The reply as far as it was read, and its errors.
     Bad(String, Vec<Diagnostic>),
-    /// No whole reply.
+    /// The reply is incomplete.
     Failed(ModelError),
 }
 
@@ -98,7 +98,8 @@ impl<'m> ModelPlanner<'m> {
         Self { model: Box::new(model), listener: Box::new(listener), settings, later: None, ready: None }
     }
 
-    /// Returns the kept parts for a request's session, and rebuilds them after a change of robot or things.
+    /// Returns the kept parts for a request's session, and rebuilds them if the robot or the objects have
+    /// changed.
     fn ready(&mut self, ask: &PlanRequest<'_>) -> KeptParts {
         let signatures = ask.session.signatures();
         let kept = self.ready.take().filter(|kept| Arc::ptr_eq(&kept.signatures, &signatures));
@@ -129,8 +130,8 @@ impl<'m> ModelPlanner<'m> {
             let name = self.model.name();
             self.listener.hear(&ModelEvent::Asked { round, model: &name, chat: &chat });
             match self.round(session, ready, (&chat, &mut goal), round) {
-                Round::Good(planned) => return Ok(*planned),
-                Round::Bad(reply, findings) => {
+                RoundResult::Good(planned) => return Ok(*planned),
+                RoundResult::Bad(reply, findings) => {
                     let words = render::llm(&findings, &Sources::default());
                     self.listener.hear(&ModelEvent::Refused { round, reply: &reply, findings: &words });
                     chat = first.to_vec();
@@ -138,8 +139,8 @@ impl<'m> ModelPlanner<'m> {
                     chat.insert(first.len(), Message::new(Role::Assistant, reply.as_str()));
                     last = PlanError::Refused { text: reply, diagnostics: findings };
                 }
-                Round::Failed(ModelError::Cancelled) => return Err(PlanError::Stopped),
-                Round::Failed(why) => {
+                RoundResult::Failed(ModelError::Cancelled) => return Err(PlanError::Stopped),
+                RoundResult::Failed(why) => {
                     let is_lasting = why.is_lasting();
                     last = PlanError::NoModel { why: format!("{name}: {why}") };
                     if is_lasting {
@@ -157,62 +158,62 @@ impl<'m> ModelPlanner<'m> {
         ready: &KeptParts,
         (chat, goal): (&[Message], &mut Option<Expr>),
         round: u32,
-    ) -> Round {
+    ) -> RoundResult {
         let mut reading = StreamReader::new(session, ready.acceptors.acceptor(POLICY_BYTES));
         let mut reply = match self.model.ask(chat, &ready.grammar) {
             Ok(reply) => reply,
             Err(why) => return self.failed(round, "", why),
         };
         match self.read(&mut reading, &mut *reply, session) {
-            Ok(Read::First(planned)) => {
+            Ok(ReadEnd::First(planned)) => {
                 self.listener.hear(&ModelEvent::Begun { reply: reading.reply() });
-                self.later = Some(Later { reply, reading: reading.into_owned(), round });
-                Round::Good(planned)
+                self.later = Some(PendingRest { reply, reading: reading.into_owned(), round });
+                RoundResult::Good(planned)
             }
-            Ok(Read::Ended(StreamVerdict::Wrong(Wrong { at, findings }))) => {
+            Ok(ReadEnd::Ended(StreamVerdict::Wrong(Wrong { at, findings }))) => {
                 self.listener.hear(&ModelEvent::Stopped { at });
-                Round::Bad(reading.reply().to_owned(), findings)
+                RoundResult::Bad(reading.reply().to_owned(), findings)
             }
-            Ok(Read::Ended(verdict)) => {
+            Ok(ReadEnd::Ended(verdict)) => {
                 let whole = if verdict == StreamVerdict::Whole { reading.policy() } else { reading.reply() };
                 match judge(session, whole) {
                     ReplyVerdict::Good { planned, mended, changed } => {
                         // Other steps than were written are the model's to write, as long as it may.
                         if !changed.is_empty() && round < self.settings.repairs {
-                            return Round::Bad(reading.reply().to_owned(), changed);
+                            return RoundResult::Bad(reading.reply().to_owned(), changed);
                         }
                         // A model is told once that this is not what was asked for; it may know better what
                         // was meant.
                         let wanted = goal.take().filter(|_| round < self.settings.repairs);
-                        let findings = wanted.map(|goal| goal_check::missed(session, &planned, &goal));
+                        let findings = wanted.map(|goal| reply_verdict::missed(session, &planned, &goal));
                         if let Some(findings) = findings.filter(|findings| !findings.is_empty()) {
-                            return Round::Bad(reading.reply().to_owned(), findings);
+                            return RoundResult::Bad(reading.reply().to_owned(), findings);
                         }
                         if !mended.is_empty() {
                             self.listener.hear(&ModelEvent::Mended { titles: &mended });
                         }
                         self.listener.hear(&ModelEvent::Taken { round, reply: reading.reply() });
-                        Round::Good(planned)
+                        RoundResult::Good(planned)
                     }
-                    ReplyVerdict::Bad { findings } => Round::Bad(reading.reply().to_owned(), findings),
+                    ReplyVerdict::Bad { findings } => RoundResult::Bad(reading.reply().to_owned(), findings),
                 }
             }
             Err(why) => self.failed(round, reading.reply(), why),
         }
     }
 
-    fn failed(&mut self, round: u32, reply: &str, why: ModelError) -> Round {
+    fn failed(&mut self, round: u32, reply: &str, why: ModelError) -> RoundResult {
         self.listener.hear(&ModelEvent::Failed { round, reply, why: &why });
-        Round::Failed(why)
+        RoundResult::Failed(why)
     }
 
-    /// Reads until the reply is complete, wrong, or ends. To return is to hang up.
+    /// Reads until the reply is complete, wrong, or ends. Returning closes the connection.
     fn read(
         &mut self,
         reading: &mut StreamReader<'_>,
         reply: &mut dyn Reply,
         session: &Session,
-    ) -> Result<Read, ModelError> {
+    ) -> Result<ReadEnd, ModelError> {
         let mut begins = self.settings.start == Start::FirstStep;
         loop {
             if self.listener.is_stopped() {
@@ -232,16 +233,16 @@ impl<'m> ModelPlanner<'m> {
                         StreamVerdict::Steps(_) if std::mem::take(&mut begins) => {
                             let first = reading.first().and_then(|first| first_step(session, &first));
                             if let Some(planned) = first {
-                                return Ok(Read::First(planned));
+                                return Ok(ReadEnd::First(planned));
                             }
                         }
                         StreamVerdict::GoOn | StreamVerdict::Steps(_) => {}
                         end @ (StreamVerdict::Whole | StreamVerdict::Wrong(_)) => {
-                            return Ok(Read::Ended(end));
+                            return Ok(ReadEnd::Ended(end));
                         }
                     }
                 }
-                News::End(Finish::Stop) => return Ok(Read::Ended(StreamVerdict::GoOn)),
+                News::End(Finish::Stop) => return Ok(ReadEnd::Ended(StreamVerdict::GoOn)),
                 News::End(Finish::Length) => {
                     let why = "it had written as much as it may".to_owned();
                     return Err(ModelError::CutOff { why });
@@ -257,7 +258,7 @@ impl Planner for ModelPlanner<'_> {
         self.later = None;
         let ready = self.ready(ask);
         let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
-        let goal = goal_check::goal(ask.request, ask.situation);
+        let goal = reply_verdict::goal(ask.request, ask.situation);
         let planned = self.rounds(ask.session, &ready, &chat, goal)?;
         let mut spoken_of = ask.situation.spoken_of.clone();
         spoken_of.extend(motet_requests::named(ask.request, ask.situation));
@@ -277,7 +278,7 @@ impl Planner for ModelPlanner<'_> {
         let Ok(reply) = self.model.ask(&chat, &ready.grammar) else { return false };
         let acceptor = ready.acceptors.acceptor(POLICY_BYTES);
         let reading = StreamReader::new(ask.session, acceptor).into_owned();
-        self.later = Some(Later { reply, reading, round: 0 });
+        self.later = Some(PendingRest { reply, reading, round: 0 });
         true
     }
 
@@ -291,21 +292,21 @@ impl Planner for ModelPlanner<'_> {
             let came = later.next(if wait == Wait::ToTheEnd { SLICE } else { Duration::ZERO });
             let (round, reply) = (later.round, later.reading.reply());
             match came {
-                Came::Some(piece) => self.listener.hear(&ModelEvent::Wrote(&piece)),
-                Came::Nothing if wait == Wait::ToTheEnd => {}
-                Came::Nothing => return RemainingSteps::Coming,
-                Came::Whole(policy) => {
+                RestProgress::Some(piece) => self.listener.hear(&ModelEvent::Wrote(&piece)),
+                RestProgress::Nothing if wait == Wait::ToTheEnd => {}
+                RestProgress::Nothing => return RemainingSteps::Coming,
+                RestProgress::Whole(policy) => {
                     self.listener.hear(&ModelEvent::Taken { round, reply });
                     self.later = None;
                     return RemainingSteps::Whole(policy);
                 }
-                Came::Wrong(findings) => {
+                RestProgress::Wrong(findings) => {
                     let findings = render::llm(&findings, &Sources::default());
                     self.listener.hear(&ModelEvent::Refused { round, reply, findings: &findings });
                     self.later = None;
                     return RemainingSteps::Broken;
                 }
-                Came::Failed(why) => {
+                RestProgress::Failed(why) => {
                     self.listener.hear(&ModelEvent::Failed { round, reply, why: &why });
                     self.later = None;
                     return RemainingSteps::Broken;
@@ -323,7 +324,7 @@ pub fn chat(ask: &PlanRequest<'_>, tokens: usize) -> Vec<Message> {
     written(ask, &lasting, (tokens, Duration::ZERO))
 }
 
-/// The same with what is kept, and with what is seen at the moment.
+/// Messages with the kept parts, and with the present sightings.
 fn written(ask: &PlanRequest<'_>, lasting: &StaticPrompt, (tokens, time): (usize, Duration)) -> Vec<Message> {
     let prompt = Prompt {
         session: ask.session,
@@ -341,7 +342,7 @@ fn written(ask: &PlanRequest<'_>, lasting: &StaticPrompt, (tokens, time): (usize
     vec![Message::new(Role::System, written.system), asked]
 }
 
-/// The request, with what was found out that its words mean.
+/// The request, with the resolved meanings of its words.
 fn asked(ask: &PlanRequest<'_>) -> String {
     let mut request = ask.request.to_owned();
     for (said, id) in &ask.situation.meant {
@@ -353,7 +354,8 @@ fn asked(ask: &PlanRequest<'_>) -> String {
 /// Message to the model about a wrong reply.
 fn again(findings: &str) -> String {
     format!(
-        "That policy cannot be carried out:\n{findings}\nAnswer the request again with one whole policy that mends this, \
-         and nothing else."
+        "That policy cannot be carried out:\n{findings}\nAnswer the request again with one whole policy \
+            that mends \
+         this, and nothing else."
     )
 }

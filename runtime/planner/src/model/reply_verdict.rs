@@ -1,16 +1,18 @@
-//! A whole reply: what it is as a policy, after the fixes that are known, or what is wrong with it.
+//! Verdict on a whole reply: its policy after known fixes, or its errors.
 
 use motet_compiler::fix::AppliedFix;
+use motet_compiler::plan::Persistence;
 use motet_compiler::{Session, fix, make_explicit};
-use motet_syntax::ast::{File, Item};
-use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Syntax};
+use motet_requests::RequestContext;
+use motet_syntax::ast::{Expr, ExprKind, File, Item};
+use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
 
 use crate::builtin::Planned;
 
-/// The most fixes to one reply.
+/// Maximum number of fixes to one reply.
 const MOST_FIXES: usize = 8;
 
-/// StreamVerdict on a reply.
+/// Verdict on a reply.
 #[derive(Clone, Debug)]
 pub enum ReplyVerdict {
     /// The reply holds a policy that passes the check.
@@ -29,9 +31,8 @@ pub enum ReplyVerdict {
     },
 }
 
-/// Judges a reply. It may have prose, thoughts or a fence around the policy, which may be in either form.
-/// What else it
-/// declares is left out, or a reply could say of its own steps what they need.
+/// Judges a reply. It may have prose, thoughts or a fence around the policy, and be in either syntax. Other
+/// declarations are dropped, so that a reply cannot change the contracts of its steps.
 #[must_use]
 pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
     let document = without_thoughts(reply);
@@ -74,7 +75,7 @@ fn is_spelling(fix: &AppliedFix) -> bool {
     ["M01", "M02", "M03"].iter().any(|stage| fix.code.0.starts_with(stage))
 }
 
-/// A document after known fixes, and these; none where errors are left.
+/// A document after known fixes, with these fixes; `None` if errors remain.
 pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<AppliedFix>)> {
     let source = Source::new(name(document), document);
     let fixed = fix::fix(session, &source, FileId(0), MOST_FIXES);
@@ -102,4 +103,32 @@ fn without_thoughts(reply: &str) -> &str {
         return reply;
     }
     reply.split_once("</think>").map_or("", |(_, rest)| rest)
+}
+
+/// Goal of a request that does not depend on a condition. `None` if the request cannot be read.
+pub(super) fn goal(request: &str, situation: &RequestContext<'_>) -> Option<Expr> {
+    let understood = motet_requests::understand(request, situation).ok()?;
+    if understood.aims.iter().any(|aim| aim.only_if.is_some()) {
+        return None;
+    }
+    let lasting = understood.aims.into_iter().filter(|aim| aim.goal.persistence == Persistence::ToTheEnd);
+    let mut parts: Vec<Expr> = lasting.map(|aim| aim.goal.condition).collect();
+    if parts.len() < 2 {
+        return parts.pop();
+    }
+    Some(Expr { kind: ExprKind::All(parts), span: Span::default() })
+}
+
+/// Errors of a policy that passes the check and cannot reach the goal of the request.
+pub(super) fn missed(session: &Session, planned: &Planned, goal: &Expr) -> Vec<Diagnostic> {
+    let mut file = File { items: planned.parsed.file.items.clone() };
+    for item in &mut file.items {
+        if let Item::Policy(policy) = item {
+            policy.achieves = Some(goal.clone());
+        }
+    }
+    let text = print::text(&file);
+    let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
+    // Only what the goal adds is of interest: the policy alone has no error.
+    errors(session.compile(&parsed, None).diagnostics)
 }

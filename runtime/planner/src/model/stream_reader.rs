@@ -1,12 +1,9 @@
-//! A reply that is read as it arrives, and stopped where it is wrong.
+//! Reader of a reply as it arrives, which stops at the first error.
 //!
-//! As long as it is written like the model surface the acceptor follows it byte by byte. Where it leaves
-//! the surface it may
-//! be wrong, or only spelt otherwise: the checker is asked as soon as the value, or else the object, is
-//! complete in which
-//! that happened. Each step of the policy's own is checked with the steps before it once it is complete,
-//! motions included.
-//! What a known fix mends is no reason to stop.
+//! While the reply stays in the canonical subset, the acceptor follows it byte by byte. After it leaves the
+//! subset, it may be wrong or only spelt differently: the checker decides as soon as the surrounding value
+//! or object is complete. Each top-level step is checked with the steps before it as soon as it is complete,
+//! motions included. A mistake with a known fix does not stop the reply.
 
 use std::borrow::Cow;
 
@@ -15,10 +12,8 @@ use motet_decode::Acceptor;
 use motet_syntax::Diagnostic;
 
 use super::reply_verdict::{errors, mend, read};
-use super::scanner::{Mark, Scan};
 
-/// Behind the steps so far, where a policy is checked that is not complete: what it leaves undone is not
-/// held against it.
+/// End of an incomplete policy during a check: no goal is missed and nothing is left undone.
 const UNFINISHED: &str = r#"{"end":"fail","why":"unfinished"}"#;
 
 /// Steps whose body may run again, or beside another.
@@ -28,9 +23,9 @@ const COMING_BACK: &[&str] = &["\"repeat\"", "\"each\"", "\"react\"", "\"paralle
 #[derive(Debug)]
 pub struct StreamReader<'s> {
     session: Cow<'s, Session>,
-    /// As long as the reply keeps to the model surface.
+    /// Acceptor, while the reply stays in the canonical subset.
     acceptor: Option<Acceptor>,
-    scan: Scan,
+    scan: Scanner,
     reply: String,
     /// Place where the reply left the canonical subset, until the reason is known.
     suspect: Option<Suspect>,
@@ -55,30 +50,30 @@ struct Suspect {
 /// State of a reply after one more piece.
 #[derive(Clone, PartialEq, Debug)]
 pub enum StreamVerdict {
-    /// Nothing speaks against it so far.
+    /// No error so far.
     GoOn,
-    /// The same, and this many of its steps are complete and checked.
+    /// No error so far, and this many top-level steps are complete and checked.
     Steps(usize),
-    /// Its policy is complete; what may follow it says nothing.
+    /// The policy is complete; any further text is ignored.
     Whole,
-    /// It is wrong whatever follows.
+    /// The reply is wrong, whatever follows.
     Wrong(Wrong),
 }
 
 /// Reason to stop a reply.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Wrong {
-    /// The first byte of the reply that is wrong.
+    /// First wrong byte of the reply.
     pub at: usize,
     /// Errors that stopped the reply.
     pub findings: Vec<Diagnostic>,
 }
 
 impl<'s> StreamReader<'s> {
-    /// Begins to read a reply: the acceptor is that of the session, or none.
+    /// Starts to read a reply, with the session's acceptor or none.
     #[must_use]
     pub fn new(session: &'s Session, acceptor: Option<Acceptor>) -> Self {
-        let (scan, reply) = (Scan::default(), String::new());
+        let (scan, reply) = (Scanner::default(), String::new());
         Self {
             session: Cow::Borrowed(session),
             acceptor,
@@ -91,7 +86,7 @@ impl<'s> StreamReader<'s> {
         }
     }
 
-    /// The same with a session of its own. Costs a copy of the session.
+    /// The same reader with its own copy of the session.
     #[must_use]
     pub fn into_owned(self) -> StreamReader<'static> {
         let session = Cow::Owned(self.session.into_owned());
@@ -112,20 +107,20 @@ impl<'s> StreamReader<'s> {
         &self.reply
     }
 
-    /// The policy as far as it has come, on one line; empty where the reply is in the text form.
+    /// The policy so far, on one line; empty if the reply is in the text syntax.
     #[must_use]
     pub fn policy(&self) -> &str {
         &self.scan.text
     }
 
-    /// Takes a piece in. What stands in it behind a verdict that ends the reading is not read.
+    /// Takes a piece of the reply. After a verdict that ends the reading the rest of the piece is ignored.
     pub fn push(&mut self, piece: &str) -> StreamVerdict {
         let mut verdict = StreamVerdict::GoOn;
         for letter in piece.chars() {
             let at = self.reply.len();
             self.reply.push(letter);
             let mark = self.scan.push(letter);
-            if mark == Mark::Nothing {
+            if mark == CharEffect::Nothing {
                 continue;
             }
             self.follow(letter, at);
@@ -149,16 +144,16 @@ impl<'s> StreamReader<'s> {
         }
     }
 
-    fn judge(&mut self, mark: Mark) -> StreamVerdict {
+    fn judge(&mut self, mark: CharEffect) -> StreamVerdict {
         match mark {
-            Mark::Nothing | Mark::Kept => StreamVerdict::GoOn,
-            Mark::End => StreamVerdict::Whole,
-            Mark::StepEnd => self.step(),
-            Mark::StringEnd { from } => match self.suspect {
+            CharEffect::Nothing | CharEffect::Kept => StreamVerdict::GoOn,
+            CharEffect::End => StreamVerdict::Whole,
+            CharEffect::StepEnd => self.step(),
+            CharEffect::StringEnd { from } => match self.suspect {
                 Some(suspect) if suspect.string == Some(from) => self.ask(suspect, from),
                 _ => StreamVerdict::GoOn,
             },
-            Mark::Closed { from } => match self.suspect {
+            CharEffect::Closed { from } => match self.suspect {
                 Some(suspect) if suspect.object == from => {
                     let verdict = self.ask(suspect, from);
                     self.suspect = None;
@@ -169,9 +164,8 @@ impl<'s> StreamReader<'s> {
         }
     }
 
-    /// Asks the checker about what began at `from` and is complete now. What is found elsewhere is found
-    /// because the rest
-    /// is missing.
+    /// Asks the checker about the value that began at `from` and is complete now. Errors elsewhere come from
+    /// the missing rest and are ignored.
     fn ask(&mut self, suspect: Suspect, from: usize) -> StreamVerdict {
         let text = self.closed();
         let to = self.scan.text.len();
@@ -189,7 +183,7 @@ impl<'s> StreamReader<'s> {
         StreamVerdict::Wrong(Wrong { at: suspect.at, findings: found })
     }
 
-    /// The policy so far with all that is open closed. Of one without steps nothing would be said.
+    /// The policy so far with all open brackets closed; `None` without steps.
     fn closed(&self) -> String {
         let (text, closers) = (&self.scan.text, self.scan.closers());
         match closers.strip_suffix('}') {
@@ -200,7 +194,7 @@ impl<'s> StreamReader<'s> {
         }
     }
 
-    /// A step is complete: it is checked with those before it.
+    /// Checks a complete step with the steps before it.
     fn step(&mut self) -> StreamVerdict {
         self.steps += 1;
         let to = self.scan.text.len();
@@ -224,14 +218,196 @@ impl<'s> StreamReader<'s> {
         StreamVerdict::Wrong(Wrong { at, findings: found })
     }
 
-    /// The byte of the reply at which a byte of the scanned text stood. O(reply).
+    /// Byte of the reply that became a byte of the scanned text. O(reply).
     fn in_reply(&self, byte: usize) -> usize {
-        let mut scan = Scan::default();
+        let mut scan = Scanner::default();
         for (at, letter) in self.reply.char_indices() {
-            if scan.push(letter) != Mark::Nothing && scan.text.len() > byte {
+            if scan.push(letter) != CharEffect::Nothing && scan.text.len() > byte {
                 return at;
             }
         }
         self.reply.len()
+    }
+}
+
+/// Effect of one character of a reply.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum CharEffect {
+    /// Outside of the object, or white space between its parts.
+    Nothing,
+    /// One more character of the object.
+    Kept,
+    /// End of a string that began at this byte.
+    StringEnd {
+        /// Offset of the opening quote.
+        from: usize,
+    },
+    /// End of an object or an array that began at this byte.
+    Closed {
+        /// Offset of the opening bracket.
+        from: usize,
+    },
+    /// End of a top-level step.
+    StepEnd,
+    /// End of the whole object.
+    End,
+}
+
+/// Text before the object, reduced to the parts that decide its meaning.
+#[derive(Clone, Debug, Default)]
+struct Preamble {
+    head: String,
+    /// Beginning of the current line.
+    line: String,
+    /// End of the text, while it is inside a thought.
+    tail: String,
+    is_thought: bool,
+}
+
+const THINKS: &str = "<think>";
+const HAS_THOUGHT: &str = "</think>";
+
+impl Preamble {
+    /// Takes a character. Returns `false` inside a thought.
+    fn push(&mut self, letter: char) -> bool {
+        if self.is_thought {
+            self.tail.push(letter);
+            if !HAS_THOUGHT.starts_with(&self.tail) {
+                self.tail.clear();
+                self.tail.extend((letter == '<').then_some(letter));
+            }
+            self.is_thought = self.tail != HAS_THOUGHT;
+            return false;
+        }
+        if self.head.len() < THINKS.len() && !(self.head.is_empty() && letter.is_whitespace()) {
+            self.head.push(letter);
+            self.is_thought = self.head == THINKS;
+        }
+        if letter == '\n' {
+            self.line.clear();
+        } else if self.line.len() < 16 && !(self.line.is_empty() && letter.is_whitespace()) {
+            self.line.push(letter);
+        }
+        true
+    }
+}
+
+/// Scanner of the object. All offsets are in [`Scanner::text`].
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scanner {
+    /// The object so far, without white space between its parts.
+    pub(super) text: String,
+    before: Preamble,
+    /// Open brackets: the closing character and the offset of the opening one.
+    open: Vec<(char, usize)>,
+    string: Option<usize>,
+    is_escaped: bool,
+    /// The last string among the object's own keys and values.
+    key: String,
+    in_steps: bool,
+    /// Offset of the steps, after the bracket.
+    pub(super) steps_from: Option<usize>,
+    is_over: bool,
+    /// Is `true` if the reply is in the text syntax, which is not scanned.
+    is_text: bool,
+}
+
+impl Scanner {
+    /// Takes a character.
+    pub(super) fn push(&mut self, letter: char) -> CharEffect {
+        if self.is_over || self.is_text {
+            return CharEffect::Nothing;
+        }
+        if self.open.is_empty() {
+            return self.begin(letter);
+        }
+        if let Some(from) = self.string {
+            self.text.push(letter);
+            return self.in_string(letter, from);
+        }
+        if letter.is_ascii_whitespace() {
+            return CharEffect::Nothing;
+        }
+        let at = self.text.len();
+        self.text.push(letter);
+        match letter {
+            '"' => self.string = Some(at),
+            '{' => self.open.push(('}', at)),
+            '[' => {
+                if self.open.len() == 1 && self.key == "steps" {
+                    (self.in_steps, self.steps_from) = (true, Some(at + 1));
+                }
+                self.open.push((']', at));
+            }
+            '}' | ']' => return self.close(letter),
+            _ => {}
+        }
+        CharEffect::Kept
+    }
+
+    /// Text that would close everything open.
+    pub(super) fn closers(&self) -> String {
+        self.open.iter().rev().map(|(closer, _)| *closer).collect()
+    }
+
+    /// Offset of the innermost open bracket.
+    pub(super) fn innermost(&self) -> usize {
+        self.open.last().map_or(0, |(_, from)| *from)
+    }
+
+    /// Offset of the open string.
+    pub(super) fn string_from(&self) -> Option<usize> {
+        self.string
+    }
+
+    fn begin(&mut self, letter: char) -> CharEffect {
+        if !self.before.push(letter) || letter != '{' {
+            return CharEffect::Nothing;
+        }
+        if self.before.line.starts_with("policy ") {
+            self.is_text = true;
+            return CharEffect::Nothing;
+        }
+        self.open.push(('}', 0));
+        self.text.push(letter);
+        CharEffect::Kept
+    }
+
+    fn in_string(&mut self, letter: char, from: usize) -> CharEffect {
+        if std::mem::take(&mut self.is_escaped) {
+            return CharEffect::Kept;
+        }
+        match letter {
+            '\\' => self.is_escaped = true,
+            '"' => {
+                self.string = None;
+                if self.open.len() == 1 {
+                    let string = self.text.get(from + 1..self.text.len() - 1);
+                    self.key = string.unwrap_or_default().to_owned();
+                }
+                return CharEffect::StringEnd { from };
+            }
+            _ => {}
+        }
+        CharEffect::Kept
+    }
+
+    fn close(&mut self, letter: char) -> CharEffect {
+        // A bracket that closes something else is left to the reader of JSON.
+        let Some((_, from)) = self.open.pop_if(|(closer, _)| *closer == letter) else {
+            return CharEffect::Kept;
+        };
+        match self.open.len() {
+            0 => {
+                self.is_over = true;
+                CharEffect::End
+            }
+            1 => {
+                self.in_steps = false;
+                CharEffect::Closed { from }
+            }
+            2 if self.in_steps => CharEffect::StepEnd,
+            _ => CharEffect::Closed { from },
+        }
     }
 }

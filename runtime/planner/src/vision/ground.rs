@@ -1,40 +1,40 @@
-//! Grounding of a point on a thing by a model that sees: its answer `{"point": [u, v]}` in pixels, lifted by
-//! the depth image and the camera's pose to a pose in the frame `map`.
+//! Grounding of a point on an object by a vision-language model: its answer `{"point": [u, v]}` in pixels,
+//! lifted by the depth image and the camera's pose to a pose in the frame `map`.
 
 use motet_graph::Pose;
 use motet_runtime::{CameraImage, CameraModel, DepthImage, RgbdView};
 use thiserror::Error;
 
-/// The longest answer that is read, in bytes: a point takes twenty.
+/// Maximum length of an answer, in bytes: a point takes twenty.
 const MAX_REPLY: usize = 4_096;
 /// Radius in pixels of the search for a depth value, since depth cameras leave holes along edges.
 const NEIGHBOURHOOD: i64 = 3;
-/// The depth that a camera of a robot can tell, in m.
+/// Range of depth that a robot's camera can measure, in m.
 const RANGE_M: std::ops::RangeInclusive<f64> = 0.05..=20.0;
 
-/// Answers questions for a point of an image: a model, or somebody with a mouse.
+/// Source of image points: a model, or a person with a mouse.
 pub trait Pointer {
-    /// The answer as it is written, however wrong.
+    /// The answer as written, however wrong.
     ///
     /// # Errors
     ///
-    /// Why there is none.
+    /// The reason why there is none.
     fn ask(&mut self, image: &CameraImage, question: &str) -> Result<String, String>;
 }
 
-/// Reasons for which there is no point.
+/// Reasons why there is no point.
 #[derive(Error, Clone, PartialEq, Debug)]
 pub enum NoPoint {
-    /// No camera sees what is asked about.
+    /// No camera sees the object.
     #[error("no camera sees it")]
     Unseen,
     /// The model gave no answer.
     #[error("no answer: {0}")]
     Silent(String),
-    /// The answer is no point.
+    /// The answer is not a point.
     #[error("the answer is no point: {0}")]
     Unreadable(&'static str),
-    /// It names more than one point.
+    /// The answer names several points.
     #[error("the answer has several points")]
     Several,
     /// The point is not in the image.
@@ -49,7 +49,7 @@ pub enum NoPoint {
 }
 
 impl NoPoint {
-    /// The failure of `ground` that it is: what is meant is not clear, or was not found.
+    /// Failure of `ground` for this reason.
     #[must_use]
     pub const fn failure(&self) -> &'static str {
         match self {
@@ -60,11 +60,12 @@ impl NoPoint {
     }
 }
 
-/// Asks where on an object to act for a use, and gives the pose: at the point, turned as the camera is.
+/// Asks where to act on an object for a purpose. Returns the pose at the point, with the camera's
+/// orientation.
 ///
 /// # Errors
 ///
-/// What is wrong with the answer, the depth or the camera.
+/// The mistake in the answer, the depth image or the camera.
 pub fn ground(
     pointer: &mut dyn Pointer,
     view: &RgbdView,
@@ -72,19 +73,26 @@ pub fn ground(
     used_for: &str,
 ) -> Result<Pose, NoPoint> {
     let question = format!(
-        "The image has {} x {} pixels. Where on the {object} is {used_for}? Answer with one point in pixels from the top \
-         left corner, as JSON and nothing else: {{\"point\": [u, v]}}",
+        "The image has {} x {} pixels. Where on the {object} is {used_for}? Answer with one point in pixels \
+            from \
+         the top left corner, as JSON and nothing else: {{\"point\": [u, v]}}",
         view.depth.width, view.depth.height
     );
     let reply = pointer.ask(&view.image, &question).map_err(NoPoint::Silent)?;
     lift(point(&reply)?, &view.depth, &view.camera)
 }
 
-/// Reads `{"point": [u, v]}`, also with a sentence or a fence around it, as models write it.
+/// Reads `{"point": [u, v]}`, with any sentence or fence around it.
+///
+/// ```
+/// use motet_planner::vision::point;
+///
+/// assert_eq!(point("The handle: {\"point\": [310, 95]}"), Ok([310.0, 95.0]));
+/// ```
 ///
 /// # Errors
 ///
-/// Where it is no such object, has more or fewer than two numbers, one that is not finite, or two different
+/// The answer has no such object, has more or fewer than two numbers, an infinite number, or two different
 /// points.
 pub fn point(reply: &str) -> Result<[f64; 2], NoPoint> {
     if reply.len() > MAX_REPLY {
@@ -115,14 +123,12 @@ pub fn point(reply: &str) -> Result<[f64; 2], NoPoint> {
 }
 
 /// Lifts a point of an image to a pose in the frame `map`: `map_from_point = map_from_camera *
-/// camera_from_point`, where the
-/// point lies at `((u - cx) / fx, (v - cy) / fy, 1) * depth` before the camera. Where the pixel has no
-/// depth, the median of
-/// its neighbourhood counts.
+/// camera_from_point`, with the point at `((u - cx) / fx, (v - cy) / fy, 1) * depth` in front of the camera.
+/// If the pixel has no depth, the median of its neighbourhood counts.
 ///
 /// # Errors
 ///
-/// A point outside of the image, no depth about it, or a camera with numbers that no camera has.
+/// A point outside of the image, no depth near it, or an invalid camera.
 pub fn lift([u, v]: [f64; 2], depth: &DepthImage, camera: &CameraModel) -> Result<Pose, NoPoint> {
     let (width, height) = (depth.width, depth.height);
     if depth.millimetres.len() != width.saturating_mul(height) {
@@ -154,7 +160,7 @@ pub fn lift([u, v]: [f64; 2], depth: &DepthImage, camera: &CameraModel) -> Resul
     Ok(Pose { xyz: lifted, quaternion })
 }
 
-/// The depth at a pixel in m, else the median about it.
+/// Depth at a pixel in m, or the median of its neighbourhood.
 fn depth_at(depth: &DepthImage, u: i64, v: i64) -> Option<f64> {
     let at = |u: i64, v: i64| {
         let (column, row) = (usize::try_from(u).ok()?, usize::try_from(v).ok()?);

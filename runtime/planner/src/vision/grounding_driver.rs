@@ -1,6 +1,5 @@
-//! A driver whose `ground` asks a model. The question goes out on a thread of its own: engine and world go
-//! on meanwhile,
-//! and the world's time runs no faster than the clock as long as an answer is awaited.
+//! Driver whose `ground` asks a model. The question runs on a thread of its own: the engine and the
+//! simulation continue, and simulated time is no faster than the clock while an answer is awaited.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
@@ -18,24 +17,23 @@ use smol_str::SmolStr;
 use super::ground::{NoPoint, Pointer, ground};
 use crate::dialogue::called;
 
-/// Primitive that is answered here and not by the driver.
+/// Primitive that this driver answers itself.
 const GROUND: &str = "ground";
-/// Waiting time for an answer before the world advances.
+/// Waiting time for an answer before the simulation advances.
 const SLICE: Duration = Duration::from_millis(5);
 
-/// A question for a point that was answered, or not.
+/// Result of a question for a point.
 #[derive(Clone, Copy, Debug)]
 pub struct GroundedPoint<'a> {
     pub object: &'a SmolStr,
     /// Purpose of the point.
     pub used_for: &'a SmolStr,
-    /// The pose, or why there is none.
+    /// The pose, or the reason why there is none.
     pub found: &'a Result<Pose, NoPoint>,
 }
 
-/// A driver beside somebody who is asked for points. It keeps the laws of the driver within, with this
-/// exception to the
-/// sixth: when an answer comes only its giver knows.
+/// Driver with a pointer beside it. It keeps the laws of the inner driver, with one exception to the sixth:
+/// the time of an answer depends on the pointer.
 pub struct GroundingDriver<'d> {
     driver: &'d mut dyn Driver,
     eyes: &'d mut dyn Perception,
@@ -45,7 +43,7 @@ pub struct GroundingDriver<'d> {
     answers: Receiver<(u64, Result<Pose, NoPoint>)>,
     /// Open questions by goal.
     asked: BTreeMap<GoalId, Asked>,
-    /// The goals that were never the driver's.
+    /// Goals that the inner driver never saw.
     own: BTreeSet<GoalId>,
     /// Number of questions so far.
     count: u64,
@@ -53,7 +51,7 @@ pub struct GroundingDriver<'d> {
     now: Time,
 }
 
-/// A question on its way.
+/// A question in transit.
 struct Question {
     number: u64,
     view: RgbdView,
@@ -67,7 +65,7 @@ struct Asked {
     number: u64,
     object: SmolStr,
     used_for: SmolStr,
-    /// When it was asked, by the world and by the clock.
+    /// Times of the question, in the simulation and by the clock.
     at: Time,
     clock: Instant,
     is_wanted: Arc<AtomicBool>,
@@ -80,9 +78,8 @@ impl Drop for Asked {
 }
 
 impl<'d> GroundingDriver<'d> {
-    /// Puts somebody who points beside a driver. The thread on which they are asked ends after this, once
-    /// its last question
-    /// is answered.
+    /// Puts a pointer beside a driver. The pointer's thread ends after the driver, once its last question is
+    /// answered.
     #[must_use]
     pub fn new(
         driver: &'d mut dyn Driver,
@@ -119,13 +116,13 @@ impl<'d> GroundingDriver<'d> {
         }
     }
 
-    /// Tells somebody what becomes of each question that was waited for.
+    /// Adds a listener for the result of each awaited question.
     #[must_use]
     pub fn with_listener(self, listener: impl FnMut(GroundedPoint<'_>) + 'd) -> Self {
         Self { listener: Box::new(listener), ..self }
     }
 
-    /// Sends a question out; false where there is nothing to ask about.
+    /// Sends a question. Returns `false` if there is no object to ask about.
     fn ask(&mut self, now: Time, goal: GoalId, command: &Command) -> bool {
         let (Some(Value::Entity(object)), Some(Value::Text(used_for))) =
             (command.arg("object"), command.arg("use"))
@@ -156,7 +153,7 @@ impl<'d> GroundingDriver<'d> {
         self.outbox.push_back((at, DriverEvent::Ended { goal, outcome }));
     }
 
-    /// Takes an answer in. One that nobody waits for any more is dropped.
+    /// Takes an answer. An answer that is no longer awaited is dropped.
     fn take(&mut self, number: u64, found: Result<Pose, NoPoint>) {
         let waiting = self.asked.iter().find(|(_, asked)| asked.number == number);
         let Some((goal, asked)) = waiting.map(|(goal, asked)| (*goal, asked)) else { return };
@@ -177,7 +174,7 @@ impl<'d> GroundingDriver<'d> {
         Some((self.now, event))
     }
 
-    /// Lets the driver go on.
+    /// Lets the inner driver advance.
     fn forward(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
         let event = self.driver.advance(until);
         let reached = event.as_ref().map_or(until, |(at, _)| *at);
@@ -189,7 +186,7 @@ impl<'d> GroundingDriver<'d> {
 }
 
 impl Asked {
-    /// Time that the world may have reached: as much later than the question as the clock is.
+    /// Latest permitted time of the simulation: as much after the question as the clock.
     fn due(&self) -> Time {
         Time::from_secs(self.at.secs() + self.clock.elapsed().as_secs_f64())
     }

@@ -1,19 +1,67 @@
-//! The world as it is known: as a scene, as a state, as the start of a run, and as requests are understood
-//! in it.
+//! Knowledge between two policies: the beliefs at the end of a run, and statements of people. The scene and
+//! the state of the next check, and the start of the next run, come from it.
 
 use indexmap::IndexMap;
-use motet_compiler::{InitialState, Session};
-use motet_graph::Value;
+use motet_compiler::{InitialFact, InitialState, Session};
+use motet_graph::{Graph, Value};
+use motet_requests::{ReportedLocation, RequestContext};
 use motet_robots::scene::Scene;
-use motet_runtime::{Pattern, Query, StartState, Truth};
+use motet_runtime::{Engine, Pattern, Query, Snapshot, StartState, Truth};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
-use super::{Knowledge, query};
-use motet_requests::{ReportedLocation, RequestContext};
+/// Knowledge beyond a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Knowledge {
+    /// Facts in order: a later fact wins, and a fact with `any` is about every entity.
+    facts: Vec<(Query, Truth)>,
+    some: Vec<Query>,
+    /// Entities that were mentioned, the latest last.
+    pub(super) spoken_of: Vec<SmolStr>,
+    /// Earlier locations of moved things, the latest last.
+    came_from: Vec<(SmolStr, SmolStr)>,
+}
 
 impl Knowledge {
-    /// Knowledge locations of objects.
+    /// Returns `true` if nothing is known beyond the scene.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.facts.is_empty()
+    }
+
+    /// Takes over the beliefs at the end of a run. Earlier knowledge stays if the graph has no fluent for
+    /// it. Facts of the scene, as the session was `given` it, are dropped if they are no longer believed.
+    pub fn learn(&mut self, engine: &Engine, given: &Session) {
+        self.take(engine.snapshot(), engine.graph(), given);
+    }
+
+    /// Takes over the beliefs in the middle of a run, for a policy that is to take over. Facts that running
+    /// steps change become unknown.
+    pub fn learn_midway(&mut self, engine: &Engine, given: &Session) {
+        self.take(engine.interrupted(), engine.graph(), given);
+    }
+
+    fn take(&mut self, snapshot: Snapshot, graph: &Graph, given: &Session) {
+        let speaks = |query: &Query| match query {
+            Query::Fact { fluent, .. } => graph.fluents.iter().any(|known| known.name == *fluent),
+            Query::Measure { .. } | Query::Field { .. } => true,
+        };
+        self.facts.retain(|(query, _)| !speaks(query));
+        let said = given.initial_facts().map(|given| (query(given), Truth::Unknown));
+        self.facts.extend(said.filter(|(query, _)| speaks(query)));
+        self.facts.extend(snapshot.facts);
+        self.some.retain(|query| !speaks(query));
+        self.some.extend(snapshot.some);
+    }
+}
+
+fn query(given: InitialFact) -> Query {
+    let args = given.args.into_iter().map(|arg| arg.map_or(Pattern::Any, Pattern::Is));
+    Query::Fact { fluent: given.fluent, args: args.collect() }
+}
+
+impl Knowledge {
+    /// Known locations of objects.
     #[must_use]
     pub fn places(&self, scene: &Scene) -> Vec<ReportedLocation> {
         let told = self.situation(scene).supports;
@@ -31,7 +79,7 @@ impl Knowledge {
         places.collect()
     }
 
-    /// The scene without what is known otherwise, or no longer.
+    /// The scene without the facts that are known to be different or are no longer known.
     #[must_use]
     pub fn scene(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
@@ -69,10 +117,8 @@ impl Knowledge {
         scene
     }
 
-    /// The scene as it is now, as motions are looked for in it, with the base where it stands (x, y,
-    /// heading in the frame
-    /// `map`); none where it is not known where some object is, which could then stand in the way of
-    /// anything.
+    /// The scene at present, for motion searches, with the base at a pose (x, y, heading in the frame
+    /// `map`). `None` if the place of some object is unknown, since it could block any motion.
     #[must_use]
     pub fn placed(&self, scene: &Scene, base: [f64; 3]) -> Option<Scene> {
         let situation = self.situation(scene);
@@ -107,7 +153,7 @@ impl Knowledge {
         Some(placed)
     }
 
-    /// Objects that are known to be elsewhere than where the scene has them, or not known to be there.
+    /// Objects that are known to be elsewhere than in the scene, or not known to be there.
     fn moved(&self, stripped: &Scene) -> Vec<SmolStr> {
         let fixed = |id: &SmolStr| stripped.entities.get(id).is_none_or(|entity| entity.kind != "Object");
         let mut moved: Vec<SmolStr> = Vec::new();
@@ -124,7 +170,7 @@ impl Knowledge {
         moved
     }
 
-    /// The facts as the compiler takes them; of what is no longer known it is told just that.
+    /// Facts in the form of the compiler; facts that are no longer known are explicitly unknown.
     #[must_use]
     pub fn state(&self) -> InitialState {
         let mut facts: IndexMap<String, (Option<bool>, Span)> = IndexMap::new();
@@ -178,7 +224,7 @@ impl Knowledge {
         held
     }
 
-    /// The situation in which a request is understood.
+    /// Context in which a request is read.
     #[must_use]
     pub fn situation<'s>(&self, scene: &'s Scene) -> RequestContext<'s> {
         let mut supports: IndexMap<SmolStr, Option<SmolStr>> = IndexMap::new();
@@ -213,7 +259,7 @@ impl Knowledge {
     }
 }
 
-/// A fact as a state file has it; none where an argument is no name.
+/// A fact in the form of a state file; `None` if an argument is not a name.
 fn text(query: &Query) -> Option<String> {
     let Query::Fact { fluent, args } = query else { return None };
     let args = args.iter().map(|arg| match arg {
@@ -222,4 +268,101 @@ fn text(query: &Query) -> Option<String> {
         Pattern::Is(_) => None,
     });
     Some(format!("{}({})", print::identifier(fluent), args.collect::<Option<Vec<_>>>()?.join(", ")))
+}
+
+impl Knowledge {
+    /// Presumes after a failed step that the object is where it was before, until somebody looks: a hand
+    /// that slipped left it there. The next plan looks before it picks.
+    pub fn presume(&mut self, before: &[ReportedLocation]) {
+        for known in before {
+            let thing = Pattern::Is(Value::Entity(known.thing.clone()));
+            let mut about = self.facts.iter().rev().filter_map(|(query, truth)| match query {
+                Query::Fact { fluent, args } if fluent == "at" && args.first() == Some(&thing) => {
+                    Some(*truth)
+                }
+                _ => None,
+            });
+            if about.next() != Some(Truth::Unknown) {
+                continue;
+            }
+            let place = Pattern::Is(Value::Entity(known.place.clone()));
+            for fluent in ["on", "in", "at"] {
+                let args = vec![thing.clone(), Pattern::Any];
+                self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::False));
+            }
+            for fluent in [known.relation, "at"] {
+                let args = vec![thing.clone(), place.clone()];
+                self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::True));
+            }
+        }
+    }
+
+    /// Takes in the robot's answers about itself: a held object is nowhere else, and the robot is at one
+    /// place.
+    pub fn notice(&mut self, felt: &[(Query, Truth)]) {
+        let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
+        let stands = |query: &Query| match query {
+            Query::Fact { fluent, args } => fluent == "at" && args.first() == Some(&robot),
+            Query::Measure { .. } | Query::Field { .. } => false,
+        };
+        if felt.iter().any(|(query, _)| stands(query)) {
+            let args = vec![robot.clone(), Pattern::Any];
+            self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::False));
+        }
+        for (query, truth) in felt {
+            let Query::Fact { fluent, args } = query else { continue };
+            // That it is nowhere else was said above.
+            if stands(query) && *truth != Truth::True {
+                continue;
+            }
+            if let ("holding", Truth::True, Some(thing)) = (fluent.as_str(), truth, args.first()) {
+                for place in ["on", "in", "at"] {
+                    let args = vec![thing.clone(), Pattern::Any];
+                    self.facts.push((Query::Fact { fluent: place.into(), args }, Truth::False));
+                }
+            }
+            self.facts.push((query.clone(), *truth));
+        }
+    }
+
+    /// Forgets the robot's place at an entity, since something could not be reached from there.
+    pub fn doubt_standing(&mut self) {
+        let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
+        let args = vec![robot, Pattern::Any];
+        self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::Unknown));
+    }
+
+    /// Keeps the former places of moved objects, so that they can be put back.
+    pub(in crate::dialogue) fn remember_moved(
+        &mut self,
+        before: &[ReportedLocation],
+        after: &[ReportedLocation],
+    ) {
+        for known in before {
+            let now = after.iter().find(|now| now.thing == known.thing);
+            if now.is_none_or(|now| now.place != known.place) {
+                self.came_from.retain(|(thing, _)| *thing != known.thing);
+                self.came_from.push((known.thing.clone(), known.place.clone()));
+            }
+        }
+    }
+
+    /// Takes in a stated location.
+    pub fn hear(&mut self, said: &ReportedLocation) {
+        let thing = Pattern::Is(Value::Entity(said.thing.clone()));
+        let mut tell = |fluent: &str, args: Vec<Pattern>, truth| {
+            self.facts.push((Query::Fact { fluent: fluent.into(), args }, truth));
+        };
+        for fluent in ["on", "in", "at"] {
+            tell(fluent, vec![thing.clone(), Pattern::Any], Truth::False);
+        }
+        let place = Pattern::Is(Value::Entity(said.place.clone()));
+        for fluent in [said.relation, "at"] {
+            tell(fluent, vec![thing.clone(), place.clone()], Truth::True);
+        }
+        for fluent in ["visible", "located", "clear"] {
+            tell(fluent, vec![thing.clone()], Truth::Unknown);
+        }
+        self.spoken_of.push(said.thing.clone());
+    }
 }

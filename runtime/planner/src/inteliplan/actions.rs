@@ -1,6 +1,7 @@
 //! Lists of actions as policies, and policies as lists of actions.
 
 use motet_compiler::Session;
+use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::{Block, Do, ExprKind, Policy, StepKind};
@@ -8,25 +9,22 @@ use motet_syntax::print;
 use smol_str::SmolStr;
 use thiserror::Error;
 
-use super::list;
-use motet_requests::RequestContext;
-
-/// A policy from a list of actions, and what was read differently from how it was written.
+/// A policy from a list of actions, with the interpretations that the reader made.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Loose {
-    /// The policy in the text form, not yet checked.
+    /// The policy in text syntax, not yet checked.
     pub policy: String,
     /// Words that were read as something else, and arguments that were filled in.
     pub warnings: Vec<String>,
 }
 
-/// Reasons for which a list of actions is no policy.
+/// Reasons why a list of actions is not a policy.
 #[derive(Error, Clone, PartialEq, Eq, Debug)]
 pub enum NoPolicy {
-    /// There is nothing in it.
+    /// The list is empty.
     #[error("there is no action in it")]
     Empty,
-    /// An action that no word of the dialect stands for: a sentence, mostly.
+    /// An unknown action, usually a sentence.
     #[error("action {number}, `{action}`: no action is called so")]
     Unknown {
         /// Position in the list, from 1.
@@ -42,7 +40,7 @@ pub enum NoPolicy {
         /// Primitive that the robot would need.
         primitive: &'static str,
     },
-    /// It is not clear which thing is meant, or there is none.
+    /// No object, or several objects, have the name.
     #[error("action {number}, `{action}`: {what}")]
     Unclear {
         /// Position in the list, from 1.
@@ -94,15 +92,30 @@ const WORDS: &[(&str, &str)] = &[
     ("say", "say"),
     ("ask", "ask"),
 ];
-/// Prepositions between a thing and its destination.
+/// Prepositions between an object and its destination.
 const BETWEEN: &[&str] =
     &[" on top of ", " onto ", " into ", " inside ", " on ", " in ", " at ", " to ", ", "];
 
-/// Reads a list of actions as a policy for a robot in a situation. O(actions · things).
+/// Reads a list of actions as a policy for a robot in a context. O(actions · objects).
+///
+/// ```
+/// use motet_compiler::Session;
+/// use motet_planner::inteliplan::actions;
+/// use motet_requests::RequestContext;
+///
+/// let robot = motet_robots::builtin::robot("hsr").unwrap().robot;
+/// let scene = motet_robots::builtin::scene("kitchen").unwrap();
+/// let session = Session::builder().robot(&robot).scene(&scene).build(&mut Default::default());
+///
+/// let list = "1. go to counter, 2. pick up coke";
+/// let read = actions::read(list, "fetch", &session, Some(&robot), &RequestContext::new(&scene))?;
+/// assert!(read.policy.contains("pick(coke)"));
+/// # Ok::<(), actions::NoPolicy>(())
+/// ```
 ///
 /// # Errors
 ///
-/// The first action that is none, that the robot lacks, or whose thing is not clear.
+/// The first unknown action, the first action that the robot lacks, or the first unclear object.
 pub fn read(
     text: &str,
     name: &str,
@@ -110,7 +123,7 @@ pub fn read(
     robot: Option<&Robot>,
     situation: &RequestContext<'_>,
 ) -> Result<Loose, NoPolicy> {
-    let items = list::items(text);
+    let items = items(text);
     if items.is_empty() {
         return Err(NoPolicy::Empty);
     }
@@ -166,7 +179,7 @@ impl Reader<'_> {
         })
     }
 
-    /// The call as text. An error says what is not clear.
+    /// The call as text. The error names the unclear part.
     fn call(&mut self, number: usize, primitive: &str, rest: &str) -> Result<String, String> {
         let id = print::identifier;
         Ok(match primitive {
@@ -243,7 +256,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The one thing of some kinds that words mean.
+    /// The only entity of some kinds that the words mean.
     fn thing(&mut self, number: usize, words: &str, kinds: &[&str]) -> Result<SmolStr, String> {
         let scene = self.situation.scene;
         if let Some(entity) = scene.entities.get(words.replace(' ', "_").as_str()) {
@@ -278,7 +291,7 @@ impl Reader<'_> {
     }
 }
 
-/// The two halves around what stands between a thing and a place; the first such word counts.
+/// The two halves around the first preposition between an object and a place.
 fn halves(text: &str) -> Option<(&str, &str)> {
     let found = BETWEEN.iter().filter_map(|between| Some((text.find(between)?, *between)));
     let (_, between) = found.min_by_key(|(at, between)| (*at, std::cmp::Reverse(between.len())))?;
@@ -286,7 +299,7 @@ fn halves(text: &str) -> Option<(&str, &str)> {
     Some((what.trim(), to.trim()))
 }
 
-/// The first words that stand for a primitive.
+/// The first words of a primitive.
 fn written(primitive: &str) -> &str {
     WORDS.iter().find(|(_, known)| *known == primitive).map_or(primitive, |(words, _)| words)
 }
@@ -295,8 +308,7 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// A policy as a list of actions, and what of it the list leaves out: conditions, monitors, what is done
-/// after a failure.
+/// A policy as a list of actions, and the parts that the list leaves out: conditions, monitors, handlers.
 #[must_use]
 pub fn write(policy: &Policy, scene: &Scene) -> (String, Vec<String>) {
     let mut writer = Writer { scene, actions: Vec::new(), left_out: Vec::new() };
@@ -365,5 +377,93 @@ impl Writer<'_> {
     fn is_container(&self, value: &ExprKind) -> bool {
         let (ExprKind::Name(id) | ExprKind::Plain(id)) = value else { return false };
         self.scene.entities.get(id).is_some_and(|entity| entity.kind == "Container")
+    }
+}
+
+/// Items of a list of actions in order: separated by lines, commas, semicolons, numbers and `then`; commas
+/// in parentheses do not count. O(bytes).
+pub(super) fn items(text: &str) -> Vec<String> {
+    let text = without_numbers(text);
+    let mut items = vec![String::new()];
+    let mut depth = 0_usize;
+    for letter in text.chars() {
+        match letter {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        let ends = matches!(letter, '\n' | ';' | '\u{2192}') || (letter == ',' && depth == 0);
+        if ends {
+            items.push(String::new());
+        } else if let Some(item) = items.last_mut() {
+            item.push(letter);
+        }
+    }
+    let split = items.iter().flat_map(|item| item.split(" then ")).map(bare);
+    split.filter(|item| !item.is_empty()).collect()
+}
+
+/// Splits `1. go to table 2) pick coke`: a number with a mark after it begins an item.
+fn without_numbers(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut is_start = true;
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        if !(is_start && letter.is_ascii_digit()) {
+            is_start = letter.is_whitespace() || letter == ',';
+            out.push(letter);
+            continue;
+        }
+        let mut number = String::from(letter);
+        while let Some(digit) = letters.next_if(char::is_ascii_digit) {
+            number.push(digit);
+        }
+        let mark = letters.next_if(|mark| matches!(mark, '.' | ')' | ':'));
+        match mark {
+            Some(_) if letters.peek().is_none_or(|next| next.is_whitespace()) => out.push('\n'),
+            Some(mark) => {
+                out.push_str(&number);
+                out.push(mark);
+            }
+            None => out.push_str(&number),
+        }
+        is_start = false;
+    }
+    out
+}
+
+/// An item without bullets, quotes, a final point, and the conjunction before it.
+fn bare(item: &str) -> String {
+    let marks = |letter: char| {
+        letter.is_whitespace() || matches!(letter, '-' | '*' | '.' | '"' | '\'' | '`' | '[' | ']')
+    };
+    let mut bare = item.trim_matches(marks).to_lowercase();
+    for lead in ["and then ", "and ", "then ", "finally ", "next "] {
+        if let Some(rest) = bare.strip_prefix(lead) {
+            bare = rest.trim().to_owned();
+        }
+    }
+    bare
+}
+
+#[cfg(test)]
+mod tests {
+    use super::items;
+
+    #[test]
+    fn lists_in_many_layouts_are_the_same_list() {
+        let wanted = ["go to table", "pick coke", "place coke on 2nd shelf"];
+        for text in [
+            "go to table, pick coke, place coke on 2nd shelf",
+            "1. Go to table\n2. Pick coke\n3. Place coke on 2nd shelf.",
+            "1) go to table 2) pick coke 3) place coke on 2nd shelf",
+            "- go to table\n- pick coke\n- and place coke on 2nd shelf",
+            "go to table; pick coke; then place coke on 2nd shelf",
+            "[\"go to table\", \"pick coke\", \"place coke on 2nd shelf\"]",
+        ] {
+            assert_eq!(items(text), wanted, "{text}");
+        }
+        assert_eq!(items("pick(coke), place(coke, table)"), ["pick(coke)", "place(coke, table)"]);
+        assert!(items(" ,;\n").is_empty());
     }
 }

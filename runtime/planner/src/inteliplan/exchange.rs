@@ -6,9 +6,8 @@ use thiserror::Error;
 
 use crate::prompt::{Reachability, Sighting};
 
-/// One exchange between a person and a robot. Each part is what stands behind its tag, without blanks
-/// around it; empty where
-/// the tag is missing.
+/// One exchange between a person and a robot. Each part is the trimmed text after its tag, empty if the tag
+/// is missing.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Exchange {
     /// Text of `<history>`: earlier turns.
@@ -23,41 +22,48 @@ pub struct Exchange {
     pub robot: String,
 }
 
-/// Reasons for which a text is no dialogue.
+/// Reasons why a text is not a dialogue.
 #[derive(Error, Clone, PartialEq, Eq, Debug)]
 pub enum NoDialogue {
-    /// Something stands before the first tag.
+    /// Text before the first tag.
     #[error("line {line}: `{text}` stands before the first tag")]
     BeforeTag {
         /// Line of the text, from 1.
         line: usize,
         text: String,
     },
-    /// A part comes twice where nothing begins a new exchange.
+    /// A repeated part that does not begin a new exchange.
     #[error("line {line}: `<{tag}>` comes twice; an exchange begins with `<history>` or `<user>`")]
     Twice {
         /// Line of the text, from 1.
         line: usize,
         tag: &'static str,
     },
-    /// There is nothing in it.
+    /// The text has no parts.
     #[error("there is no tag in it: a dialogue has `<user>` and `<robot>`")]
     Empty,
 }
 
-/// The tags, in the order in which they are written.
+/// The tags, in writing order.
 const TAGS: [&str; 5] = ["history", "user", "vision", "feasibility", "robot"];
 /// Length of a quotation in a message, in characters.
 const QUOTED: usize = 40;
 
-/// Reads all exchanges of a text. Tags stand in either case, closing tags may stand behind their parts, and
-/// the parts of an
-/// exchange may come in any order; a second `<history>`, or a `<user>` behind a `<robot>`, begins the next.
-/// O(bytes).
+/// Reads all exchanges of a text. Tags may be in either case, closing tags are optional, and the parts of an
+/// exchange may come in any order. A second `<history>`, or a `<user>` after a `<robot>`, begins the next
+/// exchange. O(bytes).
+///
+/// ```
+/// use motet_planner::inteliplan::exchange;
+///
+/// let exchanges = exchange::read("<user> bring me the coke <robot> 1. go to counter, 2. pick up coke")?;
+/// assert_eq!(exchanges[0].user, "bring me the coke");
+/// # Ok::<(), exchange::NoDialogue>(())
+/// ```
 ///
 /// # Errors
 ///
-/// Text before the first tag, a part that comes twice, or no part at all.
+/// Text before the first tag, a repeated part, or no part at all.
 pub fn read(text: &str) -> Result<Vec<Exchange>, NoDialogue> {
     let mut exchanges: Vec<Exchange> = Vec::new();
     let mut found = [false; TAGS.len()];
@@ -98,7 +104,7 @@ pub fn read(text: &str) -> Result<Vec<Exchange>, NoDialogue> {
     if exchanges.is_empty() { Err(NoDialogue::Empty) } else { Ok(exchanges) }
 }
 
-/// Adds a text to the part that is open. An error is the beginning of a text that belongs to none.
+/// Adds a text to the open part. The error is the beginning of a text outside of all parts.
 fn take(text: &str, open: Option<usize>, exchanges: &mut [Exchange]) -> Result<(), String> {
     let text = text.trim();
     if text.is_empty() {
@@ -114,7 +120,7 @@ fn take(text: &str, open: Option<usize>, exchanges: &mut [Exchange]) -> Result<(
     }
 }
 
-/// The text before the next tag, which tag it is, whether it closes, and what comes behind it.
+/// The text before the next tag, the tag, its kind (opening or closing), and the rest.
 fn next_tag(text: &str) -> Option<(&str, usize, bool, &str)> {
     let mut from = 0;
     loop {
@@ -134,7 +140,7 @@ fn next_tag(text: &str) -> Option<(&str, usize, bool, &str)> {
     }
 }
 
-/// Texts of `<vision>` and `<feasibility>` for the things that a request names.
+/// Texts of `<vision>` and `<feasibility>` for the objects that a request names.
 #[must_use]
 pub fn sight(seen: &[Sighting]) -> (String, String) {
     let vision = seen.iter().map(|one| {
@@ -166,9 +172,8 @@ impl Exchange {
         self.robot.ends_with('?')
     }
 
-    /// As a text, a line a part. An empty history, vision or feasibility is left out. StreamReader it gives
-    /// the same exchange
-    /// where no part has a tag of its own in it.
+    /// The exchange as text, one part per line. Empty history, vision and feasibility are left out. Reading
+    /// the text gives the same exchange if no part contains a tag.
     #[must_use]
     pub fn write(&self) -> String {
         let parts = [&self.history, &self.user, &self.vision, &self.feasibility, &self.robot];

@@ -1,0 +1,144 @@
+//! Flags of `motet do`.
+
+use std::iter;
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::sync::LazyLock;
+
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum, value_parser};
+use motet_runtime::Time;
+
+use crate::flags::{OutputFormat, ServerDialect, SessionArgs, SimulationArgs, duration};
+
+/// Flags of `motet do`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet do 'bring me the coke' --robot hsr --scene kitchen\n  \
+    motet do 'bring me the mug' --robot hsr --scene kitchen --ask script answers.txt --speed max\n  \
+    motet do 'bring me the coke' --robot hsr --scene kitchen --planner http://localhost:8000 --model NAME\n\n\
+    A line typed while the robot moves is a new request and takes over at once.\n\
+    `--say '12s: bring me the apple instead'` types one after 12 s of the run.")]
+pub(crate) struct DoArgs {
+    /// Request in English
+    #[arg(value_name = "REQUEST")]
+    pub(super) request: String,
+    #[command(flatten)]
+    pub(super) session: SessionArgs,
+    /// Source of answers to questions: `terminal`, `never`, or `script FILE` with one answer per line
+    #[arg(long, num_args = 1..=2, value_names = ["terminal|script|never", "FILE"])]
+    pub(super) ask: Vec<String>,
+    /// Request that is typed during the run, such as `12s: bring me the apple instead`; repeatable
+    #[arg(long, value_name = "TIME: TEXT")]
+    pub(super) say: Vec<ScheduledRequest>,
+    /// Write requests, policies, questions, outcomes and the journal of each run into this new folder
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) record: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) simulation: SimulationArgs,
+    /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON
+    /// file
+    #[arg(long = "real", value_name = "NAME|FILE")]
+    pub(super) real: Option<String>,
+    /// View of the run: a tree of steps, or JSON events
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(super) format: OutputFormat,
+    // Last, since its heading holds for all flags after it.
+    #[command(flatten)]
+    pub(super) model: ModelArgs,
+}
+
+/// Model that plans.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Planning with a model")]
+pub(super) struct ModelArgs {
+    /// Planner: `builtin`, which needs no model, or the address of a server such as http://localhost:8000
+    #[arg(long, default_value = "builtin", value_name = "builtin|URL")]
+    pub(super) planner: String,
+    /// Model to ask
+    #[arg(long, default_value = "default", value_name = "NAME")]
+    pub(super) model: String,
+    /// Dialect in which the server takes the grammar; every reply is checked, with or without a grammar
+    #[arg(long, value_enum, default_value = "none", value_name = "SERVER")]
+    pub(super) dialect: GrammarDialect,
+    /// Send the grammar as Lark, for a vLLM, SGLang or llama.cpp that uses llguidance
+    #[arg(long)]
+    pub(super) lark: bool,
+    /// Image of the scene for the model, as PNG, JPEG, WebP or GIF; repeatable
+    #[arg(long, value_name = "FILE")]
+    pub(super) image: Vec<PathBuf>,
+    /// Show the model a camera picture with each request, and ask it for the points of `ground`
+    #[arg(long)]
+    pub(super) camera: bool,
+    /// Environment variable with the server's key
+    #[arg(long, value_name = "VARIABLE")]
+    pub(super) key_from: Option<String>,
+    /// Maximum time to wait for a reply, in seconds
+    #[arg(long, default_value_t = 120, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..))]
+    pub(super) timeout: u64,
+    /// Number of times a refused reply goes back to the model with the diagnostics
+    #[arg(long, default_value_t = 3, value_name = "N", value_parser = value_parser!(u32).range(..=9))]
+    pub(super) repair: u32,
+    /// Start the first step as soon as it is complete and no later step can refute it
+    #[arg(long)]
+    pub(super) eager: bool,
+    /// Use the built-in planner if the model cannot be asked or finds no policy
+    #[arg(long)]
+    pub(super) fallback: bool,
+}
+
+/// Dialect in which a server takes a grammar, if it gets one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct GrammarDialect(pub(super) Option<ServerDialect>);
+
+impl ValueEnum for GrammarDialect {
+    fn value_variants<'a>() -> &'a [Self] {
+        static ALL: LazyLock<Vec<GrammarDialect>> = LazyLock::new(|| {
+            let servers = ServerDialect::value_variants().iter().copied().map(Some);
+            iter::once(None).chain(servers).map(GrammarDialect).collect()
+        });
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self.0 {
+            None => Some(PossibleValue::new("none").help("Send no grammar")),
+            Some(server) => server.to_possible_value(),
+        }
+    }
+}
+
+/// Request that is typed at a time of the run.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct ScheduledRequest {
+    /// Time since the start of the first run.
+    pub(super) at: Time,
+    pub(super) text: String,
+}
+
+impl FromStr for ScheduledRequest {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || "write a time and a request, such as `12s: bring me the apple instead`".to_owned();
+        let (at, text) = text.split_once(':').ok_or_else(wrong)?;
+        let at = Time::from_secs(duration(at).map_err(|_| wrong())?);
+        let text = text.trim();
+        if text.is_empty() { Err(wrong()) } else { Ok(Self { at, text: text.to_owned() }) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ScheduledRequest;
+    use motet_runtime::Time;
+
+    #[test]
+    fn scheduled_request_has_a_time() {
+        let request = ScheduledRequest { at: Time::from_secs(1.5), text: "stop: now".to_owned() };
+        assert_eq!("1.5s: stop: now".parse(), Ok(request));
+        for wrong in ["", "stop", "12: stop", "12s:", "soon: stop", ": stop"] {
+            assert!(wrong.parse::<ScheduledRequest>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The built-in planner, which needs no model. The compiler checks every policy before the planner returns
+//! it.
+
+use motet_compiler::plan::{Goal, NoPlan, PLAN_BUDGET, Persistence, Plan, PlannedStep};
+use motet_compiler::{Compiled, Session};
+use motet_requests::{Aim, Intent, RequestContext, RequestError};
+use motet_robots::card::Robot;
+use motet_syntax::ast::Expr;
+use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Syntax, print};
+use thiserror::Error;
+
+/// A policy that reaches the requested goals.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// The policy in the canonical text syntax.
+    pub text: String,
+    /// The same policy, parsed.
+    pub parsed: Parsed,
+    /// Result of compiling the policy: a graph, and no error.
+    pub compiled: Compiled,
+    /// Number of states that the search expanded.
+    pub looked_at: usize,
+}
+
+/// A request that was understood, with its policy.
+#[derive(Clone, Debug)]
+pub struct PlannedRequest {
+    /// Intent that the request was read as.
+    pub understood: Intent,
+    pub planned: Planned,
+}
+
+/// Reasons for which a request gets no policy.
+#[derive(Error, Clone, Debug)]
+pub enum PlanError {
+    /// The request is unclear.
+    #[error(transparent)]
+    RequestError(#[from] RequestError),
+    /// The search found nothing.
+    #[error(transparent)]
+    NoPlan(#[from] NoPlan),
+    /// The plan does not pass the check: a contract needs more than the planner can establish.
+    #[error("the plan does not pass the check: {}", first(diagnostics))]
+    Refused {
+        text: String,
+        /// Diagnostics of the compiler.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// The model gave no reply, and another attempt cannot succeed.
+    #[error("{why}")]
+    NoModel {
+        /// Name of the model, and the reason.
+        why: String,
+    },
+    /// A person stopped the planning.
+    #[error("it was stopped")]
+    Stopped,
+}
+
+/// Factor on the state budget of a second search, after the first one used up its budget.
+const LAST_RESORT: usize = 6;
+
+/// Plans for aims, one after the other, and checks the policy. The same session and aims give the same
+/// policy.
+///
+/// # Errors
+///
+/// The reason why there is no policy.
+pub fn plan(
+    session: &Session,
+    robot: Option<&Robot>,
+    name: &str,
+    aims: &[Aim],
+) -> Result<Planned, PlanError> {
+    let goals: Vec<Goal> = aims.iter().map(|aim| aim.goal.clone()).collect();
+    let plan = match session.plan(&goals, PLAN_BUDGET) {
+        Err(NoPlan::Budget { .. }) => session.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
+        found => found?,
+    };
+    let text = policy(name, robot, aims, &plan);
+    let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
+    let text = motet_syntax::print::text(&parsed.file);
+    let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
+    let compiled = session.compile(&parsed, None);
+    if compiled.graph.is_none() {
+        return Err(PlanError::Refused { text, diagnostics: compiled.diagnostics });
+    }
+    Ok(Planned { text, parsed, compiled, looked_at: plan.expanded_states })
+}
+
+/// Reads a request in English and plans for it.
+///
+/// # Errors
+///
+/// The part of the request that is not understood, or the reason why there is no plan.
+pub fn answer(
+    session: &Session,
+    robot: Option<&Robot>,
+    request: &str,
+    situation: &RequestContext<'_>,
+) -> Result<PlannedRequest, PlanError> {
+    let understood = motet_requests::understand(request, situation)?;
+    if understood.aims.is_empty() {
+        let question = "I take note of that. What shall I do?".to_owned();
+        return Err(RequestError::AmbiguousTask { question, options: Vec::new() }.into());
+    }
+    let name = understood.aims.first().map_or("plan", |aim| aim.name.as_str());
+    let planned = plan(session, robot, name, &understood.aims)?;
+    Ok(PlannedRequest { understood, planned })
+}
+
+fn first(diagnostics: &[Diagnostic]) -> &str {
+    let mut errors = diagnostics.iter().filter(|said| said.severity == Severity::Error);
+    errors.next().map_or("", |said| said.message.as_str())
+}
+
+/// Distance in m below which a monitor pauses a moving base in front of a person. Smaller than the distance
+/// of a handover, so that the robot can leave afterwards.
+const CLEARANCE_M: f64 = 0.3;
+
+/// The policy as text, not yet in its canonical layout.
+pub(super) fn policy(name: &str, robot: Option<&Robot>, aims: &[Aim], plan: &Plan) -> String {
+    let mut text = format!("policy {}", print::identifier(name));
+    if let Some(robot) = robot {
+        text.push_str(&format!(" for {}", print::identifier(&robot.name)));
+    }
+    let kept = aims
+        .iter()
+        .filter(|aim| aim.goal.persistence == Persistence::ToTheEnd)
+        .map(|aim| &aim.goal.condition);
+    let kept: Vec<String> = kept.map(part).collect();
+    if !kept.is_empty() {
+        text.push_str(&format!(" achieves {}", kept.join(" and ")));
+    }
+    text.push_str(" {\n");
+    let is_grouped = aims.len() > 1 || aims.iter().any(|aim| aim.only_if.is_some());
+    let mut open = None;
+    for step in &plan.steps {
+        if is_grouped && open != Some(step.goal) {
+            text.push_str(close(open, aims));
+            let name = aims.get(step.goal).map_or("put_right", |aim| aim.name.as_str());
+            text.push_str(&format!("sequence {} {{\n", print::identifier(name)));
+            if let Some(condition) = aims.get(step.goal).and_then(|aim| aim.only_if.as_ref()) {
+                text.push_str(&format!("if {} {{\n", print::expression(condition)));
+            }
+            open = Some(step.goal);
+        }
+        text.push_str(&watched(step, robot));
+        text.push('\n');
+    }
+    text.push_str(close(open, aims));
+    text.push_str("}\n");
+    text
+}
+
+/// Ending of an aim's steps, as text.
+fn close(open: Option<usize>, aims: &[Aim]) -> &'static str {
+    match open.map(|index| aims.get(index).is_some_and(|aim| aim.only_if.is_some())) {
+        Some(true) => "}\n}\n",
+        Some(false) => "}\n",
+        None => "",
+    }
+}
+
+/// Part of a conjunction, in parentheses if necessary.
+fn part(condition: &Expr) -> String {
+    let text = print::expression(condition);
+    if matches!(condition.kind, motet_syntax::ast::ExprKind::AnyOf(_)) { format!("({text})") } else { text }
+}
+
+/// A step, with a monitor around it if the base moves to a person or with an object in the hand, and the
+/// robot can observe the condition.
+fn watched(step: &PlannedStep, robot: Option<&Robot>) -> String {
+    let call = print::call(&step.call, Syntax::Text);
+    let observes = |name: &str| robot.is_some_and(|robot| robot.observes.iter().any(|known| known == name));
+    let mut whens = Vec::new();
+    if let Some(person) = step.approaches.as_ref().filter(|_| observes("distance")) {
+        let person = print::identifier(person);
+        whens.push(format!("when distance({person}) < {CLEARANCE_M} m for 200 ms then pause"));
+    }
+    if let Some(held) = step.carries.as_ref().filter(|_| observes("holding")) {
+        let name = print::identifier(held);
+        whens.push(format!("when not holding({name}) then replan \"lost {}\"", held.replace('"', "'")));
+    }
+    if whens.is_empty() {
+        call
+    } else {
+        format!("monitor {{\n{}\n}} during {{\n{call}\n}}", whens.join("\n"))
+    }
+}
