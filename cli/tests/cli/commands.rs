@@ -56,10 +56,7 @@ fn answers() {
         (
             "feasible --robot hsr --scene kitchen --for look(user)",
             1,
-            &[
-                "out:the robot itself (`head_tilt_link` and `arm_flex_link`)",
-                "out:the posture `start` first",
-            ],
+            &["out:the robot itself (`head_tilt_link` and `arm_flex_link`)", "out:the posture `start` first"],
         ),
         ("feasible --help", 0, &["out:--effort", "out:put(OBJECT, ENTITY)"]),
         (

@@ -49,8 +49,10 @@ fn rows_of_others_are_linted_in_the_room_that_is_given() {
     let policy = "policy p for hsr { go(counter) pick(coke) pick(apple) }";
     let place = Place::new("dataset_lint").file(
         "rows.jsonl",
-        format!("\n{{\"prompt\": \"Bring both.\", \"completion\": \"{policy}\"}}\n{{\"text\": \"<user> Go. \
-            <robot> go to sink\"}}\n"),
+        format!(
+            "\n{{\"prompt\": \"Bring both.\", \"completion\": \"{policy}\"}}\n{{\"text\": \"<user> Go. \
+            <robot> go to sink\"}}\n"
+        ),
     );
     let lint = "dataset lint rows.jsonl --no-geometry";
     place

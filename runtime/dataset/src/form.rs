@@ -10,8 +10,8 @@
 //! Beside that each row has `motet`, an object of texts, which trainers pass over and [`crate::lint`] needs:
 //! the robot, the room, the task, what goes wrong, and the turn.
 
-use motet_planner::inteliplan::exchange::{self, Exchange};
 use motet_planner::dialogue::Kind;
+use motet_planner::inteliplan::exchange::{self, Exchange};
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 

@@ -9,9 +9,9 @@ use motet_decode::export::{EbnfGrammar, Format, Header, ebnf, export};
 use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{Parsed, Severity, Source, Sources, Syntax};
 use motet_tests::notation::{Deriver, Notation, derive_schema, read};
+use motet_tests::setup;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng as _;
-use motet_tests::setup;
 
 /// Derivations of each combination of a robot and a subset.
 const DERIVATIONS: usize = 1_500;
