@@ -6,14 +6,11 @@
 //! or bounds anything. Those that do, `not`, `unless`, `when`, are no part of it but in a few phrases that
 //! ask for the contrary of what they say.
 
-use super::inflection::{Form, base, of_past};
 use super::token::{Token, stands};
 use crate::english::{
-    ANYONE_ASKED, ARE_YOU_ABLE, ASKED_PERSON, ASKING_WORDS, ASKS_IF, DOUBTS, GRATEFUL_WORDS, HAS_TIME,
-    HELPING_WORDS, IN_ANOTHER_FORM_AM, IN_ANOTHER_FORM_SEE_TO, IN_ANOTHER_FORM_TO, MAY, MINDING, MODALS,
-    MODALS_BEHIND, MODALS_OF_DUTY, NOT_FEELING, OVERTURES, SOFTENERS, SPEAKER, WE,
+    ARE_YOU_ABLE, ASKED_PERSON, ASKS_IF, DOUBTS, HAS_TIME, MAY, MINDING, MODALS, MODALS_BEHIND,
+    MODALS_OF_DUTY, OVERTURES, SOFTENERS, SPEAKER,
 };
-use crate::phrases::Phrases;
 
 /// Finds where the words end that ask somebody for something, as a number of words; what is asked for stands
 /// behind.
@@ -79,42 +76,11 @@ fn asks(tokens: &[Token], at: usize) -> Option<usize> {
     Some(modal + ASKED_PERSON.longest(tokens, at + modal)?)
 }
 
-/// `would you mind terribly popping it on the table`, `I'd be over the moon if you fetched it`: up to where
-/// the verb takes the place of it, and the verb.
-pub(super) fn in_another_form(tokens: &[Token], at: usize) -> Option<(usize, String)> {
-    // `could you see your way to fetching`: what leads up to it was passed over.
-    let before = at.checked_sub(1).and_then(|at| tokens.get(at)).map_or("", Token::word);
-    if IN_ANOTHER_FORM_TO.has(before)
-        && let Some((verb, Form::Gerund)) = base(tokens.get(at)?.word())
-    {
-        return Some((at + 1, verb));
-    }
+/// The ends of words of wishing, thinking and politeness that stand one behind another.
+pub(super) fn overtures(tokens: &[Token], at: usize) -> Vec<usize> {
     let next = |end: &usize| {
         let count = OVERTURES.longest(tokens, *end).max(MINDING.longest(tokens, *end))?;
         Some(end + count)
     };
-    let ends: Vec<usize> = std::iter::successors(Some(at), next).skip(1).collect();
-    ends.into_iter().rev().find_map(|end| {
-        let said = tokens.get(at..end)?;
-        let verb = tokens.get(end)?.word();
-        let has = |list: &Phrases| said.iter().any(|token| list.has(token.word()));
-        let last = said.last()?.word();
-        // `what are you doing`, `I am closing it` tell or ask what somebody does.
-        let tells = IN_ANOTHER_FORM_AM.has(last);
-        let sets_about = IN_ANOTHER_FORM_SEE_TO.longest(tokens, at);
-        let asks = sets_about == Some(said.len())
-            || has(&HELPING_WORDS)
-            || (has(&ANYONE_ASKED) && has(&ASKING_WORDS));
-        // `I mind opening it` tells how somebody feels.
-        let feels = has(&WE) && !has(&NOT_FEELING);
-        match base(verb) {
-            Some((verb, Form::Gerund)) if !feels && asks && !tells => return Some((end + 1, verb)),
-            _ => {}
-        }
-        let who = (1..said.len()).rev().find(|at| said.get(*at).is_some_and(|token| token.word() == "if"))?;
-        let mut behind = who + 1 + ASKED_PERSON.longest(said, who + 1)?;
-        behind += SOFTENERS.run(said, behind);
-        let is_nice = has(&GRATEFUL_WORDS);
-        (behind == said.len() && is_nice).then(|| Some((end + 1, of_past(verb)?)))?
-    })
+    std::iter::successors(Some(at), next).skip(1).collect()
 }

@@ -118,6 +118,11 @@ pub(super) fn singular(word: &str) -> String {
     }
 }
 
+/// Words as tokens.
+pub(super) fn words(text: &str) -> Vec<Token> {
+    text.split(' ').map(|word| Token::Word(word.to_owned())).collect()
+}
+
 /// Counts how many tokens words take at a place; none where they do not stand there.
 pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> {
     // Most of a table begins with another word.

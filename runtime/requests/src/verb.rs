@@ -1,11 +1,12 @@
 //! The verbs of household requests.
 
 use super::lead::skip_leads;
-use super::token::Token;
+use super::noun::noun;
+use super::token::{Token, words};
 use super::wish::wish;
 use crate::english::{
-    IS_NO_THING_DONE, IS_NO_THING_HELP, IS_NO_THING_RID, IS_NO_THING_YOUR, TAKE_HOLD, VAGUE_VERBS, VERB,
-    WANTED_LATER,
+    APART_VERBS, IS_NO_THING_DONE, IS_NO_THING_HELP, IS_NO_THING_RID, IS_NO_THING_YOUR, TAKE_HOLD,
+    VAGUE_VERBS, VERB, WANTED_LATER,
 };
 
 /// The act that a verb asks for.
@@ -81,6 +82,18 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     let verb = VERB.valued(tokens, at).and_then(|(count, act)| Some((Act::named(act)?, at + count)));
     let holds = TAKE_HOLD.longest(tokens, at).map(|count| (Act::Pick, at + count));
     verb.into_iter().chain(wants).chain(holds).max_by_key(|(_, after)| *after)
+}
+
+/// `lock it away`, `track it down`: the verb with its small word behind the thing, and where what is read
+/// ends.
+pub(super) fn apart(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
+    let word = tokens.get(at)?.word();
+    let (_, after) = noun(tokens, at + 1).filter(|_| APART_VERBS.begins_with(word))?;
+    // The verb and what follows the thing, as if they stood together.
+    let together: Vec<Token> =
+        tokens.get(at..=at)?.iter().chain(tokens.get(after..)?).take(3).cloned().collect();
+    let (count, means) = APART_VERBS.valued(&together, 0)?;
+    Some((after + count - 1, [words(means).as_slice(), tokens.get(at + 1..after)?].concat()))
 }
 
 /// Finds where what somebody wants to have begins, where they want it now.
