@@ -6,11 +6,11 @@
 //! place or state (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and
 //! what politeness puts before them. They stand in `rewrites.phrases`; this module applies them in order.
 
-use super::inflection::{Form, base, of_past};
-use super::lead::skip_leads;
-use super::rule::Rules;
-use super::token::Token;
+use crate::asking::skip_leads;
 use crate::english::{NEED_NOT, PLAIN_AND};
+use crate::rule::Rules;
+use crate::token::Token;
+use crate::verb::{Form, base, of_past};
 
 /// Rules for what is said before an imperative or in the place of one: what each writes is read again. In
 /// those of a series the verbs that follow stand in the same form.

@@ -7,8 +7,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::{LazyLock, OnceLock};
 
-use super::template::{self, Lists, Part, Template};
-use super::token::Token;
+use crate::template::{self, Lists, Part, Template};
+use crate::token::Token;
 
 /// A list of phrases by its name in the files.
 pub(crate) struct Phrases {

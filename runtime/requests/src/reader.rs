@@ -3,23 +3,23 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use crate::asking::overtures;
-use crate::inflection::{Form, base, of_past};
-use crate::lead::skip_leads;
-use crate::noun::{Noun, noun};
+use crate::asking::{overtures, skip_leads, wish};
+use crate::noun::{Noun, Relation, Spot, is_way, noun, spot, way};
 use crate::phrases::{List, list};
-use crate::spot::{Relation, Spot, is_way, spot, way};
+use crate::remark::remark_end;
+use crate::statement::spots;
 use crate::token::{Token, words};
-use crate::verb::{Act, apart, begins, verb};
-use crate::wish::wish;
+use crate::verb::{Act, Form, apart, base, begins, of_past, verb};
 
 /// Tokens of a request, with what a rule knows of the place where it began.
 pub(crate) struct Clause<'a> {
     pub(crate) tokens: &'a [Token],
-    begin: usize,
-    /// The act of the command before.
-    before: Option<Act>,
-    /// Where a noun that begins at a place may end.
+    pub(crate) begin: usize,
+    /// The act of the command that this belongs to, or that stands before it.
+    act: Option<Act>,
+    /// Names of what that command says.
+    facts: &'a [&'a str],
+    /// Ends that a noun may have, by where it begins.
     things: RefCell<HashMap<usize, Vec<usize>>>,
 }
 
@@ -125,7 +125,11 @@ const READERS: &[(&str, Reader)] = &[
     ("start", |clause, _, at| clause.check(at == 0 || clause.is_end(at - 1), at)),
     ("did", |clause, argument, at| {
         let acts = argument.split(' ').filter_map(Act::named);
-        clause.check(acts.into_iter().any(|act| clause.before == Some(act)), at)
+        clause.check(acts.into_iter().any(|act| clause.act == Some(act)), at)
+    }),
+    ("is", |clause, argument, at| clause.check(clause.facts.contains(&argument), at)),
+    ("lacks", |clause, argument, at| {
+        clause.check(!argument.split(' ').any(|fact| clause.facts.contains(&fact)), at)
     }),
     ("said", |clause, argument, at| {
         let sentence = clause.tokens.get(clause.sentence(at)..at).unwrap_or_default();
@@ -157,6 +161,16 @@ const READERS: &[(&str, Reader)] = &[
         clause.check(has(before, "and") || verb(sentence, skip_leads(sentence, 0)).is_some(), at)
     }),
     // What comes behind.
+    ("remark", |clause, argument, at| {
+        let end = remark_end(clause.tokens, at);
+        let is_bound = !argument.is_empty() && has(clause.tokens.get(at..end).unwrap_or_default(), argument);
+        one((!is_bound).then_some(end))
+    }),
+    ("goes_on", |clause, _, at| {
+        let end = remark_end(clause.tokens, clause.begin);
+        clause.check((end..clause.tokens.len()).any(|at| begins(clause.tokens, at)), at)
+    }),
+    ("spots", |clause, _, at| clause.check(spots(clause.tokens, at, false).is_some(), at)),
     ("holds", |clause, argument, at| {
         clause.check(has(clause.tokens.get(at..clause.clause_end(at)).unwrap_or_default(), argument), at)
     }),
@@ -180,15 +194,14 @@ const READERS: &[(&str, Reader)] = &[
     }),
 ];
 
-/// Checks whether there is a reader of a name.
-pub(crate) fn is_known(kind: &str) -> bool {
-    READERS.iter().any(|(name, _)| *name == kind)
+/// The number of the reader of a name.
+pub(crate) fn number(name: &str) -> Option<usize> {
+    READERS.iter().position(|(known, _)| *known == name)
 }
 
 /// All ends of what a reader finds at a place, in the order in which they are tried.
-pub(crate) fn read(clause: &Clause<'_>, kind: &str, argument: Option<&'static str>, at: usize) -> Vec<Read> {
-    let reader = READERS.iter().find(|(name, _)| *name == kind);
-    reader.map(|(_, reader)| reader(clause, argument.unwrap_or_default(), at)).unwrap_or_default()
+pub(crate) fn read(clause: &Clause<'_>, number: usize, argument: &'static str, at: usize) -> Vec<Read> {
+    READERS.get(number).map(|(_, reader)| reader(clause, argument, at)).unwrap_or_default()
 }
 
 /// Checks whether a phrase of a list, or a word, stands among some tokens.
@@ -205,8 +218,8 @@ fn one(end: Option<usize>) -> Vec<Read> {
 }
 
 impl<'a> Clause<'a> {
-    pub(crate) fn new(tokens: &'a [Token], begin: usize, before: Option<Act>) -> Self {
-        Self { tokens, begin, before, things: RefCell::default() }
+    pub(crate) fn new(tokens: &'a [Token], begin: usize, act: Option<Act>, facts: &'a [&'a str]) -> Self {
+        Self { tokens, begin, act, facts, things: RefCell::default() }
     }
 
     fn word(&self, at: usize) -> &str {

@@ -14,15 +14,15 @@ use crate::verb::Act;
 /// A list of rules by its name in the files.
 pub(crate) struct Rules(pub(crate) &'static str);
 
-/// What a rule found.
+/// End and words that a rule found.
 #[derive(Debug)]
 pub(crate) struct Found {
     pub(crate) end: usize,
-    /// What takes the place of what was read.
+    /// Words that take the place of those that were read.
     pub(crate) words: Vec<Token>,
 }
 
-/// How far a rule has come.
+/// Progress of a rule.
 #[derive(Clone, Default)]
 struct State {
     at: usize,
@@ -30,7 +30,7 @@ struct State {
     value: Option<Vec<Token>>,
 }
 
-/// How many words a look back goes at most.
+/// Most words that a look back takes in.
 const BACK: usize = 8;
 
 impl Rules {
@@ -46,17 +46,41 @@ impl Rules {
 
     /// Applies the first rule that fits at a place behind a command.
     pub(crate) fn behind(&self, tokens: &[Token], at: usize, before: Option<Act>) -> Option<Found> {
-        let Some(List::Rules(rules)) = list(self.0) else { return None };
-        let state = Clause::new(tokens, at, before).rules(rules, State { at, ..State::default() })?;
-        Some(Found { end: state.at, words: state.value.unwrap_or_default() })
+        self.apply(Clause::new(tokens, at, before, &[]))
+    }
+
+    /// Applies the first rule that fits at a place of a command of which something was said.
+    pub(crate) fn given(&self, tokens: &[Token], at: usize, act: Act, facts: &[&str]) -> Option<Found> {
+        self.apply(Clause::new(tokens, at, Some(act), facts))
+    }
+
+    /// Applies the first rule that fits at a place, with what is known there.
+    pub(crate) fn knowing(&self, tokens: &[Token], at: usize, facts: &[&str]) -> Option<Found> {
+        self.apply(Clause::new(tokens, at, None, facts))
+    }
+
+    fn apply(&self, clause: Clause<'_>) -> Option<Found> {
+        let begin = clause.begin;
+        match list(self.0)? {
+            List::Rules(rules) => {
+                let state = clause.rules(rules, State { at: begin, ..State::default() })?;
+                Some(Found { end: state.at, words: state.value.unwrap_or_default() })
+            }
+            // A list without a slot needs no rule.
+            List::Phrases(phrases) => {
+                let count = phrases.longest(clause.tokens, begin)?;
+                Some(Found { end: begin + count, words: Vec::new() })
+            }
+        }
     }
 
     /// Applies the first rule that fits anywhere: what it writes.
     pub(crate) fn search(&self, tokens: &[Token]) -> Option<Vec<Token>> {
         let Some(List::Rules(rules)) = list(self.0) else { return None };
         rules.iter().find_map(|rule| {
-            let found = (0..tokens.len())
-                .find_map(|at| Clause::new(tokens, at, None).rule(rule, State { at, ..State::default() }));
+            let found = (0..tokens.len()).find_map(|at| {
+                Clause::new(tokens, at, None, &[]).rule(rule, State { at, ..State::default() })
+            });
             found?.value
         })
     }
@@ -146,7 +170,7 @@ impl Clause<'_> {
                 }
                 found
             }
-            Part::Read(kind, argument) => reader::read(self, kind, *argument, state.at)
+            Part::Read(number, argument) => reader::read(self, *number, argument, state.at)
                 .into_iter()
                 .map(|(at, value)| State { at, value, slots: state.slots.clone() })
                 .collect(),

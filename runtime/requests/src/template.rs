@@ -27,8 +27,8 @@ pub(crate) enum Part {
     Repeat(Box<Part>),
     /// A part whose words are kept under a name.
     Slot(&'static str, Box<Part>),
-    /// A reader of [`crate::reader`] by its name, with its argument.
-    Read(&'static str, Option<&'static str>),
+    /// A reader of [`crate::reader`] by its number, with its argument.
+    Read(usize, &'static str),
     /// A part that stands here, or does not, and is not taken.
     Look(Side, bool, Box<Part>),
 }
@@ -232,15 +232,10 @@ impl Parser {
         let (reader, rest) =
             inner.split_once('}').filter(|_| is_named).unwrap_or((name, inner.get(1..).unwrap_or("")));
         self.rest = rest;
-        let (kind, argument) = match reader.split_once(' ') {
-            Some((kind, argument)) => (kind, Some(argument)),
-            None => (reader, None),
-        };
-        if !crate::reader::is_known(kind) {
-            return Err(format!("nothing reads `{kind}`"));
-        }
+        let (kind, argument) = reader.split_once(' ').unwrap_or((reader, ""));
+        let number = crate::reader::number(kind).ok_or_else(|| format!("nothing reads `{kind}`"))?;
         let name = if is_named { name } else { kind };
-        Ok(Part::Slot(name, Box::new(Part::Read(kind, argument))))
+        Ok(Part::Slot(name, Box::new(Part::Read(number, argument))))
     }
 
     fn take(&mut self, mark: char) -> bool {
