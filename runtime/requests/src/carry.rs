@@ -4,14 +4,13 @@ use motet_compiler::plan::{Persistence, fact};
 use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
-use super::RequestError;
-use super::command::{BELONGS, Command, KEPT, WANTED};
-use super::errand::{all_of, any_of, hold_on, not, question};
-use super::meaning::{HOLDERS, OBJECTS, Reader};
-use super::noun::{Noun, Which};
-use super::spot::{Relation, Spot};
-use super::verb::Act;
-use super::vocabulary::Role;
+use crate::RequestError;
+use crate::command::{BELONGS, Command, KEPT, WANTED};
+use crate::errand::{all_of, any_of, hold_on, not, question};
+use crate::meaning::{HOLDERS, OBJECTS, Reader};
+use crate::noun::{Noun, Relation, Spot, Which};
+use crate::verb::Act;
+use crate::vocabulary::Role;
 
 /// The target of a command that takes a thing somewhere.
 enum Target {

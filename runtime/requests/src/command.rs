@@ -1,12 +1,14 @@
 //! Sentences as commands and statements: which verb, what it is about, where from and where to.
 
-use super::noun::{Noun, Which, noun};
-use super::part::part;
-use super::remark::is_boundary;
-use super::spot::{Relation, Spot, is_way, located, spot, way};
-use super::token::{Token, stands};
-use super::verb::{Act, begins, is_want, verb};
-use crate::english::{GOES_ON_AT_HITHER, GOES_ON_DO_NOT, PART_FOLLOWS_OVER, PREDICATES, WHERE_IT_BELONGS};
+use crate::english::{
+    GOES_ON_AT_HITHER, GOES_ON_DO_NOT, ONTO, PART_FOLLOWS_OVER, PREDICATES, WHERE_IT_BELONGS,
+};
+use crate::noun::{Noun, Relation, Spot, Which, is_way, located, noun, spot, way};
+use crate::part::part;
+use crate::remark::is_boundary;
+use crate::rule::Rules;
+use crate::token::{Token, stands};
+use crate::verb::{Act, begins, is_want, verb};
 
 /// One thing that is asked for.
 #[derive(Clone, PartialEq, Debug)]
@@ -22,7 +24,7 @@ pub(super) struct Command {
 }
 
 /// Among what a verb goes with: it is done only where it is not so yet.
-pub(super) const ONLY_IF: &str = "only if";
+pub(super) const ONLY_IF: &str = "only_if";
 
 /// Among what a verb goes with: where it belongs, which was said or has to be.
 pub(super) const BELONGS: &str = "belongs";
@@ -280,6 +282,26 @@ impl Command {
         {
             self.from = Some(before.noun);
         }
+    }
+
+    /// The verb with its small words.
+    pub(super) fn act(&self) -> Act {
+        let found = Rules("act").given(&[], 0, self.act, &self.facts());
+        found.and_then(|found| Act::named(found.words.first()?.word())).unwrap_or(self.act)
+    }
+
+    /// Names of what it says, for the rules.
+    pub(super) fn facts(&self) -> Vec<&str> {
+        let is = [
+            ("items", !self.items.is_empty()),
+            ("to", self.to.is_some()),
+            ("whom", self.to_whom.is_some()),
+            ("from", self.from.is_some()),
+            ("moving", self.to.as_ref().is_some_and(Spot::moves)),
+            ("onto", self.to.as_ref().is_some_and(|to| ONTO.has(&to.preposition))),
+        ];
+        let said = is.into_iter().filter(|(_, is_so)| *is_so).map(|(name, _)| name);
+        said.chain(self.with.iter().map(String::as_str)).collect()
     }
 
     pub(super) fn has(&self, particle: &str) -> bool {

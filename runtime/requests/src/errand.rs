@@ -1,17 +1,16 @@
 //! Commands as goals: what shall be true when somebody goes, opens, closes, lets go, takes and puts.
 
-use crate::english::ONTO;
 use motet_compiler::plan::{Persistence, fact};
 use motet_syntax::Span;
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
-use super::RequestError;
-use super::command::{Command, ONLY_IF};
-use super::meaning::{ANYWHERE, HOLDERS, OBJECTS, Reader};
-use super::noun::{Noun, Which};
-use super::verb::Act;
-use super::vocabulary::Role;
+use crate::RequestError;
+use crate::command::{Command, ONLY_IF};
+use crate::meaning::{ANYWHERE, HOLDERS, OBJECTS, Reader};
+use crate::noun::{Noun, Which};
+use crate::verb::Act;
+use crate::vocabulary::Role;
 
 impl Reader<'_> {
     pub(super) fn command(&mut self, command: &Command, later: &[Command]) -> Result<(), RequestError> {
@@ -189,37 +188,6 @@ impl Reader<'_> {
             self.aim(format!("put_down_{item}"), not(fact("holding", &[&item])), Persistence::ToTheEnd);
         }
         Ok(())
-    }
-}
-
-impl Command {
-    /// The verb with its small words.
-    pub(super) fn act(&self) -> Act {
-        match self.act {
-            // `keep it in your hand`
-            Act::Put | Act::Fetch if self.has("hand") && self.to.is_none() && self.to_whom.is_none() => {
-                Act::Pick
-            }
-            // `lift it onto the table`
-            Act::Pick | Act::Lift if self.to.as_ref().is_some_and(|to| ONTO.has(&to.preposition)) => Act::Put,
-            // `stand the bottle on the table`
-            Act::Go if !self.items.is_empty() && self.to.is_some() => Act::Put,
-            Act::Put if self.has("away") || (self.has("back") && self.to.is_none()) => Act::Stow,
-            Act::Put if self.has("down") && self.to.is_none() => Act::Release,
-            // `shut it away in the drawer`
-            Act::Close if self.has("away") => Act::Store,
-            Act::Take if self.has("out") && self.from.is_none() && self.to.is_none() => Act::Pick,
-            // `grab me a drink`, `take the mug to me`
-            Act::Take if self.to_whom.is_some() && self.to.as_ref().is_none_or(|to| !to.moves()) => {
-                Act::Fetch
-            }
-            Act::Take if self.to.is_none() => Act::Pick,
-            Act::Move if self.items.is_empty() => Act::Go,
-            Act::Move => Act::Put,
-            Act::Throw if self.has("away") || self.has("out") => Act::Discard,
-            Act::Throw if self.to.is_none() && self.to_whom.is_none() => Act::Discard,
-            act => act,
-        }
     }
 }
 

@@ -1,47 +1,34 @@
 #![doc = include_str!("../README.md")]
 
-mod aim;
+mod answer;
 mod asking;
 mod carry;
-mod clash;
 mod command;
-mod encouragement;
 mod english;
 mod errand;
 mod error;
-mod forbidden;
 mod frame;
-mod hedge;
-mod inflection;
-mod knowledge;
-mod lead;
 mod meaning;
 mod noun;
 mod parse;
 mod part;
 mod phrases;
-mod pick;
+mod reader;
 mod reference;
 mod remark;
-mod side;
-mod spot;
+mod rule;
 mod statement;
-mod staying;
 mod template;
 pub mod token;
 mod verb;
 mod vocabulary;
-mod whereabouts;
-mod wish;
 
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
-pub use aim::Aim;
-pub use encouragement::encourages;
+pub use answer::{called, choose, encourages, named, pick};
 pub use error::RequestError;
-pub use meaning::Intent;
-pub use pick::{called, choose, named, pick};
+pub use meaning::{Aim, Intent};
 
 /// The context of a request: the scene, and what changed or was said since. Plain data; `Send` and `Sync`.
 #[derive(Clone, Debug)]
@@ -101,7 +88,7 @@ pub fn told(answer: &str, situation: &RequestContext<'_>) -> Vec<ReportedLocatio
 pub fn is_bare(answer: &str) -> bool {
     let mut tokens = token::tokens(answer);
     tokens.retain(|token| !matches!(token.word(), "please" | ""));
-    let place = spot::spot(&tokens, 0).or_else(|| spot::way(&tokens, 0)).map(|(_, end)| end);
+    let place = noun::spot(&tokens, 0).or_else(|| noun::way(&tokens, 0)).map(|(_, end)| end);
     noun::noun(&tokens, 0).map(|(_, end)| end).or(place) == Some(tokens.len())
 }
 

@@ -1,11 +1,13 @@
-//! Noun phrases: a noun with its article, count, and what narrows it down.
+//! Noun phrases: a noun with its article, its count and what narrows it down; and places, a noun with a
+//! preposition.
 
-use super::knowledge;
-use super::spot::{Spot, is_way, spot};
-use super::token::{Token, singular, stands};
 use crate::english::{
-    KIN, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, NOUN_OLD, NOUN_PLACE, PHRASE_SOMETHING, PRONOUNS,
+    DETERMINERS, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, PHRASE_SOMETHING, PREPOSITIONS_OF_PLACE,
+    PREPOSITIONS_OF_WAY, PRONOUNS, SPEAKERS,
 };
+use crate::phrases::Phrases;
+use crate::token::{Token, singular, stands};
+use crate::vocabulary::{Role, good_for, is_package};
 
 /// The determiner of a noun phrase: the one, any, a count, all.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -50,21 +52,8 @@ pub(super) struct Phrase {
 /// A noun that begins at a place, and where it ends.
 pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     let word = tokens.get(at)?.word();
-    let next = tokens.get(at + 1).map_or("", Token::word);
-    match word {
-        "me" | "us" | "myself" => return Some((Noun::Speaker, at + 1)),
-        "my" if NOUN_PLACE.has(next) => {
-            return Some((Noun::Speaker, at + 2));
-        }
-        _ => {}
-    }
-    // `bring it to your old granny`: who says so of themselves.
-    if word == "your"
-        && let Some(kin) =
-            (at + 1..at + 4).find(|at| tokens.get(*at).is_some_and(|token| KIN.has(token.word())))
-        && tokens.get(at + 1..kin).is_some_and(|how| how.iter().all(|token| NOUN_OLD.has(token.word())))
-    {
-        return Some((Noun::Speaker, kin + 1));
+    if let Some(count) = SPEAKERS.longest(tokens, at) {
+        return Some((Noun::Speaker, at + count));
     }
     let pronoun = PRONOUNS.value(word);
     if let Some(pronoun) = pronoun.filter(|_| matches!(word, "it" | "them") || ends(tokens, at + 1)) {
@@ -118,7 +107,7 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
                 words.clear();
             }
             // `a bag of the chips`
-            if words.last().is_some_and(|word| knowledge::is_package(word)) {
+            if words.last().is_some_and(|word| is_package(word)) {
                 content_at = Some(words.len());
             }
             at = determiner(tokens, at).1;
@@ -162,7 +151,7 @@ fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
         let word = tokens.get(at).map_or("", Token::word);
         let next = tokens.get(at + 1).map_or("", Token::word);
         if word == "to"
-            && let Some(good_for) = knowledge::good_for(next)
+            && let Some(good_for) = good_for(next)
         {
             phrase.good_for = Some(good_for);
             at = rest_of_use(tokens, at + 2);
@@ -219,19 +208,12 @@ fn determiner(tokens: &[Token], at: usize) -> (Option<Which>, usize) {
     if word == "that" && tokens.get(at + 1).is_some_and(|next| matches!(next.word(), "is" | "are" | "was")) {
         return (None, at);
     }
-    let which = match word {
-        "the" | "this" | "that" | "my" | "your" | "our" | "his" | "her" | "their" => Which::The,
-        "these" | "those" | "all" | "every" | "each" | "both" => Which::All,
-        "a" | "an" | "some" | "any" | "another" => Which::Any,
-        "one" => Which::Count(1),
-        "two" => Which::Count(2),
-        "three" => Which::Count(3),
-        "four" => Which::Count(4),
-        "five" => Which::Count(5),
-        number => match number.parse::<usize>() {
-            Ok(count @ 1..=9) if number.len() == 1 => Which::Count(count),
-            _ => return (None, at),
-        },
+    let which = match DETERMINERS.value(word) {
+        Some("the") => Which::The,
+        Some("all") => Which::All,
+        Some("any") => Which::Any,
+        Some(count) => count.parse().map_or(Which::Any, Which::Count),
+        None => return (None, at),
     };
     // `all the mugs`, `both of the mugs`, `one of the mugs`, `the two mugs`
     let mut at = at + 1;
@@ -243,5 +225,147 @@ fn determiner(tokens: &[Token], at: usize) -> (Option<Which>, usize) {
         (Which::The, (Some(Which::Count(_)), after)) => (Some(Which::All), after),
         (Which::Any, (Some(Which::Count(count)), after)) => (Some(Which::Count(count)), after),
         _ => (Some(which), at),
+    }
+}
+
+/// A spatial relation of a thing to a place.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Relation {
+    On,
+    In,
+    At,
+    /// `to`: whichever the place asks for.
+    To,
+    /// `next to`, `near`, `in front of`: near a place, and neither on nor in it.
+    Beside,
+}
+
+/// A place with its preposition.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Spot {
+    pub(super) relation: Relation,
+    /// The preposition as it was said.
+    pub(super) preposition: String,
+    pub(super) noun: Noun,
+    pub(super) is_behind_thing: bool,
+}
+
+impl Spot {
+    /// Checks whether it can only say where to: `onto`, `into`, `to`.
+    pub(super) fn moves(&self) -> bool {
+        !PREPOSITIONS_OF_PLACE.has(&self.preposition)
+    }
+
+    /// As it was said.
+    pub(super) fn said(&self) -> String {
+        let noun = match &self.noun {
+            Noun::Speaker => "me",
+            Noun::Before(word) => word,
+            Noun::Here => "here",
+            Noun::There => "there",
+            Noun::Phrase(phrase) => &phrase.said,
+        };
+        format!("{} {noun}", self.preposition)
+    }
+}
+
+impl Relation {
+    /// The relation of a name in the lists of prepositions.
+    fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "on" => Self::On,
+            "in" => Self::In,
+            "at" => Self::At,
+            "to" => Self::To,
+            "beside" => Self::Beside,
+            _ => return None,
+        })
+    }
+
+    /// Checks whether something can be so to a thing of this role: on a shelf, in a drawer. A sink and a
+    /// shelf have things in them as well as on them; what lies in a mug is not known.
+    pub(super) const fn fits(self, role: Role) -> bool {
+        match self {
+            Self::On => matches!(role, Role::Surface | Role::Object | Role::Place),
+            Self::In => matches!(role, Role::Surface | Role::Container | Role::Place),
+            Self::At | Self::To => true,
+            Self::Beside => false,
+        }
+    }
+}
+
+/// `on the table`, `in the drawer`, `at the counter`
+pub(super) fn located(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
+    spot(tokens, at).map(|(spot, after)| (spot.noun, after))
+}
+
+/// The same with its preposition.
+pub(super) fn spot(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
+    let is_static = PREPOSITIONS_OF_WAY.longest(tokens, at) < PREPOSITIONS_OF_PLACE.longest(tokens, at);
+    is_static.then(|| placed(tokens, at, &PREPOSITIONS_OF_PLACE)).flatten()
+}
+
+/// `to the table`, `into the drawer`, `next to the sink`: where to, or near what.
+pub(super) fn way(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
+    placed(tokens, at, &PREPOSITIONS_OF_WAY)
+}
+
+/// Checks whether a preposition of where to, or of near by, stands here.
+pub(super) fn is_way(tokens: &[Token], at: usize) -> bool {
+    PREPOSITIONS_OF_WAY.longest(tokens, at) > PREPOSITIONS_OF_PLACE.longest(tokens, at)
+}
+
+fn placed(tokens: &[Token], at: usize, prepositions: &Phrases) -> Option<(Spot, usize)> {
+    let (count, relation) = prepositions.valued(tokens, at)?;
+    let relation = Relation::named(relation)?;
+    let (noun, after) = noun(tokens, at + count)?;
+    let preposition: Vec<_> = tokens.get(at..at + count)?.iter().map(Token::word).collect();
+    Some((Spot { relation, preposition: preposition.join(" "), noun, is_behind_thing: false }, after))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Noun, Phrase, Relation, Which, noun, spot, way};
+    use crate::token::tokens;
+
+    fn phrase(text: &str) -> (Phrase, usize) {
+        match noun(&tokens(text), 0) {
+            Some((Noun::Phrase(phrase), end)) => (phrase, end),
+            other => panic!("{text}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn noun_phrase_has_a_determiner_words_and_an_end() {
+        for (text, which, words, end) in [
+            ("the red mugs on the table", Which::The, "red mug", 3),
+            ("two of the glasses", Which::Count(2), "glass", 4),
+            ("everything on the table", Which::All, "", 1),
+            ("a can of the coke", Which::Any, "can coke", 5),
+        ] {
+            let (phrase, after) = phrase(text);
+            assert_eq!((phrase.which, phrase.words.join(" ").as_str(), after), (which, words, end), "{text}");
+        }
+    }
+
+    #[test]
+    fn noun_phrase_is_narrowed_by_what_follows() {
+        assert_eq!(phrase("something to drink").0.good_for, Some("drink"));
+        assert_eq!(phrase("something that is not a coke").0.is, [(false, vec!["coke".to_owned()])]);
+    }
+
+    #[test]
+    fn pronouns_are_nouns() {
+        assert_eq!(noun(&tokens("it"), 0), Some((Noun::Before("it"), 1)));
+        assert_eq!(noun(&tokens("me"), 0), Some((Noun::Speaker, 1)));
+        assert_eq!(noun(&tokens("there"), 0), Some((Noun::There, 1)));
+    }
+
+    #[test]
+    fn spot_tells_where_and_way_where_to() {
+        assert_eq!(spot(&tokens("on the table"), 0).map(|(spot, _)| spot.relation), Some(Relation::On));
+        assert_eq!(spot(&tokens("onto the table"), 0), None);
+        assert!(way(&tokens("into the drawer"), 0).is_some_and(|(way, _)| way.moves()));
+        assert_eq!(way(&tokens("next to the sink"), 0).map(|(way, _)| way.relation), Some(Relation::Beside));
     }
 }

@@ -1,15 +1,14 @@
 //! A request as its commands and the remarks beside them, in order.
 
-use super::command::{Command, command, words};
-use super::forbidden::{When, caution, forbidden};
-use super::frame::asks_for_it;
-use super::lead::{contrasts, skip_leads, thanks};
-use super::noun::{Noun, noun};
-use super::remark::{beside, is_question, is_remark, remark_end};
-use super::staying::stays_put;
-use super::token::{Token, stands};
-use super::verb::{begins, is_want, verb};
+use crate::asking::{contrasts, skip_leads, thanks};
+use crate::command::{Command, command, words};
 use crate::english::SPOKEN_I_MEAN;
+use crate::frame::asks_for_it;
+use crate::noun::{Noun, noun};
+use crate::remark::{When, beside, caution, forbidden, is_question, is_remark, remark_end};
+use crate::rule::Rules;
+use crate::token::{Token, stands};
+use crate::verb::{begins, is_want, verb};
 
 /// A clause beside the commands of a request.
 #[derive(Clone, PartialEq, Debug)]
@@ -103,8 +102,11 @@ pub(super) fn parse(tokens: &[Token]) -> Result<Spoken, String> {
             at = end;
             continue;
         }
-        if let Some(end) = spoken.commands.last().and_then(|last| stays_put(tokens, begin, last.act())) {
-            at = end;
+        let before = spoken.commands.last().map(Command::act);
+        if before.is_some()
+            && let Some(found) = Rules("stays_put").behind(tokens, begin, before)
+        {
+            at = found.end;
             continue;
         }
         asked_whether = false;

@@ -7,13 +7,43 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::{LazyLock, OnceLock};
 
-use super::template::{self, Lists, Part};
-use super::token::Token;
+use crate::template::{self, Lists, Part, Template};
+use crate::token::Token;
 
 /// A list of phrases by its name in the files.
 pub(crate) struct Phrases {
     name: &'static str,
     automaton: OnceLock<Automaton>,
+}
+
+/// A list of the files.
+pub(crate) enum List {
+    Phrases(Phrases),
+    /// Rules, with slots, for [`crate::rule`].
+    Rules(&'static [Template]),
+}
+
+/// A list by its name.
+pub(crate) fn list(name: &str) -> Option<&'static List> {
+    static LISTS: LazyLock<HashMap<&'static str, List>> = LazyLock::new(|| {
+        let list = |(name, templates): (&&'static str, &'static Vec<Template>)| {
+            let is_rule = templates.iter().any(|template| is_rule(&template.part));
+            (*name, if is_rule { List::Rules(templates) } else { List::Phrases(Phrases::new(name)) })
+        };
+        ENGLISH.iter().map(list).collect()
+    });
+    LISTS.get(name)
+}
+
+/// Checks whether a part is more than words.
+fn is_rule(part: &Part) -> bool {
+    match part {
+        Part::Word(word) => matches!(*word, "," | "."),
+        Part::List(name) => ENGLISH.get(name).into_iter().flatten().any(|template| is_rule(&template.part)),
+        Part::Sequence(parts) | Part::Choice(parts) => parts.iter().any(is_rule),
+        Part::Repeat(part) => is_rule(part),
+        Part::Slot(..) | Part::Read(..) | Part::Look(..) => true,
+    }
 }
 
 /// A deterministic automaton over words. State 0 is the first.
@@ -72,12 +102,6 @@ impl Phrases {
         std::iter::successors(Some(at), next).last().unwrap_or(at) - at
     }
 
-    /// The number of tokens of the longest phrase that ends before a place.
-    pub(crate) fn longest_before(&self, tokens: &[Token], end: usize) -> Option<usize> {
-        let here = tokens.get(..end)?;
-        (0..end).find(|at| self.longest(here, *at) == Some(end - at)).map(|at| end - at)
-    }
-
     /// Checks whether a phrase begins with this word.
     pub(crate) fn begins_with(&self, word: &str) -> bool {
         self.automaton().step(0, word).is_some()
@@ -114,7 +138,7 @@ impl Phrases {
 impl Automaton {
     fn compile(name: &'static str, lists: &Lists) -> Self {
         let mut builder = Builder { lists, edges: vec![Vec::new()], ends: BTreeMap::new() };
-        for template in lists.get(name).into_iter().flatten() {
+        for template in lists.get(name.to_ascii_lowercase().as_str()).into_iter().flatten() {
             let end = builder.state();
             builder.part(&template.part, 0, end);
             builder.ends.insert(end, template.value);
@@ -148,9 +172,9 @@ fn add_words(part: &Part, words: &mut HashSet<&'static str>) {
         Part::Word(word) => {
             words.insert(word);
         }
-        Part::List(_) => {}
+        Part::List(_) | Part::Read(..) => {}
         Part::Sequence(parts) | Part::Choice(parts) => parts.iter().for_each(|part| add_words(part, words)),
-        Part::Repeat(part) => add_words(part, words),
+        Part::Repeat(part) | Part::Slot(_, part) | Part::Look(_, _, part) => add_words(part, words),
     }
 }
 
@@ -195,6 +219,8 @@ impl Builder<'_> {
                 self.part(part, again, again);
                 self.edge(again, None, to);
             }
+            // Only rules have these, and they are not compiled.
+            Part::Slot(..) | Part::Read(..) | Part::Look(..) => {}
             Part::List(name) => {
                 let lists = self.lists;
                 let templates = lists.get(name).into_iter().flatten();

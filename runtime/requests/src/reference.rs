@@ -1,12 +1,12 @@
 //! Reference resolution: the things of the scene that noun phrases, pronouns and places mean.
 
-use crate::english::CANDIDATES_OPEN;
 use smol_str::SmolStr;
 
-use super::RequestError;
-use super::meaning::{OBJECTS, Reader};
-use super::noun::{Noun, Phrase, Which};
-use super::vocabulary::Role;
+use crate::RequestError;
+use crate::english::CANDIDATES_OPEN;
+use crate::meaning::{OBJECTS, Reader};
+use crate::noun::{Noun, Phrase, Which};
+use crate::vocabulary::Role;
 
 impl Reader<'_> {
     pub(super) fn is_person(&self, noun: &Noun) -> bool {
@@ -254,5 +254,44 @@ fn unfit(called: &str, role: Role, asked: &[Role]) -> String {
         [Role::Person] => format!("the {called} is no person"),
         _ if role == Role::Person => format!("nothing can be put on or in the {called}"),
         _ => format!("the {called} is not something to go to or to put things on"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use motet_robots::scene::{embedded, read};
+    use motet_syntax::{Source, Sources};
+
+    use crate::meaning::{OBJECTS, Reader};
+    use crate::noun::noun;
+    use crate::token::tokens;
+    use crate::{RequestContext, RequestError};
+
+    /// The things of the kitchen that words mean, after some were spoken of.
+    fn meant(said: &str, spoken_of: &[&str]) -> Result<Vec<String>, RequestError> {
+        let (name, json) = embedded().iter().find(|(name, _)| *name == "kitchen").unwrap();
+        let mut sources = Sources::default();
+        let source = Source::new(*name, *json);
+        let id = sources.add(source.clone());
+        let scene = read(&source, id).0.unwrap();
+        let mut context = RequestContext::new(&scene);
+        context.spoken_of = spoken_of.iter().map(|id| (*id).into()).collect();
+        let (noun, _) = noun(&tokens(said), 0).unwrap();
+        let found = Reader::new(&context).things(&noun, OBJECTS, None)?;
+        Ok(found.iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn things_by_name_by_category_and_by_place() {
+        assert_eq!(meant("the coke", &[]).unwrap(), ["coke"]);
+        assert_eq!(meant("all the mugs", &[]).unwrap(), ["mug_1", "mug_2"]);
+        assert!(matches!(meant("the mug", &[]), Err(RequestError::AmbiguousReference { .. })));
+        assert!(matches!(meant("the piano", &[]), Err(RequestError::NotFound { .. })));
+    }
+
+    #[test]
+    fn pronoun_means_the_last_thing_of_its_role() {
+        assert_eq!(meant("it", &["coke", "sponge", "sink"]).unwrap(), ["sponge"]);
+        assert!(matches!(meant("it", &[]), Err(RequestError::NotUnderstood { .. })));
     }
 }

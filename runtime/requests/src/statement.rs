@@ -1,15 +1,22 @@
-//! Statements beside a request: what is mentioned, liked, left somewhere, and where things are.
+//! Statements beside a request: what is mentioned, liked, left somewhere; and reported locations: `the coke
+//! is in the fridge`, `I left it in the cupboard yesterday`.
+//!
+//! A clause is such a fact as a whole or not at all: who sits at a table says nothing of what is on it.
 
 use smol_str::SmolStr;
 
-use super::ReportedLocation;
-use super::meaning::{ANYWHERE, OBJECTS, Reader};
-use super::noun::{Noun, Phrase, Which, noun};
-use super::parse::{Spoken, Statement};
-use super::spot::spot;
-use super::token::{Token, stands};
-use super::vocabulary::Role;
-use super::whereabouts::{Clause, is_habit};
+use crate::ReportedLocation;
+use crate::english::{
+    ADVICE, BEFORE_REPORT, BEHIND_REPORT, IS_HABIT_ALWAYS, LIKES, LOOK_THERE, NEXT_PLACE, REPORT_DENIALS,
+    SPOTS_GOES_ON, TOLD_THERE,
+};
+use crate::meaning::{ANYWHERE, OBJECTS, Reader};
+use crate::noun::{Noun, Phrase, Relation, Spot, Which, noun, spot, way};
+use crate::parse::{Spoken, Statement};
+use crate::phrases::Phrases;
+use crate::rule::Rules;
+use crate::token::{Token, stands};
+use crate::vocabulary::Role;
 
 impl Reader<'_> {
     /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things
@@ -39,13 +46,11 @@ impl Reader<'_> {
             self.said.located.extend(located);
             return;
         }
-        for (index, _) in tokens.iter().enumerate() {
-            for like in ["i like", "i love", "i prefer", "i enjoy"] {
-                if let Some(count) = stands(tokens, index, like)
-                    && let Some((Noun::Phrase(phrase), _)) = noun(tokens, index + count)
-                {
-                    self.liked.push(phrase.words);
-                }
+        for index in 0..tokens.len() {
+            if let Some(count) = LIKES.longest(tokens, index)
+                && let Some((Noun::Phrase(phrase), _)) = noun(tokens, index + count)
+            {
+                self.liked.push(phrase.words);
             }
         }
         let mut at = 0;
@@ -138,4 +143,171 @@ impl Reader<'_> {
         let is_hungry = (says("hungry") || says("starving")) && has("food");
         is_hungry.then(|| "Shall I bring you something to eat?".to_owned())
     }
+}
+
+/// The kind of a clause: in an answer a bare place is a location.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Clause {
+    Answer,
+    Statement,
+}
+
+impl Reader<'_> {
+    /// Reads what an answer says of where things are. Of the same thing more than one place is where to look
+    /// first, then next.
+    pub(super) fn told(&mut self, tokens: &[Token]) -> Vec<ReportedLocation> {
+        let mut told = Vec::new();
+        for sentence in tokens.split(|token| *token == Token::Stop) {
+            let mut here = Vec::new();
+            for clause in sentence.split(|token| *token == Token::Comma) {
+                // `I put it in the fridge, but it is not there any more`
+                if denies(clause) && clause.iter().any(|token| TOLD_THERE.has(token.word())) {
+                    here.clear();
+                }
+                here.extend(self.whereabouts(clause, Clause::Answer));
+            }
+            told.extend(here);
+        }
+        told
+    }
+
+    /// Reads what one clause says of where something is; nothing where it says something else.
+    pub(super) fn whereabouts(&mut self, tokens: &[Token], clause: Clause) -> Vec<ReportedLocation> {
+        let begin = reported(tokens, leading(tokens, 0, clause), clause);
+        // `is it not in the fridge?` proposes it.
+        let proposes = clause == Clause::Answer
+            && LOOK_THERE
+                .longest(tokens, begin)
+                .is_some_and(|count| !denies(tokens.get(begin + count..).unwrap_or_default()));
+        // Who says beside a request where something is kept as a rule does not say that it is there.
+        if (clause == Clause::Statement && is_habit(tokens))
+            || (denies(tokens) && !proposes)
+            || begin >= tokens.len()
+        {
+            return Vec::new();
+        }
+        let Some((thing, spots)) = said(tokens, begin, clause) else { return Vec::new() };
+        let Ok(things) = self.things(&thing, OBJECTS, None) else { return Vec::new() };
+        let [thing] = things.as_slice() else { return Vec::new() };
+        let located: Option<Vec<ReportedLocation>> =
+            spots.iter().map(|spot| self.located(thing, spot)).collect();
+        let located = located.unwrap_or_default();
+        if let Some(first) = located.first() {
+            self.vocabulary.moved(thing, &first.place);
+            self.said.spoken_of.push(thing.clone());
+        }
+        located
+    }
+
+    /// Finds where something is kept, as a clause says that tells a rule.
+    pub(super) fn whereabouts_of_habit(&mut self, tokens: &[Token]) -> Option<ReportedLocation> {
+        if denies(tokens) {
+            return None;
+        }
+        let (thing, spots) = said(tokens, skip(tokens, 0, &BEFORE_REPORT), Clause::Answer)?;
+        let ([spot], Ok(things)) = (spots.as_slice(), self.things(&thing, OBJECTS, None)) else {
+            return None;
+        };
+        let [thing] = things.as_slice() else { return None };
+        self.located(thing, spot)
+    }
+
+    fn located(&mut self, thing: &SmolStr, spot: &Spot) -> Option<ReportedLocation> {
+        let places = self.things(&spot.noun, &[Role::Surface, Role::Container], None).ok()?;
+        let [place] = places.as_slice() else { return None };
+        let role = self.vocabulary.thing(place)?.role;
+        // What is at a drawer may be in it or beside it.
+        let is_clear = spot.relation != Relation::At || role != Role::Container;
+        let relation = if role == Role::Container { "in" } else { "on" };
+        (spot.relation.fits(role) && is_clear).then(|| ReportedLocation {
+            thing: thing.clone(),
+            relation,
+            place: place.clone(),
+        })
+    }
+}
+
+/// Checks whether a clause tells what is so as a rule.
+pub(super) fn is_habit(tokens: &[Token]) -> bool {
+    tokens.iter().any(|token| IS_HABIT_ALWAYS.has(token.word()))
+}
+
+/// The thing that a clause places, and where.
+fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)> {
+    let rules = if clause == Clause::Answer { "reported_in_answer" } else { "reported" };
+    let found = Rules(rules).at(tokens, at)?;
+    let is_looked_for = clause == Clause::Answer && LOOK_THERE.longest(tokens, at).is_some();
+    Some((noun(&found.words, 0)?.0, spots(tokens, found.end, is_looked_for)?))
+}
+
+/// Places to the end of a clause: `in the fridge or in the cupboard`, `the fridge first and then the drawer`.
+pub(super) fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>> {
+    let mut spots: Vec<Spot> = Vec::new();
+    loop {
+        // `the cupboard yesterday`, `the fridge first and then …`: a place ends before such words, `the first
+        // drawer` does not.
+        let whole = tokens;
+        let is_end = |end: &usize| {
+            let after = skip(whole, *end, &BEHIND_REPORT);
+            after > *end && (after == whole.len() || NEXT_PLACE.longest(whole, after).is_some())
+        };
+        let end = (at + 1..whole.len()).find(is_end).unwrap_or(whole.len());
+        let tokens = whole.get(..end)?;
+        let bare = || {
+            let (noun, after) = noun(tokens, at)?;
+            let is_named = matches!(noun, Noun::Phrase(_));
+            let spot =
+                Spot { relation: Relation::To, preposition: String::new(), noun, is_behind_thing: false };
+            (is_named && (may_be_bare || !spots.is_empty())).then_some((spot, after))
+        };
+        let (spot, after) = spot(tokens, at).or_else(|| way(tokens, at)).or_else(bare)?;
+        spots.push(spot);
+        at = skip(whole, after, &BEHIND_REPORT);
+        if at >= whole.len() || (at > 0 && SPOTS_GOES_ON.longest(whole, at).is_some()) {
+            return Some(spots);
+        }
+        at += NEXT_PLACE.longest(whole, at)?;
+        at = skip(whole, at, &LOOK_THERE);
+    }
+}
+
+/// Past what says how sure somebody is, or is only said before.
+fn leading(tokens: &[Token], mut at: usize, clause: Clause) -> usize {
+    loop {
+        let count = BEFORE_REPORT.longest(tokens, at).max(hedged(tokens, at));
+        let asks = ADVICE.longest(tokens, at).filter(|_| clause == Clause::Answer);
+        match count.max(asks) {
+            Some(count) => at += count,
+            None => return at,
+        }
+    }
+}
+
+fn skip(tokens: &[Token], at: usize, skipped: &Phrases) -> usize {
+    at + skipped.run(tokens, at)
+}
+
+/// The number of words that say how sure somebody is.
+fn hedged(tokens: &[Token], at: usize) -> Option<usize> {
+    Some(Rules("hedged").end(tokens, at)? - at)
+}
+
+/// `my wife tells me it is …`: where what somebody else knows begins.
+fn reported(tokens: &[Token], at: usize, clause: Clause) -> usize {
+    Rules("hearsay").end(tokens, at).filter(|_| clause == Clause::Answer).unwrap_or(at)
+}
+
+fn denies(tokens: &[Token]) -> bool {
+    let mut at = 0;
+    while at < tokens.len() {
+        // `if I were you`, `unless I am mistaken` take nothing back.
+        if let Some(count) = BEHIND_REPORT.longest(tokens, at).max(hedged(tokens, at)) {
+            at += count;
+        } else if REPORT_DENIALS.longest(tokens, at).is_some() {
+            return true;
+        } else {
+            at += 1;
+        }
+    }
+    false
 }

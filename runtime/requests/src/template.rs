@@ -6,6 +6,11 @@
 //! behind a template gives what it stands for. A line in quotes is an example that the list must read; the
 //! tests hold it. `#` begins a comment. The notation is that of JSGF with the layout of hassil's sentence
 //! files. [`crate::phrases`] compiles what is read here.
+//!
+//! A list of rules has slots besides: `{noun}` reads a noun, `{thing:noun}` keeps it under another name, and
+//! `{x:<list>}` keeps what a list reads. `&a` and `!a` look ahead, `^a` and `!^a` look back, `,` and `.` are
+//! the marks of a sentence. `=> put {thing}` writes what takes the place of all that was read, or is the
+//! value of the rule in another one. [`crate::rule`] interprets them.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -20,6 +25,19 @@ pub(crate) enum Part {
     Choice(Vec<Part>),
     /// Zero or more times.
     Repeat(Box<Part>),
+    /// A part whose words are kept under a name.
+    Slot(&'static str, Box<Part>),
+    /// A reader of [`crate::reader`] by its number, with its argument.
+    Read(usize, &'static str),
+    /// A part that stands here, or does not, and is not taken.
+    Look(Side, bool, Box<Part>),
+}
+
+/// The side of a place on which a part is looked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Side {
+    Ahead,
+    Behind,
 }
 
 /// One template of a list, with the value that it stands for.
@@ -89,16 +107,23 @@ pub(crate) fn read(text: &'static str, lists: &mut Lists) -> Result<(), Template
     Ok(())
 }
 
-/// The examples of a file, each with the name of its list.
+/// An example of a file: its list, what the list reads, and for a rule what takes its place.
 #[cfg(test)]
-pub(crate) fn examples(text: &'static str) -> Vec<(&'static str, &'static str)> {
+pub(crate) type Example = (&'static str, &'static str, Option<&'static str>);
+
+/// The examples of a file.
+#[cfg(test)]
+pub(crate) fn examples(text: &'static str) -> Vec<Example> {
     let mut examples = Vec::new();
     let mut current = "";
     for line in text.lines() {
         if let Some(name) = line.strip_suffix(':') {
             current = name;
         } else if let Some(example) = line.trim().strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
-            examples.push((current, example));
+            match example.split_once("\" => \"") {
+                Some((said, becomes)) => examples.push((current, said, Some(becomes))),
+                None => examples.push((current, example, None)),
+            }
         }
     }
     examples
@@ -146,10 +171,21 @@ impl Parser {
 
     fn item(&mut self) -> Result<Option<Part>, String> {
         self.rest = self.rest.trim_start();
+        for (mark, is_wanted) in [('&', true), ('!', false), ('^', true)] {
+            if self.take(mark) {
+                let side = if mark == '^' || self.take('^') { Side::Behind } else { Side::Ahead };
+                let part = self.item()?.ok_or("nothing stands behind a look")?;
+                return Ok(Some(Part::Look(side, is_wanted, Box::new(part))));
+            }
+        }
         let part = if self.take('(') {
             let part = self.choice()?;
             self.expect(')')?;
             part
+        } else if self.take('{') {
+            self.slot()?
+        } else if self.take(',') {
+            Part::Word(",")
         } else if self.take('[') {
             let part = self.choice()?;
             self.expect(']')?;
@@ -179,6 +215,27 @@ impl Parser {
         }
         self.rest = self.rest.trim_start();
         Ok(Some(part))
+    }
+
+    /// `name}`, `kind argument}`, `name:kind argument}`, `name:<list>}`, `name:(a|b)}`.
+    fn slot(&mut self) -> Result<Part, String> {
+        let end = self.rest.find([':', '}']).ok_or("`{` has no `}`")?;
+        let (name, rest) = self.rest.split_at(end);
+        let is_named = rest.starts_with(':');
+        let inner = rest.trim_start_matches(':');
+        if is_named && inner.starts_with(['<', '(']) {
+            self.rest = inner;
+            let part = self.item()?.ok_or("a slot is empty")?;
+            self.expect('}')?;
+            return Ok(Part::Slot(name, Box::new(part)));
+        }
+        let (reader, rest) =
+            inner.split_once('}').filter(|_| is_named).unwrap_or((name, inner.get(1..).unwrap_or("")));
+        self.rest = rest;
+        let (kind, argument) = reader.split_once(' ').unwrap_or((reader, ""));
+        let number = crate::reader::number(kind).ok_or_else(|| format!("nothing reads `{kind}`"))?;
+        let name = if is_named { name } else { kind };
+        Ok(Part::Slot(name, Box::new(Part::Read(number, argument))))
     }
 
     fn take(&mut self, mark: char) -> bool {

@@ -118,6 +118,11 @@ pub(super) fn singular(word: &str) -> String {
     }
 }
 
+/// Words as tokens.
+pub(super) fn words(text: &str) -> Vec<Token> {
+    text.split(' ').map(|word| Token::Word(word.to_owned())).collect()
+}
+
 /// Counts how many tokens words take at a place; none where they do not stand there.
 pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> {
     // Most of a table begins with another word.
@@ -132,4 +137,37 @@ pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> 
         count += 1;
     }
     Some(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Token, pieces, singular, tokens};
+
+    fn said(text: &str) -> String {
+        let word =
+            |token: &Token| if token.word().is_empty() { "|".to_owned() } else { token.word().to_owned() };
+        tokens(text).iter().map(word).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn tokens_open_contractions_and_keep_marks() {
+        assert_eq!(said("I'd like the Coke, please!"), "i would like the coke | please |");
+        assert_eq!(said("1.5 litres \u{2013} now"), "1.5 litres | now");
+        // `want the coke?` offers it.
+        assert_eq!(said("Want the coke?"), "do you want the coke |");
+    }
+
+    #[test]
+    fn pieces_tell_where_each_ends() {
+        let ends: Vec<usize> = pieces("can't go").iter().map(|(_, end)| *end).collect();
+        assert_eq!(ends, [5, 5, 8]);
+    }
+
+    #[test]
+    fn singular_by_rule_and_by_list() {
+        for (many, one) in [("cookies", "cookie"), ("glasses", "glass"), ("berries", "berry"), ("bus", "bus")]
+        {
+            assert_eq!(singular(many), one);
+        }
+    }
 }

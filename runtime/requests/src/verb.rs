@@ -1,12 +1,9 @@
-//! The verbs of household requests.
+//! The verbs of household requests and their forms: `bring`, `bringing`, `brought`.
 
-use super::lead::skip_leads;
-use super::token::Token;
-use super::wish::wish;
-use crate::english::{
-    IS_NO_THING_DONE, IS_NO_THING_HELP, IS_NO_THING_RID, IS_NO_THING_YOUR, TAKE_HOLD, VAGUE_VERBS, VERB,
-    WANTED_LATER,
-};
+use crate::asking::{skip_leads, wish};
+use crate::english::{APART_VERBS, NO_THING, PARTICIPLES, PASTS, TAKE_HOLD, VAGUE_VERBS, VERB, WANTED_LATER};
+use crate::noun::noun;
+use crate::token::{Token, words};
 
 /// The act that a verb asks for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -83,6 +80,18 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     verb.into_iter().chain(wants).chain(holds).max_by_key(|(_, after)| *after)
 }
 
+/// `lock it away`, `track it down`: the verb with its small word behind the thing, and where what is read
+/// ends.
+pub(super) fn apart(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
+    let word = tokens.get(at)?.word();
+    let (_, after) = noun(tokens, at + 1).filter(|_| APART_VERBS.begins_with(word))?;
+    // The verb and what follows the thing, as if they stood together.
+    let together: Vec<Token> =
+        tokens.get(at..=at)?.iter().chain(tokens.get(after..)?).take(3).cloned().collect();
+    let (count, means) = APART_VERBS.valued(&together, 0)?;
+    Some((after + count - 1, [words(means).as_slice(), tokens.get(at + 1..after)?].concat()))
+}
+
 /// Finds where what somebody wants to have begins, where they want it now.
 fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
     let after = at + wish(tokens, at)?;
@@ -93,22 +102,8 @@ fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
     };
     let clause = tokens.get(after..)?.iter().take_while(|token| !is_end(token));
     let is_later = clause.clone().any(|token| WANTED_LATER.has(token.word()));
-    (!is_later && !is_no_thing(tokens, after)).then_some(after)
-}
-
-/// Reads what somebody wants to do, or wants of somebody, and does not want to have: `to open it`, `your
-/// help`.
-fn is_no_thing(tokens: &[Token], at: usize) -> bool {
-    let whose = IS_NO_THING_YOUR.has(tokens.get(at).map_or("", Token::word));
-    let what = tokens.get(at + usize::from(whose)).map_or("", Token::word);
-    let is_undone = tokens.get(at).is_some_and(|token| matches!(token.word(), "something" | "anything"))
-        && tokens.get(at + 1).is_some_and(|token| IS_NO_THING_DONE.has(token.word()));
-    // `I would like to get into the drawer`
-    let is_way_in = tokens.get(at).is_some_and(|token| IS_NO_THING_RID.has(token.word()));
-    is_undone
-        || is_way_in
-        || tokens.get(at).is_some_and(|token| matches!(token.word(), "to" | "you"))
-        || IS_NO_THING_HELP.has(what)
+    // `to open it`, `your help`: what somebody wants to do, or wants of somebody.
+    (!is_later && NO_THING.longest(tokens, after).is_none()).then_some(after)
 }
 
 /// Checks whether it is a wish that stands here, and no verb.
@@ -119,4 +114,74 @@ pub(super) fn is_want(tokens: &[Token], at: usize) -> bool {
 /// Checks whether a request begins here, after what politeness puts before it.
 pub(super) fn begins(tokens: &[Token], at: usize) -> bool {
     verb(tokens, skip_leads(tokens, at)).is_some()
+}
+
+/// An inflection of a verb.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Form {
+    Base,
+    Gerund,
+    Participle,
+}
+
+/// The verb of a request of which a word is the past: `if you took it`.
+pub(super) fn of_past(word: &str) -> Option<String> {
+    if let Some(verb) = PASTS.value(word) {
+        return Some(verb.to_owned());
+    }
+    base(word).filter(|(_, form)| *form == Form::Participle).map(|(verb, _)| verb)
+}
+
+/// A verb of a request by one of its forms: `fetching`, `placing`, `putting`, `carried`.
+pub(super) fn base(word: &str) -> Option<(String, Form)> {
+    if let Some(verb) = PARTICIPLES.value(word) {
+        return Some((verb.to_owned(), Form::Participle));
+    }
+    if VERB.begins_with(word) {
+        return Some((word.to_owned(), Form::Base));
+    }
+    let stem_of = |ending: &str| word.strip_suffix(ending).and_then(stem);
+    let gerund = stem_of("ing").map(|verb| (verb, Form::Gerund));
+    let participle = || {
+        let with_y = word.strip_suffix("ied").map(|stem| format!("{stem}y"));
+        stem_of("ed").or_else(|| with_y.filter(|verb| VERB.begins_with(verb)))
+    };
+    gerund.or_else(|| participle().map(|verb| (verb, Form::Participle)))
+}
+
+/// The verb of which a word without its ending is the stem: itself, with an `e`, or with its last letter
+/// once.
+fn stem(stem: &str) -> Option<String> {
+    let doubled = || {
+        let mut letters = stem.chars();
+        let last = letters.next_back();
+        let once = letters.as_str();
+        (last.is_some() && last == once.chars().last()).then(|| once.to_owned())
+    };
+    let is_verb = |verb: &String| VERB.begins_with(verb);
+    Some(stem.to_owned())
+        .filter(is_verb)
+        .or_else(|| doubled().filter(is_verb))
+        .or_else(|| Some(format!("{stem}e")).filter(is_verb))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Form, base, of_past};
+
+    #[test]
+    fn base_of_regular_and_irregular_forms() {
+        for (word, verb, form) in [
+            ("fetching", "fetch", Form::Gerund),
+            ("placing", "place", Form::Gerund),
+            ("putting", "put", Form::Gerund),
+            ("carried", "carry", Form::Participle),
+            ("brought", "bring", Form::Participle),
+            ("put", "put", Form::Base),
+        ] {
+            assert_eq!(base(word), Some((verb.to_owned(), form)), "{word}");
+        }
+        assert_eq!(base("table"), None);
+        assert_eq!(of_past("took").as_deref(), Some("take"));
+    }
 }

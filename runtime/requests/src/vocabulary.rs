@@ -1,10 +1,13 @@
-//! Names of a scene's things, and the search for the things that some words mean.
+//! Names of a scene's things, and the search for the things that some words mean; with what a household knows
+//! of them: categories, uses, other words. That is short on purpose: common nouns of a kitchen and a living
+//! room. A scene's own categories count beside it.
 
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
-use super::knowledge;
-use super::token::singular;
+use crate::english::{HOLDS_CAN, ORDINARY_WORDS, PACKAGES, SAME, THINGS, USES};
+use crate::phrases::is_word_of_lists;
+use crate::token::singular;
 
 /// The role of a thing in requests.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -52,10 +55,10 @@ impl Vocabulary {
             let mut tags: Vec<String> =
                 entity.categories.iter().map(|category| words(category).join(" ")).collect();
             for name in &names {
-                tags.extend(knowledge::is(name).iter().map(|tag| (*tag).to_owned()));
+                tags.extend(kinds(name).iter().map(|tag| (*tag).to_owned()));
                 // A water bottle has water in it.
                 if let [content @ .., last] = name.as_slice()
-                    && knowledge::holds(last)
+                    && holds(last)
                     && !content.is_empty()
                 {
                     tags.push(content.join(" "));
@@ -92,7 +95,7 @@ impl Vocabulary {
     pub(super) fn meant(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
         let all = || self.things.iter().filter(|thing| roles.contains(&thing.role));
         let phrase = words.join(" ");
-        let usual = knowledge::usual(&phrase).unwrap_or(&phrase);
+        let usual = usual(&phrase).unwrap_or(&phrase);
         let named: Vec<_> = all().filter(|thing| thing.names.iter().any(|name| *name == words)).collect();
         if !named.is_empty() {
             return named;
@@ -121,17 +124,17 @@ impl Vocabulary {
         let own = self.things.iter().flat_map(|thing| thing.names.iter().flatten());
         let tags = self.things.iter().flat_map(|thing| &thing.tags).flat_map(|tag| tag.split(' '));
         let mut known: Vec<&str> = own.map(String::as_str).chain(tags).collect();
-        for word in knowledge::words() {
+        for word in known_words() {
             known.push(word);
         }
         let mut is_changed = false;
         let mut respelt = Vec::with_capacity(words.len());
         for word in words {
-            if known.contains(&word.as_str()) || knowledge::is_package(word) {
+            if known.contains(&word.as_str()) || is_package(word) {
                 respelt.push(word.clone());
                 continue;
             }
-            if knowledge::is_ordinary(word) {
+            if is_ordinary(word) {
                 return None;
             }
             let most = match word.chars().count() {
@@ -187,7 +190,7 @@ impl Thing {
     /// Checks whether every word is one of its names' or says what it is, adjectives alone too.
     fn are_its(&self, words: &[String]) -> bool {
         let is_named = words.iter().any(|word| self.is_content(word));
-        let is_its = |word: &String| self.is_one_of_its(word) || (is_named && knowledge::is_package(word));
+        let is_its = |word: &String| self.is_one_of_its(word) || (is_named && is_package(word));
         words.iter().any(|word| self.is_one_of_its(word)) && words.iter().all(is_its)
     }
 
@@ -198,7 +201,7 @@ impl Thing {
     /// Checks whether a word says what it is or what is in it: the noun of one of its names, or a category.
     pub(super) fn is_content(&self, word: &str) -> bool {
         self.names.iter().any(|name| name.last().is_some_and(|last| last == word))
-            || self.is(knowledge::usual(word).unwrap_or(word))
+            || self.is(usual(word).unwrap_or(word))
     }
 }
 
@@ -226,4 +229,53 @@ fn role(kind: &str, fixed: bool) -> Role {
         _ if fixed => Role::Surface,
         _ => Role::Object,
     }
+}
+
+/// Reads what a thing with a name is, beside what it is called: `coke` is a `drink`. The longest ending of
+/// the name counts: an `energy bar` is not any bar, and a `lime soda` is no lime.
+fn kinds(name: &[String]) -> Vec<&'static str> {
+    for start in 0..name.len() {
+        let ending = name.get(start..).unwrap_or_default().join(" ");
+        if let Some(what) = THINGS.value(&ending) {
+            return what.split(", ").collect();
+        }
+    }
+    // `water bottle`: what is in it.
+    match name {
+        [rest @ .., last] if !rest.is_empty() && is_package(last) => kinds(rest),
+        _ => Vec::new(),
+    }
+}
+
+/// Reads what a thing is that someone eats, drinks, cleans with.
+pub(super) fn good_for(verb: &str) -> Option<&'static str> {
+    USES.value(verb)
+}
+
+/// Checks whether a word says how a thing is packed.
+pub(super) fn is_package(word: &str) -> bool {
+    PACKAGES.has(word)
+}
+
+/// Checks whether something that is called so has in it what the words before say: a `water bottle`, but not
+/// a `water glass`.
+fn holds(word: &str) -> bool {
+    HOLDS_CAN.has(word)
+}
+
+/// Checks whether a word is an ordinary one, and so no slip for the name of a thing: `look` is no misspelt
+/// `book`.
+fn is_ordinary(word: &str) -> bool {
+    ORDINARY_WORDS.has(word) || is_word_of_lists(word)
+}
+
+/// A category by its usual word.
+fn usual(words: &str) -> Option<&'static str> {
+    SAME.value(words)
+}
+
+/// Every word of the tables, for the reader of misspelt words.
+fn known_words() -> impl Iterator<Item = &'static str> {
+    let categories = THINGS.values().flat_map(|what| what.split([',', ' '])).filter(|word| !word.is_empty());
+    THINGS.words().chain(categories).chain(SAME.words())
 }

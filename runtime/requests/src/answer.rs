@@ -1,16 +1,19 @@
-//! Single things in words: which of some options an answer means, what a request names, what a thing is
-//! called.
+//! Answers: which of some options one means, whether it agrees to another try; and what a request names.
 
-use crate::english::{ALL_OF_THEM, ANY_OF_THEM, MODAL_CAN, NUMBERED_THE};
-use motet_robots::scene::Entity;
+use motet_robots::scene::{Entity, Scene};
 use smol_str::SmolStr;
 
-use super::RequestContext;
-use super::noun::{Noun, noun};
-use super::side::{farthest, side};
-use super::spot::{Spot, spot};
-use super::token::{Token, singular, tokens};
-use super::vocabulary::{Role, Vocabulary};
+use crate::RequestContext;
+use crate::asking::skip_leads;
+use crate::english::{
+    AGAIN, AGREES, AGREES_AS_CLAUSE, AGREES_PLAINLY, ALL_OF_THEM, ANSWER_LEADS, ANY_OF_THEM,
+    BESIDE_THE_POINT, DENIAL_WORDS, GIVES_UP, IS_TAG_ASKS, MODAL_CAN, NEGATES_NO, NUMBERED_THE, NUMBERS,
+    ORDINALS, PLAIN_WORDS, REPORT_WORDS, RETRY_WORDS, SIDE_THE, SKIP_SOFT_SOFT, SOUNDS, TRIES_AGAIN,
+};
+use crate::noun::{Noun, Spot, noun, spot};
+use crate::token::{Token, singular, stands, tokens};
+use crate::verb::{Act, Form, base, verb};
+use crate::vocabulary::{Role, Vocabulary};
 
 const ALL: &[Role] = &[Role::Object, Role::Surface, Role::Container, Role::Place, Role::Person];
 
@@ -121,14 +124,8 @@ pub fn choose(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>)
 
 /// `2`, `number two`, `mug 2`, `the last one`, `the other one`
 fn numbered(words: &[String], options: &[SmolStr]) -> Option<SmolStr> {
-    const NUMBERS: &[&str] = &["one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
-    const ORDINALS: &[&str] =
-        &["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth"];
-    let counted = |word: &str, known: &[&str]| known.iter().position(|known| *known == word).map(|at| at + 1);
-    let number = |word: &str| {
-        let digit = word.parse::<usize>().ok().filter(|number| (1..=9).contains(number));
-        digit.or_else(|| counted(word, NUMBERS))
-    };
+    let number = |word: &str| NUMBERS.value(word)?.parse::<usize>().ok();
+    let ordinal = |word: &str| ORDINALS.value(word)?.parse::<usize>().ok();
     let all: Vec<&str> = words.iter().map(String::as_str).collect();
     // `number one` counts, `the red one` does not.
     let is_first = matches!(all.as_slice(), ["one"] | ["number" | "no" | "option", "one"]);
@@ -137,9 +134,7 @@ fn numbered(words: &[String], options: &[SmolStr]) -> Option<SmolStr> {
     match kept.as_slice() {
         ["last" | "latter"] => options.last().cloned(),
         ["former"] => options.first().cloned(),
-        [word] | ["in", word, "place"] if counted(word, ORDINALS).is_some() => {
-            options.get(counted(word, ORDINALS)? - 1).cloned()
-        }
+        [word] | ["in", word, "place"] if ordinal(word).is_some() => options.get(ordinal(word)? - 1).cloned(),
         [word] if number(word).is_some() => {
             // The number of a name, where the options have such names, and else that of the option.
             let named: Vec<_> = options.iter().filter(|id| id.ends_with(&format!("_{word}"))).collect();
@@ -183,11 +178,8 @@ fn other(said: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Opt
 }
 
 fn without_lead(words: &[Token]) -> &[Token] {
-    let skipped =
-        ["i", "mean", "meant", "want", "take", "would", "like", "please", "well", "oh", "it", "is", "its"];
-    let count =
-        words.iter().take_while(|token| skipped.contains(&token.word()) || *token == &Token::Comma).count();
-    words.get(count..).unwrap_or_default()
+    let is_lead = |token: &&Token| ANSWER_LEADS.has(token.word()) || **token == Token::Comma;
+    words.get(words.iter().take_while(is_lead).count()..).unwrap_or_default()
 }
 
 /// The things of the scene that a request names, in the order of the scene: what an extractor of objects
@@ -233,4 +225,178 @@ pub fn called(entity: &Entity) -> String {
         (None, "") => entity.id.replace(['_', '-'], " "),
         (None, class) => class.to_owned(),
     }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Side {
+    Left,
+    Right,
+}
+
+/// The side that words name.
+pub(super) fn side(words: &[&str]) -> Option<Side> {
+    let kept: Vec<&str> = words.iter().copied().filter(|word| !SIDE_THE.has(word)).collect();
+    match kept.as_slice() {
+        ["left" | "leftmost"] => Some(Side::Left),
+        ["right" | "rightmost"] => Some(Side::Right),
+        _ => None,
+    }
+}
+
+/// The option that is farthest to a side, seen from where the person and from where the robot was at the
+/// start: whose left is meant nobody says. None where they see it differently, or it is not known where
+/// everything is.
+pub(super) fn farthest(side: Side, options: &[SmolStr], scene: &Scene) -> Option<SmolStr> {
+    let place = |id: &str| scene.entities.get(id)?.pose.map(|pose| [pose.xyz[0], pose.xyz[1]]);
+    let places: Option<Vec<[f64; 2]>> = options.iter().map(|id| place(id)).collect();
+    let places = places.filter(|places| places.len() > 1)?;
+    let [x, y, _] = scene.robot.base;
+    let person = seen(side, place("user")?, &places)?;
+    let robot = seen(side, [x, y], &places)?;
+    if person == robot { options.get(person).cloned() } else { None }
+}
+
+/// The same from one place: which of the places it is, where no other is as far to that side.
+fn seen(side: Side, from: [f64; 2], places: &[[f64; 2]]) -> Option<usize> {
+    let count = places.len() as f64;
+    let sum = places.iter().fold([0.0, 0.0], |sum, place| [sum[0] + place[0], sum[1] + place[1]]);
+    let ahead = [sum[0] / count - from[0], sum[1] / count - from[1]];
+    // How far to the left of the middle: the cross product.
+    let left = |place: &[f64; 2]| ahead[0] * (place[1] - from[1]) - ahead[1] * (place[0] - from[0]);
+    let sign = if side == Side::Left { 1.0 } else { -1.0 };
+    let mut order: Vec<(f64, usize)> =
+        places.iter().enumerate().map(|(at, place)| (sign * left(place), at)).collect();
+    order.sort_by(|one, other| other.0.total_cmp(&one.0));
+    match order.as_slice() {
+        [(first, at), (second, _), ..] if first - second > 1e-6 => Some(*at),
+        _ => None,
+    }
+}
+
+/// Checks whether an answer agrees to another try, and says nothing else that would have to be done or
+/// heeded: what it says beside that, in words; none where it does not agree.
+#[must_use]
+pub fn encourages(answer: &str) -> Option<String> {
+    let mut said = tokens(answer);
+    // `uh huh` and `mm hm` agree.
+    said.retain(|token| {
+        let word = token.word();
+        !SOUNDS.has(word) || matches!(word, "uh" | "huh" | "mm" | "hm")
+    });
+    let (mut agrees, mut beside) = (false, Vec::new());
+    for clause in said.split(|token| matches!(token, Token::Comma | Token::Stop)) {
+        let begin = skip_soft(clause, 0);
+        if clause.get(begin..).is_none_or(<[Token]>::is_empty) {
+            agrees |= (0..clause.len()).any(|at| AGREES.longest(clause, at).is_some());
+            continue;
+        }
+        // `if you would, thank you`
+        if AGREES_AS_CLAUSE.longest(clause, begin) == Some(clause.len() - begin) {
+            agrees = true;
+            continue;
+        }
+        let is_beside =
+            BESIDE_THE_POINT.longest(clause, begin).max(BESIDE_THE_POINT.longest(clause, 0)).is_some();
+        if !is_beside && (0..clause.len()).any(|at| GIVES_UP.longest(clause, at).is_some()) {
+            return None;
+        }
+        let is_agreed = (0..clause.len())
+            .any(|at| AGAIN.longest(clause, at).is_some() || AGREES.longest(clause, at).is_some())
+            && is_plain(clause);
+        // `I cannot do it myself` says why.
+        let is_agreed = is_agreed && stands(clause, begin, "i can not").is_none();
+        if let Some(left) = asks_again(clause).filter(|_| !is_agreed) {
+            agrees = true;
+            beside.extend(left);
+            continue;
+        }
+        let is_denied = !is_beside
+            && clause.iter().any(|token| DENIAL_WORDS.has(token.word()))
+            && (!is_agreed || negates(clause));
+        if is_denied {
+            return None;
+        }
+        // Something else is asked for.
+        if !is_agreed && !is_beside && verb(clause, skip_leads(clause, begin)).is_some() {
+            return None;
+        }
+        agrees |= is_agreed;
+        if !is_agreed && !is_beside && !is_tag(clause) {
+            beside.extend(clause.iter().map(Token::word));
+        }
+    }
+    agrees.then(|| beside.join(" "))
+}
+
+fn is_tag(clause: &[Token]) -> bool {
+    matches!(clause, [ask, _] if IS_TAG_ASKS.has(ask.word()))
+}
+
+/// Checks whether it takes back or bounds something, in words that are no part of what only sounds so.
+fn negates(clause: &[Token]) -> bool {
+    let mut at = 0;
+    while let Some(token) = clause.get(at) {
+        match BESIDE_THE_POINT.longest(clause, at).max(AGREES_AS_CLAUSE.longest(clause, at)) {
+            Some(count) => at += count,
+            None if NEGATES_NO.has(token.word()) => {
+                return true;
+            }
+            None => at += 1,
+        }
+    }
+    false
+}
+
+/// Checks whether a clause that asks for another try says nothing else that would have to be heeded: words
+/// that deny or bound it, or another thing to do. What it says beside that, in words.
+fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
+    // Who asks something, or tells what somebody did, asks for nothing.
+    let (mut at, mut tries, mut left) = (0, false, Vec::new());
+    while let Some(token) = clause.get(at) {
+        let taken = TRIES_AGAIN.longest(clause, at);
+        match taken {
+            Some(count) => {
+                let said = clause.get(at..at + count)?;
+                tries |= said.iter().any(|token| RETRY_WORDS.has(token.word()));
+                at += count;
+            }
+            None if PLAIN_WORDS.has(token.word()) || AGREES.has(token.word()) => at += 1,
+            None if DENIAL_WORDS.has(token.word()) => return None,
+            None if verb(clause, at)
+                .is_some_and(|(act, _)| !matches!(act, Act::Go | Act::Come | Act::Move)) =>
+            {
+                return None;
+            }
+            None if REPORT_WORDS.has(token.word()) => return None,
+            // `try opening it again`
+            None if matches!(base(token.word()), Some((_, Form::Gerund))) => return None,
+            None => {
+                left.push(token.word());
+                at += 1;
+            }
+        }
+    }
+    tries.then_some(left)
+}
+
+/// Checks whether a clause has no other words than those that agree.
+fn is_plain(clause: &[Token]) -> bool {
+    let mut at = 0;
+    while let Some(token) = clause.get(at) {
+        let taken = AGREES_PLAINLY.longest(clause, at);
+        match taken {
+            Some(count) => at += count,
+            None if PLAIN_WORDS.has(token.word()) => at += 1,
+            None => return false,
+        }
+    }
+    true
+}
+
+/// Past words that only soften.
+fn skip_soft(clause: &[Token], mut at: usize) -> usize {
+    while clause.get(at).is_some_and(|token| SKIP_SOFT_SOFT.has(token.word())) {
+        at += 1;
+    }
+    at
 }
