@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;
 
-use motet_decode::{Subset, canonical};
+use motet_decode::{Grammar, Subset, canonical};
 use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::dialect::{actions, exchange};
 use motet_planner::dialogue::Problem;
@@ -188,7 +188,8 @@ fn sight(now: &Scene, id: &str) -> Option<String> {
 fn surfaced(ask: &PlanRequest<'_>, text: &str) -> Result<String, String> {
     let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
     let policy = parsed.file.policies().next().ok_or_else(|| "there is no policy".to_owned())?;
-    canonical(policy, &ask.session.signatures(), Subset::default()).map_err(|outside| outside.why)
+    let grammar = Grammar::new(&ask.session.signatures(), Subset::default());
+    canonical(policy, &grammar).map_err(|outside| outside.why)
 }
 
 /// A policy that asks a question, whose answer goes into the next plan.

@@ -1,7 +1,7 @@
 """xgrammar and outlines-core take the exported grammars: each accepts the examples in canonical form, token by token, and
 refuses what is nearly right.
 
-Reads what `cargo run -p motet-tests --bin surface` writes, from standard input. `requirements.txt` has the packages; torch
+Reads what `cargo run -p motet-tests --bin canonical` writes, from standard input. `requirements.txt` has the packages; torch
 and transformers, which xgrammar imports and does not need here, are stubs.
 """
 

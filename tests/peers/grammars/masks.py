@@ -1,7 +1,7 @@
 """What a mask of xgrammar costs on the exported grammars, over the vocabulary o200k: at each token of the examples.
 Times are those of the processor, so that other work on the machine counts little.
 
-    cargo run -q -p motet-tests --bin surface | target/peers/bin/python tests/peers/grammars/masks.py RANKS
+    cargo run -q -p motet-tests --bin canonical | target/peers/bin/python tests/peers/grammars/masks.py RANKS
 
 RANKS is the file of o200k_base's ranks, lines of base64 with their numbers.
 """

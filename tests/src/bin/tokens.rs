@@ -3,7 +3,7 @@
 //! `cargo run --release -p motet-tests --bin tokens`.
 
 use motet_decode::vocabulary::Encoding;
-use motet_decode::{Modifiers, Subset, canonical};
+use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::setup;
@@ -20,7 +20,8 @@ fn main() {
         let mut row = Vec::new();
         for form in [Syntax::Json, Syntax::Text] {
             let of = |modifiers| {
-                canonical(policy, &signatures, Subset { syntax: form, modifiers, ..Subset::default() })
+                let subset = Subset { syntax: form, modifiers, ..Subset::default() };
+                canonical(policy, &Grammar::new(&signatures, subset))
             };
             // Deadlines and retries have a place only where the policy has some.
             let Ok(line) = of(Modifiers::Default).or_else(|_| of(Modifiers::Written)) else { continue };

@@ -36,8 +36,8 @@ fn llguidance_takes_the_examples_and_refuses_near_misses() {
         let policy = parsed.file.runnable().next().unwrap();
         for form in [Syntax::Json, Syntax::Text] {
             let surface = Subset { syntax: form, modifiers: Modifiers::Written, ..Subset::default() };
-            let line = canonical(policy, &signatures, surface).unwrap();
             let grammar = Grammar::new(&signatures, surface);
+            let line = canonical(policy, &grammar).unwrap();
             let lark = export(&grammar, Format::Lark, Header::Llguidance).unwrap();
             let mut engines = vec![engine(&factory, TopLevelGrammar::from_lark(lark))];
             if let Some(schema) = export(&grammar, Format::JsonSchema, Header::None) {

@@ -11,6 +11,7 @@
 )]
 
 mod advice;
+mod canonical;
 mod conversation;
 mod corpus;
 mod dialect;
@@ -31,5 +32,4 @@ mod prompt;
 mod request;
 mod spec;
 mod speech;
-mod surface;
 mod vision;

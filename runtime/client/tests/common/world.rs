@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::{CheckOptions, Geometry, Session};
-use motet_decode::{Subset, canonical};
+use motet_decode::{Grammar, Subset, canonical};
 use motet_geometry::planning::SearchBudget;
 use motet_planner::Planner;
 use motet_planner::builtin;
@@ -57,7 +57,7 @@ pub(crate) fn right(setting: &DialogueSetup, request: &str) -> String {
     let situation = RequestContext::new(&setting.scene);
     let answered = builtin::answer(&session, Some(&setting.robot), request, &situation).unwrap();
     let policy = answered.planned.parsed.file.policies().next().unwrap();
-    canonical(policy, &session.signatures(), Subset::default()).unwrap()
+    canonical(policy, &Grammar::new(&session.signatures(), Subset::default())).unwrap()
 }
 
 /// Settings with short times.

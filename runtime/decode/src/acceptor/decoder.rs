@@ -3,7 +3,7 @@
 use motet_syntax::Syntax;
 use toktrie::{Recognizer, SimpleVob};
 
-use super::byte_set::ByteSet;
+use super::lookahead::ByteSet;
 use super::machine::Machine;
 use super::{Acceptor, AcceptorFactory};
 use crate::automaton::Op;
@@ -78,6 +78,7 @@ impl Decoder {
                 if let Some(names) = names.get(most) {
                     set.or(names);
                 }
+                machine.exclude_taken(tokens, set, b"");
                 let ends = match machine.context.automaton.subset.syntax {
                     Syntax::Json => &tokens.name_ends,
                     Syntax::Text => &tokens.bare_name_ends,
@@ -161,14 +162,7 @@ impl Machine {
         let (free, op) = match automaton.op(state.op) {
             Op::Text { .. } if pos + longest <= MAX_TEXT_CHARS => (Free::Text { pos }, state.op),
             Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text { pos }, *other),
-            Op::Name(_) => {
-                // If a name of the greatest length is taken, one byte is reserved to tell this one apart.
-                let bound = self.arenas.in_scope(state.scope).map(|(_, name)| name.len as usize);
-                let taken = automaton.taken.iter().map(|name| name.len());
-                let reserved = usize::from(bound.chain(taken).any(|len| len == MAX_NAME_CHARS));
-                let most = MAX_NAME_CHARS.saturating_sub(pos + reserved);
-                (Free::Name { pos, most }, state.op)
-            }
+            Op::Name(_) => (Free::Name { pos, most: MAX_NAME_CHARS.saturating_sub(pos) }, state.op),
             _ => return None,
         };
         self.fits(longest.max(MAX_NAME_CHARS) + 4, op + 1, state.frame).then_some(free)
@@ -204,6 +198,24 @@ impl Machine {
         }
     }
 
+    /// Removes the tokens that make the name so far, behind `lead`, a taken name of the greatest length: it could
+    /// not become another one.
+    fn exclude_taken(&self, tokens: &Tokens, set: &mut SimpleVob, lead: &[u8]) {
+        let state = self.state();
+        let Op::Name(naming) = self.context.automaton.op(state.op) else { return };
+        let begun = self.bytes.get(self.bytes.len().saturating_sub(state.pos as usize)..).unwrap_or_default();
+        let bytes = |start: u32, len: u32| self.bytes.get(start as usize..(start + len) as usize);
+        let bound = self
+            .arenas
+            .in_scope(naming.scope(state.scope))
+            .filter_map(|(_, name)| bytes(name.start, name.len));
+        let taken = self.context.automaton.taken.iter().map(|name| name.as_bytes());
+        for name in bound.chain(taken).filter(|name| name.len() == MAX_NAME_CHARS) {
+            let rest = name.strip_prefix(begun).and_then(|rest| tokens.trie.token_id(&[lead, rest].concat()));
+            rest.into_iter().for_each(|token| set.disallow_token(token));
+        }
+    }
+
     /// Adds the tokens that may follow where most may not.
     fn mask_few(&mut self, tokens: &Tokens, set: &mut SimpleVob) {
         let tree = &tokens.tree;
@@ -229,6 +241,7 @@ impl Machine {
         };
         if let Some(names) = names {
             set.or(names);
+            self.exclude_taken(tokens, set, b" ");
             tokens.spaced_name_ends.add_bias(&mut Stepper(self), set, b" ");
         }
         // The trie leaves the bytes of the prefix on the machine.

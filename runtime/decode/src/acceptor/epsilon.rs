@@ -169,9 +169,8 @@ impl Machine {
 
     /// The body of the monitor that ends the log may refute one of the monitor's reactions.
     fn reacts_inside(&self, event: Id, flags: Flags) -> bool {
-        let mut at = event;
         let mut nested = 0usize;
-        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
+        for said in self.arenas.back(event) {
             match said.event {
                 Event::Close => nested += 1,
                 Event::Open(NodeKind::Monitor) if nested == 0 => return false,
@@ -188,7 +187,6 @@ impl Machine {
                 }
                 _ => {}
             }
-            at = said.below;
         }
         false
     }

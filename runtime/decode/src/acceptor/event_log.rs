@@ -265,6 +265,12 @@ impl Arenas {
         id
     }
 
+    /// The entries of the log from `last` back to its beginning.
+    pub(crate) fn back(&self, last: Id) -> impl Iterator<Item = &LogEntry> {
+        let entry = |id: Id| self.entry(id).filter(|_| id > 0);
+        std::iter::successors(entry(last), move |said| entry(said.below))
+    }
+
     /// The events after `before` up to `last`, in order.
     pub(crate) fn between(&self, before: Id, last: Id) -> Vec<Event> {
         let mut events = Vec::new();

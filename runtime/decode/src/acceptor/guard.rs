@@ -3,10 +3,10 @@
 use motet_compiler::MAX_FIXPOINTS;
 
 use super::event_log::{Event, Flags, Id, State};
-use super::machine::{Machine, is_ruled_out};
+use super::machine::Machine;
 use super::oracle::{Argument, CallSite, MOST_SHARED};
 use super::word::BOUND;
-use crate::automaton::{BoundNames, Op, OpId, WordList};
+use crate::automaton::{BoundNames, Meaning, Op, OpId, WordList};
 use crate::grammar::{BlockRole, Guard, NodeKind, WordRole};
 use crate::subset::{MAX_CONDITION_DEPTH, MAX_STEPS};
 
@@ -129,9 +129,8 @@ impl Machine {
 
     /// The open block is the body of a `repeat`.
     fn is_repeat(&self, event: Id) -> bool {
-        let mut at = event;
         let mut closed = 0usize;
-        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
+        for said in self.arenas.back(event) {
             match said.event {
                 Event::Close => closed += 1,
                 Event::Open(NodeKind::Block) if closed == 0 => {}
@@ -139,7 +138,6 @@ impl Machine {
                 Event::Open(_) => closed -= 1,
                 _ => {}
             }
-            at = said.below;
         }
         false
     }
@@ -164,7 +162,7 @@ impl Machine {
         let ruled_out = |index: u32| {
             let meaning = words.table.get(index).map(|entry| entry.meaning);
             arg.zip(meaning).is_some_and(|((callable, place), meaning)| {
-                is_ruled_out(&self.context, callable, place, meaning)
+                self.context.is_ruled_out(callable, place, meaning)
             })
         };
         let own =
@@ -231,7 +229,7 @@ impl Machine {
                 _ => continue,
             };
             let number = match meaning {
-                Some(crate::automaton::Meaning::Named(number)) => Some(number),
+                Some(Meaning::Named(number)) => Some(number),
                 _ => None,
             };
             let is_open = match words.role {
@@ -266,7 +264,7 @@ impl Machine {
                 WordRole::Alike => {
                     let wanted = *kind.get_or_insert_with(|| self.kind_of_list(state.event));
                     let own = match meaning {
-                        Some(crate::automaton::Meaning::Entity(entity)) => self.kind_of(entity),
+                        Some(Meaning::Entity(entity)) => self.kind_of(entity),
                         _ => None,
                     };
                     wanted.is_none() || own == wanted
@@ -299,36 +297,23 @@ impl Machine {
     /// The kind of the entities of the list that is being written or was just written; `None` before the
     /// first.
     pub(crate) fn kind_of_list(&self, event: Id) -> Option<usize> {
-        let mut at = event;
-        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
-            match said.event {
-                Event::Word(op, index) => {
-                    let Op::Word(words) = self.context.automaton.op(op) else { return None };
-                    return match words.table.get(index)?.meaning {
-                        crate::automaton::Meaning::Entity(entity) => self.kind_of(entity),
-                        _ => None,
-                    };
-                }
-                Event::Close => at = said.below,
-                _ => return None,
-            }
+        let last = self.arenas.back(event).find(|said| said.event != Event::Close)?;
+        let Event::Word(op, index) = last.event else { return None };
+        let Op::Word(words) = self.context.automaton.op(op) else { return None };
+        match words.table.get(index)?.meaning {
+            Meaning::Entity(entity) => self.kind_of(entity),
+            _ => None,
         }
-        None
     }
 
     /// The fluent that is being written, and the number of its arguments so far.
     pub(super) fn fluent_so_far(&self, event: Id) -> Option<(u16, usize)> {
-        let mut at = event;
-        let mut given = 0;
-        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
-            match said.event {
-                Event::Open(NodeKind::Is(fluent)) => return Some((fluent, given)),
-                Event::Word(..) | Event::Bound(_) => given += 1,
-                _ => return None,
-            }
-            at = said.below;
+        let is_argument = |event: Event| matches!(event, Event::Word(..) | Event::Bound(_));
+        let (given, said) = self.arenas.back(event).enumerate().find(|(_, said)| !is_argument(said.event))?;
+        match said.event {
+            Event::Open(NodeKind::Is(fluent)) => Some((fluent, given)),
+            _ => None,
         }
-        None
     }
 
     /// The contents of the text that is being written may decide if it can stand there.

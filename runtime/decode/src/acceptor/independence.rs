@@ -124,13 +124,10 @@ impl Machine {
     /// The fluents of the goal, as bits.
     fn goal(&self, event: Id) -> u64 {
         let automaton = &self.context.automaton;
-        let (mut at, mut fluents) = (event, 0);
-        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
-            if let (0, Event::Open(NodeKind::Is(fluent))) = (said.before, said.event) {
-                fluents |= automaton.fluent_bits.get(usize::from(fluent)).copied().unwrap_or(u64::MAX);
-            }
-            at = said.below;
-        }
-        fluents
+        let asked = self.arenas.back(event).filter_map(|said| match (said.before, said.event) {
+            (0, Event::Open(NodeKind::Is(fluent))) => Some(usize::from(fluent)),
+            _ => None,
+        });
+        asked.fold(0, |bits, fluent| bits | automaton.fluent_bits.get(fluent).copied().unwrap_or(u64::MAX))
     }
 }

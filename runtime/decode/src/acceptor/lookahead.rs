@@ -1,11 +1,102 @@
-//! Lookahead over optional parts: the machine follows a literal and the bytes behind its absence side by
-//! side until only one of them fits.
+//! Lookahead: candidate bytes, a superset of the bytes that may come next by which tokens are filtered, found
+//! without taking one; and optional parts, of which the machine follows the literal and the bytes behind its
+//! absence side by side until only one of them fits.
 
 use std::sync::Arc;
 
 use super::event_log::{ArenaMark, Id, State, UNSEEN};
 use super::machine::{Machine, StateRef};
-use crate::automaton::{Op, OptionalPart};
+use super::word::search;
+use crate::automaton::{Op, OptionalPart, WordEnd};
+
+/// A set of bytes as a bit mask.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct ByteSet([u64; 4]);
+
+impl ByteSet {
+    pub(super) const ALL: Self = Self([u64::MAX; 4]);
+    const NONE: Self = Self([0; 4]);
+    /// The bytes of numbers and those that may follow one: no letters.
+    const OF_NUMBERS: Self = Self([u64::MAX, !0x07ff_fffe_07ff_fffe, 0, 0]);
+
+    pub(super) fn has(&self, byte: u8) -> bool {
+        self.0.get(usize::from(byte >> 6)).is_some_and(|word| word >> (byte & 63) & 1 == 1)
+    }
+
+    fn add(&mut self, byte: u8) {
+        if let Some(word) = self.0.get_mut(usize::from(byte >> 6)) {
+            *word |= 1 << (byte & 63);
+        }
+    }
+}
+
+impl Machine {
+    /// The candidate bytes of the current state.
+    pub(super) fn candidate_bytes(&mut self) -> ByteSet {
+        self.candidate_bytes_of(self.state(), StateRef::Current)
+    }
+
+    fn candidate_bytes_of(&mut self, state: State, origin: StateRef) -> ByteSet {
+        let context = Arc::clone(&self.context);
+        let pos = state.pos as usize;
+        let mut bytes = ByteSet::NONE;
+        match context.automaton.op(state.op) {
+            Op::Literal(literal) => literal.get(pos).into_iter().for_each(|byte| bytes.add(*byte)),
+            Op::Choose(ways) => {
+                let left = |index: usize| pos == 0 || state.lo & (1u32 << index) != 0;
+                let ways = ways.iter().enumerate().filter(|(index, _)| left(*index));
+                ways.filter_map(|(_, way)| way.bytes.get(pos)).for_each(|byte| bytes.add(*byte));
+            }
+            Op::Word(words) => {
+                if pos == 0 && words.ends == WordEnd::Quoted {
+                    bytes.add(b'"');
+                    return bytes;
+                }
+                let (mut at, end) = self.range(&state, origin, words);
+                if self.whole(&state, words).is_some() {
+                    // No letter follows a name that has ended.
+                    bytes = ByteSet::OF_NUMBERS;
+                    at += 1;
+                }
+                while at < end {
+                    let letter = |machine: &Self, index: u32| {
+                        machine
+                            .arenas
+                            .lists
+                            .get(index as usize)
+                            .and_then(|entry| machine.letter(words, *entry, pos))
+                    };
+                    let Some(byte) = letter(self, at) else { break };
+                    bytes.add(byte);
+                    // The words are sorted by their bytes.
+                    at = search(at, end, |index| letter(self, index) <= Some(byte));
+                }
+            }
+            Op::Optional(maybe) => {
+                if let Some(id) = self.lookahead(&state, origin, maybe) {
+                    let next = self.arenas.lookaheads.get(id as usize).copied();
+                    bytes = next
+                        .map_or(ByteSet::ALL, |next| self.candidate_bytes_of(next, StateRef::Lookahead(id)));
+                }
+                maybe.bytes.get(pos).into_iter().for_each(|byte| bytes.add(*byte));
+            }
+            Op::Number(_) => return ByteSet::OF_NUMBERS,
+            Op::Fork { byte, other, .. } => {
+                match context.automaton.op(*other) {
+                    Op::Literal(literal) => literal.first().into_iter().for_each(|byte| bytes.add(*byte)),
+                    Op::Number(_) => bytes = ByteSet::OF_NUMBERS,
+                    _ => return ByteSet::ALL,
+                }
+                bytes.add(*byte);
+            }
+            Op::Accept => {}
+            Op::Text { .. } | Op::Name(_) | Op::Action(_) | Op::Call(_) | Op::Jump(_) | Op::Return => {
+                return ByteSet::ALL;
+            }
+        }
+        bytes
+    }
+}
 
 impl Machine {
     /// The stored state behind a reference.
@@ -89,7 +180,7 @@ impl Machine {
     /// leads nowhere.
     pub(super) fn lookahead(&mut self, state: &State, origin: StateRef, maybe: &OptionalPart) -> Option<Id> {
         // The stored state may know more than the copy.
-        let known = self.state_mut(origin).map_or(*state, |state_mut| *state_mut);
+        let known = self.state_mut(origin).map_or(*state, |stored| *stored);
         if known.lookahead().is_some() || state.pos > 0 {
             return known.lookahead();
         }
@@ -98,8 +189,8 @@ impl Machine {
         }
         let next = self.follow_epsilon(*state, maybe.other);
         let id = self.arenas.push_lookahead(next);
-        if let Some(state_mut) = self.state_mut(origin) {
-            state_mut.set_lookahead(id);
+        if let Some(stored) = self.state_mut(origin) {
+            stored.set_lookahead(id);
         }
         Some(id)
     }

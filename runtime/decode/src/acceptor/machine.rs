@@ -2,30 +2,16 @@
 
 use std::sync::Arc;
 
-use motet_compiler::Session;
-use rustc_hash::FxHashSet;
-
+use super::context::Context;
 use super::event_log::{ArenaMark, Arenas, CallFrame, Event, Id, State, UNSEEN};
-use super::memo::Memo;
-use super::oracle::Oracle;
-use super::word::WordStep;
-use crate::automaton::{Automaton, Meaning, Op, OpId};
+use super::proof_cursor::Oracle;
+use crate::automaton::{Op, OpId};
 use crate::grammar::Guard;
 use crate::subset::Digits;
 
 /// Bytes reserved beyond the shortest completion: a condition that may refute nothing can need more than
 /// the shortest one, and a `not` around it.
 const SLACK: usize = 16;
-
-/// The part that all machines of one session share.
-#[derive(Debug)]
-pub(crate) struct Context {
-    pub(crate) automaton: Arc<Automaton>,
-    pub(crate) session: Session,
-    /// Pairs of a callable and an entity for which a motion query found no motion.
-    pub(crate) infeasible: FxHashSet<(usize, u16)>,
-    pub(crate) memo: Memo,
-}
 
 /// The place where a state is stored, so that findings about it can be stored there too.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,6 +22,14 @@ pub(crate) enum StateRef {
     Lookahead(Id),
     /// A copy that is not stored.
     Detached,
+}
+
+/// The outcome of a byte in a list of words.
+pub(super) enum WordStep {
+    /// The next state; `None` if no word goes on like that.
+    To(Option<State>),
+    /// The word had ended before the byte, which is for the operation behind it.
+    Behind(State),
 }
 
 /// A run of the automaton over one policy. Going back is truncating its lists.
@@ -96,9 +90,9 @@ impl Machine {
 
     /// Takes back the last `count` bytes.
     pub(crate) fn pop(&mut self, count: usize) {
-        let state_mut = self.bytes.len().saturating_sub(count);
-        self.bytes.truncate(state_mut);
-        self.states.truncate(state_mut + 1);
+        let left = self.bytes.len().saturating_sub(count);
+        self.bytes.truncate(left);
+        self.states.truncate(left + 1);
     }
 
     pub(crate) fn mark(&self) -> ArenaMark {
@@ -294,11 +288,4 @@ impl Machine {
         }
         is_open
     }
-}
-
-/// A word is an argument that a motion query ruled out.
-pub(crate) fn is_ruled_out(context: &Context, callable: usize, arg: usize, meaning: Meaning) -> bool {
-    let Meaning::Entity(entity) = meaning else { return false };
-    let target = context.automaton.callables.get(callable).and_then(|callable| callable.target);
-    target == Some(arg) && context.infeasible.contains(&(callable, entity))
 }

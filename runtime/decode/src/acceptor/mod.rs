@@ -1,23 +1,20 @@
 //! The acceptor: the automaton together with the checker, fed byte by byte ([`Acceptor`]) or token by token
 //! ([`Decoder`]).
 //!
-//! [`machine`] runs the automaton and keeps its log of events; [`oracle`] asks the checker what the log
-//! means; the other modules each answer one question about the next byte.
+//! [`context`] is shared; [`machine`] runs the automaton and keeps its log of events; [`oracle`] asks the
+//! checker what the log means; the other modules each answer one question about the next byte.
 
-mod batch_probe;
-mod byte_set;
+mod context;
 mod decoder;
 mod epsilon;
 mod event_log;
 mod guard;
 mod independence;
-mod lexeme;
 mod lookahead;
 mod machine;
-mod memo;
 mod oracle;
-mod placeholder;
 mod proof_cursor;
+mod question;
 mod safe_condition;
 mod step_builder;
 mod word;
@@ -27,9 +24,9 @@ use std::sync::Arc;
 use motet_compiler::Session;
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Syntax};
 
+use self::context::{Context, Memo};
 pub use self::decoder::Decoder;
-use self::machine::{Context, Machine};
-use self::memo::Memo;
+use self::machine::Machine;
 use crate::automaton::Automaton;
 use crate::grammar::Grammar;
 use crate::subset::Subset;
@@ -84,6 +81,21 @@ impl AcceptorFactory {
 
 /// Follows a policy byte by byte and knows which bytes may come next, such that the policy can still be
 /// completed and will check without an error. One policy, one thread at a time; clone it to branch.
+///
+/// ```
+/// use motet_decode::{AcceptorFactory, Environment, Modifiers, Subset};
+/// use motet_syntax::Syntax;
+///
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let subset = Subset { syntax: Syntax::Text, modifiers: Modifiers::Written, ..Subset::default() };
+/// let mut acceptor = AcceptorFactory::new(&texts.session()?, subset).acceptor(2000).expect("a policy fits");
+/// assert_eq!(acceptor.forced(), b"policy ");
+/// let taken = acceptor.accept(b"policy p for hsr { place(mug_1, sink) }");
+/// assert_eq!(&acceptor.bytes()[..taken], b"policy p for hsr { p");
+/// // Nothing is held that could be placed.
+/// assert!(!acceptor.why_not(b"lace(mug_1, sink)").is_empty());
+/// # Ok::<(), motet_decode::EnvironmentError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Acceptor {
     machine: Machine,
@@ -186,8 +198,8 @@ fn closed(text: &str, form: Syntax) -> String {
         closed.push('"');
     }
     // A key or a comma at the end leads nowhere.
-    let state_mut = closed.trim_end_matches([',', ':', ' ']).len();
-    closed.truncate(state_mut);
+    let end = closed.trim_end_matches([',', ':', ' ']).len();
+    closed.truncate(end);
     closed.extend(open.into_iter().rev());
     closed
 }

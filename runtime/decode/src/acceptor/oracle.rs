@@ -1,29 +1,19 @@
 //! The checker as the machine asks it: may this call stand here, is this step an error, may the policy be
 //! done.
 //!
-//! Two incremental proofs follow the machine ([`ProofCursor`]). One stands where the next step will stand
-//! and judges calls; the other verifies whole steps, closed for the time being.
+//! Two incremental proofs follow the machine ([`Oracle`](super::proof_cursor::Oracle)). One stands where the
+//! next step will stand and judges calls; the other verifies whole steps, closed for the time being.
 
 use motet_compiler::Session;
 use motet_compiler::incremental::{ArgumentValue, IncrementalChecker, LoopTest};
 use motet_compiler::signature::Type;
 
+use super::context::Question;
 use super::event_log::{Event, Id, mix};
 use super::machine::Machine;
-use super::memo::Question;
-use super::proof_cursor::{ProofCursor, Transcript};
+use super::proof_cursor::Transcript;
 use crate::automaton::{Automaton, Meaning, Op};
 use crate::grammar::{Constant, NodeKind};
-
-/// The incremental proofs of a machine.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Oracle {
-    place: ProofCursor,
-    /// Verifies whole steps.
-    pub(super) verifier: ProofCursor,
-    /// The hash of the log up to where `place` stands.
-    stands: Option<u64>,
-}
 
 /// Number of values tried for the next argument of a call that must be proved together with concurrent
 /// steps; for each argument behind that, one value is tried. The values are those that nothing refutes
@@ -358,22 +348,16 @@ impl Machine {
     /// The call that is being written: its callable, the arguments so far, and the event before it.
     pub(crate) fn call_so_far(&self, event: Id) -> Option<(u16, Vec<Argument>, Id)> {
         let mut given = Vec::new();
-        let mut at = event;
-        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
-            at = said.below;
+        let mut log = self.arenas.back(event);
+        while let Some(said) = log.next() {
             match said.event {
                 Event::Open(NodeKind::Do(callable)) => {
                     given.reverse();
-                    return Some((callable, given, at));
+                    return Some((callable, given, said.below));
                 }
                 // The contents of a list decide nothing.
                 Event::Close => {
-                    while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
-                        at = said.below;
-                        if said.event == Event::Open(NodeKind::List) {
-                            break;
-                        }
-                    }
+                    log.find(|said| said.event == Event::Open(NodeKind::List));
                     given.push(Argument::One(Event::AnyText));
                 }
                 event => given.push(Argument::One(event)),

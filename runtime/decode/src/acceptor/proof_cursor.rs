@@ -4,8 +4,8 @@ use motet_compiler::incremental::IncrementalChecker;
 use motet_syntax::ast::{self, Policy, Step};
 use motet_syntax::{Span, Syntax};
 
+use super::context::Context;
 use super::event_log::{Arenas, Event, Id};
-use super::machine::Context;
 use super::step_builder::Builder;
 
 /// An incremental proof that follows a machine. Steps that the log shares with the last call are kept.
@@ -16,6 +16,16 @@ pub(super) struct ProofCursor {
     head: u64,
     /// The hash of the log up to the end of each proved step.
     steps: Vec<u64>,
+}
+
+/// The incremental proofs of a machine.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Oracle {
+    pub(super) place: ProofCursor,
+    /// Verifies whole steps.
+    pub(super) verifier: ProofCursor,
+    /// The hash of the log up to where `place` stands.
+    pub(super) stands: Option<u64>,
 }
 
 /// The log of a machine, to be read as syntax.

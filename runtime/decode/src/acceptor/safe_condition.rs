@@ -3,9 +3,9 @@
 
 use motet_compiler::incremental::LoopTest;
 
+use super::context::Question;
 use super::event_log::{Event, Flags, Id, State, mix};
 use super::machine::Machine;
-use super::memo::Question;
 use super::oracle::meaning;
 use crate::automaton::Meaning;
 use crate::grammar::NodeKind;
@@ -151,9 +151,9 @@ impl Machine {
 
     /// The shape of the condition that ends the log.
     pub(super) fn last_condition(&self, event: Id) -> Last {
-        let (mut at, mut closed, mut events) = (event, 0usize, Vec::new());
-        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
-            at = said.below;
+        let (mut closed, mut events) = (0usize, Vec::new());
+        let mut log = self.arenas.back(event);
+        for said in log.by_ref() {
             events.push(said.event);
             match said.event {
                 Event::Close => closed += 1,
@@ -164,7 +164,7 @@ impl Machine {
                 break;
             }
         }
-        let before = self.arenas.entry(at).filter(|_| at > 0).map(|said| said.event);
+        let before = log.next().map(|said| said.event);
         let (mut open, mut height) = (Vec::new(), 0);
         for event in events.iter().rev() {
             match event {
@@ -189,15 +189,15 @@ impl Machine {
         if more.contains(&Event::Open(NodeKind::Wait)) {
             return None;
         }
-        let (mut said, mut at) = (Vec::new(), event);
+        let (mut said, mut log) = (Vec::new(), self.arenas.back(event));
         let mut is_closed = more.contains(&Event::Close);
         let mut body = if is_closed { event } else { 0 };
         while !is_closed {
-            let said_here = self.arenas.entry(at).filter(|_| at > 0)?;
-            match said_here.event {
+            let entry = log.next()?;
+            match entry.event {
                 Event::Close => {
                     is_closed = true;
-                    body = said_here.below;
+                    body = entry.below;
                 }
                 event
                 @ (Event::Open(NodeKind::Not | NodeKind::Is(_)) | Event::Word(..) | Event::Bound(_)) => {
@@ -205,7 +205,6 @@ impl Machine {
                 }
                 _ => return None,
             }
-            at = said_here.below;
         }
         said.reverse();
         said.extend(more.iter().copied().filter(|event| *event != Event::Close));

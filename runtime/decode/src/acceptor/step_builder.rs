@@ -7,15 +7,14 @@ use motet_compiler::incremental::{CHOICE, PROGRAM_POINT};
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{
-    Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Name, Reaction, Step, StepKind, When,
+    Arg, Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Name, Reaction, Step, StepKind, When,
 };
 use smol_str::SmolStr;
 
 use super::event_log::{Arenas, Event};
-use super::placeholder::{argument, closed, end, expr, fail, named};
 use crate::automaton::{Automaton, Meaning, Op};
-use crate::grammar::{Constant, NodeKind};
-use crate::subset::{Decimal, Modifiers, Relation};
+use crate::grammar::{Constant, NodeKind, Relation};
+use crate::subset::{Decimal, Modifiers};
 
 /// A reader of events.
 pub(crate) struct Builder<'a> {
@@ -409,4 +408,31 @@ impl Builder<'_> {
     fn end(&mut self, kind: EndKind) -> End {
         End { kind, why: self.value().or(end(kind).why), span: Span::default() }
     }
+}
+
+fn argument(name: &SmolStr, value: Expr) -> Arg {
+    Arg { name: Some(named(name.clone())), value, span: Span::default() }
+}
+
+fn named(text: SmolStr) -> Name {
+    Name { text, span: Span::default() }
+}
+
+fn expr(kind: ExprKind) -> Expr {
+    Expr { kind, span: Span::default() }
+}
+
+fn end(kind: EndKind) -> End {
+    let why = (kind != EndKind::Done).then(|| expr(ExprKind::Text(SmolStr::new_static("?"))));
+    End { kind, why, span: Span::default() }
+}
+
+fn fail() -> Step {
+    Step { kind: StepKind::End(end(EndKind::Fail)), span: Span::default() }
+}
+
+/// A block that no path leaves: it ends with `fail`.
+fn closed(mut steps: Vec<Step>) -> Block {
+    steps.push(fail());
+    Block { steps, span: Span::default() }
 }

@@ -1,20 +1,16 @@
-//! Recognition of words letter by letter: a sorted list, and the range of it that still fits.
+//! Recognition letter by letter: of words, by the range of a sorted list that still fits, of texts, and of
+//! new names.
+
+use motet_syntax::Syntax;
 
 use super::event_log::{Event, Id, Name, State, UNSEEN};
-use super::machine::{Machine, StateRef};
+use super::machine::{Machine, StateRef, WordStep};
 use crate::automaton::{BoundNames, WordEnd, WordList};
-use crate::grammar::WordRole;
+use crate::grammar::{NameUse, WordRole};
+use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS, is_text_char};
 
 /// Flag of a list entry that is a binding; the other bits are its index.
 pub(crate) const BOUND: u32 = 1 << 31;
-
-/// The outcome of a byte in a list of words.
-pub(super) enum WordStep {
-    /// The next state; `None` if no word goes on like that.
-    To(Option<State>),
-    /// The word had ended before the byte, which is for the operation behind it.
-    Behind(State),
-}
 
 impl Machine {
     pub(super) fn word(
@@ -61,8 +57,8 @@ impl Machine {
             return (state.lo, state.hi);
         }
         let (lo, hi) = self.list(state, words);
-        if let Some(state_mut) = self.state_mut(origin) {
-            (state_mut.lo, state_mut.hi) = (lo, hi);
+        if let Some(stored) = self.state_mut(origin) {
+            (stored.lo, stored.hi) = (lo, hi);
         }
         (lo, hi)
     }
@@ -110,14 +106,10 @@ impl Machine {
 
     /// The name before the list that was just written.
     pub(super) fn name_before_list(&self, event: Id) -> Option<(u32, u32)> {
-        let mut at = event;
-        while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
-            if let Event::Name(start, len) = said.event {
-                return Some((start, len));
-            }
-            at = said.below;
-        }
-        None
+        self.arenas.back(event).find_map(|said| match said.event {
+            Event::Name(start, len) => Some((start, len)),
+            _ => None,
+        })
     }
 
     /// A byte of a word with the quotes that belong to it; `None` behind its end.
@@ -159,4 +151,97 @@ pub(super) fn search(mut lo: u32, mut hi: u32, before: impl Fn(u32) -> bool) -> 
         }
     }
     lo
+}
+
+impl NameUse {
+    /// The scope whose names this one must differ from; the name of a policy or a sequence is bound nowhere.
+    pub(super) fn scope(self, scope: Id) -> Id {
+        match self {
+            Self::Result(_) | Self::Item | Self::Let => scope,
+            Self::Policy | Self::Group => 0,
+        }
+    }
+}
+
+impl Machine {
+    pub(super) fn text(&mut self, mut state: State, arg: Option<u8>, byte: u8) -> Option<State> {
+        let next = state.op + 1;
+        if byte == b'"' {
+            let (start, len) = self.written(state.pos).filter(|_| state.pos > 0)?;
+            let event = Event::Text(start, len);
+            if arg.is_some() && !self.permits_text(&state, event) {
+                return None;
+            }
+            state.event = self.record(state.event, event);
+            return Some(self.follow_epsilon(state, next));
+        }
+        let can = is_text_char(char::from(byte))
+            && (state.pos as usize) < MAX_TEXT_CHARS
+            && !(state.pos == 0 && byte == b'$')
+            && self.fits(2, next, state.frame);
+        state.pos += 1;
+        can.then_some(state)
+    }
+
+    pub(super) fn name(&mut self, mut state: State, naming: NameUse, byte: u8) -> Option<State> {
+        let next = state.op + 1;
+        let scope = naming.scope(state.scope);
+        let end = if self.context.automaton.subset.syntax == Syntax::Json { b'"' } else { b' ' };
+        if byte == end {
+            let (start, len) = self.written(state.pos).filter(|_| state.pos > 0)?;
+            if self.is_taken(scope, start, len, None) {
+                return None;
+            }
+            if naming != NameUse::Let {
+                state.event = self.record(state.event, Event::Name(start, len));
+            }
+            let ty = match naming {
+                NameUse::Result(ty) => Some(ty),
+                // It is not bound yet, but taken.
+                NameUse::Let => Some(u16::MAX),
+                NameUse::Policy | NameUse::Group | NameUse::Item => None,
+            };
+            if let Some(ty) = ty {
+                state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
+            }
+            return Some(self.follow_epsilon(state, next));
+        }
+        let is_letter = byte.is_ascii_alphabetic() || byte == b'_';
+        let is_digit = byte.is_ascii_digit() && state.pos > 0;
+        if !(is_letter || is_digit) {
+            return None;
+        }
+        let pos = state.pos as usize;
+        // A taken name needs room to become another one.
+        let can_grow = pos + 1 < MAX_NAME_CHARS && self.fits(4, next, state.frame);
+        if !can_grow {
+            let can_end = pos < MAX_NAME_CHARS && self.fits(2, next, state.frame);
+            let (start, len) = self.written(state.pos)?;
+            if !can_end || self.is_taken(scope, start, len, Some(byte)) {
+                return None;
+            }
+        }
+        state.pos += 1;
+        Some(state)
+    }
+
+    /// The start and length of the last `count` bytes.
+    fn written(&self, count: u32) -> Option<(u32, u32)> {
+        let start = u32::try_from(self.bytes.len()).ok()?.checked_sub(count)?;
+        Some((start, count))
+    }
+
+    /// A name, with one more byte behind it, is bound already or means something else.
+    fn is_taken(&self, scope: Id, start: u32, len: u32, more: Option<u8>) -> bool {
+        let bytes =
+            |start: u32, len: u32| self.bytes.get(start as usize..(start + len) as usize).unwrap_or_default();
+        let name = || bytes(start, len).iter().copied().chain(more);
+        let taken = &self.context.automaton.taken;
+        let means_else = || taken.contains(String::from_utf8_lossy(&name().collect::<Vec<u8>>()).as_ref());
+        (!taken.is_empty() && means_else())
+            || self
+                .arenas
+                .in_scope(scope)
+                .any(|(_, known)| bytes(known.start, known.len).iter().copied().eq(name()))
+    }
 }

@@ -3,7 +3,7 @@
 //! In JSON an operator stands first, so a condition is one rule. In text `and` and `or` stand between what
 //! they join, so the first of several is a condition of its own until one of them follows.
 
-use smol_str::SmolStr;
+use smol_str::{SmolStr, format_smolstr};
 
 use super::lowering::{Lowering, Way};
 use super::{Op, OpId};
@@ -16,6 +16,10 @@ impl Lowering<'_> {
     /// The rule of a condition; in JSON behind its `{"`.
     pub(super) fn conditions(&mut self) -> OpId {
         if self.is_json() { self.prefix_conditions() } else { self.infix_conditions() }
+    }
+
+    fn connective(&self, kind: NodeKind) -> [&'static str; 3] {
+        self.grammar.connective(kind).unwrap_or_default()
     }
 
     /// The rules of atoms of one sort, each behind its name, with the numbers of their declarations.
@@ -54,10 +58,12 @@ impl Lowering<'_> {
         self.act(Action::Deeper);
         self.asm.put(Op::Call(start));
         self.asm.put(Op::Jump(end));
-        ways.push(("not\":{\"".into(), not, Guard::Not));
-        for (word, kind, guard) in
-            [("all\":[{\"", NodeKind::All, Guard::All), ("any\":[{\"", NodeKind::Any, Guard::Any)]
-        {
+        // The `{"` before a condition is read already, and that of the first one in it is read with the word.
+        let word = |open: &str| format_smolstr!("{}{{\"", open.trim_start_matches("{\""));
+        ways.push((word(self.connective(NodeKind::Not)[0]), not, Guard::Not));
+        for (kind, guard) in [(NodeKind::All, Guard::All), (NodeKind::Any, Guard::Any)] {
+            let [open, separator, _] = self.connective(kind);
+            let separator = format!("{separator}{{\"");
             let at = self.act(Action::Open(kind));
             self.act(Action::Deeper);
             self.act(Action::Loosen);
@@ -65,11 +71,11 @@ impl Lowering<'_> {
             self.asm.put(Op::Call(rule));
             self.asm.put(Op::Jump(end));
             self.asm.put(Op::Call(start));
-            self.asm.literal(",{\"");
+            self.asm.literal(&separator);
             let second = self.asm.put(Op::Call(start));
             self.act(Action::Count);
-            self.next_member([",{\"", "]"], second, MEMBERS - 1);
-            ways.push((word.into(), at, guard));
+            self.next_member([&separator, "]"], second, MEMBERS - 1);
+            ways.push((word(open), at, guard));
         }
         self.asm.choose(start, &ways);
         start
@@ -78,22 +84,28 @@ impl Lowering<'_> {
     fn infix_conditions(&mut self) -> OpId {
         let bare = |ways: Vec<(Way, u16)>| ways.into_iter().map(|(way, _)| way).collect::<Vec<Way>>();
         let fluents = bare(self.atoms(AtomSort::Fluent));
+        let [not, and_word, or_word] = [
+            self.connective(NodeKind::Not)[0],
+            self.connective(NodeKind::All)[1],
+            self.connective(NodeKind::Any)[1],
+        ];
         let comparisons = bare(self.atoms(AtomSort::Measure));
         let atoms = [fluents.clone(), comparisons].concat();
         // Rules that call each other: their places come first.
         let (negated, group) = (self.later(), self.later());
-        let member = self.primary(&atoms, [("not ", negated, Guard::Not), ("(", group, Guard::Paren(1))]);
+        let member = self.primary(&atoms, [(not, negated, Guard::Not), ("(", group, Guard::Paren(1))]);
 
         let parts = self.act(Action::Deeper);
         self.act(Action::Loosen);
         self.asm.put(Op::Call(member));
         let first = self.later();
         let (and, or) = (self.joined(NodeKind::All, member), self.joined(NodeKind::Any, member));
-        self.asm.choose(first, &[(" and ".into(), and, Guard::Several), (" or ".into(), or, Guard::Several)]);
+        self.asm
+            .choose(first, &[(and_word.into(), and, Guard::Several), (or_word.into(), or, Guard::Several)]);
         let group_at = self.rule(&[Action::Open(NodeKind::Group)], parts, ")");
         self.land(group, group_at);
 
-        let inner = self.primary(&atoms, [("not ", negated, Guard::Not), ("(", group, Guard::Paren(1))]);
+        let inner = self.primary(&atoms, [(not, negated, Guard::Not), ("(", group, Guard::Paren(1))]);
         let parts = self.act(Action::Deeper);
         self.act(Action::Loosen);
         self.asm.put(Op::Call(inner));
@@ -104,13 +116,12 @@ impl Lowering<'_> {
             first,
             &[
                 (")".into(), alone, Guard::Compared),
-                (" and ".into(), and, Guard::Several),
-                (" or ".into(), or, Guard::Several),
+                (and_word.into(), and, Guard::Several),
+                (or_word.into(), or, Guard::Several),
             ],
         );
         let enclosed = self.rule(&[Action::Open(NodeKind::Group)], parts, "");
-        let operand =
-            self.primary(&fluents, [("not ", negated, Guard::Not), ("(", enclosed, Guard::NotParen)]);
+        let operand = self.primary(&fluents, [(not, negated, Guard::Not), ("(", enclosed, Guard::NotParen)]);
         let negated_at =
             self.rule(&[Action::Open(NodeKind::Not), Action::Negate, Action::Deeper], operand, "");
         self.land(negated, negated_at);
@@ -123,13 +134,13 @@ impl Lowering<'_> {
         let choice = self.later();
         // Behind `Action::Deeper`, which is done.
         self.asm
-            .choose(choice, &[(" and ".into(), and + 1, Guard::All), (" or ".into(), or + 1, Guard::Any)]);
-        let whole = self.primary(&atoms, [("not ", negated, Guard::Not), ("(", first, Guard::Paren(2))]);
+            .choose(choice, &[(and_word.into(), and + 1, Guard::All), (or_word.into(), or + 1, Guard::Any)]);
+        let whole = self.primary(&atoms, [(not, negated, Guard::Not), ("(", first, Guard::Paren(2))]);
         let start = self.asm.put(Op::Call(whole));
         let (join, other) = (self.later(), self.later());
         let done = self.asm.put(Op::Return);
-        self.asm.optional(join, (" and ", and, Guard::And), (other, Guard::Open));
-        self.asm.optional(other, (" or ", or, Guard::Or), (done, Guard::Open));
+        self.asm.optional(join, (and_word, and, Guard::And), (other, Guard::Open));
+        self.asm.optional(other, (or_word, or, Guard::Or), (done, Guard::Open));
         start
     }
 
@@ -160,7 +171,7 @@ impl Lowering<'_> {
     fn joined(&mut self, kind: NodeKind, member: OpId) -> OpId {
         let start = self.act(Action::Join(kind));
         self.asm.put(Op::Call(member));
-        self.next_member([if kind == NodeKind::All { " and " } else { " or " }, ""], start, MEMBERS - 1);
+        self.next_member([self.connective(kind)[1], ""], start, MEMBERS - 1);
         start
     }
 

@@ -1,6 +1,5 @@
 //! Completion: from the syntax tree of a policy to the tree of the canonical subset.
 
-use motet_compiler::Signatures;
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{self, Block, CatchOn, Do, EndKind, Expr, Policy, StepKind};
@@ -8,198 +7,163 @@ use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::OutsideSubset;
-use super::value::outside;
-use crate::subset::{
-    self, Call, Catch, Document, End, MAX_CONDITION_DEPTH, MAX_COUNT, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS,
-    Modifiers, Reaction, Step, Subset, When,
-};
+use super::print::{Item, Node};
+use super::value::{Completer, argument, numbered, outside};
+use crate::grammar::{Grammar, NodeKind};
+use crate::subset::{MAX_CONDITION_DEPTH, MAX_COUNT, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS, Modifiers};
 
 /// Completes a policy to a tree of the canonical subset.
 ///
 /// # Errors
 ///
 /// The first part of the policy that is outside of the subset.
-pub(super) fn complete(
-    policy: &Policy,
-    signatures: &Signatures,
-    subset: Subset,
-) -> Result<Document, OutsideSubset> {
-    let mut completer =
-        Completer { signatures, subset, bound: Vec::new(), names: FxHashSet::default(), fresh: 0 };
+pub(super) fn complete(policy: &Policy, grammar: &Grammar) -> Result<Node, OutsideSubset> {
+    let signatures = &*grammar.signatures;
+    let mut completer = Completer {
+        signatures,
+        subset: grammar.subset,
+        bound: Vec::new(),
+        names: FxHashSet::default(),
+        fresh: 0,
+    };
     if !policy.params.is_empty() {
-        return Err(OutsideSubset {
-            span: policy.name.span,
-            why: "a policy has no parameters on the model subset".into(),
-        });
+        return Err(outside(policy.name.span, "a policy has no parameters in the canonical subset"));
     }
     names(&policy.body, &mut completer.names);
-    let robot = Some(&signatures.robot).filter(|robot| !robot.is_empty()).cloned();
-    if let Some(written) = policy.robot.as_ref().filter(|written| Some(&written.text) != robot.as_ref()) {
-        return Err(OutsideSubset {
-            span: written.span,
-            why: format!("the policy is for `{}`", written.text),
-        });
+    if let Some(written) = policy.robot.as_ref().filter(|written| Some(&written.text) != grammar.robot()) {
+        return Err(outside(written.span, format!("the policy is for `{}`", written.text)));
     }
     let name = completer.new_name(&policy.name.text, policy.name.span)?;
-    let goal = policy.achieves.as_ref();
-    let achieves = goal.map(|goal| completer.condition(goal, MAX_CONDITION_DEPTH)).transpose()?;
-    let steps = completer.block(&policy.body, subset.depth, 1)?;
-    Ok(Document { name, robot, achieves, steps })
-}
-
-pub(super) struct Completer<'a> {
-    pub(super) signatures: &'a Signatures,
-    pub(super) subset: Subset,
-    /// The bindings in scope, in order.
-    bound: Vec<SmolStr>,
-    /// Every name that is bound anywhere in the policy.
-    names: FxHashSet<SmolStr>,
-    fresh: usize,
+    let goal = policy.achieves.as_ref().map(|goal| completer.asked(goal)).transpose()?;
+    let steps = completer.block(&policy.body, grammar.subset.depth, 1)?;
+    let items = vec![goal.unwrap_or(Item::Nothing), steps];
+    Ok(Node { kind: NodeKind::Block, span: policy.name.span, name: Some(name), items })
 }
 
 impl Completer<'_> {
-    pub(super) fn is_bound(&self, name: &str) -> bool {
-        self.bound.iter().any(|bound| bound == name)
-    }
-
     /// A block of at least `least` steps; blocks may be nested `depth` levels below it.
-    fn block(&mut self, block: &Block, depth: usize, least: usize) -> Result<Vec<Step>, OutsideSubset> {
+    fn block(&mut self, block: &Block, depth: usize, least: usize) -> Result<Item, OutsideSubset> {
         if !(least..=MAX_STEPS).contains(&block.steps.len()) {
-            return Err(OutsideSubset {
-                span: block.span,
-                why: format!("a block has {least} to {MAX_STEPS} steps on the model subset"),
-            });
+            return Err(outside(
+                block.span,
+                format!("a block has {least} to {MAX_STEPS} steps in the canonical subset"),
+            ));
         }
         let outer = self.bound.len();
-        let steps = block.steps.iter().map(|step| self.step(step, depth)).collect();
+        let steps = block.steps.iter().map(|step| self.step(step, depth)).collect::<Result<_, _>>();
         self.bound.truncate(outer);
-        steps
+        steps.map(Item::Block)
     }
 
-    fn inner(&mut self, block: &Block, depth: usize, least: usize) -> Result<Vec<Step>, OutsideSubset> {
+    fn inner(&mut self, block: &Block, depth: usize, least: usize) -> Result<Item, OutsideSubset> {
         let Some(depth) = depth.checked_sub(1) else {
-            return Err(OutsideSubset {
-                span: block.span,
-                why: "blocks stand too deep in one another".into(),
-            });
+            return Err(outside(block.span, "the blocks are nested too deep"));
         };
         self.block(block, depth, least)
     }
 
-    fn step(&mut self, step: &ast::Step, depth: usize) -> Result<Step, OutsideSubset> {
-        Ok(match &step.kind {
-            StepKind::Do(call) => Step::Do(self.call(call)?),
+    fn asked(&self, condition: &Expr) -> Result<Item, OutsideSubset> {
+        self.condition(condition, MAX_CONDITION_DEPTH).map(Item::Node)
+    }
+
+    fn step(&mut self, step: &ast::Step, depth: usize) -> Result<Node, OutsideSubset> {
+        let mut given = None;
+        let (kind, items) = match &step.kind {
+            StepKind::Do(call) => return self.call(call),
             StepKind::Sequence { name, body } => {
-                Step::Sequence(self.new_name(&name.text, name.span)?, self.inner(body, depth, 1)?)
+                given = Some(self.new_name(&name.text, name.span)?);
+                (NodeKind::Sequence, vec![self.inner(body, depth, 1)?])
             }
             StepKind::If { condition, then, otherwise } => {
-                let condition = self.condition(condition, MAX_CONDITION_DEPTH)?;
-                let then = self.inner(then, depth, 1)?;
+                let (condition, then) = (self.asked(condition)?, self.inner(then, depth, 1)?);
                 let otherwise = match otherwise {
                     Some(block) => self.inner(block, depth, 0)?,
-                    None => Vec::new(),
+                    None => Item::Block(Vec::new()),
                 };
-                Step::If(condition, then, otherwise)
+                (NodeKind::If, vec![condition, then, otherwise])
             }
             StepKind::Wait { condition, within } => {
-                Step::Wait(self.condition(condition, MAX_CONDITION_DEPTH)?, self.within(within.as_ref())?)
+                let condition = self.asked(condition)?;
+                (NodeKind::Wait, [condition].into_iter().chain(self.within(within.as_ref())?).collect())
             }
             StepKind::Monitor { whens, body } => {
                 count(whens.len(), 1, "a monitor", "conditions", step.span)?;
                 let whens = whens.iter().map(|when| self.when(when, depth)).collect::<Result<_, _>>()?;
-                Step::Monitor(whens, self.inner(body, depth, 1)?)
+                (NodeKind::Monitor, vec![Item::Members(whens), self.inner(body, depth, 1)?])
             }
             StepKind::Try { body, catches } => {
                 count(catches.len(), 1, "a `try`", "handlers", step.span)?;
                 let body = self.inner(body, depth, 1)?;
-                Step::Try(
-                    body,
-                    catches.iter().map(|catch| self.catch(catch, depth)).collect::<Result<_, _>>()?,
-                )
+                let catches =
+                    catches.iter().map(|catch| self.catch(catch, depth)).collect::<Result<_, _>>()?;
+                (NodeKind::Try, vec![body, Item::Members(catches)])
             }
             StepKind::Repeat { times, body, until } => {
-                let times = self.count(times, 1, MAX_COUNT)?;
-                let steps = self.inner(body, depth, 1)?;
-                let until = until.as_ref().map(|until| self.condition(until, MAX_CONDITION_DEPTH));
-                Step::Repeat(times, steps, until.transpose()?)
+                let (times, steps) = (self.count(times, 1, MAX_COUNT)?, self.inner(body, depth, 1)?);
+                let until = until.as_ref().map(|until| self.asked(until)).transpose()?;
+                (NodeKind::Repeat, vec![times, steps, until.unwrap_or(Item::Nothing)])
             }
             StepKind::Each { item, list, at_most, body } => {
-                let list = self.each_list(list)?;
-                let at_most = self.count(at_most, 1, MAX_COUNT)?;
+                let (list, at_most) = (self.each_list(list)?, self.count(at_most, 1, MAX_COUNT)?);
                 let item = self.new_name(&item.text, item.span)?;
                 self.bound.push(item.clone());
                 let steps = self.inner(body, depth, 1);
                 self.bound.pop();
-                Step::Each { item, list, at_most, steps: steps? }
+                given = Some(item);
+                (NodeKind::Each, vec![Item::Value(list), at_most, steps?])
             }
             StepKind::Parallel { branches } => {
                 count(branches.len(), 2, "a `parallel`", "branches", step.span)?;
-                Step::Parallel(
-                    branches.iter().map(|branch| self.inner(branch, depth, 1)).collect::<Result<_, _>>()?,
-                )
+                let branch = |branch: &Block| -> Result<Node, OutsideSubset> {
+                    let items = vec![self.inner(branch, depth, 1)?];
+                    Ok(Node { kind: NodeKind::Block, span: branch.span, name: None, items })
+                };
+                let branches = branches.iter().map(branch).collect::<Result<_, _>>()?;
+                (NodeKind::Parallel, vec![Item::Members(branches)])
             }
-            StepKind::End(end) => Step::End(self.end(end)?),
-        })
+            StepKind::End(end) => return self.end(end),
+        };
+        Ok(Node { kind, span: step.span, name: given, items })
     }
 
-    fn call(&mut self, step: &Do) -> Result<Call, OutsideSubset> {
+    fn call(&mut self, step: &Do) -> Result<Node, OutsideSubset> {
         let call = &step.call;
-        let Some(callable) = self.signatures.callable(&call.name.text) else {
-            return Err(OutsideSubset {
-                span: call.name.span,
-                why: format!("there is no primitive `{}`", call.name.text),
-            });
+        let callables = &self.signatures.callables;
+        let Some((number, callable)) = numbered(callables, |row| row.name == call.name.text) else {
+            return Err(outside(call.name.span, format!("there is no primitive `{}`", call.name.text)));
         };
         let known = |name: &str| callable.params.iter().any(|param| param.name == name);
-        if let Some(arg) =
-            call.args.iter().find(|arg| arg.name.as_ref().is_some_and(|name| !known(&name.text)))
-        {
-            return Err(OutsideSubset {
-                span: arg.span,
-                why: format!("`{}` has no such parameter", callable.name),
-            });
+        let is_unknown = |arg: &&ast::Arg| arg.name.as_ref().is_some_and(|name| !known(&name.text));
+        if let Some(arg) = call.args.iter().find(is_unknown) {
+            return Err(outside(arg.span, format!("`{}` has no such parameter", callable.name)));
         }
         if call.args.len() > callable.params.len() {
-            return Err(OutsideSubset {
-                span: call.span,
-                why: format!("`{}` has too many arguments", callable.name),
-            });
+            return Err(outside(call.span, format!("`{}` has too many arguments", callable.name)));
         }
-        let mut args = Vec::with_capacity(callable.params.len());
+        let mut items = Vec::with_capacity(callable.params.len() + 2);
         for (index, param) in callable.params.iter().enumerate() {
             let Some(arg) = argument(call, index, &param.name).or(param.default.as_ref()) else {
-                return Err(OutsideSubset {
-                    span: call.span,
-                    why: format!("`{}` lacks `{}`", callable.name, param.name),
-                });
+                return Err(outside(call.span, format!("`{}` lacks `{}`", callable.name, param.name)));
             };
-            args.push((param.name.clone(), self.value(arg, &param.ty, param.range)?));
+            items.push(Item::Value(self.value(arg, &param.ty, param.range)?));
         }
         let within = self.within(step.within.as_ref())?;
-        let retry = step.retry.as_ref().map(|retry| {
-            self.modifier(retry)?;
-            self.count(retry, 0, MAX_RETRIES)
-        });
-        let retry = retry.transpose()?;
-        if callable.is_policy && (within.is_some() || retry.is_some()) {
-            return Err(OutsideSubset {
-                span: call.span,
-                why: "a policy has neither a deadline nor retries".into(),
-            });
+        let retry = self.modifier(step.retry.as_ref(), |retry| self.count(retry, 0, MAX_RETRIES))?;
+        if !callable.is_policy {
+            items.extend(within.into_iter().chain(retry));
+        } else if step.within.is_some() || step.retry.is_some() {
+            return Err(outside(call.span, "a policy has neither a deadline nor retries"));
         }
-        let bind = match (&callable.result, &step.bind) {
+        let name = match (&callable.result, &step.bind) {
             (Some(_), Some(name)) => Some(self.new_name(&name.text, name.span)?),
             (Some(_), None) => Some(self.fresh_name()),
             (None, None) => None,
             (None, Some(name)) => {
-                return Err(OutsideSubset {
-                    span: name.span,
-                    why: format!("`{}` has no result", callable.name),
-                });
+                return Err(outside(name.span, format!("`{}` has no result", callable.name)));
             }
         };
-        self.bound.extend(bind.clone());
-        Ok(Call { name: callable.name.clone(), args, is_policy: callable.is_policy, within, retry, bind })
+        self.bound.extend(name.clone());
+        Ok(Node { kind: NodeKind::Do(number), span: call.span, name, items })
     }
 
     fn fresh_name(&mut self) -> SmolStr {
@@ -212,81 +176,90 @@ impl Completer<'_> {
         }
     }
 
-    fn when(&mut self, when: &ast::When, depth: usize) -> Result<When, OutsideSubset> {
-        let condition = self.condition(&when.condition, MAX_CONDITION_DEPTH)?;
+    fn when(&mut self, when: &ast::When, depth: usize) -> Result<Node, OutsideSubset> {
+        let condition = self.asked(&when.condition)?;
         let hold = when.hold.as_ref().map(|hold| self.seconds(hold)).transpose()?;
-        let reaction = match &when.reaction {
-            ast::Reaction::Pause { within, .. } => Reaction::Pause(self.within(within.as_ref())?),
-            ast::Reaction::Restart { at_most, .. } => Reaction::Restart(self.count(at_most, 1, MAX_COUNT)?),
-            ast::Reaction::Resume { at_most, body, .. } => {
-                Reaction::Resume(self.count(at_most, 1, MAX_COUNT)?, self.inner(body, depth, 1)?)
+        let (kind, items) = match &when.reaction {
+            ast::Reaction::Pause { within, .. } => {
+                (NodeKind::Pause, self.within(within.as_ref())?.into_iter().collect())
             }
-            ast::Reaction::End(end) => Reaction::End(self.end(end)?),
+            ast::Reaction::Restart { at_most, .. } => {
+                (NodeKind::Restart, vec![self.count(at_most, 1, MAX_COUNT)?])
+            }
+            ast::Reaction::Resume { at_most, body, .. } => {
+                (NodeKind::Resume, vec![self.count(at_most, 1, MAX_COUNT)?, self.inner(body, depth, 1)?])
+            }
+            ast::Reaction::End(end) => {
+                let end = self.end(end)?;
+                (end.kind, end.items)
+            }
         };
-        Ok(When { condition, hold, reaction })
+        let span = when.condition.span;
+        let reaction = Item::Node(Node { kind, span, name: None, items });
+        let items = vec![condition, hold.unwrap_or(Item::Nothing), reaction];
+        Ok(Node { kind: NodeKind::When, span, name: None, items })
     }
 
-    fn catch(&mut self, catch: &ast::Catch, depth: usize) -> Result<Catch, OutsideSubset> {
+    fn catch(&mut self, catch: &ast::Catch, depth: usize) -> Result<Node, OutsideSubset> {
         let on = match &catch.on {
             CatchOn::Any(_) => Vec::new(),
             CatchOn::Kinds(kinds) => {
                 count(kinds.len(), 1, "a handler", "kinds of failure", catch.span)?;
                 let unknown = kinds.iter().find(|kind| !self.signatures.failures.contains(&kind.text));
                 if let Some(unknown) = unknown {
-                    return Err(OutsideSubset {
-                        span: unknown.span,
-                        why: format!("there is no failure `{}`", unknown.text),
-                    });
+                    return Err(outside(unknown.span, format!("there is no failure `{}`", unknown.text)));
                 }
                 kinds.iter().map(|kind| kind.text.clone()).collect()
             }
         };
-        Ok(Catch { on, steps: self.inner(&catch.body, depth, 0)? })
+        let items = vec![Item::Failures(on), self.inner(&catch.body, depth, 0)?];
+        Ok(Node { kind: NodeKind::Catch, span: catch.span, name: None, items })
     }
 
-    fn end(&mut self, end: &ast::End) -> Result<End, OutsideSubset> {
-        let why = match (end.kind, &end.why) {
-            (EndKind::Done, _) => None,
-            (EndKind::Fail | EndKind::Replan, Some(why)) => Some(self.value(why, &Type::Text, None)?),
+    fn end(&mut self, end: &ast::End) -> Result<Node, OutsideSubset> {
+        let kind = match end.kind {
+            EndKind::Done => NodeKind::Done,
+            EndKind::Fail => NodeKind::Fail,
+            EndKind::Replan => NodeKind::Replan,
+        };
+        let items = match (end.kind, &end.why) {
+            (EndKind::Done, _) => Vec::new(),
+            (EndKind::Fail | EndKind::Replan, Some(why)) => {
+                vec![Item::Value(self.value(why, &Type::Text, None)?)]
+            }
             (EndKind::Fail | EndKind::Replan, None) => {
-                return Err(OutsideSubset {
-                    span: end.span,
-                    why: "an ending has a reason on the model subset".into(),
-                });
+                return Err(outside(end.span, "an ending has a reason in the canonical subset"));
             }
         };
-        Ok(End { kind: end.kind, why })
+        Ok(Node { kind, span: end.span, name: None, items })
     }
 
-    fn within(&self, within: Option<&Expr>) -> Result<Option<subset::Decimal>, OutsideSubset> {
-        let Some(within) = within else { return Ok(None) };
-        self.modifier(within)?;
-        self.seconds(within).map(Some)
+    fn within(&self, within: Option<&Expr>) -> Result<Option<Item>, OutsideSubset> {
+        self.modifier(within, |within| self.seconds(within))
     }
 
-    /// A modifier, which only a subset with modifiers has.
-    fn modifier(&self, expr: &Expr) -> Result<(), OutsideSubset> {
-        match self.subset.modifiers {
-            Modifiers::Written => Ok(()),
-            Modifiers::Default => {
-                Err(outside(expr, "deadlines and retries are only written on a subset with modifiers".into()))
+    /// A modifier, for which only a subset with modifiers has a place.
+    fn modifier(
+        &self,
+        written: Option<&Expr>,
+        read: impl FnOnce(&Expr) -> Result<Item, OutsideSubset>,
+    ) -> Result<Option<Item>, OutsideSubset> {
+        match (self.subset.modifiers, written) {
+            (Modifiers::Written, Some(expr)) => read(expr).map(Some),
+            (Modifiers::Written, None) => Ok(Some(Item::Nothing)),
+            (Modifiers::Default, None) => Ok(None),
+            (Modifiers::Default, Some(expr)) => {
+                Err(outside(expr.span, "deadlines and retries are only written in a subset with modifiers"))
             }
         }
     }
-}
-
-/// The argument for a parameter, by its name or its place.
-pub(super) fn argument<'c>(call: &'c ast::Call, index: usize, name: &str) -> Option<&'c Expr> {
-    let named = call.args.iter().find(|arg| arg.name.as_ref().is_some_and(|given| given.text == name));
-    let arg = named.or_else(|| call.args.get(index).filter(|arg| arg.name.is_none()));
-    arg.map(|arg| &arg.value)
 }
 
 fn count(actual: usize, least: usize, whose: &str, of: &str, span: Span) -> Result<(), OutsideSubset> {
     if (least..=MAX_MEMBERS).contains(&actual) {
         return Ok(());
     }
-    Err(OutsideSubset { span, why: format!("{whose} has {least} to {MAX_MEMBERS} {of} on the model subset") })
+    Err(outside(span, format!("{whose} has {least} to {MAX_MEMBERS} {of} in the canonical subset")))
 }
 
 /// Every name that the steps of a block bind.

@@ -6,17 +6,13 @@
 //! policy, and is a fixed point.
 
 mod complete;
-mod json;
-mod text;
+mod print;
 mod value;
 
-use complete::complete;
-
-use motet_compiler::Signatures;
+use motet_syntax::Span;
 use motet_syntax::ast::Policy;
-use motet_syntax::{Span, Syntax};
 
-use crate::subset::Subset;
+use crate::Grammar;
 
 /// The reason why a policy is outside of the canonical subset.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -36,21 +32,20 @@ impl std::fmt::Display for OutsideSubset {
 impl std::error::Error for OutsideSubset {}
 
 /// Prints a policy in the canonical subset: one line without a line break at its end. Reading it gives the
-/// same policy with the defaults filled in, and printing that gives the same line. O(policy ×
-/// declarations).
+/// same policy with the defaults filled in, and printing that gives the same line. O(policy × productions).
 ///
 /// ```
-/// use motet_decode::{Environment, Subset, canonical};
+/// use motet_decode::{Environment, Grammar, Subset, canonical};
 /// use motet_syntax::{FileId, Source};
 ///
 /// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
-/// let session = texts.session()?;
+/// let grammar = Grammar::new(&texts.session()?.signatures(), Subset::default());
 /// let source = Source::new("p.motet", "policy p { go(kitchen_table) }");
 /// let file = motet_syntax::read(&source, FileId(0)).file;
 /// let policy = file.policies().next().expect("the document has a policy");
 /// assert_eq!(
-///     canonical(policy, &session.signatures(), Subset::default()).as_deref(),
-/// Ok(r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"go","to":"kitchen_table"}]}"#),
+///     canonical(policy, &grammar).as_deref(),
+///     Ok(r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"go","to":"kitchen_table"}]}"#),
 /// );
 /// # Ok::<(), motet_decode::EnvironmentError>(())
 /// ```
@@ -58,10 +53,6 @@ impl std::error::Error for OutsideSubset {}
 /// # Errors
 ///
 /// The first part of the policy that is outside of the subset.
-pub fn canonical(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<String, OutsideSubset> {
-    let document = complete(policy, signatures, subset)?;
-    Ok(match subset.syntax {
-        Syntax::Json => json::print(&document, subset),
-        Syntax::Text => text::print(&document),
-    })
+pub fn canonical(policy: &Policy, grammar: &Grammar) -> Result<String, OutsideSubset> {
+    print::print(&complete::complete(policy, grammar)?, grammar)
 }

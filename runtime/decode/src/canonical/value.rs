@@ -1,16 +1,33 @@
 //! Completion of values, by the types that are asked for, and of conditions.
 
-use motet_compiler::signature::Type;
-use motet_syntax::Syntax;
+use motet_compiler::signature::{Signatures, Type};
 use motet_syntax::ast::{Call, Expr, ExprKind};
 use motet_syntax::unit::Dimension;
+use motet_syntax::{Span, Syntax};
+use rustc_hash::FxHashSet;
 use smol_str::SmolStr;
 
 use super::OutsideSubset;
-use super::complete::Completer;
-use crate::subset::{self, Condition, Decimal, NumberRange, Relation, Subject, Value};
+use super::print::{Item, Node, Value};
+use crate::grammar::{NodeKind, Relation};
+use crate::subset::{self, NumberRange, Subset};
+
+/// The state of completing one policy.
+pub(super) struct Completer<'a> {
+    pub(super) signatures: &'a Signatures,
+    pub(super) subset: Subset,
+    /// The bindings in scope, in order.
+    pub(super) bound: Vec<SmolStr>,
+    /// Every name that is bound anywhere in the policy.
+    pub(super) names: FxHashSet<SmolStr>,
+    pub(super) fresh: usize,
+}
 
 impl Completer<'_> {
+    fn is_bound(&self, name: &str) -> bool {
+        self.bound.iter().any(|bound| bound == name)
+    }
+
     /// A value of a type; `card` bounds a number, in SI units.
     pub(super) fn value(
         &self,
@@ -25,14 +42,14 @@ impl Completer<'_> {
             (ExprKind::Plain(name), Type::Entity(_) | Type::Enum(_)) => {
                 let known = self.is_known(name, ty);
                 known.then(|| Value::Name(name.clone())).ok_or_else(|| {
-                    outside(expr, format!("`{name}` is no `{}`", self.signatures.type_name(ty)))
+                    outside(expr.span, format!("`{name}` is no `{}`", self.signatures.type_name(ty)))
                 })
             }
             (ExprKind::Plain(text), Type::Quantity(dimension)) => {
                 let quantity = motet_syntax::unit::parse_quantity(text);
                 let quantity = quantity.filter(|(_, unit)| unit.dimension() == *dimension);
-                let (value, unit) =
-                    quantity.ok_or_else(|| outside(expr, format!("`{text}` is no quantity of that type")))?;
+                let (value, unit) = quantity
+                    .ok_or_else(|| outside(expr.span, format!("`{text}` is no quantity of that type")))?;
                 self.number(unit.to_si(value), expr, ty, card)
             }
             (ExprKind::Quantity(value, unit), Type::Quantity(dimension))
@@ -46,7 +63,7 @@ impl Completer<'_> {
             (ExprKind::Bool(value), Type::Bool) => Ok(Value::Bool(*value)),
             (ExprKind::List(items), Type::List(element)) => {
                 if items.is_empty() || items.len() > subset::MAX_ITEMS {
-                    return Err(outside(expr, format!("a list has 1 to {} values", subset::MAX_ITEMS)));
+                    return Err(outside(expr.span, format!("a list has 1 to {} values", subset::MAX_ITEMS)));
                 }
                 items
                     .iter()
@@ -55,11 +72,14 @@ impl Completer<'_> {
                     .map(Value::List)
             }
             (ExprKind::Call(_) | ExprKind::Field(..) | ExprKind::Arith(..), _) => {
-                Err(outside(expr, "a value that is calculated has no place on the model subset".into()))
+                Err(outside(expr.span, "a value that is calculated has no place in the canonical subset"))
             }
             _ => {
                 let ty = self.signatures.type_name(ty);
-                Err(outside(expr, format!("this is no value of the type `{ty}` on the model subset")))
+                Err(outside(
+                    expr.span,
+                    format!("this is no value of the type `{ty}` in the canonical subset"),
+                ))
             }
         }
     }
@@ -73,7 +93,9 @@ impl Completer<'_> {
     ) -> Result<Value, OutsideSubset> {
         let range = NumberRange::of(ty, card);
         let number = range.and_then(|range| Some(Value::Number(range.nearest(value)?, range.unit)));
-        number.ok_or_else(|| outside(expr, format!("{value} is beyond the numbers of the model subset")))
+        number.ok_or_else(|| {
+            outside(expr.span, format!("{value} is beyond the numbers of the canonical subset"))
+        })
     }
 
     fn text(&self, text: &SmolStr, expr: &Expr) -> Result<Value, OutsideSubset> {
@@ -82,7 +104,7 @@ impl Completer<'_> {
         }
         let most = subset::MAX_TEXT_CHARS;
         Err(outside(
-            expr,
+            expr.span,
             format!("a text has 1 to {most} characters of ASCII, no `\"` and no `\\`, no `$` first"),
         ))
     }
@@ -136,64 +158,67 @@ impl Completer<'_> {
             Value::Binding(_) => true,
             Value::Name(_) | Value::Number(..) | Value::Text(_) | Value::Bool(_) | Value::Any => false,
         };
-        let why = "the list of an `each` is a name, or entities of one kind, on the model subset";
-        if is_alike { Ok(list) } else { Err(outside(expr, why.into())) }
+        let why = "the list of an `each` is a name, or entities of one kind, in the canonical subset";
+        if is_alike { Ok(list) } else { Err(outside(expr.span, why)) }
     }
 
     /// A time in seconds.
-    pub(super) fn seconds(&self, expr: &Expr) -> Result<Decimal, OutsideSubset> {
+    pub(super) fn seconds(&self, expr: &Expr) -> Result<Item, OutsideSubset> {
         match self.value(expr, &Type::Quantity(Dimension::DURATION), None)? {
-            Value::Number(number, _) if NumberRange::DURATION.contains(number) => Ok(number),
-            _ => Err(outside(expr, "a time is a number of seconds on the model subset".into())),
+            Value::Number(number, _) if NumberRange::DURATION.contains(number) => Ok(Item::Number(number)),
+            _ => Err(outside(expr.span, "a time is a number of seconds in the canonical subset")),
         }
     }
 
     /// A whole number from `least` to `greatest`.
-    pub(super) fn count(&self, expr: &Expr, least: u32, greatest: u32) -> Result<u32, OutsideSubset> {
+    pub(super) fn count(&self, expr: &Expr, least: u32, greatest: u32) -> Result<Item, OutsideSubset> {
         let whole = match &expr.kind {
             ExprKind::Number(value) => NumberRange::whole(least, greatest).nearest(*value),
             _ => None,
         };
-        let exact = whole.and_then(|whole| u32::try_from(whole.units).ok());
-        exact.ok_or_else(|| {
-            outside(expr, format!("a count is from {least} to {greatest} on the model subset"))
+        whole.map(Item::Number).ok_or_else(|| {
+            outside(expr.span, format!("a count is from {least} to {greatest} in the canonical subset"))
         })
     }
 
     /// A condition; `depth` more may be nested in it.
-    pub(super) fn condition(&self, expr: &Expr, depth: usize) -> Result<Condition, OutsideSubset> {
+    pub(super) fn condition(&self, expr: &Expr, depth: usize) -> Result<Node, OutsideSubset> {
+        let node = |kind, items| Node { kind, span: expr.span, name: None, items };
         let within = || {
             depth.checked_sub(1).ok_or_else(|| {
                 let most = subset::MAX_CONDITION_DEPTH;
                 outside(
-                    expr,
-                    format!("conditions stand at most {most} deep in one another on the model subset"),
+                    expr.span,
+                    format!("conditions stand at most {most} deep in one another in the canonical subset"),
                 )
             })
         };
         match &expr.kind {
             ExprKind::Call(call) => {
-                let fluent = self
-                    .signatures
-                    .fluent(&call.name.text)
-                    .ok_or_else(|| outside(expr, format!("there is no fluent `{}`", call.name.text)))?;
-                Ok(Condition::Is(fluent.name.clone(), self.observed(call, &fluent.params, true)?))
+                let (number, fluent) = numbered(&self.signatures.fluents, |row| row.name == call.name.text)
+                    .ok_or_else(|| {
+                    outside(expr.span, format!("there is no fluent `{}`", call.name.text))
+                })?;
+                Ok(node(NodeKind::Is(number), self.observed(call, &fluent.params, true)?))
             }
-            ExprKind::Not(inner) => Ok(Condition::Not(Box::new(self.condition(inner, within()?)?))),
+            ExprKind::Not(inner) => {
+                Ok(node(NodeKind::Not, vec![Item::Node(self.condition(inner, within()?)?)]))
+            }
             ExprKind::All(parts) | ExprKind::AnyOf(parts) => {
                 if let [only] = parts.as_slice() {
                     return self.condition(only, depth);
                 }
                 if parts.is_empty() || parts.len() > subset::MAX_MEMBERS {
                     let most = subset::MAX_MEMBERS;
-                    return Err(outside(expr, format!("2 to {most} conditions stand beside one another")));
+                    return Err(outside(
+                        expr.span,
+                        format!("2 to {most} conditions stand beside one another"),
+                    ));
                 }
                 let depth = within()?;
-                let parts = parts.iter().map(|part| self.condition(part, depth)).collect::<Result<_, _>>()?;
-                Ok(match &expr.kind {
-                    ExprKind::All(_) => Condition::All(parts),
-                    _ => Condition::Any(parts),
-                })
+                let parts = parts.iter().map(|part| self.condition(part, depth).map(Item::Node));
+                let kind = if matches!(expr.kind, ExprKind::All(_)) { NodeKind::All } else { NodeKind::Any };
+                Ok(node(kind, parts.collect::<Result<_, _>>()?))
             }
             ExprKind::Compare(op, left, right) => {
                 let relation = Relation(*op);
@@ -202,40 +227,39 @@ impl Completer<'_> {
                     (_, ExprKind::Call(_) | ExprKind::Field(..)) => {
                         self.comparison(right, relation.turned(), left)
                     }
-                    _ => Err(outside(expr, "a comparison is of a measure or a field with a value".into())),
+                    _ => Err(outside(expr.span, "a comparison is of a measure or a field with a value")),
                 }
             }
-            _ => Err(outside(expr, "a condition is a fluent or a comparison on the model subset".into())),
+            _ => Err(outside(expr.span, "a condition is a fluent or a comparison in the canonical subset")),
         }
     }
 
-    fn comparison(&self, of: &Expr, relation: Relation, with: &Expr) -> Result<Condition, OutsideSubset> {
-        let (subject, ty) = match &of.kind {
+    fn comparison(&self, of: &Expr, relation: Relation, with: &Expr) -> Result<Node, OutsideSubset> {
+        let (kind, mut items, ty) = match &of.kind {
             ExprKind::Call(call) => {
-                let measure = self
-                    .signatures
-                    .measure(&call.name.text)
-                    .ok_or_else(|| outside(of, format!("there is no measure `{}`", call.name.text)))?;
+                let (number, measure) = numbered(&self.signatures.measures, |row| row.name == call.name.text)
+                    .ok_or_else(|| outside(of.span, format!("there is no measure `{}`", call.name.text)))?;
                 let args = self.observed(call, &measure.params, false)?;
-                (Subject::Measure(measure.name.clone(), args), &measure.result)
+                (NodeKind::Get(number), args, &measure.result)
             }
             ExprKind::Field(entity, name) => {
-                let field = self.signatures.fields.iter().find(|field| field.name == name.text);
-                let field = field.ok_or_else(|| outside(of, format!("there is no field `{}`", name.text)))?;
+                let (number, field) = numbered(&self.signatures.fields, |row| row.name == name.text)
+                    .ok_or_else(|| outside(of.span, format!("there is no field `{}`", name.text)))?;
                 let entity = self.value(entity, &Type::Entity(field.kind), None)?;
-                (Subject::Field(field.name.clone(), entity), &field.ty)
+                (NodeKind::Field(number), vec![Item::Value(entity)], &field.ty)
             }
-            _ => return Err(outside(of, "a comparison is of a measure or a field with a value".into())),
+            _ => return Err(outside(of.span, "a comparison is of a measure or a field with a value")),
         };
         let is_number = NumberRange::of(ty, None).is_some();
         if !is_number && !Relation::EQUALITY.contains(&relation) {
-            return Err(outside(of, "only numbers can be more or less".into()));
+            return Err(outside(of.span, "only numbers can be more or less"));
         }
         match self.value(with, ty, None)? {
-            Value::Binding(_) => {
-                Err(outside(with, "a comparison is with a value that is written out".into()))
+            Value::Binding(_) => Err(outside(with.span, "a comparison is with a value that is written out")),
+            value => {
+                items.extend([Item::Relation(relation), Item::Value(value)]);
+                Ok(Node { kind, span: of.span, name: None, items })
             }
-            value => Ok(Condition::Compare(subject, relation, value)),
         }
     }
 
@@ -245,52 +269,36 @@ impl Completer<'_> {
         call: &Call,
         params: &[(SmolStr, Type)],
         takes_any: bool,
-    ) -> Result<Vec<(SmolStr, Value)>, OutsideSubset> {
+    ) -> Result<Vec<Item>, OutsideSubset> {
         let value = |(index, (name, ty)): (usize, &(SmolStr, Type))| {
-            let arg = super::complete::argument(call, index, name);
-            let arg = arg.ok_or_else(|| OutsideSubset {
-                span: call.span,
-                why: format!("`{}` lacks `{name}`", call.name.text),
-            })?;
-            let value = match &arg.kind {
+            let arg = argument(call, index, name);
+            let arg =
+                arg.ok_or_else(|| outside(call.span, format!("`{}` lacks `{name}`", call.name.text)))?;
+            Ok(Item::Value(match &arg.kind {
                 ExprKind::Any if takes_any => Value::Any,
                 _ => self.value(arg, ty, None)?,
-            };
-            Ok((name.clone(), value))
+            }))
         };
         if call.args.len() > params.len() {
-            return Err(OutsideSubset {
-                span: call.span,
-                why: format!("`{}` has too many arguments", call.name.text),
-            });
+            return Err(outside(call.span, format!("`{}` has too many arguments", call.name.text)));
         }
         params.iter().enumerate().map(value).collect()
     }
 
     /// A name that the policy gives or uses.
-    pub(super) fn new_name(
-        &self,
-        name: &SmolStr,
-        span: motet_syntax::Span,
-    ) -> Result<SmolStr, OutsideSubset> {
+    pub(super) fn new_name(&self, name: &SmolStr, span: Span) -> Result<SmolStr, OutsideSubset> {
         if !subset::is_name(name) {
             let most = subset::MAX_NAME_CHARS;
-            return Err(OutsideSubset {
+            return Err(outside(
                 span,
-                why: format!("`{name}` is no name of at most {most} ASCII letters, digits and `_`"),
-            });
+                format!("`{name}` is no name of at most {most} ASCII letters, digits and `_`"),
+            ));
         }
         if self.signatures.entities.iter().any(|(entity, _)| entity == name) {
-            return Err(OutsideSubset {
-                span,
-                why: format!("`{name}` is an entity, which no name may hide"),
-            });
+            return Err(outside(span, format!("`{name}` is an entity, which no name may hide")));
         }
         if self.subset.syntax == Syntax::Text && self.is_taken(name) {
-            return Err(OutsideSubset {
-                span,
-                why: format!("`{name}` means something else in the text form"),
-            });
+            return Err(outside(span, format!("`{name}` means something else in the text syntax")));
         }
         Ok(name.clone())
     }
@@ -302,6 +310,18 @@ impl Completer<'_> {
     }
 }
 
-pub(super) fn outside(expr: &Expr, why: String) -> OutsideSubset {
-    OutsideSubset { span: expr.span, why }
+/// The argument for a parameter, by its name or its place.
+pub(super) fn argument<'c>(call: &'c Call, index: usize, name: &str) -> Option<&'c Expr> {
+    let named = call.args.iter().find(|arg| arg.name.as_ref().is_some_and(|given| given.text == name));
+    let arg = named.or_else(|| call.args.get(index).filter(|arg| arg.name.is_none()));
+    arg.map(|arg| &arg.value)
+}
+
+pub(super) fn outside(span: Span, why: impl Into<String>) -> OutsideSubset {
+    OutsideSubset { span, why: why.into() }
+}
+
+/// The first row of which something holds, with its number.
+pub(super) fn numbered<T>(rows: &[T], is_it: impl Fn(&T) -> bool) -> Option<(u16, &T)> {
+    (0u16..).zip(rows).find(|(_, row)| is_it(row))
 }

@@ -12,9 +12,11 @@ use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
 use super::ebnf::{EbnfExpr as Expr, EbnfGrammar, RuleId};
-use super::{char_class, decimal_range};
-use crate::grammar::{Alternative, Atom, AtomSort, BlockRole, ConditionUse, Grammar, Part, Repeat, ValueSet};
-use crate::subset::{MAX_CONDITION_DEPTH, MAX_ITEMS, MAX_MEMBERS, MAX_STEPS, NumberRange, Relation};
+use super::terminal;
+use crate::grammar::{
+    Alternative, Atom, AtomSort, BlockRole, ConditionUse, Grammar, NodeKind, Part, Relation, Repeat, ValueSet,
+};
+use crate::subset::{MAX_CONDITION_DEPTH, MAX_ITEMS, MAX_MEMBERS, MAX_STEPS, NumberRange};
 
 /// Derives the EBNF of a grammar.
 pub(super) fn ebnf(grammar: &Grammar) -> EbnfGrammar {
@@ -24,13 +26,13 @@ pub(super) fn ebnf(grammar: &Grammar) -> EbnfGrammar {
     let is_json = grammar.subset.syntax == Syntax::Json;
     let quoted = |open: &str, inner| Expr::seq(vec![Expr::literal(open), inner, Expr::literal("\"")]);
     let [name, binding] = if is_json {
-        let name = out.add("name", quoted("\"", char_class::name()), true);
-        [name, out.add("binding", quoted("\"$", char_class::name()), true)]
+        let name = out.add("name", quoted("\"", terminal::name()), true);
+        [name, out.add("binding", quoted("\"$", terminal::name()), true)]
     } else {
         let words = grammar.excluded_names();
-        [out.add("name", char_class::name_but(words.iter().map(SmolStr::as_str)), true); 2]
+        [out.add("name", terminal::name_but(words.iter().map(SmolStr::as_str)), true); 2]
     };
-    let text = out.add("text", quoted("\"", char_class::text()), true);
+    let text = out.add("text", quoted("\"", terminal::text()), true);
     let mut deriver = Deriver {
         grammar,
         is_json,
@@ -211,7 +213,7 @@ impl Deriver<'_> {
         let digits = NumberRange { unit: None, ..digits };
         let known = self.numbers.iter().find(|(known, _)| *known == digits).map(|(_, rule)| *rule);
         let rule = known.unwrap_or_else(|| {
-            let rule = self.out.add("number", decimal_range::expr(&digits), true);
+            let rule = self.out.add("number", terminal::number(&digits), true);
             self.numbers.push((digits, rule));
             rule
         });
@@ -224,7 +226,7 @@ impl Deriver<'_> {
     }
 
     fn word(&self, name: &str) -> Expr {
-        // A string always has a JSON form.
+        // A string always has a JSON syntax.
         let quoted = || serde_json::to_string(name).unwrap_or_default();
         Expr::literal(if self.is_json { quoted() } else { identifier(name) })
     }
@@ -358,9 +360,12 @@ impl Deriver<'_> {
         for depth in 1..=MAX_CONDITION_DEPTH {
             let several = self.bracketed(["[", "]"], self.list(level.clone(), [2, MAX_MEMBERS]));
             let several = self.rule(format!("{prefix}s_{depth}"), several);
-            let nested = [("not", level), ("all", several.clone()), ("any", several)];
-            let nested = nested.map(|(word, inner)| {
-                Expr::seq(vec![Expr::literal(format!("{{\"{word}\":")), inner, Expr::literal("}")])
+            let nested = [(NodeKind::Not, level), (NodeKind::All, several.clone()), (NodeKind::Any, several)];
+            // The brackets belong to the rule of several conditions.
+            let nested = nested.map(|(kind, inner)| {
+                let [open, _, end] = self.grammar.connective(kind).unwrap_or_default();
+                let [open, end] = [open.trim_end_matches('['), end.trim_start_matches(']')];
+                Expr::seq(vec![Expr::literal(open), inner, Expr::literal(end)])
             });
             level = Expr::choice(atoms.iter().cloned().chain(nested).collect());
             if depth < MAX_CONDITION_DEPTH {
@@ -379,14 +384,17 @@ impl Deriver<'_> {
         let mut condition = member.clone();
         for depth in 1..=MAX_CONDITION_DEPTH {
             let below = self.rule(format!("{prefix}_member_{depth}"), member);
-            let joined = |word: &str| {
-                let space = Expr::literal(" ");
-                let more = Expr::Seq(vec![space.clone(), Expr::literal(word), space, below.clone()]);
-                Expr::Seq(vec![below.clone(), more.repeat(1, bound(MAX_MEMBERS - 1))])
+            let joined = |kind: NodeKind| {
+                let [_, separator, _] = self.grammar.connective(kind).unwrap_or_default();
+                let mut more = Vec::new();
+                self.literal(separator, &mut more);
+                more.push(below.clone());
+                Expr::Seq(vec![below.clone(), Expr::Seq(more).repeat(1, bound(MAX_MEMBERS - 1))])
             };
-            let groups = Expr::choice(vec![joined("and"), joined("or")]);
+            let groups = Expr::choice(vec![joined(NodeKind::All), joined(NodeKind::Any)]);
             let group = self.rule(format!("{prefix}_group_{depth}"), groups);
-            let negated = Expr::Seq(vec![self.literals("not "), operand.clone()]);
+            let [not, ..] = self.grammar.connective(NodeKind::Not).unwrap_or_default();
+            let negated = Expr::Seq(vec![self.literals(not), operand.clone()]);
             let negated = self.rule(format!("{prefix}_not_{depth}"), negated);
             let with = |more: Vec<Expr>| Expr::choice(atoms.iter().cloned().chain(more).collect());
             condition = with(vec![negated.clone(), group.clone()]);

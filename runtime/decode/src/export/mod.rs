@@ -7,22 +7,18 @@
 //! A grammar cannot know what is in scope: a binding is any name. A policy that it generates parses, and is
 //! right in names and types but for that.
 
-mod char_class;
-mod decimal_range;
 mod derive;
 mod ebnf;
-mod gbnf;
-mod iso_ebnf;
-mod lark;
-mod limits;
 mod notation;
-mod request;
 mod schema;
+mod server;
+mod terminal;
 
 pub use ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
-pub use lark::Header;
-pub use limits::{LimitWarning, warnings};
-pub use request::{Dialect, Prompt, lark_constraint, probe_body, request_body, request_constraint};
+pub use notation::Header;
+pub use server::{
+    Dialect, LimitWarning, Prompt, lark_constraint, probe_body, request_body, request_constraint, warnings,
+};
 
 use motet_syntax::Syntax;
 use serde_json::Value;
@@ -61,11 +57,11 @@ pub enum Format {
 #[must_use]
 pub fn export(grammar: &Grammar, format: Format, header: Header) -> Option<String> {
     Some(match format {
-        // A value of maps, lists and strings always has a JSON form.
+        // A value of maps, lists and strings always has a JSON syntax.
         Format::JsonSchema => serde_json::to_string_pretty(&json_schema(grammar)?).unwrap_or_default() + "\n",
-        Format::Gbnf => gbnf::print(&ebnf(grammar)),
-        Format::Lark => lark::print(&ebnf(grammar), header),
-        Format::RegexFreeEbnf => iso_ebnf::print(&ebnf(grammar)),
+        Format::Gbnf => notation::gbnf(&ebnf(grammar)),
+        Format::Lark => notation::lark(&ebnf(grammar), header),
+        Format::RegexFreeEbnf => notation::iso_ebnf(&ebnf(grammar)),
     })
 }
 

@@ -8,8 +8,8 @@
 use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
 
-use crate::grammar::{Alternative, AtomSort, BlockRole, ConditionUse, Grammar, Part, ValueSet};
-use crate::subset::{Decimal, MAX_CONDITION_DEPTH, MAX_ITEMS, MAX_MEMBERS, MAX_STEPS, NumberRange, Relation};
+use crate::grammar::{Alternative, BlockRole, ConditionUse, Grammar, NodeKind, Part, Relation, ValueSet};
+use crate::subset::{Decimal, MAX_CONDITION_DEPTH, MAX_ITEMS, MAX_MEMBERS, MAX_STEPS, NumberRange};
 
 /// Derives the JSON Schema of a grammar of the JSON syntax.
 pub(super) fn schema(grammar: &Grammar) -> Value {
@@ -300,24 +300,16 @@ impl Deriver<'_> {
                 let level = deriver.nested_condition(prefix, below);
                 let several =
                     deriver.once(format!("{prefix}s_{depth}"), |_| array(level.clone(), 2, MAX_MEMBERS));
-                for (word, shape) in [("not", level), ("all", several.clone()), ("any", several)] {
+                for (kind, shape) in
+                    [(NodeKind::Not, level), (NodeKind::All, several.clone()), (NodeKind::Any, several)]
+                {
+                    let [open, ..] = grammar.connective(kind).unwrap_or_default();
                     let mut keys = Keys::default();
-                    keys.properties.insert(word.to_owned(), shape);
+                    keys.properties.insert(open.trim_matches(['{', '"', ':', '[']).to_owned(), shape);
                     shapes.push(keys.finish());
                 }
             }
             json!({"anyOf": shapes})
         })
-    }
-}
-
-impl AtomSort {
-    /// The key and the opening quote before the name of an atom in JSON.
-    pub(super) fn lead(self) -> &'static str {
-        match self {
-            Self::Fluent => "is\":\"",
-            Self::Measure => "get\":\"",
-            Self::Field => "field\":\"",
-        }
     }
 }

@@ -38,7 +38,7 @@ pub(crate) enum Action {
     Join(NodeKind),
 }
 
-/// When an alternative is open.
+/// A condition under which an alternative is open.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Guard {
     Open,

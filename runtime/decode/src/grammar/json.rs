@@ -34,7 +34,7 @@ fn condition_or_null(grammar: &Grammar, asked: ConditionUse, null: Guard) -> Par
 }
 
 pub(super) fn document(grammar: &Grammar) -> Vec<Part> {
-    // A string always has a JSON form.
+    // A string always has a JSON syntax.
     let robot = grammar.robot().map(|robot| serde_json::to_string(robot.as_str()).unwrap_or_default());
     let robot = robot.map(|robot| format!(",\"robot\":{robot}")).unwrap_or_default();
     vec![

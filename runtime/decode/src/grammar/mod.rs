@@ -2,16 +2,15 @@
 //! may write.
 //!
 //! Built from the signatures of a session. The byte automaton ([`crate::automaton`]) and the grammars for
-//! servers ([`crate::export`]) derive from it. The automaton carries out the [`Action`]s between the bytes
-//! and evaluates the [`Guard`]s of alternatives against the checker; an exported grammar has neither, and
-//! writes recursion out to the depth of the subset. [`json`] and [`text`] say how a syntax spells each
-//! step; everything else is said here, for both.
+//! servers ([`crate::export`]) and the canonical printer ([`crate::canonical`]) derive from it. The automaton
+//! carries out the [`Action`]s between the bytes and evaluates the [`Guard`]s of alternatives against the
+//! checker; an exported grammar has neither, and writes recursion out to the depth of the subset. [`json`]
+//! and [`text`] say how a syntax spells each step; everything else is said here, for both.
 
 mod action;
 mod json;
 mod part;
 mod text;
-mod value_set;
 
 use std::sync::Arc;
 
@@ -23,8 +22,7 @@ use smol_str::SmolStr;
 pub(crate) use self::action::{
     Action, BlockRole, ConditionUse, Constant, Guard, NameUse, NodeKind, WordRole,
 };
-pub(crate) use self::part::{Alternative, ChoiceStyle, Part, Repeat, ValuePlace};
-pub(crate) use self::value_set::ValueSet;
+pub(crate) use self::part::{Alternative, ChoiceStyle, Part, Relation, Repeat, ValuePlace, ValueSet};
 use crate::subset::{MAX_RETRIES, Modifiers, NumberRange, Subset};
 
 /// Above this number of entities and cases an exported name of the text syntax may be one of theirs: a
@@ -79,6 +77,17 @@ pub(crate) enum AtomSort {
     Field,
 }
 
+impl AtomSort {
+    /// The key and the opening quote before the name of an atom in JSON.
+    pub(crate) fn lead(self) -> &'static str {
+        match self {
+            Self::Fluent => "is\":\"",
+            Self::Measure => "get\":\"",
+            Self::Field => "field\":\"",
+        }
+    }
+}
+
 impl PartialEq for Grammar {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.signatures, &other.signatures) && self.subset == other.subset
@@ -109,6 +118,20 @@ impl Grammar {
     #[must_use]
     pub fn subset(&self) -> Subset {
         self.subset
+    }
+
+    /// The spelling of `not`, `all` or `any`: the bytes before, between and behind the conditions in it;
+    /// `None` for another kind of node.
+    pub(crate) fn connective(&self, kind: NodeKind) -> Option<[&'static str; 3]> {
+        Some(match (self.subset.syntax, kind) {
+            (Syntax::Json, NodeKind::Not) => ["{\"not\":", "", "}"],
+            (Syntax::Json, NodeKind::All) => ["{\"all\":[", ",", "]}"],
+            (Syntax::Json, NodeKind::Any) => ["{\"any\":[", ",", "]}"],
+            (Syntax::Text, NodeKind::Not) => ["not ", "", ""],
+            (Syntax::Text, NodeKind::All) => ["", " and ", ""],
+            (Syntax::Text, NodeKind::Any) => ["", " or ", ""],
+            _ => return None,
+        })
     }
 
     /// Names and words that a name given by the policy may not be in the text syntax. Entities and cases
@@ -225,8 +248,8 @@ impl Grammar {
         Alternative { name: name.into(), literal: literal.into(), guard, number, parts, is_ending: false }
     }
 
-    /// The atoms that may be asked for in a goal, or in another condition. In a goal nothing is bound, so an atom with a
-    /// value that only a binding could fill is left out.
+    /// The atoms that may be asked for in a goal, or in another condition. In a goal nothing is bound, so an
+    /// atom with a value that only a binding could fill is left out.
     pub(crate) fn asked_atoms(&self, in_goal: bool) -> impl Iterator<Item = &Atom> {
         let is_unfilled = move |part: &Part| match part {
             Part::Value { ty, range, place } => ValueSet::of(ty, *range, *place, in_goal, self).is_empty(),

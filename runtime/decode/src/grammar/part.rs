@@ -1,9 +1,10 @@
-//! The elements of productions.
+//! The elements of productions, and the values that may stand at one place.
 
 use motet_compiler::signature::Type;
+use motet_syntax::ast::CompareOp;
 use smol_str::SmolStr;
 
-use super::{Action, BlockRole, ConditionUse, Guard, NameUse, NodeKind, WordRole};
+use super::{Action, BlockRole, ConditionUse, Grammar, Guard, NameUse, NodeKind, WordRole};
 use crate::subset::NumberRange;
 
 /// An element of a production. Values, names, conditions and blocks are spelled as the syntax of the
@@ -34,7 +35,7 @@ pub(crate) enum Part {
     Failures,
     /// The list of an `each`: a binding, or entities of one kind.
     EntityList,
-    /// A condition, asked for as told.
+    /// A condition with its use.
     Condition(ConditionUse),
     /// A block of at least so many steps, 0 or 1.
     Block(BlockRole, u32),
@@ -79,9 +80,9 @@ pub(crate) enum ChoiceStyle {
 pub(crate) struct Alternative {
     /// A name for the rule of an exported grammar.
     pub(crate) name: SmolStr,
-    /// The bytes by which it is told from the others.
+    /// The bytes that distinguish it from the others.
     pub(crate) literal: SmolStr,
-    /// When it is open.
+    /// The condition under which it is open.
     pub(crate) guard: Guard,
     /// The number of the declaration that it names.
     pub(crate) number: u16,
@@ -159,9 +160,173 @@ impl Alternative {
         flat
     }
 
+    /// It is the alternative of a node, or one within a choice of it is.
+    pub(crate) fn opens(&self, kind: NodeKind) -> bool {
+        self.parts.iter().any(|part| match part {
+            Part::Action(Action::Open(opened)) => *opened == kind,
+            Part::Choice(_, ways) => ways.iter().any(|way| way.opens(kind)),
+            _ => false,
+        })
+    }
+
     /// It has blocks of its own, one level below the step.
     pub(crate) fn is_composite(&self) -> bool {
         matches!(self.guard, Guard::Nest | Guard::Fix)
             || self.parts.iter().any(|part| matches!(part, Part::Block(..)))
+    }
+}
+
+/// Operator of a comparison.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct Relation(pub(crate) CompareOp);
+
+impl Relation {
+    /// Those of numbers.
+    pub(crate) const ALL: [Self; 6] = [
+        Self(CompareOp::Less),
+        Self(CompareOp::AtMost),
+        Self(CompareOp::Equal),
+        Self(CompareOp::More),
+        Self(CompareOp::AtLeast),
+        Self(CompareOp::Unequal),
+    ];
+    /// Those of anything else.
+    pub(crate) const EQUALITY: [Self; 2] = [Self(CompareOp::Equal), Self(CompareOp::Unequal)];
+
+    #[must_use]
+    pub(crate) fn word(self) -> &'static str {
+        match self.0 {
+            CompareOp::Equal => "equal",
+            CompareOp::Unequal => "unequal",
+            CompareOp::Less => "less",
+            CompareOp::AtMost => "at_most",
+            CompareOp::More => "more",
+            CompareOp::AtLeast => "at_least",
+        }
+    }
+
+    #[must_use]
+    pub(crate) fn symbol(self) -> &'static str {
+        match self.0 {
+            CompareOp::Equal => "==",
+            CompareOp::Unequal => "!=",
+            CompareOp::Less => "<",
+            CompareOp::AtMost => "<=",
+            CompareOp::More => ">",
+            CompareOp::AtLeast => ">=",
+        }
+    }
+
+    /// The same with the sides exchanged.
+    #[must_use]
+    pub(crate) fn turned(self) -> Self {
+        Self(match self.0 {
+            CompareOp::Equal => CompareOp::Equal,
+            CompareOp::Unequal => CompareOp::Unequal,
+            CompareOp::Less => CompareOp::More,
+            CompareOp::AtMost => CompareOp::AtLeast,
+            CompareOp::More => CompareOp::Less,
+            CompareOp::AtLeast => CompareOp::AtMost,
+        })
+    }
+}
+
+/// The values that an exported grammar allows at a place.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct ValueSet {
+    /// A name for the rule, after the type.
+    pub(crate) name: String,
+    /// The entities or cases.
+    pub(crate) names: Vec<SmolStr>,
+    pub(crate) number: Option<NumberRange>,
+    pub(crate) text: bool,
+    pub(crate) bool: bool,
+    pub(crate) any: bool,
+    /// A name that a step has bound.
+    pub(crate) binding: bool,
+    /// The items of a list that is written out.
+    pub(crate) items: Option<Box<Self>>,
+}
+
+impl ValueSet {
+    /// The values of a type at a place; in a goal nothing is bound.
+    pub(crate) fn of(
+        ty: &Type,
+        range: Option<(f64, f64)>,
+        place: ValuePlace,
+        in_goal: bool,
+        grammar: &Grammar,
+    ) -> Self {
+        let signatures = &grammar.signatures;
+        let binds = !in_goal && place != ValuePlace::Operand;
+        let any = place == ValuePlace::OfFluent;
+        let names = match ty {
+            // `any` means something else where it may stand.
+            Type::Entity(kind) => {
+                signatures.entities_of(*kind).filter(|name| *name != "any").cloned().collect()
+            }
+            Type::Enum(id) => signatures.enums.get(*id).map(|def| def.cases.clone()).unwrap_or_default(),
+            Type::Bool
+            | Type::Int
+            | Type::Number
+            | Type::Quantity(_)
+            | Type::Text
+            | Type::Pose
+            | Type::List(_) => Vec::new(),
+        };
+        let items = match ty {
+            Type::List(element) => Some(Self::of(element, None, place, in_goal, grammar)),
+            _ => None,
+        };
+        let (any_mark, goal_mark) = (if any { "_any" } else { "" }, if binds { "" } else { "_fixed" });
+        Self {
+            name: format!("{}{any_mark}{goal_mark}", signatures.type_name(ty)),
+            names,
+            number: NumberRange::of(ty, range),
+            text: *ty == Type::Text,
+            bool: *ty == Type::Bool,
+            any,
+            binding: binds && grammar.can_bind(ty),
+            items: items.filter(|items| !items.is_empty()).map(Box::new),
+        }
+    }
+
+    /// Something can stand at a place for a value of a type.
+    pub(crate) fn is_fillable(
+        ty: &Type,
+        range: Option<(f64, f64)>,
+        place: ValuePlace,
+        grammar: &Grammar,
+    ) -> bool {
+        let signatures = &grammar.signatures;
+        let is_written = match ty {
+            Type::Entity(kind) => signatures.entities_of(*kind).any(|name| name != "any"),
+            Type::Enum(id) => signatures.enums.get(*id).is_some_and(|def| !def.cases.is_empty()),
+            Type::Text | Type::Bool => true,
+            Type::Int | Type::Number | Type::Quantity(_) => NumberRange::of(ty, range).is_some(),
+            Type::Pose => false,
+            Type::List(element) => Self::is_fillable(element, None, place, grammar),
+        };
+        is_written || place == ValuePlace::OfFluent || (place != ValuePlace::Operand && grammar.can_bind(ty))
+    }
+
+    /// Nothing can stand at the place.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.names.is_empty()
+            && self.number.is_none()
+            && !(self.text || self.bool || self.any || self.binding)
+            && self.items.is_none()
+    }
+
+    /// The values have an order, so that they can be compared by more than equality.
+    pub(crate) fn is_ordered(ty: &Type) -> bool {
+        NumberRange::of(ty, None).is_some()
+    }
+}
+
+impl Grammar {
+    /// Some step or loop can bind a name that fits a type.
+    pub(crate) fn can_bind(&self, ty: &Type) -> bool {
+        self.bindable.iter().any(|actual| self.signatures.fits(ty, actual))
     }
 }

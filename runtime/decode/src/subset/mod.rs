@@ -6,17 +6,9 @@
 //! parameters of the policy, calculations, comparisons of two measures, conditions that are names or
 //! literals, texts outside printable ASCII or with `"` or `\`, and whatever exceeds the bounds below.
 
-mod decimal;
-mod digits;
 mod number;
-mod tree;
 
-pub(crate) use decimal::Decimal;
-pub(crate) use digits::Digits;
-pub(crate) use number::NumberRange;
-pub(crate) use tree::{
-    Call, Catch, Condition, Document, End, Reaction, Relation, Step, Subject, Value, When,
-};
+pub(crate) use number::{Decimal, Digits, NumberRange};
 
 use motet_syntax::Syntax;
 

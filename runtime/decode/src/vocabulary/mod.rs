@@ -1,7 +1,6 @@
 //! Vocabularies: the tokens of a language model as bytes, in a trie, with the sets of tokens that can be
 //! precomputed for texts and names.
 
-mod error;
 mod huggingface;
 mod plain_list;
 #[cfg(feature = "tiktoken")]
@@ -14,10 +13,11 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 use toktrie::{SimpleVob, TokRxInfo, TokTrie};
 
-pub use self::error::VocabularyError;
 #[cfg(feature = "tiktoken")]
 pub use self::tiktoken::Encoding;
-pub use self::token_list::{EndToken, LONGEST_TOKEN, MAX_FILE_BYTES, MAX_TOKEN_BYTES, MAX_TOKENS};
+pub use self::token_list::{
+    EndToken, LONGEST_TOKEN, MAX_FILE_BYTES, MAX_TOKEN_BYTES, MAX_TOKENS, VocabularyError,
+};
 pub(crate) use self::token_tree::{Node, Tree};
 use crate::subset::{MAX_NAME_CHARS, is_text_char};
 

@@ -1,18 +1,17 @@
 //! The acceptor against the checker: what it lets a model write checks without an error, every walk ends,
 //! and every canonical policy that checks is accepted, byte by byte.
 
-use crate::common::dice::Dice;
 use crate::common::tokens::{END, tokens};
-use crate::common::walks::{Ended, KINDS, of_kind, steps, walk, written};
-use crate::common::{errors, session};
-use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary, canonical};
+use crate::common::walks::{Dice, Ended, KINDS, of_kind, steps, walk, written};
+use crate::common::{SETTINGS, errors, session};
+use motet_decode::{AcceptorFactory, Grammar, Modifiers, Subset, Vocabulary, canonical};
 use motet_syntax::{FileId, Source, Syntax};
 
 fn subset(modifiers: Modifiers) -> Subset {
     Subset { modifiers, ..Subset::default() }
 }
 
-/// How many walks each pair of robot and scene gets; `MOTET_WALKS` says otherwise.
+/// The number of walks for each pair of robot and scene; `MOTET_WALKS` overrides it.
 fn walks() -> usize {
     std::env::var("MOTET_WALKS").ok().and_then(|count| count.parse().ok()).unwrap_or(4)
 }
@@ -30,9 +29,7 @@ fn acceptor_walks_in_text_check() {
 fn write_at_random(syntax: Syntax) {
     let (mut lengths, mut done, mut all) = (Vec::new(), 0, 0);
     let mut kinds = [0usize; KINDS.len()];
-    for (index, (robot, scene)) in
-        [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")].into_iter().enumerate()
-    {
+    for (index, (robot, scene)) in SETTINGS.into_iter().enumerate() {
         let session = session(robot, scene);
         for (kind, modifiers) in [Modifiers::Default, Modifiers::Written].into_iter().enumerate() {
             let factory = AcceptorFactory::new(&session, Subset { syntax, ..subset(modifiers) });
@@ -127,9 +124,10 @@ fn acceptor_takes_examples_in_text() {
 fn accept_examples(syntax: Syntax) {
     let subset = Subset { syntax, ..subset(Modifiers::Written) };
     let mut count = 0;
-    for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
+    for (robot, scene) in SETTINGS {
         let session = session(robot, scene);
         let factory = AcceptorFactory::new(&session, subset);
+        let grammar = Grammar::new(&session.signatures(), subset);
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
         let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()).collect();
         files.sort();
@@ -140,7 +138,7 @@ fn accept_examples(syntax: Syntax) {
             }
             let parsed = motet_syntax::read(&Source::new("policy.json", text.as_str()), FileId(7));
             let policy = parsed.file.policies().next().unwrap();
-            let spelled = match canonical(policy, &session.signatures(), subset) {
+            let spelled = match canonical(policy, &grammar) {
                 Ok(spelled) => spelled,
                 Err(outside) => {
                     println!("{}: {outside}", file.display());
@@ -154,7 +152,7 @@ fn accept_examples(syntax: Syntax) {
     assert!(count >= 10, "{count}");
 }
 
-/// That a policy is accepted byte by byte, to its end.
+/// Asserts that a policy is accepted byte by byte, to its end.
 fn takes_whole(factory: &AcceptorFactory, spelled: &str, whose: &str) {
     let mut acceptor = factory.acceptor(100_000).unwrap();
     let taken = acceptor.accept(spelled.as_bytes());
@@ -166,21 +164,22 @@ fn takes_whole(factory: &AcceptorFactory, spelled: &str, whose: &str) {
     );
 }
 
-/// What is written in one subset is accepted in both, spelled as it spells it.
+/// A policy of one subset is accepted in the other, in its spelling.
 #[test]
 fn acceptor_takes_walks_of_the_other_syntax() {
     let (mut count, mut outside) = (0, 0);
-    for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
+    for (robot, scene) in SETTINGS {
         let session = session(robot, scene);
         for (from, to) in [(Syntax::Json, Syntax::Text), (Syntax::Text, Syntax::Json)] {
             let [from, to] = [from, to].map(|syntax| Subset { syntax, ..subset(Modifiers::Written) });
             let factory = AcceptorFactory::new(&session, to);
+            let grammar = Grammar::new(&session.signatures(), to);
             // The acceptor of the text syntax writes no comparison of a field.
             let fits = |text: &str| (600..3000).contains(&text.len()) && !text.contains("\"field\":");
             for text in written(&session, from, 4, fits) {
                 let parsed = motet_syntax::read(&Source::new("policy", text.as_str()), FileId(7));
                 let policy = parsed.file.policies().next().unwrap();
-                let Ok(spelled) = canonical(policy, &session.signatures(), to) else {
+                let Ok(spelled) = canonical(policy, &grammar) else {
                     outside += 1;
                     continue;
                 };

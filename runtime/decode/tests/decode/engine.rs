@@ -1,16 +1,16 @@
-//! The acceptor beside an engine that knows the exported grammar only: what the acceptor allows, the
-//! grammar allows as well.
+//! The acceptor beside an engine that knows the exported grammar only: the grammar allows every token that
+//! the acceptor allows.
 
-use crate::common::dice::Dice;
 use crate::common::peer::{Peer, environment};
-use crate::common::session;
 use crate::common::tokens::{END, tokens};
+use crate::common::walks::Dice;
+use crate::common::{SETTINGS, session};
 use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary};
 use motet_syntax::Syntax;
 
-/// How many walks each pair of robot and scene gets with each subset.
+/// The number of walks for each pair of robot and scene with each subset.
 const WALKS: u64 = 3;
-/// How many tokens a walk takes at most.
+/// The greatest number of tokens of a walk.
 const LENGTH: usize = 120;
 
 #[test]
@@ -23,7 +23,7 @@ fn decoder_mask_in_text_is_within_the_exported_grammar() {
     compare(Syntax::Text);
 }
 
-/// What a loop goes through is bound for its body: a container here, of which no step gives one.
+/// The item of a loop is bound in its body: a container here, which no step returns.
 #[test]
 fn acceptor_takes_loop_items_as_arguments() {
     let tokens = tokens();
@@ -51,7 +51,7 @@ fn compare(syntax: Syntax) {
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = environment(&tokens, END);
     let mut masks = 0;
-    for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
+    for (robot, scene) in SETTINGS {
         let session = session(robot, scene);
         for modifiers in [Modifiers::Default, Modifiers::Written] {
             let subset = Subset { syntax, modifiers, ..Subset::default() };

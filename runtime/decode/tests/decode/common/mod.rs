@@ -3,31 +3,33 @@
 #![allow(dead_code, unreachable_pub, reason = "the benchmark uses a part of it")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-pub mod dice;
 pub mod peer;
 pub mod tokens;
 pub mod walks;
 
-use motet_compiler::Session;
-use motet_syntax::{FileId, Severity, Source, Sources};
+use std::sync::Mutex;
 
-/// The session of an embedded robot in an embedded scene.
+use motet_decode::{Environment, Session};
+use motet_syntax::{FileId, Severity, Source};
+
+/// The robots and scenes of the tests.
+pub const SETTINGS: [(&str, &str); 3] = [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")];
+
+/// The session of a built-in robot in a built-in scene, made once for the whole process.
 pub fn session(robot: &str, scene: &str) -> Session {
-    let mut sources = Sources::default();
-    let row = motet_robots::card::embedded().iter().find(|row| row.0 == robot);
-    let (name, toml, declarations) = row.unwrap_or_else(|| panic!("no robot `{robot}`"));
-    let source = Source::new(format!("{name}/robot.toml"), *toml);
-    let id = sources.add(source.clone());
-    let robot = motet_robots::card::read(&source, id, *declarations).0.unwrap();
-    let row = motet_robots::scene::embedded().iter().find(|row| row.0 == scene);
-    let (name, json) = row.unwrap_or_else(|| panic!("no scene `{scene}`"));
-    let source = Source::new(*name, *json);
-    let id = sources.add(source.clone());
-    let scene = motet_robots::scene::read(&source, id).0.unwrap();
-    Session::builder().robot(&robot).scene(&scene).build(&mut sources)
+    static MADE: Mutex<Vec<((String, String), Session)>> = Mutex::new(Vec::new());
+    let mut made = MADE.lock().unwrap();
+    let key = (robot.to_owned(), scene.to_owned());
+    if let Some((_, session)) = made.iter().find(|(known, _)| *known == key) {
+        return session.clone();
+    }
+    let texts = Environment { robot: Some(robot), scene: Some(scene), ..Environment::default() };
+    let session = texts.session().unwrap();
+    made.push((key, session.clone()));
+    session
 }
 
-/// What is wrong with a document.
+/// The errors of a document.
 pub fn errors(session: &Session, text: &str) -> Vec<String> {
     let parsed = motet_syntax::read(&Source::new("policy.json", text), FileId(7));
     let said = session.check(&parsed).into_iter();

@@ -77,7 +77,7 @@ const PIECES: [&str; 73] = [
     " mug_1 ",
 ];
 
-/// What ends a sequence: it has no bytes.
+/// The token that ends a sequence: it has no bytes.
 pub const END: u32 = 256 + PIECES.len() as u32;
 
 /// The bytes of each token.

@@ -1,12 +1,32 @@
 //! Random walks through the acceptor: what a model without any sense writes.
 
-use motet_compiler::Session;
-use motet_decode::{Acceptor, AcceptorFactory, Subset};
+use motet_decode::{Acceptor, AcceptorFactory, Session, Subset};
 use motet_syntax::Syntax;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng as _, SeedableRng as _};
 
-use super::dice::Dice;
+/// Random choices, the same for the same seed.
+#[derive(Clone, Debug)]
+pub struct Dice(SplitMix64);
 
-/// Where a walk ended.
+impl Dice {
+    /// The choices of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(SplitMix64::seed_from_u64(seed))
+    }
+
+    /// A number below `bound`, which is at least 1.
+    pub fn below(&mut self, bound: usize) -> usize {
+        usize::try_from(self.0.next_u64() >> 33).unwrap_or(0) % bound.max(1)
+    }
+
+    /// True `percent` times of a hundred.
+    pub fn chance(&mut self, percent: usize) -> bool {
+        self.below(100) < percent
+    }
+}
+
+/// The end of a walk.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Ended {
     /// With a whole policy.
@@ -56,13 +76,13 @@ fn text(acceptor: &Acceptor) -> String {
     String::from_utf8_lossy(acceptor.bytes()).into_owned()
 }
 
-/// How many steps a policy has.
+/// The number of steps of a policy.
 #[must_use]
 pub fn steps(policy: &str) -> usize {
     KINDS.iter().map(|kind| of_kind(policy, kind)).sum()
 }
 
-/// How many steps of a kind it has.
+/// The number of steps of a kind.
 #[must_use]
 pub fn of_kind(policy: &str, kind: &str) -> usize {
     if syntax(policy) == Syntax::Json {
@@ -80,7 +100,7 @@ pub fn of_kind(policy: &str, kind: &str) -> usize {
     }
 }
 
-/// Whether a name and a parenthesis come next.
+/// A name and a parenthesis come next.
 fn is_call(rest: &str) -> bool {
     let name = rest.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count();
     name > 0 && rest.as_bytes().get(name) == Some(&b'(')

@@ -1,18 +1,85 @@
-//! Batch probing: many questions to the checker answered by one proof.
+//! Questions to the checker: their keys in the memo of answers, and batches that one proof answers.
 //!
 //! Concurrent steps are proved together for each call that is tried. If a proof in which any of the calls
 //! may stand refutes nothing, none of them is refuted; otherwise halves of them are asked.
 
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use motet_syntax::ast::Step;
+use rustc_hash::FxHasher;
 
-use super::event_log::{Event, Id, State};
+use super::context::Question;
+use super::event_log::{Event, Id, State, mix};
 use super::machine::Machine;
-use super::memo::Question;
 use super::oracle::{Argument, CallSite};
 use super::proof_cursor::Transcript;
 use crate::grammar::NodeKind;
+
+impl Machine {
+    /// Appends an event to the log.
+    pub(crate) fn record(&mut self, below: Id, event: Event) -> Id {
+        // The name of the policy decides nothing, unless a callable has the same name.
+        let is_title =
+            matches!(event, Event::Name(start, len) if below == 0 && !self.is_callable(start, len));
+        let content = if is_title { 0 } else { self.content(event) };
+        self.arenas.record(below, event, content)
+    }
+
+    fn is_callable(&self, start: u32, len: u32) -> bool {
+        let name = self.bytes.get(start as usize..(start.saturating_add(len)) as usize).unwrap_or_default();
+        self.context.automaton.signatures.callables.iter().any(|callable| callable.name.as_bytes() == name)
+    }
+
+    /// The hash of an event's content, wherever its bytes stand.
+    fn content(&self, event: Event) -> u64 {
+        let mut hasher = FxHasher::default();
+        let mut spelled = |sort: u8, start: u32, len: u32| {
+            sort.hash(&mut hasher);
+            self.bytes.get(start as usize..(start.saturating_add(len)) as usize).hash(&mut hasher);
+        };
+        match event {
+            Event::Bound(id) => {
+                if let Some(name) = self.arenas.name(id) {
+                    spelled(1, name.start, name.len);
+                }
+            }
+            Event::Text(start, len) => spelled(2, start, len),
+            Event::Name(start, len) => spelled(3, start, len),
+            Event::Open(_)
+            | Event::Close
+            | Event::Word(..)
+            | Event::Number(..)
+            | Event::Constant(_)
+            | Event::AnyText
+            | Event::Joined(_)
+            | Event::Hole => event.hash(&mut hasher),
+        }
+        mix(hasher.finish(), 0)
+    }
+
+    /// The key of a question about the log up to an event, with `more` behind it.
+    pub(crate) fn key(&self, question: Question, event: Id, more: impl IntoIterator<Item = Event>) -> u64 {
+        let said =
+            more.into_iter().fold(self.arenas.hash(event), |hash, event| mix(hash, self.content(event)));
+        mix(said, question as u64)
+    }
+
+    /// The answer to a question that was asked before.
+    pub(crate) fn known(&self, key: u64) -> Option<bool> {
+        self.context.memo.get(key)
+    }
+
+    /// The answer to a question; asks the checker only if it is not known.
+    pub(crate) fn answer(&mut self, key: u64, ask: impl FnOnce(&mut Self) -> bool) -> bool {
+        if let Some(answer) = self.context.memo.get(key) {
+            return answer;
+        }
+        let answer = ask(self);
+        self.context.memo.put(key, answer);
+        answer
+    }
+}
 
 /// Up to this many are asked one by one.
 const FEW: usize = 2;
@@ -73,16 +140,11 @@ impl Machine {
 
     /// The event before the `wait` whose condition is being written.
     fn open_wait(&self, event: Id) -> Option<Id> {
-        let mut at = event;
-        loop {
-            let said = self.arenas.entry(at).filter(|_| at > 0)?;
-            at = said.below;
-            match said.event {
-                Event::Open(NodeKind::Wait) => return Some(at),
-                Event::Open(NodeKind::Not | NodeKind::Is(_)) | Event::Word(..) | Event::Bound(_) => {}
-                _ => return None,
-            }
-        }
+        let is_inside = |event: Event| {
+            matches!(event, Event::Open(NodeKind::Not | NodeKind::Is(_)) | Event::Word(..) | Event::Bound(_))
+        };
+        let begin = self.arenas.back(event).find(|said| !is_inside(said.event))?;
+        (begin.event == Event::Open(NodeKind::Wait)).then_some(begin.below)
     }
 
     /// Verifies the current step with each of several continuations behind `event`, as far as common proofs

@@ -1,7 +1,7 @@
-//! The model surface: canonical text means what the policy means, and is a fixed point.
+//! The canonical subset: a canonical line means what its policy means, and is a fixed point.
 
-use motet_compiler::{Session, Signatures};
-use motet_decode::{Modifiers, Subset, canonical};
+use motet_compiler::Session;
+use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::ast::Policy;
 use motet_syntax::{Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
@@ -24,16 +24,11 @@ fn outline(session: &Session, text: &str) -> (usize, String) {
     (graph.nodes.len(), format!("{:?}", graph.duration))
 }
 
-fn surfaces(modifiers: Modifiers) -> [Subset; 2] {
-    [Syntax::Json, Syntax::Text].map(|form| Subset { syntax: form, modifiers, ..Subset::default() })
-}
-
 /// The canonical line, which must be that of what it reads as.
-fn line(policy: &Policy, signatures: &Signatures, surface: Subset) -> String {
-    let line = canonical(policy, signatures, surface)
-        .unwrap_or_else(|outside| panic!("{outside} at {}", outside.span.start));
-    let again =
-        canonical(&parse(&line), signatures, surface).unwrap_or_else(|outside| panic!("{outside}\n{line}"));
+fn line(policy: &Policy, grammar: &Grammar) -> String {
+    let line =
+        canonical(policy, grammar).unwrap_or_else(|outside| panic!("{outside} at {}", outside.span.start));
+    let again = canonical(&parse(&line), grammar).unwrap_or_else(|outside| panic!("{outside}\n{line}"));
     assert_eq!(line, again);
     line
 }
@@ -43,11 +38,12 @@ fn an_example_means_the_same_in_both_canonical_forms() {
     for (path, robot, scene) in examples() {
         let (robot, scene) = (setup::robot(&robot), setup::scene(&scene));
         let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
-        let signatures = session.signatures();
         let text = read(&path);
         let json = read(&path.with_extension("json"));
-        for surface in surfaces(Modifiers::Written) {
-            let lines = [&text, &json].map(|document| line(&parse(document), &signatures, surface));
+        for syntax in [Syntax::Json, Syntax::Text] {
+            let subset = Subset { syntax, modifiers: Modifiers::Written, ..Subset::default() };
+            let grammar = Grammar::new(&session.signatures(), subset);
+            let lines = [&text, &json].map(|document| line(&parse(document), &grammar));
             assert_eq!(lines[0], lines[1], "{path:?}");
             assert_eq!(outline(&session, &text), outline(&session, &lines[0]), "{path:?}");
         }

@@ -1,6 +1,5 @@
-//! Writes what the tests of other people's engines need, as JSON on standard output: for each robot and
-//! scene of the
-//! examples the exported grammars, the examples as canonical lines, and lines that are nearly right.
+//! Writes the input of the tests of other engines as JSON on standard output: for each robot and scene of
+//! the examples the exported grammars, the examples as canonical lines, and lines that are nearly right.
 
 use std::collections::BTreeMap;
 
@@ -11,9 +10,9 @@ use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
 use serde_json::{Value, json};
 
-/// A robot and a scene.
+/// The names of a robot and a scene.
 type Setting = (String, String);
-/// A policy's name, its line in JSON and its line in text.
+/// The name of a policy, its line in JSON and its line in text.
 type Lines = (String, [String; 2]);
 
 fn main() {
@@ -24,16 +23,16 @@ fn main() {
         let (card, room) = (setup::robot(&robot), setup::scene(&scene));
         let (session, _) = setup::session(Some(&card), Some(&room), &mut Sources::default());
         let signatures = session.signatures();
-        let surface = |form| Subset { syntax: form, modifiers: Modifiers::Written, ..Subset::default() };
+        let subset = |form| Subset { syntax: form, modifiers: Modifiers::Written, ..Subset::default() };
         let parsed = motet_syntax::read(&Source::new(name.as_str(), read(&path)), FileId(0));
         let lines = parsed.file.runnable().next().map(|policy| {
             [Syntax::Json, Syntax::Text]
-                .map(|form| canonical(policy, &signatures, surface(form)).unwrap_or_default())
+                .map(|form| canonical(policy, &Grammar::new(&signatures, subset(form))).unwrap_or_default())
         });
         let key = (robot, scene);
         worlds.entry(key.clone()).or_default().extend(lines.map(|lines| (name, lines)));
         grammars.entry(key).or_insert_with(|| {
-            let of = |form, format| export(&Grammar::new(&signatures, surface(form)), format, Header::None);
+            let of = |form, format| export(&Grammar::new(&signatures, subset(form)), format, Header::None);
             json!({
                 "schema": of(Syntax::Json, Format::JsonSchema),
                 "json_gbnf": of(Syntax::Json, Format::Gbnf),
