@@ -1,13 +1,5 @@
 //! Every reason for which a graph is refused, each by one change of a sound graph.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{

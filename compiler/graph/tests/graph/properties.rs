@@ -1,14 +1,6 @@
 //! Properties of graphs: they validate, round trip, hash and draw alike; mutated ones are refused or stay
 //! harmless.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use motet_graph::arbitrary::graphs;
 use motet_graph::{NodeId, RegionId, decode, draw, encode, hash, validate};
 use proptest::prelude::*;
@@ -37,7 +29,11 @@ proptest! {
     }
 
     #[test]
-    fn drawing_never_panics_also_of_a_broken_graph(mut graph in graphs(), node in 0..100_usize, to in 0..200_u32) {
+    fn drawing_never_panics_also_of_a_broken_graph(
+        mut graph in graphs(),
+        node in 0..100_usize,
+        to in 0..200_u32,
+    ) {
         if let Some(node) = graph.nodes.get_mut(node) {
             node.next = Some(NodeId(to));
             node.region = RegionId(to);
@@ -48,7 +44,11 @@ proptest! {
     }
 
     #[test]
-    fn a_changed_document_is_refused(graph in graphs(), at in any::<prop::sample::Index>(), byte in b' '..b'~') {
+    fn a_changed_document_is_refused(
+        graph in graphs(),
+        at in any::<prop::sample::Index>(),
+        byte in b' '..b'~',
+    ) {
         let text = encode(&graph);
         let at = at.index(text.len());
         let mut bytes = text.clone().into_bytes();

@@ -1,12 +1,4 @@
-//! What drawings look like.
-
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
+//! Drawings of a graph with every kind of step.
 
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};

@@ -1,13 +1,5 @@
 //! Documents that are no graph are refused with a clear word.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{
     Arithmetic, Comparison, Condition, Ending, Fact, FactArg, Graph, Grasp, InitialFact, Motion, NodeKind,
