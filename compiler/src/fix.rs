@@ -3,14 +3,10 @@
 //! Above the stages: it reads their findings, edits the document and checks it again. Guarded by
 //! `tests/tests/fix.rs`.
 
-mod edit;
-
-use motet_syntax::{Code, Diagnostic, FileId, Parsed, Severity, Source};
+use motet_syntax::{Code, Diagnostic, FileId, Fix, Parsed, Severity, Source};
 
 use crate::repair::Finding;
 use crate::session::Session;
-
-pub use edit::apply;
 
 /// Maximal number of documents that are checked to fix one.
 const MAX_TRIES: usize = 500;
@@ -41,6 +37,17 @@ pub struct AppliedFix {
 
 /// Applies at most `most` fixes to a document. Each leaves it with fewer errors and no new kind of error, or
 /// with as many errors, fewer warnings and no new code. At most 500 documents are checked on the way.
+///
+/// ```
+/// use motet_compiler::{Session, fix};
+/// use motet_syntax::{FileId, Source, Sources};
+///
+/// let session = Session::builder().build(&mut Sources::default());
+/// let source = Source::new("greet.motet", "policy greet { sya(\"hello\") }");
+/// let fixed = fix::fix(&session, &source, FileId(99), 10);
+/// assert_eq!(fixed.text, "policy greet { say(\"hello\") }");
+/// assert!(fixed.diagnostics.is_empty());
+/// ```
 #[must_use]
 pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> FixedDocument {
     fix_parsed(session, source, motet_syntax::read(source, file), file, most)
@@ -142,4 +149,51 @@ fn better(
         let (last, more) = better(session, source, file, base, &next, depth - 1, tries)?;
         Some((last, std::iter::once(done).chain(more).collect()))
     })
+}
+
+/// Applies all edits of a fix. `None` if an edit is about another file, lies outside the text or within a
+/// character, or overlaps another. O(text + edits).
+#[must_use]
+pub fn apply(text: &str, file: FileId, fix: &Fix) -> Option<String> {
+    let mut edits: Vec<_> = fix.edits.iter().collect();
+    edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
+    let mut done = String::with_capacity(text.len());
+    let mut at = 0;
+    for edit in edits {
+        if edit.span.file != file {
+            return None;
+        }
+        let range = edit.span.range();
+        // An overlap is a range that ends before it begins, of which there is no text.
+        done.push_str(text.get(at..range.start)?);
+        text.get(range.clone())?;
+        done.push_str(&edit.text);
+        at = range.end;
+    }
+    done.push_str(text.get(at..)?);
+    Some(done)
+}
+
+#[cfg(test)]
+mod tests {
+    use motet_syntax::{Edit, FileId, Fix, Span};
+
+    fn check(edits: &[(usize, usize, &str)], expected: Option<&str>) {
+        let edit = |(start, end, text): &(usize, usize, &str)| Edit {
+            span: Span::new(FileId(0), *start, *end),
+            text: (*text).to_owned(),
+        };
+        let fix = Fix { title: String::new(), edits: edits.iter().map(edit).collect() };
+        assert_eq!(super::apply("añb", FileId(0), &fix).as_deref(), expected);
+    }
+
+    #[test]
+    fn edits_are_made_together_or_not_at_all() {
+        check(&[(3, 4, "c"), (0, 0, "x")], Some("xañc"));
+        check(&[(0, 3, ""), (3, 3, "y")], Some("yb"));
+        check(&[(0, 3, ""), (1, 4, "")], None);
+        check(&[(0, 2, "")], None);
+        check(&[(0, 9, "")], None);
+        assert!(super::apply("ab", FileId(1), &Fix { title: String::new(), edits: Vec::new() }).is_some());
+    }
 }
