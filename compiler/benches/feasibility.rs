@@ -1,6 +1,5 @@
-//! What compiling a policy costs with the motions in its scene: every policy of `examples/` for the HSR in
-//! the kitchen, in a
-//! session of its own, then all one after the other in one session, then again.
+//! Cost of compiling a policy with the motions in its scene: every policy of `examples/` for the HSR in the
+//! kitchen, in a session of its own, then all one after the other in one session, then again.
 //!
 //! A policy is compiled in milliseconds, and the first time differs from the next, so this is no loop of
 //! criterion's.
@@ -17,7 +16,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use motet_compiler::{CheckOptions, Geometry, Session};
+use motet_compiler::{Geometry, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_graph::{NodeKind, Verdict};
 use motet_robots::builtin::{self, RobotWithBody};
@@ -27,9 +26,7 @@ use motet_robots::urdf::Urdf;
 use motet_syntax::{FileId, Parsed, Source, Sources};
 
 fn session(robot: &Robot, urdf: &Urdf, scene: &Scene) -> Session {
-    let mut sources = Sources::default();
-    let options = CheckOptions::default();
-    let session = Session::builder().robot(robot).scene(scene).options(options).build(&mut sources);
+    let session = Session::builder().robot(robot).scene(scene).build(&mut Sources::default());
     session.with_geometry(Arc::new(Geometry::new(robot, urdf, scene, None, SearchBudget::default())))
 }
 

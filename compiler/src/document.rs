@@ -69,6 +69,17 @@ impl Session {
     }
 
     /// Checks a document and compiles each of its policies without parameters. Each policy is analysed once.
+    ///
+    /// ```
+    /// use motet_compiler::Session;
+    /// use motet_syntax::{FileId, Source, Sources};
+    ///
+    /// let session = Session::builder().build(&mut Sources::default());
+    /// let source = Source::new("two.motet", "policy one { say(\"1\") } policy two { sya(\"2\") }");
+    /// let check = session.check_document(&motet_syntax::read(&source, FileId(99)));
+    /// assert!(check.policies[0].graph.is_some());
+    /// assert!(check.policies[1].graph.is_none());
+    /// ```
     #[must_use]
     pub fn check_document(&self, parsed: &Parsed) -> DocumentCheck {
         let mut diagnostics = parsed.diagnostics.clone();
@@ -91,8 +102,7 @@ impl Session {
     }
 
     /// Checks names, types, durations and the robot's limits in a document of one policy, without following
-    /// its state.
-    /// Cheaper than [`Self::check`], of whose diagnostics it returns a part.
+    /// its state. Cheaper than [`Self::check`], of whose diagnostics it returns a part.
     #[must_use]
     pub fn check_names(&self, parsed: &Parsed) -> Vec<Diagnostic> {
         let mut diagnostics = parsed.diagnostics.clone();

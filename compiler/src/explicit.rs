@@ -15,6 +15,19 @@ use crate::declare::elaborator::parse_quantity;
 use crate::ir::{Base, Ty};
 
 /// Makes a policy explicit, for printing it in a syntax.
+///
+/// ```
+/// use motet_compiler::{Session, make_explicit};
+/// use motet_syntax::ast::StepKind;
+/// use motet_syntax::{FileId, Source, Sources, Syntax};
+///
+/// let session = Session::builder().build(&mut Sources::default());
+/// let source = Source::new("greet.motet", "policy greet { say(\"hello\") }");
+/// let mut policy = motet_syntax::read(&source, FileId(99)).file.policies().next().cloned().expect("one");
+/// make_explicit(&mut policy, session.library(), Syntax::Json);
+/// let StepKind::Do(call) = &policy.body.steps[0].kind else { panic!("a call") };
+/// assert_eq!(call.call.args[0].name.as_ref().map(|name| name.text.as_str()), Some("text"));
+/// ```
 pub fn make_explicit(policy: &mut Policy, library: &Library, form: Syntax) {
     let writer = Writer { library, form };
     if let Some(goal) = &mut policy.achieves {

@@ -1,11 +1,6 @@
-//! The compiler of Motet: from a spanned AST to a checked execution graph.
-//!
-//! Stages, each a pure function of the one before: `resolve` (names and types), `check` (robot, resources,
-//! bounds),
-//! `prove` (state), `place` (geometry), `lower` (the graph). A stage returns what it could make and its
-//! diagnostics; no
-//! stage reads a file, a clock or the environment, and none panics on any input.
+#![doc = include_str!("../README.md")]
 
+mod analysis;
 pub mod codes;
 mod declare;
 mod document;
@@ -25,8 +20,9 @@ mod resolve;
 mod session;
 pub mod signature;
 
-pub use declare::{Library, LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES};
-pub use declare::{MAX_COUNT, MAX_SECONDS};
+pub use declare::{
+    Library, LibraryBuilder, MAX_COUNT, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES, MAX_SECONDS,
+};
 pub use document::{Compiled, DocumentCheck, PolicyOutcome};
 pub use environment::{Environment, InitialState};
 pub use explicit::make_explicit;

@@ -19,6 +19,17 @@ use crate::ir::Term;
 use crate::signature::Signatures;
 
 /// Settings of a check.
+///
+/// ```
+/// use motet_compiler::{CheckOptions, Session};
+/// use motet_syntax::{FileId, Source, Sources};
+///
+/// let options = CheckOptions { max_duration_secs: Some(60.0) };
+/// let session = Session::builder().options(options).build(&mut Sources::default());
+/// let source = Source::new("greet.motet", "policy greet { say(\"hello\") within 5 min }");
+/// let diagnostics = session.check(&motet_syntax::read(&source, FileId(99)));
+/// assert_eq!(diagnostics[0].code.to_string(), "M0801");
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct CheckOptions {
     /// The longest duration that a policy may have, in seconds; `None` allows any.
@@ -96,8 +107,7 @@ impl<'a> SessionBuilder<'a> {
     }
 
     /// Reads the library and builds the environment. The files of the library are added to `sources`;
-    /// diagnostics about
-    /// the inputs are kept in [`Session::input_diagnostics`].
+    /// diagnostics about the inputs are kept in [`Session::input_diagnostics`].
     #[must_use]
     pub fn build(self, sources: &mut Sources) -> Session {
         let mut builder = Library::builder(self.robot, sources);
@@ -152,9 +162,8 @@ impl Session {
         &self.diagnostics
     }
 
-    /// The same library in another scene and state, without geometry. Much cheaper than a new session,
-    /// since no file is
-    /// read again. The input diagnostics are about the new scene and state only.
+    /// The same library in another scene and state, without geometry. Much cheaper than a new session, since
+    /// no file is read again. The input diagnostics are about the new scene and state only.
     #[must_use]
     pub fn with_scene(&self, scene: Option<&Scene>, state: Option<&InitialState>) -> Self {
         let (environment, diagnostics) = Environment::new(&self.library, scene, state);
@@ -174,16 +183,15 @@ impl Session {
         }
     }
 
-    /// The same session with geometry for motion queries. The geometry is that of the session's robot,
-    /// scene and state;
-    /// it may be shared, and caches its answers. Without geometry every motion is deferred.
+    /// The same session with geometry for motion queries. The geometry is that of the session's robot, scene
+    /// and state; it may be shared, and caches its answers. Without geometry every motion is deferred.
     #[must_use]
     pub fn with_geometry(mut self, geometry: Arc<Geometry>) -> Self {
         self.geometry = Some(geometry);
         self
     }
 
-    /// Whether the session answers motion queries.
+    /// Returns whether the session answers motion queries.
     #[must_use]
     pub fn has_geometry(&self) -> bool {
         self.geometry.is_some()
@@ -196,9 +204,8 @@ impl Session {
         Some(self.geometry.as_ref()?.access(id))
     }
 
-    /// Tracker of the world of a run that begins in this session's environment, for deferred motions;
-    /// `None` without
-    /// geometry.
+    /// Tracker of the world of a run that begins in this session's environment, for deferred motions; `None`
+    /// without geometry.
     #[must_use]
     pub fn world_tracker(&self) -> Option<WorldTracker> {
         Some(WorldTracker::new(Arc::clone(&self.library), Arc::clone(self.geometry.as_ref()?)))
@@ -210,15 +217,24 @@ impl Session {
         &self.library
     }
 
-    /// Whether a text describes any entity of the scene.
+    /// Returns whether a text describes any entity of the scene.
     #[must_use]
     pub fn describes(&self, text: &str) -> bool {
         self.environment.is_description(text)
     }
 
-    /// Names and types that a policy for this robot and scene may use. Computed once for all sessions
-    /// derived from one
-    /// another with the same entities: these share one [`Arc`].
+    /// Names and types that a policy for this robot and scene may use. Computed once for all sessions derived
+    /// from one another with the same entities: these share one [`Arc`].
+    ///
+    /// ```
+    /// use motet_compiler::Session;
+    /// use motet_syntax::Sources;
+    ///
+    /// let session = Session::builder().build(&mut Sources::default());
+    /// let signatures = session.signatures();
+    /// let say = signatures.callable("say").expect("a primitive of the standard library");
+    /// assert_eq!(signatures.type_name(&say.params[0].ty), "Text");
+    /// ```
     #[must_use]
     pub fn signatures(&self) -> Arc<Signatures> {
         let build = || Arc::new(Signatures::new(&self.library, &self.environment));
@@ -226,8 +242,7 @@ impl Session {
     }
 
     /// Facts at the start with their values, in order: a later one overrides, and one with `None` as an
-    /// argument is about
-    /// every entity.
+    /// argument is about every entity.
     pub fn initial_facts(&self) -> impl Iterator<Item = InitialFact> {
         self.environment.given.iter().filter_map(|(fact, holds)| {
             let def = self.library.fluent(fact.fluent)?;
@@ -245,11 +260,11 @@ impl Session {
     }
 
     /// Type-checks the arguments of a stand-alone motion query, each with its span, and returns the
-    /// diagnostics that a call
-    /// of a primitive with this motion would produce. Empty for a motion of which the robot has no primitive.
+    /// diagnostics that a call of a primitive with this motion would produce. Empty for a motion of which the
+    /// robot has no primitive.
     #[must_use]
     pub fn check_motion(&self, name: &str, args: &[(SmolStr, Span)]) -> Vec<Diagnostic> {
-        crate::resolve::motion::check_motion(name, args, &self.library, &self.environment)
+        crate::resolve::check_motion(name, args, &self.library, &self.environment)
     }
 
     /// Library and environment.

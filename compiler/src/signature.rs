@@ -3,10 +3,9 @@
 //! Grammars and prompts for language models derive from them, so they offer exactly what the stages accept.
 //! Built once from a library and an environment, then only read.
 
-use motet_syntax::Severity;
-use motet_syntax::Syntax;
 use motet_syntax::ast::{Expr, Policy};
 use motet_syntax::unit::Dimension;
+use motet_syntax::{Severity, Syntax};
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 

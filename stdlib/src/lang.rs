@@ -1,8 +1,7 @@
 //! Language items: the names of the standard library that Rust code may know.
 //!
 //! Every other name is data. The compiler looks these up once, and a test of it checks that `motet/*.motet`
-//! declares
-//! each of them.
+//! declares each of them.
 
 macro_rules! names {
     ($($(#[$doc:meta])* $module:ident { $($constant:ident = $name:literal)* })*) => {$(

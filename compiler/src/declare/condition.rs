@@ -7,7 +7,7 @@ use smol_str::SmolStr;
 use super::arithmetic::dimension;
 use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::errors::{MissingArgument, NotACondition, TooManyArguments, UnknownFluent, UnknownParameter};
-use super::suggestion::{list, near};
+use super::name::{list, near};
 use crate::ir::{Base, Condition, Fact, Term, Ty};
 
 impl Elaborator<'_> {

@@ -9,17 +9,15 @@ use motet_syntax::words::is_json_key;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use super::builder::elaborator;
-use super::card::check as card;
+use super::builder::{Declarations, elaborator};
+use super::card;
 use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::errors::{
     BadDeclaration, Duplicate, ReservedName, UnknownFailure, UnknownMotion, UnknownResource, UnknownType,
 };
-use super::layers::Declarations;
 use super::library::{EffectDef, LastsDef, Library, NeedDef, ParamDef, PrimitiveDef, ResourceSet};
-use super::suggestion::{list, near};
-use crate::ir::Entities;
-use crate::ir::{Base, Kind, MotionKind, Primitive, TIMEOUT, Term, Ty};
+use super::name::{list, near};
+use crate::ir::{Base, Entities, Kind, MotionKind, Primitive, TIMEOUT, Term, Ty};
 
 /// Duration in seconds, least and greatest, of a primitive without a `takes` clause.
 const DEFAULT_TAKES: (f64, f64) = (0.0, 60.0);

@@ -9,11 +9,9 @@ use smol_str::{SmolStr, format_smolstr};
 use super::errors::{
     MisplacedAny, MissingUnit, NotACondition, OutOfRange, UnknownField, UnknownFluent, WrongType,
 };
-use super::scope::Scope;
-use super::suggestion::{article, list, near};
+use super::name::{Scope, article, list, near};
 use crate::declare::Library;
-use crate::ir::Entities;
-use crate::ir::{Base, Binding, ROBOT, Term, Ty};
+use crate::ir::{Base, Binding, Entities, ROBOT, Term, Ty};
 
 /// Elaborates expressions in one scope.
 pub(crate) struct Elaborator<'a> {

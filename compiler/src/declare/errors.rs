@@ -4,7 +4,7 @@ use motet_syntax::ast::Name;
 use motet_syntax::{About, Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
-use super::suggestion::{article, list, near};
+use super::name::{article, list, near};
 
 pub(crate) fn replace(span: Span, text: &str) -> Option<Fix> {
     Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span, text: text.to_owned() }] })
@@ -19,7 +19,8 @@ motet_syntax::mistakes! {
 
     /// Unknown binding, parameter, entity, case or resource.
     UnknownName("M0202", Error) {
-        name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool, about: Option<About>,
+        name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool,
+        about: Option<About>,
         call: Option<String>,
     }
     message(m) {
@@ -39,7 +40,8 @@ motet_syntax::mistakes! {
         }
         did_you_mean(m.near.as_ref()).or_else(|| {
             if !m.scene {
-                Some("there is no scene: entities come from `--scene`, or from `entity` in a domain".to_owned())
+                let from = "entities come from `--scene`, or from `entity` in a domain";
+                Some(format!("there is no scene: {from}"))
             } else {
                 (!m.known.is_empty()).then(|| format!("there is {}", m.known))
             }
@@ -62,7 +64,8 @@ motet_syntax::mistakes! {
     fix(m) {
         let near = m.near.as_ref()?;
         let sigil = if *near == m.name { "" } else { "$" };
-        Some(Fix { title: format!("write `{sigil}{near}`"), edits: vec![Edit { span: m.span, text: near.to_string() }] })
+        let edit = Edit { span: m.span, text: near.to_string() };
+        Some(Fix { title: format!("write `{sigil}{near}`"), edits: vec![edit] })
     }
 
     /// Argument for an unknown parameter.
@@ -86,7 +89,9 @@ motet_syntax::mistakes! {
     related(m) { vec![Related::new("first declared here", m.first)] }
 
     /// Unknown fluent in a condition.
-    UnknownFluent("M0208", Error) { name: SmolStr, near: Option<SmolStr>, wanted: &'static str, known: String }
+    UnknownFluent("M0208", Error) {
+        name: SmolStr, near: Option<SmolStr>, wanted: &'static str, known: String,
+    }
     message(m) { format!("there is no {} `{}`", m.wanted, m.name) }
     help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known))) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
@@ -97,18 +102,21 @@ motet_syntax::mistakes! {
     help(m) { did_you_mean(m.near.as_ref()) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
-    /// Unknown failure.
+    /// Failure that is not declared.
     UnknownFailure("M0210", Error) { name: SmolStr, near: Option<SmolStr>, known: String }
     message(m) { format!("there is no failure `{}`", m.name) }
     help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the failures are {}", m.known))) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
     /// Unknown field of an entity's kind.
-    UnknownField("M0211", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String, owners: String }
+    UnknownField("M0211", Error) {
+        name: SmolStr, of: String, near: Option<SmolStr>, known: String, owners: String,
+    }
     message(m) { format!("{} has no field `{}`", m.of, m.name) }
     help(m) {
         did_you_mean(m.near.as_ref()).or_else(|| {
-            let own = if m.known.is_empty() { format!("{} has none", m.of) } else { format!("its fields are {}", m.known) };
+            let fields = || format!("its fields are {}", m.known);
+            let own = if m.known.is_empty() { format!("{} has none", m.of) } else { fields() };
             Some(if m.owners.is_empty() { own } else { format!("{} has it; {own}", m.owners) })
         })
     }
@@ -124,7 +132,8 @@ motet_syntax::mistakes! {
     message(m) { format!("there is no motion `{}`", m.name) }
     help(m) {
         did_you_mean(m.near.as_ref()).or_else(|| {
-            Some("the motions are `go_to`, `reach`, `put`, `pull`, `push`, `offer`, `look` and `posture`".to_owned())
+            let all = "`go_to`, `reach`, `put`, `pull`, `push`, `offer`, `look` and `posture`";
+            Some(format!("the motions are {all}"))
         })
     }
 
@@ -164,7 +173,8 @@ motet_syntax::mistakes! {
     message(m) {
         match &m.twice {
             Some(param) => format!("`{}` of `{}` has two arguments", param, m.callee),
-            None => format!("`{}` takes at most {} argument{}", m.callee, m.most, if m.most == 1 { "" } else { "s" }),
+            None if m.most == 1 => format!("`{}` takes at most 1 argument", m.callee),
+            None => format!("`{}` takes at most {} arguments", m.callee, m.most),
         }
     }
     help(_m) { Some("remove this argument".to_owned()) }
@@ -184,7 +194,8 @@ motet_syntax::mistakes! {
     NotACondition("M0308", Error) { found: &'static str, wanted: &'static str }
     message(m) { format!("expected {}, found {}", m.wanted, m.found) }
     help(m) { Some(if m.wanted == "a condition" {
-        "a condition is a fluent such as `holding(mug)`, or a comparison such as `distance(user) < 0.5 m`".to_owned()
+        let comparison = "a comparison such as `distance(user) < 0.5 m`";
+        format!("a condition is a fluent such as `holding(mug)`, or {comparison}")
     } else {
         "a value is a literal, a name, a measure or a field".to_owned()
     }) }
@@ -210,14 +221,17 @@ motet_syntax::mistakes! {
     /// `any` in place of one value.
     MisplacedAny("M0311", Error) { }
     message(_m) { "`any` is not allowed here".to_owned() }
-    help(_m) { Some("`any` is only allowed in the arguments of a fluent, where it stands for every entity".to_owned()) }
+    help(_m) {
+        let place = "in the arguments of a fluent, where it stands for every entity";
+        Some(format!("`any` is only allowed {place}"))
+    }
 
     /// Parameter of a fluent that is neither an entity nor a case.
     FluentParameter("M0312", Error) { name: SmolStr, ty: String }
     message(m) { format!("a parameter of a fluent is an entity or a case, but `{}` is {}", m.name, m.ty) }
     help(_m) { Some("declare a `measure` for numbers".to_owned()) }
 
-    /// Inconsistent declaration.
+    /// Declaration that contradicts itself.
     BadDeclaration("M0313", Error) { what: String, remedy: String }
     message(m) { m.what.clone() }
     help(m) { Some(m.remedy.clone()) }

@@ -1,32 +1,25 @@
 //! The declarations in force: kinds, fluents, measures, primitives with their contracts, and policies.
 //!
 //! A [`Library`] is built once from layers (standard library, robot, domains, document) and then only read.
-//! The
-//! [`elaborator`](self::elaborator) gives terms and conditions their meaning and type; contracts need it
-//! here, and the
-//! resolver of steps needs it again for the arguments of calls. Fed by the syntax front ends, read by every
-//! stage.
+//! The [`elaborator`](self::elaborator) gives terms and conditions their meaning and type; contracts need it
+//! here, and the resolver of steps needs it again for the arguments of calls. Fed by the syntax front ends,
+//! read by every stage.
 
 mod arithmetic;
 mod builder;
 mod card;
 mod condition;
-mod constant;
 mod contract;
 pub(crate) mod elaborator;
 pub(crate) mod errors;
-mod lang_items;
-mod layers;
 pub(crate) mod library;
-mod name;
-pub(crate) mod scope;
-pub(crate) mod suggestion;
+pub(crate) mod name;
 
+pub use self::arithmetic::{MAX_COUNT, MAX_SECONDS};
 pub use self::builder::{LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS};
 pub use self::card::MAX_RESOURCES;
-pub use self::constant::{MAX_COUNT, MAX_SECONDS};
 pub use self::library::Library;
 
-pub(crate) use self::card::errors::CODES as CARD_CODES;
+pub(crate) use self::card::CODES as CARD_CODES;
 pub(crate) use self::contract::resolve_type;
 pub(crate) use self::library::{EffectDef, NeedDef, PrimitiveDef, ResourceSet};

@@ -5,7 +5,6 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::elaborator::{Elaborator, Expected, parse_quantity};
 use super::errors::{UnknownBinding, UnknownCase, UnknownName};
-use super::suggestion::{list, near};
 use crate::ir::{Base, EnumId, Term, Ty};
 
 impl Elaborator<'_> {
@@ -184,4 +183,76 @@ enum NameNotation {
     Bare,
     /// In a string of the JSON syntax.
     Quoted,
+}
+
+/// Stack of names. A barrier hides the names below it: the body of an inlined policy does not see its caller.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scope {
+    entries: Vec<ScopeEntry>,
+    barrier: usize,
+}
+
+/// Name in scope with its meaning.
+#[derive(Clone, Debug)]
+pub(crate) struct ScopeEntry {
+    pub(crate) name: SmolStr,
+    pub(crate) term: Term,
+    pub(crate) ty: Ty,
+    pub(crate) span: Span,
+}
+
+/// State of the stack, to restore later.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ScopeMark {
+    len: usize,
+    barrier: usize,
+}
+
+impl Scope {
+    pub(crate) fn push(&mut self, name: SmolStr, term: Term, ty: Ty, span: Span) {
+        self.entries.push(ScopeEntry { name, term, ty, span });
+    }
+
+    pub(crate) fn find(&self, name: &str) -> Option<&ScopeEntry> {
+        self.entries.get(self.barrier..)?.iter().rev().find(|entry| entry.name == name)
+    }
+
+    pub(crate) fn names(&self) -> impl Iterator<Item = &SmolStr> {
+        self.entries.iter().skip(self.barrier).map(|entry| &entry.name)
+    }
+
+    pub(crate) fn mark(&self) -> ScopeMark {
+        ScopeMark { len: self.entries.len(), barrier: self.barrier }
+    }
+
+    pub(crate) fn raise_barrier(&mut self) {
+        self.barrier = self.entries.len();
+    }
+
+    pub(crate) fn back_to(&mut self, mark: ScopeMark) {
+        self.entries.truncate(mark.len);
+        self.barrier = mark.barrier;
+    }
+}
+
+/// Nearest known name to a written one, if one is near.
+pub(crate) fn near<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<SmolStr> {
+    motet_syntax::suggest::closest(name, known).map(SmolStr::new)
+}
+
+/// Joins names into a phrase: "`a`, `b` and `c`".
+pub(crate) fn list(names: impl Iterator<Item = SmolStr>) -> String {
+    let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
+    match names.split_last() {
+        None => String::new(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+/// Name of a type with its article: "an `Object`".
+pub(crate) fn article(name: &str) -> String {
+    let vowel =
+        name.chars().next().is_some_and(|first| matches!(first.to_ascii_lowercase(), 'a' | 'e' | 'i' | 'o'));
+    format!("{} `{name}`", if vowel { "an" } else { "a" })
 }

@@ -2,7 +2,6 @@
 //! then shared by all policies that are checked against it.
 
 mod errors;
-mod hands;
 mod initial_state;
 mod scene_facts;
 
@@ -17,8 +16,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
 use crate::declare::Library;
-use crate::facts::{ANY, FactKey, FactStore, arg};
-use crate::facts::{Cause, TruthSet};
+use crate::facts::{ANY, Cause, FactKey, FactStore, TruthSet, arg};
 use crate::ir::{Entities, Entity, Fact, Kind, ROBOT, Term};
 
 pub(crate) use errors::CODES;
@@ -108,8 +106,7 @@ impl Environment {
     pub(crate) fn assert_fact(&mut self, fact: Fact, value: bool) {
         self.facts.set(fact.fluent, key(&fact), TruthSet::of(value, Cause::START));
         // One about every entity says it of those, too, of which something was said. Of a single one the
-        // later word counts
-        // by coming later.
+        // later word counts by coming later.
         if fact.args.iter().any(Option::is_none) {
             self.forget_given(&fact);
         }

@@ -8,9 +8,8 @@ use smol_str::SmolStr;
 use super::Environment;
 use super::errors::{TakenName, TooManyEntities, UnknownKind};
 use crate::declare::Library;
-use crate::declare::suggestion::near;
-use crate::ir::{Entities, MAX_ENTITIES};
-use crate::ir::{Entity, Fact, Fluent, Kind, ROBOT, START, Term, USER};
+use crate::declare::name::near;
+use crate::ir::{Entities, Entity, Fact, Fluent, Kind, MAX_ENTITIES, ROBOT, START, Term, USER};
 
 pub(super) fn entities(
     library: &Library,

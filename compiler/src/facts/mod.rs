@@ -7,20 +7,16 @@
 //!
 //! All policies share the facts at the start; the writes of a policy lie above them.
 
-mod delta;
-mod key;
-mod partition;
+mod path;
 mod table;
-mod truth_set;
+mod value;
 
 use smallvec::SmallVec;
 
-pub(crate) use self::delta::Delta;
-use self::delta::Rank;
-pub(crate) use self::key::{ANY, Atom, FactKey, arg, show};
-pub(crate) use self::partition::PathPartition;
+use self::path::Rank;
+pub(crate) use self::path::{Delta, PathPartition};
 use self::table::{FluentTable, TableEntry};
-pub(crate) use self::truth_set::{Cause, TruthSet};
+pub(crate) use self::value::{ANY, Atom, Cause, FactKey, TruthSet, arg, show};
 use crate::ir::Fluent;
 
 /// One write, with what is needed to undo it.

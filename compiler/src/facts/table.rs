@@ -3,8 +3,7 @@
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::FactKey;
-use super::TruthSet;
+use super::{FactKey, TruthSet};
 
 /// Value of a fact or a pattern.
 #[derive(Clone, Copy, Debug)]

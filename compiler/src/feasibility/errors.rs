@@ -1,7 +1,12 @@
-//! Diagnostics of infeasible motions (M06xx): one code for each reason.
+//! Diagnostics of infeasible motions (M06xx), one code for each reason, and their explanations: the steps
+//! that led to the world in which a motion is infeasible.
 
-use motet_syntax::{About, Related, Span};
+use motet_geometry::planning::{Infeasible, InfeasibleReason, MotionQuery};
+use motet_syntax::{About, Diagnostic, Related, Severity, Span};
 use smol_str::SmolStr;
+
+use super::domain::{MotionChecker, PossibleWorld};
+use crate::ir::{StepId, StepKind, Term};
 
 /// Parts of the diagnostic of an infeasible motion.
 #[derive(Clone, PartialEq, Debug)]
@@ -9,7 +14,7 @@ pub(crate) struct RefusedMotion {
     pub(crate) callee: SmolStr,
     /// The query: `reach(mug_1)`.
     pub(crate) motion: String,
-    /// InfeasibleReason with its numbers.
+    /// Reason with its numbers.
     pub(crate) says: String,
     /// Steps that changed the world before the motion; empty if it is as in the scene.
     pub(crate) story: String,
@@ -40,65 +45,113 @@ fn about(told: &RefusedMotion) -> Option<About> {
     Some(About { primitive: Some(told.callee.clone()), ..About::default() })
 }
 
-motet_syntax::mistakes! {
-    pub(crate) const CODES;
+/// Declares the diagnostics of infeasible motions, and the choice among them by the reason.
+macro_rules! refusals {
+    ($($(#[$doc:meta])* $name:ident($code:literal))*) => {
+        motet_syntax::mistakes! {
+            pub(crate) const CODES;
+            $(
+                $(#[$doc])*
+                $name($code, Error) { told: RefusedMotion }
+                message(m) { message(&m.told) }
+                help(m) { help(&m.told) }
+                related(m) { m.told.since.clone() }
+                about(m) { about(&m.told) }
+            )*
+        }
 
-    /// Target that is too far away, too high or too low.
-    OutOfReach("M0601", Error) { told: RefusedMotion }
-    message(m) { message(&m.told) }
-    help(m) { help(&m.told) }
-    related(m) { m.told.since.clone() }
-    about(m) { about(&m.told) }
-
-    /// Target for which every configuration of the robot collides.
-    NoFreePose("M0602", Error) { told: RefusedMotion }
-    message(m) { message(&m.told) }
-    help(m) { help(&m.told) }
-    related(m) { m.told.since.clone() }
-    about(m) { about(&m.told) }
-
-    /// Target without a free path to it.
-    BlockedPath("M0603", Error) { told: RefusedMotion }
-    message(m) { message(&m.told) }
-    help(m) { help(&m.told) }
-    related(m) { m.told.since.clone() }
-    about(m) { about(&m.told) }
-
-    /// Thing that weighs more than the payload.
-    TooHeavy("M0604", Error) { told: RefusedMotion }
-    message(m) { message(&m.told) }
-    help(m) { help(&m.told) }
-    related(m) { m.told.since.clone() }
-    about(m) { about(&m.told) }
-
-    /// Thing that is wider than the opening of the hand.
-    TooWide("M0605", Error) { told: RefusedMotion }
-    message(m) { message(&m.told) }
-    help(m) { help(&m.told) }
-    related(m) { m.told.since.clone() }
-    about(m) { about(&m.told) }
-
-    /// Target that no camera can see.
-    NotInView("M0606", Error) { told: RefusedMotion }
-    message(m) { message(&m.told) }
-    help(m) { help(&m.told) }
-    related(m) { m.told.since.clone() }
-    about(m) { about(&m.told) }
+        /// Diagnostic of a reason.
+        fn refused(reason: &InfeasibleReason, span: Span, told: RefusedMotion) -> Diagnostic {
+            match reason {
+                $(InfeasibleReason::$name { .. } => $name { span, told }.into(),)*
+            }
+        }
+    };
 }
 
-/// Diagnostic of a reason.
-pub(crate) fn refused(
-    reason: &motet_geometry::planning::InfeasibleReason,
-    span: Span,
-    told: RefusedMotion,
-) -> motet_syntax::Diagnostic {
-    use motet_geometry::planning::InfeasibleReason;
-    match reason {
-        InfeasibleReason::OutOfReach { .. } => OutOfReach { span, told }.into(),
-        InfeasibleReason::NoFreePose { .. } => NoFreePose { span, told }.into(),
-        InfeasibleReason::BlockedPath { .. } => BlockedPath { span, told }.into(),
-        InfeasibleReason::NotInView { .. } => NotInView { span, told }.into(),
-        InfeasibleReason::TooHeavy { .. } => TooHeavy { span, told }.into(),
-        InfeasibleReason::TooWide { .. } => TooWide { span, told }.into(),
+refusals! {
+    /// Target that is too far away, too high or too low.
+    OutOfReach("M0601")
+    /// Target for which every configuration of the robot collides.
+    NoFreePose("M0602")
+    /// Target without a free path to it.
+    BlockedPath("M0603")
+    /// Thing that weighs more than the payload.
+    TooHeavy("M0604")
+    /// Thing that is wider than the opening of the hand.
+    TooWide("M0605")
+    /// Target that no camera can see.
+    NotInView("M0606")
+}
+
+impl MotionChecker<'_> {
+    /// Diagnostic of a motion that is infeasible in a possible world: an error if that is proven, a warning
+    /// if a search found nothing.
+    pub(super) fn refusal(
+        &self,
+        id: StepId,
+        callee: &SmolStr,
+        query: &MotionQuery,
+        why: &Infeasible,
+        possible: &PossibleWorld,
+    ) -> Option<Diagnostic> {
+        let span = self.program.steps.get(id.index())?.span;
+        let why = self.geometry.explained(&possible.at, query, why);
+        let culprit = match &why.reason {
+            InfeasibleReason::NoFreePose { by, .. }
+            | InfeasibleReason::BlockedPath { by }
+            | InfeasibleReason::NotInView { by, .. } => by.as_ref(),
+            InfeasibleReason::OutOfReach { .. }
+            | InfeasibleReason::TooHeavy { .. }
+            | InfeasibleReason::TooWide { .. } => None,
+        };
+        let changed = culprit.and_then(|by| Some((by, possible.changer(by)?)));
+        let mut story = Vec::new();
+        let mut since: Vec<Related> = Vec::new();
+        if let Some((by, step)) = changed {
+            story.push(format!("`{by}` is as `{}` left it", self.call_name(step)));
+            since.extend(self.related("changed here", step));
+        }
+        if let Some(step) = possible.stands_since {
+            story.push(format!("the robot stands where `{}` brought it", self.call_name(step)));
+            since.extend(self.related("the robot came here", step));
+        }
+        if let (Some((held, _)), Some(step)) = (&possible.at.world.held, possible.held_since) {
+            story.push(format!("the hand holds `{held}`"));
+            since.extend(self.related("taken here", step));
+        }
+        let story = if story.is_empty() { String::new() } else { format!("; {}", story.join(", ")) };
+        let told = RefusedMotion {
+            callee: callee.clone(),
+            motion: query.to_string(),
+            says: why.reason.to_string(),
+            story,
+            change: why.change.clone(),
+            is_certified: why.certified,
+            since,
+        };
+        let mut diagnostic = refused(&why.reason, span, told);
+        if !why.certified {
+            diagnostic.severity = Severity::Warning;
+        }
+        Some(diagnostic)
+    }
+
+    fn related(&self, message: &'static str, step: StepId) -> Option<Related> {
+        Some(Related::new(message, self.program.steps.get(step.index())?.span))
+    }
+
+    /// Call of a step in short: `go(sink)`.
+    fn call_name(&self, step: StepId) -> String {
+        let Some(StepKind::Call(call)) = self.program.steps.get(step.index()).map(|step| &step.kind) else {
+            return "a step".to_owned();
+        };
+        let name = self.library.primitive(call.primitive).map_or("a step", |def| def.name.as_str());
+        let args = call.args.iter().filter_map(|arg| match arg {
+            Term::Entity(entity) => Some(self.environment.name(*entity)),
+            Term::Binding(id) => self.program.bindings.get(id.index()).map(|binding| binding.name.clone()),
+            _ => None,
+        });
+        format!("{name}({})", args.collect::<Vec<_>>().join(", "))
     }
 }

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use motet_geometry::planning::{
     BaseMapCache, Configuration as Placed, Infeasible, MotionAnswer, MotionQuery, MotionWitness,
-    QueryContext, RobotModel, SceneState, SearchBudget,
+    QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason,
 };
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
@@ -13,7 +13,6 @@ use motet_stdlib::lang;
 use rustc_hash::FxHashMap;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::worlds::Fingerprinted;
 use crate::declare::Library;
 use crate::environment::InitialState;
 use crate::ir::Fluent;
@@ -39,7 +38,14 @@ struct Memo {
     told: FxHashMap<(Box<[u8]>, MotionQuery), Infeasible>,
 }
 
-/// SceneState after a motion; `None` if it is unknown.
+/// World with its fingerprint; equal fingerprints mean equal worlds.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Fingerprinted {
+    pub(super) world: SceneState,
+    pub(super) key: Box<[u8]>,
+}
+
+/// World after a motion; `None` if it is unknown.
 type Next = Option<Arc<Fingerprinted>>;
 
 /// Change of the scene by a motion, beside the robot's own pose.
@@ -100,7 +106,7 @@ impl Geometry {
         Some(poses.get(link)?.translation.vector.into())
     }
 
-    /// SceneState at the start, or the reason why it is unknown.
+    /// World at the start, or the reason why it is unknown.
     pub(super) fn start(&self) -> Result<Arc<Fingerprinted>, SmolStr> {
         self.start.clone()
     }
@@ -173,7 +179,7 @@ impl Geometry {
         }
     }
 
-    /// SceneState after a motion that was found; `None` if it is unknown.
+    /// World after a motion that was found; `None` if it is unknown.
     pub(super) fn after(
         &self,
         at: &Fingerprinted,
@@ -213,7 +219,7 @@ impl Geometry {
     }
 }
 
-/// SceneState at the start of a scene and a state. Adds `start` to the places of the scene.
+/// World at the start of a scene and a state. Adds `start` to the places of the scene.
 fn begin(
     machine: &RobotModel,
     scene: &mut Scene,
@@ -230,21 +236,19 @@ fn begin(
             }
             lang::fluents::HOLDING if *holds == Some(true) => scene.robot.holding = Some(Some(arg.into())),
             lang::fluents::AT | lang::fluents::ON | lang::fluents::IN | lang::fluents::HOLDING => {
-                return Err(format_smolstr!(
-                    "the state says `{fact}`, and the scene does not say where that is"
-                ));
+                return Err(format_smolstr!("the state says `{fact}`, but the scene gives no pose for it"));
             }
             _ => {}
         }
     }
     let is_door = |entity: &&Entity| entity.travel.is_some() && entity.open.is_none();
     if let Some(door) = scene.entities.values().find(is_door) {
-        return Err(format_smolstr!("it is not known whether `{}` is open", door.id));
+        return Err(format_smolstr!("it is unknown whether `{}` is open", door.id));
     }
     if let Some(Some(held)) = &scene.robot.holding
         && scene.entities.get(held).is_none_or(|entity| entity.shape.is_none())
     {
-        return Err(format_smolstr!("the shape of `{held}`, which the hand holds, is not known"));
+        return Err(format_smolstr!("the shape of `{held}`, which the hand holds, is unknown"));
     }
     let [x, y, yaw] = scene.robot.base;
     let pose = Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, yaw] };
@@ -256,4 +260,74 @@ fn begin(
 fn fingerprinted(world: SceneState) -> Fingerprinted {
     let key = world.fingerprint().into_boxed_slice();
     Fingerprinted { world, key }
+}
+
+/// Answer to the question whether the robot can reach a thing.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Access {
+    /// A path to the thing was found, and the motion at its end.
+    Feasible,
+    /// The search found no motion.
+    Infeasible {
+        /// Reason: `too heavy: …`.
+        why: SmolStr,
+        /// True if infeasibility is proven; false if the search ended without a result.
+        is_certified: bool,
+    },
+    /// The search gave no answer, for this reason.
+    Unknown(SmolStr),
+}
+
+impl Geometry {
+    /// Decides whether the robot, from its pose at the start, can drive to a thing and there grasp it, or
+    /// open or close it by its handle. At most two searches, whose answers are cached.
+    #[must_use]
+    pub fn access(&self, id: &str) -> Access {
+        let start = match self.start() {
+            Ok(start) => start,
+            Err(why) => return Access::Unknown(why),
+        };
+        let Some(entity) = self.scene().entities.get(id) else {
+            return Access::Unknown(format_smolstr!("the scene has no `{id}`"));
+        };
+        if self.scene().robot.holding.as_ref().and_then(Option::as_ref) == Some(&entity.id) {
+            return Access::Feasible;
+        }
+        if let Some(around) = &entity.inside
+            && self.is_open(&start.world, around) == Some(false)
+        {
+            return Access::Unknown(format_smolstr!("it is in {around}, which is closed"));
+        }
+        let (mut at, id) = (start, entity.id.clone());
+        if self.machine().drives() {
+            let query = MotionQuery::GoTo(id.clone());
+            let answer = self.answer(&at, &query);
+            let MotionAnswer::Feasible(way) = &*answer else { return said(&answer) };
+            match self.after(&at, &query, SceneChange::Gone, way) {
+                Some(there) => at = Arc::clone(&there),
+                None => return Access::Unknown(SmolStr::new_static("the end of the path is unknown")),
+            }
+        }
+        let query = match self.is_open(&at.world, &id) {
+            Some(true) => MotionQuery::Push(id),
+            Some(false) => MotionQuery::Pull(id),
+            None if entity.kind == lang::kinds::OBJECT => MotionQuery::Reach(id, None),
+            None => return Access::Feasible,
+        };
+        said(&self.answer(&at, &query))
+    }
+}
+
+fn said(answer: &MotionAnswer) -> Access {
+    match answer {
+        MotionAnswer::Feasible(_) => Access::Feasible,
+        MotionAnswer::Infeasible(why) => {
+            let is_certified = why.certified;
+            Access::Infeasible { why: format_smolstr!("{}", why.reason), is_certified }
+        }
+        MotionAnswer::Unknown(UnknownReason::Budget) => {
+            Access::Unknown(SmolStr::new_static("the search was cut short"))
+        }
+        MotionAnswer::Unknown(UnknownReason::Because(why)) => Access::Unknown(why.as_str().into()),
+    }
 }

@@ -8,25 +8,22 @@
 //!
 //! Guarded by `compiler/tests/compiler/feasibility.rs` and `tests/tests/dynamic.rs`.
 
-mod access;
+mod domain;
 pub(crate) mod errors;
-mod explanation;
 mod geometry;
 mod motion;
 mod transfer;
-mod walk;
-mod witness;
 mod world_tracker;
-mod worlds;
 
-pub use access::Access;
-pub use geometry::Geometry;
+pub use geometry::{Access, Geometry};
 pub use world_tracker::{Forecast, WorldTracker};
 
 use motet_graph::Witness;
 use motet_syntax::Diagnostic;
 use smol_str::SmolStr;
 
+use self::domain::MotionChecker;
+use crate::analysis::Domain;
 use crate::declare::Library;
 use crate::environment::Environment;
 use crate::ir::Program;
@@ -52,7 +49,7 @@ pub(crate) fn check(
     environment: &Environment,
     geometry: &Geometry,
 ) -> (MotionVerdicts, Vec<Diagnostic>) {
-    let mut walk = walk::Walk::new(program, proof, library, environment, geometry);
-    walk.policy();
-    walk.into_results()
+    let mut checker = MotionChecker::new(program, proof, library, environment, geometry);
+    checker.block(&program.body);
+    checker.into_results()
 }

@@ -2,90 +2,11 @@
 
 use motet_geometry::planning::{GraspSide, MotionQuery};
 use motet_stdlib::lang;
-use smol_str::{SmolStr, format_smolstr};
+use smol_str::SmolStr;
 
 use super::geometry::SceneChange;
-use super::walk::Walk;
 use crate::declare::{EffectDef, Library, PrimitiveDef};
-use crate::ir::{Call, Entity, Fluent, MotionKind, ROBOT, START, Term};
-
-impl Walk<'_> {
-    /// Motion query of a call.
-    ///
-    /// # Errors
-    ///
-    /// The reason why its arguments are unknown.
-    pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<MotionQuery, SmolStr> {
-        let Some((name, args)) = &def.motion else { return Err(SmolStr::new_static("it has no motion")) };
-        let mut names = Vec::with_capacity(args.len());
-        for arg in args {
-            names.push(self.named(arg, call)?);
-        }
-        Ok(motion_query(*name, names, self.side(call)))
-    }
-
-    /// GraspSide of a grasp that an argument of the call asks for.
-    fn side(&self, call: &Call) -> Option<GraspSide> {
-        let approach = self.library.lang_items.approach?;
-        call.args.iter().find_map(|arg| match arg {
-            Term::Case(of, case) if *of == approach => side_of(self.library.case_name(approach, *case)),
-            _ => None,
-        })
-    }
-
-    /// Name, in the scene, of an argument of a contract at a call.
-    ///
-    /// # Errors
-    ///
-    /// The reason why it is unknown.
-    pub(super) fn named(&self, term: &Term, call: &Call) -> Result<SmolStr, SmolStr> {
-        let entity = |entity: Entity| match entity {
-            ROBOT => Err(SmolStr::new_static("the robot is no target")),
-            START => Ok(SmolStr::new_static(lang::entities::START)),
-            entity if self.symbols.get(entity).is_some() => {
-                let bound = self.symbols.binding_of(entity);
-                let name = bound.and_then(|index| self.program.bindings.get(index));
-                let name = name.map_or("it", |binding| binding.name.as_str());
-                Err(format_smolstr!("which thing `{name}` is, only the run can tell"))
-            }
-            entity => Ok(self.environment.name(entity)),
-        };
-        let unknown = || SmolStr::new_static("an argument is only known in the run");
-        match term {
-            Term::Entity(id) => entity(*id),
-            Term::Case(of, case) => Ok(self.library.case_name(*of, *case).into()),
-            Term::Binding(id) => entity(self.symbols.of_binding(id.index()).ok_or_else(unknown)?),
-            Term::Param(index) => match call.args.get(usize::from(*index)) {
-                Some(Term::Param(_)) | None => Err(unknown()),
-                Some(term) => self.named(term, call),
-            },
-            Term::Result => {
-                let bound = call.binds.and_then(|id| self.symbols.of_binding(id.index()));
-                entity(bound.ok_or_else(unknown)?)
-            }
-            Term::Bool(_)
-            | Term::Int(_)
-            | Term::Number(_)
-            | Term::Text(_)
-            | Term::List(_)
-            | Term::Each
-            | Term::Field(..)
-            | Term::Measure(..)
-            | Term::Arith(..)
-            | Term::Unknown => Err(unknown()),
-        }
-    }
-
-    /// Place where a call leaves the robot beyond the target of its motion: `search` ends where the robot can
-    /// serve what it found.
-    pub(super) fn ends_at(&self, call: &Call, def: &PrimitiveDef) -> Option<Result<SmolStr, SmolStr>> {
-        let effect = makes(self.library.lang_items.at, def, true)?;
-        match effect.fact.args.as_slice() {
-            [Some(robot), Some(place)] if *robot == Term::Entity(ROBOT) => Some(self.named(place, call)),
-            _ => None,
-        }
-    }
-}
+use crate::ir::{Fluent, MotionKind};
 
 /// Motion query of a name and arguments.
 pub(super) fn motion_query(kind: MotionKind, args: Vec<SmolStr>, side: Option<GraspSide>) -> MotionQuery {
@@ -104,7 +25,7 @@ pub(super) fn motion_query(kind: MotionKind, args: Vec<SmolStr>, side: Option<Gr
     }
 }
 
-/// GraspSide of a case of `Approach`; `None` if any side is allowed.
+/// Side of a case of `Approach`; `None` if any side is allowed.
 pub(super) fn side_of(case: &str) -> Option<GraspSide> {
     match case {
         lang::approaches::TOP => Some(GraspSide::Top),

@@ -1,46 +1,44 @@
 //! Transfer function of a call: the answers of its motion in all possible worlds, and the worlds after it.
 
-use std::sync::Arc;
-
-use motet_geometry::planning::{MotionAnswer, MotionQuery, UnknownReason};
+use motet_geometry::planning::{
+    GraspSide, MotionAnswer, MotionQuery, MotionWitness, RobotModel, UnknownReason, components,
+};
+use motet_graph as graph;
+use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::MotionVerdict;
+use super::domain::{MotionChecker, PossibleWorld, Worlds};
 use super::geometry::SceneChange;
-use super::motion::{MotionEffect, motion_effect, moves_blindly};
-use super::walk::Walk;
-use super::witness::kept;
-use super::worlds::{PossibleWorld, Worlds};
+use super::motion::{MotionEffect, makes, motion_effect, motion_query, moves_blindly, side_of};
+use crate::analysis::Domain;
 use crate::declare::PrimitiveDef;
-use crate::ir::{Call, StepId};
+use crate::ir::{Call, Entity, ROBOT, START, StepId, Term};
 
-impl Walk<'_> {
-    /// Worlds after a call that succeeds.
-    pub(super) fn call(&mut self, id: StepId, call: &Call, before: Worlds) -> Worlds {
-        let Some(def) = self.library.primitive(call.primitive) else { return before };
+impl MotionChecker<'_> {
+    /// Leads to the worlds after a call that succeeds.
+    pub(super) fn call(&mut self, id: StepId, call: &Call) {
+        let Some(def) = self.library.primitive(call.primitive) else { return };
         let Some((kind, _)) = &def.motion else {
-            if !moves_blindly(self.library, def) {
-                self.caught(&before);
-                return before;
+            if moves_blindly(self.library, def) {
+                self.worlds =
+                    Worlds::lost(format_smolstr!("the positions of things after `{}` are unknown", def.name));
             }
-            let lost = Worlds::lost(format_smolstr!("where things are after `{}` is not known", def.name));
-            self.caught(&lost);
-            return lost;
+            return self.throw_all(&def.fails);
         };
+        let before = std::mem::take(&mut self.worlds);
         let before = self.possible(id, before);
+        let moves = kind.moves();
         let query = match self.query(call, def) {
             Ok(query) => query,
             Err(why) => {
                 self.found(id, Some(MotionVerdict::Deferred(Some(why.clone()))), None);
-                return self.blind(def, before, why);
+                self.worlds = if moves { Worlds::lost(why) } else { before };
+                return self.throw_all(&def.fails);
             }
         };
-        let moves = kind.moves();
-        if moves {
-            self.caught(&Worlds::lost(format_smolstr!("where `{}` stopped is not known", def.name)));
-        } else {
-            self.caught(&before);
-        }
+        let stopped = || Worlds::lost(format_smolstr!("the pose in which `{}` stopped is unknown", def.name));
+        self.throw_in(if moves { stopped() } else { before.clone() }, &def.fails);
         let mut after = Worlds { known: Vec::new(), lost: before.lost.clone() };
         let (mut witness, mut unknown, mut refused, mut is_refused) = (None, before.lost.clone(), None, true);
         let mut warned = None;
@@ -57,8 +55,8 @@ impl Walk<'_> {
                 MotionAnswer::Unknown(why) => {
                     is_refused = false;
                     unknown = unknown.or(Some(in_words(why)));
-                    let why = format_smolstr!("how `{}` ends is not known", def.name);
-                    after.join(if moves { Worlds::lost(why) } else { only(possible) });
+                    let why = format_smolstr!("the outcome of `{}` is unknown", def.name);
+                    after.join(if moves { Worlds::lost(why) } else { Worlds::only(possible) });
                 }
                 // The search found nothing and proves nothing: the run will see.
                 MotionAnswer::Infeasible(why) if !why.certified => {
@@ -66,8 +64,8 @@ impl Walk<'_> {
                     warned = warned.or_else(|| self.refusal(id, &def.name, &query, why, &possible));
                     unknown = unknown
                         .or_else(|| Some(format_smolstr!("the search found no motion: {}", why.reason)));
-                    let why = format_smolstr!("how `{}` ends is not known", def.name);
-                    after.join(if moves { Worlds::lost(why) } else { only(possible) });
+                    let why = format_smolstr!("the outcome of `{}` is unknown", def.name);
+                    after.join(if moves { Worlds::lost(why) } else { Worlds::only(possible) });
                 }
                 MotionAnswer::Infeasible(why) => {
                     let told = self.refusal(id, &def.name, &query, why, &possible);
@@ -78,7 +76,7 @@ impl Walk<'_> {
                         (Some(_), _) => {}
                     }
                     let why = format_smolstr!("`{}` cannot be done", def.name);
-                    after.join(if moves { Worlds::lost(why) } else { only(possible) });
+                    after.join(if moves { Worlds::lost(why) } else { Worlds::only(possible) });
                 }
             }
         }
@@ -89,15 +87,7 @@ impl Walk<'_> {
         };
         let refused = refused.filter(|(_, certain)| is_error(*certain)).map(|(told, _)| told);
         self.found(id, Some(verdict), refused.or(warned));
-        after
-    }
-
-    /// Worlds after a call whose motion query is unknown.
-    fn blind(&mut self, def: &PrimitiveDef, before: Worlds, why: SmolStr) -> Worlds {
-        let moves = def.motion.as_ref().is_some_and(|(kind, _)| kind.moves());
-        let after = if moves { Worlds::lost(why) } else { before };
-        self.caught(&after);
-        after
+        self.worlds = after;
     }
 
     /// Worlds after a motion that was found in a possible world.
@@ -110,11 +100,11 @@ impl Walk<'_> {
         from: &PossibleWorld,
         answer: &MotionAnswer,
     ) -> Worlds {
-        let lost = || Worlds::lost(format_smolstr!("how `{}` ends is not known", def.name));
+        let lost = || Worlds::lost(format_smolstr!("the outcome of `{}` is unknown", def.name));
         let MotionAnswer::Feasible(way) = answer else { return lost() };
         let change = match motion_effect(self.library, def, query) {
             MotionEffect::Changed(change) => change,
-            MotionEffect::Nothing => return only(from.clone()),
+            MotionEffect::Nothing => return Worlds::only(from.clone()),
             MotionEffect::Unknown => return lost(),
         };
         let Some(at) = self.geometry.after(&from.at, query, change, way) else { return lost() };
@@ -146,7 +136,7 @@ impl Walk<'_> {
             }
             (SceneChange::Gone | SceneChange::Put | SceneChange::Given | SceneChange::Travelled, _) => {}
         }
-        only(next)
+        Worlds::only(next)
     }
 
     /// Worlds after a motion of the base that continues to the place where the robot serves what it found.
@@ -158,14 +148,88 @@ impl Walk<'_> {
             MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
         };
         match after {
-            Some(at) => only(PossibleWorld { at, stands_since: Some(id), ..from }),
-            None => Worlds::lost(format_smolstr!("where the robot serves `{place}` is not known")),
+            Some(at) => Worlds::only(PossibleWorld { at, stands_since: Some(id), ..from }),
+            None => {
+                Worlds::lost(format_smolstr!("the pose from which the robot serves `{place}` is unknown"))
+            }
         }
     }
-}
 
-fn only(possible: PossibleWorld) -> Worlds {
-    Worlds { known: vec![possible], lost: None }
+    /// Motion query of a call.
+    ///
+    /// # Errors
+    ///
+    /// The reason why its arguments are unknown.
+    pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<MotionQuery, SmolStr> {
+        let Some((name, args)) = &def.motion else { return Err(SmolStr::new_static("it has no motion")) };
+        let mut names = Vec::with_capacity(args.len());
+        for arg in args {
+            names.push(self.named(arg, call)?);
+        }
+        Ok(motion_query(*name, names, self.side(call)))
+    }
+
+    /// Side of a grasp that an argument of the call asks for.
+    fn side(&self, call: &Call) -> Option<GraspSide> {
+        let approach = self.library.lang_items.approach?;
+        call.args.iter().find_map(|arg| match arg {
+            Term::Case(of, case) if *of == approach => side_of(self.library.case_name(approach, *case)),
+            _ => None,
+        })
+    }
+
+    /// Name, in the scene, of an argument of a contract at a call.
+    ///
+    /// # Errors
+    ///
+    /// The reason why it is unknown.
+    pub(super) fn named(&self, term: &Term, call: &Call) -> Result<SmolStr, SmolStr> {
+        let entity = |entity: Entity| match entity {
+            ROBOT => Err(SmolStr::new_static("the robot itself is not a target")),
+            START => Ok(SmolStr::new_static(lang::entities::START)),
+            entity if self.symbols.get(entity).is_some() => {
+                let bound = self.symbols.binding_of(entity);
+                let name = bound.and_then(|index| self.program.bindings.get(index));
+                let name = name.map_or("it", |binding| binding.name.as_str());
+                Err(format_smolstr!("only the run determines which thing `{name}` is"))
+            }
+            entity => Ok(self.environment.name(entity)),
+        };
+        let unknown = || SmolStr::new_static("an argument is known only at run time");
+        match term {
+            Term::Entity(id) => entity(*id),
+            Term::Case(of, case) => Ok(self.library.case_name(*of, *case).into()),
+            Term::Binding(id) => entity(self.symbols.of_binding(id.index()).ok_or_else(unknown)?),
+            Term::Param(index) => match call.args.get(usize::from(*index)) {
+                Some(Term::Param(_)) | None => Err(unknown()),
+                Some(term) => self.named(term, call),
+            },
+            Term::Result => {
+                let bound = call.binds.and_then(|id| self.symbols.of_binding(id.index()));
+                entity(bound.ok_or_else(unknown)?)
+            }
+            Term::Bool(_)
+            | Term::Int(_)
+            | Term::Number(_)
+            | Term::Text(_)
+            | Term::List(_)
+            | Term::Each
+            | Term::Field(..)
+            | Term::Measure(..)
+            | Term::Arith(..)
+            | Term::Unknown => Err(unknown()),
+        }
+    }
+
+    /// Place where a call leaves the robot beyond the target of its motion: `search` ends where the robot can
+    /// serve what it found.
+    pub(super) fn ends_at(&self, call: &Call, def: &PrimitiveDef) -> Option<Result<SmolStr, SmolStr>> {
+        let effect = makes(self.library.lang_items.at, def, true)?;
+        match effect.fact.args.as_slice() {
+            [Some(robot), Some(place)] if *robot == Term::Entity(ROBOT) => Some(self.named(place, call)),
+            _ => None,
+        }
+    }
 }
 
 fn in_words(why: &UnknownReason) -> SmolStr {
@@ -175,7 +239,29 @@ fn in_words(why: &UnknownReason) -> SmolStr {
     }
 }
 
-/// Possible world at the start.
-pub(super) fn at_start(at: Arc<super::worlds::Fingerprinted>) -> PossibleWorld {
-    PossibleWorld { at, stands_since: None, held_since: None, changed: Vec::new(), is_certain: true }
+/// Witness of a motion for the graph. Holds only the joints that move.
+fn kept(machine: &RobotModel, witness: &MotionWitness) -> graph::Witness {
+    let first = witness.path.first();
+    let moves = |at: &usize| {
+        let value = |joints: &[f64]| joints.get(*at).copied();
+        let begin = first.and_then(|state| value(&state.joints));
+        witness.path.iter().any(|state| value(&state.joints) != begin)
+    };
+    let dofs = machine.tree().dofs();
+    let moving: Vec<usize> = (0..dofs.len()).filter(moves).collect();
+    let path = witness.path.iter().map(|state| graph::Waypoint {
+        base: state.base,
+        joints: moving.iter().map(|at| state.joints.get(*at).copied().unwrap_or(0.0)).collect(),
+    });
+    graph::Witness {
+        joints: moving.iter().filter_map(|at| Some(dofs.get(*at)?.name.clone())).collect(),
+        path: path.collect(),
+        grasp: witness.grasp.as_ref().map(|grasp| {
+            let (xyz, quaternion) = components(&grasp.map_from_tip);
+            graph::Grasp { xyz, quaternion, width: grasp.width }
+        }),
+        clearance: witness.margins.clearance,
+        limit: witness.margins.limit,
+        payload: witness.margins.payload,
+    }
 }

@@ -10,9 +10,8 @@ use motet_graph::Value;
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::geometry::{Geometry, SceneChange};
+use super::geometry::{Fingerprinted, Geometry, SceneChange};
 use super::motion::{MotionEffect, makes, may_move, motion_effect, motion_query, moves_blindly, side_of};
-use super::worlds::Fingerprinted;
 use crate::declare::{Library, PrimitiveDef};
 use crate::ir::{Entity, Failure, MotionKind, ROBOT, START, Term};
 
@@ -36,7 +35,7 @@ pub enum Forecast {
     Infeasible {
         /// The most specific failure that the primitive lists.
         failure: SmolStr,
-        /// InfeasibleReason with its numbers, and a proposed change.
+        /// Reason with its numbers, and a proposed change.
         why: String,
     },
     Unknown {
@@ -71,7 +70,7 @@ impl WorldTracker {
             Err(why) => return unknown(why),
         };
         let Some(names) = of.iter().map(name).collect::<Option<Vec<_>>>() else {
-            return unknown("an argument has no place in the scene");
+            return unknown("an argument is not in the scene");
         };
         let Some(kind) = MotionKind::from_name(motion) else { return unknown("the motion is not known") };
         match &*self.geometry.answer(at, &motion_query(kind, names, side(args))) {
@@ -122,7 +121,7 @@ impl WorldTracker {
         let here = id.and_then(|id| self.geometry.holds(&self.library, &at.world, id, entity));
         // While something moves it may be so already.
         if self.moving == 0 && here.is_some_and(|here| here != holds) {
-            self.lose(&format!("`{fluent}({entity})` is not as it was left"));
+            self.lose(&format!("`{fluent}({entity})` changed unexpectedly"));
         }
     }
 
@@ -167,12 +166,12 @@ fn after(
     let def = call.def;
     let Some((motion, terms)) = &def.motion else {
         return if moves_blindly(library, def) {
-            Err(format_smolstr!("where things are after `{}` is not known", def.name))
+            Err(format_smolstr!("the positions of things after `{}` are unknown", def.name))
         } else {
             Ok(Arc::clone(at))
         };
     };
-    let lost = || format_smolstr!("how `{}` ended is not known", def.name);
+    let lost = || format_smolstr!("the outcome of `{}` is unknown", def.name);
     let names = terms.iter().map(|term| named(library, term, call)).collect::<Option<Vec<_>>>();
     let query = motion_query(*motion, names.ok_or_else(lost)?, side(call.args));
     let change = match motion_effect(library, def, &query) {
@@ -256,7 +255,7 @@ fn name(value: &Value) -> Option<SmolStr> {
     }
 }
 
-/// GraspSide of a grasp that an argument asks for.
+/// Side of a grasp that an argument asks for.
 fn side(args: &[(SmolStr, Value)]) -> Option<motet_geometry::planning::GraspSide> {
     args.iter().find_map(|(_, value)| if let Value::Case(case) = value { side_of(case) } else { None })
 }

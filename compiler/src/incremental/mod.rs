@@ -7,7 +7,6 @@
 //!
 //! Guarded by the tests of `runtime/decode`, above all the properties of its acceptor.
 
-mod fluents;
 mod template;
 
 use std::hash::Hasher;
@@ -19,11 +18,10 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 pub use self::template::PolicyTemplate;
-use crate::declare::scope::{self, Scope};
+use crate::declare::name::{Scope, ScopeMark};
 use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Fluent, Program, StepId, StepKind, Term};
-use crate::prove::Prover;
-use crate::prove::state::AbstractState;
 use crate::prove::suspended::{Checkpoint, ProofTarget, StepOutcome, SuspendedProof};
+use crate::prove::{AbstractState, Prover};
 use crate::session::Session;
 
 /// Span of the step that marks the program point at which the next step will be written.
@@ -32,7 +30,7 @@ pub const PROGRAM_POINT: Span = Span { file: FileId(u16::MAX), start: u32::MAX -
 /// Span of a sequence that stands for any one of its steps: see [`IncrementalChecker::permits_any`].
 pub const CHOICE: Span = Span { file: FileId(u16::MAX), start: u32::MAX - 2, end: u32::MAX };
 
-/// ArgumentValue of a call that is being written.
+/// Argument of a call that is being written.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ArgumentValue(Term);
 
@@ -86,6 +84,22 @@ pub enum LoopTest {
 }
 
 /// Checker of a policy that is being written. Clones are independent; a clone costs the size of the policy.
+///
+/// ```
+/// use motet_compiler::Session;
+/// use motet_compiler::incremental::IncrementalChecker;
+/// use motet_syntax::{FileId, Source, Sources, Syntax};
+///
+/// let session = Session::builder().build(&mut Sources::default());
+/// let source = Source::new("greet.motet", "policy greet { say(\"hello\") sya(\"you\") }");
+/// let parsed = motet_syntax::read(&source, FileId(99));
+/// let policy = parsed.file.policies().next().expect("one policy");
+/// let (mut checker, diagnostics) = IncrementalChecker::new(&session, policy, Syntax::Text);
+/// assert!(diagnostics.is_empty());
+/// assert!(checker.push(&session, &policy.body.steps[0]));
+/// assert!(!checker.permits_step(&session, &policy.body.steps[1]));
+/// assert_eq!(checker.len(), 1);
+/// ```
 #[derive(Clone, Debug)]
 pub struct IncrementalChecker {
     form: Syntax,
@@ -105,7 +119,7 @@ pub struct IncrementalChecker {
 struct Start {
     steps: usize,
     bindings: usize,
-    scope: scope::ScopeMark,
+    scope: ScopeMark,
     proof: Checkpoint,
 }
 

@@ -1,14 +1,13 @@
-//! Templates: policies that are resolved once, and instantiated for each call that is tried.
+//! Templates: policies that are resolved once, and instantiated for each call that is tried; and the fluents
+//! that a step needs, tests or changes. Two steps without a common fluent cannot refute each other.
 
 use motet_syntax::ast::PrimitiveKind;
 use motet_syntax::{Diagnostic, Mistake, Severity};
 use smol_str::SmolStr;
 
 use super::ArgumentValue;
-use crate::declare::{Library, NeedDef};
-use crate::ir::{
-    Base, BindingId, Block, Condition, Fact, Program, Reaction, Step, StepId, StepKind, Term, When,
-};
+use crate::declare::{Library, NeedDef, PrimitiveDef};
+use crate::ir::{Base, Condition, Fluent, Program, Step, StepId, StepKind, Substitution, Term};
 use crate::prove::evaluation::CallFrame;
 use crate::resolve::errors::Recursion;
 use crate::session::Session;
@@ -41,7 +40,7 @@ impl PolicyTemplate {
         }
         let (mut fluents, mut uses, mut calls) = (0, 0, Vec::new());
         for step in &program.steps {
-            fluents |= super::fluents::of_step(&step.kind, library);
+            fluents |= of_step(&step.kind, library);
             match &step.kind {
                 StepKind::Call(call) => uses |= library.primitive(call.primitive).map_or(0, |def| def.uses),
                 StepKind::Inline { policy, .. } => calls.push(policy.clone()),
@@ -63,10 +62,11 @@ impl PolicyTemplate {
     pub(super) fn write(&self, args: &[Term], library: &Library, program: &mut Program) -> StepId {
         let first = u32::try_from(program.steps.len()).unwrap_or(u32::MAX);
         let bound = u32::try_from(program.bindings.len()).unwrap_or(u32::MAX);
-        let writer = Writer { args, first, bound };
+        let substitution = Substitution { args, first_step: first, first_binding: bound };
         program.bindings.extend(self.program.bindings.iter().cloned());
         for step in &self.program.steps {
-            let kind = writer.kind(&step.kind);
+            let mut kind = step.kind.clone();
+            substitution.kind(&mut kind);
             if let StepKind::Call(call) = &step.kind
                 && let StepKind::Call(made) = &kind
             {
@@ -82,10 +82,8 @@ impl PolicyTemplate {
                     binding.description = text.filter(|_| perceives).cloned();
                 }
             }
-            let position = crate::ir::StepPosition {
-                parent: step.position.parent.map(|id| writer.step(id)),
-                ..step.position
-            };
+            let mut position = step.position;
+            position.parent.iter_mut().for_each(|id| substitution.step(id));
             program.steps.push(Step { kind, span: step.span, position, bounds: step.bounds });
         }
         StepId(first)
@@ -101,160 +99,19 @@ fn heads(program: &Program, library: &Library) -> Vec<NeedDef> {
     for step in body.iter().filter_map(|id| program.step(*id)) {
         let StepKind::Call(call) = &step.kind else { break };
         let Some(def) = library.primitive(call.primitive) else { break };
-        let writer = Writer { args: &call.args, first: 0, bound: 0 };
-        for need in def.needs.iter().filter(|need| super::fluents::of_need(need) & changed == 0) {
-            let need = NeedDef {
-                condition: writer.condition(&need.condition),
-                when: need.when.as_ref().map(|when| writer.condition(when)),
-                each: need.each,
-                span: need.span,
-            };
+        let substitution = Substitution { args: &call.args, first_step: 0, first_binding: 0 };
+        for need in def.needs.iter().filter(|need| of_need(need) & changed == 0) {
+            let mut need = need.clone();
+            substitution.condition(&mut need.condition);
+            need.when.iter_mut().for_each(|when| substitution.condition(when));
             let binds = |condition: &Condition| condition.any_term(&|term| matches!(term, Term::Binding(_)));
             if !binds(&need.condition) && !need.when.as_ref().is_some_and(binds) {
                 heads.push(need);
             }
         }
-        changed |= super::fluents::of_effects(def, library);
+        changed |= of_effects(def, library);
     }
     heads
-}
-
-/// Replaces parameters by arguments, and renumbers steps and bindings.
-struct Writer<'a> {
-    args: &'a [Term],
-    first: u32,
-    bound: u32,
-}
-
-impl Writer<'_> {
-    fn step(&self, id: StepId) -> StepId {
-        StepId(id.0.saturating_add(self.first))
-    }
-
-    fn binding(&self, id: BindingId) -> BindingId {
-        BindingId(id.0.saturating_add(self.bound))
-    }
-
-    fn block(&self, block: &Block) -> Block {
-        block.iter().map(|id| self.step(*id)).collect()
-    }
-
-    fn term(&self, term: &Term) -> Term {
-        match term {
-            Term::Param(index) => self.args.get(usize::from(*index)).cloned().unwrap_or(Term::Unknown),
-            Term::Binding(id) => Term::Binding(self.binding(*id)),
-            Term::List(terms) => Term::List(terms.iter().map(|term| self.term(term)).collect()),
-            Term::Field(of, name) => Term::Field(Box::new(self.term(of)), name.clone()),
-            Term::Measure(id, args) => Term::Measure(*id, args.iter().map(|arg| self.term(arg)).collect()),
-            Term::Arith(op, left, right) => {
-                Term::Arith(*op, Box::new(self.term(left)), Box::new(self.term(right)))
-            }
-            Term::Bool(_)
-            | Term::Int(_)
-            | Term::Number(_)
-            | Term::Text(_)
-            | Term::Case(..)
-            | Term::Entity(_)
-            | Term::Result
-            | Term::Each
-            | Term::Unknown => term.clone(),
-        }
-    }
-
-    fn condition(&self, condition: &Condition) -> Condition {
-        let all = |parts: &[Condition]| parts.iter().map(|part| self.condition(part)).collect();
-        match condition {
-            Condition::Fact(fact) => {
-                let args = fact.args.iter().map(|arg| arg.as_ref().map(|arg| self.term(arg)));
-                Condition::Fact(Fact { fluent: fact.fluent, args: args.collect() })
-            }
-            Condition::Compare(op, left, right) => Condition::Compare(*op, self.term(left), self.term(right)),
-            Condition::Not(inner) => Condition::Not(Box::new(self.condition(inner))),
-            Condition::All(parts) => Condition::All(all(parts)),
-            Condition::AnyOf(parts) => Condition::AnyOf(all(parts)),
-            Condition::Literal(_)
-            | Condition::MonitoredMeasure(_)
-            | Condition::MonitoredFluent(_)
-            | Condition::Unknown => condition.clone(),
-        }
-    }
-
-    fn reaction(&self, reaction: &Reaction) -> Reaction {
-        match reaction {
-            Reaction::Pause { .. } | Reaction::Restart { .. } => reaction.clone(),
-            Reaction::Resume { at_most, body } => {
-                Reaction::Resume { at_most: *at_most, body: self.block(body) }
-            }
-            Reaction::End { kind, of, why } => Reaction::End {
-                kind: *kind,
-                of: of.map(|id| self.step(id)),
-                why: why.as_ref().map(|why| self.term(why)),
-            },
-        }
-    }
-
-    fn kind(&self, kind: &StepKind) -> StepKind {
-        match kind {
-            StepKind::Call(call) => StepKind::Call(crate::ir::Call {
-                args: call.args.iter().map(|arg| self.term(arg)).collect(),
-                binds: call.binds.map(|id| self.binding(id)),
-                spans: call.spans.clone(),
-                units: call.units.clone(),
-                ..*call
-            }),
-            StepKind::Sequence { name, body } => {
-                StepKind::Sequence { name: name.clone(), body: self.block(body) }
-            }
-            StepKind::Inline { policy, body } => {
-                StepKind::Inline { policy: policy.clone(), body: self.block(body) }
-            }
-            StepKind::If { condition, span, then, otherwise } => StepKind::If {
-                condition: self.condition(condition),
-                span: *span,
-                then: self.block(then),
-                otherwise: otherwise.as_ref().map(|block| self.block(block)),
-            },
-            StepKind::Wait { condition, within_secs } => {
-                StepKind::Wait { condition: self.condition(condition), within_secs: *within_secs }
-            }
-            StepKind::Monitor { whens, body } => {
-                let when = |when: &When| When {
-                    condition: self.condition(&when.condition),
-                    reaction: self.reaction(&when.reaction),
-                    ..*when
-                };
-                StepKind::Monitor { whens: whens.iter().map(when).collect(), body: self.block(body) }
-            }
-            StepKind::Try { body, catches } => {
-                let catch = |catch: &crate::ir::Catch| crate::ir::Catch {
-                    on: catch.on.clone(),
-                    body: self.block(&catch.body),
-                    ..*catch
-                };
-                StepKind::Try { body: self.block(body), catches: catches.iter().map(catch).collect() }
-            }
-            StepKind::Repeat { times, body, until } => StepKind::Repeat {
-                times: *times,
-                body: self.block(body),
-                until: until.as_ref().map(|(until, span)| (self.condition(until), *span)),
-            },
-            StepKind::Each { item, list, at_most, body } => StepKind::Each {
-                item: self.binding(*item),
-                list: self.term(list),
-                at_most: *at_most,
-                body: self.block(body),
-            },
-            StepKind::Parallel { branches } => {
-                StepKind::Parallel { branches: branches.iter().map(|block| self.block(block)).collect() }
-            }
-            StepKind::End { kind, of, why } => StepKind::End {
-                kind: *kind,
-                of: of.map(|id| self.step(id)),
-                why: why.as_ref().map(|why| self.term(why)),
-            },
-            StepKind::Unknown => StepKind::Unknown,
-        }
-    }
 }
 
 impl super::IncrementalChecker {
@@ -294,7 +151,7 @@ impl super::IncrementalChecker {
         let terms: Vec<Term> =
             args.iter().map(|arg| arg.as_ref().map_or(Term::Unknown, |value| value.0.clone())).collect();
         let (steps, bindings) = (self.program.steps.len(), self.program.bindings.len());
-        let Self { program, proof, inside, .. } = self;
+        let program = &mut self.program;
         let id = match template {
             Some(template) => Some(template.write(&terms, library, program)),
             None => {
@@ -308,19 +165,89 @@ impl super::IncrementalChecker {
                 })
             }
         };
-        let symbols = proof.symbols.len();
-        proof.symbols.extend(program, library, environment);
-        let given = (&*program, library, environment);
-        let permits = id.is_some_and(|id| match inside {
-            None if !proof.live => true,
-            None => proof.here(given, |prover| prover.permits(id)),
-            Some((_, states_at_point)) => {
-                states_at_point.iter_mut().all(|state| proof.at(state, given, |prover| prover.permits(id)))
-            }
-        });
-        proof.symbols.truncate(symbols);
-        program.steps.truncate(steps);
-        program.bindings.truncate(bindings);
+        let symbols = self.proof.symbols.len();
+        self.proof.symbols.extend(&self.program, library, environment);
+        let permits = id.is_some_and(|id| self.everywhere(session, |prover| prover.permits(id)));
+        self.proof.symbols.truncate(symbols);
+        self.program.steps.truncate(steps);
+        self.program.bindings.truncate(bindings);
         permits
+    }
+}
+
+/// Bit for the freshness of poses.
+const FRESH: u64 = 1 << 63;
+
+/// Bit of a fluent; several may share one.
+fn bit(fluent: Fluent) -> u64 {
+    1 << (fluent.index() % 63)
+}
+
+impl super::IncrementalChecker {
+    /// Fluents that a call with this name mentions, as bits; several may share one. All bits for an unknown
+    /// name.
+    #[must_use]
+    pub fn fluents(session: &Session, name: &str, template: Option<&PolicyTemplate>) -> u64 {
+        let library = session.parts().0;
+        match (library.names.primitives.get(name).and_then(|id| library.primitive(*id)), template) {
+            (Some(def), _) => of_primitive(def, library),
+            (None, Some(template)) => template.fluents,
+            (None, None) => u64::MAX,
+        }
+    }
+
+    /// Bit of the fluent with a name.
+    #[must_use]
+    pub fn fluent(session: &Session, name: &str) -> u64 {
+        session.parts().0.names.fluents.get(name).map_or(u64::MAX, |fluent| bit(*fluent))
+    }
+}
+
+fn of_condition(condition: &Condition) -> u64 {
+    match condition {
+        Condition::Fact(fact) => bit(fact.fluent),
+        whole => whole.parts().iter().fold(0, |all, part| all | of_condition(part)),
+    }
+}
+
+fn when(when: Option<&Condition>) -> u64 {
+    when.map_or(0, of_condition)
+}
+
+/// Fluents that a need mentions.
+pub(super) fn of_need(need: &NeedDef) -> u64 {
+    of_condition(&need.condition) | when(need.when.as_ref())
+}
+
+/// Fluents that a primitive changes, and those that the change depends on.
+pub(super) fn of_effects(def: &PrimitiveDef, library: &Library) -> u64 {
+    let effects = def.makes.iter().chain(&def.unsettles);
+    let effects = effects.map(|effect| bit(effect.fact.fluent) | when(effect.when.as_ref()));
+    let mut all = effects.fold(0, |all, more| all | more);
+    // What was perceived is stale once its resource is used or its object moved.
+    let moves = def.form == PrimitiveKind::Action && !(def.makes.is_empty() && def.unsettles.is_empty());
+    let lasts = library.primitives.iter().filter_map(|def| def.lasts.as_ref());
+    if moves || lasts.into_iter().any(|lasts| lasts.resources & def.uses != 0) {
+        all |= library.perceived.iter().fold(FRESH, |all, fluent| all | bit(*fluent));
+    }
+    all
+}
+
+fn of_primitive(def: &PrimitiveDef, library: &Library) -> u64 {
+    let mut all = def.needs.iter().fold(of_effects(def, library), |all, need| all | of_need(need));
+    if def.lasts.is_some() || def.params.iter().any(|param| param.ty.base == Base::Pose) {
+        all |= FRESH;
+    }
+    all
+}
+
+/// Fluents that a step itself mentions, without the steps in it.
+pub(super) fn of_step(kind: &StepKind, library: &Library) -> u64 {
+    match kind {
+        StepKind::Call(call) => {
+            library.primitive(call.primitive).map_or(u64::MAX, |def| of_primitive(def, library))
+        }
+        StepKind::Unknown => u64::MAX,
+        other => other.conditions().fold(0, |all, condition| all | of_condition(condition)),
     }
 }

@@ -5,19 +5,17 @@
 //! [`StepId`] also identifies the cause of a fact.
 
 mod entities;
-mod motion;
 mod program;
+mod substitution;
 mod term;
-mod ty;
 
 pub(crate) use entities::Entities;
 pub use entities::MAX_ENTITIES;
-pub(crate) use motion::MotionKind;
 pub(crate) use program::{
     Binding, Block, BlockSlot, Call, Catch, Program, Reaction, Step, StepKind, StepPosition, When,
 };
-pub(crate) use term::{Condition, Fact, Term};
-pub(crate) use ty::{Base, Ty};
+pub(crate) use substitution::Substitution;
+pub(crate) use term::{Base, Condition, Fact, MotionKind, Term, Ty};
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident: $int:ty)*) => {$(

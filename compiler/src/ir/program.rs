@@ -3,7 +3,7 @@
 use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
 use motet_syntax::unit::Unit;
-use smallvec::SmallVec;
+use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
 use super::{BindingId, Condition, Failure, Primitive, StepId, Term, Ty};
@@ -151,6 +151,29 @@ pub(crate) enum StepKind {
 }
 
 impl StepKind {
+    /// Blocks of the step, in document order.
+    pub(crate) fn blocks(&self) -> SmallVec<[&Block; 2]> {
+        match self {
+            Self::Call(_) | Self::Wait { .. } | Self::End { .. } | Self::Unknown => SmallVec::new(),
+            Self::Sequence { body, .. }
+            | Self::Inline { body, .. }
+            | Self::Repeat { body, .. }
+            | Self::Each { body, .. } => smallvec![body],
+            Self::If { then, otherwise, .. } => std::iter::once(then).chain(otherwise).collect(),
+            Self::Monitor { whens, body } => {
+                let reactions = whens.iter().filter_map(|when| match &when.reaction {
+                    Reaction::Resume { body, .. } => Some(body),
+                    Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. } => None,
+                });
+                reactions.chain([body]).collect()
+            }
+            Self::Try { body, catches } => {
+                std::iter::once(body).chain(catches.iter().map(|catch| &catch.body)).collect()
+            }
+            Self::Parallel { branches } => branches.iter().collect(),
+        }
+    }
+
     /// Conditions of the step itself, in document order.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = &Condition> {
         let (one, whens): (_, &[When]) = match self {

@@ -1,9 +1,12 @@
-//! Terms and conditions.
+//! Terms and conditions, their types, and the closed set of motion queries that a contract can ask for.
+
+use std::fmt;
 
 use motet_syntax::ast::{ArithOp, CompareOp};
+use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
-use super::{BindingId, Entity, EnumId, Fluent, Measure};
+use super::{BindingId, Entity, EnumId, Fluent, Kind, Measure};
 
 /// A value, or an expression for one.
 #[derive(Clone, PartialEq, Debug)]
@@ -128,5 +131,144 @@ impl Condition {
     pub(crate) fn last_param(&self) -> Option<u16> {
         let within = self.parts().iter().filter_map(Self::last_param);
         self.terms().filter_map(Term::last_param).chain(within).max()
+    }
+}
+
+/// A type: a base type inside a number of lists.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Ty {
+    pub(crate) base: Base,
+    /// Number of enclosing `List<…>`.
+    pub(crate) lists: u8,
+}
+
+/// A type that is no list.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Base {
+    /// The type `Bool`.
+    Bool,
+    /// The type `Int`.
+    Int,
+    Number,
+    /// `Length`, `Ratio`, …: a number with a dimension.
+    Quantity(Dimension),
+    /// The type `Text`.
+    Text,
+    Pose,
+    Entity(Kind),
+    Enum(EnumId),
+    /// Unknown because of an error that was reported; compatible with every type.
+    Unknown,
+}
+
+impl Ty {
+    /// Type after an error; compatible with every type.
+    pub(crate) const UNKNOWN: Self = Self::plain(Base::Unknown);
+    /// The type `Bool`.
+    pub(crate) const BOOL: Self = Self::plain(Base::Bool);
+    /// The type `Text`.
+    pub(crate) const TEXT: Self = Self::plain(Base::Text);
+    /// The type `Int`.
+    pub(crate) const INT: Self = Self::plain(Base::Int);
+    /// The type `Ratio`.
+    pub(crate) const RATIO: Self = Self::plain(Base::Quantity(Dimension::NONE));
+    pub(crate) const DURATION: Self = Self::plain(Base::Quantity(Dimension::DURATION));
+
+    /// Type without a list.
+    #[must_use]
+    pub(crate) const fn plain(base: Base) -> Self {
+        Self { base, lists: 0 }
+    }
+
+    /// Type of lists of this type.
+    #[must_use]
+    pub(crate) const fn list(self) -> Self {
+        Self { base: self.base, lists: self.lists.saturating_add(1) }
+    }
+
+    /// Type of the elements; `None` if the type is no list.
+    #[must_use]
+    pub(crate) fn element(self) -> Option<Self> {
+        (self.lists > 0).then(|| Self { base: self.base, lists: self.lists - 1 })
+    }
+
+    /// Kind of a single entity; `None` for other types.
+    #[must_use]
+    pub(crate) fn kind(self) -> Option<Kind> {
+        match self {
+            Self { base: Base::Entity(kind), lists: 0 } => Some(kind),
+            _ => None,
+        }
+    }
+}
+
+/// Kind of a motion query.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum MotionKind {
+    GoTo,
+    Reach,
+    Put,
+    Pull,
+    Push,
+    Offer,
+    Look,
+    Posture,
+}
+
+impl MotionKind {
+    /// All kinds, in the order of the language page.
+    pub(crate) const ALL: &[Self] =
+        &[Self::GoTo, Self::Reach, Self::Put, Self::Pull, Self::Push, Self::Offer, Self::Look, Self::Posture];
+
+    /// Name of the motion in a contract.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::GoTo => "go_to",
+            Self::Reach => "reach",
+            Self::Put => "put",
+            Self::Pull => "pull",
+            Self::Push => "push",
+            Self::Offer => "offer",
+            Self::Look => "look",
+            Self::Posture => "posture",
+        }
+    }
+
+    /// Kind with a name.
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|kind| kind.name() == name)
+    }
+
+    /// Number of arguments.
+    pub(crate) const fn arity(self) -> usize {
+        match self {
+            Self::Put | Self::Offer => 2,
+            Self::GoTo | Self::Reach | Self::Pull | Self::Push | Self::Look | Self::Posture => 1,
+        }
+    }
+
+    /// Returns whether the motion changes the pose of the robot or of a thing. The head may turn in `look`,
+    /// but no pose that is tracked changes.
+    pub(crate) fn moves(self) -> bool {
+        self != Self::Look
+    }
+}
+
+impl fmt::Display for MotionKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::MotionKind;
+
+    #[test]
+    fn motion_kind_from_name_inverts_name() {
+        for kind in MotionKind::ALL {
+            assert_eq!(MotionKind::from_name(kind.name()), Some(*kind));
+        }
+        assert_eq!(MotionKind::from_name("fly"), None);
     }
 }

@@ -5,11 +5,14 @@ use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use crate::declare::suggestion::{list, near};
-
-use super::errors::{BeyondRange, NotObservable, NotProvided, OtherRobot, UnknownRobot};
-use crate::declare::Library;
-use crate::ir::{Base, Call, Condition, Step, StepKind, Term, Ty};
+use super::errors::{
+    Ambiguous, BeyondRange, Missing, NotObservable, NotProvided, OtherRobot, ResourceConflict, UnknownRobot,
+    Unused,
+};
+use crate::declare::name::{list, near};
+use crate::declare::{Library, ResourceSet};
+use crate::environment::Environment;
+use crate::ir::{Base, Block, Call, Condition, Program, Step, StepKind, Term, Ty};
 
 pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Diagnostic>) {
     for step in steps {
@@ -133,4 +136,94 @@ pub(crate) fn check_robot_name(policy: &Policy, library: &Library) -> Option<Dia
         let (near, known) = (near(&name, known()), list(known().map(SmolStr::new_static)));
         UnknownRobot { span, name, near, known }.into()
     })
+}
+
+pub(super) fn check_descriptions(
+    program: &Program,
+    library: &Library,
+    environment: &Environment,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for (index, binding) in program.bindings.iter().enumerate() {
+        if binding.uses == 0 && binding.name != "_" && !binding.name.starts_with('_') {
+            let of_each = program
+                .steps
+                .iter()
+                .any(|step| matches!(&step.kind, StepKind::Each { item, .. } if item.index() == index));
+            diagnostics.push(Unused { span: binding.span, name: binding.name.clone(), of_each }.into());
+        }
+    }
+    if !environment.has_scene() {
+        return;
+    }
+    for step in &program.steps {
+        let StepKind::Call(call) = &step.kind else { continue };
+        let Some(binding) = call.binds.and_then(|id| program.bindings.get(id.index())) else { continue };
+        let (Some(text), Some(kind)) = (&binding.description, binding.ty.kind()) else { continue };
+        let callee = library.primitive(call.primitive).map(|def| def.name.clone()).unwrap_or_default();
+        match environment.described(library, text, kind).as_slice() {
+            [_] => {}
+            [] => {
+                let fitting =
+                    environment.entities().iter().filter(|(.., other)| library.is_kind(*other, kind));
+                let near = near(text, fitting.map(|(_, name, _)| name.as_str()));
+                diagnostics.push(Missing { span: step.span, callee, text: text.clone(), near }.into());
+            }
+            several => {
+                let found = list(several.iter().take(5).map(|entity| environment.name(*entity)));
+                diagnostics.push(Ambiguous { span: step.span, callee, text: text.clone(), found }.into());
+            }
+        }
+    }
+}
+
+/// First user of each set of resources in a block.
+type Uses = Vec<(ResourceSet, SmolStr, Span)>;
+
+/// Checks the steps from `first` on.
+pub(super) fn check_resources(
+    program: &Program,
+    first: usize,
+    library: &Library,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for step in program.steps.iter().skip(first) {
+        let StepKind::Parallel { branches } = &step.kind else { continue };
+        let mut earlier: Uses = Vec::new();
+        for branch in branches {
+            let mut uses = Uses::new();
+            collect(branch, program, library, &mut uses);
+            for (set, name, span) in &uses {
+                let clash = earlier.iter().find(|(other, ..)| other & set != 0);
+                if let Some((other, one, first)) = clash {
+                    let shared = (other & set).trailing_zeros() as usize;
+                    let resource =
+                        library.resources.get(shared).map(|def| def.name.clone()).unwrap_or_default();
+                    let (one, other) = (one.clone(), name.clone());
+                    diagnostics
+                        .push(ResourceConflict { span: *span, resource, one, other, first: *first }.into());
+                    break;
+                }
+            }
+            earlier.extend(uses);
+        }
+    }
+}
+
+/// Collects the resources of the steps of a block, each set once. The nesting of policies bounds the
+/// recursion.
+fn collect(block: &Block, program: &Program, library: &Library, uses: &mut Uses) {
+    for step in block.iter().filter_map(|id| program.step(*id)) {
+        match &step.kind {
+            StepKind::Call(call) => {
+                let Some(def) = library.primitive(call.primitive).filter(|def| def.uses != 0) else {
+                    continue;
+                };
+                if !uses.iter().any(|(set, ..)| set & def.uses == def.uses) {
+                    uses.push((def.uses, def.name.clone(), step.span));
+                }
+            }
+            kind => kind.blocks().into_iter().for_each(|block| collect(block, program, library, uses)),
+        }
+    }
 }

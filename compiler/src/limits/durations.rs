@@ -121,34 +121,6 @@ fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagno
     }
 }
 
-/// Visits the blocks of a step, in document order.
-pub(crate) fn blocks(kind: &StepKind, mut visit: impl FnMut(&Block)) {
-    match kind {
-        StepKind::Call(_) | StepKind::Wait { .. } | StepKind::End { .. } | StepKind::Unknown => {}
-        StepKind::Sequence { body, .. }
-        | StepKind::Inline { body, .. }
-        | StepKind::Repeat { body, .. }
-        | StepKind::Each { body, .. } => visit(body),
-        StepKind::If { then, otherwise, .. } => {
-            visit(then);
-            otherwise.iter().for_each(visit);
-        }
-        StepKind::Monitor { whens, body } => {
-            for when in whens {
-                if let Reaction::Resume { body, .. } = &when.reaction {
-                    visit(body);
-                }
-            }
-            visit(body);
-        }
-        StepKind::Try { body, catches } => {
-            visit(body);
-            catches.iter().for_each(|catch| visit(&catch.body));
-        }
-        StepKind::Parallel { branches } => branches.iter().for_each(visit),
-    }
-}
-
 fn seconds(value: f64) -> String {
     if value >= 120.0 { format!("{:.1} min", value / 60.0) } else { format!("{value} s") }
 }

@@ -63,7 +63,8 @@ motet_syntax::mistakes! {
         degrees: Option<String>,
     }
     message(m) {
-        format!("`{}` of `{}` is {}, but `{}` allows {} to {}", m.param, m.callee, m.actual, m.robot, m.least, m.greatest)
+        let (param, callee, robot) = (&m.param, &m.callee, &m.robot);
+        format!("`{param}` of `{callee}` is {}, but `{robot}` allows {} to {}", m.actual, m.least, m.greatest)
     }
     help(m) {
         Some(match &m.degrees {

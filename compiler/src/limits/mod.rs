@@ -1,12 +1,9 @@
-//! Stage 2: what can be said of a resolved policy without following its state: the robot's limits,
-//! resources, bounds,
-//! and what is written but not meant.
+//! Stage 2: what can be said of a resolved policy without following its state: the robot's limits, resources,
+//! bounds, and what is written but not meant.
 
 mod capabilities;
-mod descriptions;
 mod durations;
 pub(crate) mod errors;
-mod resources;
 
 pub(crate) use self::capabilities::check_robot_name;
 pub(crate) use self::durations::of_block as bounds_of;
@@ -25,18 +22,17 @@ pub(crate) fn check(
 ) -> (Program, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
     capabilities::check(&program.steps, library, &mut diagnostics);
-    resources::check(&program, 0, library, &mut diagnostics);
+    capabilities::check_resources(&program, 0, library, &mut diagnostics);
     durations::fill_in(&mut program, library, max_duration_secs, &mut diagnostics);
-    descriptions::check(&program, library, environment, &mut diagnostics);
+    capabilities::check_descriptions(&program, library, environment, &mut diagnostics);
     (program, diagnostics)
 }
 
 /// Checks the steps from `first` on of a policy that is being written: every error of [`check`] but that
-/// about the duration
-/// of the whole.
+/// about the duration of the whole.
 pub(crate) fn check_from(program: &Program, first: usize, library: &Library) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     capabilities::check(program.steps.get(first..).unwrap_or_default(), library, &mut diagnostics);
-    resources::check(program, first, library, &mut diagnostics);
+    capabilities::check_resources(program, first, library, &mut diagnostics);
     diagnostics
 }

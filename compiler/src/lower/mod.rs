@@ -3,9 +3,7 @@
 //!
 //! Guarded by the graph snapshots of `tests/tests` and the validation in `motet_graph`.
 
-mod path;
 mod table;
-mod term;
 
 use motet_graph as graph;
 use motet_graph::{NodeId, RegionId};
@@ -111,7 +109,7 @@ impl Lowering<'_> {
         let (least_secs, greatest_secs) = source.bounds;
         // The place in the arena is taken first, so that a parent comes before its children.
         self.nodes.push(graph::Node {
-            path: path::pointer(program, step),
+            path: table::pointer(program, step),
             region,
             next: None,
             duration: graph::DurationBounds { least_secs, greatest_secs },

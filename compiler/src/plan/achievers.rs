@@ -1,9 +1,12 @@
 //! Achievers: calls whose effects include a given fact.
 
-use motet_syntax::ast::{CompareOp, PrimitiveKind};
+use motet_syntax::ast::{Arg, Call, CompareOp, Do, Expr, ExprKind, Name, PrimitiveKind};
+use motet_syntax::{Span, Syntax};
+use smol_str::SmolStr;
 
-use crate::declare::{EffectDef, PrimitiveDef};
-use crate::facts::{ANY, FactKey, arg};
+use crate::declare::{EffectDef, Library, PrimitiveDef};
+use crate::environment::Environment;
+use crate::facts::{ANY, FactKey, TruthSet, arg};
 use crate::ir::{Base, BindingId, Condition, Entity, Fluent, Kind, Primitive, ROBOT, StepKind, Term, Ty};
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
@@ -87,6 +90,18 @@ impl<'a> Prover<'a> {
         under.retain(|achiever| found.iter().all(|other| other.call != achiever.call));
         found.extend(under);
         found
+    }
+
+    /// Facts that a pattern covers and that may hold, with their values.
+    pub(crate) fn may_hold(&self, fluent: Fluent, key: FactKey) -> Vec<(FactKey, TruthSet)> {
+        let mut held = Vec::new();
+        self.state.facts.entries(fluent, key, |key, value| {
+            if value.yes.is_some() {
+                held.push((key, value));
+            }
+        });
+        held.sort_unstable_by_key(|(key, _)| *key);
+        held
     }
 
     /// Calls of a perception that finds an entity: by a description that fits it alone, or as in the step
@@ -310,4 +325,56 @@ impl<'a> Prover<'a> {
         found.truncate(MAX_CANDIDATES);
         found.into_iter().map(Term::Entity).collect()
     }
+}
+
+/// Writes a call in a syntax, without defaults, with these names of bindings. `None` if an argument has no
+/// spelling in the language.
+pub(crate) fn spell_call(
+    proposed: &CandidateCall,
+    library: &Library,
+    environment: &Environment,
+    syntax: Syntax,
+    name_of: impl Fn(BindingId) -> Option<SmolStr>,
+) -> Option<Do> {
+    let def = library.primitive(proposed.primitive)?;
+    let span = Span::default();
+    let mut args = Vec::new();
+    let mut is_plain = syntax == Syntax::Text;
+    for (term, param) in proposed.args.iter().zip(&def.params) {
+        if param.default.as_ref() == Some(term) {
+            is_plain = false;
+            continue;
+        }
+        let kind = match term {
+            Term::Binding(id) => ExprKind::Binding(name_of(*id)?),
+            term => spelled(term, library, environment)?,
+        };
+        let name = (!is_plain).then(|| Name { text: param.name.clone(), span });
+        args.push(Arg { name, value: Expr { kind, span }, span });
+    }
+    let call = Call { name: Name { text: def.name.clone(), span }, args, span };
+    Some(Do { call, bind: None, within: None, retry: None })
+}
+
+/// Spelling of a value; `None` if it has none in the language, or one that depends on its place.
+fn spelled(term: &Term, library: &Library, environment: &Environment) -> Option<ExprKind> {
+    Some(match term {
+        // A symbol has no name but that of a binding.
+        Term::Entity(entity) => ExprKind::Name(environment.entities().name(*entity)?.clone()),
+        Term::Case(of, case) => ExprKind::Name(library.case_name(*of, *case).into()),
+        Term::Text(text) => ExprKind::Text(text.clone()),
+        Term::Bool(value) => ExprKind::Bool(*value),
+        // A number would need the unit that its parameter has; no primitive that makes a fact asks for one.
+        Term::Int(_)
+        | Term::Number(_)
+        | Term::List(_)
+        | Term::Binding(_)
+        | Term::Param(_)
+        | Term::Result
+        | Term::Each
+        | Term::Field(..)
+        | Term::Measure(..)
+        | Term::Arith(..)
+        | Term::Unknown => return None,
+    })
 }

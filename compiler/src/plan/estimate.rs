@@ -5,10 +5,9 @@
 use rustc_hash::FxHashMap;
 
 use crate::declare::{MAX_FLUENT_PARAMS, NeedDef, PrimitiveDef};
-use crate::facts::FactKey;
 use crate::facts::TruthSet;
-use crate::ir::{Condition, Fact, Fluent, Kind, Term};
-use crate::plan::achievers::{Achiever, CandidateCall};
+use crate::ir::{Condition, Fact, Kind, Term};
+use crate::plan::achievers::{Achiever, CandidateCall, Subgoal};
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
 
@@ -31,8 +30,6 @@ const UNSEEN: u32 = 1_000;
 const EFFORT: u32 = 1_000;
 /// Maximal depth of needs of needs.
 const DEPTH: usize = 14;
-
-type Subgoal = (Fluent, FactKey, bool);
 
 /// Cost of a goal: calls to make, and needs left to guards.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -143,13 +140,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
             return self.subgoal((fact.fluent, key, truth), value);
         }
         // That none holds: each that may hold has to go.
-        let mut held = Vec::new();
-        prover.state.facts.entries(fact.fluent, key, |key, value| {
-            if value.yes.is_some() {
-                held.push((key, value));
-            }
-        });
-        held.sort_unstable_by_key(|(key, _)| *key);
+        let held = prover.may_hold(fact.fluent, key);
         if held.is_empty() && !value.no.is_some() {
             return Some(Cost { calls: 0, guards: GUARD });
         }
@@ -312,14 +303,9 @@ fn guesses(def: &PrimitiveDef, call: &CandidateCall) -> u32 {
 
 /// Returns whether a condition mentions a term.
 fn speaks(condition: &Condition, term: &Term) -> bool {
-    match condition {
+    condition.any(&|part| match part {
         Condition::Fact(fact) => fact.args.iter().flatten().any(|arg| arg == term),
         Condition::Compare(_, left, right) => left == term || right == term,
-        Condition::Not(inner) => speaks(inner, term),
-        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(|part| speaks(part, term)),
-        Condition::Literal(_)
-        | Condition::MonitoredMeasure(_)
-        | Condition::MonitoredFluent(_)
-        | Condition::Unknown => false,
-    }
+        _ => false,
+    })
 }

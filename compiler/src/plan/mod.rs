@@ -9,16 +9,13 @@
 //! `tests/tests/planning.rs` and `tests/tests/planbench.rs`.
 
 pub(crate) mod achievers;
-mod error;
 mod estimate;
 mod search;
-pub(crate) mod write;
 
 use motet_syntax::ast::{Do, Expr, ExprKind};
 use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::SmolStr;
-
-pub use error::NoPlan;
+use thiserror::Error;
 
 use crate::declare::elaborator::Elaborator;
 use crate::declare::{Library, PrimitiveDef};
@@ -88,6 +85,22 @@ pub struct PlannedStep {
 impl Session {
     /// Searches calls that reach goals, one after the other, from the state at the start. The same session
     /// and goals give the same plan. `budget` bounds the number of expanded states over all goals.
+    ///
+    /// ```
+    /// use motet_compiler::Session;
+    /// use motet_compiler::plan::{Goal, PLAN_BUDGET, Persistence};
+    /// use motet_robots::builtin;
+    /// use motet_syntax::Sources;
+    ///
+    /// let robot = builtin::robot("hsr").expect("built in").robot;
+    /// let scene = builtin::scene("kitchen").expect("built in");
+    /// let session = Session::builder().robot(&robot).scene(&scene).build(&mut Sources::default());
+    /// let goal = Goal::read("holding(mug_1)", Persistence::ToTheEnd)?;
+    /// let plan = session.plan(&[goal], PLAN_BUDGET)?;
+    /// let last = plan.steps.last().map(|step| step.call.call.name.text.as_str());
+    /// assert_eq!(last, Some("pick"));
+    /// # Ok::<(), motet_compiler::plan::NoPlan>(())
+    /// ```
     ///
     /// # Errors
     ///
@@ -181,8 +194,9 @@ impl Agenda {
             search::apply(prover, index, call);
             let moves = def.motion.as_ref().is_some_and(|(query, _)| *query == MotionKind::GoTo);
             let carries = before.filter(|held_before| moves && held(prover).as_ref() == Some(held_before));
-            let written = write::call(call, prover.library, prover.environment)
-                .ok_or_else(|| NoPlan::Unwritable { primitive: def.name.clone() })?;
+            let written =
+                achievers::spell_call(call, prover.library, prover.environment, Syntax::Text, |_| None)
+                    .ok_or_else(|| NoPlan::Unwritable { primitive: def.name.clone() })?;
             steps.push(PlannedStep { call: written, approaches, carries, goal: *goal });
         }
         Ok(steps)
@@ -231,4 +245,40 @@ pub fn fact(fluent: &str, args: &[&str]) -> Expr {
     });
     let call = motet_syntax::ast::Call { name: name(fluent), args: args.collect(), span };
     Expr { kind: ExprKind::Call(call), span }
+}
+
+/// Error of the planner.
+#[derive(Error, Clone, PartialEq, Debug)]
+pub enum NoPlan {
+    /// The goal is no condition.
+    #[error("`{text}` is not a condition: {why}")]
+    NoCondition {
+        text: String,
+        /// Error of the parser.
+        why: String,
+    },
+    /// The goal uses unknown names or wrong types.
+    #[error("{}", diagnostics.first().map_or("the goal is wrong", |said| said.message.as_str()))]
+    Wrong { diagnostics: Vec<Diagnostic> },
+    /// No call achieves a missing fact.
+    #[error("no action of the robot achieves {goal}{}", because(blocker.as_ref()))]
+    Unreachable {
+        /// The goal, in back-quotes.
+        goal: String,
+        /// The need that cannot be met, in back-quotes.
+        blocker: Option<String>,
+    },
+    /// The budget of states or the length limit of plans is exhausted.
+    #[error("no plan for {goal} was found within the budget")]
+    Budget {
+        /// The goal, in back-quotes.
+        goal: String,
+    },
+    /// A call has an argument that a policy cannot express.
+    #[error("a call of `{primitive}` cannot be written as a step")]
+    Unwritable { primitive: SmolStr },
+}
+
+fn because(blocker: Option<&String>) -> String {
+    blocker.map_or_else(String::new, |blocker| format!(": {blocker} cannot be met"))
 }

@@ -1,11 +1,8 @@
 //! Narrowing: the facts after a condition was observed to hold, or not to.
 
-use smallvec::SmallVec;
-
 use super::Prover;
 use super::evaluation::CallFrame;
-use crate::facts::PathPartition;
-use crate::facts::{Cause, TruthSet};
+use crate::facts::{Cause, PathPartition, TruthSet};
 use crate::ir::{Condition, Fluent};
 
 /// Maximal number of joins that are remembered.
@@ -155,20 +152,5 @@ fn possible(value: TruthSet, truth: bool) -> bool {
 
 /// Returns whether a condition mentions a fluent.
 pub(crate) fn mentions(condition: &Condition, fluent: Fluent) -> bool {
-    let mut open: SmallVec<[&Condition; 8]> = SmallVec::new();
-    open.push(condition);
-    while let Some(part) = open.pop() {
-        match part {
-            Condition::Fact(fact) if fact.fluent == fluent => return true,
-            Condition::Not(inner) => open.push(inner),
-            Condition::All(parts) | Condition::AnyOf(parts) => open.extend(parts),
-            Condition::Fact(_)
-            | Condition::Literal(_)
-            | Condition::Compare(..)
-            | Condition::MonitoredMeasure(_)
-            | Condition::MonitoredFluent(_)
-            | Condition::Unknown => {}
-        }
-    }
-    false
+    condition.any(&|part| matches!(part, Condition::Fact(fact) if fact.fluent == fluent))
 }

@@ -7,9 +7,9 @@ use super::effects::{FactChange, PerceptionLifetime};
 use super::errors::{Refuted, Stale};
 use super::evaluation::CallFrame;
 use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
+use crate::analysis::Domain;
 use crate::declare::{NeedDef, PrimitiveDef};
-use crate::facts::FactKey;
-use crate::facts::{Cause, TruthSet};
+use crate::facts::{Cause, FactKey, TruthSet};
 use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, Term, Ty};
 
 impl Prover<'_> {
@@ -36,7 +36,7 @@ impl Prover<'_> {
         }
         if verdicts.contains(&NeedVerdict::Deferred) || def.motion.is_some() {
             // A guard that refuses changes nothing.
-            self.throw_all(def);
+            self.throw_all(&def.fails);
         }
         self.make_stale(id, def, frame);
         self.unsettle(&unsettles, cause);
@@ -93,7 +93,7 @@ impl Prover<'_> {
         self.unsettle(makes, Cause::step(id));
         self.erode();
         self.see_states();
-        self.throw_all(def);
+        self.throw_all(&def.fails);
         if retried {
             if self.mode == Mode::Explain && !verdicts.contains(&NeedVerdict::Refuted) {
                 self.check_retry(id, call, def, frame);

@@ -4,9 +4,10 @@
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use crate::facts::TruthSet;
-use crate::facts::{Atom, Delta, FactKey, FactStore};
-use crate::ir::{Failure, Fluent, StepId};
+use super::Prover;
+use crate::analysis::Enclosing;
+use crate::facts::{Atom, Delta, FactKey, FactStore, TruthSet};
+use crate::ir::Fluent;
 
 /// Join of states, as changes since a mark.
 #[derive(Clone, Debug)]
@@ -20,17 +21,6 @@ pub(crate) struct Collector {
     /// Lengths of the trail at which a state was collected, in order, as long as the trail was not rolled
     /// back below them: only later writes can be new.
     seen: SmallVec<[usize; 8]>,
-}
-
-/// A construct around the step that is being proved, which catches control that leaves the step.
-#[derive(Clone, Debug)]
-pub(crate) enum Enclosing {
-    /// A `try`: for each handler its failures, a collector, and the failures that reach it.
-    Try { catches: Vec<(Option<Vec<Failure>>, Collector, Vec<Failure>)> },
-    /// An inlined policy, with the states in which it is done.
-    Inline { step: StepId, exits: Collector },
-    /// A monitor, with all states of its body.
-    Monitor { states: Collector },
 }
 
 impl Collector {
@@ -93,12 +83,14 @@ impl Collector {
     }
 }
 
-impl Enclosing {
-    pub(crate) fn cut_to(&mut self, mark: usize) {
-        match self {
-            Self::Try { catches } => catches.iter_mut().for_each(|(_, collector, _)| collector.cut_to(mark)),
-            Self::Inline { exits, .. } => exits.cut_to(mark),
-            Self::Monitor { states } => states.cut_to(mark),
+impl Prover<'_> {
+    /// Lets enclosing monitors collect the present state, in which they may fire.
+    pub(crate) fn see_states(&mut self) {
+        let (enclosing, facts) = (&mut self.control.enclosing, &self.state.facts);
+        for enclosing in enclosing {
+            if let Enclosing::Monitor { states } = enclosing {
+                states.see(facts);
+            }
         }
     }
 }

@@ -4,8 +4,7 @@ use motet_syntax::ast::{CompareOp, PrimitiveKind};
 
 use super::Prover;
 use super::evaluation::{CallFrame, MAX_ALIASES};
-use crate::facts::{ANY, FactKey};
-use crate::facts::{Cause, TruthSet};
+use crate::facts::{ANY, Cause, FactKey, TruthSet};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 

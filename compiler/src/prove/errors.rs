@@ -17,7 +17,8 @@ motet_syntax::mistakes! {
 
     /// Step with a need that some path makes false.
     Refuted("M0501", Error) {
-        callee: SmolStr, needs: String, story: String, culprit: Option<Span>, declared: Span, remedy: Option<String>,
+        callee: SmolStr, needs: String, story: String, culprit: Option<Span>, declared: Span,
+        remedy: Option<String>,
         subject: Option<(SmolStr, bool)>,
     }
     message(m) { format!("`{}` needs {}, {}", m.callee, m.needs, m.story) }
@@ -40,7 +41,8 @@ motet_syntax::mistakes! {
 
     /// Policy that ends while its goal is false.
     GoalRefuted("M0503", Error) {
-        wanted: String, story: String, culprit: Option<Span>, remedy: Option<String>, subject: Option<(SmolStr, bool)>,
+        wanted: String, story: String, culprit: Option<Span>, remedy: Option<String>,
+        subject: Option<(SmolStr, bool)>,
     }
     message(m) { format!("the policy ends without {}, {}", m.wanted, m.story) }
     help(m) { m.remedy.as_ref().map(|remedy| remedy.replace(" first", " before the policy ends")) }
@@ -81,14 +83,17 @@ motet_syntax::mistakes! {
     Unwatched("M0905", Warning) { callee: SmolStr, person: SmolStr }
     message(m) { format!("`{}` moves to `{}` while no monitor watches the distance", m.callee, m.person) }
     help(m) {
-        Some(format!("put `monitor when distance({}) < 0.5 m for 200 ms then pause during {{ … }}` around it", m.person))
+        let near = format!("distance({}) < 0.5 m", m.person);
+        let watch = format!("monitor when {near} for 200 ms then pause during {{ … }}");
+        Some(format!("put `{watch}` around it"))
     }
 
     /// Policy that ends with a thing in the hand.
     EndsHolding("M0906", Warning) { object: SmolStr, since: Option<Span> }
     message(m) { format!("the policy ends while the hand holds `{}`", m.object) }
     help(m) {
-        Some(format!("put it down or hand it over first, or declare the intent: `achieves holding({})`", m.object))
+        let intent = format!("achieves holding({})", m.object);
+        Some(format!("put it down or hand it over first, or declare the intent: `{intent}`"))
     }
     related(m) { m.since.map(|span| Related::new("taken here", span)).into_iter().collect() }
 
@@ -106,7 +111,10 @@ motet_syntax::mistakes! {
     /// Retry that cannot succeed.
     HopelessRetry("M0909", Warning) { callee: SmolStr, why: String }
     message(m) { format!("retrying `{}` cannot succeed: {}", m.callee, m.why) }
-    help(m) { Some(format!("remove `retry`, and repeat `{}` together with the steps that it needs: `repeat 2 {{ … }}`", m.callee)) }
+    help(m) {
+        let together = format!("repeat `{}` together with the steps that it needs", m.callee);
+        Some(format!("remove `retry`, and {together}: `repeat 2 {{ … }}`"))
+    }
 
     /// Reaction that may undo a need of the body.
     ReactionBreaks("M0910", Warning) { callee: SmolStr, needs: String, maker: SmolStr, step: Span }

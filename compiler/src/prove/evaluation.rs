@@ -4,8 +4,7 @@ use motet_syntax::ast::{ArithOp, CompareOp};
 use smallvec::SmallVec;
 
 use super::Prover;
-use crate::facts::{ANY, FactKey};
-use crate::facts::{Cause, TruthSet};
+use crate::facts::{ANY, Cause, FactKey, TruthSet};
 use crate::ir::{Condition, Entity, Fact, Fluent, Kind, Term};
 
 /// Meaning of a contract's parameters, result and quantified variable at one call.
@@ -145,8 +144,7 @@ impl Prover<'_> {
             return self.read(fact.fluent, key);
         }
         // Some entity: all the rest, then those that are known one by one, in an order of their own: the
-        // cause is the
-        // last one's.
+        // cause is the last one's.
         let mut known: SmallVec<[FactKey; 8]> = SmallVec::new();
         self.state.facts.entries(fact.fluent, key, |key, _| known.push(key));
         known.sort_unstable();

@@ -12,8 +12,7 @@ use super::errors::{
 use super::evaluation::CallFrame;
 use super::{Mode, NeedVerdict, PolicyEnd, Problem, Prover};
 use crate::declare::{NeedDef, PrimitiveDef};
-use crate::facts::{Cause, TruthSet};
-use crate::facts::{FactKey, show};
+use crate::facts::{Cause, FactKey, TruthSet, show};
 use crate::ir::{
     Base, BlockSlot, Call, Catch, Condition, Entity, Fact, Failure, Fluent, MotionKind, Step, StepId, Term,
 };

@@ -10,20 +10,15 @@
 mod assume;
 mod call;
 mod collector;
-mod display;
+mod domain;
 pub(crate) mod effects;
 pub(crate) mod errors;
 pub(crate) mod evaluation;
 mod explanation;
-mod failure;
 mod lints;
-mod loops;
 mod monitor;
-mod parallel;
-pub(crate) mod state;
 pub(crate) mod suspended;
 pub(crate) mod symbols;
-mod walk;
 
 use motet_syntax::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
@@ -31,14 +26,15 @@ use smallvec::SmallVec;
 
 pub(crate) use self::assume::mentions;
 
-use self::effects::FactChange;
+use self::collector::Collector;
+use self::effects::{FactChange, PerceptionLifetime};
 use self::evaluation::CallFrame;
-use self::state::{AbstractState, Control};
 use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
+use crate::analysis::{Domain, Enclosing};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::facts::{FactKey, TruthSet};
+use crate::facts::{Cause, FactKey, FactStore, PathPartition, TruthSet};
 use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId};
 
 /// Maximal nesting of loops and parallel branches: each level is proved at least twice.
@@ -100,6 +96,71 @@ pub(crate) struct Prover<'a> {
     states_at_point: Vec<AbstractState<'static>>,
     /// Buffers for the changes of a step, reused between steps.
     buffers: (Vec<FactChange>, Vec<FactChange>),
+}
+
+/// Abstract state at a program point.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct AbstractState<'w> {
+    pub(crate) facts: FactStore<'w>,
+    pub(crate) lasting: FxHashMap<StepId, PerceptionLifetime>,
+    watched: Vec<Watched>,
+    /// Facts that a reaction may change at any moment, with their values.
+    volatile: Vec<Volatile>,
+    /// Paths of earlier joins, the latest last.
+    partitions: Vec<PathPartition>,
+    /// Position in the trail at which the round of the innermost loop began.
+    head: Option<usize>,
+    /// Position in the trail before the effects of reactions at this point.
+    before_reactions: usize,
+}
+
+impl<'w> AbstractState<'w> {
+    /// State before the first step, and the table of bindings that are not stale.
+    fn at_start(environment: &'w Environment) -> (Self, Fluent) {
+        let mut facts = FactStore::above(&environment.facts);
+        let fresh = facts.add_table(TruthSet::yes(Cause::NOTHING));
+        (Self { facts, ..Self::default() }, fresh)
+    }
+
+    /// Lays the state above the facts of an environment, which must be those that it was lifted from.
+    fn over(self, environment: &Environment) -> AbstractState<'_> {
+        AbstractState {
+            facts: self.facts.over(&environment.facts),
+            lasting: self.lasting,
+            watched: self.watched,
+            volatile: self.volatile,
+            partitions: self.partitions,
+            head: self.head,
+            before_reactions: self.before_reactions,
+        }
+    }
+
+    /// Takes the state without the facts of its environment.
+    fn lift(self) -> AbstractState<'static> {
+        AbstractState {
+            facts: self.facts.lift(),
+            lasting: self.lasting,
+            watched: self.watched,
+            volatile: self.volatile,
+            partitions: self.partitions,
+            head: self.head,
+            before_reactions: self.before_reactions,
+        }
+    }
+}
+
+/// Control flow around the step that is being proved.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Control {
+    enclosing: Vec<Enclosing<Collector>>,
+    /// The call that is being proved.
+    pub(crate) here: Option<StepId>,
+    /// False if no path leads here.
+    pub(crate) live: bool,
+    /// Number of enclosing fixed points.
+    fixpoints: usize,
+    /// Number of enclosing runs that only find the effects of a reaction.
+    rehearsals: usize,
 }
 
 /// Purpose of a proof.

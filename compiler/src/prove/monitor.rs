@@ -2,16 +2,18 @@
 
 use motet_syntax::ast::EndKind;
 
-use super::collector::{Collector, Enclosing};
+use super::collector::Collector;
 use super::errors::NeverFires;
 use super::evaluation::CallFrame;
 use super::{Prover, Volatile, Watched};
-use crate::facts::Cause;
+use crate::analysis::{Domain, Enclosing};
 use crate::facts::{Delta, FactKey};
-use crate::ir::{Condition, Entity, Reaction, StepId, TIMEOUT, Term, When};
+use crate::ir::{Condition, Entity, Reaction, StepId, Term, When};
 
-impl Prover<'_> {
-    pub(crate) fn monitor(&mut self, id: StepId, whens: &[When], body: &[StepId]) {
+impl<'a> Prover<'a> {
+    /// Proves a monitor to a fixed point: its reactions may run in any state of the body, and again in what
+    /// they left.
+    pub(super) fn watch_for(&mut self, id: StepId, whens: &'a [When], body: &'a [StepId]) {
         if whens.iter().all(|when| self.is_outside(when)) {
             return self.watch(id, whens, body);
         }
@@ -19,9 +21,9 @@ impl Prover<'_> {
             return;
         }
         let mark = self.state.facts.mark();
-        let said = self.said();
+        let said = self.findings();
         let volatile = self.state.volatile.len();
-        self.disturb(id, whens, &Delta::default(), mark, volatile);
+        self.rehearse(id, whens, &Delta::default(), mark, volatile);
         let watched = self.watched_by(whens);
         self.state.watched.push(watched);
         let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
@@ -29,22 +31,19 @@ impl Prover<'_> {
         let mut head = Delta::default();
         // The body may begin again from any of its states, where a restart asks for it.
         let (end, states) = loop {
-            self.unsay(said);
+            self.drop_findings(said);
             self.control.live = true;
             self.state.facts.replay(&head);
             self.control.enclosing.push(Enclosing::Monitor { states: Collector::new(mark) });
             self.erode();
             self.see_states();
             for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-                self.control.live &=
-                    self.assume(&when.condition, false, Cause::step(id), CallFrame::default());
+                self.control.live &= self.assume_at(id, &when.condition, false);
             }
+            // Else it fires at once, and the body never runs.
             if self.control.live {
                 self.block(body);
                 self.erode();
-            } else {
-                // It fires at once: the body never runs.
-                self.control.live = false;
             }
             let end = self.control.live.then(|| self.state.facts.delta(mark));
             let states = match self.control.enclosing.pop() {
@@ -53,11 +52,11 @@ impl Prover<'_> {
             };
             self.back_to(mark);
             // A reaction may run in any state of the body, and again in what it left.
-            let grown = self.disturb(id, whens, &states, mark, volatile);
+            let grown = self.rehearse(id, whens, &states, mark, volatile);
             let mut next = head.clone();
             for when in &restarts {
                 self.state.facts.replay(&states);
-                if self.assume(&when.condition, true, Cause::step(id), CallFrame::default()) {
+                if self.assume_at(id, &when.condition, true) {
                     let way = self.state.facts.delta(mark);
                     self.back_to(mark);
                     next = next.or(&way, &self.state.facts);
@@ -73,10 +72,10 @@ impl Prover<'_> {
         self.state.watched.pop();
         self.state.volatile.truncate(volatile);
         for when in whens {
-            self.react(id, when, &states, mark);
+            self.fire(id, when, &states, mark);
         }
         self.control.fixpoints -= 1;
-        self.meet(mark, end.as_slice());
+        self.join(&mark, end.as_slice());
     }
 
     /// Fluents, measures and entities in the conditions of a monitor.
@@ -102,9 +101,9 @@ impl Prover<'_> {
     }
 
     /// Proves the body of a monitor whose reactions need no proof.
-    fn watch(&mut self, id: StepId, whens: &[When], body: &[StepId]) {
+    fn watch(&mut self, id: StepId, whens: &'a [When], body: &'a [StepId]) {
         for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-            self.control.live &= self.assume(&when.condition, false, Cause::step(id), CallFrame::default());
+            self.control.live &= self.assume_at(id, &when.condition, false);
         }
         let watched = self.watched_by(whens);
         self.state.watched.push(watched);
@@ -116,14 +115,14 @@ impl Prover<'_> {
 
     /// Records the facts that `resume` reactions change from any of these states as volatile in the body;
     /// returns whether that adds to the rows from `first` on, which belong to this monitor.
-    fn disturb(&mut self, id: StepId, whens: &[When], states: &Delta, mark: usize, first: usize) -> bool {
+    fn rehearse(&mut self, id: StepId, whens: &'a [When], states: &Delta, mark: usize, first: usize) -> bool {
         let mut grown = false;
         for when in whens {
             let Reaction::Resume { body, .. } = &when.reaction else { continue };
-            let said = self.said();
+            let said = self.findings();
             self.control.live = true;
             self.state.facts.replay(states);
-            self.assume(&when.condition, true, Cause::step(id), CallFrame::default());
+            self.assume_at(id, &when.condition, true);
             let seen = self.state.facts.mark();
             self.control.rehearsals += 1;
             self.block(body);
@@ -143,7 +142,7 @@ impl Prover<'_> {
                 }
             }
             self.back_to(mark);
-            self.unsay(said);
+            self.drop_findings(said);
             self.control.rehearsals -= 1;
             self.control.live = true;
         }
@@ -182,66 +181,41 @@ impl Prover<'_> {
     }
 
     /// Proves a reaction from the states in which it can start.
-    fn react(&mut self, id: StepId, when: &When, states: &Delta, mark: usize) {
-        self.state.facts.replay(states);
-        self.control.live = self.assume(&when.condition, true, Cause::step(id), CallFrame::default());
+    fn fire(&mut self, id: StepId, when: &'a When, states: &Delta, mark: usize) {
+        self.follow(states);
+        self.control.live = self.assume_at(id, &when.condition, true);
         if !self.control.live && constant(&when.condition) {
             self.diagnostics.push(NeverFires { span: when.span }.into());
         }
         if self.control.live {
-            let depth = self.control.enclosing.len();
-            let exhausted = self.library.lang_items.exhausted;
-            match &when.reaction {
-                Reaction::Pause { .. } => self.throw(TIMEOUT, depth),
-                Reaction::Restart { .. } => {
-                    if let Some(kind) = exhausted {
-                        self.throw(kind, depth);
-                    }
-                }
-                Reaction::Resume { body, .. } => {
-                    if let Some(kind) = exhausted {
-                        self.throw(kind, depth);
-                    }
-                    self.block(body);
-                }
-                Reaction::End { kind, of, .. } => self.end(None, *kind, *of, when.span),
-            }
+            self.react(when);
         } else if let Reaction::Resume { body, .. } = &when.reaction {
             // A condition that only the environment can bring about still needs its block proved.
             self.control.live = true;
             self.block(body);
         }
-        self.back_to(mark);
-        self.control.live = true;
+        self.restore(&mark);
     }
 }
 
 /// Returns whether a condition is constant.
 fn constant(condition: &Condition) -> bool {
-    match condition {
-        Condition::Literal(_) => true,
-        Condition::Compare(_, left, right) => fixed(left) && fixed(right),
-        Condition::Not(inner) => constant(inner),
-        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().all(constant),
-        Condition::Fact(_)
-        | Condition::MonitoredMeasure(_)
-        | Condition::MonitoredFluent(_)
-        | Condition::Unknown => false,
-    }
-}
-
-fn fixed(term: &Term) -> bool {
-    match term {
-        Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::Case(..) | Term::Entity(_) => {
-            true
-        }
-        Term::Field(of, _) => fixed(of),
-        Term::Arith(_, left, right) => fixed(left) && fixed(right),
-        Term::List(items) => items.iter().all(fixed),
-        Term::Binding(_) | Term::Param(_) | Term::Result | Term::Each | Term::Measure(..) | Term::Unknown => {
-            false
-        }
-    }
+    let is_open = |part: &Condition| {
+        matches!(
+            part,
+            Condition::Fact(_)
+                | Condition::MonitoredMeasure(_)
+                | Condition::MonitoredFluent(_)
+                | Condition::Unknown
+        )
+    };
+    let is_variable = |term: &Term| {
+        matches!(
+            term,
+            Term::Binding(_) | Term::Param(_) | Term::Result | Term::Each | Term::Measure(..) | Term::Unknown
+        )
+    };
+    !condition.any(&is_open) && !condition.any_term(&is_variable)
 }
 
 /// Callback that finds the entity of a term.

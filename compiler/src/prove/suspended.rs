@@ -5,9 +5,9 @@ use std::hash::Hasher;
 use motet_syntax::{Code, Diagnostic, Severity, Span};
 
 use super::evaluation::CallFrame;
-use super::state::AbstractState;
 use super::symbols::Symbols;
-use super::{Mode, Prover};
+use super::{AbstractState, Mode, Prover};
+use crate::analysis::Domain;
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
 use crate::facts::{ANY, FactKey, PathPartition};
@@ -194,20 +194,6 @@ impl Prover<'_> {
         });
     }
 
-    /// Numbers of diagnostics and states so far, so that those of a rehearsal can be dropped.
-    pub(crate) fn said(&self) -> (usize, usize) {
-        (self.diagnostics.len(), self.states_at_point.len())
-    }
-
-    /// Drops diagnostics and states since then, because the run that counts follows.
-    pub(crate) fn unsay(&mut self, (diagnostics, states_at_point): (usize, usize)) {
-        if self.is_settled() {
-            return;
-        }
-        self.diagnostics.truncate(diagnostics);
-        self.states_at_point.truncate(states_at_point);
-    }
-
     /// Returns whether the answer is final: a need is refuted outside of a rehearsal. Later rounds of a loop
     /// refute what an earlier one does, since they begin in all its states.
     pub(crate) fn is_settled(&self) -> bool {
@@ -235,13 +221,12 @@ impl Prover<'_> {
             if self.control.live {
                 ways.push(self.state.facts.delta(mark));
             }
-            self.back_to(mark);
-            self.control.live = true;
+            self.restore(&mark);
             if self.is_settled() {
                 break;
             }
         }
-        self.meet(mark, &ways);
+        self.join(&mark, &ways);
     }
 
     /// Returns whether one of the first `count` needs of a call is refuted here, in their order.

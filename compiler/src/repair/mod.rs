@@ -2,12 +2,9 @@
 //! add.
 //!
 //! A [`RepairFinder`] observes the prover and searches while the facts before the refuted step are at hand.
-//! The search
-//! chains backwards from needs to the calls that achieve them ([`crate::plan::achievers`]). It is bounded
-//! and greedy, after
-//! means-ends analysis (Newell and Simon 1963). What it finds is a candidate: [`crate::fix`] verifies it by
-//! checking the
-//! edited document again.
+//! The search chains backwards from needs to the calls that achieve them ([`crate::plan::achievers`]). It is
+//! bounded and greedy, after means-ends analysis (Newell and Simon 1963). What it finds is a candidate:
+//! [`crate::fix`] verifies it by checking the edited document again.
 
 mod search;
 mod write;
@@ -21,15 +18,15 @@ use crate::plan::achievers::{CandidateCall, MAX_CANDIDATES, Subgoal};
 use crate::prove::evaluation::CallFrame;
 use crate::prove::{Observer, PolicyEnd, Problem, Prover};
 
-/// How deep needs of needs are followed.
+/// Maximal depth of needs of needs.
 const MAX_DEPTH: usize = 3;
-/// The most calls of one repair.
+/// Maximal number of calls of one repair.
 const MAX_CALLS: usize = 6;
-/// The most findings of a policy for which repairs are searched.
+/// Maximal number of findings of a policy for which repairs are searched.
 const MAX_FINDINGS: usize = 32;
-/// How many steps back a call may be inserted.
+/// Maximal distance, in steps, to an earlier step before which a call may be inserted.
 const MAX_EARLIER: usize = 6;
-/// The most calls that are tried for one step.
+/// Maximal number of calls that are tried for one step.
 const MAX_TRIES: usize = 400;
 
 /// Repairs of one diagnostic, the best first.
@@ -234,21 +231,20 @@ impl Prover<'_> {
         siblings.filter_map(|(index, _)| u32::try_from(index).ok().map(StepId)).take(MAX_EARLIER).collect()
     }
 
-    /// The fluent that no monitor around a step watches, though the step needs one to; only one without
-    /// parameters,
-    /// of which it is plain what there is to watch.
+    /// The fluent that an enclosing monitor has to watch, but none does. Only one without parameters, since
+    /// others leave open which fact to watch.
     fn unwatched(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> Option<Fluent> {
         let refuted = def.needs.iter().find(|need| self.need(need, frame).0.no.is_some())?;
         let Condition::MonitoredFluent(fluent) = &refuted.condition else { return None };
         self.library.fluent(*fluent).filter(|def| def.params.is_empty()).map(|_| *fluent)
     }
 
-    /// Whether a step belongs to a sub-policy, where the names of its caller mean nothing.
+    /// Returns whether a step belongs to a sub-policy, in which the names of its caller have no meaning.
     fn is_inlined(&self, id: StepId) -> bool {
         self.program.around(id).any(|(_, step)| matches!(step.kind, StepKind::Inline { .. }))
     }
 
-    /// Whether all that a step makes is so already.
+    /// Returns whether all effects of a step hold already.
     fn is_done(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> bool {
         let mut plain =
             def.makes.iter().filter(|effect| effect.each.is_none() && effect.when.is_none()).peekable();

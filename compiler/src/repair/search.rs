@@ -154,14 +154,8 @@ impl Prover<'_> {
                     return;
                 }
                 // That none holds: each that may hold has to go.
-                let mut held = Vec::new();
-                self.state.facts.entries(fact.fluent, key, |key, value| {
-                    if value.yes.is_some() {
-                        held.push(key);
-                    }
-                });
-                held.sort_unstable();
-                subgoals.extend(held.into_iter().map(|key| (fact.fluent, key, false)));
+                let held = self.may_hold(fact.fluent, key).into_iter();
+                subgoals.extend(held.map(|(key, _)| (fact.fluent, key, false)));
             }
             Condition::Literal(_)
             | Condition::Compare(..)

@@ -1,6 +1,6 @@
 //! Repairs as edits of a document, in its own syntax and layout.
 
-use motet_syntax::ast::{Arg, Call, Do, Expr, ExprKind, Name};
+use motet_syntax::ast::{Do, Name};
 use motet_syntax::{Code, Diagnostic, Edit, Fix, Parsed, Span, Syntax, print};
 use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
@@ -9,8 +9,7 @@ use super::Repair;
 use crate::declare::Library;
 use crate::environment::Environment;
 use crate::ir::{BindingId, Fluent, Program, Step, StepId, StepKind, Term};
-use crate::plan::achievers::CandidateCall;
-use crate::plan::write::spelled;
+use crate::plan::achievers::{CandidateCall, spell_call};
 
 /// New names of bindings.
 type Renamed = SmallVec<[(BindingId, SmolStr); 2]>;
@@ -66,7 +65,8 @@ impl Writer<'_> {
             }
             Syntax::Json => (
                 format!(
-                    "{{\"monitor\": [{{\"when\": {{\"is\": \"{name}\"}}, \"then\": {{\"react\": \"pause\"}}}}], \"during\": ["
+                    "{{\"monitor\": [{{\"when\": {{\"is\": \"{name}\"}}, \
+                     \"then\": {{\"react\": \"pause\"}}}}], \"during\": ["
                 ),
                 "]}",
             ),
@@ -242,31 +242,11 @@ impl Writer<'_> {
 
     /// Writes a call, with bindings by their new names, without defaults.
     fn call(&self, proposed: &CandidateCall, renamed: &Renamed) -> Option<Do> {
-        let def = self.library.primitive(proposed.primitive)?;
-        let span = Span::default();
-        let mut args = Vec::new();
-        let mut is_plain = self.parsed.syntax == Syntax::Text;
-        for (term, param) in proposed.args.iter().zip(&def.params) {
-            if param.default.as_ref() == Some(term) {
-                is_plain = false;
-                continue;
-            }
-            let value = Expr { kind: self.value(term, renamed)?, span };
-            let name = (!is_plain).then(|| Name { text: param.name.clone(), span });
-            args.push(Arg { name, value, span });
-        }
-        let call = Call { name: Name { text: def.name.clone(), span }, args, span };
-        Some(Do { call, bind: None, within: None, retry: None })
-    }
-
-    fn value(&self, term: &Term, renamed: &Renamed) -> Option<ExprKind> {
-        let new =
-            |id: &BindingId| renamed.iter().rev().find(|(old, _)| old == id).map(|(_, name)| name.clone());
-        if let Term::Binding(id) = term {
-            let bound = self.program.bindings.get(id.index())?;
-            return Some(ExprKind::Binding(new(id).unwrap_or_else(|| bound.name.clone())));
-        }
-        spelled(term, self.library, self.environment)
+        let name_of = |id: BindingId| match renamed.iter().rev().find(|(old, _)| *old == id) {
+            Some((_, name)) => Some(name.clone()),
+            None => Some(self.program.bindings.get(id.index())?.name.clone()),
+        };
+        spell_call(proposed, self.library, self.environment, self.parsed.syntax, name_of)
     }
 
     /// Inserts steps before a span, each on its own line if the step there has one.

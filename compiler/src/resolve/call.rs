@@ -12,7 +12,7 @@ use super::step::StepResolver;
 use crate::declare::PrimitiveDef;
 use crate::declare::elaborator::{Expected, ValueRole};
 use crate::declare::errors::{BadDeclaration, MissingArgument, TooManyArguments, UnknownParameter};
-use crate::declare::suggestion::{list, near};
+use crate::declare::name::{list, near};
 use crate::ir::{self, Base, BlockSlot, StepId, StepKind, StepPosition, Term, Ty};
 
 /// A parameter from the view of a call.

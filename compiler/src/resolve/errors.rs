@@ -13,7 +13,8 @@ motet_syntax::mistakes! {
     UnknownPrimitive("M0201", Error) { name: SmolStr, near: Option<SmolStr> }
     message(m) { format!("there is no primitive or policy `{}`", m.name) }
     help(m) {
-        did_you_mean(m.near.as_ref()).or_else(|| Some("`motet robots show` lists the primitives of the robot".to_owned()))
+        let lists = || "`motet robots show` lists the primitives of the robot".to_owned();
+        did_you_mean(m.near.as_ref()).or_else(|| Some(lists()))
     }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 

@@ -8,18 +8,18 @@
 
 mod call;
 pub(crate) mod errors;
-pub(crate) mod motion;
 mod step;
 
-use motet_syntax::ast::Policy;
-use motet_syntax::{Diagnostic, Syntax};
+use motet_syntax::ast::{Expr, ExprKind, Policy};
+use motet_syntax::{Diagnostic, Span, Syntax};
+use smol_str::SmolStr;
 
 use self::step::StepResolver;
-use crate::declare::Library;
-use crate::declare::elaborator::Elaborator;
-use crate::declare::scope;
+use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
+use crate::declare::name::Scope;
+use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::ir::{Program, Term};
+use crate::ir::{MotionKind, Program, Term};
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
 pub const MAX_NODES: usize = 100_000;
@@ -44,7 +44,7 @@ pub(crate) fn resolve_step(
     (form, name): (Syntax, &smol_str::SmolStr),
     (library, environment): (&Library, &Environment),
     program: &mut Program,
-    scope: &mut scope::Scope,
+    scope: &mut Scope,
 ) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
     let elaborator = Elaborator {
         scope: std::mem::take(scope),
@@ -81,4 +81,46 @@ pub(crate) fn resolve_inlined(
     *program = std::mem::take(&mut steps.program);
     program.bindings = std::mem::take(&mut steps.elaborator.bindings);
     (id, steps.finish())
+}
+
+/// Type-checks the arguments of a motion query as a call of a primitive with this motion would; empty if one
+/// of the robot's primitives accepts them. Checks only parameters of the primitive.
+pub(crate) fn check_motion(
+    name: &str,
+    args: &[(SmolStr, Span)],
+    library: &Library,
+    environment: &Environment,
+) -> Vec<Diagnostic> {
+    let kind = MotionKind::from_name(name);
+    let mut least: Option<Vec<Diagnostic>> = None;
+    for def in library.primitives.iter().filter(|def| def.provided) {
+        let Some((_, terms)) =
+            def.motion.as_ref().filter(|(own, terms)| Some(*own) == kind && terms.len() == args.len())
+        else {
+            continue;
+        };
+        let said = taken(def, terms, args, library, environment);
+        if least.as_ref().is_none_or(|least| said.len() < least.len()) {
+            least = Some(said);
+        }
+    }
+    least.unwrap_or_default()
+}
+
+fn taken(
+    def: &PrimitiveDef,
+    terms: &[Term],
+    args: &[(SmolStr, Span)],
+    library: &Library,
+    environment: &Environment,
+) -> Vec<Diagnostic> {
+    let mut elaborator =
+        Elaborator::new(library, environment.entities(), environment.has_scene(), Syntax::Text);
+    for (term, (name, span)) in terms.iter().zip(args) {
+        let Term::Param(index) = term else { continue };
+        let Some(param) = def.params.get(usize::from(*index)) else { continue };
+        let expr = Expr { kind: ExprKind::Name(name.clone()), span: *span };
+        elaborator.term_of(&expr, Expected { ty: param.ty, place: ValueRole::Param(&param.name, &def.name) });
+    }
+    elaborator.diagnostics
 }

@@ -8,7 +8,7 @@ use super::MAX_NODES;
 use super::errors::{Shadows, TooManySteps};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::errors::{NotACondition, UnknownFailure, WrongType};
-use crate::declare::suggestion::{list, near};
+use crate::declare::name::{list, near};
 use crate::ir::{self, Base, Binding, BindingId, BlockSlot, Program, StepId, StepPosition, Term, Ty};
 
 /// Default deadline of a `wait` or `pause`, in seconds.

@@ -1,6 +1,6 @@
-//! Pages of `motet explain`: examples under "Wrong" raise the code of the page; those under "Right" and
-//! "Near miss" raise
-//! neither that code nor any error; every code has a page, and every page a code. Guards all `errors.rs`.
+//! Pages of `motet explain`: examples under "Wrong" raise the code of the page; those under "Right" and "Near
+//! miss" raise neither that code nor any error; every code has a page, and every page a code. Guards all
+//! `errors.rs`.
 
 use std::collections::BTreeSet;
 
@@ -88,7 +88,7 @@ fn generated(words: &[&str]) -> Option<Vec<u8>> {
     }
 }
 
-/// Everything that is said of the examples of one section, which are one case together.
+/// Diagnostics of the examples of one section, which are one case together.
 #[derive(Default)]
 struct Case {
     sources: Sources,
@@ -281,7 +281,7 @@ impl Case {
     }
 }
 
-/// What is wrong with a page.
+/// Faults of a page.
 fn faults(page: &codes::CodePage) -> Vec<String> {
     let mut faults = Vec::new();
     if !page.text.starts_with(&format!("# {}: ", page.code)) {

@@ -1,41 +1,28 @@
-//! Motion feasibility: verdicts and witnesses in the graph, refusals with their explanation, and motions
-//! that are left to
-//! the run. Guards `src/feasibility/`.
+//! Motion feasibility: verdicts and witnesses in the graph, refusals with their explanation, and motions that
+//! are left to the run. Guards `src/feasibility/`.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
-use motet_compiler::{Geometry, Session};
-use motet_geometry::planning::SearchBudget;
+use motet_compiler::Session;
 use motet_graph::{CallNode, Graph, NodeKind, Verdict};
-use motet_robots::builtin::{self, RobotWithBody};
-use motet_robots::card::Robot;
+use motet_robots::builtin;
 use motet_robots::scene::{self, Placement, Scene};
-use motet_robots::urdf::Urdf;
-use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
+use motet_syntax::{Diagnostic, Severity, Sources};
 
-fn robot(name: &str) -> (Robot, Urdf) {
-    let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
-    (robot, urdf)
-}
+use crate::{in_scene, read};
 
 fn kitchen() -> Scene {
     builtin::scene("kitchen").unwrap()
 }
 
 fn session(scene: &Scene) -> Session {
-    let (robot, urdf) = robot("hsr");
-    let mut sources = Sources::default();
-    let session = Session::builder().robot(&robot).scene(scene).build(&mut sources);
-    let said = session.input_diagnostics().to_vec();
-    assert!(said.is_empty(), "{said:?}");
-    let geometry = Geometry::new(&robot, &urdf, scene, None, SearchBudget::default());
-    session.with_geometry(Arc::new(geometry))
+    in_scene(&builtin::robot("hsr").unwrap(), scene)
 }
 
 static KITCHEN: LazyLock<Session> = LazyLock::new(|| session(&kitchen()));
 
 fn compile(session: &Session, policy: &str) -> (Option<Graph>, Vec<Diagnostic>) {
-    let compiled = session.compile(&motet_syntax::read(&Source::new("policy", policy), FileId(99)), None);
+    let compiled = session.compile(&read(policy), None);
     (compiled.graph, compiled.diagnostics)
 }
 
@@ -112,17 +99,21 @@ fn two_legs_that_are_feasible_alone_and_not_one_after_the_other_are_found() {
 fn what_only_the_run_can_tell_is_left_to_it() {
     let found = motions(
         &KITCHEN,
-        r#"policy tidy for hsr { go(kitchen_table) let cups = detect_all("cup") each cup in cups at most 2 { go(cup) } }"#,
+        r#"policy tidy for hsr {
+            go(kitchen_table)
+            let cups = detect_all("cup")
+            each cup in cups at most 2 { go(cup) }
+        }"#,
     );
     assert_eq!(found[0].1, Verdict::Proven, "{found:?}");
     let (_, verdict, why) = found.last().unwrap();
     assert_eq!(*verdict, Verdict::Deferred);
-    assert_eq!(why, "which thing `cup` is, only the run can tell");
+    assert_eq!(why, "only the run determines which thing `cup` is");
 }
 
 #[test]
 fn without_geometry_every_motion_is_deferred() {
-    let (robot, _) = robot("hsr");
+    let robot = builtin::robot("hsr").unwrap().robot;
     let scene = kitchen();
     let session = Session::builder().robot(&robot).scene(&scene).build(&mut Sources::default());
     let found = motions(&session, "policy come for hsr { go(sink) }");
@@ -170,14 +161,17 @@ fn a_loop_comes_to_an_end() {
 fn after_a_failure_it_is_not_known_where_the_robot_stopped() {
     let found = motions(&KITCHEN, "policy come for hsr { try { go(sink) } catch any { go(user) } }");
     assert_eq!(found[0].1, Verdict::Proven);
-    assert_eq!((found[1].1, found[1].2.as_str()), (Verdict::Deferred, "where `go` stopped is not known"));
+    let (_, verdict, why) = &found[1];
+    assert_eq!((*verdict, why.as_str()), (Verdict::Deferred, "the pose in which `go` stopped is unknown"));
 }
 
 #[test]
 fn what_follows_an_open_drawer_is_answered_with_it_open() {
     let found = motions(
         &KITCHEN,
-        "policy look for hsr { go(drawer_1) open(drawer_1) go(kitchen_table) go(drawer_1) close(drawer_1) go(sink) }",
+        "policy look for hsr {
+            go(drawer_1) open(drawer_1) go(kitchen_table) go(drawer_1) close(drawer_1) go(sink)
+        }",
     );
     let told: Vec<_> =
         found.iter().map(|(query, verdict, why)| format!("{query}: {verdict:?} {why}")).collect();
@@ -229,7 +223,10 @@ fn what_is_reached_is_reachable() {
         _ => None,
     });
     let fluent = graph.fluents.iter().position(|fluent| fluent.name == "reachable").unwrap();
-    let is_it = |need: &&motet_graph::Need| matches!(&need.condition, motet_graph::Condition::Fact(fact) if fact.fluent.index() == fluent);
+    let is_it = |need: &&motet_graph::Need| match &need.condition {
+        motet_graph::Condition::Fact(fact) => fact.fluent.index() == fluent,
+        _ => false,
+    };
     let need = pick.unwrap().needs.iter().find(is_it).unwrap();
     assert_eq!(need.verdict, Verdict::Proven);
 }

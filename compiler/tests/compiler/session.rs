@@ -1,11 +1,9 @@
 //! Sessions and checks of documents. Guards `src/session.rs` and `src/document.rs`.
 
 use motet_compiler::{Session, WorldTracker};
-use motet_syntax::{FileId, Parsed, Severity, Source, Sources};
+use motet_syntax::{Severity, Sources};
 
-fn read(text: &str) -> Parsed {
-    motet_syntax::read(&Source::new("document.motet", text), FileId(99))
-}
+use crate::read;
 
 fn session() -> Session {
     Session::builder().build(&mut Sources::default())

@@ -1,7 +1,7 @@
 //! Lays sketched steps out as a graph.
 
-use super::sketch::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
 use super::vocabulary::{self as v, SAY};
+use super::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
 use crate::model::{
     Binding, BindingId, CallNode, Condition, DurationBounds, Ending, Fact, FactArg, Graph, Handler, Node,
     NodeId, NodeKind, ROOT, Reaction, Region, RegionId, ResourceId, Term, Type, Watch,

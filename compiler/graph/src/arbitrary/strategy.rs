@@ -1,8 +1,7 @@
 //! Sketches drawn at random.
 
-use super::layout;
-use super::sketch::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
 use super::vocabulary::{self as v, entity, fact};
+use super::{CallSketch, ReactionSketch, StepSketch, WatchSketch, layout};
 use crate::model::{Comparison, Condition, Ending, Fact, FactArg, Graph, PrimitiveId, Term, Value, Verdict};
 use proptest::collection::vec;
 use proptest::option;
@@ -22,10 +21,13 @@ pub fn steps() -> impl Strategy<Value = Vec<StepSketch>> {
         prop_oneof![
             2 => body.clone().prop_map(StepSketch::Sequence),
             2 => body.clone().prop_map(StepSketch::Inline),
-            2 => (conditions(), body.clone(), option::of(body.clone())).prop_map(|(c, t, e)| StepSketch::If(c, t, e)),
-            5 => (vec(when(body.clone()), 1..4), body.clone()).prop_map(|(whens, body)| StepSketch::Monitor(whens, body)),
+            2 => (conditions(), body.clone(), option::of(body.clone()))
+                .prop_map(|(condition, then, otherwise)| StepSketch::If(condition, then, otherwise)),
+            5 => (vec(when(body.clone()), 1..4), body.clone())
+                .prop_map(|(whens, body)| StepSketch::Monitor(whens, body)),
             3 => (body.clone(), handlers).prop_map(|(body, handlers)| StepSketch::Try(body, handlers)),
-            2 => (1..4_u32, body.clone(), option::of(conditions())).prop_map(|(n, b, u)| StepSketch::Repeat(n, b, u)),
+            2 => (1..4_u32, body.clone(), option::of(conditions()))
+                .prop_map(|(times, body, until)| StepSketch::Repeat(times, body, until)),
             2 => (list(), 0..4_u32, body.clone()).prop_map(|(list, n, body)| StepSketch::Each(list, n, body)),
             3 => vec(body, 0..4).prop_map(StepSketch::Parallel),
         ]
@@ -59,11 +61,10 @@ pub fn conditions() -> impl Strategy<Value = Condition> {
 }
 
 fn leaf() -> impl Strategy<Value = StepSketch> {
-    let ending = prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)];
     prop_oneof![
         12 => call().prop_map(StepSketch::Call),
         2 => (conditions(), 0.0..3.0).prop_map(|(condition, within)| StepSketch::Wait(condition, within)),
-        1 => ending.prop_map(StepSketch::End),
+        1 => ending().prop_map(StepSketch::End),
     ]
 }
 
@@ -91,7 +92,7 @@ fn when(body: impl Strategy<Value = Vec<StepSketch>> + 'static) -> impl Strategy
         3 => (0.0..3.0).prop_map(ReactionSketch::Pause),
         2 => (0..3_u32).prop_map(ReactionSketch::Restart),
         3 => (0..3_u32, body).prop_map(|(at_most, steps)| ReactionSketch::Resume(at_most, steps)),
-        1 => prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)].prop_map(ReactionSketch::End),
+        1 => ending().prop_map(ReactionSketch::End),
     ];
     let hold = prop_oneof![Just(0.0), 0.0..1.0];
     (conditions(), hold, react).prop_map(|(condition, hold_secs, react)| WatchSketch {
@@ -99,6 +100,10 @@ fn when(body: impl Strategy<Value = Vec<StepSketch>> + 'static) -> impl Strategy
         hold_secs,
         react,
     })
+}
+
+fn ending() -> impl Strategy<Value = Ending> {
+    prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)]
 }
 
 fn object() -> impl Strategy<Value = Term> {

@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-use super::{BindingId, CallNode, Condition, DurationBounds, FailureId, NodeId, RegionId, Term};
+use super::{
+    BindingId, Condition, DurationBounds, Fact, FailureId, KindId, NodeId, PrimitiveId, RegionId, Term,
+};
 
 /// A list of nodes with one thread of control.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
@@ -165,4 +167,148 @@ pub struct Handler {
     pub on: Option<Vec<FailureId>>,
     /// Region that then runs.
     pub body: RegionId,
+}
+
+/// A call of a primitive.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CallNode {
+    pub primitive: PrimitiveId,
+    /// One argument for each parameter, in order, defaults filled in.
+    pub args: Vec<Term>,
+    /// Binding of the result; present exactly if the primitive has a result.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub binds: Option<BindingId>,
+    /// Deadline of one attempt in seconds.
+    #[serde(rename = "deadline")]
+    pub deadline_secs: f64,
+    /// Number of further attempts after a failure.
+    pub retries: u32,
+    /// Preconditions with their verdicts. The deferred ones are the guards, checked before each start.
+    pub needs: Vec<Need>,
+    /// The motion of the call with its verdict.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Motion>,
+    /// Facts that hold after success, applied in order after all conditions were evaluated.
+    pub effects: Vec<CallEffect>,
+    /// Facts that become unknown at the start; after a failure also the facts of `effects`.
+    pub unsettles: Vec<Unsettled>,
+}
+
+/// Verdict of the compiler on a precondition or a motion.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Holds on every path: nothing is left to check.
+    Proven,
+    /// Only an observation can decide: the engine checks it before the step starts.
+    Deferred,
+}
+
+/// A precondition of a call, with its verdict.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Need {
+    /// Condition at the start of the step. With `each`, for every entity of that kind that the engine knows.
+    pub condition: Condition,
+    /// Premise: the condition is required only where this is true; unknown counts as false. May contain
+    /// [`Term::Each`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub when: Option<Condition>,
+    /// Kind over which [`Term::Each`] ranges in `condition` and `when`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub each: Option<KindId>,
+    pub verdict: Verdict,
+    /// Failure in which the step ends if the guard is refuted.
+    pub failure: FailureId,
+}
+
+/// A motion that must have a solution.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// The motion query: `go_to`, `reach`, `put`, `pull`, `push`, `offer`, `look` or `posture`.
+    pub query: SmolStr,
+    pub args: Vec<Term>,
+    pub verdict: Verdict,
+    /// The solution of a proven motion. If the step can be reached in several worlds, the solution for one of
+    /// them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub witness: Option<Box<Witness>>,
+    /// Reason for a deferral, in words, if one is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<SmolStr>,
+}
+
+/// A path that proves a motion feasible in the world that the compiler expects. Lengths in m, angles in rad,
+/// poses in the frame `map`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Witness {
+    /// Names of the joints that move; all others keep their positions.
+    pub joints: Vec<SmolStr>,
+    /// At least one waypoint, from start to end; between two of them base and joints move along a straight
+    /// line.
+    pub path: Vec<Waypoint>,
+    /// Grasp or placement at the end, for queries that ask for one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grasp: Option<Grasp>,
+    /// Least clearance along the path in m, at most 1.
+    pub clearance: f64,
+    /// Distance at the end to the nearest limit of a joint that moved, in m or rad.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limit: Option<f64>,
+    /// Spare payload of the hand in kg.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub payload: Option<f64>,
+}
+
+/// A configuration along a path.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Waypoint {
+    /// Base pose x, y, yaw in m and rad. Yaw is continuous along a path and may exceed a half turn.
+    pub base: [f64; 3],
+    /// Positions of [`Witness::joints`] in the same order.
+    pub joints: Vec<f64>,
+}
+
+/// Pose of the hand at a thing, with the opening of the hand.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Grasp {
+    /// Position of the hand's tip in m.
+    pub xyz: [f64; 3],
+    /// Orientation as a unit quaternion in the order x, y, z, w.
+    pub quaternion: [f64; 4],
+    /// Required opening of the hand in m.
+    pub width: f64,
+}
+
+/// A change of a fact that a successful call makes.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CallEffect {
+    pub fact: Fact,
+    /// New truth value.
+    pub value: bool,
+    /// Condition in the state before the effects; may contain [`Term::Each`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub when: Option<Condition>,
+    /// Kind over which [`Term::Each`] ranges.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub each: Option<KindId>,
+}
+
+/// Facts that a step leaves unknown.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Unsettled {
+    pub fact: Fact,
+    /// Condition in the state before the step; may contain [`Term::Each`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub when: Option<Condition>,
+    /// Kind over which [`Term::Each`] ranges.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub each: Option<KindId>,
 }

@@ -1,24 +1,30 @@
 //! Validation of graphs: checks, once, every property on which an engine relies.
 //!
 //! In three passes: [`structure`] (tables, regions, edges), then, where that is sound, [`types`] (arguments
-//! and conditions), [`bound`] (names before they are bound) and [`resources`] (what runs at once).
+//! and conditions), [`bound`] (names before they are bound) and resources (calls that run at once).
 
 mod bound;
 mod invalid;
-mod limits;
-mod numbers;
-mod resources;
 mod structure;
 mod tables;
 mod types;
 
-pub use invalid::{InvalidGraph, InvalidReason};
-pub use limits::{MAX_DEPTH, MAX_NODES, MAX_RESOURCES, MAX_TERM_DEPTH};
+pub use invalid::{InvalidGraph, InvalidReason, MAX_DEPTH, MAX_NODES, MAX_RESOURCES, MAX_TERM_DEPTH};
 
 use crate::model::{Graph, Node};
 use smol_str::SmolStr;
 
 /// Checks a graph. Costs its size.
+///
+/// ```
+/// use motet_graph::{Graph, validate};
+///
+/// let mut graph = Graph::empty("tidy_up", "hsr");
+/// assert_eq!(validate(&graph), Ok(()));
+/// graph.failures.clear();
+/// let errors = validate(&graph).expect_err("the first failure is `timeout`");
+/// assert_eq!(errors[0].at, "failure 0");
+/// ```
 ///
 /// # Errors
 ///
@@ -31,10 +37,10 @@ pub fn validate(graph: &Graph) -> Result<(), Vec<InvalidGraph>> {
     if !findings.list.is_empty() {
         return Err(findings.list);
     }
-    numbers::check(graph, &mut findings);
+    tables::check_numbers(graph, &mut findings);
     types::check(graph, &mut findings);
     bound::check(graph, &mut findings);
-    resources::check(graph, &mut findings);
+    structure::check_resources(graph, &mut findings);
     if findings.list.is_empty() { Ok(()) } else { Err(findings.list) }
 }
 
@@ -57,7 +63,7 @@ impl Findings {
 
     /// A graph with many mistakes does not give a list without end.
     fn add(&mut self, at: SmolStr, reason: InvalidReason) {
-        if self.list.len() < limits::MAX_FINDINGS {
+        if self.list.len() < invalid::MAX_FINDINGS {
             self.list.push(InvalidGraph { at, reason });
         }
     }

@@ -1,6 +1,6 @@
 //! Arguments and conditions: ids in range, the right number of arguments, types that fit.
 
-use super::limits::MAX_TERM_DEPTH;
+use super::invalid::MAX_TERM_DEPTH;
 use super::{Findings, InvalidReason};
 use crate::model::{
     BindingId, CallNode, Comparison, Condition, Fact, FactArg, FailureId, Graph, KindId, Node, NodeKind,

@@ -1,0 +1,152 @@
+//! Paths through a fork: the changes along one path, and trace partitions (Mauborgne and Rival 2005), which
+//! keep paths that met at a join apart for a while, so that a later test can rule some of them out.
+
+use std::hash::{Hash, Hasher};
+
+use super::{Atom, FactKey, FactStore, TruthSet};
+use crate::ir::Fluent;
+
+/// A fact or pattern as one number, sorted in the order of writing: patterns first, the widest before the
+/// others, so that the facts that they cover are written later; then by fluent and key.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct Rank(u128);
+
+impl Rank {
+    /// Number of arguments of a key that are not `any`, for a single fact.
+    const SINGLE: u32 = 4;
+
+    pub(super) fn of((fluent, key): Atom) -> Self {
+        let narrow = Self::SINGLE.saturating_sub(key.width());
+        Self(u128::from(narrow) << 80 | u128::from(fluent.0) << 64 | u128::from(key.0))
+    }
+
+    pub(super) fn atom(self) -> Atom {
+        (Fluent((self.0 >> 64) as u16), FactKey(self.0 as u64))
+    }
+
+    fn is_pattern(self) -> bool {
+        self.0 >> 80 < u128::from(Self::SINGLE)
+    }
+
+    /// Sorts facts and patterns, and removes duplicates.
+    pub(super) fn each_once(atoms: impl Iterator<Item = Self>) -> Vec<Self> {
+        let mut ranks: Vec<_> = atoms.collect();
+        ranks.sort_unstable();
+        ranks.dedup();
+        ranks
+    }
+}
+
+/// Facts that one path through a fork has written, with their last values, in order.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Delta {
+    pub(super) written: Vec<(Rank, TruthSet)>,
+}
+
+impl Delta {
+    pub(crate) fn new(written: impl Iterator<Item = (Atom, TruthSet)>) -> Self {
+        let mut written: Vec<_> = written.map(|(atom, value)| (Rank::of(atom), value)).collect();
+        written.sort_unstable_by_key(|(rank, _)| *rank);
+        Self { written }
+    }
+
+    /// Joins two paths from the same fork.
+    pub(crate) fn or(&self, other: &Self, base: &FactStore<'_>) -> Self {
+        let ranks = Rank::each_once(self.ranks().chain(other.ranks())).into_iter();
+        let joined = ranks.map(|rank| (rank, self.at(base, rank).join(other.at(base, rank))));
+        Self { written: joined.collect() }
+    }
+
+    /// Returns whether both paths leave the same sets of values, whatever their causes.
+    pub(crate) fn same_sets(&self, other: &Self, base: &FactStore<'_>) -> bool {
+        let mut ranks = self.ranks().chain(other.ranks());
+        ranks.all(|rank| self.at(base, rank).same_set(other.at(base, rank)))
+    }
+
+    /// Hashes the sets of values that the path leaves, without their causes.
+    pub(crate) fn fingerprint(&self, hasher: &mut impl Hasher) {
+        for (rank, value) in &self.written {
+            let known = (value.yes.is_some(), value.no.is_some(), value.open.is_some());
+            (rank.0, known).hash(hasher);
+        }
+        self.written.len().hash(hasher);
+    }
+
+    /// Facts and patterns that the path has written.
+    pub(super) fn ranks(&self) -> impl Iterator<Item = Rank> {
+        self.written.iter().map(|(rank, _)| *rank)
+    }
+
+    /// Value of a fact at the end of the path; `base` is the store at the fork.
+    pub(crate) fn get(&self, base: &FactStore<'_>, atom: Atom) -> TruthSet {
+        self.at(base, Rank::of(atom))
+    }
+
+    pub(super) fn at(&self, base: &FactStore<'_>, rank: Rank) -> TruthSet {
+        let written = self.written.binary_search_by_key(&rank, |(rank, _)| *rank);
+        if let Some((_, value)) = written.ok().and_then(|at| self.written.get(at)) {
+            return *value;
+        }
+        let (fluent, key) = rank.atom();
+        // Patterns stand first, the narrowest of them last: that one says most of this fact.
+        let patterns = self.written.iter().take_while(|(rank, _)| rank.is_pattern());
+        let covering = patterns.filter(|(rank, _)| {
+            let (other, pattern) = rank.atom();
+            other == fluent && pattern.covers(key)
+        });
+        covering.last().map_or_else(|| base.get(fluent, key), |(_, value)| *value)
+    }
+}
+
+/// Paths that met at a join.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PathPartition {
+    /// Position in the trail after the join.
+    pub(crate) since: usize,
+    atoms: Vec<Atom>,
+    /// Value of each atom at the end of each path, path by path.
+    values: Vec<TruthSet>,
+}
+
+impl PathPartition {
+    /// Returns whether the paths differ in a fluent that `asked` selects.
+    pub(crate) fn differs(&self, mut asked: impl FnMut(crate::ir::Fluent) -> bool) -> bool {
+        let first = self.values.get(..self.atoms.len()).unwrap_or_default();
+        self.atoms.iter().enumerate().any(|(index, (fluent, _))| {
+            let mut others = self.values.iter().skip(index).step_by(self.atoms.len().max(1));
+            asked(*fluent)
+                && first.get(index).is_some_and(|first| !others.all(|value| value.same_set(*first)))
+        })
+    }
+
+    /// Values of the atoms at the end of each path.
+    pub(crate) fn ways(&self) -> impl Iterator<Item = impl Iterator<Item = (Atom, TruthSet)> + '_> + '_ {
+        let ways = self.values.chunks(self.atoms.len().max(1));
+        ways.map(|values| self.atoms.iter().copied().zip(values.iter().copied()))
+    }
+}
+
+impl FactStore<'_> {
+    /// Joins the paths through a fork that began at the present state, and returns them as partitions.
+    /// Without a path the facts stay as they are.
+    pub(crate) fn join(&mut self, ways: &[Delta]) -> PathPartition {
+        if let [only] = ways {
+            self.replay(only);
+            return PathPartition::default();
+        }
+        let ranks = Rank::each_once(ways.iter().flat_map(Delta::ranks));
+        let mut values = Vec::with_capacity(ways.len() * ranks.len());
+        for way in ways {
+            values.extend(ranks.iter().map(|rank| way.at(self, *rank)));
+        }
+        let atoms: Vec<Atom> = ranks.into_iter().map(Rank::atom).collect();
+        for (index, (fluent, key)) in atoms.iter().copied().enumerate() {
+            let found = values.iter().skip(index).step_by(atoms.len()).copied().reduce(TruthSet::join);
+            let Some(value) = found else { continue };
+            if key.is_pattern() || self.get(fluent, key) != value {
+                self.set(fluent, key, value);
+            }
+        }
+        PathPartition { since: self.mark(), atoms, values }
+    }
+}

@@ -1,0 +1,199 @@
+//! Automatic fixes: each is tried in memory, and kept only if the document then checks better.
+//!
+//! Above the stages: it reads their findings, edits the document and checks it again. Guarded by
+//! `tests/tests/fix.rs`.
+
+use motet_syntax::{Code, Diagnostic, FileId, Fix, Parsed, Severity, Source};
+
+use crate::repair::Finding;
+use crate::session::Session;
+
+/// Maximal number of documents that are checked to fix one.
+const MAX_TRIES: usize = 500;
+/// Maximal number of fixes that are combined before the document checks better: a corrected name can uncover
+/// an error behind it.
+const MAX_DEPTH: usize = 3;
+
+/// A document after its fixes.
+#[derive(Clone, Debug)]
+pub struct FixedDocument {
+    pub text: String,
+    /// Applied fixes, in order.
+    pub applied: Vec<AppliedFix>,
+    /// The same document, read.
+    pub parsed: Parsed,
+    /// Remaining diagnostics, without geometry.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A fix that was applied.
+#[derive(Clone, PartialEq, Debug)]
+pub struct AppliedFix {
+    /// Code of its diagnostic.
+    pub code: Code,
+    /// Description of the change: "write `pick`".
+    pub title: String,
+}
+
+/// Applies at most `most` fixes to a document. Each leaves it with fewer errors and no new kind of error, or
+/// with as many errors, fewer warnings and no new code. At most 500 documents are checked on the way.
+///
+/// ```
+/// use motet_compiler::{Session, fix};
+/// use motet_syntax::{FileId, Source, Sources};
+///
+/// let session = Session::builder().build(&mut Sources::default());
+/// let source = Source::new("greet.motet", "policy greet { sya(\"hello\") }");
+/// let fixed = fix::fix(&session, &source, FileId(99), 10);
+/// assert_eq!(fixed.text, "policy greet { say(\"hello\") }");
+/// assert!(fixed.diagnostics.is_empty());
+/// ```
+#[must_use]
+pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> FixedDocument {
+    fix_parsed(session, source, motet_syntax::read(source, file), file, most)
+}
+
+/// As [`fix`], for a document that was already read.
+#[must_use]
+pub fn fix_parsed(
+    session: &Session,
+    source: &Source,
+    parsed: Parsed,
+    file: FileId,
+    most: usize,
+) -> FixedDocument {
+    let mut tries = MAX_TRIES;
+    let mut at = Candidate::new(session, source.text.to_string(), parsed);
+    let mut applied = Vec::new();
+    while applied.len() < most {
+        let depth = MAX_DEPTH.min(most - applied.len() - 1);
+        let Some((next, done)) = better(session, source, file, &at, &at, depth, &mut tries) else { break };
+        applied.extend(done);
+        at = next;
+    }
+    let diagnostics = at.findings.into_iter().map(|found| found.diagnostic).collect();
+    FixedDocument { text: at.text, parsed: at.parsed, applied, diagnostics }
+}
+
+/// A version of the document with its findings.
+struct Candidate {
+    text: String,
+    parsed: Parsed,
+    findings: Vec<Finding>,
+}
+
+impl Candidate {
+    fn of(session: &Session, text: String, source: &Source, file: FileId) -> Self {
+        let parsed = motet_syntax::read(&Source::new(source.name.clone(), text.as_str()), file);
+        Self::new(session, text, parsed)
+    }
+
+    fn new(session: &Session, text: String, parsed: Parsed) -> Self {
+        Self { findings: session.findings(&parsed, None), text, parsed }
+    }
+
+    fn count(&self, severity: Severity) -> usize {
+        self.findings.iter().filter(|found| found.diagnostic.severity == severity).count()
+    }
+
+    /// Returns whether this version checks better than another: fewer errors and no new code of an error, or
+    /// as many errors, fewer warnings, and no new code. A step that repairs an error may raise a lint.
+    fn is_better_than(&self, other: &Self) -> bool {
+        let counts = |state: &Self| (state.count(Severity::Error), state.count(Severity::Warning));
+        let fewer_errors = counts(self).0 < counts(other).0;
+        let may_be = |found: &Finding| {
+            (fewer_errors && found.diagnostic.severity != Severity::Error)
+                || other.findings.iter().any(|known| known.diagnostic.code == found.diagnostic.code)
+        };
+        counts(self) < counts(other) && self.findings.iter().all(may_be)
+    }
+}
+
+/// Finds the first version that is better than `base`, starting from `at`, with the fixes that lead to it.
+/// Tries errors before warnings.
+fn better(
+    session: &Session,
+    source: &Source,
+    file: FileId,
+    base: &Candidate,
+    at: &Candidate,
+    depth: usize,
+    tries: &mut usize,
+) -> Option<(Candidate, Vec<AppliedFix>)> {
+    let mut order: Vec<_> = at.findings.iter().collect();
+    order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
+    let mut promising = Vec::new();
+    for found in order {
+        let said = &found.diagnostic;
+        for fix in said.fix.iter().chain(&found.alternatives) {
+            *tries = tries.checked_sub(1)?;
+            let Some(text) = apply(&at.text, file, fix) else { continue };
+            let next = Candidate::of(session, text, source, file);
+            let done = AppliedFix { code: said.code, title: fix.title.clone() };
+            if next.is_better_than(base) {
+                return Some((next, vec![done]));
+            }
+            // Behind a name or a type that is wrong nothing is proved: mending it can uncover more than it
+            // removes.
+            let uncovers = ["M01", "M02", "M03"].iter().any(|stage| said.code.0.starts_with(stage));
+            let is_no_worse = next.count(Severity::Error) <= base.count(Severity::Error);
+            if said.severity == Severity::Error && (uncovers || is_no_worse) {
+                promising.push((next, done));
+            }
+        }
+    }
+    if depth == 0 {
+        return None;
+    }
+    promising.into_iter().find_map(|(next, done)| {
+        let (last, more) = better(session, source, file, base, &next, depth - 1, tries)?;
+        Some((last, std::iter::once(done).chain(more).collect()))
+    })
+}
+
+/// Applies all edits of a fix. `None` if an edit is about another file, lies outside the text or within a
+/// character, or overlaps another. O(text + edits).
+#[must_use]
+pub fn apply(text: &str, file: FileId, fix: &Fix) -> Option<String> {
+    let mut edits: Vec<_> = fix.edits.iter().collect();
+    edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
+    let mut done = String::with_capacity(text.len());
+    let mut at = 0;
+    for edit in edits {
+        if edit.span.file != file {
+            return None;
+        }
+        let range = edit.span.range();
+        // An overlap is a range that ends before it begins, of which there is no text.
+        done.push_str(text.get(at..range.start)?);
+        text.get(range.clone())?;
+        done.push_str(&edit.text);
+        at = range.end;
+    }
+    done.push_str(text.get(at..)?);
+    Some(done)
+}
+
+#[cfg(test)]
+mod tests {
+    use motet_syntax::{Edit, FileId, Fix, Span};
+
+    fn check(edits: &[(usize, usize, &str)], expected: Option<&str>) {
+        let edit = |(start, end, text): &(usize, usize, &str)| Edit {
+            span: Span::new(FileId(0), *start, *end),
+            text: (*text).to_owned(),
+        };
+        let fix = Fix { title: String::new(), edits: edits.iter().map(edit).collect() };
+        assert_eq!(super::apply("añb", FileId(0), &fix).as_deref(), expected);
+    }
+
+    #[test]
+    fn edits_are_made_together_or_not_at_all() {
+        check(&[(3, 4, "c"), (0, 0, "x")], Some("xañc"));
+        check(&[(0, 3, ""), (3, 3, "y")], Some("yb"));
+        check(&[(0, 3, ""), (1, 4, "")], None);
+        check(&[(0, 2, "")], None);
+        check(&[(0, 9, "")], None);
+        assert!(super::apply("ab", FileId(1), &Fix { title: String::new(), edits: Vec::new() }).is_some());
+    }
+}

@@ -1,0 +1,376 @@
+//! The prover as an abstract domain: its states are the facts above those at the start, written on a trail,
+//! and a path is the changes since a position in the trail.
+
+use std::hash::{Hash, Hasher};
+
+use motet_syntax::Span;
+use rustc_hash::FxHashMap;
+
+use super::collector::Collector;
+use super::errors::{Conflict, NeverCaught, TooDeep, Unreached};
+use super::evaluation::CallFrame;
+use super::{MAX_FIXPOINTS, PolicyEnd, Prover};
+use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
+use crate::facts::{Atom, Cause, Delta, TruthSet, show};
+use crate::ir::{BindingId, Call, Catch, Condition, Failure, Program, StepId, StepKind, When};
+
+impl<'a> Domain<'a> for Prover<'a> {
+    type Mark = usize;
+    type Path = Delta;
+    type Collector = Collector;
+    /// Facts and patterns that a branch writes.
+    type Changes = Vec<Atom>;
+
+    fn program(&self) -> &'a Program {
+        self.program
+    }
+
+    fn exhausted(&self) -> Option<Failure> {
+        self.library.lang_items.exhausted
+    }
+
+    fn failed(&self) -> Option<Failure> {
+        self.library.lang_items.failed
+    }
+
+    fn enclosing(&mut self) -> &mut Vec<Enclosing<Collector>> {
+        &mut self.control.enclosing
+    }
+
+    fn is_live(&self) -> bool {
+        self.control.live
+    }
+
+    fn stop(&mut self) {
+        self.control.live = false;
+    }
+
+    fn is_over(&self) -> bool {
+        !self.control.live || self.is_settled()
+    }
+
+    fn mark(&self) -> usize {
+        self.state.facts.mark()
+    }
+
+    fn restore(&mut self, mark: &usize) {
+        self.back_to(*mark);
+        self.control.live = true;
+    }
+
+    fn path(&self, mark: &usize) -> Delta {
+        self.state.facts.delta(*mark)
+    }
+
+    fn follow(&mut self, path: &Delta) {
+        self.state.facts.replay(path);
+    }
+
+    fn join(&mut self, mark: &usize, paths: &[Delta]) {
+        self.back_to(*mark);
+        self.control.live = !paths.is_empty();
+        if self.control.live {
+            let partition = self.state.facts.join(paths);
+            self.remember(partition);
+        }
+    }
+
+    fn widen(&self, head: &Delta, back: &Delta, _round: usize) -> Option<Delta> {
+        let next = head.or(back, &self.state.facts);
+        (!next.same_sets(head, &self.state.facts)).then_some(next)
+    }
+
+    fn collector(&self) -> Collector {
+        Collector::new(self.state.facts.mark())
+    }
+
+    fn collect(&self, into: &mut Collector, _exit: Exit) {
+        into.see(&self.state.facts);
+    }
+
+    fn collected(&self, states: &Collector) -> Option<Delta> {
+        states.hit.then(|| states.delta())
+    }
+
+    fn enter(&mut self, id: StepId) -> bool {
+        if self.target.point == Some(id) {
+            self.record_state();
+        }
+        self.skip(&[id]);
+        true
+    }
+
+    fn transfer(&mut self, id: StepId, call: &Call, span: Span) {
+        self.call(id, call, span);
+    }
+
+    fn assume_at(&mut self, id: StepId, condition: &Condition, truth: bool) -> bool {
+        self.assume(condition, truth, Cause::step(id), CallFrame::default())
+    }
+
+    fn await_at(&mut self, id: StepId, condition: &Condition) {
+        self.await_condition(condition, Cause::step(id));
+    }
+
+    fn lose(&mut self, id: StepId) {
+        self.forget_all(Cause::step(id));
+    }
+
+    fn monitor(&mut self, id: StepId, whens: &'a [When], body: &'a [StepId]) {
+        self.watch_for(id, whens, body);
+    }
+
+    /// Proves each branch alone.
+    fn branch_changes(&mut self, branches: &'a [Vec<StepId>]) -> Vec<Vec<Atom>> {
+        let (mark, findings) = (self.mark(), self.findings());
+        let mut changes = Vec::with_capacity(branches.len());
+        for branch in branches {
+            self.block(branch);
+            changes.push(self.state.facts.touched(mark));
+            self.restore(&mark);
+        }
+        self.drop_findings(findings);
+        changes
+    }
+
+    fn disturb(&mut self, id: StepId, changes: &[Vec<Atom>], index: usize) {
+        let others = changes.iter().enumerate().filter(|(other, _)| *other != index);
+        for atom in others.flat_map(|(_, touched)| touched) {
+            self.disturb_by_branch(id, *atom);
+        }
+    }
+
+    fn compose(&mut self, id: StepId, changes: &[Vec<Atom>], paths: &[Delta]) {
+        let joined = self.compose_effects(id, changes, paths);
+        self.state.facts.replay(&joined);
+    }
+
+    fn sequence(&mut self, id: StepId, body: &'a [StepId]) {
+        if self.target.choice == Some(id) { self.choose(body) } else { self.block(body) }
+    }
+
+    /// Each level is proved at least twice, so the depth is limited.
+    fn enter_fixpoint(&mut self, id: StepId) -> bool {
+        if self.control.fixpoints >= MAX_FIXPOINTS {
+            let span = self.program.step(id).map_or(self.program.span, |step| step.span);
+            self.diagnostics.push(TooDeep { span, limit: MAX_FIXPOINTS }.into());
+            return false;
+        }
+        self.control.fixpoints += 1;
+        true
+    }
+
+    fn leave_fixpoint(&mut self) {
+        self.control.fixpoints -= 1;
+    }
+
+    fn replace_head(&mut self, head: Option<usize>) -> Option<usize> {
+        std::mem::replace(&mut self.state.head, head)
+    }
+
+    fn begin_round(&mut self, item: BindingId) {
+        self.forget(self.symbols.of_binding(item.index()));
+    }
+
+    /// Numbers of diagnostics and recorded states.
+    fn findings(&self) -> (usize, usize) {
+        (self.diagnostics.len(), self.states_at_point.len())
+    }
+
+    fn drop_findings(&mut self, (diagnostics, states_at_point): (usize, usize)) {
+        if self.is_settled() {
+            return;
+        }
+        self.diagnostics.truncate(diagnostics);
+        self.states_at_point.truncate(states_at_point);
+    }
+
+    fn begin_handler(&mut self, catch: &Catch, kinds: &[Failure]) {
+        for (kind, span) in catch.on.iter().flatten() {
+            if !kinds.contains(kind) {
+                let name = self.library.failure_name(*kind).into();
+                self.diagnostics.push(NeverCaught { span: *span, name }.into());
+            }
+        }
+    }
+
+    fn end_handler(&mut self, catch: &Catch, kinds: &[Failure]) {
+        self.check_catch(catch, kinds);
+    }
+
+    /// Marks steps as reached: a handler that nothing reaches was reported, and its steps need no report of
+    /// their own.
+    fn skip(&mut self, block: &[StepId]) {
+        for id in block {
+            if let Some(reached) = self.proof.reached.get_mut(id.index()) {
+                *reached = true;
+            }
+        }
+    }
+
+    fn done(&mut self, id: Option<StepId>, span: Span) {
+        let end = id.map(PolicyEnd::Before);
+        self.check_goal(end);
+        self.check_end(end, span);
+    }
+}
+
+/// Hashes the paths from the end of a loop's body.
+fn fingerprint(round: &Round<Delta>, hasher: &mut impl Hasher) {
+    round.exits.iter().chain(&round.back).for_each(|path| path.fingerprint(hasher));
+    (round.exits.len(), round.back.is_some()).hash(hasher);
+}
+
+impl Prover<'_> {
+    /// Rolls the facts back, with the collectors of states.
+    pub(crate) fn back_to(&mut self, mark: usize) {
+        self.state.facts.back_to(mark);
+        while self.state.partitions.last().is_some_and(|partition| partition.since > mark) {
+            self.state.partitions.pop();
+        }
+        for collector in self.control.enclosing.iter_mut().flat_map(Enclosing::collectors) {
+            collector.cut_to(mark);
+        }
+    }
+
+    /// Assumes the condition of a wait, whatever was known before: something outside may have changed it.
+    fn await_condition(&mut self, condition: &Condition, cause: Cause) {
+        match condition {
+            Condition::Fact(fact) => {
+                let known = self.evaluate(condition, CallFrame::default());
+                let key = self.key(fact, CallFrame::default()).filter(|key| !key.is_pattern());
+                if let (Some(key), false) = (key, known.is_true()) {
+                    self.state.facts.set(
+                        fact.fluent,
+                        key,
+                        known.narrow(true, cause).unwrap_or(TruthSet::yes(cause)),
+                    );
+                }
+            }
+            Condition::All(parts) => parts.iter().for_each(|part| self.await_condition(part, cause)),
+            Condition::Not(inner) => {
+                if let Condition::Fact(fact) = &**inner
+                    && let Some(key) = self.key(fact, CallFrame::default())
+                {
+                    self.state.facts.set(fact.fluent, key, TruthSet::no(cause));
+                }
+            }
+            Condition::Literal(_)
+            | Condition::Compare(..)
+            | Condition::MonitoredMeasure(_)
+            | Condition::MonitoredFluent(_)
+            | Condition::AnyOf(_)
+            | Condition::Unknown => {}
+        }
+    }
+
+    /// Returns whether no need in the body of a loop is refuted when it is repeated from here: the step
+    /// `point` at the end of the first round, which began at `mark`. `until` is the test of a `repeat`. Does
+    /// not roll the facts back.
+    ///
+    /// If so, `seen` hashes the facts that the test leaves.
+    pub(crate) fn comes_round(
+        &mut self,
+        point: StepId,
+        mark: usize,
+        until: Option<&Condition>,
+        seen: &mut impl Hasher,
+    ) -> bool {
+        let program = self.program;
+        let around = program.step(point).and_then(|step| step.position.parent);
+        let Some((id, step)) = around.and_then(|id| Some((id, program.step(id)?))) else { return true };
+        let (body, how) = match &step.kind {
+            StepKind::Repeat { times, body, .. } => (body, Loop::Repeat { times: *times, until }),
+            StepKind::Each { item, body, .. } => (body, Loop::Each { item: *item }),
+            _ => return true,
+        };
+        let end = body.iter().position(|id| *id == point).unwrap_or(body.len());
+        let body = body.get(..end).unwrap_or_default();
+        let round = self.exits(id, how, &mark);
+        self.restore(&mark);
+        fingerprint(&round, seen);
+        let Some(way) = round.back else { return true };
+        let entry = Delta::default();
+        let head = entry.or(&way, &self.state.facts);
+        if !head.same_sets(&entry, &self.state.facts) {
+            self.control.fixpoints += 1;
+            fingerprint(&self.rounds(id, body, how, head), seen);
+            self.control.fixpoints -= 1;
+        }
+        !self.is_refuted()
+    }
+
+    /// Weakens a fact that another branch may change at any moment.
+    fn disturb_by_branch(&mut self, id: StepId, (fluent, key): Atom) {
+        let open = TruthSet::open(Cause::step(id));
+        // Of a choice only one step is there: where it is another, what was known is still so.
+        if self.target.choice.is_none() {
+            self.state.facts.set(fluent, key, open);
+        } else if key.is_pattern() {
+            self.state.facts.change(fluent, key, |_, known| known.join(open));
+        } else {
+            let value = self.read(fluent, key).join(open);
+            self.state.facts.set(fluent, key, value);
+        }
+    }
+
+    /// Joins the effects of all branches. Branches that leave different values in a fact are an error.
+    fn compose_effects(&mut self, id: StepId, changed: &[Vec<Atom>], deltas: &[Delta]) -> Delta {
+        let mut written: FxHashMap<Atom, TruthSet> = FxHashMap::default();
+        for (touched, delta) in changed.iter().zip(deltas) {
+            for atom in touched.iter().copied() {
+                let value = delta.get(&self.state.facts, atom);
+                match written.get(&atom).copied() {
+                    None => {
+                        written.insert(atom, value);
+                    }
+                    Some(first) if first.same_set(value) => {}
+                    Some(first) => {
+                        if self.is_conflict(first, value) || self.is_conflict(value, first) {
+                            self.conflict(id, atom, first, value);
+                        }
+                        written.insert(atom, TruthSet::open(Cause::step(id)));
+                    }
+                }
+            }
+        }
+        Delta::new(written.into_iter())
+    }
+
+    /// Returns whether one branch leaves a fact true that another leaves false; with a choice, whether it
+    /// may.
+    fn is_conflict(&self, first: TruthSet, second: TruthSet) -> bool {
+        if self.target.choice.is_some() {
+            return first.yes.is_some() && second.no.is_some();
+        }
+        first.is_true() && second.is_false()
+    }
+
+    fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: TruthSet, second: TruthSet) {
+        let Some(def) = self.library.fluent(fluent) else { return };
+        let fact =
+            show(&def.name, key, def.params.len(), |index, arg| self.argument_name(fluent, index, arg));
+        let cause = |value: TruthSet| if value.yes.is_some() { value.yes } else { value.no };
+        let span = self.program.step(id).map_or(self.program.span, |step| step.span);
+        let (first, second) = (self.cause_span(cause(first)), self.cause_span(cause(second)));
+        self.diagnostics.push(Conflict { span, fact, first, second }.into());
+    }
+
+    /// Reports the first step of every run of unreachable steps.
+    pub(crate) fn report_unreached(&mut self) {
+        let program = self.program;
+        let reached = |id: &StepId| self.proof.reached.get(id.index()).copied().unwrap_or(true);
+        let mut found = Vec::new();
+        for (index, step) in program.steps.iter().enumerate() {
+            let parent_reached = step.position.parent.as_ref().is_none_or(reached);
+            let here = self.proof.reached.get(index).copied().unwrap_or(true);
+            let earlier = found.last().is_some_and(|place: &crate::ir::StepPosition| {
+                place.parent == step.position.parent && place.slot == step.position.slot
+            });
+            if parent_reached && !here && !earlier {
+                found.push(step.position);
+                self.diagnostics.push(Unreached { span: step.span }.into());
+            }
+        }
+    }
+}
