@@ -160,7 +160,7 @@ pub(crate) fn close(out: &mut Output, result: Result<Exit, CliError>) -> Result<
 
 /// Title and text of the page of a diagnostic code.
 fn help(code: &str) -> Option<render::CodePage<'static>> {
-    let page = motet_compiler::codes::page(code)?;
+    let page = motet_compiler::explain_pages::page(code)?;
     let title =
         page.text.lines().next().and_then(|line| line.split_once(": ")).map_or("", |(_, title)| title);
     Some(render::CodePage { title, markdown: page.text })

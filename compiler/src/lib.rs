@@ -1,10 +1,10 @@
 #![doc = include_str!("../README.md")]
 
 mod analysis;
-pub mod codes;
 mod declare;
 mod document;
 mod environment;
+pub mod explain_pages;
 mod explicit;
 mod facts;
 mod feasibility;

@@ -1,7 +1,7 @@
 //! `motet explain`: the page of a diagnostic code.
 
 use clap::Args;
-use motet_compiler::codes;
+use motet_compiler::explain_pages;
 use motet_syntax::suggest;
 
 use crate::error::{CliError, Exit};
@@ -31,7 +31,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<Exit, CliError> {
 }
 
 fn explain(code: &str, out: &mut Output) -> Result<Exit, CliError> {
-    match codes::page(code.trim()) {
+    match explain_pages::page(code.trim()) {
         Some(page) => {
             out.line(page.text.trim_end());
             Ok(Exit::Success)
@@ -42,7 +42,7 @@ fn explain(code: &str, out: &mut Output) -> Result<Exit, CliError> {
 
 /// Lists each code with the title of its page.
 fn list(out: &mut Output) {
-    for page in codes::PAGES {
+    for page in explain_pages::PAGES {
         let title = page.text.lines().find(|line| line.starts_with('#')).unwrap_or_default();
         let title = title.trim_start_matches('#').trim();
         let title =
@@ -53,7 +53,7 @@ fn list(out: &mut Output) {
 
 fn unknown(code: &str) -> CliError {
     let upper = code.trim().to_ascii_uppercase();
-    let near = suggest::closest(&upper, codes::PAGES.iter().map(|page| page.code));
+    let near = suggest::closest(&upper, explain_pages::PAGES.iter().map(|page| page.code));
     let help = match near {
         Some(near) => format!("did you mean `{near}`? `motet explain` lists all codes"),
         None => "a code looks like M0501; `motet explain` lists all codes".to_owned(),

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use motet_compiler::{CheckOptions, Geometry, InitialState, Session, codes};
+use motet_compiler::{CheckOptions, Geometry, InitialState, Session, explain_pages};
 use motet_robots::{builtin, card, mesh, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
@@ -282,7 +282,7 @@ impl Case {
 }
 
 /// Faults of a page.
-fn faults(page: &codes::CodePage) -> Vec<String> {
+fn faults(page: &explain_pages::CodePage) -> Vec<String> {
     let mut faults = Vec::new();
     if !page.text.starts_with(&format!("# {}: ", page.code)) {
         faults.push("does not begin with its code and title".to_owned());
@@ -318,7 +318,7 @@ fn faults(page: &codes::CodePage) -> Vec<String> {
 
 #[test]
 fn examples_raise_what_their_page_says() {
-    let faults: Vec<_> = codes::PAGES
+    let faults: Vec<_> = explain_pages::PAGES
         .iter()
         .flat_map(|page| faults(page).into_iter().map(|fault| format!("{}: {fault}", page.code)))
         .collect();
@@ -327,13 +327,13 @@ fn examples_raise_what_their_page_says() {
 
 #[test]
 fn every_code_has_a_page_and_every_page_a_code() {
-    let codes: Vec<_> = codes::all().into_iter().map(|code| code.0).collect();
-    let pages: Vec<_> = codes::PAGES.iter().map(|page| page.code).collect();
+    let codes: Vec<_> = explain_pages::all().into_iter().map(|code| code.0).collect();
+    let pages: Vec<_> = explain_pages::PAGES.iter().map(|page| page.code).collect();
     assert_eq!(codes, pages);
 }
 
 #[test]
 fn a_page_is_found_in_any_case() {
-    let page = codes::page("m0501").map(|page| page.code);
+    let page = explain_pages::page("m0501").map(|page| page.code);
     assert_eq!(page, Some("M0501"));
 }

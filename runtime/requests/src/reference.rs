@@ -259,8 +259,7 @@ fn unfit(called: &str, role: Role, asked: &[Role]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use motet_robots::scene::{embedded, read};
-    use motet_syntax::{Source, Sources};
+    use motet_robots::builtin;
 
     use crate::meaning::{OBJECTS, Reader};
     use crate::noun::noun;
@@ -269,11 +268,7 @@ mod tests {
 
     /// The things of the kitchen that words mean, after some were spoken of.
     fn meant(said: &str, spoken_of: &[&str]) -> Result<Vec<String>, RequestError> {
-        let (name, json) = embedded().iter().find(|(name, _)| *name == "kitchen").unwrap();
-        let mut sources = Sources::default();
-        let source = Source::new(*name, *json);
-        let id = sources.add(source.clone());
-        let scene = read(&source, id).0.unwrap();
+        let scene = builtin::scene("kitchen").unwrap();
         let mut context = RequestContext::new(&scene);
         context.spoken_of = spoken_of.iter().map(|id| (*id).into()).collect();
         let (noun, _) = noun(&tokens(said), 0).unwrap();

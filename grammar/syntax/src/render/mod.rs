@@ -1,15 +1,15 @@
 //! Diagnostics for people and for tools, one format a file. Nothing here prints: the host writes the text
 //! out.
 
-mod code_scanning;
 mod human;
 mod json;
 mod llm;
+mod sarif;
 
-pub use code_scanning::{CodePage, github, sarif};
 pub use human::{ColorChoice, human};
 pub use json::{DiagnosticRecord, EditRecord, FixRecord, RelatedRecord, SpanRecord, json, record};
 pub use llm::{MAX_CHARS, capital, llm};
+pub use sarif::{CodePage, github, sarif};
 
 use crate::source::{Source, Sources, Span};
 

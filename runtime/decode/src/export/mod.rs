@@ -11,12 +11,12 @@ mod derive;
 mod ebnf;
 mod notation;
 mod schema;
-mod server;
+mod server_dialect;
 mod terminal;
 
 pub use ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
 pub use notation::Header;
-pub use server::{
+pub use server_dialect::{
     Dialect, LimitWarning, Prompt, lark_constraint, probe_body, request_body, request_constraint, warnings,
 };
 

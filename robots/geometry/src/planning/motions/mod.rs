@@ -1,6 +1,6 @@
 //! Motions: one file for each motion query, as a function over the query context.
 
-mod answer;
+mod dispatch;
 mod explain;
 mod go_to;
 mod handle;

@@ -38,7 +38,7 @@ pub const PAGES: &[CodePage] = pages! {
 /// Page of a code; the case of letters does not matter. O(pages).
 ///
 /// ```
-/// let page = motet_compiler::codes::page("m0501").expect("a known code");
+/// let page = motet_compiler::explain_pages::page("m0501").expect("a known code");
 /// assert!(page.text.starts_with("# M0501: "));
 /// ```
 #[must_use]
