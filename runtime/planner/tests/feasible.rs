@@ -40,7 +40,7 @@ fn what_is_walled_in_out_of_reach_or_cannot_be_held_is_not_and_the_reason_is_tol
         Reachability::No(why) => why,
         other => panic!("{other:?}"),
     };
-    assert!(reason(&walled()).contains("way"), "{}", reason(&walled()));
+    assert!(reason(&walled()).contains("no path"), "{}", reason(&walled()));
     assert_eq!(reason(&with_mug(|mug| mug.mass_kg = Some(5.0))), "too heavy: 5 kg, payload is 1.2 kg");
     let wide = with_mug(|mug| mug.shape = Some(EntityShape::Cylinder { radius: 0.2, height: 0.1 }));
     assert_eq!(reason(&wide), "too wide: 0.4 m, opening is 0.13 m");

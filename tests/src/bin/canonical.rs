@@ -55,7 +55,10 @@ fn main() {
                 .map(|(name, [json, text])| json!({"name": name, "json": json, "text": text}))
                 .collect();
             let grammars = grammars.remove(&key);
-            json!({"robot": key.0, "scene": key.1, "grammars": grammars, "policies": policies, "misses": misses})
+            json!({
+                "robot": key.0, "scene": key.1, "grammars": grammars, "policies": policies,
+                "misses": misses,
+            })
         })
         .collect();
     print(&json!(all));

@@ -70,7 +70,8 @@ fn comments(file: &SourceFile) -> Vec<(usize, String)> {
     comments
 }
 
-/// Public items of a file without a doc comment before them.
+/// Public items of a file without a doc comment before them. The input and the body of a macro are no items: there a
+/// constant has no type, or a name begins with `$`.
 fn undocumented(file: &SourceFile) -> Vec<String> {
     let mut bare = Vec::new();
     let mut documented = false;
@@ -79,7 +80,9 @@ fn undocumented(file: &SourceFile) -> Vec<String> {
         if trimmed.starts_with("///") || trimmed.starts_with("#[doc") {
             documented = true;
         } else if ITEMS.iter().any(|item| trimmed.starts_with(item)) {
-            if !documented {
+            let of_macro =
+                trimmed.contains(" $") || (trimmed.contains(" const ") && !trimmed.contains([':', '(']));
+            if !documented && !of_macro {
                 bare.push(format!("{}:{}: {trimmed}", file.path, number + 1));
             }
             documented = false;
@@ -118,8 +121,12 @@ mod tests {
     }
 
     #[test]
-    fn undocumented_looks_past_attributes() {
-        let found = figures("/// Makes the thing.\n#[must_use]\npub fn a() {}\n");
+    fn undocumented_looks_past_attributes_and_macros() {
+        let found = figures(
+            "/// Makes the thing.\n#[must_use]\npub fn a() {}\npub const CODES;\npub struct $name;\n",
+        );
         assert!(found.iter().all(|(_, places)| places.is_empty()));
+        let found = figures("pub const LIMIT: usize = 3;\n");
+        assert!(found.iter().any(|(_, places)| !places.is_empty()));
     }
 }

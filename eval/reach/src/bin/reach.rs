@@ -1,5 +1,6 @@
 //! The evaluation by itself, without the compiler's:
-//! `reach [SCENE] [--robot NAME] [--rooms N] [--seed S] [--quick] [--cells N] [--unjudged] [--witnesses FILE] [--json]`.
+//! `reach [SCENE] [--robot NAME] [--rooms N] [--seed S] [--quick] [--cells N] [--unjudged]
+//! [--witnesses FILE] [--json]`.
 //! The same as `eval reach`.
 
 use std::io::Write as _;

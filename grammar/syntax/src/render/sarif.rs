@@ -112,7 +112,10 @@ fn result(diagnostic: &Diagnostic, rule: Option<usize>, sources: &Sources) -> Va
 
 fn location(span: Span, path: &str, sources: &Sources) -> Value {
     let mut location = json!({
-        "physicalLocation": {"artifactLocation": artifact(span, sources), "region": sarif_region(span, sources)},
+        "physicalLocation": {
+            "artifactLocation": artifact(span, sources),
+            "region": sarif_region(span, sources),
+        },
     });
     if let (false, Some(location)) = (path.is_empty(), location.as_object_mut()) {
         location.insert("logicalLocations".into(), json!([{"fullyQualifiedName": path, "kind": "value"}]));

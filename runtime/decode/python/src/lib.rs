@@ -87,7 +87,10 @@ struct Environment {
 impl Environment {
     /// Takes names of built-in robots and scenes, or texts.
     #[new]
-    #[pyo3(signature = (*, robot = None, declarations = None, scene = None, state = None, domain = None, modifiers = false, text = false))]
+    #[pyo3(signature = (
+        *, robot = None, declarations = None, scene = None, state = None, domain = None,
+        modifiers = false, text = false
+    ))]
     fn new(
         robot: Option<&str>,
         declarations: Option<&str>,

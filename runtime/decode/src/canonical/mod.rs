@@ -40,12 +40,12 @@ impl std::error::Error for OutsideSubset {}
 ///
 /// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
 /// let grammar = Grammar::new(&texts.session()?.signatures(), Subset::default());
-/// let source = Source::new("p.motet", "policy p { go(kitchen_table) }");
+/// let source = Source::new("p.motet", "policy p { go(sink) }");
 /// let file = motet_syntax::read(&source, FileId(0)).file;
 /// let policy = file.policies().next().expect("the document has a policy");
 /// assert_eq!(
 ///     canonical(policy, &grammar).as_deref(),
-///     Ok(r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"go","to":"kitchen_table"}]}"#),
+///     Ok(r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"go","to":"sink"}]}"#),
 /// );
 /// # Ok::<(), motet_decode::EnvironmentError>(())
 /// ```

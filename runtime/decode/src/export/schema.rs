@@ -116,7 +116,10 @@ impl Keys {
         self.key();
         let required: Vec<&String> = self.properties.keys().collect();
         json!({
-            "type": "object", "properties": self.properties, "required": required, "additionalProperties": false,
+            "type": "object",
+            "properties": self.properties,
+            "required": required,
+            "additionalProperties": false,
         })
     }
 }

@@ -35,7 +35,10 @@ pub struct Prompt<'p> {
 /// server that cannot: Ollama and OpenAI take a JSON Schema only, so not the text syntax.
 #[must_use]
 pub fn request_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
-    let named = |schema: Value| json!({"type": "json_schema", "json_schema": {"name": "motet_policy", "strict": true, "schema": schema}});
+    let named = |schema: Value| {
+        let schema = json!({"name": "motet_policy", "strict": true, "schema": schema});
+        json!({"type": "json_schema", "json_schema": schema})
+    };
     let gbnf = || notation::gbnf(&ebnf(grammar));
     Some(match (dialect, json_schema(grammar)) {
         (Dialect::Vllm, Some(schema)) => {
