@@ -13,9 +13,9 @@ mod value;
 
 use smallvec::SmallVec;
 
-use self::path::Rank;
 pub(crate) use self::path::{Delta, PathPartition};
 use self::table::{FluentTable, TableEntry};
+use self::value::Rank;
 pub(crate) use self::value::{ANY, Atom, Cause, FactKey, TruthSet, arg, show};
 use crate::ir::Fluent;
 
@@ -262,22 +262,5 @@ impl<'w> FactStore<'w> {
     /// Facts and patterns written since `mark`, without duplicates.
     pub(crate) fn touched(&self, mark: usize) -> Vec<Atom> {
         self.ranks(mark).into_iter().map(Rank::atom).collect()
-    }
-
-    /// Writes since `mark` with their last values: one path through a fork.
-    pub(crate) fn delta(&self, mark: usize) -> Delta {
-        let known = |rank: Rank| {
-            let (fluent, key) = rank.atom();
-            (rank, self.get(fluent, key))
-        };
-        Delta { written: self.ranks(mark).into_iter().map(known).collect() }
-    }
-
-    /// Writes the facts of a path.
-    pub(crate) fn replay(&mut self, way: &Delta) {
-        for (rank, value) in &way.written {
-            let (fluent, key) = rank.atom();
-            self.set(fluent, key, *value);
-        }
     }
 }

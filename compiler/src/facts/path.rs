@@ -3,37 +3,25 @@
 
 use std::hash::{Hash, Hasher};
 
-use super::{Atom, FactKey, FactStore, TruthSet};
-use crate::ir::Fluent;
+use super::FactStore;
+use super::value::{Atom, Rank, TruthSet};
 
-/// A fact or pattern as one number, sorted in the order of writing: patterns first, the widest before the
-/// others, so that the facts that they cover are written later; then by fluent and key.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct Rank(u128);
-
-impl Rank {
-    /// Number of arguments of a key that are not `any`, for a single fact.
-    const SINGLE: u32 = 4;
-
-    pub(super) fn of((fluent, key): Atom) -> Self {
-        let narrow = Self::SINGLE.saturating_sub(key.width());
-        Self(u128::from(narrow) << 80 | u128::from(fluent.0) << 64 | u128::from(key.0))
+impl FactStore<'_> {
+    /// Writes since `mark` with their last values: one path through a fork.
+    pub(crate) fn delta(&self, mark: usize) -> Delta {
+        let known = |rank: Rank| {
+            let (fluent, key) = rank.atom();
+            (rank, self.get(fluent, key))
+        };
+        Delta { written: self.ranks(mark).into_iter().map(known).collect() }
     }
 
-    pub(super) fn atom(self) -> Atom {
-        (Fluent((self.0 >> 64) as u16), FactKey(self.0 as u64))
-    }
-
-    fn is_pattern(self) -> bool {
-        self.0 >> 80 < u128::from(Self::SINGLE)
-    }
-
-    /// Sorts facts and patterns, and removes duplicates.
-    pub(super) fn each_once(atoms: impl Iterator<Item = Self>) -> Vec<Self> {
-        let mut ranks: Vec<_> = atoms.collect();
-        ranks.sort_unstable();
-        ranks.dedup();
-        ranks
+    /// Writes the facts of a path.
+    pub(crate) fn replay(&mut self, way: &Delta) {
+        for (rank, value) in &way.written {
+            let (fluent, key) = rank.atom();
+            self.set(fluent, key, *value);
+        }
     }
 }
 

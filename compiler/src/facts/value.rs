@@ -202,3 +202,34 @@ impl TruthSet {
         self.open.is_some().then(|| Self::of(truth, cause))
     }
 }
+
+/// A fact or pattern as one number, sorted in the order of writing: patterns first, the widest before the
+/// others, so that the facts that they cover are written later; then by fluent and key.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct Rank(pub(super) u128);
+
+impl Rank {
+    /// Number of arguments of a key that are not `any`, for a single fact.
+    const SINGLE: u32 = 4;
+
+    pub(super) fn of((fluent, key): Atom) -> Self {
+        let narrow = Self::SINGLE.saturating_sub(key.width());
+        Self(u128::from(narrow) << 80 | u128::from(fluent.0) << 64 | u128::from(key.0))
+    }
+
+    pub(super) fn atom(self) -> Atom {
+        (Fluent((self.0 >> 64) as u16), FactKey(self.0 as u64))
+    }
+
+    pub(super) fn is_pattern(self) -> bool {
+        self.0 >> 80 < u128::from(Self::SINGLE)
+    }
+
+    /// Sorts facts and patterns, and removes duplicates.
+    pub(super) fn each_once(atoms: impl Iterator<Item = Self>) -> Vec<Self> {
+        let mut ranks: Vec<_> = atoms.collect();
+        ranks.sort_unstable();
+        ranks.dedup();
+        ranks
+    }
+}

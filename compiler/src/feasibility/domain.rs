@@ -9,7 +9,7 @@ use smol_str::SmolStr;
 
 use super::geometry::{Fingerprinted, Geometry};
 use super::motion::may_move;
-use super::{MotionVerdict, MotionVerdicts};
+use super::verdict::{MotionVerdict, MotionVerdicts};
 use crate::analysis::{Domain, Enclosing, Exit};
 use crate::declare::Library;
 use crate::environment::Environment;

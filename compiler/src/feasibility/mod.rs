@@ -13,14 +13,14 @@ pub(crate) mod errors;
 mod geometry;
 mod motion;
 mod transfer;
+mod verdict;
 mod world_tracker;
 
 pub use geometry::{Access, Geometry};
+pub(crate) use verdict::{MotionVerdict, MotionVerdicts};
 pub use world_tracker::{Forecast, WorldTracker};
 
-use motet_graph::Witness;
 use motet_syntax::Diagnostic;
-use smol_str::SmolStr;
 
 use self::domain::MotionChecker;
 use crate::analysis::Domain;
@@ -28,18 +28,6 @@ use crate::declare::Library;
 use crate::environment::Environment;
 use crate::ir::Program;
 use crate::prove::Proof;
-
-/// Verdict on a motion that is not refused.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum MotionVerdict {
-    /// Feasible in every possible world; the witness is from one of them.
-    Feasible(Box<Witness>),
-    /// Left to the run, for this reason if one is known.
-    Deferred(Option<SmolStr>),
-}
-
-/// Verdicts by step: `None` for a step without motion, or without geometry.
-pub(crate) type MotionVerdicts = Vec<Option<MotionVerdict>>;
 
 /// Checks the motions of a program that has no errors.
 pub(crate) fn check(

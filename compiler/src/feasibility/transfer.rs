@@ -7,10 +7,10 @@ use motet_graph as graph;
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::MotionVerdict;
 use super::domain::{MotionChecker, PossibleWorld, Worlds};
 use super::geometry::SceneChange;
 use super::motion::{MotionEffect, makes, motion_effect, motion_query, moves_blindly, side_of};
+use super::verdict::MotionVerdict;
 use crate::analysis::Domain;
 use crate::declare::PrimitiveDef;
 use crate::ir::{Call, Entity, ROBOT, START, StepId, Term};

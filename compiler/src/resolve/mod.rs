@@ -14,15 +14,13 @@ use motet_syntax::ast::{Expr, ExprKind, Policy};
 use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::SmolStr;
 
+pub use self::step::MAX_NODES;
 use self::step::StepResolver;
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::name::Scope;
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
 use crate::ir::{MotionKind, Program, Term};
-
-/// Maximal number of steps of a policy with its sub-policies inlined.
-pub const MAX_NODES: usize = 100_000;
 
 /// Resolves one policy.
 pub(crate) fn resolve(

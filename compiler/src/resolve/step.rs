@@ -4,12 +4,14 @@ use motet_syntax::ast::{Block, Catch, CatchOn, End, Policy, Reaction, Step, Step
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use super::MAX_NODES;
 use super::errors::{Shadows, TooManySteps};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::errors::{NotACondition, UnknownFailure, WrongType};
 use crate::declare::name::{list, near};
 use crate::ir::{self, Base, Binding, BindingId, BlockSlot, Program, StepId, StepPosition, Term, Ty};
+
+/// Maximal number of steps of a policy with its sub-policies inlined.
+pub const MAX_NODES: usize = 100_000;
 
 /// Default deadline of a `wait` or `pause`, in seconds.
 pub(super) const DEFAULT_WAIT_SECS: f64 = 60.0;

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 
+use crate::time::Time;
+
 /// A question about the world with all names resolved. Two equal queries are the same question.
 ///
 /// ```
@@ -164,4 +166,14 @@ impl fmt::Display for Truth {
             Self::Unknown => "unknown",
         })
     }
+}
+
+/// The last reading of a measure or a field.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reading {
+    pub query: Query,
+    pub value: Value,
+    /// Time of the observation.
+    pub at: Time,
 }

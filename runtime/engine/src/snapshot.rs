@@ -5,7 +5,7 @@ use crate::effect::Command;
 use crate::ids::GoalId;
 use crate::json;
 use crate::prepared_graph::PreparedGraph;
-use crate::query::{Answer, Pattern, Query, Truth};
+use crate::query::{Answer, Pattern, Query, Reading, Truth};
 use crate::start::StartState;
 use crate::state::Run;
 use crate::time::Time;
@@ -46,16 +46,6 @@ pub struct Snapshot {
     pub bindings: Vec<(SmolStr, Value)>,
     /// Live goals in the order of their starts.
     pub goals: Vec<LiveGoal>,
-}
-
-/// The last reading of a measure or a field.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Reading {
-    pub query: Query,
-    pub value: Value,
-    /// Time of the observation.
-    pub at: Time,
 }
 
 /// A goal that has not ended.

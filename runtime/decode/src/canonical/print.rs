@@ -176,7 +176,8 @@ impl Printer<'_> {
                 let is_empty =
                     |way: &&Alternative| way.parts.iter().all(|part| matches!(part, Part::Action(_)));
                 let way = ways.iter().find(is_empty).ok_or_else(|| no_production(node))?;
-                Ok(self.put(&way.literal))
+                self.put(&way.literal);
+                Ok(())
             }
             _ => Err(no_production(node)),
         }

@@ -1,8 +1,7 @@
 //! One cell for each query that somebody asked: the last answer, its time, and who depends on it.
 
 use super::entities::Entities;
-use crate::query::{Answer, Pattern, Query};
-use crate::snapshot::Reading;
+use crate::query::{Answer, Pattern, Query, Reading};
 use crate::time::Time;
 use motet_graph::{FluentId, Graph, Value};
 use rustc_hash::{FxHashMap, FxHasher};
