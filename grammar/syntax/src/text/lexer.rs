@@ -117,38 +117,6 @@ fn delimited(text: &str, mark: char, kind: TokenKind) -> (TokenKind, usize) {
     (TokenKind::Open, text.len())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::{TokenKind, tokens};
-
-    #[test]
-    fn tokens_cover_any_text() {
-        let text = "let m = a(\"x\\\"y\") // c\n  `7up` 1.5e3 cm 1..2 /// d\n é \"open\n";
-        let found: Vec<_> = tokens(text, 0).map(|token| token.text).collect();
-        let expected = [
-            "let",
-            "m",
-            "=",
-            "a",
-            "(",
-            "\"x\\\"y\"",
-            ")",
-            "// c",
-            "`7up`",
-            "1.5e3",
-            "cm",
-            "1",
-            "..",
-            "2",
-            "/// d",
-            "é",
-            "\"open",
-        ];
-        assert_eq!(found, expected);
-        assert_eq!(tokens(text, 0).last().map(|token| token.kind), Some(TokenKind::Open));
-    }
-}
-
 /// Finds the first mistake that makes parsing hopeless or dangerous.
 pub(crate) fn check(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
     let mut open: Vec<Token<'_>> = Vec::with_capacity(MAX_NESTING);
@@ -236,4 +204,36 @@ fn unended(token: Token<'_>, file: FileId) -> Diagnostic {
         _ => format!("close it with another {mark} on the same line"),
     };
     TextSyntax::new(token.span(file), format!("the {what} is not closed"), help).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TokenKind, tokens};
+
+    #[test]
+    fn tokens_cover_any_text() {
+        let text = "let m = a(\"x\\\"y\") // c\n  `7up` 1.5e3 cm 1..2 /// d\n é \"open\n";
+        let found: Vec<_> = tokens(text, 0).map(|token| token.text).collect();
+        let expected = [
+            "let",
+            "m",
+            "=",
+            "a",
+            "(",
+            "\"x\\\"y\"",
+            ")",
+            "// c",
+            "`7up`",
+            "1.5e3",
+            "cm",
+            "1",
+            "..",
+            "2",
+            "/// d",
+            "é",
+            "\"open",
+        ];
+        assert_eq!(found, expected);
+        assert_eq!(tokens(text, 0).last().map(|token| token.kind), Some(TokenKind::Open));
+    }
 }

@@ -1,0 +1,16 @@
+//! Verdicts on the motions of a program.
+
+use motet_graph::Witness;
+use smol_str::SmolStr;
+
+/// Verdict on a motion that is not refused.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum MotionVerdict {
+    /// Feasible in every possible world; the witness is from one of them.
+    Feasible(Box<Witness>),
+    /// Left to the run, for this reason if one is known.
+    Deferred(Option<SmolStr>),
+}
+
+/// Verdicts by step: `None` for a step without motion, or without geometry.
+pub(crate) type MotionVerdicts = Vec<Option<MotionVerdict>>;
