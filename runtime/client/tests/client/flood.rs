@@ -4,6 +4,8 @@
 //! A few in the tests of every change; `MOTET_REPLIES=500 cargo test -p motet-client flood --
 //! --nocapture` for as many as one likes.
 
+#![allow(clippy::print_stdout, reason = "the figures are read with --nocapture")]
+
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
