@@ -70,8 +70,8 @@ fn comments(file: &SourceFile) -> Vec<(usize, String)> {
     comments
 }
 
-/// Public items of a file without a doc comment before them. The input and the body of a macro are no items: there a
-/// constant has no type, or a name begins with `$`.
+/// Public items of a file without a doc comment before them. The input and the body of a macro are no
+/// items: there a constant has no type, or a name begins with `$`.
 fn undocumented(file: &SourceFile) -> Vec<String> {
     let mut bare = Vec::new();
     let mut documented = false;

@@ -63,7 +63,8 @@ crate::mistakes! {
             }
             SyntaxFault::OpenText => "close it with `\"`; a line break inside is written `\\n`".into(),
             SyntaxFault::Control(byte) => format!("write it as `\\u{byte:04x}`"),
-            SyntaxFault::Escape => "the escapes are `\\\"`, `\\\\`, `\\/`, `\\b`, `\\f`, `\\n`, `\\r`, `\\t`, \
+            SyntaxFault::Escape => "the escapes are `\\\"`, `\\\\`, `\\/`, `\\b`, `\\f`, `\\n`, `\\r`, \
+                                    `\\t`, \
                                     and `\\u` with four hex digits"
                 .into(),
             SyntaxFault::LoneSurrogate => "write both halves, or the character itself".into(),

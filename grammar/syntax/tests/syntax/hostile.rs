@@ -93,6 +93,9 @@ fn mutated(text: &str, edits: &[(u16, u8)]) -> String {
     characters.into_iter().collect()
 }
 
+/// A word of a random document.
+const WORD: &str = "[a-z]{1,3}|[{}()\\[\\],:.=<>+*/-]|policy|not|\"x\"|[0-9]";
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -105,7 +108,7 @@ proptest! {
     }
 
     #[test]
-    fn read_survives_random_tokens(words in proptest::collection::vec("[a-z]{1,3}|[{}()\\[\\],:.=<>+*/-]|policy|not|\"x\"|[0-9]", 0..60)) {
+    fn read_survives_random_tokens(words in proptest::collection::vec(WORD, 0..60)) {
         torture(&words.join(" "));
         torture(&words.concat());
         torture(&format!("policy p {{ {} }}", words.join(" ")));

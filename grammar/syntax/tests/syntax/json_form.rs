@@ -28,7 +28,8 @@ policy p achieves near(to: user) {
         say("dropped it")
     }
     monitor {
-        when distance(to: user) < 0.5 m and not open(container: drawer) for 1 s then resume at most 3 { go(to: sink) }
+        when distance(to: user) < 0.5 m and not open(container: drawer) for 1 s
+            then resume at most 3 { go(to: sink) }
         when battery() < 10 % then fail "low"
     } during {
         parallel { { done } { go(to: door) wait until lit within 9 s } }

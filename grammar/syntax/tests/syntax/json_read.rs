@@ -99,7 +99,8 @@ fn json_read_reads_a_whole_document() {
 #[test]
 fn lenient_element_does_not_hide_its_neighbours() {
     check(
-        r#"{"version": 1, "things": [{"id": 5}, {"shape": "point"}, {"id": "x", "shap": 1}, {"id": "y", "shape": {"bax": [1]}}]}"#,
+        r#"{"version": 1, "things": [{"id": 5}, {"shape": "point"}, {"id": "x", "shap": 1},
+            {"id": "y", "shape": {"bax": [1]}}]}"#,
         &[
             "M0106 /things/0/id `5`: expected a string, found the number `5` (write a string here)",
             "M0105 /things/1 `\"shape\"`: the key `id` is missing here (add `\"id\": …` to this object)",
@@ -113,22 +114,19 @@ fn lenient_element_does_not_hide_its_neighbours() {
 fn schema_check_names_wrong_types() {
     check(
         r#"{"version": -1}"#,
-        &[
-            "M0107 /version `-1`: the number `-1` is out of range, expected a whole number from 0 (write a whole number from 0)",
-        ],
+        &["M0107 /version `-1`: the number `-1` is out of range, expected a whole number from 0 \
+             (write a whole number from 0)"],
     );
     check(
         r#"{"version": 1.5}"#,
-        &[
-            "M0106 /version `1.5`: expected a whole number from 0, found the number `1.5` (write a whole number from 0 here)",
-        ],
+        &["M0106 /version `1.5`: expected a whole number from 0, found the number `1.5` (write a \
+             whole number from 0 here)"],
     );
     check(r#"[1]"#, &["M0106  `[1]`: expected an object, found an array (write an object here)"]);
     check(
         r#"{"version": 1, "things": [{"id": "a", "shape": {"box": [1, 2]}}]}"#,
-        &[
-            "M0106 /things/0/shape/box `[1, 2]`: expected an array of 3 elements, found 2 (write an array of 3 elements here)",
-        ],
+        &["M0106 /things/0/shape/box `[1, 2]`: expected an array of 3 elements, found 2 (write an \
+             array of 3 elements here)"],
     );
     check(
         r#"{"version": 1, "things": [{"id": "a", "shape": "pint"}]}"#,
@@ -144,9 +142,8 @@ fn schema_check_names_wrong_types() {
 fn schema_check_refuses_two_forms() {
     check(
         r#"{"version": 1, "things": [{"id": "a", "step": {"repeat": 1, "steps": [], "if": true}}]}"#,
-        &[
-            "M0110 /things/0/step/if `\"if\"`: one object cannot be both `repeat` and `if` (write two objects, one after the other or one in the other)",
-        ],
+        &["M0110 /things/0/step/if `\"if\"`: one object cannot be both `repeat` and `if` (write two \
+             objects, one after the other or one in the other)"],
     );
 }
 
@@ -160,8 +157,10 @@ fn parser_reports_duplicate_keys_and_keeps_the_first() {
     check(
         &format!(r#"{{"version": 1, "joints": {{{}, "j3": 1, "\u006a39": 2, "last": 1}}}}"#, many.join(", ")),
         &[
-            "M0104 /joints/j3 `\"j3\"`: the key `j3` stands twice in one object (keep one of the two)",
-            "M0104 /joints/j39 `\"\\u006a39\"`: the key `j39` stands twice in one object (keep one of the two)",
+            "M0104 /joints/j3 `\"j3\"`: the key `j3` stands twice in one object (keep one of the \
+             two)",
+            "M0104 /joints/j39 `\"\\u006a39\"`: the key `j39` stands twice in one object (keep one of \
+             the two)",
         ],
     );
 }

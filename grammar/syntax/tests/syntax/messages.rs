@@ -162,10 +162,21 @@ pick(mug)
  "policy": "p", "steps": []}"##;
     json_python_literal: r##"{"motet": 1, "policy": "p", "steps": [{"if": True, "then": []}]}"##;
     json_wrong_types: r##"{"motet": "1", "policy": ["p"], "steps": {}}"##;
-    json_steps_of_wrong_types: r##"{"motet": 1, "policy": "p", "steps": ["go", {"do": 5}, {"do": "go", "within": true}, {"repeat": "3", "steps": []}, {"end": "finished"}, {"parallel": [{"do": "go"}]}]}"##;
-    json_missing_keys: r##"{"motet": 1, "policy": "p", "steps": [{"if": "holding(a)"}, {"each": "x", "steps": []}, {"try": []}, {}, {"monitor": [{"when": true}], "during": []}]}"##;
-    json_two_forms: r##"{"motet": 1, "policy": "p", "steps": [{"if": true, "repeat": 2, "then": [], "steps": []}, {"do": "go", "if": true}]}"##;
-    json_conditions: r##"{"motet": 1, "policy": "p", "steps": [{"wait": {"iz": "open"}}, {"wait": {"less": [1]}}, {"wait": {"not": true, "all": []}}, {"wait": "not holding(mug"}, {"wait": "holding(\"mug\") &&"}]}"##;
+    json_steps_of_wrong_types: r##"{"motet": 1, "policy": "p", "steps": [
+  "go", {"do": 5}, {"do": "go", "within": true}, {"repeat": "3", "steps": []},
+  {"end": "finished"}, {"parallel": [{"do": "go"}]}
+]}"##;
+    json_missing_keys: r##"{"motet": 1, "policy": "p", "steps": [
+  {"if": "holding(a)"}, {"each": "x", "steps": []}, {"try": []}, {},
+  {"monitor": [{"when": true}], "during": []}
+]}"##;
+    json_two_forms: r##"{"motet": 1, "policy": "p", "steps": [
+  {"if": true, "repeat": 2, "then": [], "steps": []}, {"do": "go", "if": true}
+]}"##;
+    json_conditions: r##"{"motet": 1, "policy": "p", "steps": [
+  {"wait": {"iz": "open"}}, {"wait": {"less": [1]}}, {"wait": {"not": true, "all": []}},
+  {"wait": "not holding(mug"}, {"wait": "holding(\"mug\") &&"}
+]}"##;
 }
 
 /// Compares the diagnostics of a document, each with its code and words of its message or help.

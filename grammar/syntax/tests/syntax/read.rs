@@ -38,7 +38,8 @@ const JSON: &str = r#"{
         {"end": "replan", "why": "$answer"}]}]},
     {"monitor": [
         {"when": {"less": [{"get": "distance", "to": "user"}, 0.5]}, "for": 0.2, "then": {"react": "pause"}},
-        {"when": {"not": {"is": "holding", "object": "$mug"}}, "then": {"end": "replan", "why": "the mug was dropped"}}],
+        {"when": {"not": {"is": "holding", "object": "$mug"}},
+         "then": {"end": "replan", "why": "the mug was dropped"}}],
      "during": [{"do": "go", "to": "user"}]},
     {"do": "handover", "object": "$mug", "to": "user"},
     {"end": "done"}

@@ -198,8 +198,8 @@ impl Machine {
         }
     }
 
-    /// Removes the tokens that make the name so far, behind `lead`, a taken name of the greatest length. Such a
-    /// name could not become another one.
+    /// Removes the tokens that make the name so far, behind `lead`, a taken name of the greatest length. Such
+    /// a name could not become another one.
     fn exclude_taken(&self, tokens: &Tokens, set: &mut SimpleVob, lead: &[u8]) {
         let state = self.state();
         let Op::Name(naming) = self.context.automaton.op(state.op) else { return };

@@ -153,8 +153,8 @@ pub enum VocabularyError {
     },
     /// The tokens of this kind of tokenizer are not concatenated byte by byte.
     #[error(
-        "the tokenizer is of the kind `{0}`, whose tokens are not joined byte by byte: give a list of byte strings \
-         instead"
+        "the tokenizer is of the kind `{0}`, whose tokens are not joined byte by byte: give a list of \
+         byte strings instead"
     )]
     Unsupported(String),
     /// A token of a byte-level tokenizer has a character that stands for no byte.

@@ -70,15 +70,13 @@ fn acceptor_opens_concurrent_calls_that_check() {
     let restart = format!(
         r#"{{"monitor":[{{"when":{near},"for":null,"then":{{"react":"restart","at_most":3}}}}],"during":["#
     );
-    let resume = format!(
-        r#"{{"monitor":[{{"when":{near},"for":null,"then":{{"react":"resume","at_most":3,"steps":[{{"do":"go","to":"sink"}}]}}}}],"during":["#
-    );
+    let then = r#"{"react":"resume","at_most":3,"steps":[{"do":"go","to":"sink"}]}"#;
+    let resume = format!(r#"{{"monitor":[{{"when":{near},"for":null,"then":{then}}}],"during":["#);
     let branch = r#"{"parallel":[[{"do":"go","to":"fridge_1"}],["#.to_owned();
     let (mut open, mut closed) = (0, 0);
     for (begin, end) in [(restart, "]}]}"), (resume, "]}]}"), (branch, "]]}]}")] {
-        let begin = format!(
-            r#"{{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{{"do":"go","to":"fridge_1"}},{begin}"#
-        );
+        let head = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#;
+        let begin = format!(r#"{head}{{"do":"go","to":"fridge_1"}},{begin}"#);
         for callable in &session.signatures().callables {
             let [param] = callable.params.as_slice() else { continue };
             if callable.is_policy || callable.result.is_some() {
@@ -242,7 +240,11 @@ fn acceptor_forces_text_and_explains_refusals() {
     let factory = AcceptorFactory::new(&session, subset(Modifiers::Default));
     let mut acceptor = factory.acceptor(1000).unwrap();
     assert_eq!(acceptor.forced(), b"{\"motet\":1,\"policy\":\"");
-    let start = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1","from":"auto"}"#;
+    let start = concat!(
+        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"#,
+        r#""steps":[{"do":"pick","object":"mug_1","from":"auto"}"#,
+    )
+    .as_bytes();
     assert_eq!(acceptor.accept(start), start.len());
     // The hand is not free any more: no second object can be picked, and the checker says why.
     let again = br#",{"do":"pick","object":"mug_2","from":"auto"}"#;

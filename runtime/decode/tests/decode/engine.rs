@@ -33,7 +33,10 @@ fn acceptor_takes_loop_items_as_arguments() {
         (Syntax::Text, "policy p for hsr { each J in [drawer_1] at most 1 { open(J) done } done }"),
         (
             Syntax::Json,
-            r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"each":"J","in":["drawer_1"],"at_most":1,"steps":[{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
+            concat!(
+                r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#,
+                r#"{"each":"J","in":["drawer_1"],"at_most":1,"steps":[{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
+            ),
         ),
     ] {
         let subset = Subset { syntax, ..Subset::default() };

@@ -15,9 +15,11 @@ fn bytes(vocabulary: &Vocabulary) -> Vec<&[u8]> {
 #[test]
 fn vocabulary_reads_byte_level_tokens() {
     let file = json!({
-        "model": {"type": "BPE", "vocab": {"!": 0, "Ġgo": 1, "Ċ": 2, "Ã©": 3, "Ł": 4, "<|end|>": 5}, "merges": []},
+        "model": {"type": "BPE", "vocab": {"!": 0, "Ġgo": 1, "Ċ": 2, "Ã©": 3, "Ł": 4, "<|end|>": 5},
+                  "merges": []},
         "pre_tokenizer": {"type": "Sequence", "pretokenizers": [{"type": "Split"}, {"type": "ByteLevel"}]},
-        "added_tokens": [{"id": 5, "content": "<|end|>", "special": true}, {"id": 7, "content": "{\"é", "special": false}],
+        "added_tokens": [{"id": 5, "content": "<|end|>", "special": true},
+                         {"id": 7, "content": "{\"é", "special": false}],
     });
     let vocabulary = read(&file, EndToken::Known).unwrap();
     let expected: [&[u8]; 8] = [b"!", b" go", b"\n", "é".as_bytes(), b"?", b"", b"", "{\"é".as_bytes()];
@@ -75,7 +77,8 @@ fn vocabulary_reads_pieces_with_byte_fallback() {
     let map = json!({
         "model": {"type": "BPE", "vocab": {"<unk>": 0, "▁a": 1, "<end>": 2}, "unk_token": "<unk>"},
         "decoder": {"type": "Sequence", "decoders": [
-            {"type": "Replace", "pattern": {"String": "▁"}, "content": " "}, {"type": "ByteFallback"}, {"type": "Fuse"}]},
+            {"type": "Replace", "pattern": {"String": "▁"}, "content": " "}, {"type": "ByteFallback"},
+            {"type": "Fuse"}]},
     });
     assert_eq!(read(&map, EndToken::Known).unwrap_err(), "nothing says which token ends a sequence: name it");
     let vocabulary = read(&map, EndToken::Named("<end>")).unwrap();

@@ -105,7 +105,11 @@ fn a_policy_is_written() {
         // A decoder keeps what it needs.
         motet_vocabulary_free(tokens);
         assert_eq!(taken(motet_decoder_forced(decoder)), "{\"motet\":1,\"policy\":\"");
-        let start = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1","from":"auto"}"#;
+        let start = concat!(
+            r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"#,
+            r#""steps":[{"do":"pick","object":"mug_1","from":"auto"}"#,
+        )
+        .as_bytes();
         for byte in start {
             assert_eq!(motet_decoder_accept(decoder, u32::from(*byte)), MotetStatus::Ok);
         }
