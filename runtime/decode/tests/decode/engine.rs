@@ -35,7 +35,8 @@ fn acceptor_takes_loop_items_as_arguments() {
             Syntax::Json,
             concat!(
                 r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#,
-                r#"{"each":"J","in":["drawer_1"],"at_most":1,"steps":[{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
+                r#"{"each":"J","in":["drawer_1"],"at_most":1,"steps":["#,
+                r#"{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
             ),
         ),
     ] {
