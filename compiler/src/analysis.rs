@@ -11,6 +11,7 @@
 use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
 
+use crate::declare::Library;
 use crate::ir::{
     BindingId, Call, Catch, Condition, Failure, Program, Reaction, StepId, StepKind, TIMEOUT, When,
 };
@@ -97,10 +98,17 @@ pub(crate) trait Domain<'p> {
     type Changes;
 
     fn program(&self) -> &'p Program;
+    fn library(&self) -> &'p Library;
+
     /// Failure of a loop or a reaction that reached its bound.
-    fn exhausted(&self) -> Option<Failure>;
+    fn exhausted(&self) -> Option<Failure> {
+        self.library().lang_items.exhausted
+    }
+
     /// Failure of an inlined policy that ends with `fail`.
-    fn failed(&self) -> Option<Failure>;
+    fn failed(&self) -> Option<Failure> {
+        self.library().lang_items.failed
+    }
     /// The constructs around the present step, the innermost last.
     fn enclosing(&mut self) -> &mut Vec<Enclosing<Self::Collector>>;
 

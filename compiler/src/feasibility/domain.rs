@@ -237,12 +237,8 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
         self.program
     }
 
-    fn exhausted(&self) -> Option<Failure> {
-        self.library.lang_items.exhausted
-    }
-
-    fn failed(&self) -> Option<Failure> {
-        self.library.lang_items.failed
+    fn library(&self) -> &'a Library {
+        self.library
     }
 
     fn enclosing(&mut self) -> &mut Vec<Enclosing<Worlds>> {

@@ -11,6 +11,7 @@ use super::errors::{Conflict, NeverCaught, TooDeep, Unreached};
 use super::evaluation::CallFrame;
 use super::{MAX_FIXPOINTS, PolicyEnd, Prover};
 use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
+use crate::declare::Library;
 use crate::facts::{Atom, Cause, Delta, TruthSet, show};
 use crate::ir::{BindingId, Call, Catch, Condition, Failure, Program, StepId, StepKind, When};
 
@@ -25,12 +26,8 @@ impl<'a> Domain<'a> for Prover<'a> {
         self.program
     }
 
-    fn exhausted(&self) -> Option<Failure> {
-        self.library.lang_items.exhausted
-    }
-
-    fn failed(&self) -> Option<Failure> {
-        self.library.lang_items.failed
+    fn library(&self) -> &'a Library {
+        self.library
     }
 
     fn enclosing(&mut self) -> &mut Vec<Enclosing<Collector>> {

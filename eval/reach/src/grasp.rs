@@ -1,6 +1,6 @@
 //! Grasps of a thing, drawn at random from all directions: level to 60° down around what is round,
 //! along and across the sides of a box, from above; against a jaw that does not move, where the hand has one.
-//! What makes it a grasp is the contract of the query: the near face as close to the palm as it can be, the
+//! The contract of the query defines a grasp: the near face as close to the palm as it can be, the
 //! fingers beyond the widest place of a round thing or 1 cm over a flat one.
 
 use motet_geometry::planning::RobotModel;

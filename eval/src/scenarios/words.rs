@@ -1,6 +1,6 @@
 //! The words of the contract as calls of the language, and conditions of a plan and atoms of a goal in JSON.
-//! What the contract has no fluent for becomes one of its own, of which nothing is known:
-//! `person_near(user)`.
+//! A condition for which the contract has no fluent becomes a fluent of its own, such as `person_near(user)`:
+//! nothing is known of it.
 
 use indexmap::IndexMap;
 use serde_json::{Map, Value, json};

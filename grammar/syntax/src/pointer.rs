@@ -3,9 +3,7 @@
 
 use smol_str::SmolStr;
 
-use crate::ast::{
-    Arg, ArithOp, Block, Call, CompareOp, Expr, ExprKind, Policy, Reaction, Step, StepKind, When,
-};
+use crate::ast::{Arg, Block, Call, Expr, ExprKind, Policy, Reaction, Step, StepKind, When};
 use crate::located::push_token;
 use crate::source::Span;
 
@@ -229,12 +227,12 @@ impl PointerWalk<'_> {
                 }
             }
             ExprKind::Compare(op, left, right) => {
-                self.group(compare_key(*op), |walk| {
+                self.group(op.key(), |walk| {
                     let _ = walk.expr("0", left) || walk.expr("1", right);
                 });
             }
             ExprKind::Arith(op, left, right) => {
-                self.group(arith_key(*op), |walk| {
+                self.group(op.key(), |walk| {
                     let _ = walk.expr("0", left) || walk.expr("1", right);
                 });
             }
@@ -264,29 +262,5 @@ fn reaction_span(reaction: &Reaction) -> Span {
             *span
         }
         Reaction::End(end) => end.span,
-    }
-}
-
-/// The JSON key of a comparison.
-#[must_use]
-pub(crate) fn compare_key(op: CompareOp) -> &'static str {
-    match op {
-        CompareOp::Equal => "equal",
-        CompareOp::Unequal => "unequal",
-        CompareOp::Less => "less",
-        CompareOp::AtMost => "at_most",
-        CompareOp::More => "more",
-        CompareOp::AtLeast => "at_least",
-    }
-}
-
-/// The JSON key of a calculation.
-#[must_use]
-pub(crate) fn arith_key(op: ArithOp) -> &'static str {
-    match op {
-        ArithOp::Add => "add",
-        ArithOp::Subtract => "subtract",
-        ArithOp::Multiply => "multiply",
-        ArithOp::Divide => "divide",
     }
 }

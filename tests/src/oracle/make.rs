@@ -210,9 +210,9 @@ pub struct Domain {
 pub enum Step {
     /// Runs an action.
     Call {
-        /// Which.
+        /// Index of the action.
         action: usize,
-        /// On which entity.
+        /// Index of the entity.
         entity: usize,
         /// Number of further attempts.
         retry: usize,

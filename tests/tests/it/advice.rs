@@ -1,4 +1,4 @@
-//! What the compiler says of common mistakes: one finding each, with the words that help. The front end's own
+//! Findings of the compiler on common mistakes: one each, with the words that help. Those of the front end
 //! are in `grammar/syntax/tests/syntax/messages.rs`.
 
 use motet_compiler::Session;

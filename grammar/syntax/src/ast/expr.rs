@@ -108,6 +108,19 @@ pub enum CompareOp {
 }
 
 impl CompareOp {
+    /// Key of the comparison in the JSON syntax.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Equal => "equal",
+            Self::Unequal => "unequal",
+            Self::Less => "less",
+            Self::AtMost => "at_most",
+            Self::More => "more",
+            Self::AtLeast => "at_least",
+        }
+    }
+
     /// Symbol of the operator in the text syntax.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
@@ -136,6 +149,17 @@ pub enum ArithOp {
 }
 
 impl ArithOp {
+    /// Key of the calculation in the JSON syntax.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Add => "add",
+            Self::Subtract => "subtract",
+            Self::Multiply => "multiply",
+            Self::Divide => "divide",
+        }
+    }
+
     /// Symbol of the operator in the text syntax.
     #[must_use]
     pub const fn symbol(self) -> &'static str {

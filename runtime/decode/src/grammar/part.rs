@@ -195,26 +195,12 @@ impl Relation {
 
     #[must_use]
     pub(crate) fn word(self) -> &'static str {
-        match self.0 {
-            CompareOp::Equal => "equal",
-            CompareOp::Unequal => "unequal",
-            CompareOp::Less => "less",
-            CompareOp::AtMost => "at_most",
-            CompareOp::More => "more",
-            CompareOp::AtLeast => "at_least",
-        }
+        self.0.key()
     }
 
     #[must_use]
     pub(crate) fn symbol(self) -> &'static str {
-        match self.0 {
-            CompareOp::Equal => "==",
-            CompareOp::Unequal => "!=",
-            CompareOp::Less => "<",
-            CompareOp::AtMost => "<=",
-            CompareOp::More => ">",
-            CompareOp::AtLeast => ">=",
-        }
+        self.0.symbol()
     }
 
     /// The same with the sides exchanged.

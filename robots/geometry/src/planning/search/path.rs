@@ -1,5 +1,5 @@
 //! Paths of the whole robot: the base drives with the arm as it is, the arm unfolds, and the base drives in.
-//! Where no simple path leads to the beginning of an approach line, RRT-Connect from open space does: out of
+//! If no simple path leads to the beginning of an approach line, RRT-Connect searches from open space: out of
 //! a drawer, or between obstacles closer than the base's disc is wide.
 
 use std::f64::consts::TAU;
