@@ -49,7 +49,7 @@ impl<C> Enclosing<C> {
     }
 
     /// The handler of a failure.
-    fn handler(&mut self, kind: Failure) -> Option<&mut Handler<C>> {
+    pub(crate) fn handler(&mut self, kind: Failure) -> Option<&mut Handler<C>> {
         let Self::Try { handlers } = self else { return None };
         handlers.iter_mut().find(|handler| handler.on.as_ref().is_none_or(|kinds| kinds.contains(&kind)))
     }

@@ -101,6 +101,36 @@ impl Session {
         DocumentCheck { diagnostics, policies }
     }
 
+    /// Returns true if a policy of the document has a goal, can end as done, and reaches the goal at none of
+    /// these ends. [`Self::check`] asks for more: it refuses a goal that is false at any of them.
+    ///
+    /// ```
+    /// use motet_compiler::Session;
+    /// use motet_syntax::{FileId, Source, Sources};
+    ///
+    /// let session = Session::builder().build(&mut Sources::default());
+    /// let misses = |steps: &str| {
+    ///     let lamp = "fluent lit(what: Entity) \
+    ///         action light(what: Entity) makes lit(what) fails refused \
+    ///         action dim(what: Entity) makes not lit(what)";
+    ///     let text = format!("{lamp} policy light_up achieves lit(user) {{ {steps} }}");
+    ///     session.misses_goal(&motet_syntax::read(&Source::new("light.motet", text), FileId(99)))
+    /// };
+    /// assert!(!misses("try { light(user) } catch refused { dim(user) }"));
+    /// assert!(misses("light(user) dim(user)"));
+    /// ```
+    #[must_use]
+    pub fn misses_goal(&self, parsed: &Parsed) -> bool {
+        let mut is_missed = false;
+        self.within(parsed, &mut Vec::new(), |library, environment, _| {
+            is_missed = parsed.file.policies().any(|policy| {
+                let analysis = self.analyse(policy, parsed, library, environment, None);
+                analysis.proof.may_reach_goal == Some(false)
+            });
+        });
+        is_missed
+    }
+
     /// Checks names, types, durations and the robot's limits in a document of one policy, without following
     /// its state. Cheaper than [`Self::check`], of whose diagnostics it returns a part.
     #[must_use]

@@ -1,12 +1,12 @@
 //! Translation of calls to motion queries, and of contracts to changes of the scene.
 
-use motet_geometry::planning::{GraspSide, MotionQuery};
+use motet_geometry::planning::{GraspSide, InfeasibleReason, MotionQuery};
 use motet_stdlib::lang;
 use smol_str::SmolStr;
 
 use super::geometry::SceneChange;
 use crate::declare::{EffectDef, Library, PrimitiveDef};
-use crate::ir::{Fluent, MotionKind};
+use crate::ir::{Failure, Fluent, MotionKind};
 
 /// Motion query of a name and arguments.
 pub(super) fn motion_query(kind: MotionKind, args: Vec<SmolStr>, side: Option<GraspSide>) -> MotionQuery {
@@ -85,4 +85,19 @@ pub(super) fn moves_blindly(library: &Library, def: &PrimitiveDef) -> bool {
 /// Returns whether a call of a primitive may move the robot or a thing.
 pub(super) fn may_move(library: &Library, def: &PrimitiveDef) -> bool {
     def.motion.as_ref().map_or_else(|| moves_blindly(library, def), |(kind, _)| kind.moves())
+}
+
+/// Failures that match a reason, the most specific first.
+pub(super) fn failures(library: &Library, reason: &InfeasibleReason) -> [Option<Failure>; 3] {
+    let items = &library.lang_items;
+    match reason {
+        InfeasibleReason::OutOfReach { .. } | InfeasibleReason::TooWide { .. } => {
+            [items.unreachable, None, None]
+        }
+        InfeasibleReason::TooHeavy { .. } => [items.too_heavy, items.unreachable, None],
+        InfeasibleReason::NoFreePose { .. } | InfeasibleReason::BlockedPath { .. } => {
+            [items.unreachable, items.blocked, None]
+        }
+        InfeasibleReason::NotInView { .. } => [items.unreachable, items.blocked, items.not_found],
+    }
 }

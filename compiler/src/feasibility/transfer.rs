@@ -1,15 +1,17 @@
 //! Transfer function of a call: the answers of its motion in all possible worlds, and the worlds after it.
 
 use motet_geometry::planning::{
-    GraspSide, MotionAnswer, MotionQuery, MotionWitness, RobotModel, UnknownReason, components,
+    GraspSide, InfeasibleReason, MotionAnswer, MotionQuery, MotionWitness, RobotModel, UnknownReason,
+    components,
 };
 use motet_graph as graph;
 use motet_stdlib::lang;
+use motet_syntax::{Diagnostic, Severity};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::domain::{MotionChecker, PossibleWorld, Worlds};
 use super::geometry::SceneChange;
-use super::motion::{MotionEffect, makes, motion_effect, motion_query, moves_blindly, side_of};
+use super::motion::{MotionEffect, failures, makes, motion_effect, motion_query, moves_blindly, side_of};
 use super::verdict::MotionVerdict;
 use crate::analysis::Domain;
 use crate::declare::PrimitiveDef;
@@ -69,6 +71,15 @@ impl MotionChecker<'_> {
                 }
                 MotionAnswer::Infeasible(why) => {
                     let told = self.refusal(id, &def.name, &query, why, &possible);
+                    if self.is_caught(def, &why.reason) {
+                        // The policy says what then happens, so the run follows its handler.
+                        warned = warned.or(told.map(caught));
+                        is_refused = false;
+                        unknown = unknown.or_else(|| {
+                            Some(format_smolstr!("it is infeasible, which a handler catches: {}", why.reason))
+                        });
+                        continue;
+                    }
                     // After a failure it is not certain that this world is met at all.
                     match (&refused, possible.is_certain) {
                         (None, certain) => refused = told.map(|told| (told, certain)),
@@ -88,6 +99,13 @@ impl MotionChecker<'_> {
         let refused = refused.filter(|(_, certain)| is_error(*certain)).map(|(told, _)| told);
         self.found(id, Some(verdict), refused.or(warned));
         self.worlds = after;
+    }
+
+    /// Returns true if a handler around this step catches the failure that an infeasible motion leads to.
+    fn is_caught(&mut self, def: &PrimitiveDef, reason: &InfeasibleReason) -> bool {
+        let mut failures = failures(self.library, reason).into_iter().flatten();
+        let Some(failure) = failures.find(|failure| def.fails.contains(failure)) else { return false };
+        self.enclosing().iter_mut().any(|around| around.handler(failure).is_some())
     }
 
     /// Worlds after a motion that was found in a possible world.
@@ -230,6 +248,14 @@ impl MotionChecker<'_> {
             _ => None,
         }
     }
+}
+
+/// The diagnostic of an infeasible motion whose failure a handler catches.
+fn caught(mut told: Diagnostic) -> Diagnostic {
+    told.severity = Severity::Warning;
+    let handled = "the step fails, and the `catch` around it runs";
+    told.help = Some(told.help.map_or_else(|| handled.to_owned(), |help| format!("{help}; {handled}")));
+    told
 }
 
 fn in_words(why: &UnknownReason) -> SmolStr {

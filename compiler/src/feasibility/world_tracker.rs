@@ -5,15 +5,17 @@
 
 use std::sync::Arc;
 
-use motet_geometry::planning::{Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, UnknownReason};
+use motet_geometry::planning::{Infeasible, MotionAnswer, MotionQuery, UnknownReason};
 use motet_graph::Value;
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::geometry::{Fingerprinted, Geometry, SceneChange};
-use super::motion::{MotionEffect, makes, may_move, motion_effect, motion_query, moves_blindly, side_of};
+use super::motion::{
+    MotionEffect, failures, makes, may_move, motion_effect, motion_query, moves_blindly, side_of,
+};
 use crate::declare::{Library, PrimitiveDef};
-use crate::ir::{Entity, Failure, MotionKind, ROBOT, START, Term};
+use crate::ir::{Entity, MotionKind, ROBOT, START, Term};
 
 /// World of a run. `Send`; one tracker belongs to one run.
 #[derive(Debug)]
@@ -203,21 +205,6 @@ fn step(
     match &*geometry.answer(at, query) {
         MotionAnswer::Feasible(way) => geometry.after(at, query, change, way),
         MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
-    }
-}
-
-/// Failures that match a reason, the most specific first.
-fn failures(library: &Library, reason: &InfeasibleReason) -> [Option<Failure>; 3] {
-    let items = &library.lang_items;
-    match reason {
-        InfeasibleReason::OutOfReach { .. } | InfeasibleReason::TooWide { .. } => {
-            [items.unreachable, None, None]
-        }
-        InfeasibleReason::TooHeavy { .. } => [items.too_heavy, items.unreachable, None],
-        InfeasibleReason::NoFreePose { .. } | InfeasibleReason::BlockedPath { .. } => {
-            [items.unreachable, items.blocked, None]
-        }
-        InfeasibleReason::NotInView { .. } => [items.unreachable, items.blocked, items.not_found],
     }
 }
 

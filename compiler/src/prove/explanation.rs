@@ -197,7 +197,10 @@ impl Prover<'_> {
         let program = self.program;
         let Some((goal, span)) = &program.achieves else { return };
         let frame = CallFrame::default();
-        if !self.evaluate(goal, frame).no.is_some() {
+        let value = self.evaluate(goal, frame);
+        let reaches = self.proof.may_reach_goal.get_or_insert(false);
+        *reaches |= !value.is_false();
+        if !value.no.is_some() {
             return;
         }
         if self.mode == Mode::Decide {

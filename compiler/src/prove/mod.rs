@@ -63,6 +63,8 @@ pub(crate) struct Proof {
     pub(crate) reached: Vec<bool>,
     /// Certain facts just before a step with a motion.
     pub(crate) certain: FxHashMap<StepId, Vec<CertainFact>>,
+    /// Whether the goal may hold at some end of the policy; `None` without a goal or an end.
+    pub(crate) may_reach_goal: Option<bool>,
 }
 
 /// A fact about poses that is certain at some step.
@@ -255,7 +257,7 @@ impl<'a> Prover<'a> {
         let proof = Proof {
             needs: vec![NeedVerdicts::new(); steps],
             reached: vec![false; steps],
-            certain: FxHashMap::default(),
+            ..Proof::default()
         };
         let names = (symbols, fresh, vec![false; library.fluents.len()]);
         Self { proof, ..Self::resume((program, library, environment), state, names) }

@@ -96,6 +96,39 @@ fn two_legs_that_are_feasible_alone_and_not_one_after_the_other_are_found() {
 }
 
 #[test]
+fn infeasible_motion_whose_failure_is_caught_is_a_warning_and_left_to_the_run() {
+    // A block stands around the mug.
+    let mut scene = kitchen();
+    let crate_around = scene::EntityShape::Box([0.3, 0.3, 0.4]);
+    let mug = scene.entities["mug_1"].pose.unwrap();
+    let mut block = scene.entities["shelf"].clone();
+    block.id = "block".into();
+    block.pose = Some(Placement { xyz: [mug.xyz[0], mug.xyz[1], mug.xyz[2] + 0.05], rpy: [0.0; 3] });
+    block.shape = Some(crate_around);
+    scene.entities.insert("block".into(), block);
+    let session = session(&scene);
+    let bare = "go(kitchen_table) pick(mug_1) go(user) handover(mug_1, user)";
+    let caught = |kinds: &str| {
+        format!("policy fetch for hsr {{ try {{ {bare} }} catch {kinds} {{ say(\"I cannot reach it\") }} }}")
+    };
+    let (said, _) = refusal(&session, &format!("policy fetch for hsr {{ {bare} }}"));
+    assert!(said.starts_with("M0602 `pick` cannot perform `reach(mug_1)`"), "{said}");
+    // Another failure is caught: still an error.
+    refusal(&session, &caught("slipped"));
+    for kinds in ["unreachable", "slipped, unreachable", "any"] {
+        let policy = caught(kinds);
+        let (graph, found) = compile(&session, &policy);
+        assert!(graph.is_some(), "{kinds}: {:?}", errors(&found));
+        let warning = found.iter().find(|said| said.code.to_string() == "M0602").expect("a warning");
+        assert_eq!(warning.severity, Severity::Warning);
+        assert!(warning.help.as_ref().is_some_and(|help| help.contains("`catch`")), "{warning:?}");
+        let reach = motions(&session, &policy).into_iter().find(|(query, ..)| query == "reach").unwrap();
+        assert_eq!(reach.1, Verdict::Deferred);
+        assert!(reach.2.starts_with("it is infeasible, which a handler catches: "), "{reach:?}");
+    }
+}
+
+#[test]
 fn what_only_the_run_can_tell_is_left_to_it() {
     let found = motions(
         &KITCHEN,

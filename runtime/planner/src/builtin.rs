@@ -46,6 +46,17 @@ pub enum PlanError {
         /// Diagnostics of the compiler.
         diagnostics: Vec<Diagnostic>,
     },
+    /// The model keeps to a policy that passes the check, but that does not do what was asked, or that is not
+    /// as the model wrote it. A person decides.
+    #[error("the plan is in doubt: {}", first(diagnostics))]
+    Doubtful {
+        planned: Box<Planned>,
+        /// Diagnostics that the model did not heed.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// The model answered in words: a question, or a refusal.
+    #[error("{words}")]
+    Said { words: String },
     /// The model gave no reply, and another attempt cannot succeed.
     #[error("{why}")]
     NoModel {

@@ -28,7 +28,7 @@ use smol_str::SmolStr;
 
 pub use answer::{called, choose, encourages, named, pick};
 pub use error::RequestError;
-pub use meaning::{Aim, Intent};
+pub use meaning::{Aim, Certainty, Intent};
 
 /// The context of a request: the scene, and what changed or was said since. Plain data; `Send` and `Sync`.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use smol_str::SmolStr;
 use crate::command::Command;
 use crate::noun::{Noun, Phrase};
 use crate::parse::Spoken;
-use crate::token::Token;
+use crate::token::{Token, singular, tokens};
 use crate::verb::Act;
 use crate::vocabulary::{Role, Vocabulary};
 use crate::{ReportedLocation, RequestContext, RequestError};
@@ -32,6 +32,18 @@ pub struct Intent {
     pub notes: Vec<String>,
     /// Things that were spoken of, the latest last.
     pub spoken_of: Vec<SmolStr>,
+    /// Confidence in the goals.
+    pub certainty: Certainty,
+}
+
+/// Confidence in the reading of a request.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Certainty {
+    /// No word was corrected, and the request calls every thing of its goals by a name.
+    Certain,
+    /// A word was corrected, or a thing was found by its category, by a pronoun, or by earlier words.
+    #[default]
+    Guess,
 }
 
 /// Understands what was spoken.
@@ -87,6 +99,7 @@ pub(super) fn understood(
     }
     reader.settle()?;
     reader.join();
+    reader.said.certainty = reader.certainty(request);
     Ok(reader.said)
 }
 
@@ -170,6 +183,24 @@ impl Reader<'_> {
             command.to_whom = Some(command.items.remove(0));
         }
     }
+
+    /// Confidence in the goals that were read.
+    fn certainty(&self, request: &str) -> Certainty {
+        let words: Vec<String> = tokens(request).iter().map(|token| singular(token.word())).collect();
+        let is_named = |id: &SmolStr| {
+            let is_answered = self.situation.meant.iter().any(|(_, meant)| meant == id);
+            // Only things of the room have names; the robot and its person need none.
+            is_answered
+                || self.vocabulary.thing(id).is_none_or(|thing| thing.is_named_in(&words) || id == "user")
+        };
+        let mut things = self.said.aims.iter().flat_map(|aim| entities(&aim.goal.condition));
+        if self.said.notes.is_empty() && things.all(|id| is_named(&id)) {
+            Certainty::Certain
+        } else {
+            Certainty::Guess
+        }
+    }
+
     pub(super) fn aim(&mut self, name: String, condition: Expr, lasts: Persistence) {
         let name =
             name.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
@@ -294,6 +325,17 @@ impl Reader<'_> {
     }
 }
 
+/// Names in a condition.
+fn entities(condition: &Expr) -> Vec<SmolStr> {
+    match &condition.kind {
+        ExprKind::Name(name) => vec![name.clone()],
+        ExprKind::Call(call) => call.args.iter().flat_map(|arg| entities(&arg.value)).collect(),
+        ExprKind::Not(inner) => entities(inner),
+        ExprKind::All(parts) | ExprKind::AnyOf(parts) => parts.iter().flat_map(entities).collect(),
+        _ => Vec::new(),
+    }
+}
+
 fn simple(condition: &Expr) -> Option<Simple> {
     let (call, is_not) = match &condition.kind {
         ExprKind::Call(call) => (call, false),
@@ -319,5 +361,36 @@ fn simple(condition: &Expr) -> Option<Simple> {
         ("open", [what], false) => Some(Simple::Open(what.clone())),
         ("open", [what], true) => Some(Simple::Closed(what.clone())),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use motet_robots::builtin;
+
+    use super::Certainty;
+    use crate::{RequestContext, understand};
+
+    #[test]
+    fn reading_is_certain_where_the_request_names_its_things() {
+        let scene = builtin::scene("kitchen").unwrap();
+        let mut context = RequestContext::new(&scene);
+        let read =
+            |request: &str, context: &RequestContext<'_>| understand(request, context).unwrap().certainty;
+        for request in
+            ["bring me the coke", "could you put a mug in the sink?", "take the coke and bring it to me"]
+        {
+            assert_eq!(read(request, &context), Certainty::Certain, "{request}");
+        }
+        for request in ["bring me the soda", "bring me the coek"] {
+            assert_eq!(read(request, &context), Certainty::Guess, "{request}");
+        }
+        // What a person said that the words mean is certain.
+        context.meant = vec![("the soda".to_owned(), "coke".into())];
+        assert_eq!(read("bring me the soda", &context), Certainty::Certain);
+        context.spoken_of = vec!["apple".into()];
+        for request in ["bring it to me", "It fell behind the sofa, can you get it out for me?"] {
+            assert_eq!(read(request, &context), Certainty::Guess, "{request}");
+        }
     }
 }

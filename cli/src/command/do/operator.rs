@@ -98,7 +98,7 @@ impl OperatorInput {
 
 /// Question with its options.
 fn question(problem: &Problem) -> String {
-    let mut text = format!("? {}", problem.question);
+    let mut text = format!("? {}", printable(&problem.question));
     // An ambiguous reference names its options in the question already, in everyday words.
     if !problem.options.is_empty() && problem.kind != Kind::AmbiguousReference {
         let options: Vec<&str> = problem.options.iter().map(|option| option.as_str()).collect();

@@ -94,7 +94,8 @@ fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
         key,
         images,
         timeout,
-        idle_timeout: new.idle_timeout.min(timeout),
+        // A model may think as long as the person waits.
+        idle_timeout: timeout,
         ..new
     })
 }
@@ -194,9 +195,13 @@ impl ModelObserver for ModelLog {
                     self.in_line = true;
                 }
             }
-            ModelEvent::Stopped { at } => {
-                self.show("31", &format!("  stopped at byte {at}"));
-                self.keep("stopped", json!({"at": at}));
+            ModelEvent::Said { round, words } => {
+                self.reply(words);
+                self.keep("said", json!({"round": round, "words": words}));
+            }
+            ModelEvent::Unmet { goal } => {
+                self.show("33", &format!("  does not reach {goal}, a guess at what is wanted"));
+                self.keep("unmet", json!({"goal": goal, "certain": false}));
             }
             ModelEvent::Mended { titles } => {
                 self.show("33", &format!("  fixed: {}", titles.join(", ")));

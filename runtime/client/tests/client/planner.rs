@@ -46,23 +46,28 @@ fn model_planner_right_reply_is_carried_out_however_it_is_written() {
 }
 
 #[test]
-fn model_planner_reply_that_is_wrong_goes_back_with_its_own_text_and_the_reason() {
+fn model_planner_reply_that_is_wrong_goes_back_whole_with_the_reason() {
     let right = right(&setting(), COKE);
     let wrong = right.replacen("\"coke\"", "\"teapot_of_brown_betty\"", 1);
-    let (outcome, heard, server) = play(vec![Act::says(wrong.clone()), Act::says(right)]);
+    let worse = right.replacen("\"coke\"", "\"urn_of_the_ancients\"", 1);
+    let script = vec![Act::says(wrong.clone()), Act::says(worse.clone()), Act::says(right)];
+    let (outcome, heard, server) = play(script);
     assert_eq!(outcome, Outcome::Done, "{heard:?}");
     assert_eq!(heard[0], "asked 0");
-    assert!(heard[1].starts_with("stopped "), "{heard:?}");
-    assert!(heard[2].contains("teapot_of_brown_betty"), "{heard:?}");
-    assert_eq!(heard[3..], ["asked 1", "taken"]);
-    let again = server.heard()[1].body["messages"].clone();
-    assert_eq!((again[2]["role"].as_str(), again[3]["role"].as_str()), (Some("assistant"), Some("user")));
-    assert!(wrong.starts_with(again[2]["content"].as_str().unwrap()));
-    assert!(again[3]["content"].as_str().unwrap().contains("teapot_of_brown_betty"));
+    assert!(heard[1].contains("teapot_of_brown_betty"), "{heard:?}");
+    assert_eq!(heard[4..], ["asked 2", "taken"], "{heard:?}");
+    // The model sees all that it wrote, and all that was found.
+    let last = server.heard()[2].body["messages"].clone();
+    let message = |at: usize| {
+        (last[at]["role"].as_str().unwrap().to_owned(), last[at]["content"].as_str().unwrap().to_owned())
+    };
+    assert_eq!((message(2), message(4)), (("assistant".into(), wrong), ("assistant".into(), worse)));
+    assert!(message(3).1.contains("teapot_of_brown_betty"), "{last}");
+    assert!(message(5).1.contains("urn_of_the_ancients"), "{last}");
 }
 
 #[test]
-fn model_planner_policy_that_does_something_else_goes_back_once() {
+fn model_planner_policy_that_does_something_else_goes_back_once_and_then_to_the_person() {
     let nothing = r#"{"motet":1,"policy":"idle","robot":"hsr","steps":[]}"#.to_owned();
     let apple = right(&setting(), "bring me the green apple");
     for wrong in [nothing, apple] {
@@ -70,11 +75,35 @@ fn model_planner_policy_that_does_something_else_goes_back_once() {
         assert_eq!(outcome, Outcome::Done, "{heard:?}");
         assert!(heard[1].contains("at(coke, user)"), "{heard:?}");
         assert_eq!(heard[2..], ["asked 1", "taken"], "{heard:?}");
-        // A model that says so again may know better what was meant.
-        let (outcome, heard, _) = play(vec![Act::says(wrong.clone()), Act::says(wrong)]);
-        assert_eq!(outcome, Outcome::Done, "{heard:?}");
-        assert_eq!(heard[2..], ["asked 1", "taken"], "{heard:?}");
+        // A model that says so again may know better what was meant, so the person decides.
+        let (outcome, heard, _) = play(vec![Act::says(wrong.clone())]);
+        let Outcome::Failed(problem) = outcome else { panic!("{outcome:?}") };
+        assert!(problem.question.contains("at(coke, user)"), "{problem:?}");
+        assert_eq!(heard.iter().filter(|line| line.starts_with("asked")).count(), 2, "{heard:?}");
+        let (setting, server, heard) = (setting(), Server::new(vec![Act::says(wrong)]), Heard::default());
+        let mut planner = planner(brisk(&server), &heard);
+        let (outcome, _) = carry_out_with(&setting, &mut planner, &mut Says(Some("yes, do it")), COKE);
+        assert_eq!(outcome, Outcome::Done, "{:?}", heard.0.borrow());
     }
+}
+
+#[test]
+fn model_planner_goal_does_not_bind_a_reply_that_says_asks_or_declines() {
+    let policy = |steps: &str| format!(r#"{{"motet":1,"policy":"p","robot":"hsr","steps":[{steps}]}}"#);
+    let says = r#"{"do":"say","text":"I know of no coke"}"#;
+    let searches = r#"{"try":[{"do":"search","what":"coke","around":"counter"},{"do":"pick","object":"coke"},
+        {"do":"go","to":"user"},{"do":"handover","object":"coke","to":"user"}],
+        "catch":[{"on":["not_found"],"steps":[{"do":"say","text":"it is not there"}]}]}"#;
+    for steps in [says.to_owned(), format!(r#"{{"do":"go","to":"user"}},{says}"#), searches.to_owned()] {
+        let (outcome, heard, _) = play(vec![Act::says(policy(&steps))]);
+        assert_eq!((outcome, heard.len()), (Outcome::Done, 2), "{steps}: {heard:?}");
+    }
+    // A goal that is read from other words than the name of the thing is only a guess.
+    let (setting, heard) = (setting(), Heard::default());
+    let server = Server::new(vec![Act::says(right(&setting, "bring me the green apple"))]);
+    let (outcome, _) = carry_out(&setting, &mut planner(brisk(&server), &heard), "bring me the soda");
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(*heard.0.borrow(), ["asked 0", "unmet at(coke, user)", "taken"]);
 }
 
 #[test]
@@ -93,21 +122,39 @@ fn model_planner_fix_that_changes_the_steps_is_left_to_the_model() {
     let wrong = value.to_string();
     let (outcome, heard, _) = play(vec![Act::says(wrong.clone()), Act::says(right)]);
     assert_eq!(outcome, Outcome::Done, "{heard:?}");
-    // It was read to its end, and what is wrong goes back unmended.
     assert!(heard[1].starts_with("refused "), "{heard:?}");
     assert_eq!(heard[heard.len() - 2..], ["asked 1", "taken"], "{heard:?}");
-    // Of a model that never does better the fix is made in the end.
-    let (_, heard, _) = play(vec![Act::says(wrong)]);
-    assert_eq!(heard.iter().filter(|line| line.starts_with("asked")).count(), 4, "{heard:?}");
-    assert!(heard[heard.len() - 2].starts_with("mended "), "{heard:?}");
+    // To a model that keeps to it the person is asked.
+    let (outcome, heard, _) = play(vec![Act::says(wrong)]);
+    assert_eq!(heard.iter().filter(|line| line.starts_with("asked")).count(), 2, "{heard:?}");
+    let Outcome::Failed(problem) = outcome else { panic!("{outcome:?}") };
+    assert!(problem.question.starts_with("I am not sure of my plan: "), "{problem:?}");
 }
 
 #[test]
 fn model_planner_reply_that_stays_wrong_becomes_a_question() {
-    let (outcome, heard, _) = play(vec![Act::says("I am sorry, I cannot do that.")]);
+    let wrong = |name: &str| Act::says(format!(r#"{{"motet":1,"policy":"p","steps":[{{"do":"{name}"}}]}}"#));
+    let (outcome, heard, _) = play(["juggle", "dance", "sing", "swim"].map(wrong).to_vec());
     assert_eq!(heard.iter().filter(|line| line.starts_with("asked")).count(), 4, "{heard:?}");
     let Outcome::Failed(problem) = outcome else { panic!("{outcome:?}") };
     assert!(problem.question.starts_with("I cannot do that"), "{problem:?}");
+}
+
+#[test]
+fn model_planner_question_or_refusal_in_prose_is_for_the_person() {
+    for (words, question) in [
+        ("I am sorry, I cannot do that.", "I am sorry, I cannot do that. What shall I do instead?"),
+        ("Do you want the red can\nor the blue one?", "Do you want the red can or the blue one?"),
+    ] {
+        let (outcome, heard, _) = play(vec![Act::says(words)]);
+        let Outcome::Failed(problem) = outcome else { panic!("{outcome:?}") };
+        assert_eq!(problem.question, question);
+        assert_eq!(heard.len(), 2, "{heard:?}");
+        assert!(heard[1].starts_with("said "), "{heard:?}");
+    }
+    // Chatter is neither.
+    let (_, heard, _) = play(vec![Act::says("Sure, here it comes."), Act::says(right(&setting(), COKE))]);
+    assert!(heard[1].starts_with("refused ") && heard[2..] == ["asked 1", "taken"], "{heard:?}");
 }
 
 #[test]
@@ -119,13 +166,26 @@ fn model_planner_model_that_cannot_be_asked_is_an_error_and_no_question() {
 }
 
 #[test]
-fn model_planner_reply_that_breaks_off_is_asked_for_again() {
+fn model_planner_reply_that_breaks_off_is_asked_for_again_and_is_no_repair() {
     let right = right(&setting(), COKE);
-    let half = right.chars().take(right.len() / 2).collect();
-    let script = vec![Act::BreaksOff { text: half }, Act::Nonsense, Act::Silent, Act::says(right)];
+    let half: String = right.chars().take(right.len() / 2).collect();
+    let broken = Act::BreaksOff { text: half };
+    let script = vec![broken.clone(), Act::Nonsense, Act::says(right)];
     let (outcome, heard, _) = play(script);
     assert_eq!(outcome, Outcome::Done, "{heard:?}");
-    assert_eq!(heard.iter().filter(|line| line.starts_with("failed")).count(), 3, "{heard:?}");
+    assert_eq!(heard.iter().filter(|line| line.starts_with("failed")).count(), 2, "{heard:?}");
+    assert_eq!(heard.iter().filter(|line| *line == "asked 0").count(), 3, "{heard:?}");
+    let (outcome, heard, _) = play(vec![broken]);
+    assert!(matches!(outcome, Outcome::Failed(_)), "{outcome:?}");
+    assert_eq!(heard.iter().filter(|line| *line == "asked 0").count(), 4, "{heard:?}");
+}
+
+#[test]
+fn model_planner_silent_server_is_given_up_after_the_time_and_not_asked_again() {
+    let (outcome, heard, _) = play(vec![Act::Silent]);
+    let Outcome::Failed(problem) = outcome else { panic!("{outcome:?}") };
+    assert!(problem.question.contains("it did not answer within 1 s"), "{problem:?}");
+    assert_eq!(heard.len(), 2, "{heard:?}");
 }
 
 #[test]
@@ -139,7 +199,7 @@ fn model_planner_reply_that_never_ends_is_read_to_the_end_of_its_policy_and_no_f
 }
 
 #[test]
-fn model_planner_reply_that_is_wrong_is_read_no_further_than_the_value_that_is() {
+fn stream_reader_tells_an_error_with_the_value_that_has_it() {
     let setting = setting();
     let session = session();
     let prepared = AcceptorFactory::new(&session, Subset::default());
@@ -152,7 +212,7 @@ fn model_planner_reply_that_is_wrong_is_read_no_further_than_the_value_that_is()
         let verdict = reading.push(&wrong);
         let StreamVerdict::Wrong(found) = verdict else { panic!("{name}: {verdict:?}") };
         assert!((from..from + name.len()).contains(&found.at), "{name}: {found:?}");
-        assert!(reading.reply().len() <= from + name.len() + 60, "{name}: {}", reading.reply());
+        assert!(reading.is_whole() && reading.reply() == wrong);
     }
 }
 
@@ -190,15 +250,17 @@ impl Person for Says {
 #[test]
 fn model_planner_answer_in_any_words_reaches_the_model() {
     let setting = setting();
-    let (bad, good) = (Act::says("What do you mean?"), Act::says(right(&setting, COKE)));
-    let server = Server::new(vec![bad.clone(), bad.clone(), bad.clone(), bad, good]);
+    let server = Server::new(vec![Act::says("What do you mean?"), Act::says(right(&setting, COKE))]);
     let heard = Heard::default();
     let mut planner = planner(brisk(&server), &heard);
     let mut person = Says(Some("the one with bubbles, obviously"));
     let (outcome, _) = carry_out_with(&setting, &mut planner, &mut person, COKE);
     assert_eq!(outcome, Outcome::Done, "{:?}", heard.0.borrow());
     let last = server.heard().last().unwrap().body["messages"][1]["content"].as_str().unwrap().to_owned();
-    assert!(last.contains("bubbles"), "{last}");
+    assert!(
+        last.contains("asked \"What do you mean?\": answered \"the one with bubbles, obviously\""),
+        "{last}"
+    );
 }
 
 /// What a robot was told to do, with the lengths of the policies that ran.

@@ -122,6 +122,13 @@ impl Memory {
         self.push(entry);
     }
 
+    /// Somebody beside the run was asked a question; `answer` is absent if nobody answered.
+    pub fn asked(&mut self, at: Time, question: &str, answer: Option<&str>) {
+        let (question, answer) = (self.cut(question), answer.map(|answer| self.cut(answer)));
+        let entry = self.entry(at, MemoryEvent::Question { question, answer });
+        self.push(entry);
+    }
+
     /// The entries that are kept, oldest first.
     pub fn entries(&self) -> impl ExactSizeIterator<Item = &MemoryEntry> {
         self.entries.iter()

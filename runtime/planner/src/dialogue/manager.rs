@@ -1,7 +1,7 @@
 //! The dialogue manager: plans a request, runs the policy, retries, asks about problems, and plans anew with
 //! the answers.
 
-use motet_requests::{ReportedLocation, RequestError};
+use motet_requests::{Intent, ReportedLocation, RequestError};
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, RunEnd, Time};
 use smol_str::SmolStr;
@@ -100,8 +100,10 @@ pub(super) struct DialogueManager<'r, 'a> {
     task: Task,
     /// The latest time.
     pub(super) now: Time,
-    /// Remaining policy after an early start of its first step.
+    /// Policy to run next: the rest after an early start of its first step, or one that a person agreed to.
     ready: Option<PlannedRequest>,
+    /// Policy that runs if the person agrees to it.
+    doubtful: Option<PlannedRequest>,
 }
 
 impl<'r, 'a> DialogueManager<'r, 'a> {
@@ -112,7 +114,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         now: Time,
     ) -> Self {
         let task = Task::new(request.to_owned(), None);
-        Self { talk, planner, person, watcher, task, now, ready: None }
+        Self { talk, planner, person, watcher, task, now, ready: None, doubtful: None }
     }
 
     /// Pursues the request to its end.
@@ -126,7 +128,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             };
             let next = match proposed {
                 Ok(answered) => self.run(answered, driver, &scene),
-                Err(why) => self.unplanned(&why, &scene),
+                Err(why) => self.unplanned(why, &scene),
             };
             let (problem, was_refused) = match next {
                 RoundResult::Round => continue,
@@ -237,9 +239,15 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     }
 
     /// Handles a request that got no policy.
-    fn unplanned(&mut self, why: &PlanError, scene: &Scene) -> RoundResult {
-        let problem = Problem::of_planning(why, scene);
+    fn unplanned(&mut self, why: PlanError, scene: &Scene) -> RoundResult {
+        let problem = Problem::of_planning(&why, scene);
         match (why, self.task.before.clone()) {
+            (PlanError::Doubtful { planned, .. }, _) => {
+                let spoken_of = self.talk.known.spoken_of.clone();
+                let understood = Intent { spoken_of, ..Intent::default() };
+                self.doubtful = Some(PlannedRequest { understood, planned: *planned });
+                RoundResult::Problem(problem, false)
+            }
             (PlanError::Stopped, _) => RoundResult::Over(Outcome::Stopped),
             // No answer of a person brings a model back.
             (PlanError::NoModel { .. }, _) => RoundResult::Over(Outcome::Failed(problem)),
@@ -266,6 +274,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     /// Asks a person about a problem until the answer is understood. Returns the outcome if the answer ends
     /// the request.
     fn ask(&mut self, problem: Problem, scene: &Scene) -> Option<Outcome> {
+        let doubtful = self.doubtful.take();
         // What an answer says beside what is understood of it is for who plans.
         let is_told = self.planner.reads_answers();
         let mut question = problem.clone();
@@ -299,7 +308,10 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 self.task = Task { questions: self.task.questions, ..Task::new(request, before) };
                 return None;
             }
-            Answer::Again => self.task.tries = 0,
+            Answer::Again => {
+                self.task.tries = 0;
+                self.ready = doubtful;
+            }
             Answer::Means { said, ids } => {
                 self.task.meant.extend(ids.into_iter().map(|id| (said.clone(), id)));
             }
@@ -307,7 +319,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             Answer::NotUnderstood => {}
         }
         if is_told {
-            self.talk.memory.instruct(self.now, &answer);
+            self.talk.memory.asked(self.now, &question.question, Some(&answer));
         }
         None
     }

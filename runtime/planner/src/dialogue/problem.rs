@@ -93,6 +93,17 @@ impl Problem {
             PlanError::RequestError(RequestError::AmbiguousTask { question, options }) => {
                 Self { options: options.clone(), ..bare(Kind::AmbiguousTask, question.clone()) }
             }
+            PlanError::Doubtful { diagnostics, .. } => {
+                let doubt = diagnostics.first().map_or("the plan is in doubt", |said| said.message.as_str());
+                let options = vec!["yes".into(), "no".into()];
+                let question = format!("I am not sure of my plan: {doubt}. Shall I carry it out?");
+                Self { options, ..bare(Kind::NotReachable, question) }
+            }
+            PlanError::Said { words } if words.contains('?') => bare(Kind::AmbiguousTask, words.clone()),
+            PlanError::Said { words } => {
+                let stop = if words.ends_with(['.', '!']) { "" } else { "." };
+                bare(Kind::NotReachable, format!("{words}{stop} What shall I do instead?"))
+            }
             PlanError::NoModel { .. } | PlanError::Stopped => bare(Kind::ActionFailed, why.to_string()),
             PlanError::NoPlan(_) | PlanError::Refused { .. } => {
                 bare(Kind::NotReachable, format!("I cannot do that: {why}. What shall I do instead?"))

@@ -125,14 +125,16 @@ pub enum ModelError {
 }
 
 impl ModelError {
-    /// Returns `true` if another attempt cannot succeed.
+    /// Returns `true` if another attempt cannot succeed, or took all the time that it may.
     #[must_use]
     pub const fn is_lasting(&self) -> bool {
         match self {
-            Self::Unreachable { .. } | Self::Refused { .. } | Self::Busy { .. } | Self::Cancelled => true,
-            Self::TimedOut { .. } | Self::TooLong { .. } | Self::CutOff { .. } | Self::Malformed { .. } => {
-                false
-            }
+            Self::Unreachable { .. }
+            | Self::Refused { .. }
+            | Self::Busy { .. }
+            | Self::TimedOut { .. }
+            | Self::Cancelled => true,
+            Self::TooLong { .. } | Self::CutOff { .. } | Self::Malformed { .. } => false,
         }
     }
 }
@@ -150,11 +152,14 @@ pub enum ModelEvent<'a> {
     },
     /// The model wrote the next piece of its reply.
     Wrote(&'a str),
-    /// The reply was wrong and was not read further.
-    Stopped {
-        /// Byte of the reply at which it was stopped.
-        at: usize,
+    /// The reply has no policy, and asks or refuses.
+    Said {
+        round: u32,
+        /// Words for the person.
+        words: &'a str,
     },
+    /// The policy is accepted although it does not reach this goal, which is only a guess at the request.
+    Unmet { goal: &'a str },
     /// Known fixes were applied to the reply.
     Mended { titles: &'a [String] },
     /// A round failed. The diagnostics go back to the model, or to a person after the last round.

@@ -1,13 +1,15 @@
 //! The planner that asks a language model.
 //!
-//! It reads a reply as it arrives: byte by byte while the reply stays in the canonical subset, and otherwise
-//! step by step. The first error stops the reply, which goes back to the model with its diagnostics. The
-//! final policy is checked like any other, whatever constraint the server enforces. A [`Model`] opens the
+//! It reads a reply to the end of its policy and checks it like any other, whatever constraint the server
+//! enforces. A wrong reply goes back to the model whole, with all its errors. A reply without a policy that
+//! asks or refuses is for the person. If the first step may start early, the reply is followed as it arrives:
+//! byte by byte while it stays in the canonical subset, and otherwise step by step. A [`Model`] opens the
 //! connections; this module opens none.
 
 mod background;
 mod chat;
 mod planner;
+mod prose;
 mod reply_verdict;
 mod stream_reader;
 

@@ -5,19 +5,18 @@ use std::time::Duration;
 
 use motet_compiler::{Session, Signatures};
 use motet_decode::{AcceptorFactory, Grammar, Subset};
-use motet_syntax::ast::Expr;
-use motet_syntax::{Diagnostic, Sources, render};
+use motet_syntax::{Diagnostic, Sources, print, render};
 
 use super::background::{PendingRest, RestProgress, first_step};
 use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 use super::chat::{ModelEvent, ModelObserver};
-use super::reply_verdict;
-use super::reply_verdict::{ReplyVerdict, judge};
-use super::stream_reader::{StreamReader, StreamVerdict, Wrong};
+use super::prose;
+use super::reply_verdict::{ReplyVerdict, RequestGoal, judge};
+use super::stream_reader::{StreamReader, StreamVerdict};
 use crate::builtin::{PlanError, Planned, PlannedRequest};
 use crate::planner::{PlanRequest, Planner, RemainingSteps, Wait};
 use crate::prompt::{self, Prompt, StaticPrompt};
-use motet_requests::Intent;
+use motet_requests::{Certainty, Intent};
 
 /// Waiting time for a piece of a reply between two looks at the stop request.
 const SLICE: Duration = Duration::from_millis(50);
@@ -25,6 +24,8 @@ const SLICE: Duration = Duration::from_millis(50);
 const POLICY_BYTES: usize = 16 << 10;
 /// Maximum number of bytes of a reply, thoughts included.
 const REPLY_BYTES: usize = 256 << 10;
+/// Number of times that a reply is asked for again because it did not arrive whole.
+const MOST_FAILURES: u32 = 3;
 
 /// Moment at which a policy starts to run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -77,7 +78,7 @@ struct KeptParts {
 /// Position in a reply up to which it is read.
 enum ReadEnd {
     /// To the end of the reply or of its policy.
-    Ended(StreamVerdict),
+    Whole,
     /// To the end of the first step, if that may start.
     First(Box<Planned>),
 }
@@ -85,8 +86,15 @@ enum ReadEnd {
 /// Result of one round.
 enum RoundResult {
     Good(Box<Planned>),
-    /// The reply as far as it was read, and its errors.
-    Bad(String, Vec<Diagnostic>),
+    /// A question or a refusal, in words.
+    Said(String),
+    /// A reply that goes back to the model.
+    Bad {
+        reply: String,
+        findings: Vec<Diagnostic>,
+        /// Policy that could run if a person wants it.
+        otherwise: Option<Box<Planned>>,
+    },
     /// The reply is incomplete.
     Failed(ModelError),
 }
@@ -116,50 +124,60 @@ impl<'m> ModelPlanner<'m> {
         ready
     }
 
-    /// Asks until a reply is a policy that passes the check.
+    /// Asks until a reply is a policy that passes the check, or words for the person.
     fn rounds(
         &mut self,
         session: &Session,
         ready: &KeptParts,
         first: &[Message],
-        mut goal: Option<Expr>,
+        goal: Option<&RequestGoal>,
     ) -> Result<Planned, PlanError> {
         let mut chat = first.to_vec();
-        let mut last = PlanError::NoModel { why: String::new() };
-        for round in 0..=self.settings.repairs {
+        let mut refused: Vec<String> = Vec::new();
+        let (mut round, mut failures) = (0, 0);
+        loop {
             let name = self.model.name();
             self.listener.hear(&ModelEvent::Asked { round, model: &name, chat: &chat });
-            match self.round(session, ready, (&chat, &mut goal), round) {
+            match self.round(session, ready, (&chat, goal), round) {
                 RoundResult::Good(planned) => return Ok(*planned),
-                RoundResult::Bad(reply, findings) => {
+                RoundResult::Said(words) => return Err(PlanError::Said { words }),
+                RoundResult::Bad { reply, findings, otherwise } => {
                     let words = render::llm(&findings, &Sources::default());
                     self.listener.hear(&ModelEvent::Refused { round, reply: &reply, findings: &words });
-                    chat = first.to_vec();
+                    let written: String = reply.split_whitespace().collect();
+                    let insists = refused.contains(&written);
+                    if insists || round == self.settings.repairs {
+                        return Err(match otherwise {
+                            Some(planned) => PlanError::Doubtful { planned, diagnostics: findings },
+                            None => PlanError::Refused { text: reply, diagnostics: findings },
+                        });
+                    }
+                    refused.push(written);
+                    chat.push(Message::new(Role::Assistant, reply));
                     chat.push(Message::new(Role::User, again(&words)));
-                    chat.insert(first.len(), Message::new(Role::Assistant, reply.as_str()));
-                    last = PlanError::Refused { text: reply, diagnostics: findings };
+                    round += 1;
                 }
                 RoundResult::Failed(ModelError::Cancelled) => return Err(PlanError::Stopped),
-                RoundResult::Failed(why) => {
-                    let is_lasting = why.is_lasting();
-                    last = PlanError::NoModel { why: format!("{name}: {why}") };
-                    if is_lasting {
-                        break;
-                    }
+                // A reply that did not arrive is no reply to repair.
+                RoundResult::Failed(why) if why.is_lasting() || failures == MOST_FAILURES => {
+                    return Err(PlanError::NoModel { why: format!("{name}: {why}") });
                 }
+                RoundResult::Failed(_) => failures += 1,
             }
         }
-        Err(last)
     }
 
     fn round(
         &mut self,
         session: &Session,
         ready: &KeptParts,
-        (chat, goal): (&[Message], &mut Option<Expr>),
+        (chat, goal): (&[Message], Option<&RequestGoal>),
         round: u32,
     ) -> RoundResult {
-        let mut reading = StreamReader::new(session, ready.acceptors.acceptor(POLICY_BYTES));
+        let mut reading = match self.settings.start {
+            Start::Whole => StreamReader::unchecked(session),
+            Start::FirstStep => StreamReader::new(session, ready.acceptors.acceptor(POLICY_BYTES)),
+        };
         let mut reply = match self.model.ask(chat, &ready.grammar) {
             Ok(reply) => reply,
             Err(why) => return self.failed(round, "", why),
@@ -170,35 +188,45 @@ impl<'m> ModelPlanner<'m> {
                 self.later = Some(PendingRest { reply, reading: reading.into_owned(), round });
                 RoundResult::Good(planned)
             }
-            Ok(ReadEnd::Ended(StreamVerdict::Wrong(Wrong { at, findings }))) => {
-                self.listener.hear(&ModelEvent::Stopped { at });
-                RoundResult::Bad(reading.reply().to_owned(), findings)
-            }
-            Ok(ReadEnd::Ended(verdict)) => {
-                let whole = if verdict == StreamVerdict::Whole { reading.policy() } else { reading.reply() };
-                match judge(session, whole) {
-                    ReplyVerdict::Good { planned, mended, changed } => {
-                        // Other steps than were written are the model's to write, as long as it may.
-                        if !changed.is_empty() && round < self.settings.repairs {
-                            return RoundResult::Bad(reading.reply().to_owned(), changed);
-                        }
-                        // A model is told once that this is not what was asked for; it may know better what
-                        // was meant.
-                        let wanted = goal.take().filter(|_| round < self.settings.repairs);
-                        let findings = wanted.map(|goal| reply_verdict::missed(session, &planned, &goal));
-                        if let Some(findings) = findings.filter(|findings| !findings.is_empty()) {
-                            return RoundResult::Bad(reading.reply().to_owned(), findings);
-                        }
-                        if !mended.is_empty() {
-                            self.listener.hear(&ModelEvent::Mended { titles: &mended });
-                        }
-                        self.listener.hear(&ModelEvent::Taken { round, reply: reading.reply() });
-                        RoundResult::Good(planned)
-                    }
-                    ReplyVerdict::Bad { findings } => RoundResult::Bad(reading.reply().to_owned(), findings),
-                }
-            }
+            Ok(ReadEnd::Whole) => self.judged(session, reading.reply(), goal, round),
             Err(why) => self.failed(round, reading.reply(), why),
+        }
+    }
+
+    /// Judges a whole reply.
+    fn judged(
+        &mut self,
+        session: &Session,
+        reply: &str,
+        goal: Option<&RequestGoal>,
+        round: u32,
+    ) -> RoundResult {
+        if let Some(words) = prose::for_person(reply) {
+            self.listener.hear(&ModelEvent::Said { round, words: &words });
+            return RoundResult::Said(words);
+        }
+        let bad = |findings, otherwise| RoundResult::Bad { reply: reply.to_owned(), findings, otherwise };
+        match judge(session, reply) {
+            ReplyVerdict::Good { planned, mended, changed } => {
+                // Other steps than were written are the model's to write, as long as it may.
+                if !changed.is_empty() && round < self.settings.repairs {
+                    return bad(changed, Some(planned));
+                }
+                if let Some((goal, missed)) =
+                    goal.and_then(|goal| Some((goal, goal.missed(session, &planned)?)))
+                {
+                    if goal.certainty == Certainty::Certain {
+                        return bad(vec![missed], Some(planned));
+                    }
+                    self.listener.hear(&ModelEvent::Unmet { goal: &print::expression(&goal.condition) });
+                }
+                if !mended.is_empty() {
+                    self.listener.hear(&ModelEvent::Mended { titles: &mended });
+                }
+                self.listener.hear(&ModelEvent::Taken { round, reply });
+                RoundResult::Good(planned)
+            }
+            ReplyVerdict::Bad { findings } => bad(findings, None),
         }
     }
 
@@ -207,7 +235,7 @@ impl<'m> ModelPlanner<'m> {
         RoundResult::Failed(why)
     }
 
-    /// Reads until the reply is complete, wrong, or ends. Returning closes the connection.
+    /// Reads until the reply ends, or its policy does. Returning closes the connection.
     fn read(
         &mut self,
         reading: &mut StreamReader<'_>,
@@ -236,13 +264,15 @@ impl<'m> ModelPlanner<'m> {
                                 return Ok(ReadEnd::First(planned));
                             }
                         }
-                        StreamVerdict::GoOn | StreamVerdict::Steps(_) => {}
-                        end @ (StreamVerdict::Whole | StreamVerdict::Wrong(_)) => {
-                            return Ok(ReadEnd::Ended(end));
-                        }
+                        // The model learns of every error at once, so the reply is read to its end.
+                        StreamVerdict::Wrong(_) => begins = false,
+                        StreamVerdict::GoOn | StreamVerdict::Steps(_) | StreamVerdict::Whole => {}
+                    }
+                    if reading.is_whole() {
+                        return Ok(ReadEnd::Whole);
                     }
                 }
-                News::End(Finish::Stop) => return Ok(ReadEnd::Ended(StreamVerdict::GoOn)),
+                News::End(Finish::Stop) => return Ok(ReadEnd::Whole),
                 News::End(Finish::Length) => {
                     let why = "it had written as much as it may".to_owned();
                     return Err(ModelError::CutOff { why });
@@ -258,8 +288,8 @@ impl Planner for ModelPlanner<'_> {
         self.later = None;
         let ready = self.ready(ask);
         let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
-        let goal = reply_verdict::goal(ask.request, ask.situation);
-        let planned = self.rounds(ask.session, &ready, &chat, goal)?;
+        let goal = RequestGoal::new(ask.request, ask.situation);
+        let planned = self.rounds(ask.session, &ready, &chat, goal.as_ref())?;
         let mut spoken_of = ask.situation.spoken_of.clone();
         spoken_of.extend(motet_requests::named(ask.request, ask.situation));
         Ok(PlannedRequest { understood: Intent { spoken_of, ..Intent::default() }, planned })

@@ -3,9 +3,11 @@
 use motet_compiler::fix::AppliedFix;
 use motet_compiler::plan::Persistence;
 use motet_compiler::{Session, fix, make_explicit};
-use motet_requests::RequestContext;
-use motet_syntax::ast::{Expr, ExprKind, File, Item};
+use motet_graph::NodeKind;
+use motet_requests::{Certainty, RequestContext};
+use motet_syntax::ast::{Clause, Expr, ExprKind, File, Item};
 use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
+use smol_str::SmolStr;
 
 use crate::builtin::Planned;
 
@@ -98,37 +100,114 @@ fn name(document: &str) -> &'static str {
 }
 
 /// Strips the thoughts that some models write before the reply.
-fn without_thoughts(reply: &str) -> &str {
+pub(super) fn without_thoughts(reply: &str) -> &str {
     if !reply.trim_start().starts_with("<think>") {
         return reply;
     }
     reply.split_once("</think>").map_or("", |(_, rest)| rest)
 }
 
-/// Goal of a request that does not depend on a condition. `None` if the request cannot be read.
-pub(super) fn goal(request: &str, situation: &RequestContext<'_>) -> Option<Expr> {
-    let understood = motet_requests::understand(request, situation).ok()?;
-    if understood.aims.iter().any(|aim| aim.only_if.is_some()) {
-        return None;
-    }
-    let lasting = understood.aims.into_iter().filter(|aim| aim.goal.persistence == Persistence::ToTheEnd);
-    let mut parts: Vec<Expr> = lasting.map(|aim| aim.goal.condition).collect();
-    if parts.len() < 2 {
-        return parts.pop();
-    }
-    Some(Expr { kind: ExprKind::All(parts), span: Span::default() })
+/// Goal of a request, as the built-in reader of requests reads it.
+#[derive(Clone, Debug)]
+pub(super) struct RequestGoal {
+    pub(super) condition: Expr,
+    pub(super) certainty: Certainty,
 }
 
-/// Errors of a policy that passes the check and cannot reach the goal of the request.
-pub(super) fn missed(session: &Session, planned: &Planned, goal: &Expr) -> Vec<Diagnostic> {
-    let mut file = File { items: planned.parsed.file.items.clone() };
-    for item in &mut file.items {
-        if let Item::Policy(policy) = item {
-            policy.achieves = Some(goal.clone());
+impl RequestGoal {
+    /// Goal of a request that does not depend on a condition. `None` if the request cannot be read.
+    pub(super) fn new(request: &str, situation: &RequestContext<'_>) -> Option<Self> {
+        let understood = motet_requests::understand(request, situation).ok()?;
+        if understood.aims.iter().any(|aim| aim.only_if.is_some()) {
+            return None;
         }
+        let certainty = understood.certainty;
+        let lasting = understood.aims.into_iter().filter(|aim| aim.goal.persistence == Persistence::ToTheEnd);
+        let mut parts: Vec<Expr> = lasting.map(|aim| aim.goal.condition).collect();
+        let condition = match parts.len() {
+            0 | 1 => parts.pop()?,
+            _ => Expr { kind: ExprKind::All(parts), span: Span::default() },
+        };
+        Some(Self { condition, certainty })
     }
-    let text = print::text(&file);
-    let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
-    // Only what the goal adds is of interest: the policy alone has no error.
-    errors(session.compile(&parsed, None).diagnostics)
+
+    /// The finding about a policy that passes the check, acts, and reaches the goal on none of its ways.
+    /// `None` for a policy that asks, says something or declines: the goal does not bind it.
+    pub(super) fn missed(&self, session: &Session, planned: &Planned) -> Option<Diagnostic> {
+        if !self.is_acted_on(session, planned) {
+            return None;
+        }
+        let mut file = File { items: planned.parsed.file.items.clone() };
+        for item in &mut file.items {
+            if let Item::Policy(policy) = item {
+                policy.achieves = Some(self.condition.clone());
+            }
+        }
+        let text = print::text(&file);
+        let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
+        if !session.misses_goal(&parsed) {
+            return None;
+        }
+        // Only what the goal adds is of interest: the policy alone has no error.
+        let missed = errors(session.compile(&parsed, None).diagnostics).into_iter().next()?;
+        // The request may want something else, so no steps are proposed.
+        let help = "if that is what the request wants, plan it; if it cannot be done, `say` why".to_owned();
+        Some(Diagnostic { fix: None, help: Some(help), path: String::new(), ..missed })
+    }
+
+    /// Returns true if a policy changes something that the goal is about, or else says nothing at all.
+    fn is_acted_on(&self, session: &Session, planned: &Planned) -> bool {
+        let mut speaks = false;
+        let graph = planned.compiled.graph.as_ref();
+        let called = graph.into_iter().flat_map(|graph| {
+            graph.nodes.iter().filter_map(|node| match &node.kind {
+                NodeKind::Call(call) => graph.primitives.get(call.primitive.index()),
+                _ => None,
+            })
+        });
+        for primitive in called {
+            speaks |= SPEAKING.contains(&primitive.name.as_str());
+            let mut decls = session.library().signatures();
+            let Some(decl) = decls.find(|decl| decl.name.text == primitive.name) else { continue };
+            let effects = decl.clauses.iter().flat_map(|clause| match clause {
+                Clause::Makes(effects) => effects.as_slice(),
+                _ => &[],
+            });
+            if effects.flat_map(|effect| facts(&effect.expr)).any(|fact| self.is_about(&fact)) {
+                return true;
+            }
+        }
+        !speaks
+    }
+
+    /// Returns true if a goal has this fluent, and both or neither are about the robot.
+    fn is_about(&self, (fluent, subject): &Fact) -> bool {
+        facts(&self.condition).iter().any(|(wanted, of)| {
+            wanted == fluent && (of.as_deref() == Some(ROBOT)) == (subject.as_deref() == Some(ROBOT))
+        })
+    }
+}
+
+/// Primitives that speak with people.
+const SPEAKING: &[&str] = &["say", "ask", "choose"];
+/// Name of the robot in conditions.
+const ROBOT: &str = "robot";
+
+/// A fluent, with its first argument if that is a name.
+type Fact = (SmolStr, Option<SmolStr>);
+
+/// Fluents of a condition.
+fn facts(condition: &Expr) -> Vec<Fact> {
+    match &condition.kind {
+        ExprKind::Call(call) => {
+            let subject = call.args.first().and_then(|arg| match &arg.value.kind {
+                ExprKind::Name(name) => Some(name.clone()),
+                _ => None,
+            });
+            vec![(call.name.text.clone(), subject)]
+        }
+        ExprKind::Not(inner) => facts(inner),
+        ExprKind::All(parts) | ExprKind::AnyOf(parts) => parts.iter().flat_map(facts).collect(),
+        _ => Vec::new(),
+    }
 }

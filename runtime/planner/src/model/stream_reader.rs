@@ -1,9 +1,9 @@
-//! Reader of a reply as it arrives, which stops at the first error.
+//! Reader of a reply as it arrives, which tells the first error at once.
 //!
 //! While the reply stays in the canonical subset, the acceptor follows it byte by byte. After it leaves the
 //! subset, it may be wrong or only spelt differently: the checker decides as soon as the surrounding value
 //! or object is complete. Each top-level step is checked with the steps before it as soon as it is complete,
-//! motions included. A mistake with a known fix does not stop the reply.
+//! motions included. A mistake with a known fix is no error here.
 
 use std::borrow::Cow;
 
@@ -34,6 +34,8 @@ pub struct StreamReader<'s> {
     step_from: usize,
     /// Offset of the first step's end.
     first_to: Option<usize>,
+    /// False after the first error: the rest is only read.
+    is_checked: bool,
 }
 
 /// Place where a reply left the canonical subset.
@@ -60,12 +62,12 @@ pub enum StreamVerdict {
     Wrong(Wrong),
 }
 
-/// Reason to stop a reply.
+/// First error of a reply.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Wrong {
     /// First wrong byte of the reply.
     pub at: usize,
-    /// Errors that stopped the reply.
+    /// Errors at that place.
     pub findings: Vec<Diagnostic>,
 }
 
@@ -83,15 +85,22 @@ impl<'s> StreamReader<'s> {
             steps: 0,
             step_from: 0,
             first_to: None,
+            is_checked: true,
         }
+    }
+
+    /// Starts to read a reply that is judged as a whole, once it is complete.
+    #[must_use]
+    pub fn unchecked(session: &'s Session) -> Self {
+        Self { is_checked: false, ..Self::new(session, None) }
     }
 
     /// The same reader with its own copy of the session.
     #[must_use]
     pub fn into_owned(self) -> StreamReader<'static> {
         let session = Cow::Owned(self.session.into_owned());
-        let Self { acceptor, scan, reply, suspect, steps, step_from, first_to, .. } = self;
-        StreamReader { session, acceptor, scan, reply, suspect, steps, step_from, first_to }
+        let Self { acceptor, scan, reply, suspect, steps, step_from, first_to, is_checked, .. } = self;
+        StreamReader { session, acceptor, scan, reply, suspect, steps, step_from, first_to, is_checked }
     }
 
     /// The policy with its first step only, once that is complete.
@@ -113,7 +122,14 @@ impl<'s> StreamReader<'s> {
         &self.scan.text
     }
 
-    /// Takes a piece of the reply. After a verdict that ends the reading the rest of the piece is ignored.
+    /// Returns true if the policy is complete; any further text is ignored.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.scan.is_over
+    }
+
+    /// Takes a piece of the reply. What follows the policy is ignored. An error is told once; behind it the
+    /// reply is only read.
     pub fn push(&mut self, piece: &str) -> StreamVerdict {
         let mut verdict = StreamVerdict::GoOn;
         for letter in piece.chars() {
@@ -121,13 +137,16 @@ impl<'s> StreamReader<'s> {
             self.reply.push(letter);
             let mark = self.scan.push(letter);
             if mark == CharEffect::Nothing {
+                self.suspect = self.suspect.take_if(|_| !self.scan.text.is_empty());
                 continue;
             }
             self.follow(letter, at);
             match self.judge(mark) {
                 StreamVerdict::GoOn => {}
                 StreamVerdict::Steps(steps) => verdict = StreamVerdict::Steps(steps),
-                end @ (StreamVerdict::Whole | StreamVerdict::Wrong(_)) => return end,
+                StreamVerdict::Whole if matches!(verdict, StreamVerdict::Wrong(_)) => return verdict,
+                StreamVerdict::Whole => return StreamVerdict::Whole,
+                wrong @ StreamVerdict::Wrong(_) => (verdict, self.is_checked) = (wrong, false),
             }
         }
         verdict
@@ -146,8 +165,9 @@ impl<'s> StreamReader<'s> {
 
     fn judge(&mut self, mark: CharEffect) -> StreamVerdict {
         match mark {
-            CharEffect::Nothing | CharEffect::Kept => StreamVerdict::GoOn,
             CharEffect::End => StreamVerdict::Whole,
+            _ if !self.is_checked => StreamVerdict::GoOn,
+            CharEffect::Nothing | CharEffect::Kept => StreamVerdict::GoOn,
             CharEffect::StepEnd => self.step(),
             CharEffect::StringEnd { from } => match self.suspect {
                 Some(suspect) if suspect.string == Some(from) => self.ask(suspect, from),
@@ -398,6 +418,11 @@ impl Scanner {
             return CharEffect::Kept;
         };
         match self.open.len() {
+            // An object in the prose before the policy.
+            0 if self.steps_from.is_none() => {
+                *self = Self { before: std::mem::take(&mut self.before), ..Self::default() };
+                CharEffect::Nothing
+            }
             0 => {
                 self.is_over = true;
                 CharEffect::End
