@@ -169,7 +169,8 @@ impl Document {
 
 /// Result of parsing a document that is not text.
 fn unparsed(diagnostics: Vec<Diagnostic>) -> Parsed {
-    Parsed { file: ast::File::default(), syntax: Syntax::Text, text: Default::default(), diagnostics }
+    let file = ast::File::default();
+    Parsed { file, syntax: Syntax::Text, text: Default::default(), diagnostics, written: None }
 }
 
 /// Is `true` for a reply with prose around its policy, which a rewritten document would lose.

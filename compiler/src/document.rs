@@ -249,7 +249,7 @@ impl Session {
             findings.extend(more.into_iter().map(Finding::from));
         }
         for finding in &mut findings {
-            locate(&mut finding.diagnostic, policy, &program, library);
+            locate(&mut finding.diagnostic, policy, parsed, &program, library);
         }
         let has_errors = has_errors(&findings);
         Analysis { program, proof, motions, findings, has_errors, are_motions_checked: geometry.is_some() }
@@ -297,7 +297,13 @@ fn has_errors(findings: &[Finding]) -> bool {
 
 /// Gives a diagnostic its path in the document, and moves one inside an inlined policy of another file to
 /// the call.
-fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program, library: &Library) {
+fn locate(
+    diagnostic: &mut Diagnostic,
+    policy: &Policy,
+    parsed: &Parsed,
+    program: &Program,
+    library: &Library,
+) {
     if diagnostic.span.file != policy.span.file
         && let Some(call) = call_site(diagnostic.span, policy, program)
     {
@@ -306,7 +312,10 @@ fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program, libra
         diagnostic.fix = None;
     }
     let parameter = |callee: &str, position: usize| library.parameter(callee, position);
-    let pointer = |span| motet_syntax::pointer::pointer_to(policy, span, &parameter);
+    let pointer = |span| match &parsed.written {
+        Some(written) => written.pointer_at(span),
+        None => motet_syntax::pointer::pointer_to(policy, span, &parameter),
+    };
     diagnostic.path = pointer(diagnostic.span);
     for related in &mut diagnostic.related {
         if let Some(span) = related.span.filter(|span| span.file == policy.span.file) {

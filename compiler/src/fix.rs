@@ -35,8 +35,9 @@ pub struct AppliedFix {
     pub title: String,
 }
 
-/// Applies at most `most` fixes to a document. Each leaves it with fewer errors and no new kind of error, or
-/// with as many errors, fewer warnings and no new code. At most 500 documents are checked on the way.
+/// Writes the shapes of a document in the form of the language (M0122), and applies at most `most` fixes.
+/// Each leaves it with fewer errors and no new kind of error, or with as many errors, fewer warnings and no
+/// new code. At most 500 documents are checked on the way.
 ///
 /// ```
 /// use motet_compiler::{Session, fix};
@@ -64,10 +65,15 @@ pub fn fix_parsed(
 ) -> FixedDocument {
     let mut tries = MAX_TRIES;
     let mut at = Candidate::new(session, source.text.to_string(), parsed);
-    let mut applied = Vec::new();
-    while applied.len() < most {
-        let depth = MAX_DEPTH.min(most - applied.len() - 1);
+    let (mut applied, mut left) = (Vec::new(), most);
+    loop {
+        if let Some((next, done)) = at.in_plain_form(session, source, file) {
+            applied.extend(done);
+            at = next;
+        }
+        let Some(depth) = left.checked_sub(1).map(|left| MAX_DEPTH.min(left)) else { break };
         let Some((next, done)) = better(session, source, file, &at, &at, depth, &mut tries) else { break };
+        left = left.saturating_sub(done.len());
         applied.extend(done);
         at = next;
     }
@@ -90,6 +96,26 @@ impl Candidate {
 
     fn new(session: &Session, text: String, parsed: Parsed) -> Self {
         Self { findings: session.findings(&parsed, None), text, parsed }
+    }
+
+    /// The same document with its shapes in the form of the language, which changes nothing of its meaning.
+    fn in_plain_form(
+        &self,
+        session: &Session,
+        source: &Source,
+        file: FileId,
+    ) -> Option<(Self, Vec<AppliedFix>)> {
+        self.parsed.written.as_ref()?;
+        let notes = self.findings.iter().map(|found| &found.diagnostic);
+        let notes = notes.filter(|said| said.severity == Severity::Note && said.fix.is_some());
+        let (mut edits, mut done) = (Vec::new(), Vec::new());
+        for note in notes {
+            let fix = note.fix.as_ref()?;
+            edits.extend(fix.edits.iter().cloned());
+            done.push(AppliedFix { code: note.code, title: fix.title.clone() });
+        }
+        let text = apply(&self.text, file, &Fix { title: String::new(), edits })?;
+        Some((Self::of(session, text, source, file), done))
     }
 
     fn count(&self, severity: Severity) -> usize {

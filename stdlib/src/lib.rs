@@ -11,3 +11,6 @@ pub const FILES: &[(&str, &str)] = &[
     ("stdlib/people.motet", include_str!("../motet/people.motet")),
     ("stdlib/policies.motet", include_str!("../motet/policies.motet")),
 ];
+
+/// Words that models write where the library has another, one row a meaning. The file describes its rows.
+pub const WORDS: &str = include_str!("../words.txt");

@@ -8,6 +8,7 @@ use super::arithmetic::dimension;
 use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::errors::{MissingArgument, NotACondition, TooManyArguments, UnknownFluent, UnknownParameter};
 use super::name::{list, near};
+use super::words;
 use crate::ir::{Base, Condition, Fact, Term, Ty};
 
 impl Elaborator<'_> {
@@ -153,7 +154,9 @@ impl Elaborator<'_> {
                 Some(name) => match params.iter().position(|(param, _)| *param == name.text) {
                     Some(index) => Some(index),
                     None => {
-                        let near = near(&name.text, params.iter().map(|(param, _)| param.as_str()));
+                        let names = || params.iter().map(|(param, _)| param.as_str());
+                        let meant = words::parameter(&name.text, names()).map(SmolStr::new);
+                        let near = meant.or_else(|| near(&name.text, names()));
                         let known = list(params.iter().map(|(param, _)| param.clone()));
                         let (name, span) = (name.text.clone(), name.span);
                         self.report(UnknownParameter { span, name, callee: callee.into(), near, known });

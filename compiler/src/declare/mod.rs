@@ -14,6 +14,7 @@ pub(crate) mod elaborator;
 pub(crate) mod errors;
 pub(crate) mod library;
 pub(crate) mod name;
+pub(crate) mod words;
 
 pub use self::arithmetic::{MAX_COUNT, MAX_SECONDS};
 pub use self::builder::{LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS};

@@ -98,9 +98,8 @@ impl RepairFinder {
         let mut findings: Vec<_> = diagnostics.into_iter().map(Finding::from).collect();
         for found in &mut findings {
             let diagnostic = &mut found.diagnostic;
-            if let Some(fix) = &mut diagnostic.fix {
-                writer.in_form(diagnostic.code, fix);
-            }
+            let (code, fix) = (diagnostic.code, diagnostic.fix.take());
+            diagnostic.fix = fix.and_then(|fix| writer.in_form(code, fix));
             let known = self.candidates.iter().find(|known| {
                 known.code == diagnostic.code
                     && known.span == diagnostic.span

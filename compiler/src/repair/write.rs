@@ -198,11 +198,18 @@ impl Writer<'_> {
     }
 
     /// Adapts the name in a fix to the syntax: in JSON with the quotes and the `$` of the name that it
-    /// replaces, in text in back-quotes if it needs them. Numbers and quantities stay.
-    pub(super) fn in_form(&self, code: Code, fix: &mut Fix) {
+    /// replaces, in text in back-quotes if it needs them. Numbers, quantities and whole steps stay. `None` if
+    /// the name is not written in the document as it is: in a string with escapes, or as a part of a shape.
+    pub(super) fn in_form(&self, code: Code, mut fix: Fix) -> Option<Fix> {
         let is_number = matches!(code.0, "M0302" | "M0310");
         for edit in fix.edits.iter_mut().filter(|_| !is_number) {
             let old = self.parsed.text.get(edit.span.range()).unwrap_or_default();
+            if is_step(old) && is_step(&edit.text) {
+                continue;
+            }
+            if old.starts_with(['{', '[']) || old.starts_with('"') && old.contains('\\') {
+                return None;
+            }
             edit.text = match old.strip_prefix('"') {
                 None => print::identifier(&edit.text),
                 Some(rest) => {
@@ -214,6 +221,7 @@ impl Writer<'_> {
                 }
             };
         }
+        Some(fix)
     }
 
     fn step(&self, id: StepId) -> Option<&Step> {
@@ -298,6 +306,11 @@ impl Writer<'_> {
         }
         Some(Edit { span, text: String::new() })
     }
+}
+
+/// Checks if a text is a step or an ending and no name.
+fn is_step(text: &str) -> bool {
+    text.starts_with('{') || text.ends_with(')') || matches!(text, "done" | "fail" | "replan")
 }
 
 /// Title of a fix: "insert `go(table)` before".

@@ -2,17 +2,19 @@
 
 use std::sync::Arc;
 
-use motet_syntax::Span;
 use motet_syntax::ast::{Do, Expr, Policy, PrimitiveKind};
+use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
 use super::errors::{NoResult, Recursion, UnknownPrimitive};
+use super::meant::step_to_write;
 use super::step::StepResolver;
 use crate::declare::PrimitiveDef;
 use crate::declare::elaborator::{Expected, ValueRole};
 use crate::declare::errors::{BadDeclaration, MissingArgument, TooManyArguments, UnknownParameter};
 use crate::declare::name::{list, near};
+use crate::declare::words;
 use crate::ir::{self, Base, BlockSlot, StepId, StepKind, StepPosition, Term, Ty};
 
 /// A parameter from the view of a call.
@@ -45,10 +47,16 @@ impl StepResolver<'_> {
             self.misplaced(call.call.name.span);
             return self.unknown(span, position);
         }
+        let step = step_to_write(call, library, self.elaborator.form);
         let provided = library.primitives.iter().filter(|def| def.provided).map(|def| def.name.as_str());
         let near =
             near(name, provided.chain(library.policies.iter().map(|policy| policy.name.text.as_str())));
-        self.elaborator.report(UnknownPrimitive { span: call.call.name.span, name: name.clone(), near });
+        self.elaborator.report(UnknownPrimitive {
+            span: call.call.name.span,
+            name: name.clone(),
+            step,
+            near,
+        });
         // What it binds exists all the same, so that its uses are not reported as well.
         if let Some(bind) = &call.bind {
             let id = self.bind(bind.text.clone(), Ty::UNKNOWN, bind.span, None);
@@ -239,8 +247,7 @@ impl StepResolver<'_> {
                     Some(index) => index,
                     None => {
                         unknown += 1;
-                        let near = near(&name.text, formals.iter().map(|formal| formal.name.as_str()))
-                            .or_else(|| only_missing(call, formals));
+                        let near = self.parameter_meant(call, &name.text, formals);
                         let known = list(formals.iter().map(|formal| formal.name.clone()));
                         let (name, span) = (name.text.clone(), name.span);
                         self.elaborator.report(UnknownParameter {
@@ -285,6 +292,21 @@ impl StepResolver<'_> {
             self.elaborator.report(MissingArgument { span: call.call.span, callee, param, ty });
         }
         given
+    }
+
+    /// The parameter, or in JSON the key of a step, that an unknown name probably means.
+    fn parameter_meant(&self, call: &Do, name: &str, formals: &[FormalParam<'_>]) -> Option<SmolStr> {
+        let is_given = |known: &str| {
+            call.call.args.iter().any(|arg| arg.name.as_ref().is_some_and(|name| name.text == known))
+        };
+        let params = || formals.iter().map(|formal| formal.name.as_str());
+        let keys =
+            [("within", call.within.is_none()), ("retry", call.retry.is_none()), ("as", call.bind.is_none())];
+        let is_json = self.elaborator.form == Syntax::Json;
+        let free_keys = keys.into_iter().filter(|(_, is_free)| is_json && *is_free).map(|(key, _)| key);
+        let free = params().filter(|param| !is_given(param)).chain(free_keys);
+        let meant = words::parameter(name, free).map(SmolStr::new);
+        meant.or_else(|| near(name, params())).or_else(|| only_missing(call, formals))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Diagnostics of unknown callees, and of names that a step must not bind (M0201, M0206, M0207, M0212,
 //! M0305).
 
-use motet_syntax::{Related, Span};
+use motet_syntax::{Fix, Related, Span};
 use smol_str::SmolStr;
 
 use crate::declare::errors::{did_you_mean, replace};
@@ -10,13 +10,19 @@ motet_syntax::mistakes! {
     pub(crate) const CODES;
 
     /// Call of an unknown primitive or policy.
-    UnknownPrimitive("M0201", Error) { name: SmolStr, near: Option<SmolStr> }
+    UnknownPrimitive("M0201", Error) { name: SmolStr, step: Option<StepToWrite>, near: Option<SmolStr> }
     message(m) { format!("there is no primitive or policy `{}`", m.name) }
     help(m) {
         let lists = || "`motet robots show` lists the primitives of the robot".to_owned();
-        did_you_mean(m.near.as_ref()).or_else(|| Some(lists()))
+        let step = m.step.as_ref().map(|step| step.help.clone());
+        step.or_else(|| did_you_mean(m.near.as_ref())).or_else(|| Some(lists()))
     }
-    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+    fix(m) {
+        match &m.step {
+            Some(step) => step.fix.clone(),
+            None => m.near.as_ref().and_then(|near| replace(m.span, near)),
+        }
+    }
 
     /// Binding with a name that is already bound, or that of an entity.
     Shadows("M0206", Error) { name: SmolStr, first: Option<Span> }
@@ -43,4 +49,12 @@ motet_syntax::mistakes! {
     NoResult("M0305", Error) { callee: SmolStr, name: SmolStr }
     message(m) { format!("`{}` has no result to bind to `{}`", m.callee, m.name) }
     help(m) { Some(format!("call it without binding `{}`", m.name)) }
+}
+
+/// The step to write for a word that is no callee.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct StepToWrite {
+    pub(crate) help: String,
+    /// Edits, where the word and the arguments have one reading.
+    pub(crate) fix: Option<Fix>,
 }

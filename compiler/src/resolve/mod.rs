@@ -8,6 +8,7 @@
 
 mod call;
 pub(crate) mod errors;
+mod meant;
 mod step;
 
 use motet_syntax::ast::{Expr, ExprKind, Policy};

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
 use crate::errors::{IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
+use crate::located::Located;
 use crate::source::{FileId, Source, Span, Syntax};
 use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
 use crate::words::DECLARATIONS;
@@ -22,6 +23,9 @@ pub struct Parsed {
     pub text: Arc<str>,
     /// Errors and warnings in the order of the document.
     pub diagnostics: Vec<Diagnostic>,
+    /// The JSON document as it is written, if shapes of it were read as others (M0122): pointers lead into it
+    /// and not into the form of the language.
+    pub written: Option<Arc<Located<'static>>>,
 }
 
 /// Reads a document. Its first character tells its syntax: JSON begins with `{` or `[`. A document in
@@ -33,7 +37,13 @@ pub fn read(source: &Source, file: FileId) -> Parsed {
     if document.len() > MAX_BYTES {
         let mistake = TooLarge { span: Span::new(file, 0, 0), bytes: document.len() };
         let (syntax, text) = (syntax_of(document), Arc::clone(&source.text));
-        return Parsed { file: File::default(), syntax, text, diagnostics: vec![mistake.into()] };
+        return Parsed {
+            file: File::default(),
+            syntax,
+            text,
+            diagnostics: vec![mistake.into()],
+            written: None,
+        };
     }
     let parsed = match document.strip_prefix(BOM) {
         Some(rest) => located(&format!("{BLANK_BOM}{rest}"), file),
@@ -84,19 +94,25 @@ fn located(document: &str, file: FileId) -> Parsed {
             let start = document.len() - document.trim_start().len();
             let line = document.trim_start().lines().next().unwrap_or("").trim_end();
             let mistake = NoDocument { span: Span::new(file, start, start + line.len()) };
-            let text = Arc::default();
-            Parsed { file: File::default(), syntax: Syntax::Text, text, diagnostics: vec![mistake.into()] }
+            let (syntax, diagnostics) = (Syntax::Text, vec![mistake.into()]);
+            Parsed { file: File::default(), syntax, text: Arc::default(), diagnostics, written: None }
         }
     }
 }
 
 fn whole(document: &str, file: FileId) -> Parsed {
     let syntax = syntax_of(document);
-    let (file, diagnostics) = match syntax {
-        Syntax::Text => text::parse(document, file),
-        Syntax::Json => json::read_policy(document, file),
+    let (file, diagnostics, written) = match syntax {
+        Syntax::Text => {
+            let (file, diagnostics) = text::parse(document, file);
+            (file, diagnostics, None)
+        }
+        Syntax::Json => {
+            let json::PolicyDocument { file, found, written } = json::read_policy(document, file);
+            (file, found, written.map(Arc::new))
+        }
     };
-    Parsed { file, syntax, text: Arc::default(), diagnostics }
+    Parsed { file, syntax, text: Arc::default(), diagnostics, written }
 }
 
 /// Syntax of a document, by its first character.
@@ -131,8 +147,8 @@ enum Reply {
 
 /// Finds the document of a text. O(bytes).
 fn locate(text: &str) -> Reply {
-    if text.trim_ascii_start().starts_with('{') {
-        return after_object(text, text.len() - text.trim_ascii_start().len());
+    if is_json(text) {
+        return after_json(text, text.len() - text.trim_ascii_start().len());
     }
     let mut first_two =
         tokens(text, 0).filter(|token| !matches!(token.kind, TokenKind::Comment | TokenKind::Doc));
@@ -169,12 +185,20 @@ fn is_declaration(first: Token<'_>, second: Option<Token<'_>>) -> bool {
     first.text == "initially" || DECLARATIONS.contains(&first.text) && (named || second.is_none())
 }
 
-/// A text that begins with an object: prose may follow.
-fn after_object(text: &str, start: usize) -> Reply {
-    if text.trim_ascii_end().ends_with('}') {
+/// Checks if a text begins with an object, or with a list that may be one of steps.
+fn is_json(text: &str) -> bool {
+    let text = text.trim_ascii_start();
+    text.starts_with('{')
+        || text.strip_prefix('[').is_some_and(|rest| rest.trim_ascii_start().starts_with(['{', '"']))
+}
+
+/// A text that begins with an object or a list: prose may follow.
+fn after_json(text: &str, start: usize) -> Reply {
+    let closing = if text.get(start..).is_some_and(|rest| rest.starts_with('[')) { ']' } else { '}' };
+    if text.trim_ascii_end().ends_with(closing) {
         return Reply::Whole;
     }
-    let Some(end) = object_end(text, start) else { return Reply::Whole };
+    let Some(end) = json_end(text, start) else { return Reply::Whole };
     let rest = text.get(end..).unwrap_or("").trim_start();
     let is_prose =
         rest.chars().next().is_some_and(|c| c.is_alphabetic() || matches!(c, '`' | '*' | '#' | '(' | '-'));
@@ -277,9 +301,14 @@ impl Fence {
     }
 }
 
+/// Keys of a policy.
+const KEYS: &[&str] = &["\"steps\"", "\"policy\"", "\"motet\""];
+/// Keys of steps that stand alone, and of calls in the manner of tools.
+const STEP_KEYS: &[&str] = &["\"do\"", "\"plan\"", "\"actions\"", "\"action\"", "\"arguments\""];
+
 fn looks_like_policy(document: &str) -> bool {
-    if document.trim_start().starts_with('{') {
-        return ["\"steps\"", "\"policy\"", "\"motet\""].iter().any(|key| document.contains(key));
+    if is_json(document) {
+        return KEYS.iter().any(|key| document.contains(key));
     }
     let starts = |line: &str| {
         line.trim_start().strip_prefix("policy").is_some_and(|rest| rest.starts_with([' ', '\t']))
@@ -337,12 +366,22 @@ fn bare(text: &str) -> Option<(usize, usize)> {
         }
         at += line.len();
     }
+    bare_json(text, KEYS).or_else(|| bare_json(text, STEP_KEYS))
+}
+
+/// The first object, or list of objects, in prose that has one of these keys.
+fn bare_json(text: &str, keys: &[&str]) -> Option<(usize, usize)> {
     let mut from = 0;
-    while let Some(start) = text.get(from..)?.find('{').map(|offset| from + offset) {
-        let end = object_end(text, start).unwrap_or(text.len());
+    while let Some(start) = text.get(from..)?.find(['{', '[']).map(|offset| from + offset) {
+        let inside = text.get(start + 1..).unwrap_or("").trim_ascii_start();
+        let is_list = text.get(start..).is_some_and(|rest| rest.starts_with('['));
+        if is_list && !inside.starts_with('{') {
+            from = start + 1;
+            continue;
+        }
+        let end = json_end(text, start).unwrap_or(text.len());
         let document = text.get(start..end)?;
-        let inside = document.get(1..).unwrap_or("").trim_start();
-        if inside.starts_with('"') && looks_like_policy(document) {
+        if (is_list || inside.starts_with('"')) && keys.iter().any(|key| document.contains(key)) {
             return Some((start, end));
         }
         from = end;
@@ -350,8 +389,8 @@ fn bare(text: &str) -> Option<(usize, usize)> {
     None
 }
 
-/// One past the brace that closes the object at `start`; `None` where it is not closed.
-fn object_end(text: &str, start: usize) -> Option<usize> {
+/// One past the bracket that closes the object or list at `start`; `None` where it is not closed.
+fn json_end(text: &str, start: usize) -> Option<usize> {
     let (mut depth, mut in_text, mut is_escaped) = (0_usize, false, false);
     for (offset, byte) in text.get(start..)?.bytes().enumerate() {
         match byte {

@@ -185,6 +185,18 @@ crate::mistakes! {
         })
     }
 
+    /// A part of the document in another shape than the language's, with one reading. `more` counts the
+    /// other places of this shape; the fix is about all of them.
+    ReadShape("M0122", Note) { written: String, read: String, more: usize, fix: Fix }
+    message(m) {
+        match m.more {
+            0 => format!("{} is read as {}", m.written, m.read),
+            more => format!("{} is read as {}, here and {more} more times", m.written, m.read),
+        }
+    }
+    help(_m) { Some("`motet fmt` and `motet check --fix` write the form of the language".into()) }
+    fix(m) { Some(m.fix.clone()) }
+
     /// A string that cannot be a name.
     BadName("M0121", Error) { name: SmolStr }
     message(m) {

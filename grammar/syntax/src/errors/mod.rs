@@ -1,4 +1,4 @@
-//! The mistakes of the syntax stage (M0101 to M0121): one struct and one code each. Raised by
+//! The mistakes of the syntax stage (M0101 to M0122): one struct and one code each. Raised by
 //! [`crate::read()`] and by the front ends for text and JSON; each becomes a [`Diagnostic`].
 
 mod document;
@@ -9,8 +9,8 @@ pub(crate) use document::{
     TooManySteps, TooManyTokens, UnknownUnit,
 };
 pub(crate) use json::{
-    BadName, BadValue, DuplicateKey, JsonSyntax, MissingKey, NoForm, NumberRange, ReservedKey, SyntaxFault,
-    TwoForms, UnknownKey, WrongType,
+    BadName, BadValue, DuplicateKey, JsonSyntax, MissingKey, NoForm, NumberRange, ReadShape, ReservedKey,
+    SyntaxFault, TwoForms, UnknownKey, WrongType,
 };
 
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};

@@ -24,6 +24,7 @@
 
 mod convert;
 mod convert_term;
+mod shapes;
 pub(crate) mod term;
 pub(crate) mod wire;
 
@@ -34,7 +35,7 @@ use smol_str::{SmolStr, format_smolstr};
 pub use crate::located::{Lenient, MAX_BRACKETS, Spanned};
 
 use crate::ast::{File, Item, MAX_BYTES};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::errors::{
     BadValue, DocumentKind, Empty, MissingKey, NoForm, NumberRange, TooLarge, TwoForms, UnknownKey, WrongType,
 };
@@ -52,7 +53,11 @@ pub fn read<'s, T: Deserialize<'s> + JsonSchema>(
     source: &'s Source,
     file: FileId,
 ) -> (Option<T>, Vec<Diagnostic>) {
-    let (value, _, found) = read_tree(&source.text, file);
+    let (tree, mut found) = match parse(&source.text, file) {
+        Ok(parsed) => parsed,
+        Err(found) => return (None, found),
+    };
+    let value = deserialize(&tree, &tree, &mut found);
     (value, found)
 }
 
@@ -62,55 +67,120 @@ pub fn policy_schema() -> Schema {
     schema_for!(wire::Document)
 }
 
-/// Reads a policy into a file with one item; an empty file where it could not be read.
-pub(crate) fn read_policy(text: &str, file: FileId) -> (File, Vec<Diagnostic>) {
-    let (document, tree, mut found) = read_tree::<Spanned<wire::Document>>(text, file);
-    let (Some(document), Some(tree)) = (document, tree) else { return (File::default(), found) };
-    let (policy, mistakes) = convert::policy(document, file);
+/// Result of reading a policy.
+#[derive(Default)]
+pub(crate) struct PolicyDocument {
+    /// File with one item; empty where the policy could not be read.
+    pub(crate) file: File,
+    pub(crate) found: Vec<Diagnostic>,
+    /// The document as it is written, if shapes of it were read as others.
+    pub(crate) written: Option<Located<'static>>,
+}
+
+/// Reads a policy. If the plain reading has errors, shapes that models write are read too (see [`shapes`]).
+pub(crate) fn read_policy(text: &str, file: FileId) -> PolicyDocument {
+    let (tree, found) = match parse(text, file) {
+        Ok(parsed) => parsed,
+        Err(found) => return PolicyDocument { found, ..PolicyDocument::default() },
+    };
+    // A duplicate is not in the tree, so its text cannot be edited.
+    let has_duplicates = !found.is_empty();
+    let plain = policy_of_tree(&tree, &tree, found);
+    if has_duplicates || plain.found.iter().all(|found| found.severity != Severity::Error) {
+        return plain;
+    }
+    let schema = policy_schema().to_value();
+    let Some((edited, notes)) = shapes::plain_form(&tree, text, &schema) else { return plain };
+    let moved = |mut found: Vec<Diagnostic>| {
+        found.iter_mut().for_each(|found| edited.move_diagnostic(found));
+        found
+    };
+    let mut read = match parse(&edited.text, file) {
+        Ok((mut edited_tree, found)) => {
+            let found = moved(found);
+            edited.move_tree(&mut edited_tree);
+            policy_of_tree(&edited_tree, &tree, found)
+        }
+        Err(found) => PolicyDocument { found: moved(found), ..PolicyDocument::default() },
+    };
+    read.found.extend(notes);
+    read.settle(&tree);
+    PolicyDocument { written: Some(tree.into_owned()), ..read }
+}
+
+impl PolicyDocument {
+    /// Sorts the diagnostics, and gives each its pointer into the document as it is written.
+    fn settle(&mut self, written: &Located<'_>) {
+        for diagnostic in self.found.iter_mut().filter(|diagnostic| diagnostic.path.is_empty()) {
+            diagnostic.path = written.pointer_at(diagnostic.span);
+        }
+        self.found.sort_by_key(|diagnostic| diagnostic.span.start);
+    }
+}
+
+/// Reads the policy of a tree; pointers lead into `written`.
+fn policy_of_tree(tree: &Located<'_>, written: &Located<'_>, mut found: Vec<Diagnostic>) -> PolicyDocument {
+    let document: Option<Spanned<wire::Document>> = deserialize(tree, written, &mut found);
+    let Some(document) = document else { return PolicyDocument { found, ..PolicyDocument::default() } };
+    let (policy, mistakes) = convert::policy(document, tree.span.file);
     // The conversion knows more than the schema: of two reports of one mistake its own stays.
     found.retain(|one| !mistakes.iter().any(|other| (other.code, other.span) == (one.code, one.span)));
     found.extend(mistakes);
-    for diagnostic in found.iter_mut().filter(|diagnostic| diagnostic.path.is_empty()) {
-        diagnostic.path = tree.pointer_at(diagnostic.span);
-    }
-    found.sort_by_key(|diagnostic| diagnostic.span.start);
-    (File { items: vec![Item::Policy(policy)] }, found)
+    let file = File { items: vec![Item::Policy(policy)] };
+    let mut read = PolicyDocument { file, found, written: None };
+    read.settle(written);
+    read
 }
 
-/// Reads a document; returns its tree too where the syntax is right, so that a later stage can find its
-/// pointers.
-fn read_tree<'s, T: Deserialize<'s> + JsonSchema>(
-    text: &'s str,
-    file: FileId,
-) -> (Option<T>, Option<Located<'s>>, Vec<Diagnostic>) {
+/// Parses a document into its tree, with the duplicates of its keys; `Err` if it has no tree.
+fn parse(text: &str, file: FileId) -> Result<(Located<'_>, Vec<Diagnostic>), Vec<Diagnostic>> {
     let start = Span::new(file, 0, 0);
     if text.len() > MAX_BYTES {
-        return (None, None, vec![TooLarge { span: start, bytes: text.len() }.into()]);
+        return Err(vec![TooLarge { span: start, bytes: text.len() }.into()]);
     }
     if text.trim_ascii().is_empty() {
-        return (None, None, vec![Empty { span: start, wanted: DocumentKind::Json }.into()]);
+        return Err(vec![Empty { span: start, wanted: DocumentKind::Json }.into()]);
     }
-    let (tree, mut found) = located::parse_json(text, file);
-    let Some(tree) = tree else { return (None, None, found) };
-    let (value, faults) = located::deserialize(&tree);
+    match located::parse_json(text, file) {
+        (Some(tree), found) => Ok((tree, found)),
+        (None, found) => Err(found),
+    }
+}
+
+/// Deserializes a tree, and adds its mistakes in the order of the document.
+fn deserialize<'s, T: Deserialize<'s> + JsonSchema>(
+    tree: &Located<'s>,
+    written: &Located<'_>,
+    found: &mut Vec<Diagnostic>,
+) -> Option<T> {
+    let (value, faults) = located::deserialize(tree);
     if !faults.is_empty() {
-        found.extend(explain::<T>(&tree, faults));
+        found.extend(explain::<T>(tree, written, faults));
         found.sort_by_key(|diagnostic| diagnostic.span.start);
     }
-    (value, Some(tree), found)
+    value
 }
 
 /// Reports what serde refused: by the schema of the type, and in serde's words where no schema shows it.
 #[cold]
-fn explain<T: JsonSchema>(tree: &Located<'_>, faults: Vec<Fault>) -> Vec<Diagnostic> {
+fn explain<T: JsonSchema>(tree: &Located<'_>, written: &Located<'_>, faults: Vec<Fault>) -> Vec<Diagnostic> {
     let schema = schema_for!(T).to_value();
     let mismatches = located::check_schema(tree, &schema);
     let is_shown = !mismatches.is_empty();
-    let mut found: Vec<Diagnostic> = mismatches.into_iter().map(diagnostic).collect();
+    let is_edited = !std::ptr::eq(tree, written);
+    let mut found: Vec<Diagnostic> = mismatches
+        .into_iter()
+        .map(|mut mismatch| {
+            if is_edited {
+                mismatch.pointer = written.pointer_at(mismatch.node.span);
+            }
+            diagnostic(mismatch)
+        })
+        .collect();
     for fault in faults.into_iter().filter(|fault| fault.is_custom || !is_shown) {
         let span = fault.span.unwrap_or(tree.span);
         let mut refused: Diagnostic = BadValue::new(span, fault.message).into();
-        refused.path = tree.pointer_at(span);
+        refused.path = written.pointer_at(span);
         found.push(refused);
     }
     found

@@ -17,7 +17,7 @@ use std::ops::Deref;
 
 pub(crate) use de::{Fault, MIXED, OPEN, deserialize};
 pub use parse::{MAX_BRACKETS, parse_json};
-pub(crate) use schema::phrase;
+pub(crate) use schema::{Leaf, SchemaView, form_key, phrase};
 pub use schema::{Mismatch, MismatchKind, check_schema};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::{SeqAccess, Visitor};
@@ -92,6 +92,26 @@ impl<'s> Located<'s> {
             LocatedValue::Text(text) => Some(text),
             _ => None,
         }
+    }
+
+    /// The same value with its own strings.
+    #[must_use]
+    pub fn into_owned(self) -> Located<'static> {
+        let value = match self.value {
+            LocatedValue::Null => LocatedValue::Null,
+            LocatedValue::Bool(value) => LocatedValue::Bool(value),
+            LocatedValue::Number(value) => LocatedValue::Number(value),
+            LocatedValue::Text(text) => LocatedValue::Text(Cow::Owned(text.into_owned())),
+            LocatedValue::Date => LocatedValue::Date,
+            LocatedValue::Array(items) => {
+                LocatedValue::Array(items.into_iter().map(Located::into_owned).collect())
+            }
+            LocatedValue::Object(members) => {
+                let owned = members.into_iter().map(|(key, value)| (key.into_owned(), value.into_owned()));
+                LocatedValue::Object(owned.collect())
+            }
+        };
+        Located { value, span: self.span }
     }
 
     /// Members of an object, in order; none of any other value.

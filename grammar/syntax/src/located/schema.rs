@@ -58,35 +58,111 @@ pub enum MismatchKind<'t> {
 /// ```
 #[must_use]
 pub fn check_schema<'t>(tree: &'t Located<'t>, schema: &'t Json) -> Vec<Mismatch<'t>> {
-    let mut check = SchemaCheck { root: schema, pointer: String::new(), found: Vec::new() };
+    let view = SchemaView::new(schema);
+    let mut check = SchemaCheck { view, pointer: String::new(), found: Vec::new() };
     check.value(tree, schema);
     check.found
 }
 
 struct SchemaCheck<'t> {
-    root: &'t Json,
+    view: SchemaView<'t>,
     pointer: String,
     found: Vec<Mismatch<'t>>,
 }
 
 /// A schema without `$ref` and alternatives, and the name of the definition that it comes from.
 #[derive(Clone, Copy)]
-struct Leaf<'t> {
-    schema: &'t Json,
-    name: Option<&'t str>,
+pub(crate) struct Leaf<'t> {
+    pub(crate) schema: &'t Json,
+    pub(crate) name: Option<&'t str>,
+}
+
+/// A schema with its definitions.
+#[derive(Clone, Copy)]
+pub(crate) struct SchemaView<'t> {
+    root: &'t Json,
+}
+
+impl<'t> SchemaView<'t> {
+    /// View of a whole schema.
+    pub(crate) fn new(root: &'t Json) -> Self {
+        Self { root }
+    }
+
+    /// The schema itself.
+    pub(crate) fn root(self) -> &'t Json {
+        self.root
+    }
+
+    /// Definition with this name.
+    pub(crate) fn definition(self, name: &str) -> Option<&'t Json> {
+        self.root.get("$defs").and_then(|definitions| definitions.get(name))
+    }
+
+    /// Keys that name the forms of an object with several.
+    pub(crate) fn forms(self, name: &str) -> Vec<&'t str> {
+        let leaves = self.definition(name).map(|schema| self.leaves(schema)).unwrap_or_default();
+        leaves.into_iter().filter_map(|leaf| form_key(leaf.schema)).collect()
+    }
+
+    /// Words of an enumeration.
+    pub(crate) fn words(self, name: &str) -> Vec<&'t str> {
+        let leaves = self.definition(name).map(|schema| self.leaves(schema)).unwrap_or_default();
+        leaves.into_iter().flat_map(|leaf| words(leaf.schema).unwrap_or_default()).collect()
+    }
+
+    /// Schema of a key; `None` for one that the object does not list.
+    pub(crate) fn property(self, schema: &'t Json, key: &str) -> Option<&'t Json> {
+        property(schema, key)
+    }
+
+    /// Schema of the elements, if only a list of any length is accepted.
+    pub(crate) fn list_items(self, schema: &'t Json) -> Option<&'t Json> {
+        let is_list = types(schema).iter().all(|kind| matches!(*kind, "array" | "null"));
+        let is_fixed = schema.get("maxItems").is_some();
+        schema.get("items").filter(|_| is_list && !is_fixed)
+    }
+
+    /// Checks if a schema accepts only `null`.
+    pub(crate) fn is_null(self, schema: &Json) -> bool {
+        types(schema) == ["null"]
+    }
+
+    /// The alternatives of a schema, through `$ref`.
+    pub(crate) fn leaves(self, schema: &'t Json) -> Vec<Leaf<'t>> {
+        let mut found = Vec::new();
+        self.add_leaves(Leaf { schema, name: None }, &mut found);
+        found
+    }
+
+    fn add_leaves(self, leaf: Leaf<'t>, found: &mut Vec<Leaf<'t>>) {
+        let Leaf { schema, name } = leaf;
+        if let Some(pointer) =
+            schema.get("$ref").and_then(Json::as_str).and_then(|target| target.strip_prefix('#'))
+        {
+            let name = name.or_else(|| pointer.rsplit('/').next());
+            if let Some(schema) = self.root.pointer(pointer) {
+                self.add_leaves(Leaf { schema, name }, found);
+            }
+            return;
+        }
+        match schema.get("anyOf").or_else(|| schema.get("oneOf")).and_then(Json::as_array) {
+            Some(options) => options.iter().for_each(|schema| self.add_leaves(Leaf { schema, name }, found)),
+            None => found.push(leaf),
+        }
+    }
 }
 
 impl<'t> SchemaCheck<'t> {
     fn value(&mut self, node: &'t Located<'t>, schema: &'t Json) {
-        let mut leaves = Vec::new();
-        self.leaves(Leaf { schema, name: None }, &mut leaves);
+        let leaves = self.view.leaves(schema);
         // An optional struct is a struct, not an object with several forms.
         let is_struct = leaves.iter().filter(|leaf| types(leaf.schema) != ["null"]).count() == 1;
         let fitting: Vec<Leaf<'t>> =
             leaves.iter().copied().filter(|leaf| accepts(leaf.schema, &node.value)).collect();
         match (&node.value, fitting.as_slice()) {
             (_, []) => self.report(node, wrong_type(&leaves)),
-            (LocatedValue::Object(_), [only]) if is_struct || head(only.schema).is_none() => {
+            (LocatedValue::Object(_), [only]) if is_struct || form_key(only.schema).is_none() => {
                 self.object(node, only.schema);
             }
             (LocatedValue::Object(_), forms) => self.form(node, forms),
@@ -114,10 +190,10 @@ impl<'t> SchemaCheck<'t> {
 
     /// An object with several forms: the first key that names one decides.
     fn form(&mut self, node: &'t Located<'t>, forms: &[Leaf<'t>]) {
-        let form_of = |key: &Located<'_>| forms.iter().find(|form| head(form.schema) == key.text());
+        let form_of = |key: &Located<'_>| forms.iter().find(|form| form_key(form.schema) == key.text());
         let Some((first, form)) = node.members().iter().find_map(|(key, _)| Some((key, form_of(key)?)))
         else {
-            let heads = forms.iter().filter_map(|form| head(form.schema)).collect();
+            let heads = forms.iter().filter_map(|form| form_key(form.schema)).collect();
             return self.report(node, MismatchKind::NoForm { forms: heads });
         };
         let second = node.members().iter().map(|(key, _)| key).find(|key| {
@@ -176,24 +252,6 @@ impl<'t> SchemaCheck<'t> {
     fn report(&mut self, node: &'t Located<'t>, kind: MismatchKind<'t>) {
         self.found.push(Mismatch { node, pointer: self.pointer.clone(), kind });
     }
-
-    /// Collects the alternatives of a schema, through `$ref`.
-    fn leaves(&self, leaf: Leaf<'t>, found: &mut Vec<Leaf<'t>>) {
-        let Leaf { schema, name } = leaf;
-        if let Some(pointer) =
-            schema.get("$ref").and_then(Json::as_str).and_then(|target| target.strip_prefix('#'))
-        {
-            let name = name.or_else(|| pointer.rsplit('/').next());
-            if let Some(schema) = self.root.pointer(pointer) {
-                self.leaves(Leaf { schema, name }, found);
-            }
-            return;
-        }
-        match schema.get("anyOf").or_else(|| schema.get("oneOf")).and_then(Json::as_array) {
-            Some(options) => options.iter().for_each(|schema| self.leaves(Leaf { schema, name }, found)),
-            None => found.push(leaf),
-        }
-    }
 }
 
 /// JSON types that a schema without alternatives accepts; none where it accepts all.
@@ -243,7 +301,7 @@ fn is_open(schema: &Json) -> Option<&Json> {
 }
 
 /// The key that names a form of an object: the first that it requires.
-fn head(schema: &Json) -> Option<&str> {
+pub(crate) fn form_key(schema: &Json) -> Option<&str> {
     schema.get("required").and_then(Json::as_array).and_then(|keys| keys.first()).and_then(Json::as_str)
 }
 

@@ -1,8 +1,9 @@
 //! Printer of policies in the JSON syntax: syntax tree to wire types, and those to text.
 //!
 //! A name that a `let`, an `each` or a parameter binds is written `"$name"`, any other as it is. A quantity
-//! in an SI unit is written as a number, any other as a string with its unit. An argument without a name is
-//! written under `arg1`, `arg2`, … by its position: the compiler names arguments before it prints.
+//! in an SI unit is written as a number, any other as a string with its unit. The compiler names arguments
+//! before it prints. A condition with an argument that still has no name is written as a string in the text
+//! syntax; in a step such an argument is written under `arg1`, `arg2`, … by its position.
 
 use serde_json::Value;
 use smol_str::{SmolStr, format_smolstr};
@@ -172,6 +173,7 @@ impl WireTranslation {
     /// A condition. What has no form of its own is written as a string in the text syntax.
     fn condition(&mut self, expr: &Expr) -> Condition {
         let term = match &expr.kind {
+            _ if has_unnamed(expr) => Term::Text(super::expression(expr).into()),
             ExprKind::Bool(value) => Term::Bool(*value),
             ExprKind::Binding(bound) => binding(bound),
             ExprKind::Name(bound) if self.scope.contains(bound) => binding(bound),
@@ -291,6 +293,29 @@ impl WireTranslation {
             (Spanned::from(key), Spanned::from(self.term(&arg.value)))
         });
         Args(args.collect())
+    }
+}
+
+/// Checks if a call in an expression has an argument without a name.
+fn has_unnamed(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Call(call) => call.args.iter().any(|arg| arg.name.is_none() || has_unnamed(&arg.value)),
+        ExprKind::Not(inner) | ExprKind::Field(inner, _) => has_unnamed(inner),
+        ExprKind::All(members) | ExprKind::AnyOf(members) | ExprKind::List(members) => {
+            members.iter().any(has_unnamed)
+        }
+        ExprKind::Compare(_, left, right) | ExprKind::Arith(_, left, right) => {
+            has_unnamed(left) || has_unnamed(right)
+        }
+        ExprKind::Bool(_)
+        | ExprKind::Number(_)
+        | ExprKind::Quantity(..)
+        | ExprKind::Text(_)
+        | ExprKind::Name(_)
+        | ExprKind::Binding(_)
+        | ExprKind::Plain(_)
+        | ExprKind::Wrong(_)
+        | ExprKind::Any => false,
     }
 }
 

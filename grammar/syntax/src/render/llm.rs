@@ -37,6 +37,8 @@ fn rank(said: &Diagnostic) -> u8 {
         path if path.starts_with("/steps") => 1,
         path if path.starts_with("/achieves") => 2,
         _ if said.code.0 == "M0503" => 2,
+        // The steps of a document in another shape have another key, or none.
+        path if !step_pointer(path).is_empty() => 1,
         _ => 0,
     }
 }
@@ -112,10 +114,17 @@ fn step_pointer(path: &str) -> &str {
 fn step_label(path: &str) -> Option<String> {
     let parts: Vec<String> = step_pointer(path)
         .split('/')
-        .filter(|part| !part.is_empty() && *part != "steps")
+        .enumerate()
+        .filter(|(depth, part)| !part.is_empty() && *part != "steps" && !(*depth == 1 && is_list(part)))
+        .map(|(_, part)| part)
         .map(|part| part.parse::<usize>().map_or_else(|_| part.to_owned(), |index| (index + 1).to_string()))
         .collect();
     (!parts.is_empty()).then(|| format!("Step {}", parts.join(".")))
+}
+
+/// Checks if the key of a document is another one for its steps.
+fn is_list(key: &str) -> bool {
+    key != "achieves" && key.parse::<usize>().is_err()
 }
 
 #[cfg(test)]
@@ -128,6 +137,8 @@ mod tests {
             ("", None),
             ("/achieves", None),
             ("/steps/2", Some("Step 3")),
+            ("/2", Some("Step 3")),
+            ("/plan/2/args/object", Some("Step 3")),
             ("/steps/1/then/0/object", Some("Step 2.then.1")),
             ("/steps/0/catch/1/steps/0", Some("Step 1.catch.2.1")),
             ("/steps/0/monitor/0/when/less/1", Some("Step 1.monitor.1.when.less.2")),

@@ -238,7 +238,7 @@ fn read_reports_odd_characters() {
         ("{\"motet\": 1, \"motet\": 1, \"policy\": \"p\", \"steps\": []}", "M0104"),
         ("{\"motet\": 2, \"policy\": \"p\", \"steps\": []}", "M0108"),
         ("{\"motet\": 1, \"policy\": \"\", \"steps\": []}", "M0121"),
-        ("{\"motet\": 1, \"policy\": \"p\", \"steps\": [{\"do\": \"go\", \"as\": \"$m\"}]}", "M0121"),
+        ("{\"motet\": 1, \"policy\": \"p\", \"steps\": [{\"do\": \"go\", \"as\": \"$m\"}]}", "M0122"),
         ("[]", "M0106"),
     ] {
         assert_eq!(code(document), expected, "{document:?}");

@@ -16,3 +16,4 @@ mod messages;
 mod read;
 mod reply;
 mod round_trip;
+mod shapes;

@@ -58,6 +58,29 @@ fn reply_finds_a_bare_document_in_prose() {
 }
 
 #[test]
+fn reply_finds_steps_without_a_policy() {
+    let steps = r#"[{"do": "go", "to": "a"}, {"do": "home"}]"#;
+    let parsed = |reply: &str| {
+        let parsed = read(&Source::new("reply", reply), FileId(0));
+        let codes: Vec<_> = parsed.diagnostics.iter().map(|said| said.code.0).collect();
+        let steps = parsed.file.policies().map(|policy| policy.body.steps.len()).sum::<usize>();
+        (codes.join(" "), steps)
+    };
+    assert_eq!(parsed(steps), ("M0122".into(), 2));
+    assert_eq!(parsed(&format!("{steps}\nThis drives to a.")), ("M0122 M0116".into(), 2));
+    assert_eq!(
+        parsed(&format!("Here is [1] the plan: {steps}. Good luck!")),
+        ("M0116 M0122 M0116".into(), 2)
+    );
+    assert_eq!(parsed(&format!("So:\n```json\n{steps}\n```\n")), ("M0116 M0122".into(), 2));
+    let plan = r#"{"plan": [{"action": "home"}]}"#;
+    assert_eq!(parsed(&format!("The plan is {plan}.")), ("M0116 M0122 M0122 M0122 M0116".into(), 1));
+    // A policy comes before an object that only looks like a step.
+    assert_eq!(parsed(&format!("Not {{\"action\": \"go\"}} but {JSON}")), ("M0116".into(), 1));
+    assert_eq!(parsed("[1] Here is what I think."), ("M0102".into(), 0));
+}
+
+#[test]
 fn reply_accepts_fences_within_lines() {
     check(&format!("First ```json\n{JSON}\n```"), Some("p"), &["M0116 First"]);
     check(

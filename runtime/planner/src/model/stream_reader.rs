@@ -325,10 +325,14 @@ pub(super) struct Scanner {
     /// The last string among the object's own keys and values.
     key: String,
     in_steps: bool,
+    /// Is `true` if one of those strings is a key that only a policy has.
+    is_policy: bool,
     /// Offset of the steps, after the bracket.
     pub(super) steps_from: Option<usize>,
     is_over: bool,
-    /// Is `true` if the reply is in the text syntax, which is not scanned.
+    /// Is `true` behind the bracket of a list.
+    in_list: bool,
+    /// Is `true` if the reply is in the text syntax or a list of steps, which are not scanned.
     is_text: bool,
 }
 
@@ -382,9 +386,10 @@ impl Scanner {
 
     fn begin(&mut self, letter: char) -> CharEffect {
         if !self.before.push(letter) || letter != '{' {
+            self.in_list = letter == '[' || self.in_list && letter.is_whitespace();
             return CharEffect::Nothing;
         }
-        if self.before.line.starts_with("policy ") {
+        if self.in_list || self.before.line.starts_with("policy ") {
             self.is_text = true;
             return CharEffect::Nothing;
         }
@@ -404,6 +409,7 @@ impl Scanner {
                 if self.open.len() == 1 {
                     let string = self.text.get(from + 1..self.text.len() - 1);
                     self.key = string.unwrap_or_default().to_owned();
+                    self.is_policy |= matches!(self.key.as_str(), "motet" | "policy");
                 }
                 return CharEffect::StringEnd { from };
             }
@@ -418,8 +424,8 @@ impl Scanner {
             return CharEffect::Kept;
         };
         match self.open.len() {
-            // An object in the prose before the policy.
-            0 if self.steps_from.is_none() => {
+            // An object in the prose before the policy, or a step alone.
+            0 if self.steps_from.is_none() || !self.is_policy => {
                 *self = Self { before: std::mem::take(&mut self.before), ..Self::default() };
                 CharEffect::Nothing
             }

@@ -1,0 +1,109 @@
+//! Steps to write in place of a call of an unknown name, for words that models use.
+
+use motet_syntax::ast::{Arg, Do};
+use motet_syntax::{Edit, Fix, Syntax, print};
+
+use super::errors::StepToWrite;
+use crate::declare::Library;
+use crate::declare::words::{self, Meaning};
+
+/// The step that a call of an unknown name probably means.
+pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Option<StepToWrite> {
+    match words::meaning(&call.call.name.text)? {
+        Meaning::Calls(calls) => {
+            let known = calls.iter().filter_map(|meant| Some((meant, params(meant.callee, library)?)));
+            let known: Vec<_> = known.collect();
+            let steps: Vec<String> =
+                known.iter().map(|(meant, params)| pattern(meant.callee, params, syntax)).collect();
+            let mut fitting =
+                known.iter().filter_map(|(meant, params)| Some((*meant, renamed(&call.call.args, params)?)));
+            let fix = match (fitting.next(), fitting.next()) {
+                (Some((meant, mut edits)), None) if !meant.is_unsure => {
+                    edits.insert(0, Edit { span: call.call.name.span, text: meant.callee.to_owned() });
+                    let params = params(meant.callee, library)?;
+                    Some(Fix { title: format!("write {}", pattern(meant.callee, &params, syntax)), edits })
+                }
+                _ => None,
+            };
+            (!steps.is_empty()).then(|| StepToWrite { help: format!("write {}", steps.join(" or ")), fix })
+        }
+        Meaning::End(kind) => {
+            let step = match syntax {
+                Syntax::Text => kind.to_owned(),
+                Syntax::Json => format!("{{\"end\": \"{kind}\"}}"),
+            };
+            let is_bare = call.call.args.is_empty()
+                && call.bind.is_none()
+                && call.within.is_none()
+                && call.retry.is_none();
+            let help = format!("write `{step}`");
+            let edits = vec![Edit { span: call.call.span, text: step }];
+            let fix = is_bare.then(|| Fix { title: help.clone(), edits });
+            Some(StepToWrite { help, fix })
+        }
+        Meaning::Help(text, json) => {
+            let help = if syntax == Syntax::Text { text } else { json };
+            Some(StepToWrite { help: format!("write {help}"), fix: None })
+        }
+    }
+}
+
+/// Parameter of a callee.
+struct Param<'l> {
+    name: &'l str,
+    is_required: bool,
+}
+
+/// Parameters of a callee that the robot has.
+fn params<'l>(callee: &str, library: &'l Library) -> Option<Vec<Param<'l>>> {
+    let names = &library.names;
+    if let Some(def) = names.primitives.get(callee).and_then(|id| library.primitive(*id)) {
+        let params = def.params.iter();
+        let params = params.map(|param| Param { name: &param.name, is_required: param.default.is_none() });
+        return def.provided.then(|| params.collect());
+    }
+    let policy = names.policies.get(callee).and_then(|index| library.policies.get(*index))?;
+    let params = policy.params.iter();
+    Some(params.map(|param| Param { name: &param.name.text, is_required: param.default.is_none() }).collect())
+}
+
+/// A call with the required parameters of its callee.
+fn pattern(callee: &str, params: &[Param<'_>], syntax: Syntax) -> String {
+    let required = params.iter().filter(|param| param.is_required).map(|param| param.name);
+    match syntax {
+        Syntax::Text => {
+            let args: Vec<String> = required.map(|name| format!("{}: …", print::identifier(name))).collect();
+            format!("`{}({})`", print::identifier(callee), args.join(", "))
+        }
+        Syntax::Json => {
+            let args: String = required.map(|name| format!(", \"{name}\": …")).collect();
+            format!("`{{\"do\": \"{callee}\"{args}}}`")
+        }
+    }
+}
+
+/// Edits that give arguments the names of these parameters; `None` if they do not fit one to one.
+fn renamed(args: &[Arg], params: &[Param<'_>]) -> Option<Vec<Edit>> {
+    let position = |name: &str| params.iter().position(|param| param.name == name);
+    let mut given: Vec<bool> = params
+        .iter()
+        .map(|param| args.iter().any(|arg| arg.name.as_ref().is_some_and(|name| name.text == param.name)))
+        .collect();
+    let mut edits = Vec::new();
+    for (index, arg) in args.iter().enumerate() {
+        let Some(name) = &arg.name else {
+            let slot = given.get_mut(index).filter(|is_given| !**is_given)?;
+            *slot = true;
+            continue;
+        };
+        if position(&name.text).is_some() {
+            continue;
+        }
+        let free = params.iter().zip(&given).filter(|(_, is_given)| !**is_given);
+        let meant = words::parameter(&name.text, free.map(|(param, _)| param.name))?;
+        *given.get_mut(position(meant)?)? = true;
+        edits.push(Edit { span: name.span, text: meant.to_owned() });
+    }
+    let is_complete = params.iter().zip(&given).all(|(param, is_given)| *is_given || !param.is_required);
+    is_complete.then_some(edits)
+}

@@ -1,0 +1,118 @@
+//! Shapes that models write, as data: for each word or key the one of the language.
+
+use crate::located::Located;
+
+/// Keys that name the callee of a step, as `do` does.
+pub(super) const CALLEES: [&str; 9] =
+    ["action", "tool", "tool_name", "function", "primitive", "skill", "command", "call", "type"];
+
+/// Key that names the callee where the arguments have a key of their own; elsewhere it may be an argument.
+pub(super) const NAME: &str = "name";
+
+/// Keys around a whole call.
+pub(super) const WRAPPERS: [&str; 8] =
+    ["function", "function_call", "tool_call", "tool_use", "call", "action", "tool", "do"];
+
+/// Keys of the arguments of a call.
+pub(super) const ARGUMENTS: [&str; 6] = ["args", "arguments", "parameters", "params", "input", "kwargs"];
+
+/// Keys beside a call in the manner of tools that say nothing about it.
+pub(super) const NOISE: [&str; 6] = ["type", "id", "call_id", "tool_call_id", "tool_use_id", "index"];
+
+/// Values of `type` that name no callee.
+pub(super) const TYPES: [&str; 8] =
+    ["function", "function_call", "tool_call", "tool_use", "tool", "call", "action", "step"];
+
+/// Keys that name a fluent, as `is` does.
+pub(super) const FLUENTS: [&str; 3] = ["fluent", "fact", "predicate"];
+
+/// Names of fluents that are one letter from a key of a form.
+pub(super) const SHORT_FLUENTS: [&str; 3] = ["in", "on", "at"];
+
+/// Other keys and operators of conditions.
+pub(super) const CONDITIONS: [(&str, &str); 20] = [
+    ("and", "all"),
+    ("or", "any"),
+    ("<", "less"),
+    ("lt", "less"),
+    ("less_than", "less"),
+    ("<=", "at_most"),
+    ("le", "at_most"),
+    ("lte", "at_most"),
+    ("==", "equal"),
+    ("eq", "equal"),
+    ("equals", "equal"),
+    (">", "more"),
+    ("gt", "more"),
+    ("greater", "more"),
+    ("greater_than", "more"),
+    (">=", "at_least"),
+    ("ge", "at_least"),
+    ("gte", "at_least"),
+    ("!=", "unequal"),
+    ("not_equal", "unequal"),
+];
+
+/// Other words for the ways in which a policy ends.
+pub(super) const ENDINGS: [(&str, &str); 10] = [
+    ("success", "done"),
+    ("succeed", "done"),
+    ("finish", "done"),
+    ("finished", "done"),
+    ("complete", "done"),
+    ("completed", "done"),
+    ("failure", "fail"),
+    ("failed", "fail"),
+    ("abort", "fail"),
+    ("give_up", "fail"),
+];
+
+/// Keys that name the kind of a reaction or an ending.
+pub(super) const KINDS: [&str; 6] = ["react", "end", "reaction", "action", "do", "type"];
+
+/// Other keys of the object with the first key, each read as the last one where that is missing.
+pub(super) const KEYS: [(&str, &[&str], &str); 8] = [
+    ("on", &["then", "do", "body", "actions", "handler"], "steps"),
+    ("on", &["error", "errors", "failure", "failures"], "on"),
+    ("when", &["condition", "if"], "when"),
+    ("when", &["reaction", "react", "action", "do"], "then"),
+    ("monitor", &["body", "do", "steps", "while"], "during"),
+    ("repeat", &["body", "do", "actions"], "steps"),
+    ("each", &["body", "do", "actions"], "steps"),
+    ("try", &["except", "on_failure", "on_error"], "catch"),
+];
+
+/// Keys whose value is a new name, which has no `$`.
+pub(super) const NAMES: [&str; 3] = ["as", "each", "let"];
+
+/// Keys of a document that hold its steps, as `steps` does.
+pub(super) const PLANS: [&str; 6] = ["plan", "actions", "program", "commands", "tool_calls", "calls"];
+
+/// Keys of a document that hold prose.
+pub(super) const PROSE: [&str; 11] = [
+    "thought",
+    "thoughts",
+    "reasoning",
+    "rationale",
+    "explanation",
+    "comment",
+    "comments",
+    "notes",
+    "description",
+    "summary",
+    "analysis",
+];
+
+/// Name of a policy that has none.
+pub(super) const UNNAMED: &str = "plan";
+
+/// Key of the language for a key or an operator of a condition.
+pub(super) fn condition_key(key: &str) -> &str {
+    CONDITIONS.iter().find(|(alias, _)| *alias == key).map_or(key, |(_, own)| *own)
+}
+
+/// Checks if a key is one of these tables that names no callee itself.
+pub(super) fn is_own(key: &Located<'_>) -> bool {
+    let tables: [&[&str]; 7] = [&CALLEES, &WRAPPERS, &ARGUMENTS, &NOISE, &FLUENTS, &PLANS, &PROSE];
+    key.text().is_some_and(|key| key == NAME || tables.iter().any(|words| words.contains(&key)))
+}

@@ -1,0 +1,380 @@
+//! Shapes of JSON that models write in place of those of the language.
+
+use motet_syntax::ast::{Item, Policy};
+use motet_syntax::{FileId, Parsed, Severity, Source, print, read};
+use proptest::prelude::*;
+
+fn parse(document: &str) -> Parsed {
+    read(&Source::new("test", document), FileId(0))
+}
+
+#[track_caller]
+fn policy(parsed: &Parsed) -> Policy {
+    match parsed.file.items.first() {
+        Some(Item::Policy(policy)) => policy.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A document after the fixes of its notes.
+fn fixed(document: &str, parsed: &Parsed) -> String {
+    let notes = parsed.diagnostics.iter().filter(|said| said.code.0 == "M0122");
+    let mut edits: Vec<_> = notes.flat_map(|note| note.fix.clone().unwrap().edits).collect();
+    edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
+    let mut text = document.to_owned();
+    for edit in edits.iter().rev() {
+        text.replace_range(edit.span.range(), &edit.text);
+    }
+    text
+}
+
+/// A shape is read as the form of the language, with notes and nothing else; its fix and the printer write
+/// that form.
+#[track_caller]
+fn check(shape: &str, form: &str, notes: &[&str]) {
+    let (read_shape, read_form) = (parse(shape), parse(form));
+    assert_eq!(read_form.diagnostics, [], "{form}");
+    let said: Vec<&str> = read_shape.diagnostics.iter().map(|said| said.message.as_str()).collect();
+    assert_eq!(said, notes, "{shape}");
+    assert!(read_shape.diagnostics.iter().all(|said| said.severity == Severity::Note));
+    assert!(policy(&read_shape) == policy(&read_form), "{shape}\n{:#?}", policy(&read_shape));
+    let fixed = fixed(shape, &read_shape);
+    let after = parse(&fixed);
+    assert_eq!(after.diagnostics, [], "{fixed}");
+    assert!(policy(&after) == policy(&read_form), "{fixed}");
+    let formatted = print::format(&Source::new("test", shape)).unwrap();
+    assert_eq!(parse(&formatted).diagnostics, [], "{formatted}");
+}
+
+/// A step in another shape.
+#[track_caller]
+fn step(shape: &str, form: &str, note: &str) {
+    let whole = |step: &str| format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}]}}"#);
+    check(&whole(shape), &whole(form), &[note]);
+}
+
+/// A condition in another shape.
+#[track_caller]
+fn condition(shape: &str, form: &str, note: &str) {
+    let whole = |condition: &str| format!(r#"{{"wait": {condition}}}"#);
+    step(&whole(shape), &whole(form), note);
+}
+
+#[test]
+fn shapes_of_tool_calls_are_calls() {
+    let pick = r#"{"do": "pick", "object": "mug", "within": 20}"#;
+    for (shape, note) in [
+        (r#"{"do":"pick","args":{"object":"mug","within":20}}"#, r#"`{"do": …, "args": {…}}`"#),
+        (r#"{"do":"pick","within":20,"arguments":{"object":"mug"}}"#, r#"`{"do": …, "arguments": {…}}`"#),
+        (r#"{"action":"pick","object":"mug","within":20}"#, r#"`{"action": …}`"#),
+        (r#"{"tool":"pick","params":{"object":"mug"},"within":20}"#, r#"`{"tool": …, "params": {…}}`"#),
+        (
+            r#"{ "name" : "pick" , "arguments" : { "object" : "mug", "within" : 20 } }"#,
+            r#"`{"name": …, "arguments": {…}}`"#,
+        ),
+        (
+            r#"{"name":"pick","arguments":"{\"object\": \"mug\", \"within\": 20}"}"#,
+            r#"`{"name": …, "arguments": …}`"#,
+        ),
+        (
+            r#"{"type":"function","function":{"name":"pick","arguments":"{\"object\":\"mug\",\"within\":20}"}}"#,
+            r#"`{"function": {…}}`"#,
+        ),
+        (
+            r#"{"id":"call_1","type":"tool_use","name":"pick","input":{"object":"mug","within":20}}"#,
+            r#"`{"name": …, "input": {…}}`"#,
+        ),
+        (r#"{"type":"pick","object":"mug","within":20}"#, r#"`{"type": …}`"#),
+        (r#"{"action":{"name":"pick","object":"mug"},"within":20}"#, r#"`{"action": {…}}`"#),
+        (r#"{"do":{"name":"pick","object":"mug"},"within":20}"#, r#"`{"do": {…}}`"#),
+        (r#"{"pick":{"object":"mug","within":20}}"#, r#"`{"pick": {…}}`"#),
+        (
+            r#"{"arguments":{"object":"mug","within":20},"thought":"grasp it","name":"pick"}"#,
+            r#"`{"arguments": {…}, "name": …}`"#,
+        ),
+    ] {
+        step(shape, pick, &format!(r#"{note} is read as `{{"do": …}}`"#));
+    }
+    let home = r#"{"do": "home"}"#;
+    for (shape, note) in [
+        (r#"{"do":"home","args":{}}"#, r#"`{"do": …, "args": {…}}`"#),
+        (r#"{"args":{},"action":"home"}"#, r#"`{"args": {…}, "action": …}`"#),
+        (r#"{"name":"home","arguments":""}"#, r#"`{"name": …, "arguments": …}`"#),
+        (r#"{"name":"home","parameters":null}"#, r#"`{"name": …, "parameters": …}`"#),
+        (r#"{"home":{}}"#, r#"`{"home": {…}}`"#),
+    ] {
+        step(shape, home, &format!(r#"{note} is read as `{{"do": …}}`"#));
+    }
+}
+
+#[test]
+fn shapes_of_endings_and_reactions_are_read_by_their_word() {
+    step(r#""done""#, r#"{"end": "done"}"#, r#"`done` is read as `{"end": "done"}`"#);
+    step(r#""finished""#, r#"{"end": "done"}"#, r#"`finished` is read as `{"end": "done"}`"#);
+    step(r#"{"end":"success"}"#, r#"{"end": "done"}"#, "`success` is read as `\"done\"`");
+    step(
+        r#"{"replan":"no mug"}"#,
+        r#"{"end": "replan", "why": "no mug"}"#,
+        r#"`{"replan": …}` is read as `{"end": …}`"#,
+    );
+    step(r#"{"done":true}"#, r#"{"end": "done"}"#, r#"`{"done": …}` is read as `{"end": …}`"#);
+    let monitor = |then: &str| {
+        format!(r#"{{"monitor": [{{"when": "near(user)", "then": {then}}}], "during": [{{"do": "home"}}]}}"#)
+    };
+    for (shape, form, note) in [
+        (r#""pause""#, r#"{"react": "pause"}"#, r#"`pause` is read as `{"react": "pause"}`"#),
+        (r#""replan""#, r#"{"end": "replan"}"#, r#"`replan` is read as `{"end": "replan"}`"#),
+        (
+            r#"{"react":"fail","why":"x"}"#,
+            r#"{"end": "fail", "why": "x"}"#,
+            r#"`{"react": "fail"}` is read as `{"end": "fail"}`"#,
+        ),
+        (
+            r#"{"action":"pause","within":5}"#,
+            r#"{"react": "pause", "within": 5}"#,
+            r#"`{"action": "pause"}` is read as `{"react": "pause"}`"#,
+        ),
+    ] {
+        step(&monitor(shape), &monitor(form), note);
+    }
+    let notes =
+        [r#"a list of one reaction is read as a reaction"#, r#"`pause` is read as `{"react": "pause"}`"#];
+    let whole = |step: &str| format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}]}}"#);
+    check(&whole(&monitor(r#"["pause"]"#)), &whole(&monitor(r#"{"react": "pause"}"#)), &notes);
+}
+
+#[test]
+fn shapes_of_facts_are_conditions() {
+    condition(r#"{"open":"fridge_1"}"#, r#""open(fridge_1)""#, r#"`{"open": …}` is read as `"open(…)"`"#);
+    condition(
+        r#"{"not":{"holding":"$mug"}}"#,
+        r#"{"not": "holding(mug)"}"#,
+        r#"`{"holding": …}` is read as `"holding(…)"`"#,
+    );
+    condition(r#"{"on":["mug","any"]}"#, r#""on(mug, any)""#, r#"`{"on": […]}` is read as `"on(…)"`"#);
+    condition(r#"{"in":["7up","a b"]}"#, r#""in(`7up`, `a b`)""#, r#"`{"in": […]}` is read as `"in(…)"`"#);
+    condition(r#"{"lit":true}"#, r#""lit()""#, r#"`{"lit": …}` is read as `"lit(…)"`"#);
+    condition(
+        r#"{"on":{"object":"$mug","support":"any"}}"#,
+        r#"{"is": "on", "object": "$mug", "support": "any"}"#,
+        r#"`{"on": {…}}` is read as `{"is": "on", …}`"#,
+    );
+    condition(
+        r#"{"is":"on","args":{"object":"$mug","support":"any"}}"#,
+        r#"{"is": "on", "object": "$mug", "support": "any"}"#,
+        r#"`{"is": …, "args": {…}}` is read as `{"is": …}`"#,
+    );
+    condition(
+        r#"{"fluent":"open","container":"fridge_1"}"#,
+        r#"{"is": "open", "container": "fridge_1"}"#,
+        r#"`{"fluent": …, "container": …}` is read as `{"is": …}`"#,
+    );
+    condition(
+        r#"{"and":["lit()",{"not":"lit()"}]}"#,
+        r#"{"all": ["lit()", {"not": "lit()"}]}"#,
+        "the key `and` is read as `all`",
+    );
+    condition(
+        r#"{"<":[{"get":"battery"},0.2]}"#,
+        r#"{"less": [{"get": "battery"}, 0.2]}"#,
+        "the key `<` is read as `less`",
+    );
+}
+
+#[test]
+fn shapes_of_lists_and_names_are_those_of_their_place() {
+    step(
+        r#"{"try":[{"do":"home"}],"catch":[{"on":"slipped","steps":[]}]}"#,
+        r#"{"try": [{"do": "home"}], "catch": [{"on": ["slipped"], "steps": []}]}"#,
+        "a single value is read as a list of one",
+    );
+    step(
+        r#"{"try":{"do":"home"},"catch":{"on":["slipped"],"steps":{"do":"home"}}}"#,
+        r#"{"try": [{"do": "home"}], "catch": [{"on": ["slipped"], "steps": [{"do": "home"}]}]}"#,
+        "a single value is read as a list of one, here and 2 more times",
+    );
+    step(
+        r#"{"try":[{"do":"home"}],"catch":[{"on":["slipped"],"then":[]}]}"#,
+        r#"{"try": [{"do": "home"}], "catch": [{"on": ["slipped"], "steps": []}]}"#,
+        "the key `then` is read as `steps`",
+    );
+    step(
+        r#"{"repeat":2,"do":[{"do":"home"}]}"#,
+        r#"{"repeat": 2, "steps": [{"do": "home"}]}"#,
+        "the key `do` is read as `steps`",
+    );
+    step(
+        r#"{"do":"detect","what":"mug","as":"$mug"}"#,
+        r#"{"do":"detect","what":"mug","as":"mug"}"#,
+        "`$mug` is read as `\"mug\"`",
+    );
+}
+
+#[test]
+fn shapes_of_documents_are_policies() {
+    let form = r#"{"motet": 1, "policy": "plan", "steps": [{"do": "home"}]}"#;
+    let steps = "is read as a policy with these steps";
+    check(r#"[{"do":"home"}]"#, form, &[&format!("a list of steps {steps}")]);
+    check(r#"{"do":"home"}"#, form, &[&format!("a step alone {steps}")]);
+    check(
+        r#"[{"name":"home","arguments":{}}]"#,
+        form,
+        &[&format!("a list of steps {steps}"), r#"`{"name": …, "arguments": {…}}` is read as `{"do": …}`"#],
+    );
+    check(
+        r#"{"steps":[{"do":"home"}]}"#,
+        form,
+        &[r#"the policy is read as one with `"motet": 1, "policy": "plan"`"#],
+    );
+    check(
+        r#"{"name":"plan","plan":[{"do":"home"}]}"#,
+        form,
+        &[
+            "the key `name` is read as `policy`",
+            r#"the policy is read as one with `"motet": 1`"#,
+            "the key `plan` is read as `steps`",
+        ],
+    );
+    check(
+        r#"{"thought":"Go home.","motet":1,"policy":"plan","steps":[{"do":"home"}],"summary":"x"}"#,
+        form,
+        &["`thought`, `summary` is read as prose, which is ignored"],
+    );
+}
+
+/// The errors of steps that have no one reading, each as `code pointer message`.
+#[track_caller]
+fn refused(step: &str, errors: &[&str]) {
+    let document = format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}]}}"#);
+    let parsed = parse(&document);
+    let found: Vec<String> = parsed
+        .diagnostics
+        .iter()
+        .filter(|said| said.severity == Severity::Error)
+        .map(|said| format!("{} {} {}", said.code, said.path, said.message))
+        .collect();
+    assert_eq!(found, errors, "{step}");
+}
+
+#[test]
+fn shapes_with_several_readings_are_errors() {
+    refused(r#"{"action":"pick","tool":"hand"}"#, &["M0109 /steps/0 no key says what this object is"]);
+    refused(r#"{"name":"mug"}"#, &["M0109 /steps/0 no key says what this object is"]);
+    refused(
+        r#"{"do":"pick","object":"a","args":{"object":"b"}}"#,
+        &["M0104 /steps/0/args/object the key `object` stands twice in one object"],
+    );
+    refused(r#"{"wait":{"open":"a","near":"b"}}"#, &["M0109 /steps/0/wait no key says what this object is"]);
+    refused(r#"{"sequenc":{"a":1}}"#, &["M0109 /steps/0 unknown key `sequenc`"]);
+    refused(r#"{"wait":{"nott":"lit()"}}"#, &["M0109 /steps/0/wait unknown key `nott`"]);
+    refused(
+        r#""pick it up""#,
+        &["M0106 /steps/0 expected an object that is a step, found the string `pick it up`"],
+    );
+}
+
+#[test]
+fn shapes_leave_what_the_language_has_as_it_is() {
+    for steps in [
+        r#"{"do": "act", "action": "wave", "name": "x", "args": ["a"], "arguments": "{}"}"#,
+        r#"{"do": "act", "args": {"get": "battery"}}"#,
+        r#"{"do": "act", "function": "x", "type": "function"}"#,
+    ] {
+        let document = format!(r#"{{"motet": 1, "policy": "p", "steps": [{steps}, {{"end": "finish"}}]}}"#);
+        let parsed = parse(&document);
+        let codes: Vec<_> = parsed.diagnostics.iter().map(|said| said.message.as_str()).collect();
+        assert_eq!(codes, ["`finish` is read as `\"done\"`"], "{steps}");
+        let plain = document.replace("finish", "done");
+        assert!(policy(&parsed) == policy(&parse(&plain)), "{steps}");
+    }
+}
+
+#[test]
+fn shapes_keep_the_places_of_the_document() {
+    let document = r#"{"plan": [{"action": "pick", "args": {"object": {"get": "x", "y": null}}},
+        {"type": "function", "function": {"name": "go", "arguments": {"to": [{"is": 1}]}}}]}"#;
+    let parsed = parse(document);
+    let errors: Vec<_> = parsed.diagnostics.iter().filter(|said| said.severity == Severity::Error).collect();
+    let found: Vec<_> =
+        errors.iter().map(|said| (said.path.as_str(), &document[said.span.range()])).collect();
+    assert_eq!(found, [("/plan/0/args/object/y", "null"), ("/plan/1/function/arguments/to/0/is", "1"),]);
+    assert!(parsed.written.is_some());
+}
+
+fn value() -> impl Strategy<Value = serde_json::Value> {
+    let keys = [
+        "do",
+        "args",
+        "name",
+        "action",
+        "arguments",
+        "function",
+        "type",
+        "open",
+        "not",
+        "all",
+        "if",
+        "then",
+        "steps",
+        "plan",
+        "motet",
+        "policy",
+        "catch",
+        "try",
+        "on",
+        "as",
+        "monitor",
+        "when",
+        "during",
+        "end",
+        "object",
+        "is",
+        "thought",
+        "react",
+        "parallel",
+        "repeat",
+    ];
+    let word = proptest::sample::select(vec!["pick", "$x", "done", "pause", "", "{\"a\": 1}", "a b", "é"]);
+    let leaf = prop_oneof![
+        word.prop_map(serde_json::Value::from),
+        Just(serde_json::Value::Null),
+        Just(serde_json::Value::from(true)),
+        (0_u8..9).prop_map(serde_json::Value::from),
+    ];
+    leaf.prop_recursive(6, 60, 5, move |inner| {
+        let key = proptest::sample::select(keys.to_vec());
+        prop_oneof![
+            proptest::collection::vec(inner.clone(), 0..4).prop_map(serde_json::Value::from),
+            proptest::collection::vec((key, inner), 0..5).prop_map(|members| {
+                let members = members.into_iter().map(|(key, value)| (key.to_owned(), value));
+                serde_json::Value::Object(members.collect())
+            }),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever a document holds, its fix writes the document that was read.
+    #[test]
+    fn shapes_are_written_as_they_are_read(value in value(), is_pretty in any::<bool>()) {
+        let document =
+            if is_pretty { serde_json::to_string_pretty(&value).unwrap() } else { value.to_string() };
+        let parsed = parse(&document);
+        if parsed.diagnostics.iter().any(|said| said.code.0 == "M0122") {
+            let fixed = fixed(&document, &parsed);
+            let after = parse(&fixed);
+            let (before, after_fix) = (&parsed.file.items, &after.file.items);
+            prop_assert!(before == after_fix, "{document}\n{fixed}\n{before:#?}\n{after_fix:#?}");
+            let errors = |parsed: &Parsed| {
+                let errors = parsed.diagnostics.iter().filter(|said| said.severity == Severity::Error);
+                errors.map(|said| said.code).collect::<Vec<_>>()
+            };
+            prop_assert_eq!(errors(&parsed), errors(&after), "{}\n{}", document, fixed);
+        }
+        for said in &parsed.diagnostics {
+            prop_assert!(document.get(said.span.range()).is_some());
+        }
+    }
+}
