@@ -4,6 +4,7 @@
 use motet_syntax::ast::{Expr, ExprKind, Name};
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{About, Diagnostic, Span, Syntax};
+use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::errors::{
@@ -23,6 +24,8 @@ pub(crate) struct Elaborator<'a> {
     pub(crate) form: Syntax,
     pub(crate) scope: Scope,
     pub(crate) bindings: Vec<Binding>,
+    /// Bindings of which a use without a value was reported, by the span where they are bound.
+    pub(crate) gaps_told: FxHashSet<Span>,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
@@ -64,7 +67,8 @@ impl<'a> Elaborator<'a> {
     /// Elaborator outside of any policy, without bindings.
     pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Syntax) -> Self {
         let (scope, bindings, diagnostics) = (Scope::default(), Vec::new(), Vec::new());
-        Self { library, entities, has_scene, form, scope, bindings, diagnostics }
+        let gaps_told = FxHashSet::default();
+        Self { library, entities, has_scene, form, scope, bindings, gaps_told, diagnostics }
     }
 
     pub(crate) fn report(&mut self, mistake: impl Into<Diagnostic>) {

@@ -4,6 +4,7 @@ use motet_syntax::ast::Name;
 use motet_syntax::{About, Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
+use super::gap::Unbound;
 use super::name::{article, list, near};
 
 pub(crate) fn replace(span: Span, text: &str) -> Option<Fix> {
@@ -58,7 +59,7 @@ motet_syntax::mistakes! {
             Some(near) if *near == m.name => format!("`{}` is an entity: write it without `$`", m.name),
             Some(near) => format!("did you mean `${near}`?"),
             None if m.is_text => format!("to start a text with `$`, write two: `$${}`", m.name),
-            None => "a binding is visible from its step to the end of the block".to_owned(),
+            None => "a binding is visible behind its step, where every way leads through it".to_owned(),
         })
     }
     fix(m) {
@@ -141,6 +142,63 @@ motet_syntax::mistakes! {
     UnknownResource("M0215", Error) { name: SmolStr, near: Option<SmolStr>, known: String }
     message(m) { format!("there is no resource `{}`", m.name) }
     help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the robot has {}", m.known))) }
+
+    /// Use of a name that not every way to the use has bound.
+    PartlyBound("M0216", Error) { name: SmolStr, bound: Span, reason: Unbound }
+    message(m) {
+        let name = &m.name;
+        match &m.reason {
+            Unbound::Way { name: way, .. } => format!("`{name}` is not bound on the way through {way}"),
+            Unbound::NoElse(_) => {
+                format!("`{name}` is bound only if the condition of an `if` without `else` holds")
+            }
+            Unbound::Handler => format!("`{name}` is bound in the `try`, which may have failed before"),
+            Unbound::OtherWay => format!("`{name}` is bound on another way, which does not lead here"),
+            Unbound::Loop => format!("`{name}` is bound in an `each`, which may have no round"),
+            Unbound::Reaction => format!("`{name}` is bound in a reaction, which may never run"),
+            Unbound::Beside => format!("`{name}` is bound in another branch, which runs at the same time"),
+            Unbound::TwoBranches { .. } => {
+                format!("`{name}` is bound in two branches, which run at the same time")
+            }
+        }
+    }
+    help(m) {
+        let (name, endings) = (&m.name, "`done`, `replan` or `fail`");
+        Some(match &m.reason {
+            Unbound::Way { .. } => format!("bind `{name}` there too, or end that way with {endings}"),
+            Unbound::NoElse(_) => {
+                format!("use `{name}` inside the `if`, or add an `else` that binds it or ends with {endings}")
+            }
+            Unbound::Handler => format!("bind `{name}` before the `try`, or by a step of the handler"),
+            Unbound::OtherWay => format!("bind `{name}` on this way too, or before the ways part"),
+            Unbound::Loop => format!("use `{name}` inside the loop"),
+            Unbound::Reaction => format!("bind `{name}` before the monitor, or in its body"),
+            Unbound::Beside => format!("use `{name}` behind the `parallel`, or bind it before"),
+            Unbound::TwoBranches { .. } => format!("give one of them another name than `{name}`"),
+        })
+    }
+    related(m) {
+        let other = match &m.reason {
+            Unbound::Way { end, .. } => Some(Related::new("this way goes on without it", *end)),
+            Unbound::NoElse(condition) => Some(Related::new("this may not hold", *condition)),
+            Unbound::TwoBranches { second } => Some(Related::new("and here", *second)),
+            Unbound::Handler
+            | Unbound::OtherWay
+            | Unbound::Loop
+            | Unbound::Reaction
+            | Unbound::Beside => None,
+        };
+        std::iter::once(Related::new("bound here", m.bound)).chain(other).collect()
+    }
+
+    /// Use of a name that two ways bind to values of different types.
+    TwoTypes("M0217", Error) { name: SmolStr, types: [SmolStr; 2], first: Span, second: Span }
+    message(m) {
+        let [one, other] = &m.types;
+        format!("`{}` is {} on one way and {} on another", m.name, article(one), article(other))
+    }
+    help(m) { Some(format!("give one of them another name than `{}`", m.name)) }
+    related(m) { vec![Related::new("bound here", m.first), Related::new("and here", m.second)] }
 
     /// Value of the wrong type.
     WrongType("M0301", Error) {

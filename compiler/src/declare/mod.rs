@@ -12,6 +12,7 @@ mod condition;
 mod contract;
 pub(crate) mod elaborator;
 pub(crate) mod errors;
+pub(crate) mod gap;
 pub(crate) mod library;
 pub(crate) mod name;
 pub(crate) mod words;
@@ -23,4 +24,4 @@ pub use self::library::Library;
 
 pub(crate) use self::card::CODES as CARD_CODES;
 pub(crate) use self::contract::resolve_type;
-pub(crate) use self::library::{EffectDef, NeedDef, PrimitiveDef, ResourceSet};
+pub(crate) use self::library::{EffectDef, LastsDef, NeedDef, PrimitiveDef, ResourceSet};

@@ -1,15 +1,18 @@
 //! Resolution of names to bindings, entities and cases, and the diagnostics of unknown names.
 
 use motet_syntax::Span;
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::elaborator::{Elaborator, Expected, parse_quantity};
 use super::errors::{UnknownBinding, UnknownCase, UnknownName};
-use crate::ir::{Base, EnumId, Term, Ty};
+use super::gap::Gap;
+use crate::ir::{Base, BindingId, EnumId, Term, Ty};
 
 impl Elaborator<'_> {
     pub(super) fn name(&mut self, name: &SmolStr, span: Span, wanted: Option<Expected<'_>>) -> (Term, Ty) {
-        if let Some(found) = self.in_scope(name) {
+        if let Some(found) = self.in_scope(name, span) {
             return found;
         }
         if let Some(Expected { ty: Ty { base: Base::Enum(id), .. }, .. }) = wanted
@@ -73,19 +76,34 @@ impl Elaborator<'_> {
         }
     }
 
-    pub(super) fn in_scope(&mut self, name: &str) -> Option<(Term, Ty)> {
-        let entry = self.scope.find(name)?;
-        let found = (entry.term.clone(), entry.ty);
-        if let Term::Binding(id) = found.0
-            && let Some(binding) = self.bindings.get_mut(id.index())
-        {
+    /// Meaning of a name that is bound here, or was bound before on some ways only, which is an error.
+    fn in_scope(&mut self, name: &SmolStr, span: Span) -> Option<(Term, Ty)> {
+        let entry = self.scope.latest(name)?;
+        let Some(gap) = &entry.gap else {
+            let found = (entry.term.clone(), entry.ty);
+            if let Term::Binding(id) = found.0 {
+                self.count_use(id);
+            }
+            return Some(found);
+        };
+        // One report is enough for all uses of a binding.
+        if self.gaps_told.insert(entry.span) {
+            let (said, ids) = (gap.report(name, span, entry.span), gap.ids.clone());
+            self.diagnostics.push(said);
+            ids.into_iter().for_each(|id| self.count_use(id));
+        }
+        Some((Term::Unknown, Ty::UNKNOWN))
+    }
+
+    /// Counts a use of a binding.
+    pub(crate) fn count_use(&mut self, id: BindingId) {
+        if let Some(binding) = self.bindings.get_mut(id.index()) {
             binding.uses += 1;
         }
-        Some(found)
     }
 
     pub(super) fn binding(&mut self, name: &SmolStr, span: Span, wanted: Option<Expected<'_>>) -> (Term, Ty) {
-        if let Some(found) = self.in_scope(name) {
+        if let Some(found) = self.in_scope(name, span) {
             return found;
         }
         let same = self.entities.find(name).map(|_| name.clone());
@@ -189,6 +207,8 @@ enum NameNotation {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scope {
     entries: Vec<ScopeEntry>,
+    /// By name, the places of its entries, in order.
+    places: FxHashMap<SmolStr, SmallVec<[usize; 1]>>,
     barrier: usize,
 }
 
@@ -199,6 +219,10 @@ pub(crate) struct ScopeEntry {
     pub(crate) term: Term,
     pub(crate) ty: Ty,
     pub(crate) span: Span,
+    /// Reason for which the name, which was bound before, has no value here.
+    pub(crate) gap: Option<Gap>,
+    /// True behind the block that bound it, where another binding may have its name.
+    pub(crate) is_free: bool,
 }
 
 /// State of the stack, to restore later.
@@ -210,15 +234,40 @@ pub(crate) struct ScopeMark {
 
 impl Scope {
     pub(crate) fn push(&mut self, name: SmolStr, term: Term, ty: Ty, span: Span) {
-        self.entries.push(ScopeEntry { name, term, ty, span });
+        self.extend([ScopeEntry { name, term, ty, span, gap: None, is_free: false }]);
     }
 
+    pub(crate) fn extend(&mut self, entries: impl IntoIterator<Item = ScopeEntry>) {
+        for entry in entries {
+            self.places.entry(entry.name.clone()).or_default().push(self.entries.len());
+            self.entries.push(entry);
+        }
+    }
+
+    /// Leaves a block: the names bound since a mark stay visible, and others may bear them.
+    pub(crate) fn end_block(&mut self, mark: ScopeMark) {
+        self.entries.iter_mut().skip(mark.len).for_each(|entry| entry.is_free = true);
+    }
+
+    /// Entry of a name that has a value here.
     pub(crate) fn find(&self, name: &str) -> Option<&ScopeEntry> {
-        self.entries.get(self.barrier..)?.iter().rev().find(|entry| entry.name == name)
+        self.latest(name).filter(|entry| entry.gap.is_none())
     }
 
+    /// Latest entry of a name, with or without a value.
+    fn latest(&self, name: &str) -> Option<&ScopeEntry> {
+        let place = self.places.get(name)?.last().filter(|place| **place >= self.barrier)?;
+        self.entries.get(*place)
+    }
+
+    /// Names that have a value here.
     pub(crate) fn names(&self) -> impl Iterator<Item = &SmolStr> {
-        self.entries.iter().skip(self.barrier).map(|entry| &entry.name)
+        let visible = |place: &usize, entry: &ScopeEntry| {
+            entry.gap.is_none()
+                && self.places.get(&entry.name).and_then(|places| places.last()) == Some(place)
+        };
+        let entries = self.entries.iter().enumerate().skip(self.barrier);
+        entries.filter(move |(place, entry)| visible(place, entry)).map(|(_, entry)| &entry.name)
     }
 
     pub(crate) fn mark(&self) -> ScopeMark {
@@ -230,8 +279,19 @@ impl Scope {
     }
 
     pub(crate) fn back_to(&mut self, mark: ScopeMark) {
-        self.entries.truncate(mark.len);
+        self.take_since(mark);
+    }
+
+    /// Goes back to a mark, and returns the entries since then.
+    pub(crate) fn take_since(&mut self, mark: ScopeMark) -> Vec<ScopeEntry> {
         self.barrier = mark.barrier;
+        let taken = self.entries.split_off(mark.len.min(self.entries.len()));
+        for entry in &taken {
+            if let Some(places) = self.places.get_mut(&entry.name) {
+                places.pop();
+            }
+        }
+        taken
     }
 }
 

@@ -19,7 +19,7 @@ use smol_str::SmolStr;
 
 pub use self::template::PolicyTemplate;
 use crate::declare::name::{Scope, ScopeMark};
-use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Fluent, Program, StepId, StepKind, Term};
+use crate::ir::{Condition, Entity, EnumId, Fact, Fluent, Program, StepId, StepKind, Term};
 use crate::prove::suspended::{Checkpoint, ProofTarget, StepOutcome, SuspendedProof};
 use crate::prove::{AbstractState, Prover};
 use crate::session::Session;
@@ -110,8 +110,9 @@ pub struct IncrementalChecker {
     starts: Vec<Start>,
     /// Checkpoint before the open step, and the states in which control reaches the program point in it.
     inside: Option<(Start, Vec<AbstractState<'static>>)>,
-    /// The step at the program point.
+    /// The step at the program point in the open step, and the scope there.
     point: Option<StepId>,
+    scope_at_point: Option<Scope>,
 }
 
 /// Checkpoint before a step.
@@ -143,6 +144,7 @@ impl IncrementalChecker {
                 starts: Vec::new(),
                 inside: None,
                 point: None,
+                scope_at_point: None,
             },
             said,
         )
@@ -336,11 +338,19 @@ impl IncrementalChecker {
         self.everywhere(session, |prover| !prover.denies(&goal))
     }
 
-    /// The latest binding with a name, as an argument.
+    /// The binding with a name that is visible at the program point, as an argument.
     #[must_use]
     pub fn binding(&self, name: &str) -> Option<ArgumentValue> {
-        let index = self.program.bindings.iter().rposition(|binding| binding.name == name)?;
-        Some(ArgumentValue(Term::Binding(BindingId(u32::try_from(index).ok()?))))
+        Some(ArgumentValue(self.scope_here().find(name)?.term.clone()))
+    }
+
+    /// Names that have a value at the program point, in the order in which they were bound.
+    pub fn visible(&self) -> impl Iterator<Item = &SmolStr> {
+        self.scope_here().names()
+    }
+
+    fn scope_here(&self) -> &Scope {
+        self.scope_at_point.as_ref().unwrap_or(&self.scope)
     }
 
     fn everywhere(&mut self, session: &Session, mut ask: impl FnMut(&mut Prover<'_>) -> bool) -> bool {
@@ -364,6 +374,7 @@ impl IncrementalChecker {
 
     /// Drops the open step.
     fn leave(&mut self) {
+        self.scope_at_point = None;
         if let Some((start, _)) = self.inside.take() {
             self.back_to(&start);
         }
@@ -378,13 +389,16 @@ impl IncrementalChecker {
 
     fn prove(&mut self, session: &Session, step: &Step, looks: Looks) -> (Option<StepId>, StepOutcome) {
         let (library, environment) = session.parts();
-        let Self { form, program, scope, proof, .. } = self;
+        let Self { form, program, scope, proof, scope_at_point, .. } = self;
         let (first, name) = (program.steps.len(), program.name.clone());
-        let (id, said) =
-            crate::resolve::resolve_step(step, (*form, &name), (library, environment), program, scope);
-        let Some(id) = id else { return (None, StepOutcome::default()) };
+        let given = (library, environment);
+        let made = crate::resolve::resolve_step(step, PROGRAM_POINT, (*form, &name), given, program, scope);
+        if looks == Looks::Inside {
+            *scope_at_point = made.scope_at_point;
+        }
+        let Some(id) = made.id else { return (None, StepOutcome::default()) };
         let is_error = |said: &Diagnostic| said.severity == Severity::Error;
-        let is_wrong = said.iter().any(is_error)
+        let is_wrong = made.diagnostics.iter().any(is_error)
             || crate::limits::check_from(program, first, library).iter().any(is_error);
         let mark = match looks {
             Looks::Away => None,

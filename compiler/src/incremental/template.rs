@@ -3,12 +3,15 @@
 
 use motet_syntax::ast::PrimitiveKind;
 use motet_syntax::{Diagnostic, Mistake, Severity};
+use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use super::ArgumentValue;
 use crate::declare::{Library, NeedDef, PrimitiveDef};
-use crate::ir::{Base, Condition, Fluent, Program, Step, StepId, StepKind, Substitution, Term};
+use crate::environment::Environment;
+use crate::ir::{Base, Condition, Fluent, Program, Rewrite, Step, StepId, StepKind, Substitution, Term};
 use crate::prove::evaluation::CallFrame;
+use crate::resolve::ResolvedStep;
 use crate::resolve::errors::Recursion;
 use crate::session::Session;
 
@@ -21,6 +24,7 @@ pub struct PolicyTemplate {
     pub(super) uses: u64,
     /// Names of the policies in it, its own first.
     calls: Vec<SmolStr>,
+    goes_on: bool,
     /// Needs of the first steps that no step before them changes: they hold at the call, or are refuted.
     heads: Vec<NeedDef>,
 }
@@ -31,11 +35,8 @@ impl PolicyTemplate {
     #[must_use]
     pub fn new(session: &Session, name: &str) -> Option<Self> {
         let (library, environment) = session.parts();
-        let policy = library.names.policies.get(name).and_then(|index| library.policies.get(*index))?;
-        let terms: Vec<Term> = (0..u16::try_from(policy.params.len()).ok()?).map(Term::Param).collect();
-        let mut program = Program::default();
-        let (_, said) = crate::resolve::resolve_inlined(policy, terms, (library, environment), &mut program);
-        if said.iter().any(|said| said.severity == Severity::Error) {
+        let (program, made) = resolved(name, (library, environment))?;
+        if made.diagnostics.iter().any(|said| said.severity == Severity::Error) {
             return None;
         }
         let (mut fluents, mut uses, mut calls) = (0, 0, Vec::new());
@@ -48,7 +49,17 @@ impl PolicyTemplate {
             }
         }
         let heads = heads(&program, library);
-        Some(Self { program, fluents, uses, calls, heads })
+        Some(Self { program, fluents, uses, calls, goes_on: made.goes_on, heads })
+    }
+
+    /// Returns whether control can come behind a call of the policy with a name, or the template made of it.
+    /// A policy whose every way ends in `fail` or `replan` never goes on.
+    #[must_use]
+    pub fn goes_on(session: &Session, name: &str, template: Option<&Self>) -> bool {
+        match template {
+            Some(template) => template.goes_on,
+            None => resolved(name, session.parts()).is_none_or(|(_, made)| made.goes_on),
+        }
     }
 
     /// Returns whether a condition in the policy compares values.
@@ -63,24 +74,28 @@ impl PolicyTemplate {
         let first = u32::try_from(program.steps.len()).unwrap_or(u32::MAX);
         let bound = u32::try_from(program.bindings.len()).unwrap_or(u32::MAX);
         let substitution = Substitution { args, first_step: first, first_binding: bound };
-        program.bindings.extend(self.program.bindings.iter().cloned());
+        for binding in &self.program.bindings {
+            let mut binding = binding.clone();
+            binding.binders.iter_mut().for_each(|id| substitution.step(id));
+            // The calls below give the descriptions, which may be arguments.
+            binding.descriptions = Some(SmallVec::new()).filter(|_| !binding.binders.is_empty());
+            program.bindings.push(binding);
+        }
         for step in &self.program.steps {
             let mut kind = step.kind.clone();
             substitution.kind(&mut kind);
-            if let StepKind::Call(call) = &step.kind
-                && let StepKind::Call(made) = &kind
+            if let StepKind::Call(call) = &kind
+                && let Some(binding) = call.binds.and_then(|id| program.bindings.get_mut(id.index()))
             {
-                let text = made.args.iter().find_map(|arg| match arg {
-                    Term::Text(text) => Some(text),
-                    _ => None,
+                let is_found = matches!(binding.ty.base, Base::Entity(_))
+                    && library
+                        .primitive(call.primitive)
+                        .is_some_and(|def| def.form == PrimitiveKind::Perception);
+                let text = call.text().filter(|_| is_found);
+                binding.descriptions = binding.descriptions.take().zip(text).map(|(mut all, text)| {
+                    all.push(text.clone());
+                    all
                 });
-                let perceives = library
-                    .primitive(call.primitive)
-                    .is_some_and(|def| def.form == PrimitiveKind::Perception);
-                let binding = made.binds.and_then(|id| program.bindings.get_mut(id.index()));
-                if let Some(binding) = binding.filter(|binding| matches!(binding.ty.base, Base::Entity(_))) {
-                    binding.description = text.filter(|_| perceives).cloned();
-                }
             }
             let mut position = step.position;
             position.parent.iter_mut().for_each(|id| substitution.step(id));
@@ -88,6 +103,15 @@ impl PolicyTemplate {
         }
         StepId(first)
     }
+}
+
+/// A policy of the library with open parameters, as a program of its own; `None` if there is none.
+fn resolved(name: &str, (library, environment): (&Library, &Environment)) -> Option<(Program, ResolvedStep)> {
+    let policy = library.names.policies.get(name).and_then(|index| library.policies.get(*index))?;
+    let terms: Vec<Term> = (0..u16::try_from(policy.params.len()).ok()?).map(Term::Param).collect();
+    let mut program = Program::default();
+    let made = crate::resolve::resolve_inlined(policy, terms, (library, environment), &mut program);
+    Some((program, made))
 }
 
 /// Needs of the first calls that no call before them changes; their parameters are those of the policy.
@@ -161,7 +185,7 @@ impl super::IncrementalChecker {
                     let made =
                         crate::resolve::resolve_inlined(&policy, terms, (library, environment), program);
                     let recurses = |said: &Diagnostic| said.code == Recursion::CODE;
-                    made.0.filter(|_| !made.1.iter().any(recurses))
+                    made.id.filter(|_| !made.diagnostics.iter().any(recurses))
                 })
             }
         };

@@ -14,7 +14,7 @@ pub use entities::MAX_ENTITIES;
 pub(crate) use program::{
     Binding, Block, BlockSlot, Call, Catch, Program, Reaction, Step, StepKind, StepPosition, When,
 };
-pub(crate) use substitution::Substitution;
+pub(crate) use substitution::{Renumbering, Rewrite, Substitution};
 pub(crate) use term::{Base, Condition, Fact, MotionKind, Term, Ty};
 
 macro_rules! ids {

@@ -47,13 +47,51 @@ pub(crate) struct Binding {
     /// `_` for a result without a name.
     pub(crate) name: SmolStr,
     pub(crate) ty: Ty,
+    /// The name where it is bound first.
     pub(crate) span: Span,
-    /// Literal description in the perception that found it.
-    pub(crate) description: Option<SmolStr>,
+    /// Literal descriptions in the perceptions that find it, one for each way to its uses; `None` if one of
+    /// them has none.
+    pub(crate) descriptions: Option<SmallVec<[SmolStr; 1]>>,
+    /// Steps that bind it, one for each way to its uses.
+    pub(crate) binders: SmallVec<[StepId; 1]>,
     /// True for a parameter of a sub-policy that is checked alone.
     pub(crate) is_param: bool,
     /// Number of uses.
     pub(crate) uses: u32,
+    /// Places that bind it on ways without a use of their own, each with the number of uses where the ways
+    /// met: more uses are for all of them.
+    pub(crate) idle: Vec<(Span, u32)>,
+}
+
+impl Binding {
+    /// Takes in the bindings of the same name and type on the other ways that meet here.
+    pub(crate) fn merge(&mut self, others: Vec<Self>) {
+        let uses = others.iter().fold(self.uses, |uses, other| uses + other.uses);
+        let mut idle = Vec::new();
+        for way in std::iter::once(&*self).chain(&others) {
+            idle.extend(way.unused().map(|span| (span, uses)));
+        }
+        (self.idle, self.uses) = (idle, uses);
+        for other in others {
+            self.binders.extend(other.binders);
+            let described = self.descriptions.take().zip(other.descriptions);
+            self.descriptions = described.map(|(mut all, more)| {
+                all.extend(more);
+                all
+            });
+        }
+        if let Some(descriptions) = &mut self.descriptions {
+            descriptions.sort_unstable();
+            descriptions.dedup();
+        }
+    }
+
+    /// Places where it is bound and never used.
+    pub(crate) fn unused(&self) -> impl Iterator<Item = Span> {
+        let whole = (self.uses == 0 && self.idle.is_empty()).then_some(self.span);
+        let parts = self.idle.iter().filter(|(_, uses)| *uses == self.uses).map(|(span, _)| *span);
+        whole.into_iter().chain(parts)
+    }
 }
 
 /// A step with its position.
@@ -208,6 +246,13 @@ pub(crate) struct Call {
     pub(crate) within_secs: Option<f64>,
     /// Number of further attempts after a failure.
     pub(crate) retries: u32,
+}
+
+impl Call {
+    /// The first literal text among the arguments: the description, if the call is a perception.
+    pub(crate) fn text(&self) -> Option<&SmolStr> {
+        self.args.iter().find_map(|arg| if let Term::Text(text) = arg { Some(text) } else { None })
+    }
 }
 
 /// A watched condition of a monitor.

@@ -1,24 +1,14 @@
-//! Inlining of a policy that was resolved once: parameters become arguments, steps and bindings get new
-//! numbers.
+//! Rewriting of the ids in steps: inlining of a policy that was resolved once, where parameters become
+//! arguments and steps and bindings get new numbers, and bindings that become one.
 
 use super::{BindingId, Block, Condition, Reaction, StepId, StepKind, Term};
 
-/// Arguments for parameters, and the numbers of the first step and the first binding.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Substitution<'a> {
-    pub(crate) args: &'a [Term],
-    pub(crate) first_step: u32,
-    pub(crate) first_binding: u32,
-}
-
-impl Substitution<'_> {
-    pub(crate) fn step(&self, id: &mut StepId) {
-        id.0 = id.0.saturating_add(self.first_step);
-    }
-
-    fn binding(&self, id: &mut BindingId) {
-        id.0 = id.0.saturating_add(self.first_binding);
-    }
+/// A change of ids and parameters, applied to every place where they stand.
+pub(crate) trait Rewrite {
+    fn step(&self, id: &mut StepId);
+    fn binding(&self, id: &mut BindingId);
+    /// Rewrites the parameter with this index, which is `term`.
+    fn param(&self, index: u16, term: &mut Term);
 
     fn block(&self, block: &mut Block) {
         block.iter_mut().for_each(|id| self.step(id));
@@ -31,7 +21,8 @@ impl Substitution<'_> {
     fn term(&self, term: &mut Term) {
         match term {
             Term::Param(index) => {
-                *term = self.args.get(usize::from(*index)).cloned().unwrap_or(Term::Unknown);
+                let index = *index;
+                self.param(index, term);
             }
             Term::Binding(id) => self.binding(id),
             Term::List(terms) | Term::Measure(_, terms) => self.terms(terms),
@@ -42,7 +33,7 @@ impl Substitution<'_> {
         }
     }
 
-    pub(crate) fn condition(&self, condition: &mut Condition) {
+    fn condition(&self, condition: &mut Condition) {
         match condition {
             Condition::Fact(fact) => self.terms(fact.args.iter_mut().flatten()),
             Condition::Compare(_, left, right) => self.terms([left, right]),
@@ -55,7 +46,7 @@ impl Substitution<'_> {
         }
     }
 
-    pub(crate) fn kind(&self, kind: &mut StepKind) {
+    fn kind(&self, kind: &mut StepKind) {
         match kind {
             StepKind::Call(call) => {
                 self.terms(&mut call.args);
@@ -102,4 +93,44 @@ impl Substitution<'_> {
         of.iter_mut().for_each(|id| self.step(id));
         self.terms(why);
     }
+}
+
+/// Arguments for parameters, and the numbers of the first step and the first binding.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Substitution<'a> {
+    pub(crate) args: &'a [Term],
+    pub(crate) first_step: u32,
+    pub(crate) first_binding: u32,
+}
+
+impl Rewrite for Substitution<'_> {
+    fn step(&self, id: &mut StepId) {
+        id.0 = id.0.saturating_add(self.first_step);
+    }
+
+    fn binding(&self, id: &mut BindingId) {
+        id.0 = id.0.saturating_add(self.first_binding);
+    }
+
+    fn param(&self, index: u16, term: &mut Term) {
+        *term = self.args.get(usize::from(index)).cloned().unwrap_or(Term::Unknown);
+    }
+}
+
+/// New ids of the bindings from `first` on.
+#[derive(Clone, Debug)]
+pub(crate) struct Renumbering {
+    pub(crate) first: usize,
+    pub(crate) ids: Vec<BindingId>,
+}
+
+impl Rewrite for Renumbering {
+    fn step(&self, _id: &mut StepId) {}
+
+    fn binding(&self, id: &mut BindingId) {
+        let new = id.index().checked_sub(self.first).and_then(|index| self.ids.get(index));
+        *id = new.copied().unwrap_or(*id);
+    }
+
+    fn param(&self, _index: u16, _term: &mut Term) {}
 }

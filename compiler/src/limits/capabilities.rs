@@ -1,6 +1,6 @@
 //! Capabilities of the robot: its primitives, ranges and observations.
 
-use motet_syntax::ast::Policy;
+use motet_syntax::ast::{Policy, PrimitiveKind};
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
@@ -145,12 +145,12 @@ pub(super) fn check_descriptions(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     for (index, binding) in program.bindings.iter().enumerate() {
-        if binding.uses == 0 && binding.name != "_" && !binding.name.starts_with('_') {
+        for span in binding.unused().filter(|_| !binding.name.starts_with('_')) {
             let of_each = program
                 .steps
                 .iter()
                 .any(|step| matches!(&step.kind, StepKind::Each { item, .. } if item.index() == index));
-            diagnostics.push(Unused { span: binding.span, name: binding.name.clone(), of_each }.into());
+            diagnostics.push(Unused { span, name: binding.name.clone(), of_each }.into());
         }
     }
     if !environment.has_scene() {
@@ -158,9 +158,10 @@ pub(super) fn check_descriptions(
     }
     for step in &program.steps {
         let StepKind::Call(call) = &step.kind else { continue };
-        let Some(binding) = call.binds.and_then(|id| program.bindings.get(id.index())) else { continue };
-        let (Some(text), Some(kind)) = (&binding.description, binding.ty.kind()) else { continue };
-        let callee = library.primitive(call.primitive).map(|def| def.name.clone()).unwrap_or_default();
+        let def = library.primitive(call.primitive);
+        let Some(def) = def.filter(|def| def.form == PrimitiveKind::Perception) else { continue };
+        let (Some(text), Some(kind)) = (call.text(), def.result.and_then(Ty::kind)) else { continue };
+        let callee = def.name.clone();
         match environment.described(library, text, kind).as_slice() {
             [_] => {}
             [] => {

@@ -61,6 +61,18 @@ pub(crate) fn lower(
     }
 }
 
+/// Returns whether a step or a step in it binds a name. The nesting of steps bounds the recursion.
+fn binds(program: &Program, step: StepId) -> bool {
+    let Some(step) = program.step(step) else { return false };
+    match &step.kind {
+        StepKind::Call(call) => {
+            let binding = call.binds.and_then(|id| program.bindings.get(id.index()));
+            binding.is_some_and(|binding| binding.name != "_")
+        }
+        kind => kind.blocks().into_iter().flatten().any(|step| binds(program, *step)),
+    }
+}
+
 fn has_any(fact: &graph::Fact) -> bool {
     fact.args.contains(&graph::FactArg::Any)
 }
@@ -82,23 +94,42 @@ impl Lowering<'_> {
     fn region(&mut self, block: &Block, owner: Option<NodeId>) -> RegionId {
         let id = RegionId(u32::try_from(self.regions.len()).unwrap_or(u32::MAX));
         self.regions.push(graph::Region { owner, entry: None });
-        let mut previous: Option<NodeId> = None;
-        for step in block {
-            if !self.proof.reached.get(step.index()).copied().unwrap_or(false) {
-                continue;
+        let is_reached = |step: &&StepId| self.proof.reached.get(step.index()).copied().unwrap_or(false);
+        let (reached, rest) = block.split_at(block.iter().take_while(is_reached).count());
+        let mut chain = Vec::with_capacity(reached.len());
+        for step in reached {
+            chain.extend(self.node(*step, id));
+        }
+        chain.extend(self.refusal(rest, id));
+        if let Some(region) = self.regions.get_mut(id.index()) {
+            region.entry = chain.first().copied();
+        }
+        for (before, next) in chain.iter().zip(chain.iter().skip(1)) {
+            if let Some(before) = self.nodes.get_mut(before.index()) {
+                before.next = Some(*next);
             }
-            let Some(node) = self.node(*step, id) else { continue };
-            match previous.and_then(|previous| self.nodes.get_mut(previous.index())) {
-                Some(before) => before.next = Some(node),
-                None => {
-                    if let Some(region) = self.regions.get_mut(id.index()) {
-                        region.entry = Some(node);
-                    }
-                }
-            }
-            previous = Some(node);
         }
         id
+    }
+
+    /// Ends the policy in place of steps that are never reached, if they bind names: should a run come here
+    /// against all that was proven, it must not go on without them.
+    fn refusal(&mut self, steps: &[StepId], region: RegionId) -> Option<NodeId> {
+        let (first, program) = (*steps.first()?, self.program);
+        if !steps.iter().any(|step| binds(program, *step)) {
+            return None;
+        }
+        let why = crate::ir::Term::Text("this step was proven never to be reached".into());
+        let (how, of, why) = self.ending(EndKind::Fail, None, Some(&why));
+        let id = NodeId(u32::try_from(self.nodes.len()).ok()?);
+        self.nodes.push(graph::Node {
+            path: table::pointer(program, first),
+            region,
+            next: None,
+            duration: graph::DurationBounds { least_secs: 0.0, greatest_secs: 0.0 },
+            kind: graph::NodeKind::End { how, of, why },
+        });
+        Some(id)
     }
 
     fn node(&mut self, step: StepId, region: RegionId) -> Option<NodeId> {

@@ -5,12 +5,12 @@ use smallvec::SmallVec;
 
 use super::effects::{FactChange, PerceptionLifetime};
 use super::errors::{Refuted, Stale};
-use super::evaluation::CallFrame;
+use super::evaluation::{CallFrame, MAX_ALIASES};
 use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
 use crate::analysis::Domain;
-use crate::declare::{NeedDef, PrimitiveDef};
-use crate::facts::{Cause, FactKey, TruthSet};
-use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, Term, Ty};
+use crate::declare::{LastsDef, NeedDef, PrimitiveDef, ResourceSet};
+use crate::facts::{ANY, Cause, FactKey, TruthSet};
+use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, StepKind, Term, Ty};
 
 impl Prover<'_> {
     pub(crate) fn call(&mut self, id: StepId, call: &Call, span: Span) {
@@ -134,8 +134,19 @@ impl Prover<'_> {
         }
     }
 
+    /// Freshness of a pose: stale if it is, by whichever way it was bound.
     fn freshness(&self, binding: BindingId) -> TruthSet {
-        self.state.facts.get(self.fresh, binding_key(binding.0))
+        let found = self.poses(binding).into_iter();
+        found.fold(TruthSet::default(), |fresh, key| fresh.join(self.state.facts.get(self.fresh, key)))
+    }
+
+    /// Keys of a pose, one for each step that may have bound it, in the order of the steps.
+    fn poses(&self, binding: BindingId) -> SmallVec<[FactKey; 2]> {
+        let mut found = SmallVec::new();
+        let any_step = pose_key(binding, StepId(0)).with(2, ANY).with(3, ANY);
+        self.state.facts.entries(self.fresh, any_step, |key, _| found.push(key));
+        found.sort_unstable();
+        found
     }
 
     /// Returns whether a binding is a stale pose.
@@ -245,11 +256,48 @@ impl Prover<'_> {
     /// Binds a new result: a fresh pose, and facts with the lifetime of the contract.
     fn bind(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: CallFrame<'_>) {
         let Some(lasts) = &def.lasts else { return };
-        let entities =
-            lasts.entities.iter().filter_map(|term| self.argument(term, frame)).map(Entity).collect();
-        self.state.lasting.insert(id, PerceptionLifetime { resources: lasts.resources, entities });
+        let mut lifetime = self.lifetime(lasts, frame);
+        if let (Some(binding), Some(_)) = (call.binds, frame.result) {
+            self.outlive(binding, id, frame, &mut lifetime);
+        }
+        self.state.lasting.insert(id, lifetime);
         if let Some(binding) = call.binds.filter(|_| def.result == Some(Ty::plain(Base::Pose))) {
-            self.state.facts.set(self.fresh, binding_key(binding.0), TruthSet::yes(Cause::step(id)));
+            // What another step bound to the name is gone.
+            for other in self.poses(binding) {
+                self.state.facts.forget(self.fresh, other);
+            }
+            self.state.facts.set(self.fresh, pose_key(binding, id), TruthSet::yes(Cause::step(id)));
+        }
+    }
+
+    fn lifetime(&self, lasts: &LastsDef, frame: CallFrame<'_>) -> PerceptionLifetime {
+        let entities = lasts.entities.iter().filter_map(|term| self.argument(term, frame));
+        PerceptionLifetime { resources: lasts.resources, entities: entities.map(Entity).collect() }
+    }
+
+    /// Shortens the lifetime of the facts of a name to that of all steps that bind it: where their ways have
+    /// met, it may be what any of them found.
+    fn outlive(
+        &self,
+        binding: BindingId,
+        id: StepId,
+        frame: CallFrame<'_>,
+        lifetime: &mut PerceptionLifetime,
+    ) {
+        let Some(binding) = self.program.bindings.get(binding.index()) else { return };
+        if binding.binders.len() > MAX_ALIASES {
+            lifetime.resources = ResourceSet::MAX;
+            return;
+        }
+        for step in binding.binders.iter().filter(|step| **step != id) {
+            let Some(StepKind::Call(call)) = self.program.step(*step).map(|step| &step.kind) else {
+                continue;
+            };
+            let def = self.library.primitive(call.primitive);
+            let Some(lasts) = def.and_then(|def| def.lasts.as_ref()) else { continue };
+            let other = self.lifetime(lasts, CallFrame { args: &call.args, ..frame });
+            lifetime.resources |= other.resources;
+            lifetime.entities.extend(other.entities);
         }
     }
 
@@ -273,9 +321,22 @@ impl Prover<'_> {
     }
 }
 
-/// Key of a binding in the table of fresh values. Bindings beyond 2^32 do not occur.
-fn binding_key(binding: u32) -> FactKey {
-    // Kept below the pattern value in every part.
-    let (low, high) = (binding & 0x7fff, (binding >> 15) & 0x7fff);
-    FactKey(u64::from(low) | (u64::from(high) << 16))
+/// Key of a pose in the table of fresh values: the binding, and the step that bound it. Bindings and steps
+/// beyond 2^30 do not occur.
+fn pose_key(binding: BindingId, step: StepId) -> FactKey {
+    FactKey::new([low(binding.0), high(binding.0), low(step.0), high(step.0)].into_iter())
+}
+
+/// Step in the key of a pose.
+pub(super) fn pose_step(key: FactKey) -> StepId {
+    StepId(u32::from(key.arg(2)) | (u32::from(key.arg(3)) << 15))
+}
+
+/// Lower half of a number; below the pattern value, as the upper one.
+fn low(number: u32) -> u16 {
+    (number & 0x7fff) as u16
+}
+
+fn high(number: u32) -> u16 {
+    ((number >> 15) & 0x7fff) as u16
 }

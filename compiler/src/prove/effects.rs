@@ -3,6 +3,7 @@
 use motet_syntax::ast::{CompareOp, PrimitiveKind};
 
 use super::Prover;
+use super::call::pose_step;
 use super::evaluation::{CallFrame, MAX_ALIASES};
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
 use smallvec::SmallVec;
@@ -336,7 +337,9 @@ impl Prover<'_> {
         let mut stale: SmallVec<[_; 8]> = SmallVec::new();
         for fluent in self.library.perceived.iter().copied().chain([self.fresh]) {
             self.state.facts.written(fluent, |key, value| {
-                let Some(source) = value.yes.as_step().filter(|source| *source != step) else { return };
+                let source = if fluent == self.fresh { Some(pose_step(key)) } else { value.yes.as_step() };
+                let is_known = value.yes.is_some();
+                let Some(source) = source.filter(|source| is_known && *source != step) else { return };
                 let Some(lasting) = self.state.lasting.get(&source) else { return };
                 let used = lasting.resources & def.uses != 0;
                 let mut has_moved =

@@ -34,7 +34,7 @@ use self::symbols::Symbols;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::facts::{Cause, FactKey, FactStore, PathPartition, TruthSet};
+use crate::facts::{FactKey, FactStore, PathPartition, TruthSet};
 use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId};
 
 /// Maximal nesting of loops and parallel branches: each level is proved at least twice.
@@ -81,7 +81,7 @@ pub(crate) struct Prover<'a> {
     pub(crate) environment: &'a Environment,
     pub(crate) program: &'a Program,
     pub(crate) symbols: Symbols,
-    /// Table of bindings that are not stale.
+    /// Table of poses that are not stale, by binding and step.
     fresh: Fluent,
     /// By fluent, whether a symbol has an entry.
     aliased: Vec<bool>,
@@ -117,10 +117,11 @@ pub(crate) struct AbstractState<'w> {
 }
 
 impl<'w> AbstractState<'w> {
-    /// State before the first step, and the table of bindings that are not stale.
+    /// State before the first step, and the table of poses that are not stale.
     fn at_start(environment: &'w Environment) -> (Self, Fluent) {
         let mut facts = FactStore::above(&environment.facts);
-        let fresh = facts.add_table(TruthSet::yes(Cause::NOTHING));
+        // A pose that no step has bound here is neither fresh nor stale.
+        let fresh = facts.add_table(TruthSet::default());
         (Self { facts, ..Self::default() }, fresh)
     }
 

@@ -3,7 +3,7 @@
 
 use crate::declare::Library;
 use crate::environment::Environment;
-use crate::ir::{Base, Entity, Kind, Program, Ty};
+use crate::ir::{Base, Binding, Entity, Kind, Program, Ty};
 
 /// Entities and symbols of the bindings.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +22,21 @@ pub(crate) struct Symbol {
     pub(crate) may_be: Option<Vec<Entity>>,
 }
 
+/// Entities that fit the descriptions of a binding; `None` if it may be another one on some way.
+fn described(binding: &Binding, find: impl Fn(&str) -> Vec<Entity>) -> Option<Vec<Entity>> {
+    let mut all = Vec::new();
+    for text in binding.descriptions.as_ref()? {
+        let found = find(text);
+        if found.is_empty() {
+            return None;
+        }
+        all.extend(found);
+    }
+    all.sort_unstable();
+    all.dedup();
+    Some(all)
+}
+
 impl Symbols {
     pub(crate) fn new(program: &Program, library: &Library, environment: &Environment) -> Self {
         let first = u16::try_from(environment.entities().len()).unwrap_or(u16::MAX);
@@ -38,7 +53,7 @@ impl Symbols {
                 self.bindings.push(None);
                 continue;
             };
-            let found = binding.description.as_ref().map(|text| environment.described(library, text, kind));
+            let found = described(binding, |text| environment.described(library, text, kind));
             let entity = match found.as_deref() {
                 Some([only]) => Some(*only),
                 Some([]) | None => self.add(kind, None),

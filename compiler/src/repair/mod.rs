@@ -192,7 +192,8 @@ impl RepairFinder {
         let found = prover.program.steps.iter().position(|step| {
             let StepKind::Call(call) = &step.kind else { return false };
             let binding = call.binds.and_then(|id| prover.program.bindings.get(id.index()));
-            binding.is_some_and(|binding| binding.span == bound)
+            // What several ways bind, no step of one way finds again.
+            binding.is_some_and(|binding| binding.span == bound && binding.binders.len() == 1)
         });
         let Some(found) = found.and_then(|index| u32::try_from(index).ok()) else { return };
         if !prover.is_inlined(id) {

@@ -59,7 +59,7 @@ impl StepResolver<'_> {
         });
         // What it binds exists all the same, so that its uses are not reported as well.
         if let Some(bind) = &call.bind {
-            let id = self.bind(bind.text.clone(), Ty::UNKNOWN, bind.span, None);
+            let id = self.bind(bind.text.clone(), Ty::UNKNOWN, bind.span, None, None);
             self.name(&bind.text, id, Ty::UNKNOWN, bind.span);
             if let Some(binding) = self.elaborator.bindings.get_mut(id.index()) {
                 binding.uses = 1;
@@ -125,18 +125,18 @@ impl StepResolver<'_> {
         let binds = match (def.result, &call.bind) {
             (Some(ty), Some(name)) => {
                 let described = description.filter(|_| matches!(ty.base, Base::Entity(_)));
-                let binding = self.bind(name.text.clone(), ty, name.span, described);
+                let binding = self.bind(name.text.clone(), ty, name.span, Some(id), described);
                 self.name(&name.text, binding, ty, name.span);
                 Some(binding)
             }
             (Some(ty), None) => {
                 let described = description.filter(|_| matches!(ty.base, Base::Entity(_)));
-                Some(self.bind(SmolStr::new_static("_"), ty, span, described))
+                Some(self.bind(SmolStr::new_static("_"), ty, span, Some(id), described))
             }
             (None, Some(name)) => {
                 let mistake = NoResult { span: name.span, callee: def.name.clone(), name: name.text.clone() };
                 self.elaborator.report(mistake);
-                let binding = self.bind(name.text.clone(), Ty::UNKNOWN, name.span, None);
+                let binding = self.bind(name.text.clone(), Ty::UNKNOWN, name.span, None, None);
                 self.name(&name.text, binding, Ty::UNKNOWN, name.span);
                 None
             }
@@ -214,11 +214,12 @@ impl StepResolver<'_> {
         for ((param, ty), term) in policy.params.iter().zip(types).zip(args) {
             self.elaborator.scope.push(param.name.text.clone(), term, *ty, param.name.span);
         }
-        let outer = self.inline.replace(id);
+        let (outer, is_done) = (self.inline.replace(id), std::mem::take(&mut self.is_done));
         self.calls.push(name.clone());
         let body = self.in_text(|steps| steps.block(&policy.body, Some(id), BlockSlot::Inlined));
         self.calls.pop();
         self.inline = outer;
+        self.goes_on |= std::mem::replace(&mut self.is_done, is_done);
         self.elaborator.scope.back_to(mark);
         self.fill(id, StepKind::Inline { policy: name, body })
     }

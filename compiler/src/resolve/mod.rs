@@ -10,6 +10,7 @@ mod call;
 pub(crate) mod errors;
 mod meant;
 mod step;
+mod way;
 
 use motet_syntax::ast::{Expr, ExprKind, Policy};
 use motet_syntax::{Diagnostic, Span, Syntax};
@@ -21,7 +22,7 @@ use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::name::Scope;
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::ir::{MotionKind, Program, Term};
+use crate::ir::{MotionKind, Program, StepId, Term};
 
 /// Resolves one policy.
 pub(crate) fn resolve(
@@ -36,21 +37,34 @@ pub(crate) fn resolve(
     (program, steps.finish())
 }
 
+/// A step that was resolved by itself.
+#[derive(Debug)]
+pub(crate) struct ResolvedStep {
+    pub(crate) id: Option<StepId>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// False if control never reaches its end.
+    pub(crate) goes_on: bool,
+    /// Scope before the step in it that was asked for.
+    pub(crate) scope_at_point: Option<Scope>,
+}
+
 /// Resolves one more step of the body of the policy `name`: appends it to `program`, and adds its bindings to
-/// `scope`.
+/// `scope`. Records the scope before the step in it with the span `point`.
 pub(crate) fn resolve_step(
     step: &motet_syntax::ast::Step,
+    point: Span,
     (form, name): (Syntax, &smol_str::SmolStr),
     (library, environment): (&Library, &Environment),
     program: &mut Program,
     scope: &mut Scope,
-) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
+) -> ResolvedStep {
     let elaborator = Elaborator {
         scope: std::mem::take(scope),
         bindings: std::mem::take(&mut program.bindings),
         ..Elaborator::new(library, environment.entities(), environment.has_scene(), form)
     };
     let mut steps = StepResolver::new(elaborator);
+    steps.point = Some(point);
     steps.program = std::mem::take(program);
     steps.calls.push(name.clone());
     let index = u32::try_from(steps.program.body.len()).unwrap_or(u32::MAX);
@@ -59,7 +73,7 @@ pub(crate) fn resolve_step(
     *program = std::mem::take(&mut steps.program);
     program.bindings = std::mem::take(&mut steps.elaborator.bindings);
     *scope = std::mem::take(&mut steps.elaborator.scope);
-    (id, steps.finish())
+    steps.resolved(id)
 }
 
 /// Appends a call of a policy with arguments to a program, and returns its first step.
@@ -68,7 +82,7 @@ pub(crate) fn resolve_inlined(
     args: Vec<Term>,
     (library, environment): (&Library, &Environment),
     program: &mut Program,
-) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
+) -> ResolvedStep {
     let elaborator = Elaborator {
         bindings: std::mem::take(&mut program.bindings),
         ..Elaborator::new(library, environment.entities(), environment.has_scene(), Syntax::Text)
@@ -79,7 +93,7 @@ pub(crate) fn resolve_inlined(
     let id = steps.write_out(policy, args);
     *program = std::mem::take(&mut steps.program);
     program.bindings = std::mem::take(&mut steps.elaborator.bindings);
-    (id, steps.finish())
+    steps.resolved(id)
 }
 
 /// Type-checks the arguments of a motion query as a call of a primitive with this motion would; empty if one

@@ -1,13 +1,17 @@
 //! Resolution of steps and blocks.
 
-use motet_syntax::ast::{Block, Catch, CatchOn, End, Policy, Reaction, Step, StepKind, When};
+use motet_syntax::ast::{Block, Catch, CatchOn, End, EndKind, Policy, Reaction, Step, StepKind, When};
 use motet_syntax::{Diagnostic, Span};
-use smol_str::SmolStr;
+use smallvec::{SmallVec, smallvec};
+use smol_str::{SmolStr, format_smolstr};
 
+use super::ResolvedStep;
 use super::errors::{Shadows, TooManySteps};
+use super::way::Fork;
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::errors::{NotACondition, UnknownFailure, WrongType};
-use crate::declare::name::{list, near};
+use crate::declare::gap::Unbound;
+use crate::declare::name::{Scope, list, near};
 use crate::ir::{self, Base, Binding, BindingId, BlockSlot, Program, StepId, StepPosition, Term, Ty};
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
@@ -24,16 +28,39 @@ pub(super) struct StepResolver<'a> {
     pub(super) inline: Option<StepId>,
     /// Names of the policies that are being inlined, outermost first.
     pub(super) calls: Vec<SmolStr>,
+    /// False behind a step that never goes on.
+    pub(super) goes_on: bool,
+    /// True if a `done` leads behind the inlined policy.
+    pub(super) is_done: bool,
+    /// Span of a step before which the scope is recorded.
+    pub(super) point: Option<Span>,
+    /// The scope there.
+    pub(super) scope_at_point: Option<Scope>,
     full: bool,
 }
 
 impl<'a> StepResolver<'a> {
     pub(super) fn new(elaborator: Elaborator<'a>) -> Self {
-        Self { elaborator, program: Program::default(), inline: None, calls: Vec::new(), full: false }
+        Self {
+            elaborator,
+            program: Program::default(),
+            inline: None,
+            calls: Vec::new(),
+            goes_on: true,
+            is_done: false,
+            point: None,
+            scope_at_point: None,
+            full: false,
+        }
     }
 
     pub(super) fn finish(self) -> Vec<Diagnostic> {
         self.elaborator.diagnostics
+    }
+
+    pub(super) fn resolved(self, id: Option<StepId>) -> ResolvedStep {
+        let Self { goes_on, scope_at_point, elaborator, .. } = self;
+        ResolvedStep { id, diagnostics: elaborator.diagnostics, goes_on, scope_at_point }
     }
 
     pub(super) fn policy(&mut self, policy: &Policy) -> Program {
@@ -48,7 +75,7 @@ impl<'a> StepResolver<'a> {
         // The parameters of a sub-policy that is checked by itself may be anything of their type.
         for param in &policy.params {
             let ty = crate::declare::resolve_type(&mut self.elaborator, &param.ty);
-            let id = self.bind(param.name.text.clone(), ty, param.name.span, None);
+            let id = self.bind(param.name.text.clone(), ty, param.name.span, None, None);
             self.elaborator.scope.push(param.name.text.clone(), Term::Binding(id), ty, param.name.span);
             if let Some(binding) = self.elaborator.bindings.get_mut(id.index()) {
                 binding.is_param = true;
@@ -61,8 +88,8 @@ impl<'a> StepResolver<'a> {
         program
     }
 
+    /// Resolves a block, whose names stay visible.
     pub(super) fn block(&mut self, block: &Block, parent: Option<StepId>, slot: BlockSlot) -> ir::Block {
-        let mark = self.elaborator.scope.mark();
         let mut steps = Vec::with_capacity(block.steps.len());
         for (index, step) in block.steps.iter().enumerate() {
             let position = StepPosition { parent, slot, index: u32::try_from(index).unwrap_or(u32::MAX) };
@@ -72,8 +99,15 @@ impl<'a> StepResolver<'a> {
                 None => {}
             }
         }
-        self.elaborator.scope.back_to(mark);
         steps
+    }
+
+    /// Resolves the one block of a step, which runs at least once.
+    fn only_block(&mut self, block: &Block, (step, slot): (StepId, BlockSlot)) -> ir::Block {
+        let mark = self.elaborator.scope.mark();
+        let body = self.block(block, Some(step), slot);
+        self.elaborator.scope.end_block(mark);
+        body
     }
 
     /// Reserves the next place in the arena, so that a parent precedes its children.
@@ -96,21 +130,33 @@ impl<'a> StepResolver<'a> {
         Some(id)
     }
 
+    /// Adds a binding of the result of a step, or of a value that no step finds.
     pub(super) fn bind(
         &mut self,
         name: SmolStr,
         ty: Ty,
         span: Span,
+        binder: Option<StepId>,
         description: Option<SmolStr>,
     ) -> BindingId {
         let id = BindingId(u32::try_from(self.elaborator.bindings.len()).unwrap_or(u32::MAX));
-        self.elaborator.bindings.push(Binding { name, ty, span, description, is_param: false, uses: 0 });
+        self.elaborator.bindings.push(Binding {
+            name,
+            ty,
+            span,
+            descriptions: description.map(|text| smallvec![text]),
+            binders: binder.into_iter().collect::<SmallVec<_>>(),
+            is_param: false,
+            uses: 0,
+            idle: Vec::new(),
+        });
         id
     }
 
-    /// Makes a binding visible to the end of the block.
+    /// Makes a binding visible.
     pub(super) fn name(&mut self, name: &SmolStr, id: BindingId, ty: Ty, span: Span) {
-        let first = self.elaborator.scope.find(name).map(|entry| entry.span);
+        let known = self.elaborator.scope.find(name).filter(|entry| !entry.is_free);
+        let first = known.map(|entry| entry.span);
         // What a policy of the library calls its own is read there before any entity, and is for nobody
         // else to see.
         let hides = self.inline.is_none() && self.elaborator.entities.find(name).is_some();
@@ -124,19 +170,30 @@ impl<'a> StepResolver<'a> {
         if let StepKind::Do(call) = &step.kind {
             return self.call(call, step.span, position);
         }
+        if self.point == Some(step.span) {
+            self.scope_at_point = Some(self.elaborator.scope.clone());
+        }
         let id = self.reserve(step.span, position)?;
         let kind = match &step.kind {
             StepKind::Do(_) => return None,
             StepKind::Sequence { name, body } => ir::StepKind::Sequence {
                 name: name.text.clone(),
-                body: self.block(body, Some(id), BlockSlot::Steps),
+                body: self.only_block(body, (id, BlockSlot::Steps)),
             },
-            StepKind::If { condition, then, otherwise } => ir::StepKind::If {
-                condition: self.elaborator.condition(condition),
-                span: condition.span,
-                then: self.block(then, Some(id), BlockSlot::Then),
-                otherwise: otherwise.as_ref().map(|block| self.block(block, Some(id), BlockSlot::Else)),
-            },
+            StepKind::If { condition: test, then, otherwise } => {
+                let condition = self.elaborator.condition(test);
+                let mut fork = self.fork(id);
+                let first = "the first block of the `if`";
+                let then = self.way(&mut fork, (then, BlockSlot::Then), first, &Unbound::OtherWay);
+                let otherwise = otherwise.as_ref().map(|block| {
+                    self.way(&mut fork, (block, BlockSlot::Else), "the `else`", &Unbound::OtherWay)
+                });
+                if otherwise.is_none() {
+                    self.way_around(&mut fork, test.span);
+                }
+                self.meet(fork);
+                ir::StepKind::If { condition, span: test.span, then, otherwise }
+            }
             StepKind::Wait { condition, within } => ir::StepKind::Wait {
                 condition: self.elaborator.condition(condition),
                 within_secs: self.seconds_or(within.as_ref(), "the deadline of a `wait`"),
@@ -144,17 +201,20 @@ impl<'a> StepResolver<'a> {
             StepKind::Monitor { whens, body } => {
                 let whens =
                     whens.iter().enumerate().map(|(index, when)| self.when(when, id, index)).collect();
-                ir::StepKind::Monitor { whens, body: self.block(body, Some(id), BlockSlot::During) }
+                ir::StepKind::Monitor { whens, body: self.only_block(body, (id, BlockSlot::During)) }
             }
             StepKind::Try { body, catches } => {
-                let body = self.block(body, Some(id), BlockSlot::Try);
-                let catches =
-                    catches.iter().enumerate().map(|(index, catch)| self.catch(catch, id, index)).collect();
+                let mut fork = self.fork(id);
+                let whole = "the body of the `try`";
+                let body = self.way(&mut fork, (body, BlockSlot::Try), whole, &Unbound::Handler);
+                let numbered = catches.iter().enumerate();
+                let catches = numbered.map(|(index, catch)| self.catch(catch, &mut fork, index)).collect();
+                self.meet(fork);
                 ir::StepKind::Try { body, catches }
             }
             StepKind::Repeat { times, body, until } => {
                 let times = self.elaborator.count(times, "the count of a `repeat`", 1).unwrap_or(1);
-                let body = self.block(body, Some(id), BlockSlot::Steps);
+                let body = self.only_block(body, (id, BlockSlot::Steps));
                 let until = until.as_ref().map(|until| (self.elaborator.condition(until), until.span));
                 ir::StepKind::Repeat { times, body, until }
             }
@@ -162,22 +222,31 @@ impl<'a> StepResolver<'a> {
                 let (term, ty) = self.list_of(list);
                 let at_most = self.elaborator.count(at_most, "the length of an `each`", 1).unwrap_or(1);
                 let mark = self.elaborator.scope.mark();
-                let binding = self.bind(item.text.clone(), ty, item.span, None);
+                let binding = self.bind(item.text.clone(), ty, item.span, None, None);
                 self.name(&item.text, binding, ty, item.span);
+                let outer = self.goes_on;
                 let body = self.block(body, Some(id), BlockSlot::Steps);
-                self.elaborator.scope.back_to(mark);
+                self.goes_on = outer;
+                self.leave(mark, &Unbound::Loop);
                 ir::StepKind::Each { item: binding, list: term, at_most, body }
             }
             StepKind::Parallel { branches } => {
-                let branches = branches.iter().enumerate();
-                let slot = |index: usize| BlockSlot::Branch(u16::try_from(index).unwrap_or(u16::MAX));
-                ir::StepKind::Parallel {
-                    branches: branches
-                        .map(|(index, block)| self.block(block, Some(id), slot(index)))
-                        .collect(),
-                }
+                let mut fork = self.fork(id);
+                let numbered = branches.iter().enumerate();
+                let branches = numbered.map(|(index, block)| {
+                    let slot = BlockSlot::Branch(u16::try_from(index).unwrap_or(u16::MAX));
+                    self.way(&mut fork, (block, slot), "a branch", &Unbound::Beside)
+                });
+                let branches = branches.collect();
+                self.meet_all(fork);
+                ir::StepKind::Parallel { branches }
             }
-            StepKind::End(end) => ir::StepKind::End { kind: end.kind, of: self.inline, why: self.why(end) },
+            StepKind::End(end) => {
+                let why = self.why(end);
+                self.note_done(end);
+                self.goes_on = false;
+                ir::StepKind::End { kind: end.kind, of: self.inline, why }
+            }
         };
         self.fill(id, kind)
     }
@@ -204,6 +273,11 @@ impl<'a> StepResolver<'a> {
         }
     }
 
+    /// Notes that an ending leads behind the inlined policy.
+    fn note_done(&mut self, end: &End) {
+        self.is_done |= end.kind == EndKind::Done && self.inline.is_some() && self.goes_on;
+    }
+
     fn why(&mut self, end: &End) -> Option<Term> {
         let wanted = Expected { ty: Ty::TEXT, place: ValueRole::Named("the reason of an ending") };
         end.why.as_ref().map(|why| self.elaborator.term_of(why, wanted))
@@ -226,16 +300,23 @@ impl<'a> StepResolver<'a> {
             Reaction::Restart { at_most, .. } => ir::Reaction::Restart {
                 at_most: self.elaborator.count(at_most, "the count of a `restart`", 1).unwrap_or(1),
             },
-            Reaction::Resume { at_most, body, .. } => ir::Reaction::Resume {
-                at_most: self.elaborator.count(at_most, "the count of a `resume`", 1).unwrap_or(1),
-                body: self.block(body, Some(monitor), slot),
-            },
-            Reaction::End(end) => ir::Reaction::End { kind: end.kind, of: self.inline, why: self.why(end) },
+            Reaction::Resume { at_most, body, .. } => {
+                let at_most = self.elaborator.count(at_most, "the count of a `resume`", 1).unwrap_or(1);
+                let (mark, outer) = (self.elaborator.scope.mark(), self.goes_on);
+                let body = self.block(body, Some(monitor), slot);
+                self.goes_on = outer;
+                self.leave(mark, &Unbound::Reaction);
+                ir::Reaction::Resume { at_most, body }
+            }
+            Reaction::End(end) => {
+                self.note_done(end);
+                ir::Reaction::End { kind: end.kind, of: self.inline, why: self.why(end) }
+            }
         };
         ir::When { condition, span: when.condition.span, hold_secs, reaction }
     }
 
-    fn catch(&mut self, catch: &Catch, id: StepId, index: usize) -> ir::Catch {
+    fn catch(&mut self, catch: &Catch, fork: &mut Fork, index: usize) -> ir::Catch {
         let on = match &catch.on {
             CatchOn::Any(_) => None,
             CatchOn::Kinds(names) => {
@@ -262,7 +343,12 @@ impl<'a> StepResolver<'a> {
         };
         let slot = BlockSlot::Catch(u16::try_from(index).unwrap_or(u16::MAX));
         let span = if let CatchOn::Any(span) = &catch.on { *span } else { catch.span };
-        ir::Catch { on, span, body: self.block(&catch.body, Some(id), slot) }
+        let kinds: Vec<&str> = match &catch.on {
+            CatchOn::Any(_) => vec!["any"],
+            CatchOn::Kinds(names) => names.iter().map(|name| name.text.as_str()).collect(),
+        };
+        let name = format_smolstr!("`catch {}`", kinds.join(", "));
+        ir::Catch { on, span, body: self.way(fork, (&catch.body, slot), &name, &Unbound::OtherWay) }
     }
 
     /// Reports a condition in place of a step.

@@ -1,8 +1,8 @@
 //! A plan as an ordinary policy in JSON, with a map from its paths back to the steps of the plan.
 //!
-//! A binding of Motet is visible to the end of its block, one of a plan from then on. So where a branch binds
-//! what is used after it, what comes after is written in both branches; after a body that has always run,
-//! such as that of a monitor, the entity itself is named.
+//! A binding of Motet is visible where every way has bound it, one of a plan from then on. So where a branch
+//! binds what is used after it, what comes after is written in both branches; after a body that has always
+//! run, such as that of a monitor, the entity itself is named.
 
 use std::collections::HashMap;
 

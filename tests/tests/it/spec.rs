@@ -82,3 +82,8 @@ fn spec_prover() {
 fn spec_lints_of_intent() {
     check(include_str!("../../spec/intent.md"), is_intent);
 }
+
+#[test]
+fn spec_scopes() {
+    check(include_str!("../../spec/scopes.md"), |code| !is_intent(code));
+}

@@ -1,6 +1,6 @@
 //! Lays sketched steps out as a graph.
 
-use super::vocabulary::{self as v, SAY};
+use super::vocabulary::{self as v, DETECT, SAY};
 use super::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
 use crate::model::{
     Binding, BindingId, CallNode, Condition, DurationBounds, Ending, Fact, FactArg, Graph, Handler, Node,
@@ -12,8 +12,13 @@ use smol_str::SmolStr;
 /// branch needs becomes a `say`.
 #[must_use]
 pub fn graph(steps: &[StepSketch]) -> Graph {
-    let mut layout =
-        Layout { graph: v::declarations(), objects: Vec::new(), taken: Vec::new(), inline: None };
+    let mut layout = Layout {
+        graph: v::declarations(),
+        objects: Vec::new(),
+        share: None,
+        taken: Vec::new(),
+        inline: None,
+    };
     layout.graph.regions.push(Region { owner: None, entry: None });
     layout.fill(ROOT, steps, "/steps");
     layout.graph
@@ -23,6 +28,8 @@ struct Layout {
     graph: Graph,
     /// Objects that are bound here, the latest last.
     objects: Vec<BindingId>,
+    /// Binding that the first `detect` of the next region binds, as those of the other ways do.
+    share: Option<BindingId>,
     /// Resources that branches at the same time need.
     taken: Vec<ResourceId>,
     /// The sub-policy around here.
@@ -37,8 +44,38 @@ impl Layout {
         id
     }
 
-    fn fill(&mut self, region: RegionId, steps: &[StepSketch], path: &str) {
+    /// A region behind which its objects are not bound.
+    fn closed_region(&mut self, owner: NodeId, steps: &[StepSketch], path: &str) -> RegionId {
         let bound = self.objects.len();
+        let region = self.region(owner, steps, path);
+        self.objects.truncate(bound);
+        region
+    }
+
+    /// Regions of which one is taken. If each has a `detect`, the first of each binds one object.
+    fn ways(&mut self, owner: NodeId, ways: &[(&[StepSketch], String)]) -> Vec<RegionId> {
+        let detects = |step: &StepSketch| matches!(step, StepSketch::Call(call) if call.primitive == DETECT);
+        let shares = ways.len() > 1 && ways.iter().all(|(steps, _)| steps.iter().any(detects));
+        let shared = shares.then(|| self.binding("it", Type::Entity(v::OBJECT)));
+        let first = self.graph.nodes.len();
+        let mut regions = Vec::with_capacity(ways.len());
+        for (steps, path) in ways {
+            self.share = shared;
+            regions.push(self.closed_region(owner, steps, path));
+            self.share = None;
+        }
+        // In a branch whose resources are taken a `detect` becomes a `say`.
+        let calls = self.graph.nodes.iter().skip(first).filter_map(|node| match &node.kind {
+            NodeKind::Call(call) => call.binds,
+            _ => None,
+        });
+        let count = calls.filter(|binds| Some(*binds) == shared).count();
+        self.objects.extend(shared.filter(|_| count == ways.len()));
+        regions
+    }
+
+    fn fill(&mut self, region: RegionId, steps: &[StepSketch], path: &str) {
+        let mut share = self.share.take();
         let mut before: Option<NodeId> = None;
         for (index, step) in steps.iter().enumerate() {
             let id = NodeId(self.graph.nodes.len() as u32);
@@ -46,7 +83,11 @@ impl Layout {
             let kind = NodeKind::Parallel { branches: Vec::new() };
             let duration = DurationBounds { least_secs: 0.0, greatest_secs: 10.0 };
             self.graph.nodes.push(Node { path: SmolStr::new(&path), region, next: None, duration, kind });
+            if matches!(step, StepSketch::Call(call) if call.primitive == DETECT) {
+                self.share = share.take();
+            }
             let kind = self.kind(id, step, &path);
+            self.share = None;
             if let Some(node) = self.graph.nodes.get_mut(id.index()) {
                 node.kind = kind;
             }
@@ -60,7 +101,6 @@ impl Layout {
             }
             before = Some(id);
         }
-        self.objects.truncate(bound);
     }
 
     fn kind(&mut self, id: NodeId, step: &StepSketch, path: &str) -> NodeKind {
@@ -71,25 +111,33 @@ impl Layout {
             }
             StepSketch::Inline(steps) => {
                 let outer = self.inline.replace(id);
-                let body = self.region(id, steps, &format!("{path}:/steps"));
+                let body = self.closed_region(id, steps, &format!("{path}:/steps"));
                 self.inline = outer;
                 NodeKind::Inline { policy: SmolStr::new_static("part"), body }
             }
-            StepSketch::If(condition, then, otherwise) => NodeKind::If {
-                condition: self.condition(condition),
-                then: self.region(id, then, &format!("{path}/then")),
-                otherwise: otherwise.as_ref().map(|steps| self.region(id, steps, &format!("{path}/else"))),
-            },
+            StepSketch::If(condition, then, otherwise) => {
+                let condition = self.condition(condition);
+                let mut ways = vec![(then.as_slice(), format!("{path}/then"))];
+                ways.extend(otherwise.iter().map(|steps| (steps.as_slice(), format!("{path}/else"))));
+                let regions = self.ways(id, &ways);
+                let region = |index: usize| regions.get(index).copied();
+                NodeKind::If { condition, then: region(0).unwrap_or(ROOT), otherwise: region(1) }
+            }
             StepSketch::Wait(condition, within_secs) => {
                 NodeKind::Wait { condition: self.condition(condition), within_secs: *within_secs }
             }
             StepSketch::Monitor(whens, steps) => self.monitor(id, whens, steps, path),
             StepSketch::Try(body, handlers) => {
-                let body = self.region(id, body, &format!("{path}/try"));
-                let handlers = handlers.iter().enumerate().map(|(index, (on, steps))| Handler {
-                    on: on.clone(),
-                    body: self.region(id, steps, &format!("{path}/catch/{index}/steps")),
-                });
+                let mut ways = vec![(body.as_slice(), format!("{path}/try"))];
+                let numbered = handlers.iter().enumerate();
+                ways.extend(
+                    numbered
+                        .map(|(index, (_, steps))| (steps.as_slice(), format!("{path}/catch/{index}/steps"))),
+                );
+                let mut regions = self.ways(id, &ways).into_iter();
+                let body = regions.next().unwrap_or(ROOT);
+                let handlers = handlers.iter().zip(regions);
+                let handlers = handlers.map(|((on, _), body)| Handler { on: on.clone(), body });
                 NodeKind::Try { body, handlers: handlers.collect() }
             }
             StepSketch::Repeat(times, steps, until) => {
@@ -104,7 +152,7 @@ impl Layout {
                 let list = self.term(list);
                 let item = self.binding("item", Type::Entity(v::OBJECT));
                 self.objects.push(item);
-                let body = self.region(id, steps, &format!("{path}/steps"));
+                let body = self.closed_region(id, steps, &format!("{path}/steps"));
                 self.objects.pop();
                 NodeKind::Each { item, list, at_most: *at_most, body }
             }
@@ -127,7 +175,8 @@ impl Layout {
             self.graph.primitives.get(primitive.index()).and_then(|primitive| primitive.result.clone());
         let binds = result.map(|ty| {
             let object = matches!(ty, Type::Entity(_));
-            let binding = self.binding("it", ty);
+            let shared = self.share.take().filter(|_| object);
+            let binding = shared.unwrap_or_else(|| self.binding("it", ty));
             if object {
                 self.objects.push(binding);
             }
@@ -149,14 +198,17 @@ impl Layout {
     fn monitor(&mut self, id: NodeId, whens: &[WatchSketch], steps: &[StepSketch], path: &str) -> NodeKind {
         let conditions: Vec<Condition> = whens.iter().map(|when| self.condition(&when.condition)).collect();
         // Regions in the order in which a monitor names them: the body, then the blocks.
+        let bound = self.objects.len();
         let body = self.region(id, steps, &format!("{path}/during"));
+        // The reactions do not see what the body binds.
+        let of_body = self.objects.split_off(bound);
         let watches = whens.iter().zip(conditions).enumerate().map(|(index, (when, condition))| {
             let reaction = match &when.react {
                 ReactionSketch::Pause(within_secs) => Reaction::Pause { within_secs: *within_secs },
                 ReactionSketch::Restart(at_most) => Reaction::Restart { at_most: *at_most },
                 ReactionSketch::Resume(at_most, steps) => {
                     let path = format!("{path}/monitor/{index}/then/steps");
-                    Reaction::Resume { at_most: *at_most, body: self.region(id, steps, &path) }
+                    Reaction::Resume { at_most: *at_most, body: self.closed_region(id, steps, &path) }
                 }
                 ReactionSketch::End(how) => {
                     Reaction::End { how: *how, of: self.inline.filter(|_| *how != Ending::Replan), why: None }
@@ -164,15 +216,18 @@ impl Layout {
             };
             Watch { condition, hold_secs: when.hold_secs, reaction }
         });
-        NodeKind::Monitor { watches: watches.collect(), body }
+        let watches = watches.collect();
+        self.objects.extend(of_body);
+        NodeKind::Monitor { watches, body }
     }
 
     fn parallel(&mut self, id: NodeId, branches: &[Vec<StepSketch>], path: &str) -> NodeKind {
-        let outer = self.taken.len();
-        let mut regions = Vec::new();
+        let (outer, bound) = (self.taken.len(), self.objects.len());
+        let (mut regions, mut of_branches) = (Vec::new(), Vec::new());
         for (index, steps) in branches.iter().enumerate() {
             let first = self.graph.nodes.len();
             regions.push(self.region(id, steps, &format!("{path}/parallel/{index}")));
+            of_branches.extend(self.objects.split_off(bound));
             let used = self.graph.nodes.iter().skip(first).filter_map(|node| match &node.kind {
                 NodeKind::Call(call) => self.graph.primitives.get(call.primitive.index()),
                 NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => None,
@@ -184,6 +239,7 @@ impl Layout {
             self.taken.extend(used);
         }
         self.taken.truncate(outer);
+        self.objects.extend(of_branches);
         NodeKind::Parallel { branches: regions }
     }
 

@@ -1,12 +1,13 @@
 //! Definite assignment: every name is bound on every path before it is used.
 //!
-//! A given name is bound everywhere. Any other is bound by a call or a loop and holds to the end of the
-//! region that binds it, so a walk in document order that forgets at the end of each region what was bound in
-//! it knows at each node what is bound.
+//! A given name is bound everywhere. Any other is bound by a call or a loop, for what follows. Where ways
+//! meet, a name is bound if every way that goes on has bound it: the walk in document order takes back what
+//! one way binds before it walks the next, and compares them behind the last.
 
 use super::{Findings, InvalidReason};
 use crate::model::{
-    BindingId, CallNode, Condition, Fact, FactArg, Graph, Node, NodeId, NodeKind, Reaction, RegionId, Term,
+    BindingId, CallNode, Condition, Ending, Fact, FactArg, Graph, Node, NodeId, NodeKind, Reaction, RegionId,
+    Term,
 };
 
 /// Entry of the stack of regions and nodes that are still to be walked.
@@ -17,13 +18,45 @@ enum Todo {
     Open { region: RegionId, item: Option<BindingId>, until: Option<NodeId> },
     /// The test of a loop.
     Until(NodeId),
-    /// The end of a region: only so many names stay bound.
-    Close(usize),
+    /// The end of a region that may not run, or whose names are its own: only so many names stay bound, and
+    /// control goes on if it did before, or if the sub-policy is done.
+    Close { keep: usize, goes_on: bool, of: Option<NodeId> },
+    /// The first of the ways through a node.
+    Fork,
+    /// The end of one way.
+    Way,
+    /// The place where the ways through a node meet.
+    Meet { how: Meeting, goes_on: bool },
 }
+
+/// Ways through a node that meet.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Meeting {
+    /// One is taken.
+    One,
+    /// One is taken, or none.
+    OneOrNone,
+    /// All are taken at once.
+    All,
+}
+
+/// A way through a node: the names that it binds, and false if control never reaches its end.
+type Way = (Vec<BindingId>, bool);
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
     let bound = graph.bindings.iter().map(|binding| binding.given).collect();
-    let mut walk = Walk { graph, findings, bound, log: Vec::new(), todo: Vec::new(), terms: Vec::new() };
+    let mut walk = Walk {
+        graph,
+        findings,
+        bound,
+        log: Vec::new(),
+        goes_on: true,
+        done: vec![false; graph.nodes.len()],
+        forks: Vec::new(),
+        counts: vec![0; graph.bindings.len()],
+        todo: Vec::new(),
+        terms: Vec::new(),
+    };
     walk.todo.push(Todo::Open { region: crate::model::ROOT, item: None, until: None });
     while let Some(todo) = walk.todo.pop() {
         walk.step(todo);
@@ -36,6 +69,14 @@ struct Walk<'a> {
     bound: Vec<bool>,
     /// Bindings in the order in which they were bound.
     log: Vec<BindingId>,
+    /// False behind a node that never goes on.
+    goes_on: bool,
+    /// By node, true for a sub-policy that a `done` in it leaves.
+    done: Vec<bool>,
+    /// The open forks, each with the number of names bound before it and its ways so far.
+    forks: Vec<(usize, Vec<Way>)>,
+    /// By binding, the number of ways that bind it; zero between two forks.
+    counts: Vec<usize>,
     todo: Vec<Todo>,
     /// Parts of a term that are still to be looked at; empty between two terms.
     terms: Vec<&'a Term>,
@@ -45,19 +86,26 @@ impl<'a> Walk<'a> {
     fn step(&mut self, todo: Todo) {
         match todo {
             Todo::Open { region, item, until } => {
-                self.todo.push(Todo::Close(self.log.len()));
                 item.into_iter().for_each(|item| self.bind(item));
                 self.todo.extend(until.map(Todo::Until));
                 let entry = self.graph.regions.get(region.index()).and_then(|region| region.entry);
                 self.todo.extend(entry.map(Todo::Node));
             }
-            Todo::Close(keep) => {
-                for binding in self.log.drain(keep.min(self.log.len())..) {
-                    if let Some(bound) = self.bound.get_mut(binding.index()) {
-                        *bound = false;
-                    }
-                }
+            Todo::Close { keep, goes_on, of } => {
+                self.take_back(keep);
+                let is_done = of.and_then(|of| self.done.get(of.index())).copied();
+                self.goes_on = is_done.map_or(goes_on, |is_done| self.goes_on || is_done);
             }
+            Todo::Fork => {
+                self.forks.push((self.log.len(), Vec::new()));
+                self.goes_on = true;
+            }
+            Todo::Way => {
+                let Some((keep, mut ways)) = self.forks.pop() else { return };
+                ways.push((self.take_back(keep), std::mem::replace(&mut self.goes_on, true)));
+                self.forks.push((keep, ways));
+            }
+            Todo::Meet { how, goes_on } => self.meet(how, goes_on),
             Todo::Until(id) => {
                 if let Some(node) = self.graph.nodes.get(id.index())
                     && let NodeKind::Repeat { until: Some(until), .. } = &node.kind
@@ -76,6 +124,50 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Takes back what was bound since so many names were.
+    fn take_back(&mut self, keep: usize) -> Vec<BindingId> {
+        let names = self.log.split_off(keep.min(self.log.len()));
+        for name in &names {
+            if let Some(bound) = self.bound.get_mut(name.index()) {
+                *bound = false;
+            }
+        }
+        names
+    }
+
+    /// Binds what is bound behind the ways of the innermost fork.
+    fn meet(&mut self, how: Meeting, goes_on: bool) {
+        let Some((_, mut ways)) = self.forks.pop() else { return };
+        if how == Meeting::OneOrNone {
+            ways.push((Vec::new(), true));
+        }
+        let live = ways.iter().filter(|(_, goes_on)| *goes_on).count();
+        // Nothing runs behind ways that never go on, nor behind branches of which one does not.
+        let wanted = match how {
+            Meeting::One | Meeting::OneOrNone if live == 0 => None,
+            Meeting::One | Meeting::OneOrNone => Some(live),
+            // Of a name that two branches bind at once the value is not known.
+            Meeting::All => Some(1),
+        };
+        self.goes_on = goes_on && if how == Meeting::All { live == ways.len() } else { live > 0 };
+        let counted = |(_, goes_on): &&Way| how == Meeting::All || *goes_on;
+        for name in ways.iter().filter(counted).flat_map(|(names, _)| names) {
+            if let Some(count) = self.counts.get_mut(name.index()) {
+                *count += 1;
+            }
+        }
+        for name in ways.iter().flat_map(|(names, _)| names) {
+            if wanted.is_none_or(|wanted| self.counts.get(name.index()) == Some(&wanted)) {
+                self.bind(*name);
+            }
+        }
+        for name in ways.iter().flat_map(|(names, _)| names) {
+            if let Some(count) = self.counts.get_mut(name.index()) {
+                *count = 0;
+            }
+        }
+    }
+
     fn bind(&mut self, binding: BindingId) {
         if let Some(bound) = self.bound.get_mut(binding.index())
             && !*bound
@@ -86,36 +178,74 @@ impl<'a> Walk<'a> {
     }
 
     fn node(&mut self, id: NodeId, node: &'a Node) {
+        let (keep, goes_on) = (self.log.len(), self.goes_on);
+        let open = |region: &RegionId| Todo::Open { region: *region, item: None, until: None };
+        let aside = |region: &RegionId| [Todo::Close { keep, goes_on, of: None }, open(region)];
         match &node.kind {
             NodeKind::Call(call) => self.call(node, call),
-            NodeKind::If { condition, .. } | NodeKind::Wait { condition, .. } => {
-                self.condition(node, condition)
+            NodeKind::If { condition, then, otherwise } => {
+                self.condition(node, condition);
+                let how = if otherwise.is_some() { Meeting::One } else { Meeting::OneOrNone };
+                self.fork(how, std::iter::once(*then).chain(*otherwise).collect());
             }
-            NodeKind::Monitor { watches, .. } => {
+            NodeKind::Try { body, handlers } => {
+                let handlers = handlers.iter().map(|handler| handler.body);
+                self.fork(Meeting::One, std::iter::once(*body).chain(handlers).collect());
+            }
+            NodeKind::Parallel { branches } => self.fork(Meeting::All, branches.clone()),
+            NodeKind::Wait { condition, .. } => self.condition(node, condition),
+            NodeKind::Monitor { watches, body } => {
+                self.todo.push(open(body));
                 for watch in watches {
                     self.condition(node, &watch.condition);
-                    if let Reaction::End { why: Some(why), .. } = &watch.reaction {
-                        self.term(node, why);
+                    match &watch.reaction {
+                        Reaction::End { how, of, why } => {
+                            why.iter().for_each(|why| self.term(node, why));
+                            self.end(*how, *of);
+                        }
+                        // It may run at any moment of the body, or never.
+                        Reaction::Resume { body, .. } => self.todo.extend(aside(body)),
+                        Reaction::Pause { .. } | Reaction::Restart { .. } => {}
                     }
                 }
             }
-            NodeKind::Each { list, .. } => self.term(node, list),
-            NodeKind::End { why: Some(why), .. } => self.term(node, why),
-            NodeKind::End { why: None, .. } | NodeKind::Repeat { .. } | NodeKind::Sequence { .. } => {}
-            NodeKind::Inline { .. } | NodeKind::Try { .. } | NodeKind::Parallel { .. } => {}
-        }
-        let (item, until) = match &node.kind {
-            NodeKind::Each { item, .. } => (Some(*item), None),
-            NodeKind::Repeat { until: Some(_), .. } => (None, Some(id)),
-            NodeKind::Repeat { until: None, .. } | NodeKind::Call(_) | NodeKind::Sequence { .. } => {
-                (None, None)
+            NodeKind::Sequence { body, .. } => self.todo.push(open(body)),
+            NodeKind::Repeat { body, until, .. } => {
+                let until = until.is_some().then_some(id);
+                self.todo.push(Todo::Open { region: *body, item: None, until });
             }
-            NodeKind::Inline { .. } | NodeKind::If { .. } | NodeKind::Wait { .. } => (None, None),
-            NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Parallel { .. } => (None, None),
-            NodeKind::End { .. } => (None, None),
-        };
-        let regions = super::structure::owned(node).into_iter().rev();
-        self.todo.extend(regions.map(|region| Todo::Open { region, item, until }));
+            NodeKind::Each { item, list, body, .. } => {
+                self.term(node, list);
+                let item = Some(*item);
+                self.todo.push(Todo::Close { keep, goes_on, of: None });
+                self.todo.push(Todo::Open { region: *body, item, until: None });
+            }
+            NodeKind::Inline { body, .. } => {
+                self.todo.extend([Todo::Close { keep, goes_on, of: Some(id) }, open(body)]);
+            }
+            NodeKind::End { how, of, why } => {
+                why.iter().for_each(|why| self.term(node, why));
+                self.end(*how, *of);
+                self.goes_on = false;
+            }
+        }
+    }
+
+    /// Walks the regions one by one, each as a way of its own.
+    fn fork(&mut self, how: Meeting, regions: Vec<RegionId>) {
+        self.todo.push(Todo::Meet { how, goes_on: self.goes_on });
+        for region in regions.into_iter().rev() {
+            self.todo.extend([Todo::Way, Todo::Open { region, item: None, until: None }]);
+        }
+        self.todo.push(Todo::Fork);
+    }
+
+    /// Notes that an ending leads behind a sub-policy.
+    fn end(&mut self, how: Ending, of: Option<NodeId>) {
+        let done = of.and_then(|of| self.done.get_mut(of.index()));
+        if let Some(done) = done.filter(|_| how == Ending::Done && self.goes_on) {
+            *done = true;
+        }
     }
 
     fn call(&mut self, node: &'a Node, call: &'a CallNode) {

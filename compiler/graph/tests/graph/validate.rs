@@ -306,6 +306,79 @@ fn bindings() {
     );
 }
 
+/// Nodes: 0 try, 1 detect, 2 detect (handler), 3 pick of what either found.
+fn either() -> Graph {
+    let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![CallSketch::NEAREST]));
+    let handler = (None, vec![StepSketch::detect("cup")]);
+    graph(&[StepSketch::Try(vec![StepSketch::detect("mug")], vec![handler]), pick])
+}
+
+#[test]
+fn bindings_of_several_ways() {
+    let graph = either();
+    assert_eq!(validate(&graph), Ok(()));
+    assert_eq!(call(&mut either(), 3).args[0], Term::Binding(BindingId(0)));
+    let unbound = Some("/steps/1: `it'0` is used before it is bound".to_owned());
+    let said = |change: &dyn Fn(&mut Graph)| {
+        let mut graph = graph.clone();
+        change(&mut graph);
+        let findings = validate(&graph).err().unwrap_or_default();
+        // The contract of `pick` mentions the object several times.
+        findings.first().map(ToString::to_string)
+    };
+    let say = NodeKind::Call(call(&mut self::graph(&[StepSketch::say("no")]), 0).clone());
+    let end = |how| NodeKind::End { how, of: None, why: None };
+    for node in [1, 2] {
+        assert_eq!(said(&|g| g.nodes[node].kind = say.clone()), unbound);
+        assert_eq!(said(&|g| g.nodes[node].kind = end(Ending::Replan)), None);
+    }
+    // The other way ends a sub-policy, which goes on behind it.
+    let handler = (None, vec![StepSketch::End(Ending::Done)]);
+    let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![Term::Binding(BindingId(0))]));
+    let inside = StepSketch::Try(vec![StepSketch::detect("mug")], vec![handler]);
+    let part = self::graph(&[StepSketch::Inline(vec![inside.clone(), pick.clone()])]);
+    assert_eq!(validate(&part), Ok(()));
+    let part = self::graph(&[StepSketch::Inline(vec![inside]), pick.clone()]);
+    let findings = validate(&part).unwrap_err();
+    assert_eq!(Some(findings[0].to_string()), unbound);
+    // A body that binds and never goes on leaves the handlers.
+    let body = vec![StepSketch::End(Ending::Fail)];
+    let handler = (None, vec![StepSketch::detect("mug")]);
+    assert_eq!(validate(&self::graph(&[StepSketch::Try(body, vec![handler]), pick])), Ok(()));
+}
+
+#[test]
+fn bindings_of_what_may_not_run() {
+    let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![Term::Binding(BindingId(0))]));
+    let detect = || vec![StepSketch::detect("mug")];
+    let near = || v::nearer("user", 0.5);
+    let bound = [
+        StepSketch::Sequence(detect()),
+        StepSketch::Repeat(2, detect(), None),
+        StepSketch::Monitor(vec![WatchSketch::new(near(), ReactionSketch::Pause(1.0))], detect()),
+        StepSketch::Parallel(vec![detect(), vec![StepSketch::say("oh")]]),
+    ];
+    for step in bound {
+        assert_eq!(validate(&graph(&[step.clone(), pick.clone()])), Ok(()), "{step:?}");
+    }
+    let resume = WatchSketch::new(near(), ReactionSketch::Resume(1, detect()));
+    let unbound = [
+        StepSketch::If(near(), detect(), None),
+        StepSketch::If(near(), detect(), Some(Vec::new())),
+        StepSketch::Monitor(vec![resume], vec![StepSketch::say("oh")]),
+        StepSketch::Inline(detect()),
+    ];
+    for step in unbound {
+        let findings = validate(&graph(&[step.clone(), pick.clone()])).unwrap_err();
+        assert_eq!(findings[0].to_string(), "/steps/1: `it'0` is used before it is bound", "{step:?}");
+    }
+    // A loop over a list binds its item first.
+    let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![Term::Binding(BindingId(1))]));
+    let each = StepSketch::Each(Term::List(vec![v::entity("cup")]), 3, detect());
+    let findings = validate(&graph(&[each, pick])).unwrap_err();
+    assert_eq!(findings[0].to_string(), "/steps/1: `it'1` is used before it is bound");
+}
+
 #[test]
 fn resources() {
     // A `go` in the second branch needs the base of the first.

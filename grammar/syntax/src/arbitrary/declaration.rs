@@ -138,10 +138,9 @@ impl TreeGenerator<'_> {
         }
     }
 
+    /// A block. Its names may be used behind it, where other ways may have bound them too.
     fn block(&mut self, depth: usize) -> Block {
-        let outer = self.scope.len();
         let steps = self.some(0, |it| it.step(depth));
-        self.scope.truncate(outer);
         Block { steps, span: self.span() }
     }
 
@@ -188,7 +187,6 @@ impl TreeGenerator<'_> {
                 let item = self.choice.bound();
                 self.scope.push(item.text.clone());
                 let body = self.block(depth);
-                self.scope.pop();
                 StepKind::Each { item, list, at_most, body }
             }
             6 => StepKind::Parallel { branches: self.some(1, |it| it.block(depth)) },

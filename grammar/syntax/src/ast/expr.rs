@@ -31,7 +31,7 @@ pub enum ExprKind {
     Text(SmolStr),
     /// `mug`: a binding, parameter, entity, enumeration case or resource.
     Name(SmolStr),
-    /// `"$mug"` in JSON: a binding or parameter and nothing else.
+    /// `"$mug"` in JSON, `$mug` in text: a binding or parameter and nothing else.
     Binding(SmolStr),
     /// A plain string in JSON: an entity, a case, a quantity or a text, as the type where it stands says.
     Plain(SmolStr),

@@ -5,6 +5,7 @@
 //! before it prints. A condition with an argument that still has no name is written as a string in the text
 //! syntax; in a step such an argument is written under `arg1`, `arg2`, … by its position.
 
+use rustc_hash::FxHashSet;
 use serde_json::Value;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -26,7 +27,7 @@ pub fn policy_json(policy: &Policy) -> String {
 
 /// A call as a step, on one line.
 pub(super) fn call(step: &Do) -> String {
-    let mut translation = WireTranslation { scope: Vec::new() };
+    let mut translation = WireTranslation { scope: FxHashSet::default() };
     one_line(&serde_json::to_value(translation.call_step(step)).unwrap_or_default())
 }
 
@@ -48,18 +49,16 @@ fn name(name: &Name) -> Spanned<SmolStr> {
     name.text.clone().into()
 }
 
-/// Translation to the wire types, with the names bound at the current point.
+/// Translation to the wire types, with the names bound so far. A name stays one when its block ends: it may
+/// be bound behind the block too.
 struct WireTranslation {
-    scope: Vec<SmolStr>,
+    scope: FxHashSet<SmolStr>,
 }
 
 impl WireTranslation {
-    /// Translates a block. Its bindings end with it.
     fn block(&mut self, block: &Block) -> wire::Steps {
-        let outer = self.scope.len();
         let steps: Vec<_> =
             block.steps.iter().map(|step| Lenient::from(Spanned::from(self.step(step)))).collect();
-        self.scope.truncate(outer);
         steps.into()
     }
 
@@ -96,9 +95,8 @@ impl WireTranslation {
             })),
             StepKind::Each { item, list, at_most, body } => {
                 let (r#in, at_most) = (self.term(list).into(), self.count(at_most));
-                self.scope.push(item.text.clone());
+                self.scope.insert(item.text.clone());
                 let steps = self.block(body);
-                self.scope.pop();
                 wire::Step::Each(Box::new(wire::Each { each: name(item), r#in, at_most, steps }))
             }
             StepKind::Parallel { branches } => {

@@ -227,6 +227,10 @@ impl Builder {
             Rule::kw_false => leaf(ExprKind::Bool(false)),
             Rule::kw_any => leaf(ExprKind::Any),
             Rule::name => leaf(ExprKind::Name(self.name_text(&pair))),
+            Rule::binding => {
+                let name = pair.as_str().trim_start_matches('$').trim_matches('`');
+                leaf(ExprKind::Binding(name.into()))
+            }
             Rule::group => PartialExpr { outer, ..self.build(Children::of(pair).next()?) },
             Rule::list => {
                 let mut height = 0;

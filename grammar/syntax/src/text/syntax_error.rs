@@ -219,7 +219,7 @@ impl<'t> ErrorContext<'t> {
                 say("a condition follows: `holding(mug) and not lifted(mug)`")
             }
             (_, "/") if after == "*" => say("comments begin with `//` and end with the line"),
-            (_, "$") => say("write the name alone: `$` marks bindings in JSON only"),
+            (_, "$") => say("a bound name follows `$`, and nothing else: write it alone"),
             (_, "-") if self.expects(VALUE) => say("write `0 - x`: only a number can begin with `-`"),
             (TokenKind::Doc, _) => say("`///` documents a declaration: write `//` here"),
             (_, "else") => say("`else` stands after the block of an `if` and nowhere else"),

@@ -208,6 +208,7 @@ impl Machine {
         let bound = self
             .arenas
             .in_scope(naming.scope(state.scope))
+            .filter(|(_, name)| !name.is_free)
             .filter_map(|(_, name)| bytes(name.start, name.len));
         let taken = self.context.automaton.taken.iter().map(|name| name.as_bytes());
         for name in bound.chain(taken).filter(|name| name.len() == MAX_NAME_CHARS) {

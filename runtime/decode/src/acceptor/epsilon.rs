@@ -75,19 +75,20 @@ impl Machine {
                 });
                 let ty = ty.and_then(|ty| u16::try_from(ty).ok()).unwrap_or(u16::MAX);
                 if let Some((start, len)) = self.name_before_list(state.event) {
-                    state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
+                    let item = Name { below: state.scope, start, len, ty, is_free: false };
+                    state.scope = self.arenas.bind(item);
                 }
                 return;
             }
             Action::Leave => {
+                state.scope = self.scope_behind(state, frame);
                 if frame.slot != BlockRole::Body {
                     state.event = self.record(state.event, Event::Close);
                 }
-                state.scope = frame.scope;
                 return;
             }
-            Action::Forget => {
-                state.scope = self.arenas.name(state.scope).map_or(0, |name| name.below);
+            Action::Meet => {
+                *state = self.meet(*state);
                 return;
             }
             Action::StepDone => {

@@ -140,7 +140,10 @@ pub(crate) struct Name {
     /// The start of its bytes.
     pub(crate) start: u32,
     pub(crate) len: u32,
+    /// Its type; `u16::MAX` for a name without a value.
     pub(crate) ty: u16,
+    /// True behind the block that bound it, where another binding may have the name.
+    pub(crate) is_free: bool,
 }
 
 /// The arenas of one machine.
@@ -185,7 +188,7 @@ impl CallFrame {
 impl Arenas {
     pub(crate) fn new() -> Self {
         let said = LogEntry { below: 0, event: Event::Close, before: 0, hash: 0 };
-        let name = Name { below: 0, start: 0, len: 0, ty: u16::MAX };
+        let name = Name { below: 0, start: 0, len: 0, ty: u16::MAX, is_free: true };
         Self {
             frames: vec![CallFrame::bottom()],
             said: vec![said],
@@ -284,7 +287,7 @@ impl Arenas {
         events
     }
 
-    /// The bindings in scope, the latest first.
+    /// The names in scope, the latest first, with those that later ones hide.
     pub(crate) fn in_scope(&self, scope: Id) -> impl Iterator<Item = (Id, &Name)> + '_ {
         let first = self.name(scope).map(|name| (scope, name));
         std::iter::successors(first, |(_, name)| self.name(name.below).map(|below| (name.below, below)))

@@ -116,6 +116,9 @@ impl Machine {
                         && (self.some_condition_holds(state, &close, false)
                             || self.some_condition_holds(state, &close, true)))
             }
+            BlockRole::Else | BlockRole::Catch if self.joins_entities(state.event, slot) => {
+                self.verify(state.event, &close)
+            }
             BlockRole::Branch
             | BlockRole::Reaction
             | BlockRole::During
@@ -128,7 +131,7 @@ impl Machine {
     }
 
     /// The open block is the body of a `repeat`.
-    fn is_repeat(&self, event: Id) -> bool {
+    pub(super) fn is_repeat(&self, event: Id) -> bool {
         let mut closed = 0usize;
         for said in self.arenas.back(event) {
             match said.event {
@@ -186,7 +189,7 @@ impl Machine {
                 }
             }
         };
-        self.arenas.in_scope(scope).filter(move |(_, name)| fits(name.ty)).map(|(id, _)| id)
+        self.visible(scope).into_iter().filter(move |(_, name)| fits(name.ty)).map(|(id, _)| id)
     }
 
     /// Evaluates the words of an operation; returns the open ones as a range of the list arena, sorted by

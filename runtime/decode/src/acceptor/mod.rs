@@ -16,6 +16,7 @@ mod oracle;
 mod proof_cursor;
 mod question;
 mod safe_condition;
+mod scope;
 mod step_builder;
 mod word;
 

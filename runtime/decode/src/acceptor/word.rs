@@ -99,7 +99,8 @@ impl Machine {
         let item = self.arenas.entry(state.event).map(|said| said.event);
         state.event = self.record(state.event, Event::Bound(list));
         if let Some(Event::Name(start, len)) = item {
-            state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
+            let item = Name { below: state.scope, start, len, ty, is_free: false };
+            state.scope = self.arenas.bind(item);
         }
         state
     }
@@ -202,7 +203,8 @@ impl Machine {
                 NameUse::Policy | NameUse::Group | NameUse::Item => None,
             };
             if let Some(ty) = ty {
-                state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
+                let name = Name { below: state.scope, start, len, ty, is_free: false };
+                state.scope = self.arenas.bind(name);
             }
             return Some(self.follow_epsilon(state, next));
         }
@@ -242,6 +244,7 @@ impl Machine {
             || self
                 .arenas
                 .in_scope(scope)
-                .any(|(_, known)| bytes(known.start, known.len).iter().copied().eq(name()))
+                .find(|(_, known)| bytes(known.start, known.len).iter().copied().eq(name()))
+                .is_some_and(|(_, known)| !known.is_free)
     }
 }

@@ -173,6 +173,8 @@ pub(crate) struct Callable {
     pub(crate) fluents: u64,
     /// The parameter that its motion is about.
     pub(crate) target: Option<usize>,
+    /// False for a policy that always ends in a failure or a new plan.
+    pub(crate) goes_on: bool,
 }
 
 impl Callable {
@@ -186,6 +188,7 @@ impl Callable {
             elements: Vec::with_capacity(signature.params.len()),
             uses: IncrementalChecker::resources(session, name, template.as_ref()),
             fluents: IncrementalChecker::fluents(session, name, template.as_ref()),
+            goes_on: !signature.is_policy || PolicyTemplate::goes_on(session, name, template.as_ref()),
             template,
             target: target(session, name),
         }

@@ -49,9 +49,8 @@ impl Completer<'_> {
                 format!("a block has {least} to {MAX_STEPS} steps in the canonical subset"),
             ));
         }
-        let outer = self.bound.len();
+        // A name stays one when its block ends: it may be bound behind the block too.
         let steps = block.steps.iter().map(|step| self.step(step, depth)).collect::<Result<_, _>>();
-        self.bound.truncate(outer);
         steps.map(Item::Block)
     }
 
@@ -107,10 +106,9 @@ impl Completer<'_> {
                 let (list, at_most) = (self.each_list(list)?, self.count(at_most, 1, MAX_COUNT)?);
                 let item = self.new_name(&item.text, item.span)?;
                 self.bound.push(item.clone());
-                let steps = self.inner(body, depth, 1);
-                self.bound.pop();
+                let steps = self.inner(body, depth, 1)?;
                 given = Some(item);
-                (NodeKind::Each, vec![Item::Value(list), at_most, steps?])
+                (NodeKind::Each, vec![Item::Value(list), at_most, steps])
             }
             StepKind::Parallel { branches } => {
                 count(branches.len(), 2, "a `parallel`", "branches", step.span)?;

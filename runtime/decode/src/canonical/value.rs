@@ -16,7 +16,7 @@ use crate::subset::{self, NumberRange, Subset};
 pub(super) struct Completer<'a> {
     pub(super) signatures: &'a Signatures,
     pub(super) subset: Subset,
-    /// The bindings in scope, in order.
+    /// The names bound so far, in order.
     pub(super) bound: Vec<SmolStr>,
     /// Every name that is bound anywhere in the policy.
     pub(super) names: FxHashSet<SmolStr>,

@@ -30,8 +30,8 @@ pub(crate) enum Action {
     Loosen,
     /// The item of a loop gets the kind of the list that was written out.
     BindItem,
-    /// The item of a loop goes out of scope.
-    Forget,
+    /// The ways through the open node meet: what all of them have bound is in scope.
+    Meet,
     /// The name given before the call is bound to the call's result, of the type with this number.
     Bind(u16),
     /// Another condition follows, joined by `and` ([`NodeKind::All`]) or `or` ([`NodeKind::Any`]).

@@ -75,6 +75,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
                 Part::Block(Role::Then, 1),
                 literal(",\"else\":"),
                 Part::Block(Role::Else, 0),
+                Part::Action(Action::Meet),
             ],
         );
         let mut wait = vec![Part::Condition(ConditionUse::Wait)];
@@ -98,7 +99,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
         "try\":",
         Guard::Nest,
         NodeKind::Try,
-        vec![Part::Block(Role::Try, 1), literal(",\"catch\":"), handlers],
+        vec![Part::Block(Role::Try, 1), literal(",\"catch\":"), handlers, Part::Action(Action::Meet)],
     );
     let mut repeat = [vec![COUNT], body(Role::Loop).into()].concat();
     let no_test = grammar.when_observed(Guard::NoTest);
@@ -113,11 +114,11 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
             literal(",\"at_most\":"),
             COUNT,
         ];
-        let each = [head, body(Role::Loop).into(), vec![Part::Action(Action::Forget)]].concat();
+        let each = [head, body(Role::Loop).into()].concat();
         add("each\":", Guard::Fix, NodeKind::Each, each);
     }
     let branches = Part::repeat(["[", ",", "]"], [2, MAX_MEMBERS], vec![Part::Block(Role::Branch, 1)]);
-    add("parallel\":", Guard::Fix, NodeKind::Parallel, vec![branches]);
+    add("parallel\":", Guard::Fix, NodeKind::Parallel, vec![branches, Part::Action(Action::Meet)]);
     for step in &mut steps {
         step.parts.extend([literal("}"), close()]);
     }

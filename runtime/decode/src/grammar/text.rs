@@ -62,6 +62,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
             literal(" "),
             block(BlockRole::Then),
             optional(otherwise, no_block, Guard::Empty),
+            Part::Action(Action::Meet),
         ];
         add("if ", grammar.when_observed(Guard::Nest), NodeKind::If, parts);
         let mut wait = vec![Part::Condition(ConditionUse::Wait)];
@@ -78,7 +79,8 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
         Part::Action(Action::Close),
     ];
     let handlers = Part::repeat([" catch ", " catch ", ""], [1, MAX_MEMBERS], handler);
-    add("try ", Guard::Nest, NodeKind::Try, vec![block(BlockRole::Try), handlers]);
+    let meet = Part::Action(Action::Meet);
+    add("try ", Guard::Nest, NodeKind::Try, vec![block(BlockRole::Try), handlers, meet.clone()]);
     let test = vec![Part::Condition(ConditionUse::Until)];
     let test = Alternative::new(" until ", grammar.when_asked(ConditionUse::Until), test);
     let no_test = if test.guard == Guard::Never { Guard::Open } else { Guard::NoTest };
@@ -93,12 +95,11 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
             COUNT,
             literal(" "),
             block(BlockRole::Loop),
-            Part::Action(Action::Forget),
         ];
         add("each ", Guard::Fix, NodeKind::Each, each);
     }
     let branches = Part::repeat([" ", " ", " }"], [2, MAX_MEMBERS], vec![block(BlockRole::Branch)]);
-    add("parallel {", Guard::Fix, NodeKind::Parallel, vec![branches]);
+    add("parallel {", Guard::Fix, NodeKind::Parallel, vec![branches, meet]);
     // The parts behind `let` end with the calls themselves.
     steps.extend(endings(Guard::Done));
     for step in &mut steps {

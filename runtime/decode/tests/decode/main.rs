@@ -14,4 +14,5 @@
 mod acceptor;
 mod common;
 mod engine;
+mod scopes;
 mod vocabulary;

@@ -406,10 +406,12 @@ impl Conversation<'_> {
                 return Continuation::PlansAnew;
             }
         };
-        let Ok(rest) = without_first_step(&policy, &first.bound) else { return Continuation::PlansAnew };
-        let Some(rest) = rest else { return Continuation::Done };
         let scene = self.known.scene(&self.setting.scene);
-        match judge(&self.session(&scene, &self.known, base), &rest) {
+        let session = self.session(&scene, &self.known, base);
+        let rest = without_first_step(&policy, &first.bound, session.library());
+        let Ok(rest) = rest else { return Continuation::PlansAnew };
+        let Some(rest) = rest else { return Continuation::Done };
+        match judge(&session, &rest) {
             ReplyVerdict::Good { planned, changed, .. } if changed.is_empty() => {
                 Continuation::Runs(Box::new(PlannedRequest {
                     understood: first.understood,

@@ -6,13 +6,14 @@
 
 use std::time::Duration;
 
-use motet_compiler::Session;
+use motet_compiler::{Library, Session, make_explicit};
 use motet_graph::{Graph, NodeKind, Value, Verdict as Proof};
+use motet_syntax::{Syntax, print};
 use serde_json::{Map, Value as Json};
 use smol_str::SmolStr;
 
 use super::chat::{Finish, ModelError, News, Reply};
-use super::reply_verdict::{ReplyVerdict, judge};
+use super::reply_verdict::{ReplyVerdict, errors, judge, read};
 use super::stream_reader::{StreamReader, StreamVerdict};
 use crate::builtin::Planned;
 
@@ -98,15 +99,38 @@ fn is_certain(graph: &Graph) -> bool {
 pub fn without_first_step(
     policy: &str,
     bound: &[(SmolStr, Value)],
+    library: &Library,
 ) -> Result<Option<String>, serde_json::Error> {
-    let mut policy: Map<String, Json> = serde_json::from_str(policy)?;
+    // A condition in the text syntax is one string, whatever names it has in it.
+    let parsed = read(policy);
+    let is_read = errors(parsed.diagnostics).is_empty();
+    let spelled = parsed.file.policies().next().filter(|_| is_read).cloned().map(|mut policy| {
+        make_explicit(&mut policy, library, Syntax::Json);
+        print::policy_json(&policy)
+    });
+    let mut policy: Map<String, Json> = serde_json::from_str(spelled.as_deref().unwrap_or(policy))?;
     let Some(Json::Array(steps)) = policy.get_mut("steps") else { return Ok(None) };
     if steps.len() < 2 {
         return Ok(None);
     }
     steps.remove(0);
-    steps.iter_mut().for_each(|step| fill_in(step, bound));
+    // A name that a later step binds again had no value behind the first.
+    let visible = bound.iter().filter(|(name, _)| !steps.iter().any(|step| binds(step, name)));
+    let visible: Vec<_> = visible.cloned().collect();
+    steps.iter_mut().for_each(|step| fill_in(step, &visible));
     Ok(Some(Json::Object(policy).to_string()))
+}
+
+/// Returns whether a step, or a step in it, binds a name.
+fn binds(json: &Json, name: &str) -> bool {
+    match json {
+        Json::Array(items) => items.iter().any(|item| binds(item, name)),
+        Json::Object(keys) => {
+            ["as", "each"].iter().any(|key| keys.get(*key).and_then(Json::as_str) == Some(name))
+                || keys.values().any(|value| binds(value, name))
+        }
+        Json::String(_) | Json::Null | Json::Bool(_) | Json::Number(_) => false,
+    }
 }
 
 fn fill_in(json: &mut Json, bound: &[(SmolStr, Value)]) {
@@ -134,4 +158,40 @@ fn written(value: &Value) -> Option<Json> {
         Value::Number(value) => Json::from(*value),
         Value::Pose(_) => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use motet_compiler::Session;
+    use motet_graph::Value;
+    use motet_syntax::Sources;
+    use serde_json::{Value as Json, json};
+
+    /// The steps that are left behind a first step that bound `mug`.
+    fn check(steps: Json, expected: Json) {
+        let policy = json!({"motet": 1, "policy": "p", "steps": steps}).to_string();
+        let bound = [("mug".into(), Value::Entity("mug_1".into()))];
+        let session = Session::builder().build(&mut Sources::default());
+        let rest = super::without_first_step(&policy, &bound, session.library()).unwrap().unwrap();
+        let rest: Json = serde_json::from_str(&rest).unwrap();
+        assert_eq!(rest["steps"], expected);
+    }
+
+    #[test]
+    fn without_first_step_replaces_names_by_values() {
+        let search = json!({"try": [{"do": "detect", "what": "mug", "as": "mug"}],
+            "catch": [{"on": ["any"], "steps": [{"end": "done"}]}]});
+        check(
+            json!([search, {"do": "pick", "object": "$mug"},
+                {"if": "holding($mug) or visible(mug)", "then": [{"do": "say", "text": "mug"}]}]),
+            json!([{"do": "pick", "object": "mug_1"},
+                {"if": {"any": [{"is": "holding", "object": "mug_1"}, {"is": "visible", "entity": "mug_1"}]},
+                    "then": [{"do": "say", "text": "mug"}]}]),
+        );
+        // A name that is bound again had no value behind the first step.
+        check(
+            json!([{"if": "visible(user)", "then": [search]}, search, {"do": "pick", "object": "$mug"}]),
+            json!([search, {"do": "pick", "object": "$mug"}]),
+        );
+    }
 }
