@@ -1,5 +1,6 @@
 //! Definite assignment (Gosling et al., *The Java Language Specification*, chapter 16): a name is bound
-//! behind a step if every way that goes on has bound it. A way that ends the policy, or fails, does not count.
+//! behind a step if every way that goes on has bound it. A way that ends the policy, or fails, does not
+//! count.
 //!
 //! Ways that bind one name with values of one type share one binding, so that later stages need not know by
 //! which way control came. Any other name is left as a gap of the scope, with the reason.

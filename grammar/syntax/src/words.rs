@@ -1,6 +1,8 @@
 //! The words of the language: the one list of reserved words, declaration words and JSON keys. `motet.pest`
 //! spells the same words as rules; a test below holds it against these lists.
 
+use std::borrow::Cow;
+
 /// Words that are never a bare name in the text syntax: the rule `reserved` of the grammar.
 pub const RESERVED: [&str; 24] = [
     "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
@@ -37,7 +39,7 @@ pub const CALL_KEYS: [&str; 4] = ["do", "as", "within", "retry"];
 /// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
 /// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a
 /// support.
-pub const FORM_KEYS: [(&str, &str); 25] = [
+pub const FORM_KEYS: [(&str, &str); 26] = [
     ("if", "a step of its own"),
     ("then", "`if` and to a monitor's `when`"),
     ("else", "`if`"),
@@ -46,6 +48,7 @@ pub const FORM_KEYS: [(&str, &str); 25] = [
     ("during", "`monitor`"),
     ("try", "a step of its own"),
     ("catch", "`try`"),
+    ("finally", "the steps with steps of their own"),
     ("repeat", "a step of its own"),
     ("until", "`repeat`"),
     ("steps", "`sequence`, `repeat` and `each`"),
@@ -107,6 +110,11 @@ pub fn is_bare_name(text: &str) -> bool {
 pub fn is_name(text: &str) -> bool {
     let is_barred = |byte: &u8| matches!(byte, b'`' | 0..=8 | 10..=0x1f | 0x7f);
     text.as_bytes().first().is_some_and(|first| *first != b'$') && !text.as_bytes().iter().any(is_barred)
+}
+
+/// The name as the text syntax writes it: in back-quotes where it needs them.
+pub(crate) fn spelled(name: &str) -> Cow<'_, str> {
+    if is_bare_name(name) { Cow::Borrowed(name) } else { Cow::Owned(format!("`{name}`")) }
 }
 
 #[cfg(test)]

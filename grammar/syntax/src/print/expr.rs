@@ -6,7 +6,7 @@ use smol_str::SmolStr;
 use crate::ast::{ArithOp, Call, Expr, ExprKind, Name};
 use crate::unit::Unit;
 use crate::unit::parse_quantity;
-use crate::words::is_bare_name;
+use crate::words::spelled;
 
 /// Precedence of an expression, in the order of the grammar.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -168,13 +168,7 @@ pub(super) fn call(text: &mut String, call: &Call) {
 
 /// Appends a name, in back-quotes where it needs them.
 pub(super) fn name(text: &mut String, value: &str) {
-    if is_bare_name(value) {
-        text.push_str(value);
-    } else {
-        text.push('`');
-        text.push_str(value);
-        text.push('`');
-    }
+    text.push_str(&spelled(value));
 }
 
 /// Appends names with commas.

@@ -77,7 +77,10 @@ fn shapes_of_tool_calls_are_calls() {
             r#"`{"name": …, "arguments": …}`"#,
         ),
         (
-            r#"{"type":"function","function":{"name":"pick","arguments":"{\"object\":\"mug\",\"within\":20}"}}"#,
+            concat!(
+                r#"{"type":"function","function":{"name":"pick","#,
+                r#""arguments":"{\"object\":\"mug\",\"within\":20}"}}"#
+            ),
             r#"`{"function": {…}}`"#,
         ),
         (
@@ -354,7 +357,11 @@ fn value() -> impl Strategy<Value = serde_json::Value> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 3000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     /// Whatever a document holds, its fix writes the document that was read.
     #[test]

@@ -55,7 +55,8 @@ fn step(dice: &mut Dice, depth: usize) -> Value {
             } else {
                 json!({"react": "resume", "at_most": 2, "steps": block(dice, depth - 1)})
             };
-            json!({"monitor": [{"when": condition(dice), "then": reaction}], "during": block(dice, depth - 1)})
+            let when = json!({"when": condition(dice), "then": reaction});
+            json!({"monitor": [when], "during": block(dice, depth - 1)})
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{
     ShapeReader, is_any, is_any_key, is_misspelt, member, pattern, quoted, replace, start, table, whole,
 };
 use crate::located::{Located, LocatedValue};
-use crate::print::identifier;
+use crate::words::spelled;
 use crate::words::{is_bare_name, is_name};
 
 impl ShapeReader<'_> {
@@ -91,6 +91,6 @@ fn argument(value: &Located<'_>) -> Option<String> {
     let name = name.strip_prefix('$').unwrap_or(name);
     match name {
         "any" => Some(name.to_owned()),
-        _ => is_name(name).then(|| identifier(name)),
+        _ => is_name(name).then(|| spelled(name)),
     }
 }
