@@ -4,8 +4,7 @@ use super::{
     ShapeReader, is_any, is_any_key, is_misspelt, member, pattern, quoted, replace, start, table, whole,
 };
 use crate::located::{Located, LocatedValue};
-use crate::words::spelled;
-use crate::words::{is_bare_name, is_name};
+use crate::words::{is_bare_name, is_name, spelled};
 
 impl ShapeReader<'_> {
     pub(super) fn condition(&mut self, node: &Located<'_>) {
@@ -91,6 +90,6 @@ fn argument(value: &Located<'_>) -> Option<String> {
     let name = name.strip_prefix('$').unwrap_or(name);
     match name {
         "any" => Some(name.to_owned()),
-        _ => is_name(name).then(|| spelled(name)),
+        _ => is_name(name).then(|| spelled(name).into_owned()),
     }
 }
