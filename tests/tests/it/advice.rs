@@ -171,7 +171,7 @@ fn diagnostics_one_mistake_is_told_once() {
         r#"{"motet": 1, "policy": "p", "steps": [{"if": "holding($mug)", "then": [{"do": "say",
             "text": "x"}]}]}"#,
     );
-    assert!(found.len() == 1 && found[0].starts_with("M0101"), "{found:?}");
+    assert!(found.len() == 1 && found[0].starts_with("M0203"), "{found:?}");
     let found = errors(
         "policy p for hsr { go(kitchen_table) inspect(mug_1) pick(mgu_1) go(counter) place(mug_1, counter) }",
     );

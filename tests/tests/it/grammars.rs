@@ -24,7 +24,7 @@ const PROVEN: usize = 64;
 
 /// What a grammar cannot know: what is bound where, and with which type. Such an error must stand where
 /// a binding stands, or is a second name or a field of one.
-const OF_SCOPE: &[&str] = &["M0202", "M0203", "M0206", "M0211", "M0301"];
+const OF_SCOPE: &[&str] = &["M0202", "M0203", "M0206", "M0211", "M0216", "M0217", "M0301"];
 /// What only state can tell, and what runs at once; that a fluent is not decided yet where a goal is stated.
 const OF_STATE: &[&str] = &["M0501", "M0502", "M0503", "M0701", "M0702", "M0804"];
 

@@ -119,8 +119,8 @@ fn scope_names_behind_other_blocks_run() {
         let red = detect("red mug")
     }
     repeat 2 {
-        let apple = detect("green apple")
-    } until visible(apple)
+        let fruit = detect("green apple")
+    } until visible(fruit)
     parallel {
         {
             let glass = locate(red)
@@ -130,18 +130,18 @@ fn scope_names_behind_other_blocks_run() {
         }
     }
     monitor when distance(user) < 0.1 m then pause during {
-        let plate = detect("dinner plate")
+        let dish = detect("dinner plate")
     }
     grasp(red, at: glass)
     say("I have it.")
-    inspect(apple)
-    inspect(plate)
+    inspect(fruit)
+    inspect(dish)
 }
 "#;
     let run = runs(text, "{}");
     assert!(matches!(run.end, RunEnd::Done { .. }), "{:?}", run.end);
     let bound: Vec<_> = run.bound.iter().map(|(name, _)| name.as_str()).collect();
-    assert_eq!(bound, ["red", "apple", "glass", "plate"]);
+    assert_eq!(bound, ["red", "fruit", "glass", "dish"]);
 }
 
 /// A branch that is proven never to be taken is not lowered: a run that takes it all the same must not go on
@@ -224,7 +224,7 @@ fn conditions_read_bindings_with_and_without_their_sign() {
         ("not holding(mug)", "not holding($mug)"),
         ("holding(mug) or mug.mass < 1 kg", "holding($mug) or $mug.mass < 1 kg"),
         ("visible(mug)", "visible($`mug`)"),
-        ("mug == apple", "$mug == apple"),
+        ("apple == mug", "apple == $mug"),
     ] {
         let expected = motet_graph::encode(&graph(&session, &text(plain)));
         for document in [text(signed), json(plain), json(signed)] {
