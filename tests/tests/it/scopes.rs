@@ -224,7 +224,7 @@ fn conditions_read_bindings_with_and_without_their_sign() {
         ("not holding(mug)", "not holding($mug)"),
         ("holding(mug) or mug.mass < 1 kg", "holding($mug) or $mug.mass < 1 kg"),
         ("visible(mug)", "visible($`mug`)"),
-        ("apple == mug", "apple == $mug"),
+        ("mug == apple", "$mug == apple"),
     ] {
         let expected = motet_graph::encode(&graph(&session, &text(plain)));
         for document in [text(signed), json(plain), json(signed)] {

@@ -12,7 +12,7 @@ use crate::errors::{BadValue, MissingKey, TooDeep, WrongType};
 use crate::source::Span;
 use crate::text::{self, Origin};
 use crate::unit::{Dimension, Unit, parse_quantity};
-use crate::words::is_name;
+use crate::words::{is_bare_name, is_name};
 
 impl Converter {
     /// A condition of a step in `depth` blocks.
@@ -24,13 +24,19 @@ impl Converter {
     fn condition_at(&mut self, condition: Condition, level: usize) -> Expr {
         let Spanned { value, span } = condition.0;
         let Term::Text(text) = value else { return self.term(Spanned { value, span }, level) };
-        if text.strip_prefix('$').is_some_and(is_name) {
+        let is_bound = |is_one: fn(&str) -> bool| text.strip_prefix('$').is_some_and(is_one);
+        let (is_bare, is_lone) = (is_bound(is_bare_name), is_bound(is_name));
+        if is_bare {
             return self.term(Spanned { value: Term::Text(text), span }, level);
         }
         // A string without escapes is as long as it looks.
         let is_plain = (span.end - span.start) as usize == text.len() + 2;
         let origin = if is_plain { Origin::At(self.file, span.start + 1) } else { Origin::Within(span) };
         let (expr, found) = text::parse_expr(&text, origin, level.saturating_sub(1));
+        // What is no condition that begins with a name may be a name with blanks.
+        if is_lone && !found.is_empty() {
+            return self.term(Spanned { value: Term::Text(text), span }, level);
+        }
         self.found.extend(found);
         expr.unwrap_or(Expr { kind: ExprKind::Wrong(text), span })
     }

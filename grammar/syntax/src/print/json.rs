@@ -16,6 +16,7 @@ use crate::ast::{
 use crate::json::term::{self, Args, Condition, Count, Duration, Field, Form, Get, Is, Term};
 use crate::json::{Lenient, Spanned, wire};
 use crate::unit::{Dimension, Unit};
+use crate::words::spelled;
 
 /// A policy in the JSON syntax, indented by two, short values on one line. It ends with a line break.
 #[must_use]
@@ -173,8 +174,8 @@ impl WireTranslation {
         let term = match &expr.kind {
             _ if has_unnamed(expr) => Term::Text(super::expression(expr).into()),
             ExprKind::Bool(value) => Term::Bool(*value),
-            ExprKind::Binding(bound) => binding(bound),
-            ExprKind::Name(bound) if self.scope.contains(bound) => binding(bound),
+            ExprKind::Binding(bound) => lone_binding(bound),
+            ExprKind::Name(bound) if self.scope.contains(bound) => lone_binding(bound),
             ExprKind::Call(_)
             | ExprKind::Field(..)
             | ExprKind::Not(_)
@@ -322,6 +323,11 @@ fn has_unnamed(expr: &Expr) -> bool {
 enum ExprPosition {
     Condition,
     Term,
+}
+
+/// A bound name as a whole condition: a string in the text syntax, with back-quotes where it needs them.
+fn lone_binding(bound: &str) -> Term {
+    Term::Text(format_smolstr!("${}", spelled(bound)))
 }
 
 fn binding(bound: &SmolStr) -> Term {
