@@ -63,7 +63,7 @@ pub(crate) struct Proof {
     pub(crate) reached: Vec<bool>,
     /// Certain facts just before a step with a motion.
     pub(crate) certain: FxHashMap<StepId, Vec<CertainFact>>,
-    /// Whether the goal may hold at some end of the policy; `None` without a goal or an end.
+    /// True if the goal may hold at some end of the policy; `None` without a goal or an end.
     pub(crate) may_reach_goal: Option<bool>,
 }
 
