@@ -15,13 +15,13 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
             let known: Vec<_> = known.collect();
             let steps: Vec<String> =
                 known.iter().map(|(meant, params)| pattern(meant.callee, params, syntax)).collect();
-            let mut fitting =
-                known.iter().filter_map(|(meant, params)| Some((*meant, renamed(&call.call.args, params)?)));
+            let mut fitting = known.iter().zip(&steps).filter_map(|((meant, params), step)| {
+                Some((*meant, step, renamed(&call.call.args, params)?))
+            });
             let fix = match (fitting.next(), fitting.next()) {
-                (Some((meant, mut edits)), None) if !meant.is_unsure => {
+                (Some((meant, step, mut edits)), None) if !meant.is_unsure => {
                     edits.insert(0, Edit { span: call.call.name.span, text: meant.callee.to_owned() });
-                    let params = params(meant.callee, library)?;
-                    Some(Fix { title: format!("write {}", pattern(meant.callee, &params, syntax)), edits })
+                    Some(Fix { title: format!("write {step}"), edits })
                 }
                 _ => None,
             };
