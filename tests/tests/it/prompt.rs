@@ -47,6 +47,36 @@ fn prompt_examples_pass_the_check() {
     assert!(shown >= 8, "{shown} examples");
 }
 
+/// Lists every kind of step, every fact, measure and primitive, and stays short, for each robot in each room.
+#[test]
+fn prompt_lists_the_language_within_2600_tokens() {
+    let lines = include_str!("../../../runtime/planner/prompt/language.txt").lines();
+    let steps: Vec<&str> = lines.filter(|line| line.starts_with('{')).collect();
+    assert!(steps.len() > 10, "{steps:?}");
+    for robot in ["hsr", "anymal_z1"] {
+        for scene in ["kitchen", "living_room", "lab"] {
+            let (robot, scene) = (setup::robot(robot), setup::scene(scene));
+            let session = setup::session(Some(&robot), Some(&scene), &mut Sources::default()).0;
+            let written = write(&session, &robot, &RequestContext::new(&scene));
+            for step in &steps {
+                assert!(written.system.contains(step), "{} is not shown: {step}", robot.name);
+            }
+            let signatures = session.signatures();
+            let facts = signatures.fluents.iter().map(|fact| &fact.name);
+            let measures = signatures.measures.iter().filter(|measure| measure.is_observable);
+            let primitives = signatures.callables.iter().filter(|callable| !callable.is_policy);
+            let names = facts
+                .chain(measures.map(|measure| &measure.name))
+                .chain(primitives.map(|callable| &callable.name));
+            for name in names {
+                assert!(written.system.contains(&format!("{name}(")), "{} is not listed: {name}", robot.name);
+            }
+            assert!(written.left_out.is_empty(), "{:?}", written.left_out);
+            assert!(written.tokens <= 2600, "{} in {:?}: {} tokens", robot.name, scene.robot, written.tokens);
+        }
+    }
+}
+
 #[test]
 fn prompt_room_is_told_as_it_is_believed_to_be() {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));

@@ -1,0 +1,279 @@
+//! The parts of a prompt that depend on the robot and its library only: the form of a policy, every kind of
+//! step, the conditions, the primitives, advice, and examples.
+
+use std::fmt::Write as _;
+
+use motet_compiler::signature::{Callable, Signatures, Type};
+use motet_compiler::{Session, make_explicit};
+use motet_requests::RequestContext;
+use motet_robots::card::Robot;
+use motet_robots::scene::{Entity, Scene};
+use motet_syntax::ast::{Clause, ExprKind, PrimitiveDecl, Quantified};
+use motet_syntax::{FileId, Severity, Source, Syntax, print};
+use smol_str::SmolStr;
+
+use crate::builtin;
+
+/// Kinds of steps, each line an example and its meaning.
+const STEPS: &str = include_str!("../../prompt/language.txt");
+/// Advice on planning.
+const ADVICE: &str = include_str!("../../prompt/advice.txt");
+
+/// Descriptions for the example of a thing that the room does not list.
+const UNLISTED: [&str; 3] = ["blue cup", "tennis ball", "pink umbrella"];
+
+/// The parts of a prompt that do not change.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct StaticPrompt {
+    /// Form of a policy, kinds of steps, conditions and advice.
+    pub(super) rules: String,
+    /// The robot's primitives with needs and failures.
+    pub(super) contracts: String,
+    /// The robot's primitives without needs and failures.
+    pub(super) signatures: String,
+    /// Example requests with their policies, two at most.
+    pub(super) examples: Vec<String>,
+}
+
+impl StaticPrompt {
+    /// Writes the parts. Only examples that pass the check are in them; the first is planned in the session.
+    #[must_use]
+    pub fn new(session: &Session, robot: &Robot, scene: &Scene) -> Self {
+        let bare = session.with_scene(Some(scene), None);
+        let (steps, conditions) = (steps(&bare, robot), conditions(&session.signatures()));
+        Self {
+            rules: format!("{}\n{steps}\n{conditions}\n{ADVICE}", form(robot)),
+            contracts: primitives(session, Detail::Contracts),
+            signatures: primitives(session, Detail::Signatures),
+            examples: [planned_example(session, robot, scene), searching_example(&bare, robot, scene)]
+                .into_iter()
+                .flatten()
+                .collect(),
+        }
+    }
+}
+
+fn form(robot: &Robot) -> String {
+    let name = &robot.name;
+    format!(
+        "You plan for a robot, {} (`{name}`). Answer with one policy for it and nothing else, as JSON:\n\
+         {{\"motet\": 1, \"policy\": NAME, \"robot\": \"{name}\", \"steps\": [STEP, …]}}\n\
+         It is checked before the robot moves.\n",
+        robot.title
+    )
+}
+
+/// The kinds of steps, without the examples that this robot cannot carry out.
+fn steps(session: &Session, robot: &Robot) -> String {
+    let mut text = String::new();
+    for line in STEPS.lines() {
+        let example = line.split_once("  ").map_or(line, |(example, _)| example);
+        if !example.starts_with('{') || is_step(session, robot, example) {
+            text.push_str(line);
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// Checks the syntax, names and types of a step behind two that bind `m` and `things`.
+fn is_step(session: &Session, robot: &Robot, step: &str) -> bool {
+    let bound = [("detect", "m"), ("detect_all", "things")]
+        .map(|(call, name)| format!(r#"{{"do": "{call}", "what": "thing", "as": "{name}"}}"#))
+        .join(", ");
+    let is_bound = step.contains("\"as\": \"m\"");
+    let before = if is_bound { String::new() } else { format!("{bound}, ") };
+    let policy = format!(
+        r#"{{"motet": 1, "policy": "example", "robot": "{}", "steps": [{before}{step}]}}"#,
+        robot.name
+    );
+    passes(session, &policy, &["M01", "M02", "M03", "M04"])
+}
+
+/// Checks that a policy has no error whose code begins with one of `stages`.
+fn passes(session: &Session, policy: &str, stages: &[&str]) -> bool {
+    let parsed = motet_syntax::read(&Source::new("example.json", policy), FileId(0));
+    let is_error = |code: &str| stages.iter().any(|stage| code.starts_with(stage));
+    let mut said = session.check(&parsed).into_iter();
+    !said.any(|said| said.severity == Severity::Error && is_error(said.code.0))
+}
+
+/// The facts, measures and fields that a condition may name.
+fn conditions(signatures: &Signatures) -> String {
+    // The name of a parameter says which entity it stands for.
+    let params = |params: &[(SmolStr, Type)]| {
+        let params = params.iter().map(|(name, ty)| match ty {
+            Type::Entity(_) => name.to_string(),
+            _ => format!("{name}: {}", signatures.type_name(ty)),
+        });
+        params.collect::<Vec<_>>().join(", ")
+    };
+    let mut text = String::from(
+        "# Conditions\nA text with `not`, `and`, `or`, parentheses and `== != < <= > >=`, such as \
+         \"not open(fridge_1) and distance(user) < 0.5 m\"; `any` stands for every entity.\n",
+    );
+    let facts = |is_observable: bool| {
+        let facts = signatures.fluents.iter().filter(|fact| fact.is_observable == is_observable);
+        facts.map(|fact| format!("{}({})", fact.name, params(&fact.params))).collect::<Vec<_>>().join(", ")
+    };
+    let (seen, unseen) = (facts(true), facts(false));
+    if !seen.is_empty() {
+        let _ = writeln!(text, "Facts: {seen}");
+    }
+    if !unseen.is_empty() {
+        let _ = writeln!(text, "Facts that no sensor shows, known only from steps: {unseen}");
+    }
+    let measures: Vec<String> = signatures
+        .measures
+        .iter()
+        .filter(|measure| measure.is_observable)
+        .map(|measure| {
+            let result = signatures.type_name(&measure.result);
+            format!("{}({}) -> {result}", measure.name, params(&measure.params))
+        })
+        .collect();
+    if !measures.is_empty() {
+        let _ = writeln!(text, "Measures: {}", measures.join(", "));
+    }
+    let kind = |index: usize| signatures.kinds.get(index).map_or("Entity", |kind| kind.name.as_str());
+    let fields: Vec<String> =
+        signatures.fields.iter().map(|field| format!("{}.{}", kind(field.kind), field.name)).collect();
+    if let Some(first) = signatures.fields.first() {
+        let _ = writeln!(text, "Fields, as in \"$m.{}\": {}", first.name, fields.join(", "));
+    }
+    let kinds: Vec<String> = signatures.kinds.iter().skip(1).map(|kind| kind.name.to_string()).collect();
+    let _ =
+        writeln!(text, "Kinds of Entity: {}. `user`, `robot` and `start` always exist.", kinds.join(", "));
+    text
+}
+
+/// Amount of detail about a primitive.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Detail {
+    /// Signature, first sentence, needs and failures.
+    Contracts,
+    /// Signature and first sentence.
+    Signatures,
+}
+
+/// The robot's primitives, one on each line.
+fn primitives(session: &Session, detail: Detail) -> String {
+    let signatures = session.signatures();
+    let mut text = String::from("# Primitives\n");
+    for decl in session.library().signatures() {
+        let Some(callable) = signatures.callable(&decl.name.text) else { continue };
+        text.push_str(&signature(callable, &signatures));
+        let doc = decl.doc.split_inclusive(". ").next().unwrap_or_default().replace('\n', " ");
+        let _ = write!(text, "  {}", doc.trim());
+        if detail == Detail::Contracts {
+            text.push_str(&contract(decl));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// `pick(object: Object, from: auto|top|side|front = auto)`
+fn signature(callable: &Callable, signatures: &Signatures) -> String {
+    let params = callable.params.iter().map(|param| {
+        let ty = match &param.ty {
+            Type::Enum(id) => signatures.enums.get(*id).map(|known| known.cases.join("|")),
+            _ => None,
+        };
+        let ty = ty.unwrap_or_else(|| signatures.type_name(&param.ty));
+        let default = param.default.as_ref().map(|default| format!(" = {}", print::expression(default)));
+        format!("{}: {ty}{}", param.name, default.unwrap_or_default())
+    });
+    let result = callable.result.as_ref().map(|ty| format!(" -> {}", signatures.type_name(ty)));
+    let params = params.collect::<Vec<_>>().join(", ");
+    format!("{}({params}){}", callable.name, result.unwrap_or_default())
+}
+
+/// Needs and failures of a primitive. Needs that only keep odd arguments out are left to the findings.
+fn contract(decl: &PrimitiveDecl) -> String {
+    let mut text = String::new();
+    for clause in &decl.clauses {
+        match clause {
+            Clause::Needs(needs) => {
+                let needs: Vec<String> =
+                    needs.iter().filter(|need| !is_about_arguments(need)).map(quantified).collect();
+                if !needs.is_empty() {
+                    let _ = write!(text, " Needs {}.", needs.join(", "));
+                }
+            }
+            Clause::Fails(names) => {
+                let names: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
+                let _ = write!(text, " Fails: {}.", names.join(", "));
+            }
+            Clause::Makes(_)
+            | Clause::Unsettles(_)
+            | Clause::Motion(_)
+            | Clause::Uses(_)
+            | Clause::Takes { .. }
+            | Clause::Lasts(_) => {}
+        }
+    }
+    text
+}
+
+/// `on != robot`, `what != p for each p: Person`
+fn is_about_arguments(need: &Quantified) -> bool {
+    let is_name = |side: &motet_syntax::ast::Expr| matches!(side.kind, ExprKind::Name(_));
+    match &need.expr.kind {
+        ExprKind::Compare(_, left, right) => is_name(left) && is_name(right),
+        _ => false,
+    }
+}
+
+fn quantified(need: &Quantified) -> String {
+    let mut text = print::expression(&need.expr);
+    match (&need.each, &need.when) {
+        (Some((name, _)), None) => {
+            let _ = write!(text, " for each {}", name.text);
+        }
+        (_, Some(when)) => {
+            let _ = write!(text, " if {}", print::expression(when));
+        }
+        (None, None) => {}
+    }
+    text
+}
+
+/// A request for a listed thing, as the built-in planner plans it.
+fn planned_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<String> {
+    let object = scene.entities.values().find(|entity| entity.kind == "Object")?;
+    let request = format!("bring me the {}", motet_requests::called(object));
+    let answered = builtin::answer(session, Some(robot), &request, &RequestContext::new(scene)).ok()?;
+    let mut policy = answered.planned.parsed.file.policies().next()?.clone();
+    make_explicit(&mut policy, session.library(), Syntax::Json);
+    Some(format!("# Example: {request}\n{}\n", one_line(&print::policy_json(&policy))))
+}
+
+/// A request for a thing that the room does not list: search at two places, catch, guard, and put the room
+/// back in order.
+fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<String> {
+    let what = UNLISTED.into_iter().find(|what| !session.describes(what))?;
+    let mut surfaces = scene.entities.values().filter(|entity| entity.kind == "Surface");
+    let (first, second) = (surfaces.next()?, surfaces.next()?);
+    let is_shut = |entity: &&Entity| {
+        entity.kind == "Container" && entity.open == Some(false) && entity.locked != Some(true)
+    };
+    let container = scene.entities.values().find(is_shut)?;
+    let [a, b] = [first, second].map(motet_requests::called);
+    let policy = include_str!("../../prompt/example.json")
+        .replace("WHAT", what)
+        .replace("ROBOT", &robot.name)
+        .replace("FIRST_ID", &first.id)
+        .replace("SECOND_ID", &second.id)
+        .replace("CONTAINER_ID", &container.id)
+        .replace("FIRST", &a)
+        .replace("SECOND", &b);
+    let request = format!("put the {what} in the {}", motet_requests::called(container));
+    let policy = one_line(&policy);
+    passes(session, &policy, &["M"]).then(|| format!("# Example: {request}\n{policy}\n"))
+}
+
+/// JSON without line breaks and indents.
+fn one_line(json: &str) -> String {
+    json.lines().map(str::trim).collect::<Vec<_>>().join(" ")
+}

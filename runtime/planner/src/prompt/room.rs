@@ -1,0 +1,172 @@
+//! The room, the present state and the sightings, in words.
+
+use std::time::{Duration, Instant};
+
+use motet_compiler::{Access, Session};
+use motet_requests::RequestContext;
+use motet_robots::card::Robot;
+use motet_robots::scene::{Entity, Scene};
+use motet_runtime::memory::Memory;
+use smol_str::SmolStr;
+
+/// Chosen entities of the scene, one per line.
+pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr) -> bool) -> String {
+    let mut text = String::new();
+    for entity in situation.scene.entities.values().filter(|entity| picked(&entity.id)) {
+        let names: Vec<&str> = entity.names.iter().map(SmolStr::as_str).collect();
+        let called = if names.is_empty() { entity.class.to_string() } else { names.join(", ") };
+        text.push_str(&format!("- {} ({}): {called}", entity.id, entity.kind));
+        let now = situation.supports.iter().find(|(id, _)| *id == entity.id);
+        match now {
+            Some((_, Some(support))) => {
+                let holder = situation.scene.entities.get(support).map(|holder| holder.kind.as_str());
+                let relation = match holder {
+                    Some("Container") => "in",
+                    Some("Surface") => "on",
+                    Some(_) | None => "at",
+                };
+                text.push_str(&format!("; {relation} {support}"));
+            }
+            // Only what can be carried is ever nowhere.
+            Some((_, None)) if entity.kind == "Object" => text.push_str("; it is not known where"),
+            Some((_, None)) | None => {
+                if let Some(support) = &entity.on {
+                    text.push_str(&format!("; on {support}"));
+                } else if let Some(container) = &entity.inside {
+                    text.push_str(&format!("; in {container}"));
+                }
+            }
+        }
+        for (is, word) in [
+            (entity.open, ["open", "closed"]),
+            (entity.locked, ["locked", ""]),
+            (entity.visible, ["seen", "not seen"]),
+        ] {
+            let [yes, no] = word;
+            match is {
+                Some(true) => text.push_str(&format!("; {yes}")),
+                Some(false) if !no.is_empty() => text.push_str(&format!("; {no}")),
+                Some(false) | None => {}
+            }
+        }
+        text.push('\n');
+    }
+    text
+}
+/// Position of the robot, the thing in its hand, and the steps that run.
+pub(super) fn now(situation: &RequestContext<'_>, memory: &Memory) -> String {
+    let robot = situation.supports.iter().rev().find(|(id, _)| id == "robot");
+    let place = match robot {
+        Some((_, place)) => place.clone(),
+        None => situation.scene.robot.at.clone(),
+    };
+    let stands = match (place, robot) {
+        (Some(place), _) => format!("stands at {place}"),
+        (None, Some(_)) => "is between places".to_owned(),
+        (None, None) => "stands at start".to_owned(),
+    };
+    let holds = match (&situation.holding, &situation.scene.robot.holding) {
+        (Some(held), _) => format!("holds {held}"),
+        (None, Some(_)) => "holds nothing".to_owned(),
+        (None, None) => "may hold something".to_owned(),
+    };
+    let mut text = format!("# Now\nThe robot {stands} and {holds}.\n");
+    for step in memory.running() {
+        text.push_str(&format!("It is running {}.\n", step.call));
+    }
+    text
+}
+
+/// Visibility and reachability of one thing.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Sighting {
+    pub id: SmolStr,
+    /// Visibility to a camera, if the scene states it.
+    pub seen: Option<bool>,
+    /// Reachability for the robot.
+    pub feasible: Reachability,
+}
+
+/// Reachability of a thing.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Reachability {
+    /// Decided by mass and width; no motion was searched.
+    AsFarAsNumbersTell,
+    /// A motion was found.
+    Yes,
+    /// No motion exists, or the hand cannot hold the object; the reason.
+    No(String),
+    /// A search found no motion and proved nothing; the most frequent obstacle.
+    Hardly(String),
+    /// Unknown, with the reason.
+    Unknown(String),
+}
+
+/// Visibility and reachability of the named objects. Motion searches run one after the other until `time` is
+/// over; cached answers cost nothing.
+#[must_use]
+pub fn seen(
+    session: &Session,
+    robot: &Robot,
+    scene: &Scene,
+    named: &[SmolStr],
+    time: Duration,
+) -> Vec<Sighting> {
+    let begun = Instant::now();
+    let seen = named.iter().filter_map(|id| {
+        let entity = scene.entities.get(id)?;
+        let left = time.saturating_sub(begun.elapsed());
+        Some(Sighting {
+            id: id.clone(),
+            seen: entity.visible,
+            feasible: feasible(session, robot, entity, left),
+        })
+    });
+    seen.collect()
+}
+
+fn feasible(session: &Session, robot: &Robot, entity: &Entity, left: Duration) -> Reachability {
+    if let Some(hand) = robot.hands.values().next()
+        && entity.kind == "Object"
+    {
+        if let Some(mass) = entity.mass_kg.filter(|mass| *mass > hand.payload_kg) {
+            return Reachability::No(format!("too heavy: {mass} kg, payload is {} kg", hand.payload_kg));
+        }
+        if let Some(width) = entity.width().filter(|width| *width > hand.opening_m) {
+            return Reachability::No(format!("too wide: {width} m, opening is {} m", hand.opening_m));
+        }
+    }
+    if left.is_zero() {
+        return Reachability::AsFarAsNumbersTell;
+    }
+    match session.access(&entity.id) {
+        None => Reachability::AsFarAsNumbersTell,
+        Some(Access::Feasible) => Reachability::Yes,
+        Some(Access::Infeasible { why, is_certified: true }) => Reachability::No(why.to_string()),
+        Some(Access::Infeasible { why, is_certified: false }) => Reachability::Hardly(why.to_string()),
+        Some(Access::Unknown(why)) => Reachability::Unknown(why.to_string()),
+    }
+}
+
+/// Sightings as text, one object per line.
+pub(crate) fn told(seen: &[Sighting]) -> String {
+    if seen.is_empty() {
+        return String::new();
+    }
+    let lines = seen.iter().map(|one| {
+        let sight = match one.seen {
+            Some(true) => "seen",
+            Some(false) => "not seen",
+            None => "not known whether seen",
+        };
+        let reach = match &one.feasible {
+            Reachability::AsFarAsNumbersTell => "feasible".to_owned(),
+            Reachability::Yes => "feasible: there is a way to it and a motion there".to_owned(),
+            Reachability::No(why) => format!("not feasible: {why}"),
+            Reachability::Hardly(why) => format!("no motion was found, which proves nothing: {why}"),
+            Reachability::Unknown(why) => format!("not known whether feasible: {why}"),
+        };
+        format!("- {}: {sight}, {reach}\n", one.id)
+    });
+    format!("# What the request names\n{}", lines.collect::<String>())
+}
