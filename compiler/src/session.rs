@@ -244,7 +244,7 @@ impl Session {
     /// Facts at the start with their values, in order: a later one overrides, and one with `None` as an
     /// argument is about every entity.
     pub fn initial_facts(&self) -> impl Iterator<Item = InitialFact> {
-        self.environment.given.iter().filter_map(|(fact, holds)| {
+        self.environment.initial_facts().filter_map(|(fact, holds)| {
             let def = self.library.fluent(fact.fluent)?;
             let args = fact.args.iter().map(|arg| match arg {
                 None => Some(None),
@@ -255,7 +255,7 @@ impl Session {
                 }
                 Some(_) => None,
             });
-            Some(InitialFact { fluent: def.name.clone(), args: args.collect::<Option<_>>()?, holds: *holds })
+            Some(InitialFact { fluent: def.name.clone(), args: args.collect::<Option<_>>()?, holds })
         })
     }
 

@@ -5,6 +5,9 @@ use crate::support::Place;
 const WORLD: &str = "decode - --robot hsr --scene kitchen";
 const HEAD: &str = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#;
 
+/// A drive to the table of the mugs.
+const GO: &str = r#"{"do":"go","to":"kitchen_table"}"#;
+
 fn decode(name: &str, flags: &str, begun: &str) -> crate::support::Ran {
     Place::new(name).run_with(&format!("{WORLD} {flags}"), begun.as_bytes(), &[])
 }
@@ -35,12 +38,13 @@ fn an_encoding_has_an_end_of_its_own() {
 
 #[test]
 fn words_are_explained() {
-    let held = format!("{HEAD}{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"");
+    let held = format!("{HEAD}{GO},{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"");
     let ran = decode("decode_calls", "--explain", &held);
     ran.check(0, &["out:may follow:\n", "out:calls place(object: Object, ", "out:may not:\n", "out:M0501"]);
     let step = decode("decode_steps", "--explain", HEAD);
     step.check(0, &["out:must follow: \"{\\\"\"", "out:a call\n", "out:an ending: done, fail or replan\n"]);
-    let object = decode("decode_entities", "--explain", &format!("{HEAD}{{\"do\":\"pick\",\"object\":\""));
+    let object =
+        decode("decode_entities", "--explain", &format!("{HEAD}{GO},{{\"do\":\"pick\",\"object\":\""));
     object.check(0, &["out:Object of the scene"]);
     decode("decode_names", "--explain", "{\"motet\":1,\"policy\":\"").check(0, &["out:a name\n"]);
     let number = format!("{HEAD}{{\"repeat\":");
@@ -50,13 +54,13 @@ fn words_are_explained() {
 #[test]
 fn a_refusal_has_a_place_and_a_reason() {
     let twice = format!(
-        "{HEAD}{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"pick\",\
+        "{HEAD}{GO},{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"pick\",\
             \"object\":\"mug_2\",\"from\":\"auto\"}}"
     );
     let ran = decode("decode_refused", "", &twice);
     ran.check(
         1,
-        &["out:refused: \"i\" at byte 116 (line 1, column 117), after …", "out:why: ", "out:may follow:\n"],
+        &["out:refused: \"i\" at byte 149 (line 1, column 150), after …", "out:why: ", "out:may follow:\n"],
     );
     assert!(ran.stdout.contains("`pick` needs"), "{}", ran.stdout);
     decode(

@@ -31,7 +31,8 @@ fn a_reply_is_carried_out_and_kept_and_the_key_is_not() {
 /// What `motet do` does with a policy that asks for a point, and a model's answer to that: its words, its
 /// record, and the bodies of its requests.
 fn pointed(name: &str, answer: &str) -> (Option<i32>, String, Vec<Value>, Vec<Value>) {
-    let policy = "policy touch for hsr {\n    let handle = ground(mug_1, \"the handle\")\n}\n";
+    let policy =
+        "policy touch for hsr {\n    let handle = ground(mug_1, \"the handle\")\n    go(counter)\n}\n";
     let says = |text: &str| json!({"choices": [{"message": {"content": text}}]}).to_string();
     let (url, heard) = scripted("200 OK", vec![says(policy), says(answer)]);
     let place = Place::new(name);

@@ -3,6 +3,7 @@
 //! parameter, and facts at the start must be facts. All diagnostics point into the card.
 
 use motet_robots::card::{BoundSpan, Robot};
+use motet_robots::scene::ServingReach;
 use motet_stdlib::lang;
 use motet_syntax::ast::Expr;
 use motet_syntax::unit::Dimension;
@@ -26,6 +27,7 @@ pub(super) fn apply(library: &mut Library, robot: Option<&Robot>) {
         Some(robot) => {
             library.robot = robot.name.clone();
             library.observe_within_secs = robot.observe_within_secs;
+            library.serving_reach = ServingReach::of(robot);
             resources(library, robot);
             numbers(library, robot);
             (robot.hands.keys().cloned().collect(), robot.cameras.keys().cloned().collect())

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use indexmap::IndexMap;
+use motet_robots::scene::ServingReach;
 use motet_stdlib::lang;
 use motet_syntax::Span;
 use motet_syntax::ast::{self, PrimitiveKind};
@@ -35,6 +36,8 @@ pub struct Library {
     pub(crate) closed_world: bool,
     /// Numbers of the robot's card, in SI units, with their types.
     pub(crate) numbers: IndexMap<SmolStr, (f64, Ty)>,
+    /// Distances from which the robot serves things; `None` without a robot or without hands.
+    pub(crate) serving_reach: Option<ServingReach>,
     /// Time limit of one observation, in seconds.
     pub(crate) observe_within_secs: f64,
     pub(crate) names: Names,

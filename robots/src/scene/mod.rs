@@ -15,6 +15,7 @@ mod errors;
 pub mod model;
 mod quantity;
 mod read;
+mod serving;
 mod wire;
 mod write;
 
@@ -22,5 +23,6 @@ pub use check::fit;
 pub use errors::CODES;
 pub use model::{normal, *};
 pub use read::read;
+pub use serving::{NEAR_M, Outline, ServedKind, ServingReach, serving_gap};
 pub use wire::schema;
 pub use write::write;

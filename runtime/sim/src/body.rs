@@ -2,7 +2,7 @@
 //! as upright.
 
 use motet_graph::Pose;
-use motet_robots::scene::{EntityShape, Placement};
+use motet_robots::scene::{EntityShape, Outline, Placement};
 
 /// Position where the robot stands: x and y in m in the frame `map`, heading in rad.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -41,13 +41,6 @@ pub(crate) fn turned(angle: f64) -> f64 {
     sin.atan2(cos)
 }
 
-/// The outline from above.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Outline {
-    Disc { radius: f64 },
-    Rectangle { half: [f64; 2] },
-}
-
 /// An upright thing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct UprightBody {
@@ -63,14 +56,13 @@ pub(crate) struct UprightBody {
 impl UprightBody {
     /// A thing as a scene gives it. One without a shape is a disc of 4 cm radius and 8 cm height.
     pub(crate) fn new(pose: Placement, shape: Option<&EntityShape>, stands_on_pose: bool) -> Self {
-        let (outline, height) = match shape {
-            Some(EntityShape::Box([x, y, z])) => (Outline::Rectangle { half: [x / 2.0, y / 2.0] }, *z),
-            Some(EntityShape::Cylinder { radius, height }) => (Outline::Disc { radius: *radius }, *height),
-            Some(EntityShape::Sphere { radius }) => (Outline::Disc { radius: *radius }, 2.0 * radius),
-            Some(EntityShape::Capsule { radius, height }) => {
-                (Outline::Disc { radius: *radius }, height + 2.0 * radius)
-            }
-            Some(EntityShape::Mesh { .. }) | None => (Outline::Disc { radius: 0.04 }, 0.08),
+        let outline = shape.and_then(Outline::of).unwrap_or(Outline::Disc { radius: 0.04 });
+        let height = match shape {
+            Some(EntityShape::Box([_, _, z])) => *z,
+            Some(EntityShape::Cylinder { height, .. }) => *height,
+            Some(EntityShape::Sphere { radius }) => 2.0 * radius,
+            Some(EntityShape::Capsule { radius, height }) => height + 2.0 * radius,
+            Some(EntityShape::Mesh { .. }) | None => 0.08,
         };
         let (below, above) = if stands_on_pose { (0.0, height) } else { (height / 2.0, height / 2.0) };
         Self { xyz: pose.xyz, yaw: pose.rpy[2], outline, below, above }
@@ -124,11 +116,7 @@ impl UprightBody {
 
     /// Metres in the plane from a point to its outline; 0 within.
     pub(crate) fn gap(&self, x: f64, y: f64) -> f64 {
-        let [u, v] = self.local(x, y);
-        match self.outline {
-            Outline::Disc { radius } => (u.hypot(v) - radius).max(0.0),
-            Outline::Rectangle { half: [a, b] } => (u.abs() - a).max(0.0).hypot((v.abs() - b).max(0.0)),
-        }
+        self.outline.gap(self.local(x, y))
     }
 
     /// True if a disc lies within its outline.

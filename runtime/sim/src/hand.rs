@@ -3,6 +3,7 @@
 use crate::body::BasePose;
 use crate::motion::standing_place;
 use crate::world::{Rest, Role, SimWorld};
+use motet_robots::scene::{ServedKind, serving_gap};
 use smol_str::SmolStr;
 
 /// A failure kind of the standard library.
@@ -16,8 +17,6 @@ const PUSH_M: f64 = 0.1;
 const MARGIN_M: f64 = 0.03;
 /// Between the base's rim and a person, in m: people do not like a robot closer.
 const PERSON_MARGIN_M: f64 = 0.6;
-/// Distance that a person reaches out for what they are handed, in m.
-const PERSON_REACH_M: f64 = 0.5;
 /// Share of the reach that the base's own extent takes. A robot with a long body stands sideways.
 const BASE_SHARE: f64 = 0.4;
 
@@ -92,11 +91,13 @@ impl SimWorld {
 
     /// The greatest distance in m from the base's axis to the outline of what it serves.
     fn serving_gap(&self, role: Role) -> f64 {
-        match role {
-            Role::Place => 0.3,
-            Role::Person => self.reach() + PERSON_REACH_M,
-            Role::Surface | Role::Container | Role::Object => self.reach(),
-        }
+        let kind = match role {
+            Role::Place => ServedKind::Place,
+            Role::Person => ServedKind::Person,
+            Role::Object => ServedKind::Object,
+            Role::Surface | Role::Container => ServedKind::Furniture,
+        };
+        serving_gap(kind, self.reach())
     }
 
     /// Failure with which a hand cannot take a thing at its place, if any; `wide` failures have no kind of

@@ -6,12 +6,10 @@ use crate::hand::Failure;
 use crate::world::{ArmPose, Rest, Role, SimWorld, Thing};
 use indexmap::IndexMap;
 use motet_graph::Value;
-use motet_robots::scene::Scene;
+use motet_robots::scene::{NEAR_M, Scene};
 use motet_runtime::{Answer, Pattern, Query};
 use smol_str::SmolStr;
 
-/// Distance for the fluent `near` in m.
-const NEAR_M: f64 = 1.5;
 /// Distance within which a thing is at a `Place`, in m.
 const AT_PLACE_M: f64 = 0.5;
 /// Gravity, in m/s².

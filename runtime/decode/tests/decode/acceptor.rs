@@ -242,7 +242,7 @@ fn acceptor_forces_text_and_explains_refusals() {
     assert_eq!(acceptor.forced(), b"{\"motet\":1,\"policy\":\"");
     let start = concat!(
         r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"#,
-        r#""steps":[{"do":"pick","object":"mug_1","from":"auto"}"#,
+        r#""steps":[{"do":"go","to":"kitchen_table"},{"do":"pick","object":"mug_1","from":"auto"}"#,
     )
     .as_bytes();
     assert_eq!(acceptor.accept(start), start.len());
@@ -256,8 +256,11 @@ fn acceptor_forces_text_and_explains_refusals() {
 #[test]
 fn acceptor_excludes_infeasible_arguments() {
     let session = session("hsr", "kitchen");
-    let start =
-        br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1""#;
+    let start = concat!(
+        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"#,
+        r#""steps":[{"do":"go","to":"kitchen_table"},{"do":"pick","object":"mug_1""#,
+    )
+    .as_bytes();
     let open =
         AcceptorFactory::new(&session, subset(Modifiers::Default)).acceptor(1000).unwrap().accept(start);
     assert_eq!(open, start.len());

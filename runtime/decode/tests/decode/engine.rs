@@ -30,13 +30,13 @@ fn acceptor_takes_loop_items_as_arguments() {
     let environment = environment(&tokens, END);
     let session = session("hsr", "living_room");
     for (syntax, policy) in [
-        (Syntax::Text, "policy p for hsr { each J in [drawer_1] at most 1 { open(J) done } done }"),
+        (Syntax::Text, "policy p for hsr { each J in [drawer_1] at most 1 { go(J) open(J) done } done }"),
         (
             Syntax::Json,
             concat!(
                 r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#,
                 r#"{"each":"J","in":["drawer_1"],"at_most":1,"steps":["#,
-                r#"{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
+                r#"{"do":"go","to":"$J"},{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
             ),
         ),
     ] {

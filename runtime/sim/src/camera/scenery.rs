@@ -2,10 +2,9 @@
 //! thing has the colour in its name, else one of its own.
 
 use super::solid::{Form, Solid};
-use crate::body::Outline;
 use crate::world::{Role, SimWorld, Thing};
 use fnv::FnvHasher;
-use motet_robots::scene::{Entity, Scene, Travel};
+use motet_robots::scene::{Entity, Outline, Scene, Travel};
 use std::f64::consts::FRAC_PI_2;
 use std::hash::Hasher as _;
 
