@@ -35,6 +35,9 @@ pub struct DocumentCheck {
     pub diagnostics: Vec<Diagnostic>,
     /// Outcomes of the policies without parameters, in the order of the document.
     pub policies: Vec<PolicyOutcome>,
+    /// Notes on what policies without errors and parameters leave to the run, in the order of the document:
+    /// needs that stay unknown, which the engine checks just before their steps.
+    pub left_to_run: Vec<Diagnostic>,
 }
 
 /// Outcome of one policy of a document.
@@ -83,7 +86,7 @@ impl Session {
     #[must_use]
     pub fn check_document(&self, parsed: &Parsed) -> DocumentCheck {
         let mut diagnostics = parsed.diagnostics.clone();
-        let (mut findings, mut policies) = (Vec::new(), Vec::new());
+        let (mut findings, mut policies, mut left) = (Vec::new(), Vec::new(), Vec::new());
         self.within(parsed, &mut diagnostics, |library, environment, diagnostics| {
             let is_refused = diagnostics.iter().any(is_error);
             for policy in parsed.file.policies() {
@@ -91,6 +94,7 @@ impl Session {
                     self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
                 findings.append(&mut analysis.findings);
                 if policy.params.is_empty() {
+                    left.extend(analysis.left_to_run(policy, parsed, library, environment));
                     let (graph, skipped_motions) = analysis.lower(is_refused, library, environment);
                     policies.push(PolicyOutcome { name: policy.name.text.clone(), graph, skipped_motions });
                 }
@@ -98,7 +102,9 @@ impl Session {
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
         let diagnostics = in_order(findings).into_iter().map(|found| found.diagnostic).collect();
-        DocumentCheck { diagnostics, policies }
+        let left = in_order(left.into_iter().map(Finding::from).collect());
+        let left_to_run = left.into_iter().map(|found| found.diagnostic).collect();
+        DocumentCheck { diagnostics, policies, left_to_run }
     }
 
     /// Returns true if a policy of the document has a goal, can end as done, and reaches the goal at none of
@@ -267,6 +273,25 @@ struct Analysis {
 }
 
 impl Analysis {
+    /// Notes on what the policy leaves to the run; none after an error.
+    fn left_to_run(
+        &self,
+        policy: &Policy,
+        parsed: &Parsed,
+        library: &Library,
+        environment: &Environment,
+    ) -> Vec<Diagnostic> {
+        if self.has_errors {
+            return Vec::new();
+        }
+        let Self { program, proof, motions, .. } = self;
+        let mut notes = crate::lower::left_to_run(program, proof, motions, library, environment);
+        for note in &mut notes {
+            locate(note, policy, parsed, program, library);
+        }
+        notes
+    }
+
     /// Lowers the program if neither it nor the document has an error; else counts the motions that were
     /// not checked.
     fn lower(self, is_refused: bool, library: &Library, environment: &Environment) -> (Option<Graph>, usize) {

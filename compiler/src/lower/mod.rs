@@ -3,17 +3,19 @@
 //!
 //! Guarded by the graph snapshots of `tests/tests` and the validation in `motet_graph`.
 
+mod left;
 mod table;
 
 use motet_graph as graph;
 use motet_graph::{NodeId, RegionId};
 use motet_syntax::ast::EndKind;
 
+pub(crate) use self::left::left_to_run;
 use self::table::Tables;
-use crate::declare::{EffectDef, Library, NeedDef};
+use crate::declare::{EffectDef, Library, NeedDef, PrimitiveDef};
 use crate::environment::Environment;
 use crate::feasibility::{MotionVerdict, MotionVerdicts};
-use crate::ir::{Block, Call, MotionKind, Program, Reaction, StepId, StepKind};
+use crate::ir::{Block, Call, Condition, MotionKind, Program, Reaction, StepId, StepKind};
 use crate::limits::bounds_of;
 use crate::prove::{NeedVerdict, Proof};
 
@@ -36,6 +38,7 @@ pub(crate) fn lower(
         ids: vec![None; program.steps.len()],
     };
     lowering.region(&program.body, None);
+    // What the pose of the base decides is left to observation, so that a graph does not grow with the room.
     let initial = environment.given.iter().filter_map(|(fact, value)| {
         let fact = lowering.tables.fact(fact, &[], None)?;
         (!has_any(&fact)).then_some(graph::InitialFact { fact, value: *value })
@@ -265,15 +268,11 @@ impl Lowering<'_> {
                 unsettles: Vec::new(),
             };
         };
-        let verdicts =
-            self.proof.needs.get(step.index()).map(|verdicts| verdicts.as_slice()).unwrap_or_default();
         let mut needs = Vec::with_capacity(def.needs.len());
         let placed = self.placed.get_mut(step.index()).and_then(Option::take);
-        let is_placed = matches!(placed, Some(MotionVerdict::Feasible(_)));
-        for (need, verdict) in def.needs.iter().zip(verdicts) {
-            // What is derived from the motion is proven with it.
-            let verdict =
-                if is_placed && self.is_of_motion(need, def) { NeedVerdict::Proven } else { *verdict };
+        for (index, need) in def.needs.iter().enumerate() {
+            let verdict = left::need_verdict(self.proof, placed.as_ref(), (step, index), def, library);
+            let Some(verdict) = verdict else { break };
             needs.push(self.need(need, verdict, call, &def.fails));
         }
         graph::CallNode {
@@ -295,21 +294,6 @@ impl Lowering<'_> {
             effects: def.makes.iter().filter_map(|effect| self.effect(effect, call)).collect(),
             unsettles: def.unsettles.iter().filter_map(|effect| self.unsettled(effect, call)).collect(),
         }
-    }
-
-    /// Returns whether a need is the verdict of the primitive's own motion, such as `reachable(object)` with
-    /// `reach(object)`.
-    fn is_of_motion(&self, need: &NeedDef, def: &crate::declare::PrimitiveDef) -> bool {
-        let (crate::ir::Condition::Fact(fact), Some((motion, args))) = (&need.condition, &def.motion) else {
-            return false;
-        };
-        let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
-        is_derived
-            && *motion == MotionKind::Reach
-            && need.when.is_none()
-            && need.each.is_none()
-            && fact.args.len() == args.len()
-            && fact.args.iter().flatten().eq(args)
     }
 
     fn need(
@@ -347,4 +331,18 @@ impl Lowering<'_> {
         let graph::CallEffect { fact, when, each, .. } = self.effect(effect, call)?;
         Some(graph::Unsettled { fact, when, each })
     }
+}
+
+/// Returns whether a need is the verdict of the primitive's own motion, such as `reachable(object)` with
+/// `reach(object)`.
+fn is_of_motion(need: &NeedDef, def: &PrimitiveDef, library: &Library) -> bool {
+    let (Condition::Fact(fact), Some((motion, args))) = (&need.condition, &def.motion) else {
+        return false;
+    };
+    library.fluent(fact.fluent).is_some_and(|def| def.derived)
+        && *motion == MotionKind::Reach
+        && need.when.is_none()
+        && need.each.is_none()
+        && fact.args.len() == args.len()
+        && fact.args.iter().flatten().eq(args)
 }

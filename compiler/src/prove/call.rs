@@ -12,7 +12,7 @@ use crate::declare::{LastsDef, NeedDef, PrimitiveDef, ResourceSet};
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
 use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, StepKind, Term, Ty};
 
-impl Prover<'_> {
+impl<'a> Prover<'a> {
     pub(crate) fn call(&mut self, id: StepId, call: &Call, span: Span) {
         let library = self.library;
         let Some(def) = library.primitive(call.primitive) else { return };
@@ -42,7 +42,9 @@ impl Prover<'_> {
         self.unsettle(&unsettles, cause);
         self.fail(id, call, def, frame, &makes, &mut verdicts);
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
+        let armed = self.armed(id);
         self.make(&makes, cause);
+        self.check_fired(&armed, id);
         self.buffers = (makes, unsettles);
         self.bind(id, call, def, frame);
         self.erode();
@@ -177,6 +179,9 @@ impl Prover<'_> {
                 is_misgiven |= self.is_misgiven(&need.condition, frame);
                 NeedVerdict::Refuted
             } else if value.open.is_some() {
+                if let Some(entity) = culprit {
+                    self.proof.unknown_of.insert((id, verdicts.len()), entity);
+                }
                 NeedVerdict::Deferred
             } else {
                 NeedVerdict::Proven
@@ -216,7 +221,7 @@ impl Prover<'_> {
         self.diagnostics.push(mistake);
     }
 
-    /// Possible values of a need, and the entity for which it can be false.
+    /// Possible values of a need, and the entity for which it can be false, or else is unknown.
     pub(crate) fn need(&self, need: &NeedDef, frame: CallFrame<'_>) -> (TruthSet, Option<Entity>) {
         let Some(kind) = need.each else {
             let asked = self.evaluate(&need.condition, frame);
@@ -228,7 +233,7 @@ impl Prover<'_> {
         };
         let (candidates, others) = self.asked(need.when.as_ref(), kind, frame);
         let mut all = TruthSet::yes(Cause::NOTHING);
-        let mut culprit = None;
+        let (mut culprit, mut unknown) = (None, None);
         for candidate in candidates {
             let frame = CallFrame { each: Some(candidate), ..frame };
             let when =
@@ -237,12 +242,15 @@ impl Prover<'_> {
             if value.no.is_some() && culprit.is_none() {
                 culprit = Some(candidate);
             }
+            if value.open.is_some() && unknown.is_none() {
+                unknown = Some(candidate);
+            }
             all = all.and(value);
         }
         if others {
             all = all.and(TruthSet::NOTHING_KNOWN.or(TruthSet::NOTHING_KNOWN));
         }
-        (all, culprit)
+        (all, culprit.or(unknown))
     }
 
     /// Assumes a need: its guard has observed it, or its refutation was reported once.

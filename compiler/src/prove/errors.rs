@@ -54,6 +54,24 @@ motet_syntax::mistakes! {
     message(m) { format!("no step in this `try` can fail with `{}`", m.name) }
     help(m) { Some(format!("remove `{}` from the `catch`", m.name)) }
 
+    /// Needs that stay unknown, which the engine checks just before the step.
+    LeftToRun("M0505", Note) { callee: SmolStr, what: String, step: String }
+    message(m) { format!("left to the run: {}, checked before `{}` (step {})", m.what, m.callee, m.step) }
+    help(m) {
+        Some(format!("let a step before `{}` make it certain, or handle the failure with `try`", m.callee))
+    }
+    about(m) { Some(About { primitive: Some(m.callee.clone()), ..About::default() }) }
+
+    /// Monitor that a step of its own body fires.
+    BodyFires("M0506", Error) { step: SmolStr, holds: String, fired: Option<Span> }
+    message(m) {
+        format!("`{}` in the body of this monitor makes {} certain, so the monitor fires", m.step, m.holds)
+    }
+    help(m) {
+        Some(format!("end `during` before `{}`, or watch a condition that the body leaves alone", m.step))
+    }
+    related(m) { m.fired.map(|span| Related::new("fired here", span)).into_iter().collect() }
+
     /// Branches that leave a fact with different values.
     Conflict("M0702", Error) { fact: String, first: Option<Span>, second: Option<Span> }
     message(m) { format!("two branches leave {} with different values", m.fact) }

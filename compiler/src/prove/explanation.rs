@@ -341,7 +341,8 @@ impl Prover<'_> {
         }
     }
 
-    pub(super) fn term_text(&self, term: &Term, frame: CallFrame<'_>) -> String {
+    /// Spelling of a term.
+    pub(crate) fn term_text(&self, term: &Term, frame: CallFrame<'_>) -> String {
         match term {
             Term::Bool(value) => value.to_string(),
             Term::Int(value) => value.to_string(),

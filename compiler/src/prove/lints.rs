@@ -13,9 +13,7 @@ use super::evaluation::CallFrame;
 use super::{Mode, NeedVerdict, PolicyEnd, Problem, Prover};
 use crate::declare::{NeedDef, PrimitiveDef};
 use crate::facts::{Cause, FactKey, TruthSet, show};
-use crate::ir::{
-    Base, BlockSlot, Call, Catch, Condition, Entity, Fact, Failure, Fluent, MotionKind, Step, StepId, Term,
-};
+use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, MotionKind, StepId, Term};
 
 impl Prover<'_> {
     /// Returns whether a step belongs to the document itself, and not to a policy of another file.
@@ -122,12 +120,8 @@ impl Prover<'_> {
     /// Returns whether the world may have changed without the robot: people walk, and reactions have a cause
     /// outside.
     fn may_have_changed(&self, frame: CallFrame<'_>) -> bool {
-        let in_reaction = |step: &Step| matches!(step.position.slot, BlockSlot::Reaction(_));
-        let here = self.control.here.and_then(|id| self.program.step(id));
-        let mut around = self.control.here.into_iter().flat_map(|id| self.program.around(id));
         let mut args = frame.args.iter();
-        here.is_some_and(in_reaction)
-            || around.any(|(_, step)| in_reaction(step))
+        self.control.here.is_some_and(|id| self.is_in_reaction(id))
             || args.any(|arg| {
                 matches!(arg, Term::Entity(_) | Term::Binding(_))
                     && self.argument(arg, frame).is_some_and(|arg| self.is_person(Entity(arg)))

@@ -59,6 +59,8 @@ pub(crate) type NeedVerdicts = SmallVec<[NeedVerdict; 16]>;
 pub(crate) struct Proof {
     /// By step, a verdict for each need of its primitive; empty for other steps and for unreachable steps.
     pub(crate) needs: Vec<NeedVerdicts>,
+    /// Entity for which a need about all of a kind is unknown, by step and index of the need.
+    pub(crate) unknown_of: FxHashMap<(StepId, usize), Entity>,
     /// By step, whether it is reachable.
     pub(crate) reached: Vec<bool>,
     /// Certain facts just before a step with a motion.
@@ -188,8 +190,10 @@ pub(crate) struct Volatile {
 }
 
 /// Fluents and measures that an enclosing monitor watches.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Watched {
+    /// Step of the monitor.
+    by: StepId,
     pub(crate) measures: Vec<Measure>,
     pub(crate) fluents: Vec<Fluent>,
     /// Entities whose distance is watched.

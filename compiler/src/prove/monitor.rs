@@ -1,14 +1,15 @@
 //! Monitors: their body under watch, and the states from which reactions start.
 
 use motet_syntax::ast::EndKind;
+use motet_syntax::{Diagnostic, Mistake as _};
 
 use super::collector::Collector;
-use super::errors::NeverFires;
+use super::errors::{BodyFires, NeverFires};
 use super::evaluation::CallFrame;
-use super::{Prover, Volatile, Watched};
+use super::{Mode, Prover, Volatile, Watched};
 use crate::analysis::{Domain, Enclosing};
-use crate::facts::{Delta, FactKey};
-use crate::ir::{Condition, Entity, Reaction, StepId, Term, When};
+use crate::facts::{Cause, Delta, FactKey};
+use crate::ir::{BlockSlot, Condition, Entity, Reaction, Step, StepId, StepKind, Term, When};
 
 impl<'a> Prover<'a> {
     /// Proves a monitor to a fixed point: its reactions may run in any state of the body, and again in what
@@ -24,7 +25,7 @@ impl<'a> Prover<'a> {
         let said = self.findings();
         let volatile = self.state.volatile.len();
         self.rehearse(id, whens, &Delta::default(), mark, volatile);
-        let watched = self.watched_by(whens);
+        let watched = self.watched_by(id, whens);
         self.state.watched.push(watched);
         let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
         let restarts: Vec<_> = restarts.collect();
@@ -79,8 +80,9 @@ impl<'a> Prover<'a> {
     }
 
     /// Fluents, measures and entities in the conditions of a monitor.
-    fn watched_by(&self, whens: &[When]) -> Watched {
-        let mut watched = Watched::default();
+    fn watched_by(&self, by: StepId, whens: &[When]) -> Watched {
+        let (measures, fluents, near) = (Vec::new(), Vec::new(), Vec::new());
+        let mut watched = Watched { by, measures, fluents, near };
         for when in whens {
             visit(&when.condition, &mut watched, &mut |term| self.argument(term, CallFrame::default()));
         }
@@ -105,7 +107,7 @@ impl<'a> Prover<'a> {
         for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
             self.control.live &= self.assume_at(id, &when.condition, false);
         }
-        let watched = self.watched_by(whens);
+        let watched = self.watched_by(id, whens);
         self.state.watched.push(watched);
         if self.control.live {
             self.block(body);
@@ -147,6 +149,59 @@ impl<'a> Prover<'a> {
             self.control.live = true;
         }
         grown
+    }
+
+    /// Conditions that fire at once, of the monitors around a step, with their truth before its effects.
+    ///
+    /// One that ends the policy as done is how a policy waits for its own work.
+    pub(super) fn armed(&self, id: StepId) -> Vec<ArmedWhen<'a>> {
+        let program = self.program;
+        let mut armed = Vec::new();
+        if self.state.watched.is_empty() || self.control.rehearsals > 0 || self.is_in_reaction(id) {
+            return armed;
+        }
+        for watched in &self.state.watched {
+            let Some(StepKind::Monitor { whens, .. }) = program.step(watched.by).map(|step| &step.kind)
+            else {
+                continue;
+            };
+            let fires = |when: &&When| {
+                let is_end = matches!(when.reaction, Reaction::End { kind: EndKind::Done, .. });
+                when.hold_secs == 0.0 && !is_end
+            };
+            for when in whens.iter().filter(fires) {
+                let held = self.evaluate(&when.condition, CallFrame::default()).is_true();
+                armed.push(ArmedWhen { when, held });
+            }
+        }
+        armed
+    }
+
+    /// Returns whether a step belongs to the reaction of a monitor.
+    pub(super) fn is_in_reaction(&self, id: StepId) -> bool {
+        let in_reaction = |step: &Step| matches!(step.position.slot, BlockSlot::Reaction(_));
+        self.program.step(id).is_some_and(in_reaction)
+            || self.program.around(id).any(|(_, step)| in_reaction(step))
+    }
+
+    /// Reports the monitors whose condition the effects of a step have made certain.
+    pub(super) fn check_fired(&mut self, armed: &[ArmedWhen<'a>], id: StepId) {
+        for ArmedWhen { when, held } in armed {
+            if *held || !self.evaluate(&when.condition, CallFrame::default()).is_true() {
+                continue;
+            }
+            if self.mode == Mode::Decide {
+                self.count(BodyFires::CODE);
+                continue;
+            }
+            let step = self.cause_name(Cause::step(id));
+            let holds = self.show(&when.condition, true, CallFrame::default());
+            let fired = self.program.step(id).map(|step| step.span);
+            let mistake = Diagnostic::from(BodyFires { span: when.span, step, holds, fired });
+            if !self.diagnostics.contains(&mistake) {
+                self.diagnostics.push(mistake);
+            }
+        }
     }
 
     /// Weakens the facts that a reaction may just have changed.
@@ -196,6 +251,14 @@ impl<'a> Prover<'a> {
         }
         self.restore(&mark);
     }
+}
+
+/// Condition of a monitor that fires at once.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ArmedWhen<'a> {
+    when: &'a When,
+    /// True if it was certain before the step.
+    held: bool,
 }
 
 /// Returns whether a condition is constant.

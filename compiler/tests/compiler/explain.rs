@@ -93,6 +93,8 @@ fn generated(words: &[&str]) -> Option<Vec<u8>> {
 struct Case {
     sources: Sources,
     said: Vec<Diagnostic>,
+    /// Notes on what is left to the run.
+    left: Vec<Diagnostic>,
     robot: Option<card::Robot>,
     /// The text of its card, and which file that is.
     card: Option<(Source, FileId)>,
@@ -182,7 +184,7 @@ impl Case {
     }
 
     /// Runs the examples through every stage.
-    fn run(mut self, fences: &[Fence<'_>]) -> Result<Vec<Diagnostic>, String> {
+    fn run(mut self, fences: &[Fence<'_>]) -> Result<(Vec<Diagnostic>, Vec<Diagnostic>), String> {
         let (mut domains, mut policies) = (Vec::new(), Vec::new());
         for Fence { info, text } in fences {
             let mut words = info.iter().copied().skip(1);
@@ -274,10 +276,11 @@ impl Case {
         };
         for parsed in &policies {
             self.said.extend(session.check(parsed));
+            self.left.extend(session.check_document(parsed).left_to_run);
             // A file whose policies all have parameters is there to be called.
             self.said.extend(session.compile(parsed, None).diagnostics);
         }
-        Ok(self.said)
+        Ok((self.said, self.left))
     }
 }
 
@@ -294,7 +297,9 @@ fn faults(page: &explain_pages::CodePage) -> Vec<String> {
             continue;
         }
         let said = match Case::default().run(&fences) {
-            Ok(said) => said,
+            // Every other page is about what a check says before any of that.
+            Ok((said, left)) if page.code == "M0505" => [said, left].concat(),
+            Ok((said, _)) => said,
             Err(problem) => {
                 faults.push(format!("`{section}`: {problem}"));
                 continue;

@@ -29,6 +29,7 @@ mod pddl;
 mod planning;
 mod promises;
 mod prompt;
+mod proofs;
 mod replies;
 mod request;
 mod scopes;

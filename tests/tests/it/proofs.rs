@@ -1,0 +1,95 @@
+//! What the compiler has proven or listed beside what a run finds: the place of the robot at the start, and
+//! the guards of a graph.
+
+use std::collections::BTreeMap;
+
+use motet_graph::{NodeKind, Value, Verdict};
+use motet_robots::builtin;
+use motet_sim::{Sim, SimOptions};
+use motet_syntax::{FileId, Source, Sources};
+use motet_tests::{examples, setup};
+
+#[test]
+fn start_the_simulated_room_agrees_with_the_pose_of_the_base() {
+    let mut counts = BTreeMap::<(String, bool), usize>::new();
+    for (robot, room) in builtin::ROBOTS.iter().flat_map(|robot| {
+        builtin::SCENES.iter().map(|scene| (setup::robot(robot.name), setup::scene(scene.name)))
+    }) {
+        let spots = room.entities.values().filter_map(|entity| entity.pose).map(|pose| pose.xyz);
+        let around = spots.flat_map(|[x, y, _]| [[x - 0.6, y, 0.0], [x, y + 1.0, 0.0], [x + 2.0, y, 1.0]]);
+        for base in std::iter::once(room.robot.base).chain(around) {
+            let mut scene = room.clone();
+            scene.robot.base = base;
+            let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+            let sim = Sim::new(&robot, &scene, SimOptions::default());
+            for fact in session.initial_facts() {
+                let args: Option<Vec<_>> = fact
+                    .args
+                    .iter()
+                    .map(|arg| match arg {
+                        Some(Value::Entity(id)) => Some(id.as_str()),
+                        _ => None,
+                    })
+                    .collect();
+                let is_place = fact.fluent == "near" || (fact.fluent == "at" && fact.args.len() == 2);
+                let Some(args) = args.filter(|args| is_place && (args.len() == 1 || args[0] == "robot"))
+                else {
+                    continue;
+                };
+                let holds = sim.holds(&fact.fluent, &args);
+                assert_eq!(holds, Some(fact.holds), "{} {:?} {base:?}: {fact:?}", robot.name, args);
+                *counts.entry((fact.fluent.to_string(), fact.holds)).or_default() += 1;
+            }
+        }
+    }
+    assert!(counts.len() == 4 && counts.values().all(|count| *count > 100), "{counts:?}");
+}
+
+/// The steps that a graph guards, with the number of guards of each.
+fn guards(graph: &motet_graph::Graph) -> BTreeMap<String, usize> {
+    let mut found = BTreeMap::new();
+    for node in &graph.nodes {
+        let NodeKind::Call(call) = &node.kind else { continue };
+        let needs = call.needs.iter().filter(|need| need.verdict == Verdict::Deferred).count();
+        // A step of a called policy is told of by the call.
+        let path = node.path.split(':').next().unwrap_or_default();
+        if needs > 0 {
+            *found.entry(path.to_owned()).or_default() += 1;
+        }
+    }
+    found
+}
+
+#[test]
+fn left_to_run_are_the_guards_of_the_graph() {
+    let mut seen = 0;
+    for (path, robot, scene) in examples::examples() {
+        let (robot, scene) = (setup::robot(&robot), setup::scene(&scene));
+        let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+        let whole = Source::new("example.motet", examples::read(&path));
+        let parsed = motet_syntax::read(&whole, FileId(99));
+        let checked = session.check_document(&parsed);
+        let graph = checked.policies.iter().find_map(|policy| policy.graph.as_ref()).unwrap();
+        let mut listed = BTreeMap::<String, usize>::new();
+        for note in &checked.left_to_run {
+            assert_eq!(note.code.0, "M0505");
+            assert!(note.message.starts_with("left to the run: `"), "{}", note.message);
+            *listed.entry(note.path.clone()).or_default() += 1;
+        }
+        assert_eq!(listed, guards(graph), "{}", path.display());
+        seen += listed.len();
+    }
+    assert!(seen > 10, "{seen}");
+}
+
+#[test]
+fn start_a_step_that_lacks_its_drive_is_refused_with_the_drive() {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    let parsed = motet_syntax::read(&Source::new("p.motet", "policy p for hsr { pick(mug_1) }"), FileId(99));
+    let said = session.check(&parsed);
+    let refused = said.iter().find(|said| said.code.0 == "M0501").unwrap();
+    assert!(refused.message.contains("does not hold at the start"), "{}", refused.message);
+    let fix = refused.fix.as_ref().unwrap();
+    assert!(fix.edits[0].text.starts_with("go(mug_1)"), "{fix:?}");
+}
