@@ -5,6 +5,7 @@
 
 use motet_syntax::{Code, Diagnostic, FileId, Fix, Parsed, Severity, Source};
 
+pub use crate::repair::Applicability;
 use crate::repair::Finding;
 use crate::session::Session;
 
@@ -33,25 +34,51 @@ pub struct AppliedFix {
     pub code: Code,
     /// Description of the change: "write `pick`".
     pub title: String,
+    /// Degree to which it may be applied without asking.
+    pub applicability: Applicability,
 }
 
-/// Writes the shapes of a document in the form of the language (M0122), and applies at most `most` fixes.
+/// Limits of fixing a document.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct FixLimits {
+    /// Maximal number of fixes.
+    pub most: usize,
+    /// Least applicability of a fix. What is only shown is never applied.
+    pub least: Applicability,
+}
+
+impl FixLimits {
+    /// At most so many safe fixes.
+    #[must_use]
+    pub const fn safe(most: usize) -> Self {
+        Self { most, least: Applicability::Safe }
+    }
+
+    /// At most so many fixes, safe and unsafe.
+    #[must_use]
+    pub const fn all(most: usize) -> Self {
+        Self { most, least: Applicability::Unsafe }
+    }
+}
+
+/// Writes the shapes of a document in the form of the language (M0122), and applies fixes within limits.
 /// Each leaves it with fewer errors and no new kind of error, or with as many errors, fewer warnings and no
 /// new code. At most 500 documents are checked on the way.
 ///
 /// ```
-/// use motet_compiler::{Session, fix};
+/// use motet_compiler::fix::{FixLimits, fix};
+/// use motet_compiler::Session;
 /// use motet_syntax::{FileId, Source, Sources};
 ///
 /// let session = Session::builder().build(&mut Sources::default());
 /// let source = Source::new("greet.motet", "policy greet { sya(\"hello\") }");
-/// let fixed = fix::fix(&session, &source, FileId(99), 10);
+/// let fixed = fix(&session, &source, FileId(99), FixLimits::safe(10));
 /// assert_eq!(fixed.text, "policy greet { say(\"hello\") }");
 /// assert!(fixed.diagnostics.is_empty());
 /// ```
 #[must_use]
-pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> FixedDocument {
-    fix_parsed(session, source, motet_syntax::read(source, file), file, most)
+pub fn fix(session: &Session, source: &Source, file: FileId, limits: FixLimits) -> FixedDocument {
+    fix_parsed(session, source, motet_syntax::read(source, file), file, limits)
 }
 
 /// As [`fix`], for a document that was already read.
@@ -61,18 +88,18 @@ pub fn fix_parsed(
     source: &Source,
     parsed: Parsed,
     file: FileId,
-    most: usize,
+    limits: FixLimits,
 ) -> FixedDocument {
-    let mut tries = MAX_TRIES;
+    let mut search = Search { session, source, file, least: limits.least, tries: MAX_TRIES };
     let mut at = Candidate::new(session, source.text.to_string(), parsed);
-    let (mut applied, mut left) = (Vec::new(), most);
+    let (mut applied, mut left) = (Vec::new(), limits.most);
     loop {
         if let Some((next, done)) = at.in_plain_form(session, source, file) {
             applied.extend(done);
             at = next;
         }
         let Some(depth) = left.checked_sub(1).map(|left| MAX_DEPTH.min(left)) else { break };
-        let Some((next, done)) = better(session, source, file, &at, &at, depth, &mut tries) else { break };
+        let Some((next, done)) = search.better(&at, &at, depth) else { break };
         left = left.saturating_sub(done.len());
         applied.extend(done);
         at = next;
@@ -112,7 +139,7 @@ impl Candidate {
         for note in notes {
             let fix = note.fix.as_ref()?;
             edits.extend(fix.edits.iter().cloned());
-            done.push(AppliedFix { code: note.code, title: fix.title.clone() });
+            done.push(record(note.code, fix, Applicability::Safe));
         }
         let text = apply(&self.text, file, &Fix { title: String::new(), edits })?;
         Some((Self::of(session, text, source, file), done))
@@ -135,46 +162,59 @@ impl Candidate {
     }
 }
 
-/// Finds the first version that is better than `base`, starting from `at`, with the fixes that lead to it.
-/// Tries errors before warnings.
-fn better(
-    session: &Session,
-    source: &Source,
+fn record(code: Code, fix: &Fix, applicability: Applicability) -> AppliedFix {
+    AppliedFix { code, title: fix.title.clone(), applicability }
+}
+
+/// Search of fixes for one document.
+struct Search<'a> {
+    session: &'a Session,
+    source: &'a Source,
     file: FileId,
-    base: &Candidate,
-    at: &Candidate,
-    depth: usize,
-    tries: &mut usize,
-) -> Option<(Candidate, Vec<AppliedFix>)> {
-    let mut order: Vec<_> = at.findings.iter().collect();
-    order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
-    let mut promising = Vec::new();
-    for found in order {
-        let said = &found.diagnostic;
-        for fix in said.fix.iter().chain(&found.alternatives) {
-            *tries = tries.checked_sub(1)?;
-            let Some(text) = apply(&at.text, file, fix) else { continue };
-            let next = Candidate::of(session, text, source, file);
-            let done = AppliedFix { code: said.code, title: fix.title.clone() };
-            if next.is_better_than(base) {
-                return Some((next, vec![done]));
-            }
-            // Behind a name or a type that is wrong nothing is proved: mending it can uncover more than it
-            // removes.
-            let uncovers = ["M01", "M02", "M03"].iter().any(|stage| said.code.0.starts_with(stage));
-            let is_no_worse = next.count(Severity::Error) <= base.count(Severity::Error);
-            if said.severity == Severity::Error && (uncovers || is_no_worse) {
-                promising.push((next, done));
+    least: Applicability,
+    /// Number of documents that may still be checked.
+    tries: usize,
+}
+
+impl Search<'_> {
+    /// Finds the first version that is better than `base`, starting from `at`, with the fixes that lead to
+    /// it. Tries errors before warnings.
+    fn better(
+        &mut self,
+        base: &Candidate,
+        at: &Candidate,
+        depth: usize,
+    ) -> Option<(Candidate, Vec<AppliedFix>)> {
+        let mut order: Vec<_> = at.findings.iter().collect();
+        order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
+        let mut promising = Vec::new();
+        for found in order {
+            let said = &found.diagnostic;
+            for (fix, applicability) in found.fixes().filter(|(_, found)| *found >= self.least) {
+                self.tries = self.tries.checked_sub(1)?;
+                let Some(text) = apply(&at.text, self.file, fix) else { continue };
+                let next = Candidate::of(self.session, text, self.source, self.file);
+                let done = record(said.code, fix, applicability);
+                if next.is_better_than(base) {
+                    return Some((next, vec![done]));
+                }
+                // Behind a name or a type that is wrong nothing is proved: mending it can uncover more than
+                // it removes.
+                let uncovers = ["M01", "M02", "M03"].iter().any(|stage| said.code.0.starts_with(stage));
+                let is_no_worse = next.count(Severity::Error) <= base.count(Severity::Error);
+                if said.severity == Severity::Error && (uncovers || is_no_worse) {
+                    promising.push((next, done));
+                }
             }
         }
+        if depth == 0 {
+            return None;
+        }
+        promising.into_iter().find_map(|(next, done)| {
+            let (last, more) = self.better(base, &next, depth - 1)?;
+            Some((last, std::iter::once(done).chain(more).collect()))
+        })
     }
-    if depth == 0 {
-        return None;
-    }
-    promising.into_iter().find_map(|(next, done)| {
-        let (last, more) = better(session, source, file, base, &next, depth - 1, tries)?;
-        Some((last, std::iter::once(done).chain(more).collect()))
-    })
 }
 
 /// Applies all edits of a fix. `None` if an edit is about another file, lies outside the text or within a

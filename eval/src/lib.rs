@@ -2,6 +2,7 @@
 
 pub mod dialogue;
 pub mod dynamic;
+pub mod mutations;
 pub mod planbench;
 pub mod repairs;
 pub mod saycan;

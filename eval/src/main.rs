@@ -6,15 +6,20 @@
 //! - `saycan --planned` plans the instructions from their text instead, and exits with 0 if at least 60 % of
 //!   them are carried out.
 //! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot.
+//! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
+//!   passes without a word fails by a need that was not listed.
 //! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are
 //!   repaired.
 //! - `reach [SCENE|--rooms N --seed S]` asks motion queries.
 
 use std::io::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 
 use motet_eval::saycan::planned;
-use motet_eval::{Judged, dialogue, dynamic, planbench, repairs, saycan, scenarios, spread, summary};
+use motet_eval::{
+    Judged, dialogue, dynamic, mutations, planbench, repairs, saycan, scenarios, spread, summary,
+};
 
 /// Suite over the lines of a file.
 type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
@@ -58,14 +63,17 @@ fn run() -> Result<bool, String> {
     let usage = || {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
-            "usage: eval {} FILE [--json], eval dynamic TRIALS, or eval reach [SCENE|--rooms N --seed S] \
-             (`eval reach --help`)",
+            "usage: eval {} FILE [--json], eval dynamic TRIALS, eval mutations, or \
+             eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
             names.join("|")
         )
     };
     if let ["dynamic", count] = words.as_slice() {
         let count = count.parse().map_err(|_| usage())?;
         return shown(&changed(count)?, only_json);
+    }
+    if words == ["mutations"] {
+        return shown(&mutated()?, only_json);
     }
     let [name, file] = words.as_slice() else { return Err(usage()) };
     let known = SUITES.iter().find(|(known, _)| known == name);
@@ -141,6 +149,23 @@ fn changed(count: usize) -> Result<Report, String> {
         lines: notes.into_iter().chain(dynamic::table(&trials)).collect(),
         is_good: is_clean && good * 100 >= trials.len() * 95,
         summary: serde_json::json!({"total": trials.len(), "good": good}),
+    })
+}
+
+/// The folder of the examples.
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
+
+fn mutated() -> Result<Report, String> {
+    let ends = mutations::judge(mutations::mutants(Path::new(EXAMPLES))?, 0)?;
+    let notes = ends.iter().filter_map(|(mutant, end)| match end {
+        mutations::MutantEnd::Unlisted(why) => Some(format!("{}: {why}", mutant.name)),
+        _ => None,
+    });
+    let sums = mutations::summary(&ends);
+    Ok(Report {
+        lines: notes.collect(),
+        is_good: sums.unlisted * 50 <= sums.silent,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
     })
 }
 

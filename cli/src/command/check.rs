@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use motet_compiler::fix::fix;
+use motet_compiler::fix::{Applicability, FixLimits, fix};
 use motet_graph::{Graph, NodeKind, Verdict};
 use motet_project::files::Bytes;
 use motet_project::{DOCUMENT, Project, named_robot};
@@ -21,17 +21,44 @@ use crate::report::Report;
     motet check fetch_mug.motet --robot hsr --scene kitchen\n  \
     motet check policies/ --format sarif > findings.sarif\n  \
     motet check --fix reply.json --robot hsr --scene kitchen\n  \
+    motet check --diff --unsafe-fixes reply.json --robot hsr --scene kitchen\n  \
     cat reply.txt | motet check - --robot hsr")]
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     documents: DocumentArgs,
     #[command(flatten)]
     session: SessionArgs,
-    /// Apply fixes in place; for stdin, print the fixed document
+    #[command(flatten)]
+    fixes: FixArgs,
+    /// Refuse policies that leave a need or a motion to the run
     #[arg(long)]
-    fix: bool,
+    deny_deferred: bool,
     #[command(flatten)]
     format: FormatArgs,
+}
+
+/// Flags that choose which fixes are applied, and how.
+#[derive(Args, Clone, Copy, Debug)]
+struct FixArgs {
+    /// Apply safe fixes in place; for stdin, print the fixed document
+    #[arg(long)]
+    fix: bool,
+    /// Apply unsafe fixes too: they take steps away, or undo what the policy ends with
+    #[arg(long)]
+    unsafe_fixes: bool,
+    /// Print what the fixes would change, and write nothing
+    #[arg(long)]
+    diff: bool,
+}
+
+impl FixArgs {
+    fn is_fixing(self) -> bool {
+        self.fix || self.unsafe_fixes || self.diff
+    }
+
+    fn limits(self) -> FixLimits {
+        if self.unsafe_fixes { FixLimits::all(MAX_FIXES) } else { FixLimits::safe(MAX_FIXES) }
+    }
 }
 
 /// Maximum number of fixes that are applied to one document.
@@ -41,7 +68,7 @@ const MAX_FIXES: usize = 100;
 pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, CliError> {
     Report::run(args.format.format, colors, |report| {
         // The fixed document goes to stdout.
-        if args.fix && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
+        if args.fixes.is_fixing() && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
             report.hold();
         }
         check(args, report)
@@ -52,10 +79,19 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
     let inputs = documents::collect(&args.documents.paths)?;
     let mut project = args.session.project().open_with(report)?;
     let progress = Progress::new(inputs.inputs.len(), inputs.size, "checking");
-    let mut tally = Tally::default();
+    let mut tally = Tally { denies_deferred: args.deny_deferred, ..Tally::default() };
     for input in &inputs.inputs {
         let flow = input.documents(&mut |found| {
-            let found = if args.fix { tally.fix(found, &mut project, report)? } else { found };
+            let found = if args.fixes.is_fixing() {
+                tally.fix(found, args.fixes, &mut project, report)?
+            } else {
+                found
+            };
+            if args.fixes.diff {
+                // What a fix would leave is for the run that writes it.
+                tally.documents += 1;
+                return Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue });
+            }
             tally.add(&found, &mut project, report, &progress)?;
             Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue })
         })?;
@@ -65,11 +101,17 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
     }
     drop(progress);
     tally.print(&project, &inputs.skipped);
-    if args.fix {
+    if args.fixes.diff {
+        let fixes = count_irregular(tally.fixed, "fix", "fixes");
+        note(&format!("{fixes} would be applied to {}", count(tally.documents, "document")));
+        return Ok(if tally.fixed > 0 { Exit::Findings } else { Exit::Success });
+    }
+    if args.fixes.is_fixing() {
         note(&format!("applied {}", count_irregular(tally.fixed, "fix", "fixes")));
     }
     note(&format!("checked {}: {}", count(tally.documents, "document"), report.tally()));
-    Ok(if report.errors() > 0 { Exit::Findings } else { Exit::Success })
+    let is_refused = args.deny_deferred && tally.is_deferred();
+    Ok(if report.errors() > 0 || is_refused { Exit::Findings } else { Exit::Success })
 }
 
 /// Numbers for the summary, besides those of errors and warnings.
@@ -82,6 +124,10 @@ struct Tally {
     /// Documents with prose around the policy, which a rewrite would lose.
     replies: usize,
     motions: usize,
+    /// Steps with needs or motions that are left to the run.
+    left: usize,
+    /// True if nothing may be left to the run.
+    denies_deferred: bool,
     /// Motions that were not checked because of earlier errors.
     unseen: usize,
     /// Documents that were checked without a robot.
@@ -93,6 +139,7 @@ impl Tally {
     fn fix(
         &mut self,
         mut found: Document,
+        args: FixArgs,
         project: &mut Project,
         report: &mut Report,
     ) -> Result<Document, CliError> {
@@ -107,8 +154,22 @@ impl Tally {
         self.replies += usize::from(is_reply);
         if is_text && !is_reply {
             let opened = project.session_for(&parsed.file, report)?;
-            let fixed = fix(&opened.session, &source, DOCUMENT, MAX_FIXES);
+            let fixed = fix(&opened.session, &source, DOCUMENT, args.limits());
             self.fixed += fixed.applied.len();
+            for applied in &fixed.applied {
+                let kind = match applied.applicability {
+                    Applicability::Safe => "",
+                    Applicability::Unsafe | Applicability::Shown => "unsafe ",
+                };
+                let verb = if args.diff { "would fix" } else { "fixed" };
+                note(&format!("{verb} {}: {} ({kind}{})", found.name, applied.title, applied.code));
+            }
+            if args.diff {
+                if !fixed.applied.is_empty() {
+                    report.out.text(&diff(&found.name, &source.text, &fixed.text));
+                }
+                return Ok(found);
+            }
             if !fixed.applied.is_empty() {
                 if let Some(path) = &found.path {
                     let fail = |source| CliError::Write { path: path.clone(), source };
@@ -117,7 +178,7 @@ impl Tally {
                 found.bytes = Bytes::All(fixed.text.into_bytes());
             }
         }
-        if let (true, Bytes::All(bytes)) = (is_stdin, &found.bytes) {
+        if let (true, false, Bytes::All(bytes)) = (is_stdin, args.diff, &found.bytes) {
             report.out.text(&String::from_utf8_lossy(bytes));
         }
         Ok(found)
@@ -132,6 +193,7 @@ impl Tally {
     ) -> Result<(), CliError> {
         self.documents += 1;
         let (source, parsed) = found.parse();
+        let has_scene = project.has_scene();
         let opened = project.session_for(&parsed.file, report)?;
         if opened.robot.is_none() && parsed.file.runnable().next().is_some() {
             self.without_robot += usize::from(named_robot(&parsed.file).is_none());
@@ -144,11 +206,21 @@ impl Tally {
         if let Bytes::All(bytes) = &found.bytes {
             progress.advance(bytes.len());
         }
-        if !checked.diagnostics.is_empty() {
+        self.left += checked.left_to_run.len();
+        // Without a scene nearly everything is left to the run.
+        let lists_left = self.denies_deferred || has_scene;
+        let left = checked.left_to_run.into_iter().filter(|_| lists_left);
+        let diagnostics: Vec<_> = checked.diagnostics.into_iter().chain(left).collect();
+        if !diagnostics.is_empty() {
             let sources = opened.sources(source);
-            progress.suspend(|| report.print(&checked.diagnostics, &sources));
+            progress.suspend(|| report.print(&diagnostics, &sources));
         }
         Ok(())
+    }
+
+    /// Returns whether anything is left to the run.
+    fn is_deferred(&self) -> bool {
+        self.left + self.motions > 0
     }
 
     fn print(&self, project: &Project, skipped: &[PathBuf]) {
@@ -187,7 +259,20 @@ impl Tally {
             };
             note(&format!("note: {} {what}{why}", were(motions)));
         }
+        if self.left > 0 && !project.has_scene() && !self.denies_deferred {
+            let steps = count(self.left, "step");
+            note(&format!("note: needs of {steps} are left to the run (--scene NAME decides more)"));
+        }
+        if self.denies_deferred && self.is_deferred() {
+            note("refused by --deny-deferred: not everything is decided before the run");
+        }
     }
+}
+
+/// Changes of a document as a unified diff.
+fn diff(name: &str, before: &str, after: &str) -> String {
+    let changes = similar::TextDiff::from_lines(before, after);
+    changes.unified_diff().header(name, name).to_string()
 }
 
 fn were(motions: usize) -> String {

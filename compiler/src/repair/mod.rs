@@ -53,16 +53,37 @@ pub(crate) enum Repair {
     Watch(StepId, Fluent),
 }
 
+/// Degree to which a fix may be applied without asking.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Applicability {
+    /// Only shown: it names a thing that the document does not name.
+    Shown,
+    /// Applied on request: it takes a step away, or undoes what the policy has done.
+    Unsafe,
+    /// Applied: it corrects the spelling, or adds what a step or the goal lacks.
+    Safe,
+}
+
 /// A diagnostic with the fixes that are known for it beside its own, the best first.
 #[derive(Clone, Debug)]
 pub(crate) struct Finding {
     pub(crate) diagnostic: Diagnostic,
-    pub(crate) alternatives: Vec<Fix>,
+    /// Of the fix in the diagnostic.
+    pub(crate) applicability: Applicability,
+    pub(crate) alternatives: Vec<(Fix, Applicability)>,
+}
+
+impl Finding {
+    /// All fixes, the best first.
+    pub(crate) fn fixes(&self) -> impl Iterator<Item = (&Fix, Applicability)> {
+        let own = self.diagnostic.fix.iter().map(|fix| (fix, self.applicability));
+        own.chain(self.alternatives.iter().map(|(fix, applicability)| (fix, *applicability)))
+    }
 }
 
 impl From<Diagnostic> for Finding {
     fn from(diagnostic: Diagnostic) -> Self {
-        Self { diagnostic, alternatives: Vec::new() }
+        Self { diagnostic, applicability: Applicability::Safe, alternatives: Vec::new() }
     }
 }
 
@@ -106,11 +127,17 @@ impl RepairFinder {
                     && known.message == diagnostic.message
             });
             let repairs = known.map(|known| known.repairs.as_slice()).unwrap_or_default();
-            let mut fixes = repairs.iter().filter_map(|repair| writer.fix(repair));
+            let mut fixes = repairs
+                .iter()
+                .filter_map(|repair| Some((writer.fix(repair)?, writer.applicability(repair, code))));
             if diagnostic.fix.is_none() {
-                let own = fixes.next();
-                diagnostic.fix =
-                    own.or_else(|| writer.leaving_out(diagnostic)).or_else(|| writer.only_one(diagnostic));
+                let unreachable = || Some((writer.leaving_out(diagnostic)?, Applicability::Safe));
+                let only_one = || Some((writer.only_one(diagnostic)?, Applicability::Shown));
+                let own = fixes.next().or_else(unreachable).or_else(only_one);
+                (diagnostic.fix, found.applicability) = match own {
+                    Some((fix, applicability)) => (Some(fix), applicability),
+                    None => (None, found.applicability),
+                };
             }
             found.alternatives = fixes.collect();
         }

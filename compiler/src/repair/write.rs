@@ -5,10 +5,10 @@ use motet_syntax::{Code, Diagnostic, Edit, Fix, Parsed, Span, Syntax, print};
 use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::Repair;
+use super::{Applicability, Repair};
 use crate::declare::Library;
 use crate::environment::Environment;
-use crate::ir::{BindingId, Fluent, Program, Step, StepId, StepKind, Term};
+use crate::ir::{BindingId, Fluent, Kind, Program, Step, StepId, StepKind, Term};
 use crate::plan::achievers::{CandidateCall, spell_call};
 
 /// New names of bindings.
@@ -49,6 +49,35 @@ impl Writer<'_> {
                 })
             }
         }
+    }
+
+    /// Degree to which a repair of a code may be applied without asking.
+    pub(super) fn applicability(&self, repair: &Repair, code: Code) -> Applicability {
+        match repair {
+            Repair::Before(_, calls) | Repair::After(_, calls) if !self.are_named(calls) => {
+                Applicability::Shown
+            }
+            // A lint of intent: what the policy ends with may be what it is for.
+            Repair::Before(..) | Repair::After(..) if code.0.starts_with("M09") => Applicability::Unsafe,
+            Repair::Before(..) | Repair::After(..) | Repair::Again { .. } | Repair::Watch(..) => {
+                Applicability::Safe
+            }
+            Repair::Drop(_) => Applicability::Unsafe,
+        }
+    }
+
+    /// Returns whether the document names every entity in calls, by its name or by a description.
+    fn are_named(&self, calls: &[CandidateCall]) -> bool {
+        let entities = calls.iter().flat_map(|call| &call.args).filter_map(|arg| match arg {
+            Term::Entity(entity) => Some(*entity),
+            _ => None,
+        });
+        entities.into_iter().all(|entity| {
+            let is_described =
+                |text: &SmolStr| self.environment.described(self.library, text, Kind::ROOT).contains(&entity);
+            let mut texts = self.program.bindings.iter().flat_map(|binding| &binding.descriptions).flatten();
+            texts.any(is_described) || has_word(&self.parsed.text, &self.environment.name(entity))
+        })
     }
 
     /// Puts a monitor around a step that binds no value.
@@ -306,6 +335,18 @@ impl Writer<'_> {
         }
         Some(Edit { span, text: String::new() })
     }
+}
+
+/// Checks if a text has a name as a whole word.
+fn has_word(text: &str, name: &str) -> bool {
+    let is_part = |letter: char| letter.is_alphanumeric() || letter == '_';
+    !name.is_empty()
+        && text.match_indices(name).any(|(at, _)| {
+            let (before, after) = (text.get(..at), text.get(at + name.len()..));
+            let joins = |letter: Option<char>| letter.is_some_and(is_part);
+            !joins(before.and_then(|before| before.chars().next_back()))
+                && !joins(after.and_then(|after| after.chars().next()))
+        })
 }
 
 /// Checks if a text is a step or an ending and no name.

@@ -12,6 +12,7 @@ mod words;
 
 use std::time::Instant;
 
+use motet_compiler::fix::FixLimits;
 use motet_compiler::{CheckOptions, Session};
 use motet_robots::card::Robot;
 use motet_syntax::ast::Item;
@@ -87,7 +88,7 @@ pub fn repair(line: &str) -> Result<Option<Repair>, String> {
         return Ok(None);
     }
     let Prepared { written, session, source, file } = prepare(&row)?;
-    let fixed = motet_compiler::fix::fix(&session, &source, file, ROUNDS);
+    let fixed = motet_compiler::fix::fix(&session, &source, file, FixLimits::all(ROUNDS));
     let said = session.check(&motet_syntax::read(&Source::new("plan.json", fixed.text), file));
     let left = verdict::first(&said, &written).map(|found| {
         let (code, message) = (found.said.code, &found.said.message);

@@ -9,6 +9,7 @@
 
 mod dialogue;
 mod dynamic;
+mod mutations;
 mod planbench;
 mod saycan;
 mod scenarios;

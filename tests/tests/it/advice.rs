@@ -61,7 +61,8 @@ fn diagnostics_forgotten_sign_is_mended() {
     let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
     let steps = format!(r#"{DETECT}, {{"do": "pick", "object": "mug"}}"#);
     let document = format!(r#"{{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{steps}]}}"#);
-    let fixed = motet_compiler::fix::fix(&session, &Source::new("p", document), Default::default(), 10);
+    let limits = motet_compiler::fix::FixLimits::safe(10);
+    let fixed = motet_compiler::fix::fix(&session, &Source::new("p", document), Default::default(), limits);
     assert!(fixed.text.contains(r#""object": "$mug""#), "{}", fixed.text);
 }
 

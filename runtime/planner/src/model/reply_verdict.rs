@@ -1,6 +1,6 @@
 //! Verdict on a whole reply: its policy after known fixes, or its errors.
 
-use motet_compiler::fix::AppliedFix;
+use motet_compiler::fix::{AppliedFix, FixLimits};
 use motet_compiler::plan::Persistence;
 use motet_compiler::{Session, fix, make_explicit};
 use motet_graph::NodeKind;
@@ -80,7 +80,7 @@ fn is_spelling(fix: &AppliedFix) -> bool {
 /// A document after known fixes, with these fixes; `None` if errors remain.
 pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<AppliedFix>)> {
     let source = Source::new(name(document), document);
-    let fixed = fix::fix(session, &source, FileId(0), MOST_FIXES);
+    let fixed = fix::fix(session, &source, FileId(0), FixLimits::safe(MOST_FIXES));
     if fixed.applied.is_empty() || !errors(fixed.diagnostics).is_empty() {
         return None;
     }
