@@ -141,6 +141,15 @@ pub(crate) trait Domain<'p> {
     /// The collected states as a path; `None` without any.
     fn collected(&self, states: &Self::Collector) -> Option<Self::Path>;
 
+    /// Leads from the mark of a `try` to the states in which a handler starts. Returns false if there are none.
+    fn follow_failures(&mut self, states: &Self::Collector) -> bool {
+        let failed = self.collected(states);
+        if let Some(failed) = &failed {
+            self.follow(failed);
+        }
+        failed.is_some()
+    }
+
     /// Enters a step. Returns false if it is known to be unreachable.
     fn enter(&mut self, id: StepId) -> bool;
     /// Transfer function of a call.
@@ -281,11 +290,10 @@ pub(crate) trait Domain<'p> {
         for (catch, Handler { states, kinds, .. }) in catches.iter().zip(&handlers) {
             self.begin_handler(catch, kinds);
             self.restore(&mark);
-            let Some(failed) = self.collected(states) else {
+            if !self.follow_failures(states) {
                 self.skip(&catch.body);
                 continue;
-            };
-            self.follow(&failed);
+            }
             self.block(&catch.body);
             self.end_handler(catch, kinds);
             if self.is_live() {

@@ -77,6 +77,7 @@ names! {
     }
     /// Failures that the compiler derives from guards, geometry and control flow.
     failures {
+        AMBIGUOUS = "ambiguous"
         BLOCKED = "blocked"
         EXHAUSTED = "exhausted"
         FAILED = "failed"

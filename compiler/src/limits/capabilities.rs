@@ -12,7 +12,7 @@ use super::errors::{
 use crate::declare::name::{list, near};
 use crate::declare::{Library, ResourceSet};
 use crate::environment::Environment;
-use crate::ir::{Base, Block, Call, Condition, Program, Step, StepKind, Term, Ty};
+use crate::ir::{Base, Block, BlockSlot, Call, Condition, Failure, Program, Step, StepKind, Term, Ty};
 
 pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Diagnostic>) {
     for step in steps {
@@ -162,8 +162,11 @@ pub(super) fn check_descriptions(
         let Some(def) = def.filter(|def| def.form == PrimitiveKind::Perception) else { continue };
         let (Some(text), Some(kind)) = (call.text(), def.result.and_then(Ty::kind)) else { continue };
         let callee = def.name.clone();
+        let items = &library.lang_items;
         match environment.described(library, text, kind).as_slice() {
             [_] => {}
+            [] if is_caught(program, step, items.not_found) => {}
+            [_, _, ..] if is_caught(program, step, items.ambiguous) => {}
             [] => {
                 let fitting =
                     environment.entities().iter().filter(|(.., other)| library.is_kind(*other, kind));
@@ -176,6 +179,21 @@ pub(super) fn check_descriptions(
             }
         }
     }
+}
+
+/// Returns whether a handler around a step catches a failure by its name.
+fn is_caught(program: &Program, step: &Step, failure: Option<Failure>) -> bool {
+    let mut at = step.position;
+    while let Some(around) = at.parent.and_then(|id| program.step(id)) {
+        if let (BlockSlot::Try, StepKind::Try { catches, .. }) = (at.slot, &around.kind) {
+            let mut named = catches.iter().flat_map(|catch| catch.on.iter().flatten());
+            if named.any(|(kind, _)| Some(*kind) == failure) {
+                return true;
+            }
+        }
+        at = around.position;
+    }
+    false
 }
 
 /// First user of each set of resources in a block.

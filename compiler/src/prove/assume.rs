@@ -8,7 +8,7 @@ use crate::ir::{Condition, Fluent};
 /// Maximal number of joins that are remembered.
 const MAX_PARTITIONS: usize = 8;
 /// Maximal number of paths of a join that are kept apart.
-const MAX_WAYS: usize = 8;
+pub(super) const MAX_WAYS: usize = 24;
 /// Number of writes after which a join is forgotten.
 const MAX_AGE: usize = 1000;
 

@@ -81,12 +81,28 @@ impl<'a> Domain<'a> for Prover<'a> {
         Collector::new(self.state.facts.mark())
     }
 
-    fn collect(&self, into: &mut Collector, _exit: Exit) {
-        into.see(&self.state.facts);
+    fn collect(&self, into: &mut Collector, exit: Exit) {
+        match exit {
+            Exit::Failure => into.see_way(&self.state.facts),
+            Exit::Done => into.see(&self.state.facts),
+        }
     }
 
     fn collected(&self, states: &Collector) -> Option<Delta> {
         states.hit.then(|| states.delta())
+    }
+
+    /// Keeps the paths to a handler apart, so that a test there shows how far the body got.
+    fn follow_failures(&mut self, states: &Collector) -> bool {
+        match (states.ways(), self.collected(states)) {
+            (_, None) => return false,
+            (Some(ways), Some(_)) => {
+                let partition = self.state.facts.join(ways);
+                self.remember(partition);
+            }
+            (None, Some(joined)) => self.state.facts.replay(&joined),
+        }
+        true
     }
 
     fn enter(&mut self, id: StepId) -> bool {

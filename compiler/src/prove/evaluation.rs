@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 
 use super::Prover;
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
-use crate::ir::{Condition, Entity, Fact, Fluent, Kind, Term};
+use crate::ir::{Base, Condition, Entity, Fact, Fluent, Kind, Term};
 
 /// Meaning of a contract's parameters, result and quantified variable at one call.
 #[derive(Clone, Copy, Debug, Default)]
@@ -49,13 +49,22 @@ impl Prover<'_> {
         let mut key = FactKey(0);
         for (index, term) in fact.args.iter().enumerate() {
             let arg = match term {
-                None => ANY,
+                None => self.only_case(fact.fluent, index).unwrap_or(ANY),
                 Some(Term::Each) if frame.each.is_none() => ANY,
                 Some(term) => self.argument(term, frame)?,
             };
             key = key.with(index, arg);
         }
         Some(key)
+    }
+
+    /// The case that `any` stands for, where the enumeration of a parameter has one: the hand of a robot with
+    /// one hand.
+    fn only_case(&self, fluent: Fluent, index: usize) -> Option<u16> {
+        let (_, ty) = self.library.fluent(fluent)?.params.get(index)?;
+        let Base::Enum(of) = ty.base else { return None };
+        let cases = &self.library.enums.get(of.index())?.cases;
+        (ty.lists == 0 && cases.len() == 1).then_some(0)
     }
 
     /// Value of a single fact, resolved through symbols.

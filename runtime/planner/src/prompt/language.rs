@@ -8,7 +8,7 @@ use motet_compiler::{Session, make_explicit};
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
-use motet_syntax::ast::{Clause, ExprKind, PrimitiveDecl, Quantified};
+use motet_syntax::ast::{Block, Clause, ExprKind, PrimitiveDecl, Quantified, StepKind};
 use motet_syntax::{FileId, Severity, Source, Syntax, print};
 use smol_str::SmolStr;
 
@@ -18,6 +18,10 @@ use crate::builtin;
 const STEPS: &str = include_str!("../../prompt/language.txt");
 /// Advice on planning.
 const ADVICE: &str = include_str!("../../prompt/advice.txt");
+
+/// Policies that search for a thing, for robots of different kinds.
+const EXAMPLES: [&str; 2] =
+    [include_str!("../../prompt/example.json"), include_str!("../../prompt/example_with_postures.json")];
 
 /// Descriptions for the example of a thing that the room does not list.
 const UNLISTED: [&str; 3] = ["blue cup", "tennis ball", "pink umbrella"];
@@ -31,12 +35,12 @@ pub struct StaticPrompt {
     pub(super) contracts: String,
     /// The robot's primitives without needs and failures.
     pub(super) signatures: String,
-    /// Example requests with their policies, two at most.
-    pub(super) examples: Vec<String>,
+    /// Example request with its policy; empty if the robot has none.
+    pub(super) example: String,
 }
 
 impl StaticPrompt {
-    /// Writes the parts. Only examples that pass the check are in them; the first is planned in the session.
+    /// Writes the parts. Only examples that pass the check are in them.
     #[must_use]
     pub fn new(session: &Session, robot: &Robot, scene: &Scene) -> Self {
         let bare = session.with_scene(Some(scene), None);
@@ -45,10 +49,9 @@ impl StaticPrompt {
             rules: format!("{}\n{steps}\n{conditions}\n{ADVICE}", form(robot)),
             contracts: primitives(session, Detail::Contracts),
             signatures: primitives(session, Detail::Signatures),
-            examples: [planned_example(session, robot, scene), searching_example(&bare, robot, scene)]
-                .into_iter()
-                .flatten()
-                .collect(),
+            example: searching_example(&bare, robot, scene)
+                .or_else(|| planned_example(session, robot, scene))
+                .unwrap_or_default(),
         }
     }
 }
@@ -102,9 +105,11 @@ fn passes(session: &Session, policy: &str, stages: &[&str]) -> bool {
 fn conditions(signatures: &Signatures) -> String {
     // The name of a parameter says which entity it stands for.
     let params = |params: &[(SmolStr, Type)]| {
-        let params = params.iter().map(|(name, ty)| match ty {
-            Type::Entity(_) => name.to_string(),
-            _ => format!("{name}: {}", signatures.type_name(ty)),
+        let params = params.iter().map(|(name, ty)| match (ty, cases(ty, signatures)) {
+            (_, Some(cases)) if !cases.contains('|') => cases,
+            (_, Some(cases)) => format!("{name}: {cases}"),
+            (Type::Entity(_), None) => name.to_string(),
+            (_, None) => format!("{name}: {}", signatures.type_name(ty)),
         });
         params.collect::<Vec<_>>().join(", ")
     };
@@ -147,6 +152,12 @@ fn conditions(signatures: &Signatures) -> String {
     text
 }
 
+/// The cases of an enumeration: `auto|top|side|front`.
+fn cases(ty: &Type, signatures: &Signatures) -> Option<String> {
+    let Type::Enum(id) = ty else { return None };
+    signatures.enums.get(*id).map(|known| known.cases.join("|"))
+}
+
 /// Amount of detail about a primitive.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Detail {
@@ -176,11 +187,7 @@ fn primitives(session: &Session, detail: Detail) -> String {
 /// `pick(object: Object, from: auto|top|side|front = auto)`
 fn signature(callable: &Callable, signatures: &Signatures) -> String {
     let params = callable.params.iter().map(|param| {
-        let ty = match &param.ty {
-            Type::Enum(id) => signatures.enums.get(*id).map(|known| known.cases.join("|")),
-            _ => None,
-        };
-        let ty = ty.unwrap_or_else(|| signatures.type_name(&param.ty));
+        let ty = cases(&param.ty, signatures).unwrap_or_else(|| signatures.type_name(&param.ty));
         let default = param.default.as_ref().map(|default| format!(" = {}", print::expression(default)));
         format!("{}: {ty}{}", param.name, default.unwrap_or_default())
     });
@@ -245,8 +252,26 @@ fn planned_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<St
     let request = format!("bring me the {}", motet_requests::called(object));
     let answered = builtin::answer(session, Some(robot), &request, &RequestContext::new(scene)).ok()?;
     let mut policy = answered.planned.parsed.file.policies().next()?.clone();
+    policy.achieves = None;
+    let mut in_text = policy.clone();
+    make_explicit(&mut in_text, session.library(), Syntax::Text);
     make_explicit(&mut policy, session.library(), Syntax::Json);
+    take_conditions(&mut policy.body, in_text.body);
     Some(format!("# Example: {request}\n{}\n", one_line(&print::policy_json(&policy))))
+}
+
+/// Takes the conditions of monitors from the same steps in text form, so that the example has one form.
+fn take_conditions(steps: &mut Block, from: Block) {
+    for (step, from) in steps.steps.iter_mut().zip(from.steps) {
+        if let (StepKind::Monitor { whens, body }, StepKind::Monitor { whens: written, body: inner }) =
+            (&mut step.kind, from.kind)
+        {
+            for (when, written) in whens.iter_mut().zip(written) {
+                when.condition = written.condition;
+            }
+            take_conditions(body, inner);
+        }
+    }
 }
 
 /// A request for a thing that the room does not list: search at two places, catch, guard, and put the room
@@ -260,17 +285,20 @@ fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<
     };
     let container = scene.entities.values().find(is_shut)?;
     let [a, b] = [first, second].map(motet_requests::called);
-    let policy = include_str!("../../prompt/example.json")
-        .replace("WHAT", what)
-        .replace("ROBOT", &robot.name)
-        .replace("FIRST_ID", &first.id)
-        .replace("SECOND_ID", &second.id)
-        .replace("CONTAINER_ID", &container.id)
-        .replace("FIRST", &a)
-        .replace("SECOND", &b);
+    let filled = |template: &str| {
+        let policy = template
+            .replace("WHAT", what)
+            .replace("ROBOT", &robot.name)
+            .replace("FIRST_ID", &first.id)
+            .replace("SECOND_ID", &second.id)
+            .replace("CONTAINER_ID", &container.id)
+            .replace("FIRST", &a)
+            .replace("SECOND", &b);
+        one_line(&policy)
+    };
+    let policy = EXAMPLES.into_iter().map(filled).find(|policy| passes(session, policy, &["M"]))?;
     let request = format!("put the {what} in the {}", motet_requests::called(container));
-    let policy = one_line(&policy);
-    passes(session, &policy, &["M"]).then(|| format!("# Example: {request}\n{policy}\n"))
+    Some(format!("# Example: {request}\n{policy}\n"))
 }
 
 /// JSON without line breaks and indents.

@@ -1,5 +1,5 @@
 //! The prompt: the language and the primitives of the robot, the room in words, the present state, earlier
-//! requests, two examples, and the request. The same inputs give the same text within a token budget; only a
+//! requests, an example, and the request. The same inputs give the same text within a token budget; only a
 //! motion search that takes too long leaves something out.
 
 mod language;
@@ -69,19 +69,17 @@ impl Prompt<'_> {
     pub fn write(&self, request: &str) -> Written {
         let named = motet_requests::named(request, self.situation);
         let room = |entities: &dyn Fn(&SmolStr) -> bool| room::entities(self.situation, entities);
-        let examples = &self.lasting.examples;
         let mut parts: Vec<Part> = vec![
             ("what the primitives need and how they fail", self.lasting.contracts.clone()),
-            ("the second example", examples.get(1).cloned().unwrap_or_default()),
             ("things that the request does not name", room(&|id| !named.contains(id))),
             ("what was done", self.done()),
-            ("the first example", examples.first().cloned().unwrap_or_default()),
+            ("the example", self.lasting.example.clone()),
         ];
         let mut left_out = Vec::new();
         let fixed = [
             self.lasting.rules.clone(),
             room(&|id| named.contains(id)),
-            room::now(self.situation, self.memory),
+            room::now(self.situation, self.session, self.memory),
             told(&seen(self.session, self.robot, self.scene, &named, self.time)),
             format!("# Request\n{}\n", request.trim()),
         ];
@@ -100,14 +98,14 @@ impl Prompt<'_> {
         }
         let text = |index: usize| parts.get(index).map(|(_, text)| text.as_str()).unwrap_or_default();
         let [rules, things, now, seen, asked] = fixed;
-        let others = text(2);
+        let others = text(1);
         let room = match (things.is_empty(), others.is_empty()) {
             (true, true) => String::new(),
             (false, true) => format!("# In the room, among other things\n{things}"),
             (true | false, false) => format!("# In the room\n{things}{others}"),
         };
-        let system = join(&[&rules, text(0), text(4), text(1)]);
-        let user = join(&[&room, &now, &seen, text(3), &asked]);
+        let system = join(&[&rules, text(0), text(3)]);
+        let user = join(&[&room, &now, &seen, text(2), &asked]);
         let tokens = (system.len() + user.len()).div_ceil(BYTES_PER_TOKEN);
         Written { system, user, tokens, left_out }
     }
@@ -117,6 +115,9 @@ impl Prompt<'_> {
         let entries = self.memory.entries();
         let skipped = entries.len().saturating_sub(LATEST).max(1);
         let lines: String = entries.skip(skipped).map(|entry| format!("- {entry}\n")).collect();
+        if lines.is_empty() && self.memory.latest_failure().is_none() {
+            return String::new();
+        }
         format!("# What was asked and done\n{}{lines}", self.memory.short())
     }
 }

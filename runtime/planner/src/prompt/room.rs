@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use motet_compiler::{Access, Session};
+use motet_graph::Value;
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
@@ -37,6 +38,9 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
                 }
             }
         }
+        if entity.kind == "Container" && entity.travel.is_none() {
+            text.push_str("; always open");
+        }
         for (is, word) in [
             (entity.open, ["open", "closed"]),
             (entity.locked, ["locked", ""]),
@@ -53,9 +57,9 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
     }
     text
 }
-/// Position of the robot, the thing in its hand, and the steps that run.
-pub(super) fn now(situation: &RequestContext<'_>, memory: &Memory) -> String {
-    let robot = situation.supports.iter().rev().find(|(id, _)| id == "robot");
+/// Position of the robot, the thing in its hand, what is known of the robot, and the steps that run.
+pub(super) fn now(situation: &RequestContext<'_>, session: &Session, memory: &Memory) -> String {
+    let robot = situation.supports.iter().rev().find(|(id, _)| id == ROBOT);
     let place = match robot {
         Some((_, place)) => place.clone(),
         None => situation.scene.robot.at.clone(),
@@ -70,12 +74,46 @@ pub(super) fn now(situation: &RequestContext<'_>, memory: &Memory) -> String {
         (None, Some(_)) => "holds nothing".to_owned(),
         (None, None) => "may hold something".to_owned(),
     };
-    let mut text = format!("# Now\nThe robot {stands} and {holds}.\n");
+    let mut text = format!("# Now\nThe robot {stands} and {holds}.");
+    let mut known: Vec<(String, bool)> = Vec::new();
+    for fact in session.initial_facts().filter(|fact| fact.args.iter().all(is_robot)) {
+        let args: Vec<&str> = fact.args.iter().filter_map(name).collect();
+        let atom = format!("{}({})", fact.fluent, args.join(", "));
+        known.retain(|(other, _)| *other != atom);
+        known.push((atom, fact.holds));
+    }
+    if !known.is_empty() {
+        let known =
+            known.iter().map(|(atom, holds)| if *holds { atom.clone() } else { format!("not {atom}") });
+        text.push_str(&format!(" Known: {}.", known.collect::<Vec<_>>().join(", ")));
+    }
+    text.push('\n');
     for step in memory.running() {
         text.push_str(&format!("It is running {}.\n", step.call));
     }
     text
 }
+
+/// Returns true if an argument of a fact is the robot or a part of it.
+fn is_robot(arg: &Option<Value>) -> bool {
+    name(arg).is_some_and(|name| name == ROBOT || matches!(arg, Some(Value::Case(_))))
+}
+
+/// Name of an entity or a case.
+fn name(arg: &Option<Value>) -> Option<&str> {
+    match arg.as_ref()? {
+        Value::Entity(name) | Value::Case(name) => Some(name),
+        Value::Bool(_)
+        | Value::Int(_)
+        | Value::Number(_)
+        | Value::Text(_)
+        | Value::Pose(_)
+        | Value::List(_) => None,
+    }
+}
+
+/// Name of the robot in facts.
+const ROBOT: &str = "robot";
 
 /// Visibility and reachability of one thing.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -155,9 +193,9 @@ pub(crate) fn told(seen: &[Sighting]) -> String {
     }
     let lines = seen.iter().map(|one| {
         let sight = match one.seen {
-            Some(true) => "seen",
-            Some(false) => "not seen",
-            None => "not known whether seen",
+            Some(true) => "seen, ",
+            Some(false) => "not seen, ",
+            None => "",
         };
         let reach = match &one.feasible {
             Reachability::AsFarAsNumbersTell => "feasible".to_owned(),
@@ -166,7 +204,7 @@ pub(crate) fn told(seen: &[Sighting]) -> String {
             Reachability::Hardly(why) => format!("no motion was found, which proves nothing: {why}"),
             Reachability::Unknown(why) => format!("not known whether feasible: {why}"),
         };
-        format!("- {}: {sight}, {reach}\n", one.id)
+        format!("- {}: {sight}{reach}\n", one.id)
     });
     format!("# What the request names\n{}", lines.collect::<String>())
 }
