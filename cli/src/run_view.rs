@@ -107,6 +107,7 @@ fn summary(
             });
             (Status::Failed, format!("failed with `{}`{at}", escape(kind)), why.clone())
         }
+        RunEnd::Declined { why } => (Status::Interrupted, "declined".to_owned(), why.clone()),
         RunEnd::Replan { why } => (Status::Failed, "asks for a new plan".to_owned(), why.clone()),
         RunEnd::Interrupted => (Status::Interrupted, "interrupted".to_owned(), None),
         RunEnd::Fault(fault) => {

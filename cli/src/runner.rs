@@ -159,7 +159,8 @@ impl Runner<'_> {
 pub(crate) const fn exit_of(end: &RunEnd) -> Exit {
     match end {
         RunEnd::Done { .. } => Exit::Success,
-        RunEnd::Failed { .. } | RunEnd::Replan { .. } | RunEnd::Fault(_) => Exit::Failed,
+        RunEnd::Failed { .. } | RunEnd::Declined { .. } | RunEnd::Replan { .. } => Exit::Failed,
+        RunEnd::Fault(_) => Exit::Failed,
         RunEnd::Interrupted => Exit::Interrupted,
     }
 }

@@ -8,52 +8,16 @@
 //! A domain says for itself how monitors and parallel branches interfere with the steps beside them, since
 //! facts are weakened one by one and worlds are lost as a whole.
 
+mod enclosing;
+
 use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
 
+pub(crate) use self::enclosing::{Enclosing, Ended, Handler, Leaving};
 use crate::declare::Library;
 use crate::ir::{
     BindingId, Call, Catch, Condition, Failure, Program, Reaction, StepId, StepKind, TIMEOUT, When,
 };
-
-/// A construct around the present step, which catches control that leaves the step.
-#[derive(Clone, Debug)]
-pub(crate) enum Enclosing<C> {
-    /// A `try` with its handlers.
-    Try { handlers: Vec<Handler<C>> },
-    /// An inlined policy, with the states in which it is done.
-    Inline { step: StepId, exits: C },
-    /// A monitor, with all states of its body.
-    Monitor { states: C },
-}
-
-/// A handler of an enclosing `try`.
-#[derive(Clone, Debug)]
-pub(crate) struct Handler<C> {
-    /// Failures that it catches; `None` for any.
-    on: Option<Vec<Failure>>,
-    /// States in which it starts.
-    states: C,
-    /// Failures that reach it.
-    kinds: Vec<Failure>,
-}
-
-impl<C> Enclosing<C> {
-    /// The collectors of states.
-    pub(crate) fn collectors(&mut self) -> impl Iterator<Item = &mut C> {
-        let (handlers, one): (&mut [Handler<C>], _) = match self {
-            Self::Try { handlers } => (handlers, None),
-            Self::Inline { exits: states, .. } | Self::Monitor { states } => (&mut [], Some(states)),
-        };
-        handlers.iter_mut().map(|handler| &mut handler.states).chain(one)
-    }
-
-    /// The handler of a failure.
-    pub(crate) fn handler(&mut self, kind: Failure) -> Option<&mut Handler<C>> {
-        let Self::Try { handlers } = self else { return None };
-        handlers.iter_mut().find(|handler| handler.on.as_ref().is_none_or(|kinds| kinds.contains(&kind)))
-    }
-}
 
 /// Reason for which control leaves the straight path.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -136,6 +100,12 @@ pub(crate) trait Domain<'p> {
 
     /// An empty collector for states of paths from here.
     fn collector(&self) -> Self::Collector;
+    /// An empty collector for states of paths from where another collector began.
+    fn collector_at(&self, other: &Self::Collector) -> Self::Collector;
+    /// The states of a block in which something interrupts it, as a path; `None` without any.
+    fn anywhere(&self, states: &Self::Collector, _block: &'p [StepId]) -> Option<Self::Path> {
+        self.collected(states)
+    }
     /// Adds the present states to a collector.
     fn collect(&self, into: &mut Self::Collector, exit: Exit);
     /// The collected states as a path; `None` without any.
@@ -191,6 +161,10 @@ pub(crate) trait Domain<'p> {
     }
     /// Drops later findings, because a walk that counts follows.
     fn drop_findings(&mut self, _since: (usize, usize)) {}
+    /// Enters a cleanup, which the monitors around it may no longer watch.
+    fn begin_cleanup(&mut self) {}
+    /// Leaves a cleanup.
+    fn end_cleanup(&mut self) {}
     /// Checks a handler, which these failures reach, before its first step.
     fn begin_handler(&mut self, _catch: &Catch, _kinds: &[Failure]) {}
     /// Checks a handler after its last step.
@@ -227,6 +201,8 @@ pub(crate) trait Domain<'p> {
                 self.throw(Some(TIMEOUT), usize::MAX);
                 self.await_at(id, condition);
             }
+            StepKind::Delay { .. } => {}
+            StepKind::Finally { body, cleanup } => self.protect(id, body, cleanup),
             StepKind::Monitor { whens, body } => self.monitor(id, whens, body),
             StepKind::Try { body, catches } => self.attempt(body, catches),
             StepKind::Repeat { times, body, until } => {
@@ -414,8 +390,14 @@ pub(crate) trait Domain<'p> {
         let is_it = |enclosing: &Enclosing<Self::Collector>| match enclosing {
             Enclosing::Inline { step, .. } => Some(*step) == of,
             Enclosing::Try { .. } | Enclosing::Monitor { .. } => false,
+            Enclosing::Finally(_) | Enclosing::Cleanup(_) => false,
         };
+        // Some endings end the whole policy, wherever they stand.
+        let of = of.filter(|_| matches!(kind, EndKind::Done | EndKind::Fail));
         let depth = self.enclosing().iter().rposition(is_it);
+        if self.leave(Ended { id, kind, of, span }, depth) {
+            return self.stop();
+        }
         match (kind, of, depth) {
             (EndKind::Done, None, _) => self.done(id, span),
             (EndKind::Done, Some(_), Some(depth)) => {
@@ -426,9 +408,118 @@ pub(crate) trait Domain<'p> {
                 *self.enclosing() = enclosing;
             }
             (EndKind::Fail, Some(_), Some(depth)) => self.throw(self.failed(), depth),
-            (EndKind::Fail | EndKind::Replan, _, _) | (EndKind::Done, Some(_), None) => {}
+            (EndKind::Fail | EndKind::Cannot | EndKind::Replan, _, _) => {}
+            (EndKind::Done, Some(_), None) => {}
         }
         self.stop();
+    }
+
+    /// Lets the innermost cleanup inside of `depth` collect the present states, in which the policy ends.
+    /// Returns false if there is none.
+    fn leave(&mut self, ended: Ended, depth: Option<usize>) -> bool {
+        let mut enclosing = std::mem::take(self.enclosing());
+        let inside = enclosing.iter_mut().skip(depth.map_or(0, |depth| depth + 1)).rev();
+        let mut cleanups = inside.filter_map(|enclosing| match enclosing {
+            Enclosing::Finally(leaving) => Some(leaving),
+            Enclosing::Try { .. } | Enclosing::Inline { .. } | Enclosing::Monitor { .. } => None,
+            Enclosing::Cleanup(_) => None,
+        });
+        let found = cleanups.next();
+        let is_found = found.is_some();
+        if let Some(leaving) = found {
+            let is_same = |other: &Ended| other.kind == ended.kind && other.of == ended.of;
+            match leaving.ended.iter_mut().find(|(other, _)| is_same(other)) {
+                Some((_, states)) => self.collect(states, Exit::Done),
+                None => {
+                    let mut states = self.collector_at(&leaving.failed);
+                    self.collect(&mut states, Exit::Done);
+                    leaving.ended.push((ended, states));
+                }
+            }
+        }
+        *self.enclosing() = enclosing;
+        is_found
+    }
+
+    /// Walks over a block with a cleanup. The cleanup is walked from each way on which control leaves the
+    /// block, and behind it the way goes on; then once from all of them, for the verdicts on its steps.
+    fn protect(&mut self, id: StepId, body: &'p [StepId], cleanup: &'p [StepId]) {
+        let mark = self.mark();
+        let is_interruptible = self.program().is_interruptible(id);
+        let mut interrupted = is_interruptible.then(|| self.collector());
+        if let Some(states) = &mut interrupted {
+            self.collect(states, Exit::Failure);
+        }
+        let (failed, kinds, ended) = (self.collector(), Vec::new(), Vec::new());
+        let leaving = Leaving { failed, kinds, ended, interrupted };
+        self.enclosing().push(Enclosing::Finally(Box::new(leaving)));
+        self.block(body);
+        let end = self.is_live().then(|| self.path(&mark));
+        let Some(Enclosing::Finally(leaving)) = self.enclosing().pop() else { return };
+        let Leaving { failed, kinds, ended, interrupted } = *leaving;
+        self.restore(&mark);
+        if !self.enter_fixpoint(id) {
+            return;
+        }
+        let mut entries: Vec<Self::Path> = Vec::with_capacity(2);
+        entries.extend(end.clone());
+        let mut ways = Vec::with_capacity(1 + ended.len());
+        let failed = (None, &failed);
+        for (ended, states) in ended.iter().map(|(ended, states)| (Some(*ended), states)).chain([failed]) {
+            let Some(path) = self.collected(states) else { continue };
+            entries.push(path.clone());
+            ways.push((self.cleaned(&mark, &path, cleanup), ended));
+        }
+        if let Some(path) = interrupted.and_then(|states| self.anywhere(&states, body)) {
+            entries.push(path.clone());
+            // What interrupted the block goes on from any of its states, and from those of its cleanup.
+            self.cleaned(&mark, &path, cleanup);
+        }
+        let end = end.map(|path| self.cleaned(&mark, &path, cleanup));
+        self.join(&mark, &entries);
+        self.clean(cleanup);
+        self.leave_fixpoint();
+        for (path, ended) in ways {
+            self.restore(&mark);
+            let Some(path) = path else { continue };
+            self.follow(&path);
+            match ended {
+                Some(Ended { id, kind, of, span }) => self.end(id, kind, of, span),
+                None => self.throw_all(&kinds),
+            }
+        }
+        self.restore(&mark);
+        self.join(&mark, end.flatten().as_slice());
+    }
+
+    /// The states behind a cleanup that begins at the end of a path, as a path; `None` if there are none. Its
+    /// findings are dropped.
+    fn cleaned(&mut self, mark: &Self::Mark, path: &Self::Path, cleanup: &'p [StepId]) -> Option<Self::Path> {
+        let findings = self.findings();
+        self.restore(mark);
+        self.follow(path);
+        self.clean(cleanup);
+        let end = self.is_live().then(|| self.path(mark));
+        self.drop_findings(findings);
+        self.restore(mark);
+        end
+    }
+
+    /// Walks over the steps of a cleanup, a failure of which leads behind it.
+    fn clean(&mut self, cleanup: &'p [StepId]) {
+        let mark = self.mark();
+        let handler = Handler { on: None, states: self.collector(), kinds: Vec::new() };
+        self.enclosing().push(Enclosing::Cleanup(handler));
+        self.begin_cleanup();
+        self.block(cleanup);
+        self.end_cleanup();
+        let Some(Enclosing::Cleanup(handler)) = self.enclosing().pop() else { return };
+        let mut paths = Vec::with_capacity(2);
+        if self.is_live() {
+            paths.push(self.path(&mark));
+        }
+        paths.extend(self.collected(&handler.states));
+        self.join(&mark, &paths);
     }
 
     /// Throws a failure in the present states: the innermost handler below `depth` that catches it collects
@@ -437,11 +528,11 @@ pub(crate) trait Domain<'p> {
         let Some(kind) = kind else { return };
         let mut enclosing = std::mem::take(self.enclosing());
         let mut around = enclosing.iter_mut().take(depth).rev();
-        if let Some(handler) = around.find_map(|enclosing| enclosing.handler(kind)) {
+        if let Some((states, kinds)) = around.find_map(|enclosing| enclosing.catcher(kind)) {
             // The same state for another kind adds nothing but the kind.
-            self.collect(&mut handler.states, Exit::Failure);
-            if !handler.kinds.contains(&kind) {
-                handler.kinds.push(kind);
+            self.collect(states, Exit::Failure);
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
             }
         }
         *self.enclosing() = enclosing;

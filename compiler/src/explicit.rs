@@ -34,6 +34,7 @@ pub fn make_explicit(policy: &mut Policy, library: &Library, form: Syntax) {
         writer.condition(goal);
     }
     writer.block(&mut policy.body);
+    policy.cleanup.iter_mut().for_each(|cleanup| writer.block(cleanup));
 }
 
 struct Writer<'a> {
@@ -65,6 +66,11 @@ impl Writer<'_> {
             StepKind::Wait { condition, within } => {
                 self.condition(condition);
                 self.optional(within.as_mut(), Ty::DURATION);
+            }
+            StepKind::Delay { time } => self.term(time, Some(Ty::DURATION)),
+            StepKind::Finally { step, cleanup } => {
+                self.step(&mut step.kind);
+                self.block(cleanup);
             }
             StepKind::Monitor { whens, body } => {
                 for when in whens {

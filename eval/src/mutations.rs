@@ -232,7 +232,9 @@ impl Setting {
                 }
             }
             RunEnd::Fault(fault) => MutantEnd::Unlisted(format!("{fault:?}")),
-            RunEnd::Done { .. } | RunEnd::Replan { .. } | RunEnd::Interrupted => MutantEnd::Passed,
+            RunEnd::Done { .. } | RunEnd::Declined { .. } | RunEnd::Replan { .. } | RunEnd::Interrupted => {
+                MutantEnd::Passed
+            }
         }
     }
 }

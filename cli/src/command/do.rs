@@ -61,6 +61,10 @@ fn plan_and_run(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Ex
     Ok(match &outcome {
         Outcome::Done => Exit::Success,
         Outcome::Stopped => Exit::Interrupted,
+        Outcome::Declined(why) => {
+            note(&format!("declined{}{why}", if why.is_empty() { "" } else { ": " }));
+            Exit::Failed
+        }
         Outcome::GivenUp => {
             note("given up");
             Exit::Failed

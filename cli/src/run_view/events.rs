@@ -89,6 +89,13 @@ impl Events {
                     json!({"watch": watch, "when": when, "truth": word(*truth)}),
                 );
             }
+            TraceEventKind::CleanupSkipped { node } => {
+                self.write(at, "cleanup_skipped", Some(*node), json!({}));
+            }
+            TraceEventKind::CleanupFailed { node, failure } => {
+                let failure = self.failures.name(&graph, *failure);
+                self.write(at, "cleanup_failed", Some(*node), json!({"failure": failure}));
+            }
             TraceEventKind::WentOn { node, watch } => {
                 self.write(at, "went_on", Some(*node), json!({"watch": watch}));
             }
@@ -151,6 +158,7 @@ impl View for Events {
             RunEnd::Failed { kind, why, node } => {
                 ("failed", Some(*node), json!({"failure": kind.as_str(), "why": why}))
             }
+            RunEnd::Declined { why } => ("declined", None, json!({"why": why})),
             RunEnd::Replan { why } => ("replan", None, json!({"why": why})),
             RunEnd::Interrupted => ("interrupted", None, json!({})),
             RunEnd::Fault(fault) => ("fault", None, json!({"why": fault.to_string()})),

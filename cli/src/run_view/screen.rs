@@ -159,6 +159,7 @@ impl Lines {
                 true
             }
             TraceEventKind::GoalEnded { .. } | TraceEventKind::Tested { .. } => true,
+            TraceEventKind::CleanupFailed { .. } | TraceEventKind::CleanupSkipped { .. } => true,
             TraceEventKind::Kept { .. } | TraceEventKind::Updated { .. } => true,
             TraceEventKind::Ended { ending, .. } => self.is_leaf(node) || *ending != NodeEnding::Success,
             TraceEventKind::Guard { truth, .. } => *truth != motet_runtime::Truth::True,
@@ -191,7 +192,7 @@ impl Lines {
     }
 
     fn is_leaf(&self, node: NodeId) -> bool {
-        self.is_call(node) || matches!(self.kind(node), Some(NodeKind::Wait { .. }))
+        self.is_call(node) || matches!(self.kind(node), Some(NodeKind::Wait { .. } | NodeKind::Delay { .. }))
     }
 }
 

@@ -136,6 +136,10 @@ impl Tree {
             TraceEventKind::Fired { node, watch, .. } => {
                 (*node, Some(format!("fired: {}", watched(&graph, *node, *watch))))
             }
+            TraceEventKind::CleanupSkipped { node } => (*node, Some("not cleaned up".to_owned())),
+            TraceEventKind::CleanupFailed { node, failure } => {
+                (*node, Some(format!("the cleanup failed: {}", self.failures.name(&graph, *failure))))
+            }
             TraceEventKind::WentOn { node, .. } => (*node, Some("went on".to_owned())),
             TraceEventKind::Swapped { .. } => return None,
             TraceEventKind::Kept { node, .. } => (*node, Some("goes on".to_owned())),
@@ -148,6 +152,8 @@ impl Tree {
                     | NodeKind::Inline { .. }
                     | NodeKind::If { .. }
                     | NodeKind::Wait { .. }
+                    | NodeKind::Delay { .. }
+                    | NodeKind::Finally { .. }
                     | NodeKind::Monitor { .. }
                     | NodeKind::Try { .. }
                     | NodeKind::Repeat { .. }
@@ -269,7 +275,12 @@ enum Open {
 fn branches(graph: &Graph, kind: &NodeKind, depth: usize, open: &mut Vec<Open>) {
     let inner = depth + 1;
     match kind {
-        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => {}
+        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {}
+        NodeKind::Finally { body, cleanup } => {
+            open.push(Open::Region(*body, inner));
+            open.push(Open::Heading("finally".to_owned(), depth));
+            open.push(Open::Region(*cleanup, inner));
+        }
         NodeKind::Sequence { body, .. }
         | NodeKind::Inline { body, .. }
         | NodeKind::Repeat { body, .. }

@@ -14,7 +14,7 @@ use thiserror::Error;
 
 /// Version of the encoding: the one that is written, and the only one that is read. 2 since motions have
 /// witnesses.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// Size limit of a document in bytes.
 pub const MAX_BYTES: usize = 64 * 1024 * 1024;
 

@@ -154,6 +154,9 @@ motet_syntax::mistakes! {
             }
             Unbound::Handler => format!("`{name}` is bound in the `try`, which may have failed before"),
             Unbound::OtherWay => format!("`{name}` is bound on another way, which does not lead here"),
+            Unbound::Cleanup => {
+                format!("`{name}` is bound in what the `finally` cleans up, which may have ended before")
+            }
             Unbound::Loop => format!("`{name}` is bound in an `each`, which may have no round"),
             Unbound::Reaction => format!("`{name}` is bound in a reaction, which may never run"),
             Unbound::Beside => format!("`{name}` is bound in another branch, which runs at the same time"),
@@ -163,7 +166,7 @@ motet_syntax::mistakes! {
         }
     }
     help(m) {
-        let (name, endings) = (&m.name, "`done`, `replan` or `fail`");
+        let (name, endings) = (&m.name, "`done`, `replan`, `cannot` or `fail`");
         Some(match &m.reason {
             Unbound::Way { .. } => format!("bind `{name}` there too, or end that way with {endings}"),
             Unbound::NoElse(_) => {
@@ -171,6 +174,7 @@ motet_syntax::mistakes! {
             }
             Unbound::Handler => format!("bind `{name}` before the `try`, or by a step of the handler"),
             Unbound::OtherWay => format!("bind `{name}` on this way too, or before the ways part"),
+            Unbound::Cleanup => format!("bind `{name}` before that step, or by a step of the `finally`"),
             Unbound::Loop => format!("use `{name}` inside the loop"),
             Unbound::Reaction => format!("bind `{name}` before the monitor, or in its body"),
             Unbound::Beside => format!("use `{name}` behind the `parallel`, or bind it before"),
@@ -184,6 +188,7 @@ motet_syntax::mistakes! {
             Unbound::TwoBranches { second } => Some(Related::new("and here", *second)),
             Unbound::Handler
             | Unbound::OtherWay
+            | Unbound::Cleanup
             | Unbound::Loop
             | Unbound::Reaction
             | Unbound::Beside => None,

@@ -38,6 +38,8 @@ pub(crate) enum Unbound {
     Handler,
     /// It is bound on another way through the step.
     OtherWay,
+    /// A cleanup sees only what was bound before the step that it cleans up.
+    Cleanup,
     /// An `each` may have no round.
     Loop,
     /// A reaction of a monitor may never run.

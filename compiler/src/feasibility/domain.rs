@@ -287,6 +287,19 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
         Worlds::default()
     }
 
+    fn collector_at(&self, _other: &Worlds) -> Worlds {
+        Worlds::default()
+    }
+
+    /// A block that moves something may be anywhere in its motions.
+    fn anywhere(&self, states: &Worlds, block: &'a [StepId]) -> Option<Worlds> {
+        if self.moves_in(block) {
+            let why = "something may have interrupted a motion before";
+            return Some(Worlds::lost(SmolStr::new_static(why)));
+        }
+        self.collected(states)
+    }
+
     fn collect(&self, into: &mut Worlds, exit: Exit) {
         let worlds = self.worlds.clone();
         into.join(if exit == Exit::Failure { worlds.uncertain() } else { worlds });

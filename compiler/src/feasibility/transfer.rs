@@ -13,7 +13,7 @@ use super::domain::{MotionChecker, PossibleWorld, Worlds};
 use super::geometry::SceneChange;
 use super::motion::{MotionEffect, failures, makes, motion_effect, motion_query, moves_blindly, side_of};
 use super::verdict::MotionVerdict;
-use crate::analysis::Domain;
+use crate::analysis::{Domain, Enclosing};
 use crate::declare::PrimitiveDef;
 use crate::ir::{Call, Entity, ROBOT, START, StepId, Term};
 
@@ -105,7 +105,9 @@ impl MotionChecker<'_> {
     fn is_caught(&mut self, def: &PrimitiveDef, reason: &InfeasibleReason) -> bool {
         let mut failures = failures(self.library, reason).into_iter().flatten();
         let Some(failure) = failures.find(|failure| def.fails.contains(failure)) else { return false };
-        self.enclosing().iter_mut().any(|around| around.handler(failure).is_some())
+        let around = self.enclosing().iter().rev();
+        let inside = around.take_while(|around| !matches!(around, Enclosing::Cleanup(_)));
+        inside.into_iter().any(|around| around.handles(failure))
     }
 
     /// Worlds after a motion that was found in a possible world.

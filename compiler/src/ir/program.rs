@@ -28,6 +28,31 @@ impl Program {
         self.steps.get(id.index())
     }
 
+    /// Returns whether something around a step can interrupt it: a monitor, or a sibling branch that fails.
+    pub(crate) fn is_interruptible(&self, id: StepId) -> bool {
+        let mut slot = self.step(id).map(|step| step.position.slot);
+        self.around(id).any(|(_, outer)| {
+            let inside = slot.replace(outer.position.slot);
+            matches!(inside, Some(BlockSlot::During | BlockSlot::Reaction(_) | BlockSlot::Branch(_)))
+        })
+    }
+
+    /// Returns whether an ending of a step stands in a cleanup that it would leave: of the policy, or of the
+    /// inlined policy `of`.
+    pub(crate) fn leaves_cleanup(&self, id: StepId, of: Option<StepId>) -> bool {
+        let mut slot = self.step(id).map(|step| step.position.slot);
+        for (outer, step) in self.around(id) {
+            if slot == Some(BlockSlot::Finally) {
+                return true;
+            }
+            if Some(outer) == of {
+                return false;
+            }
+            slot = Some(step.position.slot);
+        }
+        false
+    }
+
     /// Ancestors of a step, innermost first.
     pub(crate) fn around(&self, id: StepId) -> impl Iterator<Item = (StepId, &Step)> {
         let outer = |id: StepId| {
@@ -128,6 +153,11 @@ pub(crate) enum BlockSlot {
     Branch(u16),
     /// Body of an inlined policy.
     Inlined,
+    /// The step that a `finally` stands behind, or a whole policy with its cleanup.
+    Protected,
+    /// A whole inlined policy with its cleanup.
+    InlinedWhole,
+    Finally,
 }
 
 /// Kinds of steps.
@@ -152,6 +182,15 @@ pub(crate) enum StepKind {
     Wait {
         condition: Condition,
         within_secs: f64,
+    },
+    /// Blocks for a time.
+    Delay {
+        secs: f64,
+    },
+    /// A block with its cleanup, which runs once, however the block is left.
+    Finally {
+        body: Block,
+        cleanup: Block,
     },
     Monitor {
         whens: Vec<When>,
@@ -192,7 +231,9 @@ impl StepKind {
     /// Blocks of the step, in document order.
     pub(crate) fn blocks(&self) -> SmallVec<[&Block; 2]> {
         match self {
-            Self::Call(_) | Self::Wait { .. } | Self::End { .. } | Self::Unknown => SmallVec::new(),
+            Self::Call(_) | Self::Wait { .. } | Self::Delay { .. } => SmallVec::new(),
+            Self::End { .. } | Self::Unknown => SmallVec::new(),
+            Self::Finally { body, cleanup } => smallvec![body, cleanup],
             Self::Sequence { body, .. }
             | Self::Inline { body, .. }
             | Self::Repeat { body, .. }
@@ -212,6 +253,24 @@ impl StepKind {
         }
     }
 
+    /// Endings of the step itself, each with the inlined policy that it ends.
+    pub(crate) fn endings(&self) -> SmallVec<[(EndKind, Option<StepId>); 1]> {
+        match self {
+            Self::End { kind, of, .. } => smallvec![(*kind, *of)],
+            Self::Monitor { whens, .. } => {
+                let endings = whens.iter().filter_map(|when| match &when.reaction {
+                    Reaction::End { kind, of, .. } => Some((*kind, *of)),
+                    Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::Resume { .. } => None,
+                });
+                endings.collect()
+            }
+            Self::Call(_) | Self::Sequence { .. } | Self::Inline { .. } | Self::If { .. } => SmallVec::new(),
+            Self::Wait { .. } | Self::Delay { .. } | Self::Finally { .. } => SmallVec::new(),
+            Self::Try { .. } | Self::Repeat { .. } | Self::Each { .. } => SmallVec::new(),
+            Self::Parallel { .. } | Self::Unknown => SmallVec::new(),
+        }
+    }
+
     /// Conditions of the step itself, in document order.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = &Condition> {
         let (one, whens): (_, &[When]) = match self {
@@ -222,6 +281,8 @@ impl StepKind {
             | Self::Sequence { .. }
             | Self::Inline { .. }
             | Self::Try { .. }
+            | Self::Delay { .. }
+            | Self::Finally { .. }
             | Self::Each { .. }
             | Self::Parallel { .. }
             | Self::End { .. }

@@ -59,6 +59,11 @@ pub(crate) trait Rewrite {
                 otherwise.iter_mut().for_each(|block| self.block(block));
             }
             StepKind::Wait { condition, .. } => self.condition(condition),
+            StepKind::Delay { .. } => {}
+            StepKind::Finally { body, cleanup } => {
+                self.block(body);
+                self.block(cleanup);
+            }
             StepKind::Monitor { whens, body } => {
                 for when in whens {
                     self.condition(&mut when.condition);

@@ -1,18 +1,20 @@
 //! Capabilities of the robot: its primitives, ranges and observations.
 
-use motet_syntax::ast::{Policy, PrimitiveKind};
+use motet_syntax::ast::{EndKind, Policy, PrimitiveKind};
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
 use super::errors::{
-    Ambiguous, BeyondRange, Missing, NotObservable, NotProvided, OtherRobot, ResourceConflict, UnknownRobot,
-    Unused,
+    Ambiguous, BeyondRange, EndsCleanup, Missing, NotObservable, NotProvided, OtherRobot, ResourceConflict,
+    UnknownRobot, Unused,
 };
 use crate::declare::name::{list, near};
 use crate::declare::{Library, ResourceSet};
 use crate::environment::Environment;
-use crate::ir::{Base, Block, BlockSlot, Call, Condition, Failure, Program, Step, StepKind, Term, Ty};
+use crate::ir::{
+    Base, Block, BlockSlot, Call, Condition, Failure, Program, Step, StepId, StepKind, Term, Ty,
+};
 
 pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Diagnostic>) {
     for step in steps {
@@ -31,6 +33,8 @@ pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Dia
             StepKind::Sequence { .. }
             | StepKind::Inline { .. }
             | StepKind::Try { .. }
+            | StepKind::Delay { .. }
+            | StepKind::Finally { .. }
             | StepKind::Repeat { until: None, .. }
             | StepKind::Each { .. }
             | StepKind::Parallel { .. }
@@ -136,6 +140,25 @@ pub(crate) fn check_robot_name(policy: &Policy, library: &Library) -> Option<Dia
         let (near, known) = (near(&name, known()), list(known().map(SmolStr::new_static)));
         UnknownRobot { span, name, near, known }.into()
     })
+}
+
+/// Checks that no cleanup from step `first` on is left by an ending of its own.
+pub(super) fn check_cleanups(program: &Program, first: usize, diagnostics: &mut Vec<Diagnostic>) {
+    for (index, step) in program.steps.iter().enumerate().skip(first) {
+        let Ok(id) = u32::try_from(index).map(StepId) else { return };
+        for (kind, of) in step.kind.endings() {
+            let (ending, of) = match kind {
+                EndKind::Done => ("done", of),
+                EndKind::Fail => ("fail", of),
+                // These end the whole policy, wherever they stand.
+                EndKind::Cannot => ("cannot", None),
+                EndKind::Replan => ("replan", None),
+            };
+            if program.leaves_cleanup(id, of) {
+                diagnostics.push(EndsCleanup { span: step.span, ending }.into());
+            }
+        }
+    }
 }
 
 pub(super) fn check_descriptions(

@@ -63,6 +63,11 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
             (then.0.min(otherwise.0), then.1.max(otherwise.1) + observe)
         }
         StepKind::Wait { within_secs, .. } => (0.0, *within_secs),
+        StepKind::Delay { secs } => (*secs, *secs),
+        StepKind::Finally { body, cleanup } => {
+            let body = block(body);
+            (body.0, body.1 + block(cleanup).1)
+        }
         StepKind::Monitor { whens, body } => {
             let body = block(body);
             let mut greatest = body.1;
@@ -107,11 +112,13 @@ fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagno
         StepKind::Each { body, .. } => ("`each`", body),
         StepKind::Monitor { body, .. } => ("`monitor`", body),
         StepKind::Try { body, .. } => ("`try`", body),
+        StepKind::Finally { cleanup, .. } => ("`finally`", cleanup),
         StepKind::Call(_)
         | StepKind::Sequence { .. }
         | StepKind::Inline { .. }
         | StepKind::If { .. }
         | StepKind::Wait { .. }
+        | StepKind::Delay { .. }
         | StepKind::Parallel { .. }
         | StepKind::End { .. }
         | StepKind::Unknown => return,

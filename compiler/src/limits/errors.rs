@@ -89,6 +89,11 @@ motet_syntax::mistakes! {
     message(m) { format!("this {} has no steps", m.what) }
     help(_m) { Some("add a step, or remove it".to_owned()) }
 
+    /// Ending inside a cleanup.
+    EndsCleanup("M0805", Error) { ending: &'static str }
+    message(m) { format!("`{}` would end a `finally` before it has cleaned up", m.ending) }
+    help(_m) { Some("end the policy before the `finally` or behind it".to_owned()) }
+
     /// A binding is never used.
     Unused("M0901", Warning) { name: SmolStr, of_each: bool }
     message(m) { format!("`{}` is never used", m.name) }

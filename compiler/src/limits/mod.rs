@@ -23,6 +23,7 @@ pub(crate) fn check(
     let mut diagnostics = Vec::new();
     capabilities::check(&program.steps, library, &mut diagnostics);
     capabilities::check_resources(&program, 0, library, &mut diagnostics);
+    capabilities::check_cleanups(&program, 0, &mut diagnostics);
     durations::fill_in(&mut program, library, max_duration_secs, &mut diagnostics);
     capabilities::check_descriptions(&program, library, environment, &mut diagnostics);
     (program, diagnostics)
@@ -34,5 +35,6 @@ pub(crate) fn check_from(program: &Program, first: usize, library: &Library) -> 
     let mut diagnostics = Vec::new();
     capabilities::check(program.steps.get(first..).unwrap_or_default(), library, &mut diagnostics);
     capabilities::check_resources(program, first, library, &mut diagnostics);
+    capabilities::check_cleanups(program, first, &mut diagnostics);
     diagnostics
 }

@@ -82,9 +82,9 @@ fn number(program: &Program, id: StepId) -> String {
     let file = program.span.file;
     let chain = std::iter::once(id).chain(program.around(id).map(|(id, _)| id));
     let own = chain.filter_map(|id| program.step(id)).filter(|step| step.span.file == file);
-    let parts = own.map(|step| {
+    let parts = own.filter_map(|step| {
         let number = step.position.index + 1;
-        match step.position.slot {
+        let part = match step.position.slot {
             BlockSlot::Steps | BlockSlot::Inlined => number.to_string(),
             BlockSlot::Then => format!("then.{number}"),
             BlockSlot::Else => format!("else.{number}"),
@@ -93,7 +93,11 @@ fn number(program: &Program, id: StepId) -> String {
             BlockSlot::During => format!("during.{number}"),
             BlockSlot::Reaction(index) => format!("monitor.{}.{number}", index + 1),
             BlockSlot::Branch(index) => format!("parallel.{}.{number}", index + 1),
-        }
+            BlockSlot::Finally => format!("finally.{number}"),
+            // It has no place of its own.
+            BlockSlot::Protected | BlockSlot::InlinedWhole => return None,
+        };
+        Some(part)
     });
     let mut parts: Vec<SmolStr> = parts.map(SmolStr::from).collect();
     parts.reverse();

@@ -173,6 +173,11 @@ impl Lowering<'_> {
                 condition: self.tables.condition(condition, &[], None),
                 within_secs: *within_secs,
             },
+            StepKind::Delay { secs } => graph::NodeKind::Delay { secs: *secs },
+            StepKind::Finally { body, cleanup } => {
+                let body = self.region(body, owner);
+                graph::NodeKind::Finally { body, cleanup: self.region(cleanup, owner) }
+            }
             StepKind::Monitor { whens, body } => {
                 let mut watches = Vec::with_capacity(whens.len());
                 for when in whens {
@@ -227,11 +232,12 @@ impl Lowering<'_> {
         let how = match kind {
             EndKind::Done => graph::Ending::Done,
             EndKind::Fail => graph::Ending::Fail,
+            EndKind::Cannot => graph::Ending::Cannot,
             EndKind::Replan => graph::Ending::Replan,
         };
-        // `replan` ends the whole policy, wherever it stands.
+        // These end the whole policy, wherever they stand.
         let of = of
-            .filter(|_| kind != EndKind::Replan)
+            .filter(|_| matches!(kind, EndKind::Done | EndKind::Fail))
             .and_then(|step| self.ids.get(step.index()).copied().flatten());
         (how, of, why.map(|why| self.tables.term(why, &[], None)))
     }

@@ -333,6 +333,9 @@ pub(crate) fn pointer(program: &Program, step: StepId) -> SmolStr {
             BlockSlot::Reaction(watch) => write!(path, "/monitor/{watch}/then/steps/{index}"),
             BlockSlot::Branch(branch) => write!(path, "/parallel/{branch}/{index}"),
             BlockSlot::Inlined => write!(path, ":/steps/{index}"),
+            BlockSlot::Protected => Ok(()),
+            BlockSlot::InlinedWhole => write!(path, ":"),
+            BlockSlot::Finally => write!(path, "/finally/{index}"),
         };
     }
     path.into()

@@ -107,12 +107,17 @@ impl Collector {
 }
 
 impl Prover<'_> {
-    /// Lets enclosing monitors collect the present state, in which they may fire.
+    /// Lets enclosing monitors collect the present state, in which they may fire, and enclosing cleanups,
+    /// which may begin in it.
     pub(crate) fn see_states(&mut self) {
         let (enclosing, facts) = (&mut self.control.enclosing, &self.state.facts);
         for enclosing in enclosing {
-            if let Enclosing::Monitor { states } = enclosing {
-                states.see(facts);
+            match enclosing {
+                Enclosing::Monitor { states } => states.see(facts),
+                Enclosing::Finally(leaving) => {
+                    leaving.interrupted.iter_mut().for_each(|states| states.see(facts));
+                }
+                Enclosing::Try { .. } | Enclosing::Inline { .. } | Enclosing::Cleanup(_) => {}
             }
         }
     }

@@ -81,6 +81,10 @@ impl<'a> Domain<'a> for Prover<'a> {
         Collector::new(self.state.facts.mark())
     }
 
+    fn collector_at(&self, other: &Collector) -> Collector {
+        Collector::new(other.mark)
+    }
+
     fn collect(&self, into: &mut Collector, exit: Exit) {
         match exit {
             Exit::Failure => into.see_way(&self.state.facts),
@@ -196,6 +200,15 @@ impl<'a> Domain<'a> for Prover<'a> {
         }
         self.diagnostics.truncate(diagnostics);
         self.states_at_point.truncate(states_at_point);
+    }
+
+    fn begin_cleanup(&mut self) {
+        let watched = std::mem::take(&mut self.state.watched);
+        self.control.unwatched.push(watched);
+    }
+
+    fn end_cleanup(&mut self) {
+        self.state.watched = self.control.unwatched.pop().unwrap_or_default();
     }
 
     fn begin_handler(&mut self, catch: &Catch, kinds: &[Failure]) {

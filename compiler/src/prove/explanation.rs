@@ -252,6 +252,8 @@ impl Prover<'_> {
                 StepKind::Sequence { .. }
                 | StepKind::Inline { .. }
                 | StepKind::Try { .. }
+                | StepKind::Delay { .. }
+                | StepKind::Finally { .. }
                 | StepKind::End { .. }
                 | StepKind::Unknown,
             )

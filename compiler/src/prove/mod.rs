@@ -158,6 +158,8 @@ impl<'w> AbstractState<'w> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Control {
     enclosing: Vec<Enclosing<Collector>>,
+    /// What is watched around each enclosing cleanup, and not in it.
+    unwatched: Vec<Vec<Watched>>,
     /// The call that is being proved.
     pub(crate) here: Option<StepId>,
     /// False if no path leads here.

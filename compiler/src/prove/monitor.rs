@@ -91,12 +91,15 @@ impl<'a> Prover<'a> {
 
     /// Returns whether a reaction leaves the policy, or only waits, so that it needs no proof.
     fn is_outside(&self, when: &When) -> bool {
-        let caught =
-            self.control.enclosing.iter().any(|enclosing| matches!(enclosing, Enclosing::Try { .. }));
+        let around = &self.control.enclosing;
+        let cleaned = around.iter().any(|enclosing| matches!(enclosing, Enclosing::Finally(_)));
+        let catches =
+            |enclosing: &Enclosing<_>| matches!(enclosing, Enclosing::Try { .. } | Enclosing::Cleanup(_));
+        let caught = cleaned || around.iter().any(catches);
         let outside = match &when.reaction {
             Reaction::Pause { .. } => !caught,
-            Reaction::End { kind: EndKind::Fail | EndKind::Replan, of: None, .. } => true,
-            Reaction::End { kind: EndKind::Replan, .. } => true,
+            Reaction::End { kind: EndKind::Fail, of: None, .. } => !cleaned,
+            Reaction::End { kind: EndKind::Cannot | EndKind::Replan, .. } => !cleaned,
             Reaction::Restart { .. } | Reaction::Resume { .. } | Reaction::End { .. } => false,
         };
         outside && !constant(&when.condition)

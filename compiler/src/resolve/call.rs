@@ -216,7 +216,7 @@ impl StepResolver<'_> {
         }
         let (outer, is_done) = (self.inline.replace(id), std::mem::take(&mut self.is_done));
         self.calls.push(name.clone());
-        let body = self.in_text(|steps| steps.block(&policy.body, Some(id), BlockSlot::Inlined));
+        let body = self.in_text(|steps| steps.whole(policy, Some(id)));
         self.calls.pop();
         self.inline = outer;
         self.goes_on |= std::mem::replace(&mut self.is_done, is_done);

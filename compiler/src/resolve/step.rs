@@ -7,11 +7,11 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::ResolvedStep;
 use super::errors::{Shadows, TooManySteps};
-use super::way::Fork;
+use super::way::{Fork, without_value};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::errors::{NotACondition, UnknownFailure, WrongType};
 use crate::declare::gap::Unbound;
-use crate::declare::name::{Scope, list, near};
+use crate::declare::name::{Scope, ScopeMark, list, near};
 use crate::ir::{self, Base, Binding, BindingId, BlockSlot, Program, StepId, StepPosition, Term, Ty};
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
@@ -82,10 +82,40 @@ impl<'a> StepResolver<'a> {
                 binding.uses = 1;
             }
         }
-        self.program.body = self.block(&policy.body, None, BlockSlot::Steps);
+        self.program.body = self.whole(policy, None);
         let mut program = std::mem::take(&mut self.program);
         program.bindings = std::mem::take(&mut self.elaborator.bindings);
         program
+    }
+
+    /// Resolves the steps of a policy, with its cleanup as one step around them; `call` is the step that
+    /// inlines it.
+    pub(super) fn whole(&mut self, policy: &Policy, call: Option<StepId>) -> ir::Block {
+        let (steps, whole) = match call {
+            None => (BlockSlot::Steps, BlockSlot::Protected),
+            Some(_) => (BlockSlot::Inlined, BlockSlot::InlinedWhole),
+        };
+        let Some(cleanup) = &policy.cleanup else { return self.block(&policy.body, call, steps) };
+        let position = StepPosition { parent: call, slot: whole, index: 0 };
+        let Some(id) = self.reserve(policy.body.span, position) else { return Vec::new() };
+        let (scope, goes_on) = (self.elaborator.scope.mark(), self.goes_on);
+        let body = self.block(&policy.body, Some(id), BlockSlot::Steps);
+        let cleanup = self.cleanup(cleanup, id, (scope, goes_on));
+        self.fill(id, ir::StepKind::Finally { body, cleanup }).into_iter().collect()
+    }
+
+    /// Resolves the cleanup of a step or policy. It sees only the names from before what it cleans up, since
+    /// control may have come from anywhere in there, and what it binds is its own.
+    fn cleanup(&mut self, cleanup: &Block, of: StepId, (before, goes_on): (ScopeMark, bool)) -> ir::Block {
+        let outside = std::mem::replace(&mut self.goes_on, goes_on);
+        let bound = self.elaborator.scope.take_since(before);
+        let mark = self.elaborator.scope.mark();
+        self.elaborator.scope.extend(bound.iter().map(|entry| without_value(entry, &Unbound::Cleanup)));
+        let steps = self.block(cleanup, Some(of), BlockSlot::Finally);
+        self.elaborator.scope.back_to(mark);
+        self.elaborator.scope.extend(bound);
+        self.goes_on = outside;
+        steps
     }
 
     /// Resolves a block, whose names stay visible.
@@ -198,6 +228,17 @@ impl<'a> StepResolver<'a> {
                 condition: self.elaborator.condition(condition),
                 within_secs: self.seconds_or(within.as_ref(), "the deadline of a `wait`"),
             },
+            StepKind::Delay { time } => {
+                let secs = self.elaborator.seconds(time, "the time of a `wait`").unwrap_or(0.0);
+                ir::StepKind::Delay { secs }
+            }
+            StepKind::Finally { step, cleanup } => {
+                let (scope, goes_on) = (self.elaborator.scope.mark(), self.goes_on);
+                let position = StepPosition { parent: Some(id), slot: BlockSlot::Protected, index: 0 };
+                let body = self.step(step, position).into_iter().collect();
+                let cleanup = self.cleanup(cleanup, id, (scope, goes_on));
+                ir::StepKind::Finally { body, cleanup }
+            }
             StepKind::Monitor { whens, body } => {
                 let whens =
                     whens.iter().enumerate().map(|(index, when)| self.when(when, id, index)).collect();

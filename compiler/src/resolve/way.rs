@@ -263,6 +263,6 @@ fn gap<'e>(entry: &ScopeEntry, cause: GapCause, all: impl Iterator<Item = &'e Sc
     ScopeEntry { term: Term::Unknown, ty: Ty::UNKNOWN, gap: Some(gap), ..entry.clone() }
 }
 
-fn without_value(entry: &ScopeEntry, reason: &Unbound) -> ScopeEntry {
+pub(super) fn without_value(entry: &ScopeEntry, reason: &Unbound) -> ScopeEntry {
     gap(entry, GapCause::Unbound(reason.clone()), std::iter::once(entry))
 }

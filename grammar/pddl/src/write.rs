@@ -134,6 +134,7 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
         robot: None,
         achieves: conjunction(problem.goal.iter().map(|part| literal(part, &[])).collect()),
         body: Block { steps: steps.collect(), span },
+        cleanup: None,
         span,
     }
 }

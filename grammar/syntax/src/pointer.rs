@@ -27,7 +27,8 @@ pub fn pointer_to(policy: &Policy, span: Span, parameter: &dyn Fn(&str, usize) -
     if let Some(goal) = &policy.achieves {
         walk.expr("achieves", goal);
     }
-    walk.block("steps", &policy.body);
+    let _ = walk.block("steps", &policy.body)
+        || policy.cleanup.as_ref().is_some_and(|cleanup| walk.block("finally", cleanup));
     walk.pointer
 }
 
@@ -79,6 +80,14 @@ impl PointerWalk<'_> {
             }
             StepKind::Wait { condition, within } => {
                 let _ = self.expr("wait", condition) || self.optional("within", within.as_ref());
+            }
+            StepKind::Delay { time } => {
+                let _ = self.expr("wait", time);
+            }
+            StepKind::Finally { step, cleanup } => {
+                if !self.block("finally", cleanup) {
+                    self.step(step);
+                }
             }
             StepKind::Monitor { whens, body } => {
                 let _ = self.whens(whens) || self.block("during", body);

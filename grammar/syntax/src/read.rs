@@ -255,7 +255,7 @@ fn is_prose(text: &str, mut rest: Tokens<'_>) -> bool {
     };
     first.kind == TokenKind::Word
         && !is_declaration(first, second)
-        && !matches!(first.text, "during" | "catch" | "else" | "until")
+        && !matches!(first.text, "during" | "catch" | "finally" | "else" | "until")
         && second.is_some_and(reads_on)
 }
 

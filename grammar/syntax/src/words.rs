@@ -4,9 +4,10 @@
 use std::borrow::Cow;
 
 /// Words that are never a bare name in the text syntax: the rule `reserved` of the grammar.
-pub const RESERVED: [&str; 24] = [
+pub const RESERVED: [&str; 26] = [
     "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
-    "repeat", "each", "parallel", "done", "fail", "replan", "and", "or", "not", "true", "false", "any",
+    "finally", "repeat", "each", "parallel", "done", "fail", "cannot", "replan", "and", "or", "not", "true",
+    "false", "any",
 ];
 
 /// Words at the start of a declaration.
@@ -28,9 +29,9 @@ pub const DECLARATIONS: [&str; 11] = [
 pub const CLAUSES: [&str; 8] = ["needs", "makes", "unsettles", "motion", "uses", "takes", "fails", "lasts"];
 
 /// Reserved words at the start of a step or of one of its parts.
-pub const STEP_WORDS: [&str; 17] = [
+pub const STEP_WORDS: [&str; 19] = [
     "let", "sequence", "if", "wait", "monitor", "try", "repeat", "each", "parallel", "done", "fail",
-    "replan", "catch", "else", "until", "when", "during",
+    "cannot", "replan", "catch", "finally", "else", "until", "when", "during",
 ];
 
 /// Keys of a `do` step in JSON that are not arguments.
@@ -39,7 +40,7 @@ pub const CALL_KEYS: [&str; 4] = ["do", "as", "within", "retry"];
 /// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
 /// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a
 /// support.
-pub const FORM_KEYS: [(&str, &str); 25] = [
+pub const FORM_KEYS: [(&str, &str); 26] = [
     ("if", "a step of its own"),
     ("then", "`if` and to a monitor's `when`"),
     ("else", "`if`"),
@@ -48,6 +49,7 @@ pub const FORM_KEYS: [(&str, &str); 25] = [
     ("during", "`monitor`"),
     ("try", "a step of its own"),
     ("catch", "`try`"),
+    ("finally", "the steps that have steps of their own"),
     ("repeat", "a step of its own"),
     ("until", "`repeat`"),
     ("steps", "`sequence`, `repeat` and `each`"),

@@ -85,7 +85,7 @@ impl Stage {
             }
         };
         match motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO) {
-            RunEnd::Done { .. } => None,
+            RunEnd::Done { .. } | RunEnd::Declined { .. } => None,
             RunEnd::Replan { .. } if asks => None,
             RunEnd::Replan { why } => Some(format!(
                 "in simulation it asks for another plan: {}",

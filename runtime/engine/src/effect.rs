@@ -143,6 +143,11 @@ pub enum RunEnd {
         /// The step in which it arose.
         node: NodeId,
     },
+    /// The policy declined what was asked, by `cannot`.
+    Declined {
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        why: Option<String>,
+    },
     /// The policy asks for a new policy.
     Replan {
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -191,6 +196,7 @@ impl fmt::Display for RunEnd {
                 write!(f, "failed with `{kind}`")?;
                 ("", why)
             }
+            Self::Declined { why } => ("declined", why),
             Self::Replan { why } => ("asks for a new plan", why),
             Self::Interrupted => ("interrupted", &None),
             Self::Fault(fault) => return write!(f, "fault: {fault}"),

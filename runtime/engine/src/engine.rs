@@ -207,9 +207,10 @@ impl Engine {
             Effect::Report(record) => self.describe_happening(record.revision, &record.what),
             Effect::Finished(end) => match &**end {
                 RunEnd::Failed { node, .. } => format!("finished: {end}, in {}", self.path(*node)),
-                RunEnd::Done { .. } | RunEnd::Replan { .. } | RunEnd::Interrupted | RunEnd::Fault(_) => {
+                RunEnd::Done { .. } | RunEnd::Declined { .. } | RunEnd::Replan { .. } => {
                     format!("finished: {end}")
                 }
+                RunEnd::Interrupted | RunEnd::Fault(_) => format!("finished: {end}"),
             },
         }
     }
@@ -235,6 +236,11 @@ impl Engine {
             TraceEventKind::Fired { node, watch, truth } => {
                 format!("watch {watch} of {} fired: {truth}", path(*node))
             }
+            TraceEventKind::CleanupFailed { node, failure } => {
+                let kind = self.failure_at(revision, *failure).map_or("?", |kind| kind);
+                format!("cleanup of {} failed: {kind}", path(*node))
+            }
+            TraceEventKind::CleanupSkipped { node } => format!("cleanup of {} skipped", path(*node)),
             TraceEventKind::WentOn { node, watch } => format!("{} went on after watch {watch}", path(*node)),
             TraceEventKind::Swapped { policy } => format!("swapped to {policy}"),
             TraceEventKind::Kept { node, goal } => format!("{goal} goes on for {}", path(*node)),

@@ -32,7 +32,7 @@ pub use ids::{CheckId, GoalId};
 pub use perception::{CameraImage, CameraModel, DepthImage, Detection, Perception, RgbdView};
 pub use query::{Answer, Pattern, Query, Reading, Truth};
 pub use run_loop::{Observer, RunControl, resume, run};
-pub use snapshot::{LiveGoal, Snapshot};
+pub use snapshot::{LiveGoal, PendingCleanup, Snapshot};
 pub use start::{EngineSettings, StartState};
 pub use swap::{PreparedSwap, RetiredGraph, RunningGraph, SwapRefusal};
 pub use time::Time;

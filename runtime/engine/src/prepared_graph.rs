@@ -125,7 +125,8 @@ impl PreparedGraph {
                 self.owned.push(*then);
                 self.owned.extend(*otherwise);
             }
-            NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => {}
+            NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {}
+            NodeKind::Finally { body, cleanup } => self.owned.extend([*body, *cleanup]),
             NodeKind::Monitor { watches, body } => {
                 self.owned.push(*body);
                 for (index, watch) in watches.iter().enumerate() {
@@ -221,6 +222,7 @@ impl PreparedGraph {
             | NodeKind::Try { .. }
             | NodeKind::Repeat { .. }
             | NodeKind::Each { .. } => None,
+            NodeKind::Delay { .. } | NodeKind::Finally { .. } => None,
             NodeKind::Parallel { .. } | NodeKind::End { .. } => None,
         }
     }

@@ -7,9 +7,10 @@ use crate::json;
 use crate::prepared_graph::PreparedGraph;
 use crate::query::{Answer, Pattern, Query, Reading, Truth};
 use crate::start::StartState;
-use crate::state::Run;
+use crate::state::{Phase, Run};
 use crate::time::Time;
-use motet_graph::Value;
+use motet_graph::draw::Names;
+use motet_graph::{Graph, Node, NodeId, NodeKind, RegionId, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -46,6 +47,19 @@ pub struct Snapshot {
     pub bindings: Vec<(SmolStr, Value)>,
     /// Live goals in the order of their starts.
     pub goals: Vec<LiveGoal>,
+    /// Cleanups that have not run to their end and would still be due, in the order of the document.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pending: Vec<PendingCleanup>,
+}
+
+/// A cleanup that has not run to its end.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PendingCleanup {
+    /// The path of the step that it belongs to.
+    pub path: SmolStr,
+    /// Its calls as a person would write them, in the order of the document.
+    pub steps: Vec<String>,
 }
 
 /// A goal that has not ended.
@@ -124,7 +138,48 @@ impl Snapshot {
                 .filter_map(|(binding, value)| Some((binding.name.clone(), value.clone()?)))
                 .collect(),
             goals,
+            pending: pending(plan, run).filter_map(|node| PendingCleanup::of(graph, node)).collect(),
         }
+    }
+}
+
+/// Steps whose cleanup is due: control is in them, or left them without it.
+pub(crate) fn pending(plan: &PreparedGraph, run: &Run) -> impl Iterator<Item = NodeId> {
+    let steps = plan.graph.nodes.iter().enumerate().map(|(index, step)| (NodeId(index as u32), step));
+    let with_cleanup = steps.filter(|(_, step)| matches!(step.kind, NodeKind::Finally { .. }));
+    let is_due =
+        |node: &NodeId| run.nodes.at(node.index()).phase == Phase::Inside || run.uncleaned.contains(node);
+    with_cleanup.map(|(node, _)| node).filter(is_due)
+}
+
+impl PendingCleanup {
+    /// The cleanup of a step; `None` if it has none.
+    pub(crate) fn of(graph: &Graph, node: NodeId) -> Option<Self> {
+        let step = graph.nodes.get(node.index())?;
+        let NodeKind::Finally { cleanup, .. } = &step.kind else { return None };
+        let owner = |region: RegionId| graph.regions.get(region.index())?.owner;
+        let is_inside = |step: &Node| {
+            let mut region = step.region;
+            while region != *cleanup {
+                let around = owner(region).filter(|owner| *owner > node);
+                let Some(around) = around.and_then(|owner| graph.nodes.get(owner.index())) else {
+                    return false;
+                };
+                region = around.region;
+            }
+            true
+        };
+        let calls =
+            graph.nodes.iter().skip(node.index()).filter(|step| matches!(step.kind, NodeKind::Call(_)));
+        let calls = calls.filter(|step| is_inside(step));
+        let steps = calls.map(|step| Names(graph).brief(&step.kind)).collect();
+        Some(Self { path: step.path.clone(), steps })
+    }
+}
+
+impl std::fmt::Display for PendingCleanup {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.steps.join(", "))
     }
 }
 
@@ -174,9 +229,10 @@ fn fact_text(query: &Query) -> Option<String> {
 }
 
 /// Reserved words, which are never bare names: a copy of `motet_syntax::words::RESERVED`, held by a test.
-const WORDS: [&str; 25] = [
+const WORDS: [&str; 27] = [
     "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
-    "repeat", "each", "parallel", "done", "fail", "replan", "and", "or", "not", "true", "false", "any", "",
+    "finally", "repeat", "each", "parallel", "done", "fail", "cannot", "replan", "and", "or", "not", "true",
+    "false", "any", "",
 ];
 
 /// A name, in back-quotes where it would not be read as one without.

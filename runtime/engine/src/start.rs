@@ -108,6 +108,7 @@ impl EntityCollector<'_> {
                     self.term(list, ty.as_ref());
                 }
                 NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::Try { .. } => {}
+                NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
                 NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
             }
         }

@@ -113,7 +113,8 @@ pub(crate) struct CompositeRun {
     pub(crate) pauses: u32,
     /// Monitor: the watch whose block runs or is about to.
     pub(crate) resuming: Option<u32>,
-    /// Monitor: how the body ended while it was interrupted.
+    /// Monitor: how the body ended while it was interrupted. Step with a cleanup: how the body ended, while
+    /// the cleanup runs.
     pub(crate) body_ended: Option<NodeExit>,
 }
 
@@ -195,6 +196,10 @@ pub(crate) struct Run {
     pub(crate) dirty: BinaryHeap<Reverse<u32>>,
     /// Outcome of the run after all regions have ended.
     pub(crate) ending: Option<RunEnd>,
+    /// True if a person stopped the run: no cleanup runs any more.
+    pub(crate) halted: bool,
+    /// Steps whose cleanup did not run, or not to its end.
+    pub(crate) uncleaned: Vec<NodeId>,
     /// Outcome of the run after the goals of replaced policies have ended.
     pub(crate) closing: Option<RunEnd>,
     /// Goals of replaced policies, by start.
@@ -261,6 +266,8 @@ impl Run {
             work: WorkList::default(),
             dirty: BinaryHeap::new(),
             ending: None,
+            halted: false,
+            uncleaned: Vec::new(),
             closing: None,
             orphans: Vec::new(),
             swapping: false,

@@ -53,6 +53,11 @@ pub enum TraceEventKind {
         /// Result; unknown counts as false.
         truth: Truth,
     },
+    /// A cleanup failed. What it stands behind ends as it would have otherwise.
+    CleanupFailed { node: NodeId, failure: FailureId },
+    /// A cleanup does not run, or not to its end: a person stopped the run, or the driver interrupted or lost
+    /// what it did.
+    CleanupSkipped { node: NodeId },
     /// A monitor fired.
     Fired {
         node: NodeId,

@@ -85,6 +85,14 @@ fn step(dice: &mut SplitMix64, domain: &Domain, depth: usize) -> Step {
     };
     let choice = if depth == 0 { 0 } else { dice.random_range(0..100) };
     match choice {
+        57..60 => {
+            let body = inner(dice);
+            let mut cleanup = vec![step(dice, domain, 0)];
+            if chance(dice, 50) {
+                cleanup = vec![Step::If(literal(dice, domain, false, 10), cleanup, Vec::new())];
+            }
+            Step::Finally(body, cleanup)
+        }
         60..70 => {
             let test = literal(dice, domain, false, 10);
             let then = inner(dice);
@@ -219,6 +227,8 @@ pub enum Step {
     },
     /// A named group.
     Sequence(Vec<Step>),
+    /// A named group and its cleanup.
+    Finally(Vec<Step>, Vec<Step>),
     /// A branch.
     If(Literal, Vec<Step>, Vec<Step>),
     /// Handlers by kind; none for any.
@@ -246,6 +256,7 @@ impl Step {
             Self::Call { .. } | Self::End(_) => false,
             Self::Sequence(body) | Self::Repeat(_, body, _) => any(body),
             Self::If(_, then, otherwise) => any(then) || any(otherwise),
+            Self::Finally(body, cleanup) => any(body) || any(cleanup),
             Self::Try(body, handlers) => any(body) || handlers.iter().any(|(_, handler)| any(handler)),
             Self::Resume(body, _, reaction) => any(body) || any(reaction),
         }

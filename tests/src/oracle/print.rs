@@ -107,6 +107,14 @@ fn print(domain: &Domain, step: &Step, groups: &mut usize, out: &mut String) {
             block(domain, body, groups, out);
             out.push_str("}\n");
         }
+        Step::Finally(body, cleanup) => {
+            *groups += 1;
+            let _ = writeln!(out, "sequence s{groups} {{");
+            block(domain, body, groups, out);
+            out.push_str("} finally {\n");
+            block(domain, cleanup, groups, out);
+            out.push_str("}\n");
+        }
         Step::If(test, then, otherwise) => {
             let _ = writeln!(out, "if {} {{", literal(test));
             block(domain, then, groups, out);

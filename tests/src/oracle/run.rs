@@ -27,7 +27,8 @@ const MAX_STATES: usize = 4000;
 /// Walks all paths of a policy from the start of its domain.
 #[must_use]
 pub fn walk(domain: &Domain, policy: &Policy) -> Found {
-    let mut walker = Walker { domain, found: Found::default(), reactions: Vec::new(), escaped: Vec::new() };
+    let (reactions, escaped, ended) = (Vec::new(), Vec::new(), Vec::new());
+    let mut walker = Walker { domain, found: Found::default(), reactions, escaped, ended };
     walker.block(policy, States::from([State::start(domain)]), &mut BTreeMap::new());
     walker.found
 }
@@ -50,6 +51,8 @@ struct Walker<'a> {
     reactions: Vec<&'a [Step]>,
     /// Failures in each of them.
     escaped: Vec<Failed>,
+    /// For each group with a cleanup around here, the states in which the policy ends inside it.
+    ended: Vec<States>,
 }
 
 /// States in which a block fails, by kind.
@@ -138,6 +141,7 @@ impl<'a> Walker<'a> {
         match step {
             Step::Call { action, entity, retry } => self.call(*action, *entity, *retry, states, failed),
             Step::Sequence(body) => self.block(body, states, failed),
+            Step::Finally(body, cleanup) => self.finally(body, cleanup, states, failed),
             Step::If(test, then, otherwise) => {
                 let (yes, no) = self.tested(test, &states);
                 let mut after = self.block(then, yes, failed);
@@ -160,8 +164,40 @@ impl<'a> Walker<'a> {
             Step::Repeat(times, body, until) => self.repeat(*times, body, until.as_ref(), states, failed),
             Step::Resume(body, at_most, reaction) => self.resume(body, *at_most, reaction, states, failed),
             Step::Parallel(branches) => self.parallel(branches, states, failed),
-            Step::End(_) => States::new(),
+            Step::End(_) => {
+                self.ended.last_mut().into_iter().for_each(|ended| ended.extend(states.iter().cloned()));
+                States::new()
+            }
         }
+    }
+
+    /// A body, and its cleanup by whichever way control leaves the body.
+    fn finally(
+        &mut self,
+        body: &'a [Step],
+        cleanup: &'a [Step],
+        states: States,
+        failed: &mut Failed,
+    ) -> States {
+        self.ended.push(States::new());
+        let mut inside = Failed::new();
+        let after = self.block(body, states, &mut inside);
+        let ended = self.ended.pop().unwrap_or_default();
+        let ended = self.clean(cleanup, ended);
+        self.ended.last_mut().into_iter().for_each(|outer| outer.extend(ended.iter().cloned()));
+        for (kind, states) in inside {
+            let cleaned = self.clean(cleanup, states);
+            failed.entry(kind).or_default().extend(cleaned);
+        }
+        self.clean(cleanup, after)
+    }
+
+    /// The states behind a cleanup, whose failures change nothing.
+    fn clean(&mut self, cleanup: &'a [Step], states: States) -> States {
+        let mut failures = Failed::new();
+        let mut after = self.block(cleanup, states, &mut failures);
+        after.extend(failures.into_values().flatten());
+        after
     }
 
     /// The states in which a test holds, and those in which it does not; what was unobserved is seen.

@@ -124,7 +124,7 @@ fn prover_verdicts_are_those_of_the_paths() {
     println!("{count:?}");
     let first: Vec<_> = wrong.iter().take(3).map(String::as_str).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), count.total, first.join("\n"));
-    assert!(count.accepted * 4 >= count.total, "{count:?}");
+    assert!(count.accepted * 5 >= count.total, "{count:?}");
     assert!(count.refuted * 10 >= count.total * 3, "{count:?}");
     assert!(count.refuted_in_vain * 100 <= count.refuted * 2, "{count:?}");
     assert!(count.deferred_in_vain * 100 <= count.deferred * 3, "{count:?}");

@@ -57,6 +57,7 @@ fn engine_on_any_driver_the_engine_keeps_its_promises() {
             let name = match end {
                 RunEnd::Done { .. } => "done",
                 RunEnd::Failed { .. } => "failed",
+                RunEnd::Declined { .. } => "declined",
                 RunEnd::Replan { .. } => "replan",
                 RunEnd::Interrupted => "interrupted",
                 RunEnd::Fault(_) => "fault",

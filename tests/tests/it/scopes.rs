@@ -196,7 +196,7 @@ fn diagnostics_gap_names_the_way_and_what_to_write() {
 }
 "#;
     let expected = "M0216 `mug`: `mug` is not bound on the way through `catch not_found, ambiguous`; \
-                    bind `mug` there too, or end that way with `done`, `replan` or `fail` \
+                    bind `mug` there too, or end that way with `done`, `replan`, `cannot` or `fail` \
                     [\"mug\", \"say(\\\"I see none.\\\")\"]";
     assert_eq!(errors(text), [expected]);
     let json = turned(&session(), text, Syntax::Json);

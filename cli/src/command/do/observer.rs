@@ -97,6 +97,7 @@ impl<'a> RunObserver<'a> {
     pub(super) fn finish(mut self, outcome: &Outcome) -> Result<(), CliError> {
         let word = match outcome {
             Outcome::Done => "done",
+            Outcome::Declined(_) => "declined",
             Outcome::GivenUp => "given_up",
             Outcome::Stopped => "stopped",
             Outcome::Failed(_) => "failed",

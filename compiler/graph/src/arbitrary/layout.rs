@@ -18,6 +18,7 @@ pub fn graph(steps: &[StepSketch]) -> Graph {
         share: None,
         taken: Vec::new(),
         inline: None,
+        is_cleanup: false,
     };
     layout.graph.regions.push(Region { owner: None, entry: None });
     layout.fill(ROOT, steps, "/steps");
@@ -32,8 +33,9 @@ struct Layout {
     share: Option<BindingId>,
     /// Resources that branches at the same time need.
     taken: Vec<ResourceId>,
-    /// The sub-policy around here.
+    /// The sub-policy around here; inside a cleanup only one that is also inside it.
     inline: Option<NodeId>,
+    is_cleanup: bool,
 }
 
 impl Layout {
@@ -126,6 +128,18 @@ impl Layout {
             StepSketch::Wait(condition, within_secs) => {
                 NodeKind::Wait { condition: self.condition(condition), within_secs: *within_secs }
             }
+            StepSketch::Delay(secs) => NodeKind::Delay { secs: *secs },
+            StepSketch::Finally(body, cleanup) => {
+                let bound = self.objects.len();
+                let body = self.region(id, body, path);
+                // What the body binds, the cleanup does not see.
+                let of_body = self.objects.split_off(bound);
+                let outer = (self.inline.take(), std::mem::replace(&mut self.is_cleanup, true));
+                let cleanup = self.closed_region(id, cleanup, &format!("{path}/finally"));
+                (self.inline, self.is_cleanup) = outer;
+                self.objects.extend(of_body);
+                NodeKind::Finally { body, cleanup }
+            }
             StepSketch::Monitor(whens, steps) => self.monitor(id, whens, steps, path),
             StepSketch::Try(body, handlers) => {
                 let mut ways = vec![(body.as_slice(), format!("{path}/try"))];
@@ -157,10 +171,21 @@ impl Layout {
                 NodeKind::Each { item, list, at_most: *at_most, body }
             }
             StepSketch::Parallel(branches) => self.parallel(id, branches, path),
-            StepSketch::End(how) => {
-                NodeKind::End { how: *how, of: self.inline.filter(|_| *how != Ending::Replan), why: None }
-            }
+            StepSketch::End(how) => match self.ending(*how) {
+                Some(of) => NodeKind::End { how: *how, of, why: None },
+                None => {
+                    let body = self.region(id, &[], path);
+                    NodeKind::Sequence { name: SmolStr::new_static("nothing"), body }
+                }
+            },
         }
+    }
+
+    /// The sub-policy that an ending ends, or none for the whole policy; `None` where it would leave a
+    /// cleanup.
+    fn ending(&self, how: Ending) -> Option<Option<NodeId>> {
+        let of = self.inline.filter(|_| matches!(how, Ending::Done | Ending::Fail));
+        (of.is_some() || !self.is_cleanup).then_some(of)
     }
 
     fn call(&mut self, call: &CallSketch) -> CallNode {
@@ -210,9 +235,10 @@ impl Layout {
                     let path = format!("{path}/monitor/{index}/then/steps");
                     Reaction::Resume { at_most: *at_most, body: self.closed_region(id, steps, &path) }
                 }
-                ReactionSketch::End(how) => {
-                    Reaction::End { how: *how, of: self.inline.filter(|_| *how != Ending::Replan), why: None }
-                }
+                ReactionSketch::End(how) => match self.ending(*how) {
+                    Some(of) => Reaction::End { how: *how, of, why: None },
+                    None => Reaction::Restart { at_most: 1 },
+                },
             };
             Watch { condition, hold_secs: when.hold_secs, reaction }
         });
@@ -233,7 +259,7 @@ impl Layout {
                 NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => None,
                 NodeKind::Wait { .. } | NodeKind::Monitor { .. } | NodeKind::Try { .. } => None,
                 NodeKind::Repeat { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => None,
-                NodeKind::End { .. } => None,
+                NodeKind::Delay { .. } | NodeKind::Finally { .. } | NodeKind::End { .. } => None,
             });
             let used: Vec<ResourceId> = used.flat_map(|primitive| primitive.uses.clone()).collect();
             self.taken.extend(used);

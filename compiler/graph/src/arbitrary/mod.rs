@@ -25,6 +25,10 @@ pub enum StepSketch {
     If(Condition, Vec<StepSketch>, Option<Vec<StepSketch>>),
     /// A wait, with its deadline in seconds.
     Wait(Condition, f64),
+    /// A wait for so many seconds.
+    Delay(f64),
+    /// A body and its cleanup.
+    Finally(Vec<StepSketch>, Vec<StepSketch>),
     Monitor(Vec<WatchSketch>, Vec<StepSketch>),
     /// A body and its handlers.
     Try(Vec<StepSketch>, Vec<(Option<Vec<FailureId>>, Vec<StepSketch>)>),
@@ -33,7 +37,8 @@ pub enum StepSketch {
     /// A loop over a list of objects, with its bound.
     Each(Term, u32, Vec<StepSketch>),
     Parallel(Vec<Vec<StepSketch>>),
-    /// Ends the sub-policy around it, or the policy where there is none, or where it says `replan`.
+    /// Ends the sub-policy around it, or the policy where there is none, or where it says `replan` or
+    /// `cannot`. Nothing where it would leave a cleanup.
     End(Ending),
 }
 

@@ -29,6 +29,7 @@ pub fn steps() -> impl Strategy<Value = Vec<StepSketch>> {
             2 => (1..4_u32, body.clone(), option::of(conditions()))
                 .prop_map(|(times, body, until)| StepSketch::Repeat(times, body, until)),
             2 => (list(), 0..4_u32, body.clone()).prop_map(|(list, n, body)| StepSketch::Each(list, n, body)),
+            3 => (body.clone(), body.clone()).prop_map(|(body, cleanup)| StepSketch::Finally(body, cleanup)),
             3 => vec(body, 0..4).prop_map(StepSketch::Parallel),
         ]
     });
@@ -64,6 +65,7 @@ fn leaf() -> impl Strategy<Value = StepSketch> {
     prop_oneof![
         12 => call().prop_map(StepSketch::Call),
         2 => (conditions(), 0.0..3.0).prop_map(|(condition, within)| StepSketch::Wait(condition, within)),
+        1 => (0.0..3.0).prop_map(StepSketch::Delay),
         1 => ending().prop_map(StepSketch::End),
     ]
 }
@@ -103,7 +105,7 @@ fn when(body: impl Strategy<Value = Vec<StepSketch>> + 'static) -> impl Strategy
 }
 
 fn ending() -> impl Strategy<Value = Ending> {
-    prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)]
+    prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Cannot), Just(Ending::Replan)]
 }
 
 fn object() -> impl Strategy<Value = Term> {

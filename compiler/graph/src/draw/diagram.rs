@@ -122,6 +122,7 @@ fn brackets(kind: &NodeKind) -> (&'static str, &'static str) {
         NodeKind::Parallel { .. } => ("[[", "]]"),
         NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } => ("[", "]"),
         NodeKind::Try { .. } | NodeKind::Repeat { .. } | NodeKind::Each { .. } => ("[", "]"),
+        NodeKind::Delay { .. } | NodeKind::Finally { .. } => ("[", "]"),
     }
 }
 

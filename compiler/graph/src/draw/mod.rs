@@ -19,7 +19,12 @@ const DEEPEST: usize = crate::validate::MAX_DEPTH + 1;
 fn parts(graph: &Graph, kind: &NodeKind) -> Vec<(String, RegionId)> {
     let names = Names(graph);
     match kind {
-        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => Vec::new(),
+        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {
+            Vec::new()
+        }
+        NodeKind::Finally { body, cleanup } => {
+            vec![(String::new(), *body), ("finally".to_owned(), *cleanup)]
+        }
         NodeKind::Sequence { body, .. }
         | NodeKind::Inline { body, .. }
         | NodeKind::Repeat { body, .. }

@@ -24,6 +24,8 @@ impl<'a> Names<'a> {
             NodeKind::Wait { condition, within_secs } => {
                 format!("wait until {} within {within_secs} s", self.condition(condition))
             }
+            NodeKind::Delay { secs } => format!("wait {secs} s"),
+            NodeKind::Finally { .. } => "with cleanup".to_owned(),
             NodeKind::Monitor { .. } => "monitor".to_owned(),
             NodeKind::Try { .. } => "try".to_owned(),
             NodeKind::Repeat { times, until: None, .. } => format!("repeat {times}"),
@@ -59,6 +61,8 @@ impl<'a> Names<'a> {
             | NodeKind::Inline { .. }
             | NodeKind::If { .. }
             | NodeKind::Wait { .. }
+            | NodeKind::Delay { .. }
+            | NodeKind::Finally { .. }
             | NodeKind::Try { .. }
             | NodeKind::Repeat { .. }
             | NodeKind::Each { .. }
@@ -96,6 +100,7 @@ impl<'a> Names<'a> {
         let how = match how {
             Ending::Done => "done",
             Ending::Fail => "fail",
+            Ending::Cannot => "cannot",
             Ending::Replan => "replan",
         };
         let part = if part { " the sub-policy" } else { "" };

@@ -65,6 +65,17 @@ pub enum NodeKind {
         #[serde(rename = "within")]
         within_secs: f64,
     },
+    /// Blocks for a time.
+    Delay {
+        /// The time in seconds.
+        #[serde(rename = "for")]
+        secs: f64,
+    },
+    /// Runs its body, and after it the cleanup, however the body was left: by its end, by a failure, by an
+    /// ending or because something around it was stopped. Then goes on as the body was left. A failure of the
+    /// cleanup is reported and changes nothing. The cleanup does not run after a person's stop, an
+    /// interruption by the driver, the loss of a goal or a swap.
+    Finally { body: RegionId, cleanup: RegionId },
     /// Watches conditions while the body runs. An outer monitor wins over an inner one, an earlier watch over
     /// a later.
     Monitor { watches: Vec<Watch>, body: RegionId },
@@ -115,6 +126,8 @@ pub enum Ending {
     Done,
     /// The policy gives up.
     Fail,
+    /// The policy declines what was asked.
+    Cannot,
     /// The policy asks for a new policy.
     Replan,
 }

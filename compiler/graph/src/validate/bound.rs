@@ -21,6 +21,10 @@ enum Todo {
     /// The end of a region that may not run, or whose names are its own: only so many names stay bound, and
     /// control goes on if it did before, or if the sub-policy is done.
     Close { keep: usize, goes_on: bool, of: Option<NodeId> },
+    /// The end of a region with a cleanup, which sees only the first names and whether control came so far.
+    Cleanup { region: RegionId, keep: usize, goes_on: bool },
+    /// The end of a cleanup: names that the region before it bound, and whether control went on behind that.
+    Cleaned { keep: usize, names: Vec<BindingId>, goes_on: bool },
     /// The first of the ways through a node.
     Fork,
     /// The end of one way.
@@ -95,6 +99,17 @@ impl<'a> Walk<'a> {
                 self.take_back(keep);
                 let is_done = of.and_then(|of| self.done.get(of.index())).copied();
                 self.goes_on = is_done.map_or(goes_on, |is_done| self.goes_on || is_done);
+            }
+            Todo::Cleanup { region, keep, goes_on } => {
+                let names = self.take_back(keep);
+                let goes_on = std::mem::replace(&mut self.goes_on, goes_on);
+                self.todo.push(Todo::Cleaned { keep, names, goes_on });
+                self.todo.push(Todo::Open { region, item: None, until: None });
+            }
+            Todo::Cleaned { keep, names, goes_on } => {
+                self.take_back(keep);
+                names.into_iter().for_each(|name| self.bind(name));
+                self.goes_on = goes_on;
             }
             Todo::Fork => {
                 self.forks.push((self.log.len(), Vec::new()));
@@ -194,6 +209,10 @@ impl<'a> Walk<'a> {
             }
             NodeKind::Parallel { branches } => self.fork(Meeting::All, branches.clone()),
             NodeKind::Wait { condition, .. } => self.condition(node, condition),
+            NodeKind::Delay { .. } => {}
+            NodeKind::Finally { body, cleanup } => {
+                self.todo.extend([Todo::Cleanup { region: *cleanup, keep, goes_on }, open(body)]);
+            }
             NodeKind::Monitor { watches, body } => {
                 self.todo.push(open(body));
                 for watch in watches {

@@ -51,9 +51,12 @@ pub enum InvalidReason {
     /// An ending names a node that is no sub-policy around it.
     #[error("the ending names node {0}, which is no sub-policy around it")]
     NotEnclosing(u32),
-    /// A new plan is asked for on behalf of a sub-policy.
-    #[error("`replan` ends the whole policy, not a sub-policy")]
+    /// An ending of the whole policy on behalf of a sub-policy.
+    #[error("`replan` and `cannot` end the whole policy, not a sub-policy")]
     ReplanOfPart,
+    /// An ending inside a cleanup that it would leave.
+    #[error("an ending leaves a cleanup")]
+    EndsCleanup,
     /// A number is not finite or out of its range.
     #[error("{what} is {value}, which is no finite number of at least 0")]
     Number { what: &'static str, value: f64 },

@@ -16,7 +16,10 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
 /// The regions that a node names, in document order.
 pub(crate) fn owned(node: &Node) -> Vec<RegionId> {
     match &node.kind {
-        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => Vec::new(),
+        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {
+            Vec::new()
+        }
+        NodeKind::Finally { body, cleanup } => vec![*body, *cleanup],
         NodeKind::Sequence { body, .. }
         | NodeKind::Inline { body, .. }
         | NodeKind::Repeat { body, .. }
@@ -145,26 +148,31 @@ fn endings(graph: &Graph, findings: &mut Findings) {
             }
             NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
             NodeKind::Each { .. } | NodeKind::Parallel { .. } => {}
+            NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
         }
     }
 }
 
 fn ending(graph: &Graph, node: &Node, how: Ending, of: Option<NodeId>, findings: &mut Findings) {
-    let Some(of) = of else { return };
-    if how == Ending::Replan {
+    if of.is_some() && matches!(how, Ending::Cannot | Ending::Replan) {
         findings.node(node, InvalidReason::ReplanOfPart);
     }
-    let mut owner = graph.regions.get(node.region.index()).and_then(|region| region.owner);
-    while let Some(here) = owner {
-        let around = graph.nodes.get(here.index());
-        if here == of && around.is_some_and(|node| matches!(node.kind, NodeKind::Inline { .. })) {
+    let mut region = node.region;
+    // Owners stand before what lies in them.
+    while let Some(here) = graph.regions.get(region.index()).and_then(|region| region.owner) {
+        let Some(around) = graph.nodes.get(here.index()) else { break };
+        if matches!(&around.kind, NodeKind::Finally { cleanup, .. } if *cleanup == region) {
+            findings.node(node, InvalidReason::EndsCleanup);
             return;
         }
-        // Owners stand before what lies in them.
-        let region = around.and_then(|node| graph.regions.get(node.region.index()));
-        owner = region.and_then(|region| region.owner);
+        if Some(here) == of && matches!(around.kind, NodeKind::Inline { .. }) {
+            return;
+        }
+        region = around.region;
     }
-    findings.node(node, InvalidReason::NotEnclosing(of.0));
+    if let Some(of) = of {
+        findings.node(node, InvalidReason::NotEnclosing(of.0));
+    }
 }
 
 /// Resource conflicts: parallel branches must not need the same resource, nor one that contains another's.

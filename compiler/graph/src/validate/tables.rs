@@ -134,6 +134,7 @@ pub(super) fn check_numbers(graph: &Graph, findings: &mut Findings) {
                 }
             }
             NodeKind::Wait { within_secs, .. } => span(findings, node, "the deadline", *within_secs),
+            NodeKind::Delay { secs } => span(findings, node, "the time of a wait", *secs),
             NodeKind::Repeat { times: 0, .. } => findings.node(node, InvalidReason::NoRuns),
             NodeKind::Monitor { watches, .. } => {
                 for watch in watches {
@@ -146,7 +147,8 @@ pub(super) fn check_numbers(graph: &Graph, findings: &mut Findings) {
             NodeKind::Sequence { .. }
             | NodeKind::Inline { .. }
             | NodeKind::If { .. }
-            | NodeKind::Try { .. } => {}
+            | NodeKind::Try { .. }
+            | NodeKind::Finally { .. } => {}
             NodeKind::Repeat { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => {}
             NodeKind::End { .. } => {}
         }

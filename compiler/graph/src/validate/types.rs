@@ -64,6 +64,7 @@ impl Types<'_> {
             }
             NodeKind::Repeat { until: None, .. } | NodeKind::End { why: None, .. } => {}
             NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::Parallel { .. } => {}
+            NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
         }
     }
 

@@ -140,7 +140,7 @@ fn endings() {
     );
     check(
         |g| g.nodes[8].kind = end(Ending::Replan, 7),
-        "/steps/3:/steps/0: `replan` ends the whole policy, not a sub-policy",
+        "/steps/3:/steps/0: `replan` and `cannot` end the whole policy, not a sub-policy",
     );
     check(
         |g| watches(g)[0].reaction = Reaction::End { how: Ending::Done, of: Some(NodeId(7)), why: None },

@@ -134,6 +134,7 @@ impl TreeGenerator<'_> {
             robot: self.maybe(|it| it.choice.name()),
             achieves: self.maybe(|it| it.condition(2)),
             body: self.block(DEPTH),
+            cleanup: self.maybe(|it| it.block(DEPTH - 1)),
             span: self.span(),
         }
     }
@@ -150,12 +151,13 @@ impl TreeGenerator<'_> {
     }
 
     fn leaf(&mut self) -> StepKind {
-        match self.choice.below(4) {
+        match self.choice.below(5) {
             0 => StepKind::End(self.end()),
             1 => {
                 let condition = self.condition(3);
                 StepKind::Wait { condition, within: self.maybe(Self::duration) }
             }
+            2 => StepKind::Delay { time: self.time() },
             _ => {
                 let call = self.call(2);
                 let within = self.maybe(Self::duration);
@@ -167,7 +169,24 @@ impl TreeGenerator<'_> {
         }
     }
 
+    /// A step that may have blocks, and with them a cleanup.
     fn inner(&mut self, depth: usize) -> StepKind {
+        let kind = self.protected(depth);
+        let has_blocks = match &kind {
+            StepKind::Do(_) | StepKind::Wait { .. } | StepKind::Delay { .. } | StepKind::End(_) => false,
+            StepKind::Sequence { .. } | StepKind::If { .. } | StepKind::Monitor { .. } => true,
+            StepKind::Try { .. } | StepKind::Repeat { .. } | StepKind::Each { .. } => true,
+            StepKind::Parallel { .. } => true,
+            StepKind::Finally { .. } => false,
+        };
+        if !has_blocks || self.choice.below(4) > 0 {
+            return kind;
+        }
+        let cleanup = self.block(depth);
+        StepKind::Finally { step: Box::new(Step { kind, span: self.span() }), cleanup }
+    }
+
+    fn protected(&mut self, depth: usize) -> StepKind {
         match self.choice.below(9) {
             0 => StepKind::Sequence { name: self.choice.name(), body: self.block(depth) },
             1 => StepKind::If {
@@ -217,10 +236,11 @@ impl TreeGenerator<'_> {
     }
 
     fn end(&mut self) -> End {
-        let kind = self.choice.of(&[EndKind::Done, EndKind::Fail, EndKind::Replan], EndKind::Done);
+        let kind =
+            self.choice.of(&[EndKind::Done, EndKind::Fail, EndKind::Cannot, EndKind::Replan], EndKind::Done);
         let why = match kind {
             EndKind::Done => None,
-            EndKind::Fail | EndKind::Replan => self.maybe(|it| it.term(1)),
+            EndKind::Fail | EndKind::Cannot | EndKind::Replan => self.maybe(|it| it.term(1)),
         };
         End { kind, why, span: self.span() }
     }

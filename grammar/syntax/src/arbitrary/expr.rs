@@ -137,6 +137,15 @@ impl TreeGenerator<'_> {
         Arg { name, value: self.term_in(place, depth), span: self.span() }
     }
 
+    /// A time to wait: a literal.
+    pub(super) fn time(&mut self) -> Expr {
+        let time = self.duration();
+        match &time.kind {
+            ExprKind::Quantity(..) => time,
+            _ => self.expr(ExprKind::Quantity(1.0, Unit::Second)),
+        }
+    }
+
     pub(super) fn duration(&mut self) -> Expr {
         let unit = self.choice.of(&[Unit::Second, Unit::Millisecond, Unit::Minute, Unit::Hour], Unit::Second);
         let value = f64::from(u8::try_from(self.choice.below(200)).unwrap_or(0)) / 4.0;

@@ -189,6 +189,8 @@ pub struct Policy {
     /// The goal that the prover must not find refuted where it is done.
     pub achieves: Option<Expr>,
     pub body: Block,
+    /// Steps that run once, however the policy ends.
+    pub cleanup: Option<Block>,
     /// The whole document in JSON, the declaration in text.
     #[derive_where(skip)]
     pub span: Span,

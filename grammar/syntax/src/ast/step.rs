@@ -73,7 +73,18 @@ pub enum StepKind {
         /// The branches; at least one.
         branches: Vec<Block>,
     },
-    /// `done`, `fail "why"`, `replan "why"`
+    /// `wait 5 s`
+    Delay {
+        /// Time to wait: a duration.
+        time: Expr,
+    },
+    /// A step with blocks and its cleanup: `sequence tidy { … } finally { … }`.
+    Finally {
+        step: Box<Step>,
+        /// Steps that run once, however the step is left.
+        cleanup: Block,
+    },
+    /// `done`, `fail "why"`, `cannot "why"`, `replan "why"`
     End(End),
 }
 
@@ -127,7 +138,7 @@ pub enum Reaction {
         #[derive_where(skip)]
         span: Span,
     },
-    /// `done`, `fail "…"`, `replan "…"`
+    /// `done`, `fail "…"`, `cannot "…"`, `replan "…"`
     End(End),
 }
 
@@ -169,6 +180,8 @@ pub enum EndKind {
     Done,
     /// The policy gives up.
     Fail,
+    /// The policy declines what was asked.
+    Cannot,
     /// The policy asks for a new one.
     Replan,
 }

@@ -2,6 +2,7 @@
 //! nesting, the number of steps, which keys a reaction has. Conditions and terms are in
 //! [`super::convert_term`].
 
+use super::term::{Condition, Duration, Form, Term};
 use super::wire::{self, ReactKind};
 use super::{Lenient, Spanned};
 use crate::ast::{
@@ -11,6 +12,7 @@ use crate::ast::{
 use crate::diagnostic::Diagnostic;
 use crate::errors::{BadName, BadValue, MissingKey, ReservedKey, TooDeep, TooManySteps, UnknownKey};
 use crate::source::{FileId, Span};
+use crate::unit::parse_quantity;
 use crate::words;
 
 /// The policy of a document, and what is wrong with it.
@@ -28,6 +30,7 @@ pub(super) fn policy(document: Spanned<wire::Document>, file: FileId) -> (Policy
         robot: document.robot.map(|robot| converter.name(robot)),
         achieves: document.achieves.map(|goal| converter.condition(goal, 1)),
         body: converter.block(document.steps, 1),
+        cleanup: document.finally.map(|steps| converter.block(*steps, 1)),
         span,
     };
     (policy, converter.found)
@@ -64,52 +67,74 @@ impl Converter {
     }
 
     fn step(&mut self, step: wire::Step, span: Span, depth: usize) -> StepKind {
-        match step {
-            wire::Step::Do(step) => StepKind::Do(self.call_step(step, span, depth)),
+        let (kind, cleanup) = match step {
+            wire::Step::Do(step) => (StepKind::Do(self.call_step(step, span, depth)), None),
             wire::Step::Sequence(step) => {
-                StepKind::Sequence { name: self.name(step.sequence), body: self.block(step.steps, depth + 1) }
+                let (name, body) = (self.name(step.sequence), self.block(step.steps, depth + 1));
+                (StepKind::Sequence { name, body }, step.finally)
             }
-            wire::Step::If(step) => StepKind::If {
-                condition: self.condition(step.r#if, depth),
-                then: self.block(step.then, depth + 1),
-                otherwise: step.r#else.map(|steps| self.block(steps, depth + 1)),
-            },
-            wire::Step::Wait(step) => StepKind::Wait {
-                condition: self.condition(step.wait, depth),
-                within: step.within.map(|within| self.duration(*within, depth)),
-            },
+            wire::Step::If(step) => {
+                let condition = self.condition(step.r#if, depth);
+                let then = self.block(step.then, depth + 1);
+                let otherwise = step.r#else.map(|steps| self.block(steps, depth + 1));
+                (StepKind::If { condition, then, otherwise }, step.finally)
+            }
+            wire::Step::Wait(step) => (self.wait(step, depth), None),
             wire::Step::Monitor(step) => {
                 self.at_least_one(step.monitor.value.is_empty(), step.monitor.span, "monitor", "condition");
                 let whens = step.monitor.value.into_iter().filter_map(|Lenient(when)| when);
-                StepKind::Monitor {
-                    whens: whens.filter_map(|when| self.when(when, depth)).collect(),
-                    body: self.block(step.during, depth + 1),
-                }
+                let whens = whens.filter_map(|when| self.when(when, depth)).collect();
+                (StepKind::Monitor { whens, body: self.block(step.during, depth + 1) }, step.finally)
             }
             wire::Step::Try(step) => {
                 self.at_least_one(step.catch.value.is_empty(), step.catch.span, "try", "handler");
                 let body = self.block(step.r#try, depth + 1);
                 let catches = step.catch.value.into_iter().filter_map(|Lenient(catch)| catch);
-                StepKind::Try { body, catches: catches.map(|catch| self.catch(catch, depth)).collect() }
+                let catches = catches.map(|catch| self.catch(catch, depth)).collect();
+                (StepKind::Try { body, catches }, step.finally)
             }
-            wire::Step::Repeat(step) => StepKind::Repeat {
-                times: self.count(step.repeat, depth),
-                body: self.block(step.steps, depth + 1),
-                until: step.until.map(|until| self.condition(until, depth)),
-            },
-            wire::Step::Each(step) => StepKind::Each {
-                item: self.name(step.each),
-                list: self.term(step.r#in, depth + 1),
-                at_most: self.count(step.at_most, depth),
-                body: self.block(step.steps, depth + 1),
-            },
+            wire::Step::Repeat(step) => {
+                let (times, body) = (self.count(step.repeat, depth), self.block(step.steps, depth + 1));
+                let until = step.until.map(|until| self.condition(until, depth));
+                (StepKind::Repeat { times, body, until }, step.finally)
+            }
+            wire::Step::Each(step) => {
+                let (item, list) = (self.name(step.each), self.term(step.r#in, depth + 1));
+                let (at_most, body) = (self.count(step.at_most, depth), self.block(step.steps, depth + 1));
+                (StepKind::Each { item, list, at_most, body }, step.finally)
+            }
             wire::Step::Parallel(step) => {
                 self.at_least_one(step.parallel.value.is_empty(), step.parallel.span, "parallel", "branch");
                 let branches = step.parallel.value.into_iter();
-                StepKind::Parallel { branches: branches.map(|steps| self.block(steps, depth + 2)).collect() }
+                let branches = branches.map(|steps| self.block(steps, depth + 2)).collect();
+                (StepKind::Parallel { branches }, step.finally)
             }
-            wire::Step::End(end) => StepKind::End(self.end(end, span, depth)),
+            wire::Step::End(end) => (StepKind::End(self.end(end, span, depth)), None),
+        };
+        let Some(cleanup) = cleanup else { return kind };
+        StepKind::Finally { step: Box::new(Step { kind, span }), cleanup: self.block(*cleanup, depth + 1) }
+    }
+
+    /// A number or a quantity is a time, anything else a condition.
+    fn wait(&mut self, step: wire::Wait, depth: usize) -> StepKind {
+        let is_time = match &step.wait.0.value {
+            Term::Number(_) => true,
+            Term::Text(text) => parse_quantity(text).is_some(),
+            Term::Form(form) => {
+                matches!(**form, Form::Add(_) | Form::Subtract(_) | Form::Multiply(_) | Form::Divide(_))
+            }
+            Term::Bool(_) | Term::List(_) => false,
+        };
+        if !is_time {
+            return StepKind::Wait {
+                condition: self.condition(Condition(step.wait.0), depth),
+                within: step.within.map(|within| self.duration(*within, depth)),
+            };
         }
+        if let Some(within) = &step.within {
+            self.bad_value(within.0.span, "a wait for a time has no deadline".into(), &[]);
+        }
+        StepKind::Delay { time: self.duration(Duration(step.wait.0), depth) }
     }
 
     fn call_step(&mut self, mut step: super::term::Do, span: Span, depth: usize) -> Do {
@@ -200,6 +225,7 @@ impl Converter {
         let kind = match end.end.value {
             wire::EndKind::Done => EndKind::Done,
             wire::EndKind::Fail => EndKind::Fail,
+            wire::EndKind::Cannot => EndKind::Cannot,
             wire::EndKind::Replan => EndKind::Replan,
         };
         if let (EndKind::Done, Some(why)) = (kind, &end.why) {

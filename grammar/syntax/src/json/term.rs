@@ -162,6 +162,11 @@ pub(crate) struct Args(pub(crate) Vec<(Spanned<SmolStr>, Spanned<Term>)>);
 #[serde(transparent)]
 pub(crate) struct Condition(pub(crate) Spanned<Term>);
 
+/// A condition, or a duration.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct Awaited(pub(crate) Spanned<Term>);
+
 /// A duration: a number of seconds, or a string with a unit such as `"200 ms"`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]

@@ -14,7 +14,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-use super::term::{Args, Condition, Count, Do, Duration, Form, Term};
+use super::term::{Args, Awaited, Condition, Count, Do, Duration, Form, Term};
 use super::{Lenient, Spanned};
 
 /// A Motet policy.
@@ -35,10 +35,16 @@ pub(crate) struct Document {
     pub(crate) achieves: Option<Condition>,
     /// Steps of the policy, in order.
     pub(crate) steps: Steps,
+    /// Steps that run once, however the policy ends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
 }
 
 /// Steps that run one after the other.
 pub(crate) type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
+
+/// Steps that run once, however the step before them is left.
+pub(crate) type Cleanup = Option<Box<Steps>>;
 
 // What is large and rare is boxed, here and in `Do`: on its way out of the deserializer a step is moved
 // often.
@@ -77,6 +83,9 @@ pub(crate) struct Sequence {
     pub(crate) sequence: Spanned<SmolStr>,
     /// Steps of the group.
     pub(crate) steps: Steps,
+    /// Steps that run once, however the group is left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
 }
 
 /// Runs `then` if the condition holds and `else` otherwise.
@@ -90,15 +99,19 @@ pub(crate) struct If {
     /// Steps where it does not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) r#else: Option<Steps>,
+    /// Steps that run once, however the choice is left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
 }
 
-/// Blocks until the condition holds, else fails with `timeout`.
+/// Blocks until the condition holds, else fails with `timeout`; or for a time, which is a number of seconds
+/// or a string with a unit.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Wait {
-    /// The condition to test.
-    pub(crate) wait: Condition,
-    /// The deadline; 60 s where nothing is said.
+    /// The condition to test, or a time.
+    pub(crate) wait: Awaited,
+    /// Of a condition: the deadline; 60 s where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) within: Option<Box<Duration>>,
 }
@@ -112,6 +125,9 @@ pub(crate) struct Monitor {
     pub(crate) monitor: Spanned<Vec<Lenient<Spanned<When>>>>,
     /// Steps that run meanwhile.
     pub(crate) during: Steps,
+    /// Steps that run once, however the monitor is left. It does not watch them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
 }
 
 /// A watched condition and what happens when it holds.
@@ -177,6 +193,9 @@ pub(crate) struct Try {
     /// Handlers, tried in order.
     #[schemars(length(min = 1))]
     pub(crate) catch: Spanned<Vec<Lenient<Spanned<Catch>>>>,
+    /// Steps that run once, however the steps and their handlers are left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
 }
 
 /// A handler of failures.
@@ -201,6 +220,9 @@ pub(crate) struct Repeat {
     /// The test after each run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) until: Option<Condition>,
+    /// Steps that run once, however the loop is left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
 }
 
 /// Runs the steps for each element of a list; a longer list is the failure `exhausted`.
@@ -215,6 +237,9 @@ pub(crate) struct Each {
     pub(crate) at_most: Count,
     /// Steps of the loop.
     pub(crate) steps: Steps,
+    /// Steps that run once, however the loop is left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
 }
 
 /// Runs all branches at the same time.
@@ -224,6 +249,9 @@ pub(crate) struct Parallel {
     /// The branches, each a list of steps.
     #[schemars(length(min = 1))]
     pub(crate) parallel: Spanned<Vec<Steps>>,
+    /// Steps that run once, however the branches are left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
 }
 
 /// Ends the policy.
@@ -232,7 +260,7 @@ pub(crate) struct Parallel {
 pub(crate) struct End {
     /// Kind of the ending.
     pub(crate) end: Spanned<EndKind>,
-    /// The reason, of `fail` and `replan`: a text.
+    /// The reason, of `fail`, `cannot` and `replan`: a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) why: Option<Spanned<Term>>,
 }
@@ -245,8 +273,27 @@ pub(crate) enum EndKind {
     Done,
     /// It gives up.
     Fail,
+    /// It declines what was asked.
+    Cannot,
     /// It asks for a new policy.
     Replan,
+}
+
+impl Step {
+    /// Gives the step a cleanup; only a step with steps of its own has one.
+    pub(crate) fn set_finally(&mut self, steps: Steps) {
+        let cleanup = match self {
+            Self::Sequence(step) => &mut step.finally,
+            Self::If(step) => &mut step.finally,
+            Self::Monitor(step) => &mut step.finally,
+            Self::Try(step) => &mut step.finally,
+            Self::Repeat(step) => &mut step.finally,
+            Self::Each(step) => &mut step.finally,
+            Self::Parallel(step) => &mut step.finally,
+            Self::Do(_) | Self::Wait(_) | Self::End(_) => return,
+        };
+        *cleanup = Some(Box::new(steps));
+    }
 }
 
 impl Serialize for Step {
@@ -313,6 +360,23 @@ impl JsonSchema for Condition {
         json_schema!({
             "description": "A condition: an object, `true`, `false`, or a string in the text form.",
             "anyOf": [{"type": "string"}, {"type": "boolean"}, generator.subschema_for::<Form>()],
+        })
+    }
+}
+
+impl JsonSchema for Awaited {
+    fn schema_name() -> Cow<'static, str> {
+        "Awaited".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A condition, or a time: seconds, or a string with a unit such as `\"5 s\"`.",
+            "anyOf": [
+                {"type": "number"},
+                {"type": "string"},
+                {"type": "boolean"},
+                generator.subschema_for::<Form>(),
+            ],
         })
     }
 }

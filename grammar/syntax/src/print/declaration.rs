@@ -101,6 +101,9 @@ impl Writer<'_> {
         }
         self.text.push(' ');
         self.block(&policy.body);
+        if let Some(cleanup) = &policy.cleanup {
+            self.finally(cleanup);
+        }
         self.end(policy.span.end);
     }
 

@@ -13,7 +13,7 @@ use crate::ast::{
     Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Name, Policy, Reaction, Step,
     StepKind, When,
 };
-use crate::json::term::{self, Args, Condition, Count, Duration, Field, Form, Get, Is, Term};
+use crate::json::term::{self, Args, Awaited, Condition, Count, Duration, Field, Form, Get, Is, Term};
 use crate::json::{Lenient, Spanned, wire};
 use crate::unit::{Dimension, Unit};
 use crate::words::spelled;
@@ -43,6 +43,7 @@ fn policy_wire(policy: &Policy) -> wire::Document {
         robot: policy.robot.as_ref().map(name),
         achieves: policy.achieves.as_ref().map(|goal| translation.condition(goal)),
         steps: translation.block(&policy.body),
+        finally: policy.cleanup.as_ref().map(|cleanup| Box::new(translation.block(cleanup))),
     }
 }
 
@@ -67,42 +68,55 @@ impl WireTranslation {
         match &step.kind {
             StepKind::Do(step) => wire::Step::Do(self.call_step(step)),
             StepKind::Sequence { name: group, body } => {
-                wire::Step::Sequence(wire::Sequence { sequence: name(group), steps: self.block(body) })
+                let steps = self.block(body);
+                wire::Step::Sequence(wire::Sequence { sequence: name(group), steps, finally: None })
             }
             StepKind::If { condition, then, otherwise } => wire::Step::If(Box::new(wire::If {
                 r#if: self.condition(condition),
                 then: self.block(then),
                 r#else: otherwise.as_ref().map(|block| self.block(block)),
+                finally: None,
             })),
             StepKind::Wait { condition, within } => wire::Step::Wait(wire::Wait {
-                wait: self.condition(condition),
+                wait: Awaited(self.condition(condition).0),
                 within: within.as_ref().map(|within| Box::new(self.duration(within))),
             }),
+            StepKind::Delay { time } => {
+                wire::Step::Wait(wire::Wait { wait: Awaited(self.duration(time).0), within: None })
+            }
             StepKind::Monitor { whens, body } => {
                 let whens: Vec<_> =
                     whens.iter().map(|when| Lenient::from(Spanned::from(self.when(when)))).collect();
-                wire::Step::Monitor(wire::Monitor { monitor: whens.into(), during: self.block(body) })
+                let during = self.block(body);
+                wire::Step::Monitor(wire::Monitor { monitor: whens.into(), during, finally: None })
             }
             StepKind::Try { body, catches } => {
                 let r#try = self.block(body);
                 let catch: Vec<_> =
                     catches.iter().map(|catch| Lenient::from(Spanned::from(self.catch(catch)))).collect();
-                wire::Step::Try(wire::Try { r#try, catch: catch.into() })
+                wire::Step::Try(wire::Try { r#try, catch: catch.into(), finally: None })
             }
             StepKind::Repeat { times, body, until } => wire::Step::Repeat(Box::new(wire::Repeat {
                 repeat: self.count(times),
                 steps: self.block(body),
                 until: until.as_ref().map(|until| self.condition(until)),
+                finally: None,
             })),
             StepKind::Each { item, list, at_most, body } => {
                 let (r#in, at_most) = (self.term(list).into(), self.count(at_most));
                 self.scope.insert(item.text.clone());
                 let steps = self.block(body);
-                wire::Step::Each(Box::new(wire::Each { each: name(item), r#in, at_most, steps }))
+                let each = name(item);
+                wire::Step::Each(Box::new(wire::Each { each, r#in, at_most, steps, finally: None }))
             }
             StepKind::Parallel { branches } => {
                 let branches: Vec<_> = branches.iter().map(|branch| self.block(branch)).collect();
-                wire::Step::Parallel(wire::Parallel { parallel: branches.into() })
+                wire::Step::Parallel(wire::Parallel { parallel: branches.into(), finally: None })
+            }
+            StepKind::Finally { step, cleanup } => {
+                let mut step = self.step(step);
+                step.set_finally(self.block(cleanup));
+                step
             }
             StepKind::End(end) => wire::Step::End(self.end(end)),
         }
@@ -164,6 +178,7 @@ impl WireTranslation {
         let kind = match end.kind {
             EndKind::Done => wire::EndKind::Done,
             EndKind::Fail => wire::EndKind::Fail,
+            EndKind::Cannot => wire::EndKind::Cannot,
             EndKind::Replan => wire::EndKind::Replan,
         };
         wire::End { end: kind.into(), why: end.why.as_ref().map(|why| self.term(why).into()) }

@@ -24,6 +24,17 @@ impl Writer<'_> {
 
     fn step(&mut self, step: &Step) {
         self.begin(step.span.start, Blank::AsWritten);
+        self.inner(step);
+        self.end(step.span.end);
+    }
+
+    /// The cleanup of a step or a policy.
+    pub(super) fn finally(&mut self, cleanup: &Block) {
+        self.text.push_str(" finally ");
+        self.block(cleanup);
+    }
+
+    fn inner(&mut self, step: &Step) {
         match &step.kind {
             StepKind::Do(step) => self.call_step(step),
             StepKind::Sequence { name, body } => {
@@ -91,9 +102,13 @@ impl Writer<'_> {
                 }
                 self.close(step.span.end.saturating_sub(1));
             }
+            StepKind::Delay { time } => self.word_and("wait ", time),
+            StepKind::Finally { step, cleanup } => {
+                self.inner(step);
+                self.finally(cleanup);
+            }
             StepKind::End(end) => self.ending(end),
         }
-        self.end(step.span.end);
     }
 
     fn call_step(&mut self, step: &Do) {
@@ -145,6 +160,7 @@ impl Writer<'_> {
         self.text.push_str(match end.kind {
             EndKind::Done => "done",
             EndKind::Fail => "fail",
+            EndKind::Cannot => "cannot",
             EndKind::Replan => "replan",
         });
         if let Some(why) = &end.why {

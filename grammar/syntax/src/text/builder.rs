@@ -108,6 +108,7 @@ fn is_mark(rule: Rule) -> bool {
             | Rule::kw_most
             | Rule::kw_try
             | Rule::kw_catch
+            | Rule::kw_finally
             | Rule::kw_repeat
             | Rule::kw_each
             | Rule::kw_in
@@ -212,7 +213,8 @@ impl Builder {
             .map(|name| self.name(name));
         let achieves = self.expr_in(parts.next_of(Rule::achieves), 1);
         let body = self.block(parts.next()?, 1);
-        Some(Policy { doc, name, params, robot, achieves, body, span })
+        let cleanup = parts.next_of(Rule::finally).and_then(|pair| self.finally(pair, 1));
+        Some(Policy { doc, name, params, robot, achieves, body, cleanup, span })
     }
 
     /// The parameters or fields between brackets.

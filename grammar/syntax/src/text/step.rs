@@ -12,8 +12,28 @@ use crate::source::Span;
 impl Builder {
     pub(super) fn block(&mut self, pair: Pair<'_>, depth: usize) -> Block {
         let span = self.span(&pair);
-        let steps = Children::of(pair).filter_map(|step| self.step(step, depth)).collect();
+        let mut steps: Vec<Step> = Vec::new();
+        let mut is_whole = false;
+        for part in Children::of(pair) {
+            if part.as_rule() != Rule::finally {
+                let step = self.step(part, depth);
+                is_whole = step.is_some();
+                steps.extend(step);
+                continue;
+            }
+            let cleanup = self.finally(part, depth + 1);
+            let of = if is_whole { steps.pop() } else { None };
+            steps.extend(of.zip(cleanup).map(|(of, cleanup)| {
+                let span = Span { end: cleanup.span.end, ..of.span };
+                Step { kind: StepKind::Finally { step: Box::new(of), cleanup }, span }
+            }));
+        }
         Block { steps, span }
+    }
+
+    /// The block of a `finally`.
+    pub(super) fn finally(&mut self, pair: Pair<'_>, depth: usize) -> Option<Block> {
+        Children::of(pair).next().map(|block| self.block(block, depth))
     }
 
     fn step(&mut self, pair: Pair<'_>, depth: usize) -> Option<Step> {
@@ -34,9 +54,12 @@ impl Builder {
                 body: self.block(parts.next()?, depth + 1),
             },
             Rule::if_else => self.if_else(parts, depth, span)?,
-            Rule::wait => StepKind::Wait {
-                condition: self.expr(parts.next()?, depth),
-                within: self.expr_in(parts.next_of(Rule::within), depth),
+            Rule::wait => match parts.next_of(Rule::delay) {
+                Some(time) => StepKind::Delay { time: self.expr_in(Some(time), depth)? },
+                None => StepKind::Wait {
+                    condition: self.expr(parts.next()?, depth),
+                    within: self.expr_in(parts.next_of(Rule::within), depth),
+                },
             },
             Rule::monitor => {
                 let mut whens = Vec::with_capacity(2);
@@ -156,6 +179,7 @@ impl Builder {
         let kind = match parts.next()?.as_rule() {
             Rule::kw_done => EndKind::Done,
             Rule::kw_fail => EndKind::Fail,
+            Rule::kw_cannot => EndKind::Cannot,
             _ => EndKind::Replan,
         };
         Some(End { kind, why: self.expr_in(parts.next(), depth), span })

@@ -224,6 +224,9 @@ impl<'t> ErrorContext<'t> {
             (TokenKind::Doc, _) => say("`///` documents a declaration: write `//` here"),
             (_, "else") => say("`else` stands after the block of an `if` and nowhere else"),
             (_, "catch") if self.expects(STEP) => say("`catch` stands after the block of a `try`"),
+            (_, "finally") => {
+                say("`finally` stands behind a step that has blocks, and behind a whole policy")
+            }
             (_, "{") if before == "repeat" => say("a loop has a bound: `repeat 3 { … }`"),
             (_, "{") if self.expects(DECLARATION) => {
                 say("a policy begins with its name: `policy name { … }`")
@@ -256,12 +259,12 @@ impl<'t> ErrorContext<'t> {
             return Some("what happens follows `then`: `when c then pause`");
         }
         if wants(&[Rule::kw_until]) && self.before.is_some_and(|before| before.text == "wait") {
-            return Some("write `wait until c within 60 s`");
+            return Some("write `wait until c within 60 s`, or a time: `wait 5 s`");
         }
         if wants(&[Rule::pause, Rule::kw_pause]) {
             return Some(
                 "the reactions are `pause`, `restart at most 3`, `resume at most 3 { … }`, `done`, \
-                 `fail \"why\"` and `replan \"why\"`",
+                 `fail \"why\"`, `cannot \"why\"` and `replan \"why\"`",
             );
         }
         if wants(&[Rule::block, Rule::lbrace]) {
@@ -424,6 +427,7 @@ fn label(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::kw_then => (7, "`then`"),
         Rule::kw_during => (7, "`during`"),
         Rule::kw_catch | Rule::catch => (7, "`catch`"),
+        Rule::kw_finally | Rule::finally => (7, "`finally`"),
         Rule::kw_in => (7, "`in`"),
         Rule::kw_each => (7, "`each`"),
         Rule::kw_at | Rule::kw_most | Rule::at_most => (7, "`at most`"),

@@ -215,7 +215,7 @@ impl FlowReader<'_> {
                 Flow { names, goes_on: true }
             }
             NodeKind::When => Flow { names: self.blocks().1, goes_on: true },
-            NodeKind::Done | NodeKind::Fail | NodeKind::Replan => {
+            NodeKind::Done | NodeKind::Fail | NodeKind::Cannot | NodeKind::Replan => {
                 self.blocks();
                 Flow { names: Vec::new(), goes_on: false }
             }

@@ -133,6 +133,7 @@ impl Builder<'_> {
             }
             NodeKind::Done => StepKind::End(self.end(EndKind::Done)),
             NodeKind::Fail => StepKind::End(self.end(EndKind::Fail)),
+            NodeKind::Cannot => StepKind::End(self.end(EndKind::Cannot)),
             NodeKind::Replan => StepKind::End(self.end(EndKind::Replan)),
             // Not steps.
             NodeKind::When
@@ -380,6 +381,7 @@ impl Builder<'_> {
                 Reaction::Resume { at_most, body: self.block(), span }
             }
             NodeKind::Done => Reaction::End(self.end(EndKind::Done)),
+            NodeKind::Cannot => Reaction::End(self.end(EndKind::Cannot)),
             NodeKind::Replan => Reaction::End(self.end(EndKind::Replan)),
             _ => Reaction::End(self.end(EndKind::Fail)),
         };

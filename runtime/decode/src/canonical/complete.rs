@@ -29,6 +29,9 @@ pub(super) fn complete(policy: &Policy, grammar: &Grammar) -> Result<Node, Outsi
     if !policy.params.is_empty() {
         return Err(outside(policy.name.span, "a policy has no parameters in the canonical subset"));
     }
+    if let Some(cleanup) = &policy.cleanup {
+        return Err(uncleaned(cleanup));
+    }
     names(&policy.body, &mut completer.names);
     if let Some(written) = policy.robot.as_ref().filter(|written| Some(&written.text) != grammar.robot()) {
         return Err(outside(written.span, format!("the policy is for `{}`", written.text)));
@@ -85,6 +88,10 @@ impl Completer<'_> {
                 let condition = self.asked(condition)?;
                 (NodeKind::Wait, [condition].into_iter().chain(self.within(within.as_ref())?).collect())
             }
+            StepKind::Delay { time } => {
+                return Err(outside(time.span, "a wait has a condition in the canonical subset"));
+            }
+            StepKind::Finally { cleanup, .. } => return Err(uncleaned(cleanup)),
             StepKind::Monitor { whens, body } => {
                 count(whens.len(), 1, "a monitor", "conditions", step.span)?;
                 let whens = whens.iter().map(|when| self.when(when, depth)).collect::<Result<_, _>>()?;
@@ -218,14 +225,15 @@ impl Completer<'_> {
         let kind = match end.kind {
             EndKind::Done => NodeKind::Done,
             EndKind::Fail => NodeKind::Fail,
+            EndKind::Cannot => NodeKind::Cannot,
             EndKind::Replan => NodeKind::Replan,
         };
         let items = match (end.kind, &end.why) {
             (EndKind::Done, _) => Vec::new(),
-            (EndKind::Fail | EndKind::Replan, Some(why)) => {
+            (EndKind::Fail | EndKind::Cannot | EndKind::Replan, Some(why)) => {
                 vec![Item::Value(self.value(why, &Type::Text, None)?)]
             }
-            (EndKind::Fail | EndKind::Replan, None) => {
+            (EndKind::Fail | EndKind::Cannot | EndKind::Replan, None) => {
                 return Err(outside(end.span, "an ending has a reason in the canonical subset"));
             }
         };
@@ -251,6 +259,10 @@ impl Completer<'_> {
             }
         }
     }
+}
+
+fn uncleaned(cleanup: &Block) -> OutsideSubset {
+    outside(cleanup.span, "the canonical subset has no `finally`")
 }
 
 fn count(actual: usize, least: usize, whose: &str, of: &str, span: Span) -> Result<(), OutsideSubset> {
@@ -287,7 +299,9 @@ fn names(block: &Block, found: &mut FxHashSet<SmolStr>) {
                 catches.iter().for_each(|catch| names(&catch.body, found));
             }
             StepKind::Parallel { branches } => branches.iter().for_each(|block| names(block, found)),
-            StepKind::Wait { .. } | StepKind::End(_) => {}
+            // It is outside of the subset.
+            StepKind::Finally { .. } => {}
+            StepKind::Wait { .. } | StepKind::Delay { .. } | StepKind::End(_) => {}
         }
     }
 }

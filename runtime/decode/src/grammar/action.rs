@@ -112,6 +112,7 @@ pub(crate) enum NodeKind {
     Resume,
     Done,
     Fail,
+    Cannot,
     Replan,
     Try,
     Catch,

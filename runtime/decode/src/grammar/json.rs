@@ -163,6 +163,7 @@ fn ending(done: Guard) -> Alternative {
     let ways = vec![
         Alternative::new("done\"", done, vec![Part::open(NodeKind::Done)]),
         Alternative::new("fail\"", Guard::Open, with_reason(NodeKind::Fail)),
+        Alternative::new("cannot\"", Guard::Open, with_reason(NodeKind::Cannot)),
         Alternative::new("replan\"", Guard::Open, with_reason(NodeKind::Replan)),
     ];
     let parts = vec![Part::Choice(ChoiceStyle::Literals, ways), literal("}"), close()];

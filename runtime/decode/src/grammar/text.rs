@@ -140,6 +140,7 @@ fn endings(done: Guard) -> Vec<Alternative> {
     vec![
         Alternative::new("done", done, vec![Part::open(NodeKind::Done)]).ending(),
         Alternative::new("fail ", room, with_reason(NodeKind::Fail)).ending(),
+        Alternative::new("cannot ", room, with_reason(NodeKind::Cannot)).ending(),
         Alternative::new("replan ", room, with_reason(NodeKind::Replan)).ending(),
     ]
 }

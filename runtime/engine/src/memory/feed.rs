@@ -4,6 +4,7 @@ use super::store::{Memory, MemoryEvent, OpenStep, StepEnd};
 use crate::effect::{Command, Effect, RunEnd};
 use crate::event::{DriverEvent, Event, Outcome};
 use crate::ids::GoalId;
+use crate::snapshot::PendingCleanup;
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
@@ -91,8 +92,13 @@ impl Memory {
             }
             // The goal of a step that ended because another policy took over goes on, for a step of that or
             // until it has been stopped.
-            TraceEventKind::Ended { cause: EndCause::Swap, .. } => {}
+            TraceEventKind::Ended { node, cause: EndCause::Swap, .. } => {
+                if let Some(due) = self.due.remove(&(record.revision, *node)) {
+                    self.uncleaned(record.at, due);
+                }
+            }
             TraceEventKind::Ended { node, ending, cause } => {
+                self.due.remove(&(record.revision, *node));
                 let is_its = |open: &OpenStep| open.node == *node && open.revision == record.revision;
                 let live = self.running.iter().find(|(_, open)| is_its(open)).map(|(goal, _)| *goal);
                 if let Some(open) = live.and_then(|goal| self.running.remove(&goal)) {
@@ -107,15 +113,37 @@ impl Memory {
                     (open.node, open.path, open.revision) = (*node, path, record.revision);
                 }
             }
-            TraceEventKind::Entered { .. }
-            | TraceEventKind::Started { .. }
-            | TraceEventKind::Guard { .. } => {}
-            TraceEventKind::Verified { .. } => {}
+            TraceEventKind::Entered { node } => self.entered(record.revision, *node),
+            TraceEventKind::CleanupSkipped { node } => {
+                if let Some(due) = self.due.remove(&(record.revision, *node)) {
+                    self.uncleaned(record.at, due);
+                }
+            }
+            TraceEventKind::Started { .. } | TraceEventKind::Guard { .. } => {}
+            // The step that failed in it has its own record.
+            TraceEventKind::Verified { .. } | TraceEventKind::CleanupFailed { .. } => {}
             TraceEventKind::Tested { .. } | TraceEventKind::Fired { .. } | TraceEventKind::WentOn { .. } => {}
             TraceEventKind::Swapped { .. }
             | TraceEventKind::Updated { .. }
             | TraceEventKind::Bound { .. } => {}
         }
+    }
+
+    fn entered(&mut self, revision: u32, node: NodeId) {
+        let Some(graph) = self.graph.as_ref().filter(|_| revision == self.revision) else { return };
+        let Some(mut due) = PendingCleanup::of(graph, node) else { return };
+        due.path = self.cut(&due.path).into();
+        due.steps = due.steps.iter().map(|step| self.cut(step)).collect();
+        self.due.insert((revision, node), due);
+        while self.due.len() > self.limits.running {
+            self.due.pop_first();
+        }
+    }
+
+    fn uncleaned(&mut self, at: Time, due: PendingCleanup) {
+        let PendingCleanup { path, steps } = due;
+        let entry = self.entry(at, MemoryEvent::Uncleaned { path: path.to_string(), steps });
+        self.push(entry);
     }
 
     fn ended(&mut self, at: Time, open: OpenStep, ending: NodeEnding, cause: EndCause) {
@@ -167,6 +195,7 @@ impl Memory {
             MemoryEvent::Instruction { .. } | MemoryEvent::Stuck { .. } | MemoryEvent::Question { .. } => {
                 false
             }
+            MemoryEvent::Uncleaned { .. } => false,
             MemoryEvent::Swap { .. } | MemoryEvent::Ended { .. } => false,
         });
         if !own || told {
@@ -185,6 +214,9 @@ impl Memory {
     }
 
     fn finished(&mut self, at: Time, end: &RunEnd) {
+        for due in std::mem::take(&mut self.due).into_values() {
+            self.uncleaned(at, due);
+        }
         let how = self.cut(&end.to_string());
         let done = matches!(end, RunEnd::Done { .. });
         // A failure that nothing caught was told of with its step.

@@ -1,5 +1,6 @@
 //! The bounded store.
 
+use crate::snapshot::PendingCleanup;
 use crate::time::Time;
 use crate::trace::EndCause;
 use motet_graph::{Graph, NodeId, Value};
@@ -64,6 +65,8 @@ pub struct Memory {
     pub(super) entries: VecDeque<MemoryEntry>,
     pub(super) dropped: DroppedCounts,
     pub(super) running: BTreeMap<u64, OpenStep>,
+    /// Cleanups that are due, by revision and step.
+    pub(super) due: BTreeMap<(u32, NodeId), PendingCleanup>,
     pub(super) revision: u32,
     pub(super) graph: Option<Arc<Graph>>,
     bytes: usize,
@@ -106,6 +109,7 @@ impl Memory {
             entries: VecDeque::new(),
             dropped: DroppedCounts::default(),
             running: BTreeMap::new(),
+            due: BTreeMap::new(),
             revision: 0,
             graph: None,
             bytes: 0,
@@ -167,6 +171,11 @@ impl Memory {
         })
     }
 
+    /// Cleanups of the steps that run, in the order of the document.
+    pub fn due(&self) -> impl Iterator<Item = &PendingCleanup> {
+        self.due.values()
+    }
+
     pub(super) fn entry(&self, at: Time, what: MemoryEvent) -> MemoryEntry {
         MemoryEntry { at_secs: at.secs(), revision: self.revision, what }
     }
@@ -189,7 +198,7 @@ impl Memory {
             MemoryEvent::Instruction { .. } => &mut self.dropped.instructions,
             MemoryEvent::Step { .. } if entry.is_failure() => &mut self.dropped.failures,
             MemoryEvent::Step { .. } => &mut self.dropped.steps,
-            MemoryEvent::Stuck { .. } => &mut self.dropped.failures,
+            MemoryEvent::Stuck { .. } | MemoryEvent::Uncleaned { .. } => &mut self.dropped.failures,
             MemoryEvent::Question { .. } => &mut self.dropped.questions,
             MemoryEvent::Swap { .. } => &mut self.dropped.swaps,
             MemoryEvent::Ended { .. } => &mut self.dropped.endings,
@@ -225,6 +234,7 @@ fn size(entry: &MemoryEntry) -> usize {
         MemoryEvent::Question { question, answer } => {
             question.len() + answer.as_ref().map_or(0, |answer| answer.len())
         }
+        MemoryEvent::Uncleaned { path, steps } => path.len() + steps.iter().map(String::len).sum::<usize>(),
         MemoryEvent::Swap { policy } => policy.len(),
         MemoryEvent::Ended { how, .. } => how.len(),
     };
@@ -274,6 +284,13 @@ pub enum MemoryEvent {
         /// The answer; absent if nobody answered.
         answer: Option<String>,
     },
+    /// A cleanup did not run to its end.
+    Uncleaned {
+        /// JSON Pointer to its step in the policy.
+        path: String,
+        /// Its calls as a person would write them.
+        steps: Vec<String>,
+    },
     /// A new policy took over.
     Swap { policy: String },
     /// A run ended.
@@ -321,6 +338,7 @@ impl MemoryEntry {
             MemoryEvent::Step { ended: StepEnd::Success(_) | StepEnd::Interrupted(_), .. }
             | MemoryEvent::Instruction { .. }
             | MemoryEvent::Question { .. }
+            | MemoryEvent::Uncleaned { .. }
             | MemoryEvent::Swap { .. } => false,
         }
     }
@@ -339,6 +357,7 @@ impl fmt::Display for MemoryEntry {
                 write!(f, "asked {question:?}: answered {answer:?}")
             }
             MemoryEvent::Question { question, answer: None } => write!(f, "asked {question:?}: no answer"),
+            MemoryEvent::Uncleaned { steps, .. } => write!(f, "not cleaned up: {}", steps.join(", ")),
             MemoryEvent::Swap { policy } => write!(f, "new policy `{policy}`"),
             MemoryEvent::Ended { how, .. } => write!(f, "the policy ended: {how}"),
         }

@@ -1,7 +1,7 @@
 //! Views of a memory. Each view is data for a program and, by `Display`, lines for a prompt.
 
 use super::store::{DroppedCounts, Memory, MemoryEntry, MemoryEvent, RunningStep};
-use crate::snapshot::Snapshot;
+use crate::snapshot::{PendingCleanup, Snapshot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -27,6 +27,9 @@ pub struct WorkingMemory {
     /// Number of dropped entries before the first.
     pub dropped: u64,
     pub doing: Vec<RunningStep>,
+    /// Cleanups that have not run to their end and would still be due.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pending: Vec<PendingCleanup>,
 }
 
 /// Everything that is remembered.
@@ -70,6 +73,7 @@ impl Memory {
             done: self.entries.iter().filter(is_done).cloned().collect(),
             dropped: steps + failures + questions + swaps + endings,
             doing: self.running().collect(),
+            pending: state.pending.clone(),
         }
     }
 
@@ -91,7 +95,7 @@ fn instruction(entry: &MemoryEntry) -> Option<String> {
     match &entry.what {
         MemoryEvent::Instruction { text } => Some(text.clone()),
         MemoryEvent::Step { .. } | MemoryEvent::Stuck { .. } | MemoryEvent::Question { .. } => None,
-        MemoryEvent::Swap { .. } | MemoryEvent::Ended { .. } => None,
+        MemoryEvent::Uncleaned { .. } | MemoryEvent::Swap { .. } | MemoryEvent::Ended { .. } => None,
     }
 }
 
@@ -131,6 +135,9 @@ impl fmt::Display for WorkingMemory {
         }
         for doing in &self.doing {
             writeln!(f, "doing: {}", doing.call)?;
+        }
+        for pending in &self.pending {
+            writeln!(f, "to clean up: {pending}")?;
         }
         Ok(())
     }

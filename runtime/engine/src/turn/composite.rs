@@ -35,8 +35,10 @@ impl Turn<'_> {
             NodeKind::Parallel { branches } => self.branch_ended(owner, branches, exit),
             NodeKind::Monitor { body, .. } if *body == region => self.body_ended(owner, exit),
             NodeKind::Monitor { .. } => self.block_ended(owner, exit),
+            // It does not come here.
+            NodeKind::Finally { .. } => {}
             // These own no region.
-            NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => {}
+            NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {}
         }
     }
 
@@ -130,17 +132,19 @@ impl Turn<'_> {
         why: Option<&Term>,
         cause: EndCause,
     ) {
-        let inline = of.filter(|_| how != Ending::Replan).and_then(|of| match &self.plan.node(of).kind {
+        let is_whole = matches!(how, Ending::Cannot | Ending::Replan);
+        let inline = of.filter(|_| !is_whole).and_then(|of| match &self.plan.node(of).kind {
             NodeKind::Inline { body, .. } => Some((of, *body)),
             NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::If { .. } | NodeKind::Wait { .. } => {
                 None
             }
             NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => None,
             NodeKind::Each { .. } | NodeKind::Parallel { .. } | NodeKind::End { .. } => None,
+            NodeKind::Delay { .. } | NodeKind::Finally { .. } => None,
         });
         if let Some((of, body)) = inline {
             let ending = match how {
-                Ending::Done | Ending::Replan => NodeEnding::Success,
+                Ending::Done | Ending::Cannot | Ending::Replan => NodeEnding::Success,
                 Ending::Fail => NodeEnding::Failure(self.plan.failed),
             };
             let own = if ending == NodeEnding::Success { EndCause::Completed } else { EndCause::Failed };
@@ -154,6 +158,7 @@ impl Turn<'_> {
             self.run.ending = Some(match how {
                 Ending::Done => RunEnd::Done { why },
                 Ending::Fail => RunEnd::Failed { kind: SmolStr::new_static("failed"), why, node },
+                Ending::Cannot => RunEnd::Declined { why },
                 Ending::Replan => RunEnd::Replan { why },
             });
             self.stop(ROOT, cause);

@@ -119,7 +119,7 @@ impl Turn<'_> {
             }
             NodeKind::Inline { .. } | NodeKind::Wait { .. } | NodeKind::Monitor { .. } => Truth::Unknown,
             NodeKind::Try { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => Truth::Unknown,
-            NodeKind::End { .. } => Truth::Unknown,
+            NodeKind::Delay { .. } | NodeKind::Finally { .. } | NodeKind::End { .. } => Truth::Unknown,
         }
     }
 
@@ -146,6 +146,7 @@ impl Turn<'_> {
             | NodeKind::Inline { .. }
             | NodeKind::Wait { .. } => {}
             NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Each { .. } => {}
+            NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
             NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
         }
     }
@@ -203,6 +204,12 @@ impl Turn<'_> {
         self.wait_again(node);
     }
 
+    /// Enters a wait for a time.
+    pub(super) fn delay(&mut self, node: NodeId, secs: f64) {
+        self.run.nodes.at_mut(node.index()).phase = Phase::Waiting;
+        self.run.timers.set(self.plan.node_key(node), self.run.now.after(Time::from_secs(secs)));
+    }
+
     /// Something was learned that a `wait` may depend on.
     pub(super) fn wait_again(&mut self, node: NodeId) {
         let NodeKind::Wait { condition, .. } = &self.plan.node(node).kind else { return };
@@ -231,7 +238,11 @@ impl Turn<'_> {
             }
             Phase::Waiting => {
                 self.leave_wait(node);
-                self.fail(node, TIMEOUT, EndCause::Deadline);
+                if matches!(self.plan.node(node).kind, NodeKind::Delay { .. }) {
+                    self.succeed(node);
+                } else {
+                    self.fail(node, TIMEOUT, EndCause::Deadline);
+                }
             }
             Phase::Checking => self.check_last(node),
             Phase::Starting | Phase::Running | Phase::Held | Phase::Cancelling | Phase::SafeStopping => {

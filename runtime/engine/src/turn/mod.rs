@@ -5,6 +5,7 @@
 
 mod call;
 mod change;
+mod cleanup;
 mod composite;
 mod decide;
 mod goal;
@@ -231,10 +232,13 @@ impl Turn<'_> {
             self.finish(RunEnd::Interrupted);
             return;
         }
-        if self.run.ending.is_none() {
-            self.run.ending = Some(RunEnd::Interrupted);
-            self.stop(ROOT, EndCause::Person);
+        let cleans_up = || crate::snapshot::pending(self.plan, self.run).next().is_some();
+        if self.run.halted || self.run.ending.is_some() && !cleans_up() {
+            return;
         }
+        self.run.halted = true;
+        self.run.ending = Some(RunEnd::Interrupted);
+        self.stop(ROOT, EndCause::Person);
     }
 
     /// The body of the policy is over.

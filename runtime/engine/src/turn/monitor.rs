@@ -150,6 +150,12 @@ impl Turn<'_> {
         }
     }
 
+    /// A monitor that is stopped no longer pauses anything.
+    pub(super) fn let_go_of_pauses(&mut self, node: NodeId, watches: u32) {
+        (0..watches).for_each(|index| self.stop_pausing(self.plan.watch_number(node, index)));
+        self.run.composites.at_mut(node.index()).pauses = 0;
+    }
+
     /// Adds a pause in force to the time that the watch has paused in all.
     pub(super) fn stop_pausing(&mut self, number: u32) {
         let now = self.run.now;
@@ -252,12 +258,9 @@ impl Turn<'_> {
     /// Stops everything in a monitor; what is to happen then follows once all is down.
     pub(super) fn stop_within(&mut self, node: NodeId, after: AfterStop) {
         let NodeKind::Monitor { watches, .. } = &self.plan.node(node).kind else { return };
-        for index in 0..watches.len() as u32 {
-            self.stop_pausing(self.plan.watch_number(node, index));
-        }
+        self.let_go_of_pauses(node, watches.len() as u32);
         let state = self.run.composites.at_mut(node.index());
         state.after = after;
-        state.pauses = 0;
         state.resuming = None;
         self.run.clearing.retain(|clearing| *clearing != node);
         for region in self.plan.owned(node) {

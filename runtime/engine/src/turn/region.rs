@@ -10,9 +10,7 @@ impl Turn<'_> {
     /// Starts a region from its first step.
     pub(super) fn enter_region(&mut self, region: RegionId) {
         let plan = self.plan;
-        let suspended = plan.region(region).owner.map_or(0, |owner| {
-            self.run.regions.at(self.region_of(owner).index()).suspended + self.imposed(owner, region)
-        });
+        let suspended = plan.region(region).owner.map_or(0, |owner| self.suspensions(owner, region));
         let entry = plan.region(region).entry;
         let state = self.run.regions.at_mut(region.index());
         state.active = true;
@@ -63,10 +61,15 @@ impl Turn<'_> {
         match &self.plan.node(node).kind {
             NodeKind::Call(_) => {}
             NodeKind::Wait { condition, within_secs } => self.wait(node, condition, *within_secs),
+            NodeKind::Delay { secs } => self.delay(node, *secs),
+            NodeKind::Finally { body, .. } => {
+                self.run.composites.at_mut(node.index()).body_ended = None;
+                self.enter_region(*body);
+            }
             NodeKind::If { .. } => self.decide(node),
             NodeKind::End { how, of, why } => {
                 match how {
-                    Ending::Done | Ending::Replan => self.succeed(node),
+                    Ending::Done | Ending::Cannot | Ending::Replan => self.succeed(node),
                     Ending::Fail => self.fail(node, self.plan.failed, EndCause::Failed),
                 }
                 self.end_policy(node, *how, *of, why.as_ref(), EndCause::ParentEnded);
@@ -150,6 +153,14 @@ impl Turn<'_> {
             self.root_ended(exit);
             return;
         };
+        if let NodeKind::Finally { body, cleanup } = &self.plan.node(owner).kind {
+            if *body == region {
+                self.clean_up(owner, *cleanup, exit);
+            } else {
+                self.cleaned_up(owner, exit);
+            }
+            return;
+        }
         if let Some(cause) = self.stopping(self.region_of(owner)) {
             if self.is_down(owner) {
                 self.exit(owner, NodeExit { ending: NodeEnding::Interrupted, cause, origin: owner });
@@ -181,6 +192,7 @@ impl Turn<'_> {
             NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
             }
             NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
+            NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
             NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
         }
         self.run.composites.at_mut(node.index()).after = AfterStop::Nothing;

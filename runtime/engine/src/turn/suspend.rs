@@ -21,8 +21,9 @@ impl Turn<'_> {
     /// Undoes one [`Turn::suspend`].
     pub(super) fn go_on(&mut self, region: RegionId) {
         self.walk_down(region, |turn, node, count| {
+            let held = *count > 0;
             *count = count.saturating_sub(1);
-            if *count == 0 {
+            if held && *count == 0 {
                 turn.go_on_node(node);
             }
         });
@@ -172,7 +173,28 @@ impl Turn<'_> {
             Phase::Starting | Phase::Running | Phase::Held | Phase::Cancelling | Phase::SafeStopping => {
                 self.cancel(node, GoalIntent::Stop);
             }
-            Phase::Inside => walk.extend(self.plan.owned(node).iter().rev()),
+            Phase::Inside => match &self.plan.node(node).kind {
+                // A cleanup that has begun comes to its end.
+                NodeKind::Finally { body, cleanup } if cause != EndCause::Person => {
+                    walk.push(*body);
+                    self.release_cleanup(node, *cleanup);
+                }
+                NodeKind::Monitor { watches, .. } => {
+                    self.let_go_of_pauses(node, watches.len() as u32);
+                    walk.extend(self.plan.owned(node).iter().rev());
+                }
+                NodeKind::Finally { .. } | NodeKind::Sequence { .. } | NodeKind::Inline { .. } => {
+                    walk.extend(self.plan.owned(node).iter().rev());
+                }
+                NodeKind::If { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {
+                    walk.extend(self.plan.owned(node).iter().rev());
+                }
+                NodeKind::Each { .. } | NodeKind::Parallel { .. } => {
+                    walk.extend(self.plan.owned(node).iter().rev());
+                }
+                NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {
+                }
+            },
         }
     }
 

@@ -285,3 +285,64 @@ fn control_more_transitions_at_one_instant_than_its_budget_end_a_run() {
     assert!(matches!(out.last(), Some(Effect::Finished(end)) if **end == fault), "{out:?}");
     assert!(engine.is_over());
 }
+
+/// A body and a cleanup that says something.
+fn cleaned(body: Vec<StepSketch>) -> StepSketch {
+    StepSketch::Finally(body, vec![StepSketch::say("clean")])
+}
+
+#[test]
+fn control_cleanup_runs_behind_its_body() {
+    check!(
+        [cleaned(vec![StepSketch::go("table")]), StepSketch::say("on")],
+        [(1.0, Done(1)), (2.0, Done(2)),]
+    );
+}
+
+#[test]
+fn control_cleanup_runs_before_a_handler() {
+    check!(
+        [StepSketch::Try(
+            vec![cleaned(vec![StepSketch::go("table")])],
+            vec![(None, vec![StepSketch::say("caught")])]
+        )],
+        [(1.0, Fails(1, "unreachable")), (2.0, Done(2)), (3.0, Done(3))]
+    );
+}
+
+#[test]
+fn control_cleanup_runs_before_an_ending_and_may_fail() {
+    check!([cleaned(vec![StepSketch::End(Ending::Cannot)])], [(1.0, Fails(1, "timeout"))]);
+}
+
+#[test]
+fn control_cleanup_waits_for_its_time() {
+    let steps = StepSketch::Finally(vec![StepSketch::go("table")], vec![StepSketch::Delay(2.0)]);
+    check!([steps, StepSketch::say("on")], [(1.0, Done(1)), (3.0, Tick)]);
+}
+
+#[test]
+fn control_person_stops_before_a_cleanup() {
+    let graph = motet_graph::arbitrary::graph(&[cleaned(vec![StepSketch::go("table")])]);
+    let mut engine = Engine::new(graph, &StartState::default()).unwrap();
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    engine.handle(Time::from_secs(1.0), Event::Stop, &mut out);
+    let pending = |engine: &Engine| {
+        let pending = engine.snapshot().pending;
+        pending.iter().map(|due| format!("{} {due}", due.path)).collect::<Vec<_>>()
+    };
+    assert_eq!(pending(&engine), ["/steps/0 say(\"clean\")"]);
+    let goal = out.iter().find_map(|effect| match effect {
+        Effect::Start { goal, .. } => Some(*goal),
+        _ => None,
+    });
+    let goal = goal.unwrap();
+    let acknowledged = motet_runtime::DriverEvent::Acknowledged { goal };
+    let ended = motet_runtime::DriverEvent::Ended { goal, outcome: motet_runtime::Outcome::Interrupted };
+    for event in [acknowledged, ended] {
+        engine.handle(Time::from_secs(2.0), Event::Driver(event), &mut out);
+    }
+    assert!(matches!(out.last(), Some(Effect::Finished(end)) if **end == RunEnd::Interrupted), "{out:?}");
+    assert_eq!(pending(&engine), ["/steps/0 say(\"clean\")"]);
+}

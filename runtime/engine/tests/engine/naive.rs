@@ -34,6 +34,8 @@ fn single(steps: &[StepSketch]) -> Vec<StepSketch> {
                 StepSketch::If(condition.clone(), single(then), other.as_ref().map(|steps| single(steps)))
             }
             StepSketch::Wait(condition, _) => StepSketch::If(condition.clone(), Vec::new(), None),
+            StepSketch::Delay(_) => StepSketch::Sequence(Vec::new()),
+            StepSketch::Finally(body, cleanup) => StepSketch::Finally(single(body), single(cleanup)),
             StepSketch::Try(body, handlers) => {
                 let handlers = handlers.iter().map(|(on, steps)| (on.clone(), single(steps)));
                 StepSketch::Try(single(body), handlers.collect())
@@ -193,6 +195,17 @@ impl Naive {
                 }
                 flow => flow,
             },
+            NodeKind::Finally { body, cleanup } => {
+                let flow = self.region(body);
+                if matches!(flow, Flow::Interrupted | Flow::Swapped) {
+                    return flow;
+                }
+                match (self.region(cleanup), flow) {
+                    (Flow::Swapped, _) => Flow::Swapped,
+                    (Flow::Interrupted, Flow::Ok | Flow::Fail(..)) => Flow::Interrupted,
+                    (_, flow) => flow,
+                }
+            }
             NodeKind::Repeat { times, body, until } => {
                 for _ in 0..times {
                     match self.region(body) {
@@ -221,13 +234,13 @@ impl Naive {
             }
             NodeKind::End { how, of: Some(of), .. } => Flow::Leave(of, how, id),
             NodeKind::End { how: Ending::Done, .. } => Flow::End(RunEnd::Done { why: None }),
+            NodeKind::End { how: Ending::Cannot, .. } => Flow::End(RunEnd::Declined { why: None }),
             NodeKind::End { how: Ending::Replan, .. } => Flow::End(RunEnd::Replan { why: None }),
             NodeKind::End { how: Ending::Fail, .. } => {
                 Flow::End(RunEnd::Failed { kind: "failed".into(), why: None, node: id })
             }
-            NodeKind::Wait { .. } | NodeKind::Monitor { .. } | NodeKind::Parallel { .. } => {
-                panic!("not single")
-            }
+            NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::Monitor { .. } => panic!("not single"),
+            NodeKind::Parallel { .. } => panic!("not single"),
         }
     }
 

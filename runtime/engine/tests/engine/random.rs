@@ -213,6 +213,8 @@ impl Ledger {
                     | TraceEventKind::Fired { .. } => {}
                     TraceEventKind::WentOn { .. }
                     | TraceEventKind::Bound { .. }
+                    | TraceEventKind::CleanupFailed { .. }
+                    | TraceEventKind::CleanupSkipped { .. }
                     | TraceEventKind::Verified { .. } => {}
                 },
                 Effect::Finished(end) => {
@@ -511,7 +513,7 @@ fn listed(graph: &Graph) -> BTreeSet<&str> {
 /// Whether a run may end like that.
 fn is_expected(end: &RunEnd, graph: &Graph, strict: bool) -> bool {
     match end {
-        RunEnd::Done { .. } | RunEnd::Replan { .. } | RunEnd::Interrupted => true,
+        RunEnd::Done { .. } | RunEnd::Declined { .. } | RunEnd::Replan { .. } | RunEnd::Interrupted => true,
         RunEnd::Failed { node, kind, .. } => {
             node.index() < graph.nodes.len() && (!strict || listed(graph).contains(kind.as_str()))
         }

@@ -159,6 +159,7 @@ fn wire_form_keeps_its_bytes() {
     for end in [
         RunEnd::Done { why: None },
         RunEnd::Failed { kind: "slipped".into(), why: why.clone(), node },
+        RunEnd::Declined { why: why.clone() },
         RunEnd::Replan { why },
         RunEnd::Interrupted,
         RunEnd::Fault(Fault::NotStopped { node, revision: 1 }),

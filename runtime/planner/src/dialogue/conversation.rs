@@ -44,6 +44,8 @@ pub struct DialogueSetup {
 pub enum Outcome {
     /// The request is done.
     Done,
+    /// The policy declined the request, for a reason; empty without one.
+    Declined(String),
     /// A person gave it up.
     GivenUp,
     /// A person stopped the robot.

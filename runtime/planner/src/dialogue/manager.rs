@@ -188,6 +188,9 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             }
             (Some(StopReason::Stop), _) => return RoundResult::Over(Outcome::GivenUp),
             (None, RunEnd::Interrupted) => return RoundResult::Over(Outcome::Stopped),
+            (None, RunEnd::Declined { why }) => {
+                return RoundResult::Over(Outcome::Declined(why.clone().unwrap_or_default()));
+            }
             (None, _) => {}
         }
         if let (Some(first), RunEnd::Done { .. }) = (first, &end) {

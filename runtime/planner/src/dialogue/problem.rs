@@ -111,8 +111,8 @@ impl Problem {
         }
     }
 
-    /// Problem behind the ending of a run, named with its bindings. `None` if the run is done or a person
-    /// stopped it.
+    /// Problem behind the ending of a run, named with its bindings. `None` if the run is done or declined, or
+    /// if a person stopped it.
     #[must_use]
     pub fn of_run(
         end: &RunEnd,
@@ -120,7 +120,7 @@ impl Problem {
         scene: &Scene,
     ) -> Option<Self> {
         match end {
-            RunEnd::Done { .. } | RunEnd::Interrupted => None,
+            RunEnd::Done { .. } | RunEnd::Declined { .. } | RunEnd::Interrupted => None,
             RunEnd::Failed { kind, why, node } => {
                 Some(failed((kind, why.as_deref()), *node, (graph, bound), scene))
             }

@@ -4,7 +4,7 @@ use motet_compiler::Session;
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_syntax::ast::{Block, Do, ExprKind, Policy, StepKind};
+use motet_syntax::ast::{Block, Do, ExprKind, Policy, Step, StepKind};
 use motet_syntax::print;
 use smol_str::SmolStr;
 use thiserror::Error;
@@ -313,6 +313,9 @@ fn quoted(text: &str) -> String {
 pub fn write(policy: &Policy, scene: &Scene) -> (String, Vec<String>) {
     let mut writer = Writer { scene, actions: Vec::new(), left_out: Vec::new() };
     writer.block(&policy.body);
+    if let Some(cleanup) = &policy.cleanup {
+        writer.without("that it is cleaned up after a failure too", cleanup);
+    }
     (writer.actions.join(", "), writer.left_out)
 }
 
@@ -324,20 +327,26 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn block(&mut self, block: &Block) {
-        for step in &block.steps {
-            match &step.kind {
-                StepKind::Do(call) => self.call(call),
-                StepKind::Sequence { body, .. } => self.block(body),
-                StepKind::Monitor { body, .. } => self.without("a monitor", body),
-                StepKind::Try { body, .. } => self.without("what is done after a failure", body),
-                StepKind::If { then, .. } => self.without("a condition", then),
-                StepKind::Repeat { body, .. } | StepKind::Each { body, .. } => self.without("a loop", body),
-                StepKind::Parallel { branches } => {
-                    branches.iter().for_each(|branch| self.without("that branches run together", branch));
-                }
-                StepKind::Wait { .. } => self.left_out.push("a wait".to_owned()),
-                StepKind::End(_) => {}
+        block.steps.iter().for_each(|step| self.step(step));
+    }
+
+    fn step(&mut self, step: &Step) {
+        match &step.kind {
+            StepKind::Do(call) => self.call(call),
+            StepKind::Sequence { body, .. } => self.block(body),
+            StepKind::Monitor { body, .. } => self.without("a monitor", body),
+            StepKind::Try { body, .. } => self.without("what is done after a failure", body),
+            StepKind::If { then, .. } => self.without("a condition", then),
+            StepKind::Repeat { body, .. } | StepKind::Each { body, .. } => self.without("a loop", body),
+            StepKind::Parallel { branches } => {
+                branches.iter().for_each(|branch| self.without("that branches run together", branch));
             }
+            StepKind::Wait { .. } | StepKind::Delay { .. } => self.left_out.push("a wait".to_owned()),
+            StepKind::Finally { step, cleanup } => {
+                self.step(step);
+                self.without("that it is cleaned up after a failure too", cleanup);
+            }
+            StepKind::End(_) => {}
         }
     }
 

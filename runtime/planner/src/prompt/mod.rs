@@ -115,10 +115,11 @@ impl Prompt<'_> {
         let entries = self.memory.entries();
         let skipped = entries.len().saturating_sub(LATEST).max(1);
         let lines: String = entries.skip(skipped).map(|entry| format!("- {entry}\n")).collect();
-        if lines.is_empty() && self.memory.latest_failure().is_none() {
+        let due: String = self.memory.due().map(|due| format!("- still to clean up: {due}\n")).collect();
+        if lines.is_empty() && due.is_empty() && self.memory.latest_failure().is_none() {
             return String::new();
         }
-        format!("# What was asked and done\n{}{lines}", self.memory.short())
+        format!("# What was asked and done\n{}{lines}{due}", self.memory.short())
     }
 }
 

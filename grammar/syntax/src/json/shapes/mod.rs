@@ -171,7 +171,7 @@ impl<'t> ShapeReader<'t> {
                 self.step(node);
                 node
             }
-            Some("Condition") => {
+            Some("Condition" | "Awaited") => {
                 self.condition(node);
                 node
             }

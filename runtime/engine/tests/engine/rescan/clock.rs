@@ -76,6 +76,9 @@ impl Naive {
     fn node_due(&mut self, node: NodeId) {
         self.live(node).timer = None;
         match self.nodes[&node].at.clone() {
+            At::Waiting if matches!(self.kind(node), NodeKind::Delay { .. }) => {
+                self.live(node).at = At::Ended(Flow::Ok);
+            }
             At::Waiting => self.live(node).at = At::Ended(Flow::Fail("timeout".into(), node)),
             At::Goal(_, Phase::SafeStopping, _) => self.fault(node, self.revision),
             At::Goal(number, Phase::Cancelling, wish) => self.stop_safely(number, node, wish),

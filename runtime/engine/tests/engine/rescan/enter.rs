@@ -24,7 +24,7 @@ impl Naive {
                 At::Enter => self.enter(node),
                 At::Acquire => self.acquire(node),
                 At::Waiting if !self.is_suspended(self.region_of(node)) => {
-                    let NodeKind::Wait { condition, .. } = self.kind(node) else { panic!("no wait") };
+                    let NodeKind::Wait { condition, .. } = self.kind(node) else { continue };
                     if !self.holds(&condition) {
                         continue;
                     }
@@ -46,22 +46,29 @@ impl Naive {
     }
 
     pub(super) fn enter_region(&mut self, region: RegionId) {
-        let (entry, owner) = {
-            let of = &self.graph.regions[region.index()];
-            (of.entry, of.owner)
-        };
-        let suspended = owner.map_or(0, |owner| {
-            let around = self.regions.get(&self.region_of(owner)).map_or(0, |region| region.suspended);
-            let NodeKind::Monitor { body, .. } = self.kind(owner) else { return around };
-            let live = &self.nodes[&owner];
-            let pauses = live.watches.iter().filter(|watch| watch.paused_at.is_some()).count() as u32;
-            around + pauses + u32::from(live.resuming.is_some() && body == region)
-        });
+        let entry = self.graph.regions[region.index()].entry;
+        let suspended = self.suspensions(region);
         let ended = entry.is_none().then_some(Flow::Ok);
         self.regions.insert(region, Region { current: entry, stopping: false, suspended, ended });
         if let Some(entry) = entry {
             self.begin(entry);
         }
+    }
+
+    /// By how many suspensions a region is held. What is stopped holds the cleanups in it no longer.
+    pub(super) fn suspensions(&self, region: RegionId) -> u32 {
+        let (mut region_in, mut owner) = (region, self.graph.regions[region.index()].owner);
+        while let Some(stopped) = owner.map(|owner| self.region_of(owner)).filter(|of| self.is_stopping(*of))
+        {
+            (region_in, owner) = (stopped, self.graph.regions[stopped.index()].owner);
+        }
+        owner.map_or(0, |owner| {
+            let around = self.regions.get(&self.region_of(owner)).map_or(0, |region| region.suspended);
+            let NodeKind::Monitor { body, .. } = self.kind(owner) else { return around };
+            let live = &self.nodes[&owner];
+            let pauses = live.watches.iter().filter(|watch| watch.paused_at.is_some()).count() as u32;
+            around + pauses + u32::from(live.resuming.is_some() && body == region_in)
+        })
     }
 
     /// A step is to be entered.
@@ -101,6 +108,10 @@ impl Naive {
                 self.live(node).at = At::Waiting;
                 self.set(node, nanos(within_secs));
             }
+            NodeKind::Delay { secs } => {
+                self.live(node).at = At::Waiting;
+                self.set(node, nanos(secs));
+            }
             NodeKind::If { condition, then, otherwise } => {
                 match if self.holds(&condition) { Some(then) } else { otherwise } {
                     Some(region) => self.enter_region(region),
@@ -114,6 +125,7 @@ impl Naive {
             }
             NodeKind::Sequence { body, .. }
             | NodeKind::Inline { body, .. }
+            | NodeKind::Finally { body, .. }
             | NodeKind::Try { body, .. }
             | NodeKind::Repeat { body, .. }
             | NodeKind::Monitor { body, .. } => self.enter_region(body),

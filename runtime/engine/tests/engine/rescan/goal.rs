@@ -19,7 +19,20 @@ impl Naive {
                 (live.at, live.timer) = (At::Ended(Flow::Interrupted), None);
             }
             At::Goal(..) => self.cancel(node, Wish::Stop),
-            At::Inside => self.owned(node).into_iter().for_each(|region| self.stop(region)),
+            At::Inside => match self.kind(node) {
+                NodeKind::Finally { body, cleanup } if !self.halted => {
+                    self.stop(body);
+                    if let Some(held) = self.regions.get(&cleanup).map(|region| region.suspended) {
+                        (self.suspensions(cleanup)..held).for_each(|_| self.go_on(cleanup));
+                    }
+                }
+                _ => {
+                    for index in 0..self.nodes[&node].watches.len() {
+                        self.stop_pausing(node, index);
+                    }
+                    self.owned(node).into_iter().for_each(|region| self.stop(region));
+                }
+            },
         }
     }
 
@@ -72,8 +85,9 @@ impl Naive {
 
     pub(super) fn go_on(&mut self, region: RegionId) {
         let Some(state) = self.regions.get_mut(&region) else { return };
+        let held = state.suspended > 0;
         state.suspended = state.suspended.saturating_sub(1);
-        let (on, Some(node)) = (state.suspended == 0, state.current) else { return };
+        let (on, Some(node)) = (held && state.suspended == 0, state.current) else { return };
         match self.nodes[&node].at.clone() {
             At::Inside => self.owned(node).into_iter().for_each(|region| self.go_on(region)),
             At::Parked if on => self.live(node).at = At::Enter,
@@ -120,6 +134,10 @@ impl Naive {
             (Outcome::Interrupted, Wish::Expire | Wish::Lose) => Some("timeout".to_owned()),
             (Outcome::Success(_) | Outcome::Interrupted, _) => None,
         };
+        self.lost.remove(&node);
+        if *outcome == Outcome::Interrupted && wish == Wish::Lose {
+            self.lost.insert(node);
+        }
         self.live(node).at = match outcome {
             Outcome::Success(_) => At::Ended(Flow::Ok),
             Outcome::Failure(_) | Outcome::Interrupted

@@ -6,6 +6,23 @@ use motet_runtime::RunEnd;
 
 impl Naive {
     pub(super) fn region_ended(&mut self, owner: NodeId, region: RegionId, flow: Flow) {
+        if let NodeKind::Finally { body, cleanup } = self.kind(owner) {
+            let stopping = self.is_stopping(self.region_of(owner));
+            let flow = if stopping { Flow::Interrupted } else { flow };
+            let by_driver = match &flow {
+                Flow::Ok => false,
+                Flow::Fail(_, origin) => self.lost.contains(origin),
+                Flow::Interrupted => !stopping,
+            };
+            if body == region && !self.halted && !by_driver {
+                self.live(owner).body_ended = Some(flow);
+                self.enter_region(cleanup);
+                return;
+            }
+            let before = self.live(owner).body_ended.take().filter(|_| flow != Flow::Interrupted);
+            self.live(owner).at = At::Ended(before.unwrap_or(flow));
+            return;
+        }
         if self.is_stopping(self.region_of(owner)) {
             if self.is_down(owner) {
                 self.live(owner).at = At::Ended(Flow::Interrupted);
@@ -106,6 +123,7 @@ impl Naive {
             self.ending = Some(match how {
                 Ending::Done => RunEnd::Done { why: None },
                 Ending::Fail => RunEnd::Failed { kind: "failed".into(), why: None, node },
+                Ending::Cannot => RunEnd::Declined { why: None },
                 Ending::Replan => RunEnd::Replan { why: None },
             });
             self.stop(ROOT);

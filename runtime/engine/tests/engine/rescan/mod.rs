@@ -14,7 +14,7 @@ mod swap;
 mod watch;
 
 use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, steps, vocabulary as v};
-use motet_graph::{Condition, Graph, ROOT, Value};
+use motet_graph::{Condition, Graph, NodeId, NodeKind, ROOT, Value};
 use motet_runtime::{
     Answer, Capabilities, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap,
     PrimitiveSet, Query, RunEnd, StartState, SwapRefusal, Time, TraceEventKind,
@@ -190,7 +190,12 @@ fn take(naive: &mut Naive, act: &Act, goal: impl Fn(usize) -> GoalId) -> Option<
             DriverEvent::Observed { query, answer: Answer::Truth(*held) }
         }
         Act::Stop => {
-            if naive.ending.is_none() {
+            let cleans = |node: &NodeId| {
+                matches!(naive.kind(*node), NodeKind::Finally { .. }) && naive.nodes[node].at == At::Inside
+            };
+            let is_open = naive.ending.is_none() || naive.nodes.keys().any(cleans);
+            if !naive.halted && is_open {
+                naive.halted = true;
                 naive.ending = Some(RunEnd::Interrupted);
                 naive.stop(ROOT);
             }

@@ -21,6 +21,8 @@ fn plain(steps: &[StepSketch]) -> Vec<StepSketch> {
                 StepSketch::If(condition.clone(), plain(then), other.as_ref().map(|steps| plain(steps)))
             }
             StepSketch::Wait(condition, within) => StepSketch::Wait(condition.clone(), *within),
+            StepSketch::Delay(secs) => StepSketch::Delay(*secs),
+            StepSketch::Finally(body, cleanup) => StepSketch::Finally(plain(body), plain(cleanup)),
             StepSketch::Monitor(whens, body) => {
                 StepSketch::Monitor(whens.iter().map(reacting).collect(), plain(body))
             }
@@ -93,6 +95,7 @@ pub(super) fn known(steps: &[StepSketch]) -> Graph {
                 condition(of);
                 *within_secs = times.next();
             }
+            NodeKind::Delay { secs } => *secs = times.next(),
             NodeKind::If { condition: of, .. } | NodeKind::Repeat { until: Some(of), .. } => condition(of),
             NodeKind::Monitor { watches, .. } => {
                 for watch in watches {
@@ -124,12 +127,15 @@ pub(super) fn elsewhere(step: &StepSketch) -> StepSketch {
             StepSketch::If(condition.clone(), all(then), other.as_ref().map(|steps| all(steps)))
         }
         StepSketch::Monitor(whens, body) => StepSketch::Monitor(whens.clone(), all(body)),
+        StepSketch::Finally(body, cleanup) => StepSketch::Finally(all(body), all(cleanup)),
         StepSketch::Try(body, handlers) => StepSketch::Try(all(body), handlers.clone()),
         StepSketch::Repeat(times, steps, until) => StepSketch::Repeat(*times, all(steps), until.clone()),
         StepSketch::Each(list, most, steps) => StepSketch::Each(list.clone(), *most, all(steps)),
         StepSketch::Parallel(branches) => {
             StepSketch::Parallel(branches.iter().map(|steps| all(steps)).collect())
         }
-        StepSketch::Call(_) | StepSketch::Wait(..) | StepSketch::End(_) => step.clone(),
+        StepSketch::Call(_) | StepSketch::Wait(..) | StepSketch::Delay(_) | StepSketch::End(_) => {
+            step.clone()
+        }
     }
 }

@@ -125,6 +125,10 @@ pub(super) struct Naive {
     pub(super) orphans: Vec<Orphan>,
     pub(super) started: usize,
     pub(super) ending: Option<RunEnd>,
+    /// Whether a person has stopped the run.
+    pub(super) halted: bool,
+    /// Calls whose last goal the driver lost.
+    pub(super) lost: BTreeSet<NodeId>,
     /// How the run ends once no orphan is left.
     pub(super) closing: Option<RunEnd>,
     pub(super) out: Vec<String>,
@@ -144,6 +148,8 @@ impl Naive {
             orphans: Vec::new(),
             started: 0,
             ending: None,
+            halted: false,
+            lost: BTreeSet::new(),
             closing: None,
             out: Vec::new(),
             over: false,

@@ -32,6 +32,7 @@ impl Naive {
         (self.graph, self.revision) = (graph, self.revision + 1);
         self.regions.clear();
         self.nodes.clear();
+        self.lost.clear();
         self.enter_region(ROOT);
         self.settle();
         if !self.over {
