@@ -153,7 +153,7 @@ pub(crate) trait Domain<'p> {
     fn replace_head(&mut self, _head: Option<Self::Mark>) -> Option<Self::Mark> {
         None
     }
-    /// Forgets the item of the round before.
+    /// Forgets what a name was bound to in the round before.
     fn begin_round(&mut self, _item: BindingId) {}
     /// Number of findings so far.
     fn findings(&self) -> (usize, usize) {
@@ -192,6 +192,12 @@ pub(crate) trait Domain<'p> {
         let Some(step) = self.program().step(id) else { return };
         match &step.kind {
             StepKind::Call(call) => self.transfer(id, call, step.span),
+            StepKind::Let { binding, value } => {
+                if value.may_lack_value() {
+                    self.throw(Some(TIMEOUT), usize::MAX);
+                }
+                self.begin_round(*binding);
+            }
             StepKind::Sequence { body, .. } => self.sequence(id, body),
             StepKind::Inline { body, .. } => self.inline(id, body),
             StepKind::If { condition, then, otherwise, .. } => {

@@ -6,12 +6,15 @@
 //! not fit, the policy stays as it is.
 
 use motet_syntax::Syntax;
-use motet_syntax::ast::{Arg, Block, Call, End, Expr, ExprKind, Name, Policy, Reaction, StepKind};
+use motet_syntax::ast::{
+    Arg, Block, Call, Do, End, Expr, ExprKind, Name, Policy, Reaction, StepKind, TextPart,
+};
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
 
 use crate::declare::Library;
 use crate::declare::elaborator::parse_quantity;
+use crate::declare::list_term::{COUNT, FIRST, IS_EMPTY, OF};
 use crate::ir::{Base, Ty};
 
 /// Makes a policy explicit, for printing it in a syntax.
@@ -50,7 +53,16 @@ impl Writer<'_> {
     }
 
     fn step(&self, step: &mut StepKind) {
+        // Whether a call has a value or is a step only the library knows.
+        if let StepKind::Do(Do { call, bind: Some(name), within: None, retry: None }) = step
+            && self.called(&call.name.text).is_none()
+            && self.observed(&call.name.text).is_some()
+        {
+            let value = Expr { kind: ExprKind::Call(call.clone()), span: call.span };
+            *step = StepKind::Let { name: name.clone(), value };
+        }
         match step {
+            StepKind::Let { value, .. } => self.term(value, None),
             StepKind::Do(call) => {
                 let params = self.called(&call.call.name.text);
                 self.call(&mut call.call, params);
@@ -139,11 +151,13 @@ impl Writer<'_> {
     /// Parameters of the fluent or measure with a name.
     fn observed(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
         let names = &self.library.names;
+        let own = || [COUNT, FIRST, IS_EMPTY].iter().any(|own| own == name).then(|| vec![(OF, Ty::UNKNOWN)]);
         let fluent =
             names.fluents.get(name).and_then(|id| self.library.fluent(*id)).map(|def| def.params.clone());
-        fluent.or_else(|| {
+        let measure = || {
             names.measures.get(name).and_then(|id| self.library.measure(*id)).map(|def| def.params.clone())
-        })
+        };
+        fluent.or_else(measure).or_else(own)
     }
 
     /// Rewrites the arguments of a call. `open` is both a primitive and a fluent, so the caller gives the
@@ -201,6 +215,7 @@ impl Writer<'_> {
             | ExprKind::Number(_)
             | ExprKind::Quantity(..)
             | ExprKind::Text(_)
+            | ExprKind::Template(_)
             | ExprKind::Name(_)
             | ExprKind::Plain(_)
             | ExprKind::Wrong(_)
@@ -231,6 +246,15 @@ impl Writer<'_> {
                 self.term(left, right_ty);
                 self.term(right, left_ty);
             }
+            ExprKind::Template(parts) => {
+                // In braces stands the text syntax, in either syntax.
+                let inner = Writer { library: self.library, form: Syntax::Text };
+                for part in parts {
+                    if let TextPart::Value(value) = part {
+                        inner.term(value, None);
+                    }
+                }
+            }
             ExprKind::Bool(_)
             | ExprKind::Quantity(..)
             | ExprKind::Text(_)
@@ -247,8 +271,9 @@ impl Writer<'_> {
     fn type_of(&self, expr: &Expr) -> Option<Ty> {
         match &expr.kind {
             ExprKind::Call(call) => {
-                let id = self.library.names.measures.get(&call.name.text)?;
-                self.library.measure(*id).map(|def| def.result)
+                let id = self.library.names.measures.get(&call.name.text);
+                let own = (call.name.text == COUNT).then_some(Ty::INT);
+                id.and_then(|id| self.library.measure(*id)).map(|def| def.result).or(own)
             }
             ExprKind::Field(_, name) => {
                 let own = self.library.kinds.iter().find_map(|def| def.fields.get(&name.text));

@@ -148,6 +148,7 @@ impl Tree {
                 let binds = |kind: &NodeKind| match kind {
                     NodeKind::Call(call) => call.binds == Some(*binding),
                     NodeKind::Each { item, .. } => item == binding,
+                    NodeKind::Let { binding: own, .. } => own == binding,
                     NodeKind::Sequence { .. }
                     | NodeKind::Inline { .. }
                     | NodeKind::If { .. }
@@ -275,7 +276,11 @@ enum Open {
 fn branches(graph: &Graph, kind: &NodeKind, depth: usize, open: &mut Vec<Open>) {
     let inner = depth + 1;
     match kind {
-        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {}
+        NodeKind::Call(_)
+        | NodeKind::Let { .. }
+        | NodeKind::Wait { .. }
+        | NodeKind::Delay { .. }
+        | NodeKind::End { .. } => {}
         NodeKind::Finally { body, cleanup } => {
             open.push(Open::Region(*body, inner));
             open.push(Open::Heading("finally".to_owned(), depth));

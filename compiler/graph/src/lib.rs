@@ -5,8 +5,10 @@ pub mod arbitrary;
 pub mod draw;
 pub mod encode;
 pub mod model;
+mod spoken;
 pub mod validate;
 
 pub use encode::{DecodeError, GraphDocument, decode, encode, hash};
 pub use model::*;
+pub use spoken::spoken;
 pub use validate::{InvalidGraph, InvalidReason, validate};

@@ -133,6 +133,9 @@ impl Elaborator<'_> {
             | Term::Field(..)
             | Term::Measure(..)
             | Term::Arith(..)
+            | Term::Template(_)
+            | Term::Count(_)
+            | Term::First(_)
             | Term::Unknown => article(&name),
         }
     }

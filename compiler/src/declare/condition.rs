@@ -7,6 +7,7 @@ use smol_str::SmolStr;
 use super::arithmetic::dimension;
 use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::errors::{MissingArgument, NotACondition, TooManyArguments, UnknownFluent, UnknownParameter};
+use super::list_term::IS_EMPTY;
 use super::name::{list, near};
 use super::words;
 use crate::ir::{Base, Condition, Fact, Term, Ty};
@@ -29,7 +30,9 @@ impl Elaborator<'_> {
                 _ => self.no_condition(expr, "a value"),
             },
             ExprKind::Number(_) | ExprKind::Quantity(..) => self.no_condition(expr, "a number"),
-            ExprKind::Text(_) | ExprKind::Plain(_) => self.no_condition(expr, "a text"),
+            ExprKind::Text(_) | ExprKind::Template(_) | ExprKind::Plain(_) => {
+                self.no_condition(expr, "a text")
+            }
             ExprKind::List(_) => self.no_condition(expr, "a list"),
             ExprKind::Wrong(_) => Condition::Unknown,
             ExprKind::Any => self.no_condition(expr, "`any`"),
@@ -91,6 +94,11 @@ impl Elaborator<'_> {
         if call.name.text == "monitored" {
             return self.monitored(call);
         }
+        if !self.library.names.fluents.contains_key(&call.name.text)
+            && let Some(condition) = self.is_empty_list(call)
+        {
+            return condition;
+        }
         match self.fact(call) {
             Some(fact) => Condition::Fact(fact),
             None => Condition::Unknown,
@@ -101,10 +109,11 @@ impl Elaborator<'_> {
     pub(crate) fn fact(&mut self, call: &Call) -> Option<Fact> {
         let library = self.library;
         let Some(id) = library.names.fluents.get(&call.name.text).copied() else {
-            if library.names.measures.contains_key(&call.name.text) {
+            if self.has_value(&call.name.text) {
                 self.report(NotACondition { span: call.span, found: "a value", wanted: "a condition" });
             } else {
-                let known = library.fluents.iter().map(|def| &def.name);
+                let own = [IS_EMPTY];
+                let known = library.fluents.iter().map(|def| &def.name).chain(&own);
                 self.report(UnknownFluent::new(&call.name, "fluent", known));
             }
             return None;

@@ -10,6 +10,7 @@ use smol_str::{SmolStr, format_smolstr};
 use super::errors::{
     MisplacedAny, MissingUnit, NotACondition, OutOfRange, UnknownField, UnknownFluent, WrongType,
 };
+use super::list_term::{COUNT, FIRST, IS_EMPTY};
 use super::name::{Scope, article, list, near};
 use crate::declare::Library;
 use crate::ir::{Base, Binding, Entities, ROBOT, Term, Ty};
@@ -106,6 +107,7 @@ impl<'a> Elaborator<'a> {
                 (Term::Number(unit.to_si(*value)), Ty::plain(Base::Quantity(unit.dimension())))
             }
             ExprKind::Text(text) => (Term::Text(text.clone()), Ty::TEXT),
+            ExprKind::Template(parts) => self.template(parts),
             ExprKind::Name(name) => self.name(name, expr.span, wanted),
             ExprKind::Binding(name) => self.binding(name, expr.span, wanted),
             ExprKind::Plain(text) => self.plain(text, expr.span, wanted),
@@ -200,10 +202,14 @@ impl<'a> Elaborator<'a> {
     fn measure(&mut self, call: &motet_syntax::ast::Call) -> (Term, Ty) {
         let library = self.library;
         let Some(id) = library.names.measures.get(&call.name.text).copied() else {
-            if library.names.fluents.contains_key(&call.name.text) {
+            if let Some(found) = self.of_list(call) {
+                return found;
+            }
+            if library.names.fluents.contains_key(&call.name.text) || call.name.text == IS_EMPTY {
                 self.report(NotACondition { span: call.span, found: "a condition", wanted: "a value" });
             } else {
-                let known = library.measures.iter().map(|def| &def.name);
+                let own = [COUNT, FIRST];
+                let known = library.measures.iter().map(|def| &def.name).chain(&own);
                 self.report(UnknownFluent::new(&call.name, "measure", known));
             }
             return (Term::Unknown, Ty::UNKNOWN);

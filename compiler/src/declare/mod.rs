@@ -14,6 +14,7 @@ pub(crate) mod elaborator;
 pub(crate) mod errors;
 pub(crate) mod gap;
 pub(crate) mod library;
+pub(crate) mod list_term;
 pub(crate) mod name;
 pub(crate) mod words;
 

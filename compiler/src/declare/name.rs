@@ -80,11 +80,11 @@ impl Elaborator<'_> {
     fn in_scope(&mut self, name: &SmolStr, span: Span) -> Option<(Term, Ty)> {
         let entry = self.scope.latest(name)?;
         let Some(gap) = &entry.gap else {
-            let found = (entry.term.clone(), entry.ty);
-            if let Term::Binding(id) = found.0 {
+            let (term, value, ty) = (entry.term.clone(), entry.value.clone(), entry.ty);
+            if let Term::Binding(id) = term {
                 self.count_use(id);
             }
-            return Some(found);
+            return Some((value.unwrap_or(term), ty));
         };
         // One report is enough for all uses of a binding.
         if self.gaps_told.insert(entry.span) {
@@ -217,6 +217,8 @@ pub(crate) struct Scope {
 pub(crate) struct ScopeEntry {
     pub(crate) name: SmolStr,
     pub(crate) term: Term,
+    /// What a `let` gave the name, where that is a constant or another name: it stands for it.
+    pub(crate) value: Option<Term>,
     pub(crate) ty: Ty,
     pub(crate) span: Span,
     /// Reason for which the name, which was bound before, has no value here.
@@ -234,7 +236,14 @@ pub(crate) struct ScopeMark {
 
 impl Scope {
     pub(crate) fn push(&mut self, name: SmolStr, term: Term, ty: Ty, span: Span) {
-        self.extend([ScopeEntry { name, term, ty, span, gap: None, is_free: false }]);
+        self.extend([ScopeEntry { name, term, value: None, ty, span, gap: None, is_free: false }]);
+    }
+
+    /// Lets the latest name stand for a value.
+    pub(crate) fn stand_for(&mut self, value: Term) {
+        if let Some(entry) = self.entries.last_mut() {
+            entry.value = Some(value);
+        }
     }
 
     pub(crate) fn extend(&mut self, entries: impl IntoIterator<Item = ScopeEntry>) {

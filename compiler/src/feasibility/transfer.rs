@@ -237,6 +237,9 @@ impl MotionChecker<'_> {
             | Term::Field(..)
             | Term::Measure(..)
             | Term::Arith(..)
+            | Term::Template(_)
+            | Term::Count(_)
+            | Term::First(_)
             | Term::Unknown => Err(unknown()),
         }
     }

@@ -222,6 +222,7 @@ fn named(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<SmolS
         Term::Binding(_) | Term::Each | Term::Unknown => None,
         Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::List(_) => None,
         Term::Field(..) | Term::Measure(..) | Term::Arith(..) => None,
+        Term::Template(_) | Term::Count(_) | Term::First(_) => None,
     }
 }
 

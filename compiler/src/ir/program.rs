@@ -164,6 +164,11 @@ pub(crate) enum BlockSlot {
 #[derive(Clone, Debug)]
 pub(crate) enum StepKind {
     Call(Call),
+    /// Binds a name to a value.
+    Let {
+        binding: BindingId,
+        value: Term,
+    },
     Sequence {
         name: SmolStr,
         body: Block,
@@ -231,7 +236,7 @@ impl StepKind {
     /// Blocks of the step, in document order.
     pub(crate) fn blocks(&self) -> SmallVec<[&Block; 2]> {
         match self {
-            Self::Call(_) | Self::Wait { .. } | Self::Delay { .. } => SmallVec::new(),
+            Self::Call(_) | Self::Let { .. } | Self::Wait { .. } | Self::Delay { .. } => SmallVec::new(),
             Self::End { .. } | Self::Unknown => SmallVec::new(),
             Self::Finally { body, cleanup } => smallvec![body, cleanup],
             Self::Sequence { body, .. }
@@ -265,7 +270,8 @@ impl StepKind {
                 endings.collect()
             }
             Self::Call(_) | Self::Sequence { .. } | Self::Inline { .. } | Self::If { .. } => SmallVec::new(),
-            Self::Wait { .. } | Self::Delay { .. } | Self::Finally { .. } => SmallVec::new(),
+            Self::Let { .. } | Self::Wait { .. } | Self::Delay { .. } => SmallVec::new(),
+            Self::Finally { .. } => SmallVec::new(),
             Self::Try { .. } | Self::Repeat { .. } | Self::Each { .. } => SmallVec::new(),
             Self::Parallel { .. } | Self::Unknown => SmallVec::new(),
         }
@@ -278,6 +284,7 @@ impl StepKind {
             Self::Repeat { until, .. } => (until.as_ref().map(|(until, _)| until), &[]),
             Self::Monitor { whens, .. } => (None, whens),
             Self::Call(_)
+            | Self::Let { .. }
             | Self::Sequence { .. }
             | Self::Inline { .. }
             | Self::Try { .. }

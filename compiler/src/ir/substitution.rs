@@ -26,7 +26,8 @@ pub(crate) trait Rewrite {
             }
             Term::Binding(id) => self.binding(id),
             Term::List(terms) | Term::Measure(_, terms) => self.terms(terms),
-            Term::Field(of, _) => self.term(of),
+            Term::Field(of, _) | Term::Count(of) | Term::First(of) => self.term(of),
+            Term::Template(parts) => self.terms(parts.iter_mut().map(|(part, _)| part)),
             Term::Arith(_, left, right) => self.terms([&mut **left, &mut **right]),
             Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) => {}
             Term::Case(..) | Term::Entity(_) | Term::Result | Term::Each | Term::Unknown => {}
@@ -51,6 +52,10 @@ pub(crate) trait Rewrite {
             StepKind::Call(call) => {
                 self.terms(&mut call.args);
                 call.binds.iter_mut().for_each(|id| self.binding(id));
+            }
+            StepKind::Let { binding, value } => {
+                self.term(value);
+                self.binding(binding);
             }
             StepKind::Sequence { body, .. } | StepKind::Inline { body, .. } => self.block(body),
             StepKind::If { condition, then, otherwise, .. } => {

@@ -16,6 +16,8 @@ pub(crate) enum Term {
     /// Number in SI units.
     Number(f64),
     Text(SmolStr),
+    /// Text with values: its parts, each with its type.
+    Template(Vec<(Term, Ty)>),
     Case(EnumId, u16),
     Entity(Entity),
     List(Vec<Term>),
@@ -29,6 +31,10 @@ pub(crate) enum Term {
     Field(Box<Term>, SmolStr),
     Measure(Measure, Vec<Term>),
     Arith(ArithOp, Box<Term>, Box<Term>),
+    /// Number of elements of a list.
+    Count(Box<Term>),
+    /// First element of a list; an empty list has none.
+    First(Box<Term>),
     /// Term with an error.
     Unknown,
 }
@@ -60,14 +66,16 @@ pub(crate) struct Fact {
 
 impl Term {
     fn parts(&self) -> impl Iterator<Item = &Self> {
+        let said: &[(Self, Ty)] = if let Self::Template(parts) = self { parts } else { &[] };
         let (one, other, rest): (_, _, &[Self]) = match self {
-            Self::Field(of, _) => (Some(&**of), None, &[]),
+            Self::Field(of, _) | Self::Count(of) | Self::First(of) => (Some(&**of), None, &[]),
             Self::Arith(_, left, right) => (Some(&**left), Some(&**right), &[]),
             Self::List(terms) | Self::Measure(_, terms) => (None, None, terms),
             Self::Bool(_)
             | Self::Int(_)
             | Self::Number(_)
             | Self::Text(_)
+            | Self::Template(_)
             | Self::Case(..)
             | Self::Entity(_)
             | Self::Binding(_)
@@ -76,12 +84,42 @@ impl Term {
             | Self::Each
             | Self::Unknown => (None, None, &[]),
         };
-        one.into_iter().chain(other).chain(rest)
+        one.into_iter().chain(other).chain(rest).chain(said.iter().map(|(part, _)| part))
     }
 
     /// Returns whether the term or a subterm satisfies a predicate.
     pub(crate) fn any(&self, is_one: &impl Fn(&Self) -> bool) -> bool {
         is_one(self) || self.parts().any(|part| part.any(is_one))
+    }
+
+    /// Returns whether the term is the same in every run.
+    pub(crate) fn is_constant(&self) -> bool {
+        let is_open = |part: &Self| match part {
+            Self::Bool(_) | Self::Int(_) | Self::Number(_) | Self::Text(_) | Self::Template(_) => false,
+            Self::Case(..) | Self::Entity(_) | Self::List(_) | Self::Arith(..) | Self::Count(_) => false,
+            Self::Binding(_) | Self::Param(_) | Self::Result | Self::Each | Self::Unknown => true,
+            Self::Field(..) | Self::Measure(..) | Self::First(_) => true,
+        };
+        !self.any(&is_open)
+    }
+
+    /// Returns whether the term may have no value when it is asked for: what it observes is unknown, or a
+    /// list is empty.
+    pub(crate) fn may_lack_value(&self) -> bool {
+        match self {
+            // What is unknown in it is said to be.
+            Self::Template(_) => false,
+            Self::Field(..) | Self::Measure(..) | Self::First(_) | Self::Arith(..) => true,
+            whole => whole.parts().any(Self::may_lack_value),
+        }
+    }
+
+    /// Adds the measures in the term.
+    pub(crate) fn measures(&self, found: &mut Vec<Measure>) {
+        if let Self::Measure(id, _) = self {
+            found.push(*id);
+        }
+        self.parts().for_each(|part| part.measures(found));
     }
 
     /// Highest index of a parameter of the contract in the term.

@@ -13,13 +13,17 @@ use crate::declare::name::{list, near};
 use crate::declare::{Library, ResourceSet};
 use crate::environment::Environment;
 use crate::ir::{
-    Base, Block, BlockSlot, Call, Condition, Failure, Program, Step, StepId, StepKind, Term, Ty,
+    Base, Block, BlockSlot, Call, Condition, Failure, Program, Reaction, Step, StepId, StepKind, Term, Ty,
 };
 
 pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Diagnostic>) {
     for step in steps {
         match &step.kind {
             StepKind::Call(call) => self::call(call, step.span, library, diagnostics),
+            StepKind::Let { value, .. } => observed(value, step.span, library, diagnostics),
+            StepKind::End { why, .. } => {
+                why.iter().for_each(|why| observed(why, step.span, library, diagnostics));
+            }
             StepKind::Wait { condition, .. } => observable(condition, step.span, library, diagnostics),
             StepKind::If { condition, span, .. } => observable(condition, *span, library, diagnostics),
             StepKind::Repeat { until: Some((condition, span)), .. } => {
@@ -28,6 +32,9 @@ pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Dia
             StepKind::Monitor { whens, .. } => {
                 for when in whens {
                     observable(&when.condition, when.span, library, diagnostics);
+                    if let Reaction::End { why: Some(why), .. } = &when.reaction {
+                        observed(why, when.span, library, diagnostics);
+                    }
                 }
             }
             StepKind::Sequence { .. }
@@ -38,7 +45,6 @@ pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Dia
             | StepKind::Repeat { until: None, .. }
             | StepKind::Each { .. }
             | StepKind::Parallel { .. }
-            | StepKind::End { .. }
             | StepKind::Unknown => {}
         }
     }
@@ -52,6 +58,7 @@ fn call(call: &Call, span: Span, library: &Library, diagnostics: &mut Vec<Diagno
     }
     let written = call.args.iter().zip(&call.spans).zip(&call.units);
     for (((arg, at), unit), param) in written.zip(&def.params) {
+        observed(arg, *at, library, diagnostics);
         let value = match arg {
             Term::Number(value) => *value,
             Term::Int(value) => *value as f64,
@@ -95,22 +102,16 @@ fn degrees(value: f64, (least, greatest): (f64, f64), ty: Ty, unit: Option<Unit>
 
 /// Reports fluents and measures that the robot cannot observe.
 fn observable(condition: &Condition, span: Span, library: &Library, diagnostics: &mut Vec<Diagnostic>) {
-    let mut say = |what: &smol_str::SmolStr| {
-        diagnostics.push(NotObservable { span, what: what.clone(), robot: library.robot.clone() }.into());
-    };
     match condition {
         Condition::Fact(fact) => {
             if let Some(def) = library.fluent(fact.fluent).filter(|def| !def.observable) {
-                say(&def.name);
+                let (what, robot) = (def.name.clone(), library.robot.clone());
+                diagnostics.push(NotObservable { span, what, robot }.into());
             }
         }
         Condition::Compare(_, left, right) => {
             for term in [left, right] {
-                if let Term::Measure(id, _) = term
-                    && let Some(def) = library.measure(*id).filter(|def| !def.observable)
-                {
-                    say(&def.name);
-                }
+                observed(term, span, library, diagnostics);
             }
         }
         Condition::Not(inner) => observable(inner, span, library, diagnostics),
@@ -123,6 +124,16 @@ fn observable(condition: &Condition, span: Span, library: &Library, diagnostics:
         | Condition::MonitoredMeasure(_)
         | Condition::MonitoredFluent(_)
         | Condition::Unknown => {}
+    }
+}
+
+/// Reports measures in a term that the robot cannot observe.
+fn observed(term: &Term, span: Span, library: &Library, diagnostics: &mut Vec<Diagnostic>) {
+    let mut measures = Vec::new();
+    term.measures(&mut measures);
+    for def in measures.into_iter().filter_map(|id| library.measure(id)).filter(|def| !def.observable) {
+        let (what, robot) = (def.name.clone(), library.robot.clone());
+        diagnostics.push(NotObservable { span, what, robot }.into());
     }
 }
 

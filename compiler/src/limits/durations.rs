@@ -62,6 +62,8 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
             let otherwise = otherwise.as_ref().map_or((0.0, 0.0), block);
             (then.0.min(otherwise.0), then.1.max(otherwise.1) + observe)
         }
+        // What it asks for is observed first.
+        StepKind::Let { value, .. } => (0.0, if value.is_constant() { 0.0 } else { observe }),
         StepKind::Wait { within_secs, .. } => (0.0, *within_secs),
         StepKind::Delay { secs } => (*secs, *secs),
         StepKind::Finally { body, cleanup } => {
@@ -114,6 +116,7 @@ fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagno
         StepKind::Try { body, .. } => ("`try`", body),
         StepKind::Finally { cleanup, .. } => ("`finally`", cleanup),
         StepKind::Call(_)
+        | StepKind::Let { .. }
         | StepKind::Sequence { .. }
         | StepKind::Inline { .. }
         | StepKind::If { .. }

@@ -56,6 +56,7 @@ pub(crate) fn lower(
         failures: tables.failures,
         resources: tables.resources,
         bindings: tables.bindings,
+        names: tables.names.into_iter().map(|(entity, name)| graph::EntityName { entity, name }).collect(),
         nodes,
         regions,
         initial,
@@ -72,6 +73,7 @@ fn binds(program: &Program, step: StepId) -> bool {
             let binding = call.binds.and_then(|id| program.bindings.get(id.index()));
             binding.is_some_and(|binding| binding.name != "_")
         }
+        StepKind::Let { .. } => true,
         kind => kind.blocks().into_iter().flatten().any(|step| binds(program, *step)),
     }
 }
@@ -158,6 +160,10 @@ impl Lowering<'_> {
         let owner = Some(id);
         match kind {
             StepKind::Call(call) => graph::NodeKind::Call(self.call(call, step)),
+            StepKind::Let { binding, value } => graph::NodeKind::Let {
+                binding: graph::BindingId(binding.0),
+                value: self.tables.term(value, &[], None),
+            },
             StepKind::Sequence { name, body } => {
                 graph::NodeKind::Sequence { name: name.clone(), body: self.region(body, owner) }
             }

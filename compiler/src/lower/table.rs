@@ -1,5 +1,6 @@
 //! Tables of the graph: only names that the policy uses, in the order of use.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use motet_graph as graph;
@@ -23,6 +24,8 @@ pub(super) struct Tables<'a> {
     pub(super) failures: Vec<SmolStr>,
     pub(super) resources: Vec<graph::Resource>,
     pub(super) bindings: Vec<graph::Binding>,
+    /// What people call the entities that a text may name, by id.
+    pub(super) names: BTreeMap<SmolStr, SmolStr>,
     fluent_ids: FxHashMap<Fluent, graph::FluentId>,
     measure_ids: FxHashMap<Measure, graph::MeasureId>,
     primitive_ids: FxHashMap<Primitive, graph::PrimitiveId>,
@@ -44,6 +47,7 @@ impl<'a> Tables<'a> {
             failures: Vec::new(),
             resources: Vec::new(),
             bindings: Vec::new(),
+            names: BTreeMap::new(),
             fluent_ids: FxHashMap::default(),
             measure_ids: FxHashMap::default(),
             primitive_ids: FxHashMap::default(),
@@ -238,8 +242,46 @@ impl Tables<'_> {
                 let (left, right) = (self.term(left, args, result), self.term(right, args, result));
                 graph::Term::Arith(op, Box::new(left), Box::new(right))
             }
+            Term::Count(list) => graph::Term::Count(Box::new(self.term(list, args, result))),
+            Term::First(list) => graph::Term::First(Box::new(self.term(list, args, result))),
+            Term::Template(parts) => {
+                let parts = parts.iter().map(|part| self.part(part, args, result));
+                graph::Term::Template(parts.collect())
+            }
             // Only after an error, and what has errors is not lowered.
             Term::Unknown => literal(Value::Bool(false)),
+        }
+    }
+
+    /// Lowers a part of a text.
+    fn part(
+        &mut self,
+        (part, ty): &(Term, Ty),
+        args: &[Term],
+        result: Option<graph::BindingId>,
+    ) -> graph::TextPart {
+        if let Term::Text(text) = part {
+            return graph::TextPart::Literal(text.clone());
+        }
+        self.name_entities(part, *ty);
+        let ty = self.ty(*ty);
+        graph::TextPart::Value(self.term(part, args, result), ty)
+    }
+
+    /// Notes what people call the entities that a part of a text may be.
+    fn name_entities(&mut self, part: &Term, ty: Ty) {
+        let (Base::Entity(kind), Some(scene)) = (ty.base, self.environment.scene()) else { return };
+        let is_asked = |thing: &motet_robots::scene::Entity| match part {
+            Term::Entity(only) => self.environment.name(*only) == thing.id,
+            _ => {
+                let found = self.environment.entities().find(&thing.id);
+                found.is_some_and(|(_, of)| self.library.is_kind(of, kind) || self.library.is_kind(kind, of))
+            }
+        };
+        for thing in scene.entities.values().filter(|thing| is_asked(thing)) {
+            if let Some(name) = thing.names.first() {
+                self.names.insert(thing.id.clone(), name.clone());
+            }
         }
     }
 

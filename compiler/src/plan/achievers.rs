@@ -377,6 +377,9 @@ fn spelled(term: &Term, library: &Library, environment: &Environment) -> Option<
         | Term::Field(..)
         | Term::Measure(..)
         | Term::Arith(..)
+        | Term::Template(_)
+        | Term::Count(_)
+        | Term::First(_)
         | Term::Unknown => return None,
     })
 }

@@ -40,6 +40,9 @@ impl Prover<'_> {
             | Term::Field(..)
             | Term::Measure(..)
             | Term::Arith(..)
+            | Term::Template(_)
+            | Term::Count(_)
+            | Term::First(_)
             | Term::Unknown => None,
         }
     }
@@ -231,7 +234,14 @@ impl Prover<'_> {
             | Term::Result
             | Term::Each
             | Term::Measure(..)
+            | Term::Template(_)
+            | Term::First(_)
             | Term::Unknown => None,
+            // An argument may be a list that is written out.
+            Term::Count(list) => match self.literal(list, frame)? {
+                Term::List(items) => Some(items.len() as f64),
+                _ => None,
+            },
         }
     }
 }

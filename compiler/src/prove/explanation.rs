@@ -242,6 +242,7 @@ impl Prover<'_> {
                 });
                 format_smolstr!("{name}({})", args.collect::<Vec<_>>().join(", "))
             }
+            Some(StepKind::Let { .. }) => "let".into(),
             Some(StepKind::If { .. }) => "if".into(),
             Some(StepKind::Wait { .. }) => "wait".into(),
             Some(StepKind::Monitor { .. }) => "monitor".into(),
@@ -377,6 +378,15 @@ impl Prover<'_> {
             }
             Term::Arith(op, left, right) => {
                 format!("{} {} {}", self.term_text(left, frame), op.symbol(), self.term_text(right, frame))
+            }
+            Term::Count(of) => format!("count({})", self.term_text(of, frame)),
+            Term::First(of) => format!("first({})", self.term_text(of, frame)),
+            Term::Template(parts) => {
+                let parts = parts.iter().map(|(part, _)| match part {
+                    Term::Text(text) => text.to_string(),
+                    value => format!("{{{}}}", self.term_text(value, frame)),
+                });
+                format!("\"{}\"", parts.collect::<String>())
             }
             Term::Unknown => "?".to_owned(),
         }

@@ -311,6 +311,8 @@ fn visit_term(term: &Term, watched: &mut Watched, lookup: Lookup<'_>) {
             watched.measures.push(*id);
             watched.near.extend(args.iter().filter_map(lookup).map(Entity));
         }
+        Term::Count(of) | Term::First(of) => visit_term(of, watched, lookup),
+        Term::Template(parts) => parts.iter().for_each(|(part, _)| visit_term(part, watched, lookup)),
         Term::Arith(_, left, right) => {
             visit_term(left, watched, lookup);
             visit_term(right, watched, lookup);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_syntax::ast::{Do, Expr, Policy, PrimitiveKind};
+use motet_syntax::ast::{Do, Expr, ExprKind, Policy, PrimitiveKind};
 use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
@@ -42,6 +42,14 @@ impl StepResolver<'_> {
         if let Some(policy) = library.names.policies.get(name).and_then(|index| library.policies.get(*index))
         {
             return self.inline(call, &Arc::clone(policy), span, position);
+        }
+        if let (Some(bind), None, None) = (&call.bind, &call.within, &call.retry)
+            && self.elaborator.has_value(name)
+        {
+            let value = Expr { kind: ExprKind::Call(call.call.clone()), span: call.call.span };
+            let id = self.reserve(span, position)?;
+            let kind = self.let_value(id, bind, &value);
+            return self.fill(id, kind);
         }
         if library.names.fluents.contains_key(name) || library.names.measures.contains_key(name) {
             self.misplaced(call.call.name.span);

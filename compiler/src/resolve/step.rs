@@ -1,6 +1,8 @@
 //! Resolution of steps and blocks.
 
-use motet_syntax::ast::{Block, Catch, CatchOn, End, EndKind, Policy, Reaction, Step, StepKind, When};
+use motet_syntax::ast::{
+    Block, Catch, CatchOn, End, EndKind, Expr, Name, Policy, Reaction, Step, StepKind, When,
+};
 use motet_syntax::{Diagnostic, Span};
 use smallvec::{SmallVec, smallvec};
 use smol_str::{SmolStr, format_smolstr};
@@ -9,10 +11,10 @@ use super::ResolvedStep;
 use super::errors::{Shadows, TooManySteps};
 use super::way::{Fork, without_value};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
-use crate::declare::errors::{NotACondition, UnknownFailure, WrongType};
+use crate::declare::errors::{NotACondition, UnknownFailure};
 use crate::declare::gap::Unbound;
 use crate::declare::name::{Scope, ScopeMark, list, near};
-use crate::ir::{self, Base, Binding, BindingId, BlockSlot, Program, StepId, StepPosition, Term, Ty};
+use crate::ir::{self, Binding, BindingId, BlockSlot, Program, StepId, StepPosition, Term, Ty};
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
 pub const MAX_NODES: usize = 100_000;
@@ -206,6 +208,7 @@ impl<'a> StepResolver<'a> {
         let id = self.reserve(step.span, position)?;
         let kind = match &step.kind {
             StepKind::Do(_) => return None,
+            StepKind::Let { name, value } => self.let_value(id, name, value),
             StepKind::Sequence { name, body } => ir::StepKind::Sequence {
                 name: name.text.clone(),
                 body: self.only_block(body, (id, BlockSlot::Steps)),
@@ -260,7 +263,8 @@ impl<'a> StepResolver<'a> {
                 ir::StepKind::Repeat { times, body, until }
             }
             StepKind::Each { item, list, at_most, body } => {
-                let (term, ty) = self.list_of(list);
+                let found = self.elaborator.list_of(list, "the list of an `each`");
+                let (term, ty) = found.unwrap_or((Term::Unknown, Ty::UNKNOWN));
                 let at_most = self.elaborator.count(at_most, "the length of an `each`", 1).unwrap_or(1);
                 let mark = self.elaborator.scope.mark();
                 let binding = self.bind(item.text.clone(), ty, item.span, None, None);
@@ -292,26 +296,29 @@ impl<'a> StepResolver<'a> {
         self.fill(id, kind)
     }
 
-    fn list_of(&mut self, list: &motet_syntax::ast::Expr) -> (Term, Ty) {
-        let (term, ty) = self.elaborator.term(list, None);
-        match ty.element() {
-            Some(element) => (term, element),
-            None => {
-                if ty.base != Base::Unknown {
-                    let actual = self.elaborator.library.type_name(ty);
-                    let place = "the list of an `each`".to_owned();
-                    self.elaborator.report(WrongType {
-                        span: list.span,
-                        expected: "a list".to_owned(),
-                        actual,
-                        place,
-                        example: None,
-                        instead: None,
-                    });
-                }
-                (Term::Unknown, Ty::UNKNOWN)
-            }
+    /// Resolves a name for a value. Where that is a constant or another name, it stands for it, and later
+    /// stages know it.
+    pub(super) fn let_value(&mut self, id: StepId, name: &Name, value: &Expr) -> ir::StepKind {
+        let (value, ty) = self.elaborator.term(value, None);
+        let described = match &value {
+            Term::First(list) => match &**list {
+                Term::Binding(list) => self.elaborator.bindings.get(list.index()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let described = described.and_then(|list| list.descriptions.clone());
+        let binding = self.bind(name.text.clone(), ty, name.span, Some(id), None);
+        if let Some(bound) = self.elaborator.bindings.get_mut(binding.index()) {
+            bound.descriptions = described;
+            // After an error its uses are not reported as well.
+            bound.uses = u32::from(value == Term::Unknown);
         }
+        self.name(&name.text, binding, ty, name.span);
+        if value.is_constant() || matches!(value, Term::Binding(_)) {
+            self.elaborator.scope.stand_for(value.clone());
+        }
+        ir::StepKind::Let { binding, value }
     }
 
     /// Notes that an ending leads behind the inlined policy.
@@ -324,7 +331,7 @@ impl<'a> StepResolver<'a> {
         end.why.as_ref().map(|why| self.elaborator.term_of(why, wanted))
     }
 
-    fn seconds_or(&mut self, expr: Option<&motet_syntax::ast::Expr>, place: &'static str) -> f64 {
+    fn seconds_or(&mut self, expr: Option<&Expr>, place: &'static str) -> f64 {
         expr.and_then(|expr| self.elaborator.seconds(expr, place)).unwrap_or(DEFAULT_WAIT_SECS)
     }
 

@@ -164,7 +164,8 @@ impl StepResolver<'_> {
         if bound.len() > 1 {
             shared.push(bound.iter().flat_map(ids).collect());
         }
-        Some(first.clone())
+        let value = first.value.clone().filter(|_| bound.iter().all(|entry| entry.value == first.value));
+        Some(ScopeEntry { value, ..first.clone() })
     }
 
     /// Makes each group of bindings one: the first of it. All others stand in the ways behind the first way.
@@ -212,6 +213,7 @@ impl StepResolver<'_> {
         }
         for entry in entries.iter_mut() {
             new.term(&mut entry.term);
+            new.terms(&mut entry.value);
             entry.gap.iter_mut().flat_map(|gap| &mut gap.ids).for_each(|id| new.binding(id));
         }
     }

@@ -70,6 +70,9 @@ impl PointerWalk<'_> {
                     || self.name("as", step.bind.as_ref().map(|name| name.span))
                     || self.name("do", Some(step.call.name.span));
             }
+            StepKind::Let { name, value } => {
+                let _ = self.expr("be", value) || self.name("let", Some(name.span));
+            }
             StepKind::Sequence { name, body } => {
                 let _ = self.block("steps", body) || self.name("sequence", Some(name.span));
             }
@@ -200,6 +203,7 @@ impl PointerWalk<'_> {
             | ExprKind::Number(_)
             | ExprKind::Quantity(..)
             | ExprKind::Text(_)
+            | ExprKind::Template(_)
             | ExprKind::Name(_)
             | ExprKind::Binding(_)
             | ExprKind::Plain(_)

@@ -40,7 +40,9 @@ pub const CALL_KEYS: [&str; 4] = ["do", "as", "within", "retry"];
 /// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
 /// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a
 /// support.
-pub const FORM_KEYS: [(&str, &str); 26] = [
+pub const FORM_KEYS: [(&str, &str); 28] = [
+    ("let", "a step of its own"),
+    ("be", "`let`"),
     ("if", "a step of its own"),
     ("then", "`if` and to a monitor's `when`"),
     ("else", "`if`"),

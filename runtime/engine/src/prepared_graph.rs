@@ -125,7 +125,11 @@ impl PreparedGraph {
                 self.owned.push(*then);
                 self.owned.extend(*otherwise);
             }
-            NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {}
+            NodeKind::Call(_)
+            | NodeKind::Let { .. }
+            | NodeKind::Wait { .. }
+            | NodeKind::Delay { .. }
+            | NodeKind::End { .. } => {}
             NodeKind::Finally { body, cleanup } => self.owned.extend([*body, *cleanup]),
             NodeKind::Monitor { watches, body } => {
                 self.owned.push(*body);
@@ -218,7 +222,8 @@ impl PreparedGraph {
             NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
                 None
             }
-            NodeKind::Wait { .. }
+            NodeKind::Let { .. }
+            | NodeKind::Wait { .. }
             | NodeKind::Try { .. }
             | NodeKind::Repeat { .. }
             | NodeKind::Each { .. } => None,

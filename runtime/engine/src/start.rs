@@ -4,7 +4,9 @@ use crate::belief::Beliefs;
 use crate::json;
 use crate::query::{Answer, Pattern, Query, Truth};
 use crate::time::Time;
-use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, InitialFact, NodeKind, Term, Type, Value};
+use motet_graph::{
+    CallNode, Condition, Fact, FactArg, Graph, InitialFact, NodeKind, Term, TextPart, Type, Value,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -107,6 +109,9 @@ impl EntityCollector<'_> {
                         .map(|binding| Type::List(Box::new(binding.ty.clone())));
                     self.term(list, ty.as_ref());
                 }
+                NodeKind::Let { binding, value } => {
+                    self.term(value, graph.bindings.get(binding.index()).map(|binding| &binding.ty));
+                }
                 NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::Try { .. } => {}
                 NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
                 NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
@@ -170,6 +175,17 @@ impl EntityCollector<'_> {
             Term::List(items) => {
                 let inner = if let Some(Type::List(inner)) = ty { Some(&**inner) } else { None };
                 items.iter().for_each(|item| self.term(item, inner));
+            }
+            Term::Count(list) => self.term(list, None),
+            Term::First(list) => {
+                self.term(list, ty.map(|ty| Type::List(Box::new(ty.clone()))).as_ref());
+            }
+            Term::Template(parts) => {
+                for part in parts {
+                    if let TextPart::Value(value, ty) = part {
+                        self.term(value, Some(ty));
+                    }
+                }
             }
             Term::Arith(_, left, right) => {
                 self.term(left, None);

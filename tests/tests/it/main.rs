@@ -35,4 +35,5 @@ mod request;
 mod scopes;
 mod spec;
 mod speech;
+mod values;
 mod vision;

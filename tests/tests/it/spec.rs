@@ -84,6 +84,11 @@ fn spec_lints_of_intent() {
 }
 
 #[test]
+fn spec_values() {
+    check(include_str!("../../spec/values.md"), |code| !is_intent(code));
+}
+
+#[test]
 fn spec_scopes() {
     check(include_str!("../../spec/scopes.md"), |code| !is_intent(code));
 }

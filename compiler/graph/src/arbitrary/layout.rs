@@ -4,7 +4,7 @@ use super::vocabulary::{self as v, DETECT, SAY};
 use super::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
 use crate::model::{
     Binding, BindingId, CallNode, Condition, DurationBounds, Ending, Fact, FactArg, Graph, Handler, Node,
-    NodeId, NodeKind, ROOT, Reaction, Region, RegionId, ResourceId, Term, Type, Watch,
+    NodeId, NodeKind, ROOT, Reaction, Region, RegionId, ResourceId, Term, TextPart, Type, Watch,
 };
 use smol_str::SmolStr;
 
@@ -108,6 +108,12 @@ impl Layout {
     fn kind(&mut self, id: NodeId, step: &StepSketch, path: &str) -> NodeKind {
         match step {
             StepSketch::Call(call) => NodeKind::Call(self.call(call)),
+            StepSketch::Let(value) => {
+                let value = self.term(value);
+                let binding = self.binding("object", Type::Entity(v::OBJECT));
+                self.objects.push(binding);
+                NodeKind::Let { binding, value }
+            }
             StepSketch::Sequence(steps) => {
                 NodeKind::Sequence { name: SmolStr::new_static("group"), body: self.region(id, steps, path) }
             }
@@ -256,7 +262,10 @@ impl Layout {
             of_branches.extend(self.objects.split_off(bound));
             let used = self.graph.nodes.iter().skip(first).filter_map(|node| match &node.kind {
                 NodeKind::Call(call) => self.graph.primitives.get(call.primitive.index()),
-                NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => None,
+                NodeKind::Let { .. }
+                | NodeKind::Sequence { .. }
+                | NodeKind::Inline { .. }
+                | NodeKind::If { .. } => None,
                 NodeKind::Wait { .. } | NodeKind::Monitor { .. } | NodeKind::Try { .. } => None,
                 NodeKind::Repeat { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => None,
                 NodeKind::Delay { .. } | NodeKind::Finally { .. } | NodeKind::End { .. } => None,
@@ -297,6 +306,15 @@ impl Layout {
             Term::List(items) => Term::List(items.iter().map(|item| self.term(item)).collect()),
             Term::Arith(operation, left, right) => {
                 Term::Arith(*operation, Box::new(self.term(left)), Box::new(self.term(right)))
+            }
+            Term::Count(list) => Term::Count(Box::new(self.term(list))),
+            Term::First(list) => Term::First(Box::new(self.term(list))),
+            Term::Template(parts) => {
+                let part = |part: &TextPart| match part {
+                    TextPart::Literal(text) => TextPart::Literal(text.clone()),
+                    TextPart::Value(value, ty) => TextPart::Value(self.term(value), ty.clone()),
+                };
+                Term::Template(parts.iter().map(part).collect())
             }
         }
     }

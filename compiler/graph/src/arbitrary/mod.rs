@@ -19,6 +19,8 @@ use crate::model::{BindingId, Condition, Ending, FailureId, PrimitiveId, Term, V
 #[derive(Clone, Debug)]
 pub enum StepSketch {
     Call(CallSketch),
+    /// A name for an object.
+    Let(Term),
     /// A named group.
     Sequence(Vec<StepSketch>),
     Inline(Vec<StepSketch>),

@@ -2,7 +2,9 @@
 
 use super::vocabulary::{self as v, entity, fact};
 use super::{CallSketch, ReactionSketch, StepSketch, WatchSketch, layout};
-use crate::model::{Comparison, Condition, Ending, Fact, FactArg, Graph, PrimitiveId, Term, Value, Verdict};
+use crate::model::{
+    Comparison, Condition, Ending, Fact, FactArg, Graph, PrimitiveId, Term, TextPart, Type, Value, Verdict,
+};
 use proptest::collection::vec;
 use proptest::option;
 use proptest::prelude::*;
@@ -67,7 +69,29 @@ fn leaf() -> impl Strategy<Value = StepSketch> {
         2 => (conditions(), 0.0..3.0).prop_map(|(condition, within)| StepSketch::Wait(condition, within)),
         1 => (0.0..3.0).prop_map(StepSketch::Delay),
         1 => ending().prop_map(StepSketch::End),
+        2 => object().prop_map(StepSketch::Let),
+        1 => list().prop_map(|list| StepSketch::Let(first(list))),
     ]
+}
+
+/// The first element of a list that is not empty.
+fn first(list: Term) -> Term {
+    match list {
+        Term::List(items) if !items.is_empty() => Term::First(Box::new(Term::List(items))),
+        _ => entity("cup"),
+    }
+}
+
+/// A text that names an object and counts a list.
+fn template() -> impl Strategy<Value = Term> {
+    (object(), list()).prop_map(|(object, list)| {
+        Term::Template(vec![
+            TextPart::Literal("I see ".into()),
+            TextPart::Value(Term::Count(Box::new(list)), Type::Int),
+            TextPart::Literal(" beside ".into()),
+            TextPart::Value(object, Type::Entity(v::OBJECT)),
+        ])
+    })
 }
 
 fn call() -> impl Strategy<Value = CallSketch> {
@@ -79,6 +103,7 @@ fn call() -> impl Strategy<Value = CallSketch> {
         3 => what().prop_map(|what| (v::DETECT, vec![what])),
         1 => what().prop_map(|what| (v::DETECT_ALL, vec![what])),
         2 => what().prop_map(|text| (v::SAY, vec![text])),
+        1 => template().prop_map(|text| (v::SAY, vec![text])),
     ];
     (primitive, 0.0..5.0, 0..3_u32, any::<bool>()).prop_map(
         |((primitive, args), deadline_secs, retries, proven)| {

@@ -1,9 +1,9 @@
 //! The declarations that sketched graphs use.
 
 use crate::model::{
-    Binding, CallEffect, Comparison, Condition, DurationBounds, Fact, FactArg, FailureId, Fluent, FluentId,
-    Graph, InitialFact, Kind, KindId, Measure, MeasureId, Need, Param, Primitive, PrimitiveId, Resource,
-    ResourceId, Term, Type, Unsettled, Value, Verdict,
+    Binding, CallEffect, Comparison, Condition, DurationBounds, EntityName, Fact, FactArg, FailureId, Fluent,
+    FluentId, Graph, InitialFact, Kind, KindId, Measure, MeasureId, Need, Param, Primitive, PrimitiveId,
+    Resource, ResourceId, Term, Type, Unsettled, Value, Verdict,
 };
 use smol_str::SmolStr;
 
@@ -111,6 +111,7 @@ pub fn declarations() -> Graph {
             Resource { name: name("camera"), contains: Vec::new() },
         ],
         bindings: Vec::<Binding>::new(),
+        names: vec![EntityName { entity: name("mug"), name: name("red mug") }],
         nodes: Vec::new(),
         regions: Vec::new(),
         initial: vec![InitialFact { fact: Fact { fluent: HOLDING, args: vec![FactArg::Any] }, value: false }],

@@ -120,7 +120,9 @@ fn brackets(kind: &NodeKind) -> (&'static str, &'static str) {
         NodeKind::End { .. } => ("([", "])"),
         NodeKind::Monitor { .. } => ("{{", "}}"),
         NodeKind::Parallel { .. } => ("[[", "]]"),
-        NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } => ("[", "]"),
+        NodeKind::Call(_) | NodeKind::Let { .. } | NodeKind::Sequence { .. } | NodeKind::Inline { .. } => {
+            ("[", "]")
+        }
         NodeKind::Try { .. } | NodeKind::Repeat { .. } | NodeKind::Each { .. } => ("[", "]"),
         NodeKind::Delay { .. } | NodeKind::Finally { .. } => ("[", "]"),
     }

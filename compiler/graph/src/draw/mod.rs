@@ -19,9 +19,11 @@ const DEEPEST: usize = crate::validate::MAX_DEPTH + 1;
 fn parts(graph: &Graph, kind: &NodeKind) -> Vec<(String, RegionId)> {
     let names = Names(graph);
     match kind {
-        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {
-            Vec::new()
-        }
+        NodeKind::Call(_)
+        | NodeKind::Let { .. }
+        | NodeKind::Wait { .. }
+        | NodeKind::Delay { .. }
+        | NodeKind::End { .. } => Vec::new(),
         NodeKind::Finally { body, cleanup } => {
             vec![(String::new(), *body), ("finally".to_owned(), *cleanup)]
         }

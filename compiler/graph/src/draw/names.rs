@@ -2,8 +2,9 @@
 
 use crate::model::{
     BindingId, CallEffect, CallNode, Condition, Ending, Fact, FactArg, FailureId, Graph, Handler, KindId,
-    Motion, Need, NodeKind, Reaction, Term, Type, Unsettled, Value, Watch,
+    Motion, Need, NodeKind, Reaction, Term, TextPart, Type, Unsettled, Value, Watch,
 };
+use crate::spoken::in_unit;
 
 /// Names things by a graph's tables, any graph's: an id that names nothing is `?`.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +19,11 @@ impl<'a> Names<'a> {
     pub fn step(&self, kind: &NodeKind) -> String {
         match kind {
             NodeKind::Call(call) => self.call(call),
+            NodeKind::Let { binding, value } => {
+                let ty = self.0.bindings.get(binding.index()).map(|binding| &binding.ty);
+                let value = literal(value, ty).unwrap_or_else(|| self.term(value));
+                format!("let {} = {value}", self.binding(*binding))
+            }
             NodeKind::Sequence { name, .. } => format!("sequence {name}"),
             NodeKind::Inline { policy, .. } => format!("policy {policy}"),
             NodeKind::If { condition, .. } => format!("if {}", self.condition(condition)),
@@ -57,7 +63,8 @@ impl<'a> Names<'a> {
                 format!("monitor {}", watched.join("; "))
             }
             NodeKind::End { how, why, .. } => self.ending(*how, false, why.as_ref()),
-            NodeKind::Sequence { .. }
+            NodeKind::Let { .. }
+            | NodeKind::Sequence { .. }
             | NodeKind::Inline { .. }
             | NodeKind::If { .. }
             | NodeKind::Wait { .. }
@@ -237,24 +244,27 @@ impl<'a> Names<'a> {
             Term::Arith(operation, left, right) => {
                 format!("({} {} {})", self.term(left), operation.symbol(), self.term(right))
             }
+            Term::Count(list) => format!("count({})", self.term(list)),
+            Term::First(list) => format!("first({})", self.term(list)),
+            Term::Template(parts) => {
+                let parts = parts.iter().map(|part| match part {
+                    TextPart::Literal(text) => text.to_string(),
+                    TextPart::Value(value, ty) => {
+                        format!("{{{}}}", literal(value, Some(ty)).unwrap_or_else(|| self.term(value)))
+                    }
+                });
+                format!("{:?}", parts.collect::<String>())
+            }
         }
     }
 }
 
 /// A number in SI units with the unit of its quantity; as it is where that has none.
 fn with_unit(value: f64, quantity: &str) -> String {
-    let (value, unit) = match quantity {
-        "Length" => (value, "m"),
-        // A turn of 90 deg is 1.5707963267948966 rad.
-        "Angle" => ((value.to_degrees() * 1e9).round() / 1e9, "deg"),
-        "Duration" => (value, "s"),
-        "Mass" => (value, "kg"),
-        "Force" => (value, "N"),
-        "Speed" => (value, "m/s"),
-        "Ratio" => ((value * 1e11).round() / 1e9, "%"),
-        _ => return value.to_string(),
-    };
-    format!("{value} {unit}")
+    match in_unit(value, quantity) {
+        (value, Some(unit)) => format!("{value} {unit}"),
+        (value, None) => value.to_string(),
+    }
 }
 
 /// A number as a literal of a type; none where it is no number, or its type no quantity.
@@ -277,6 +287,7 @@ pub(super) fn type_of<'a>(graph: &'a Graph, term: &Term) -> Option<&'a Type> {
         Term::Measure(id, _) => graph.measures.get(id.index()).map(|measure| &measure.result),
         Term::Binding(id) => graph.bindings.get(id.index()).map(|binding| &binding.ty),
         Term::Literal(_) | Term::Each | Term::Field(..) | Term::List(_) | Term::Arith(..) => None,
+        Term::Count(_) | Term::First(_) | Term::Template(_) => None,
     }
 }
 

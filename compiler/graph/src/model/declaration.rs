@@ -17,6 +17,15 @@ pub struct Kind {
     pub parent: Option<KindId>,
 }
 
+/// What people call an entity.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EntityName {
+    /// Id of the entity.
+    pub entity: SmolStr,
+    pub name: SmolStr,
+}
+
 /// A fluent: a relation between entities that is true, false or unknown.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -90,6 +90,9 @@ pub struct Graph {
     /// Exclusive resources of the robot that the graph uses.
     pub resources: Vec<Resource>,
     pub bindings: Vec<Binding>,
+    /// What people call the entities that a text may name; any other is called by its id.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<EntityName>,
     /// Regions; the first is the policy's body.
     pub regions: Vec<Region>,
     /// Nodes in document order: a parent before its children.
@@ -118,6 +121,7 @@ impl Graph {
             failures: vec![SmolStr::new_static("timeout")],
             resources: Vec::new(),
             bindings: Vec::new(),
+            names: Vec::new(),
             regions: vec![Region { owner: None, entry: None }],
             nodes: Vec::new(),
             initial: Vec::new(),

@@ -44,6 +44,9 @@ pub struct Node {
 pub enum NodeKind {
     /// Runs a primitive.
     Call(CallNode),
+    /// Binds a name to a value. What is unknown of it is observed first; fails with `timeout` if it stays
+    /// unknown.
+    Let { binding: BindingId, value: Term },
     /// A named group of steps.
     Sequence { name: SmolStr, body: RegionId },
     /// An inlined sub-policy. `End` nodes may refer to it: `done` ends it in success, `fail` in the failure

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-use super::{BindingId, FluentId, MeasureId, Value};
+use super::{BindingId, FluentId, MeasureId, Type, Value};
 
 /// A fluent applied to arguments.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
@@ -84,6 +84,21 @@ pub enum Term {
     List(Vec<Term>),
     /// Arithmetic on numbers.
     Arith(Arithmetic, Box<Term>, Box<Term>),
+    /// Number of elements of a list.
+    Count(Box<Term>),
+    /// First element of a list; an empty list has none.
+    First(Box<Term>),
+    /// A text with values. A value that stays unknown is said to be.
+    Template(Vec<TextPart>),
+}
+
+/// Part of a text with values.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TextPart {
+    Literal(SmolStr),
+    /// A value of a type, which says how it is written.
+    Value(Term, Type),
 }
 
 /// An arithmetic operation.

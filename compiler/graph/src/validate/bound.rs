@@ -7,7 +7,7 @@
 use super::{Findings, InvalidReason};
 use crate::model::{
     BindingId, CallNode, Condition, Ending, Fact, FactArg, Graph, Node, NodeId, NodeKind, Reaction, RegionId,
-    Term,
+    Term, TextPart,
 };
 
 /// Entry of the stack of regions and nodes that are still to be walked.
@@ -198,6 +198,10 @@ impl<'a> Walk<'a> {
         let aside = |region: &RegionId| [Todo::Close { keep, goes_on, of: None }, open(region)];
         match &node.kind {
             NodeKind::Call(call) => self.call(node, call),
+            NodeKind::Let { binding, value } => {
+                self.term(node, value);
+                self.bind(*binding);
+            }
             NodeKind::If { condition, then, otherwise } => {
                 self.condition(node, condition);
                 let how = if otherwise.is_some() { Meeting::One } else { Meeting::OneOrNone };
@@ -332,7 +336,13 @@ impl<'a> Walk<'a> {
                         self.findings.node(node, InvalidReason::Unbound(name.unwrap_or_default()));
                     }
                 }
-                Term::Field(of, _) => self.terms.push(of),
+                Term::Field(of, _) | Term::Count(of) | Term::First(of) => self.terms.push(of),
+                Term::Template(parts) => {
+                    self.terms.extend(parts.iter().filter_map(|part| match part {
+                        TextPart::Value(value, _) => Some(value),
+                        TextPart::Literal(_) => None,
+                    }));
+                }
                 Term::Measure(_, args) | Term::List(args) => self.terms.extend(args),
                 Term::Arith(_, left, right) => self.terms.extend([&**left, &**right]),
             }

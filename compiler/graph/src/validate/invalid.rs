@@ -94,9 +94,12 @@ pub enum InvalidReason {
     /// The variable of a quantified entry in a place where there is none.
     #[error("the variable of `for each` is used where nothing is quantified")]
     Each,
-    /// A loop over something that is no list.
-    #[error("a loop needs a list")]
+    /// A loop over something that is no list, or the number or the first of its elements.
+    #[error("a loop, a count and a first element need a list")]
     NotAList,
+    /// A value in a text that is not of the type by which it is to be written.
+    #[error("a value in a text has the wrong type")]
+    TextValue,
     /// A call whose result goes nowhere, or that binds without having a result.
     #[error("the call of `{0}` must bind its result, and only its result")]
     Result(SmolStr),

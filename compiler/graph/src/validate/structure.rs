@@ -16,9 +16,11 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
 /// The regions that a node names, in document order.
 pub(crate) fn owned(node: &Node) -> Vec<RegionId> {
     match &node.kind {
-        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {
-            Vec::new()
-        }
+        NodeKind::Call(_)
+        | NodeKind::Let { .. }
+        | NodeKind::Wait { .. }
+        | NodeKind::Delay { .. }
+        | NodeKind::End { .. } => Vec::new(),
         NodeKind::Finally { body, cleanup } => vec![*body, *cleanup],
         NodeKind::Sequence { body, .. }
         | NodeKind::Inline { body, .. }
@@ -148,7 +150,7 @@ fn endings(graph: &Graph, findings: &mut Findings) {
             }
             NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
             NodeKind::Each { .. } | NodeKind::Parallel { .. } => {}
-            NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
+            NodeKind::Let { .. } | NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
         }
     }
 }

@@ -144,7 +144,8 @@ pub(super) fn check_numbers(graph: &Graph, findings: &mut Findings) {
                     }
                 }
             }
-            NodeKind::Sequence { .. }
+            NodeKind::Let { .. }
+            | NodeKind::Sequence { .. }
             | NodeKind::Inline { .. }
             | NodeKind::If { .. }
             | NodeKind::Try { .. }

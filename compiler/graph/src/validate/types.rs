@@ -4,7 +4,7 @@ use super::invalid::MAX_TERM_DEPTH;
 use super::{Findings, InvalidReason};
 use crate::model::{
     BindingId, CallNode, Comparison, Condition, Fact, FactArg, FailureId, Graph, KindId, Node, NodeKind,
-    Reaction, Term, Type, Value,
+    Reaction, Term, TextPart, Type, Value,
 };
 use smol_str::SmolStr;
 
@@ -58,6 +58,7 @@ impl Types<'_> {
                     self.failure(*failure);
                 }
             }
+            NodeKind::Let { binding, value } => self.let_value(*binding, value),
             NodeKind::Each { item, list, .. } => self.each_loop(*item, list),
             NodeKind::End { why: Some(why), .. } => {
                 self.term(why, 0);
@@ -135,6 +136,17 @@ impl Types<'_> {
             self.say(InvalidReason::NotAList);
         } else if !self.fits(list, &expected) {
             self.say(InvalidReason::BindingType(binding.name.clone()));
+        }
+    }
+
+    fn let_value(&mut self, id: BindingId, value: &Term) {
+        self.term(value, 0);
+        match self.graph.bindings.get(id.index()) {
+            None => self.say(InvalidReason::NoSuch { what: "binding", id: id.0 }),
+            Some(binding) if !self.fits(value, &binding.ty) => {
+                self.say(InvalidReason::BindingType(binding.name.clone()));
+            }
+            Some(_) => {}
         }
     }
 
@@ -255,6 +267,32 @@ impl Types<'_> {
                 }
                 Class::Number(None)
             }
+            Term::Count(list) => {
+                self.list(list, depth);
+                Class::Number(None)
+            }
+            // The type of what is in a list does not stand in a class.
+            Term::First(list) => {
+                self.list(list, depth);
+                Class::Any
+            }
+            Term::Template(parts) => {
+                for part in parts {
+                    if let TextPart::Value(value, ty) = part {
+                        self.term(value, depth + 1);
+                        if !self.fits(value, ty) {
+                            self.say(InvalidReason::TextValue);
+                        }
+                    }
+                }
+                Class::Text
+            }
+        }
+    }
+
+    fn list(&mut self, list: &Term, depth: usize) {
+        if !matches!(self.term(list, depth + 1), Class::List | Class::Any) {
+            self.say(InvalidReason::NotAList);
         }
     }
 
@@ -308,6 +346,11 @@ impl Types<'_> {
                 }
                 Term::List(items) => open.extend(items),
                 Term::Arith(_, left, right) => open.extend([&**left, &**right]),
+                Term::Count(of) | Term::First(of) => open.push(of),
+                Term::Template(parts) => open.extend(parts.iter().filter_map(|part| match part {
+                    TextPart::Value(value, _) => Some(value),
+                    TextPart::Literal(_) => None,
+                })),
             }
         }
     }
@@ -332,6 +375,10 @@ impl Types<'_> {
                 Type::Pose | Type::Entity(_) | Type::Case(_) => false,
             },
             Term::Arith(..) => matches!(class(ty), Class::Number(_)),
+            Term::Count(_) => matches!(ty, Type::Int | Type::Number),
+            // An element fits what the list of such elements fits.
+            Term::First(list) => self.fits(list, &Type::List(Box::new(ty.clone()))),
+            Term::Template(_) => *ty == Type::Text,
         }
     }
 }

@@ -273,7 +273,7 @@ fn loops_and_handlers() {
                 *list = v::entity("cup");
             }
         },
-        "/steps/5: a loop needs a list",
+        "/steps/5: a loop, a count and a first element need a list",
     );
     check(
         |g| {

@@ -4,9 +4,9 @@ use smol_str::SmolStr;
 
 use super::{DEPTH, Flavor, TreeGenerator};
 use crate::ast::{
-    Block, Catch, CatchOn, Clause, Do, End, EndKind, EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl,
-    InitiallyDecl, Item, KindDecl, MeasureDecl, Param, Policy, PrimitiveDecl, PrimitiveKind, Quantified,
-    Reaction, Step, StepKind, TypeExpr, When,
+    Block, Catch, CatchOn, Clause, Do, End, EndKind, EntitiesDecl, EnumDecl, ExprKind, FailureDecl, File,
+    FluentDecl, InitiallyDecl, Item, KindDecl, MeasureDecl, Param, Policy, PrimitiveDecl, PrimitiveKind,
+    Quantified, Reaction, Step, StepKind, TypeExpr, When,
 };
 
 impl TreeGenerator<'_> {
@@ -151,13 +151,23 @@ impl TreeGenerator<'_> {
     }
 
     fn leaf(&mut self) -> StepKind {
-        match self.choice.below(5) {
+        match self.choice.below(6) {
             0 => StepKind::End(self.end()),
+            2 => {
+                let mut value = self.term(2);
+                // A lone call is a step that calls.
+                if matches!(value.kind, ExprKind::Call(_)) {
+                    value.kind = ExprKind::Bool(true);
+                }
+                let name = self.choice.bound();
+                self.scope.push(name.text.clone());
+                StepKind::Let { name, value }
+            }
             1 => {
                 let condition = self.condition(3);
                 StepKind::Wait { condition, within: self.maybe(Self::duration) }
             }
-            2 => StepKind::Delay { time: self.time() },
+            3 => StepKind::Delay { time: self.time() },
             _ => {
                 let call = self.call(2);
                 let within = self.maybe(Self::duration);
@@ -173,7 +183,8 @@ impl TreeGenerator<'_> {
     fn inner(&mut self, depth: usize) -> StepKind {
         let kind = self.protected(depth);
         let has_blocks = match &kind {
-            StepKind::Do(_) | StepKind::Wait { .. } | StepKind::Delay { .. } | StepKind::End(_) => false,
+            StepKind::Do(_) | StepKind::Let { .. } | StepKind::End(_) => false,
+            StepKind::Wait { .. } | StepKind::Delay { .. } => false,
             StepKind::Sequence { .. } | StepKind::If { .. } | StepKind::Monitor { .. } => true,
             StepKind::Try { .. } | StepKind::Repeat { .. } | StepKind::Each { .. } => true,
             StepKind::Parallel { .. } => true,

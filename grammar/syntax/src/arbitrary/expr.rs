@@ -3,7 +3,7 @@
 use smol_str::{SmolStr, format_smolstr};
 
 use super::{Flavor, TreeGenerator};
-use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind};
+use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, TextPart};
 use crate::unit::{Dimension, Unit};
 
 /// Position of a term, which decides if it may be `any`.
@@ -51,6 +51,7 @@ impl TreeGenerator<'_> {
             0 => self.name_in(place),
             1 => ExprKind::Number(self.choice.number()),
             2 => self.quantity(),
+            3 if depth > 0 && self.choice.is_heads() => self.template(depth - 1),
             3 => self.literal(),
             4 => ExprKind::Bool(self.choice.is_heads()),
             5 => self.bound_or_else(|it| it.name_in(place)),
@@ -112,6 +113,31 @@ impl TreeGenerator<'_> {
             Flavor::Json if text.starts_with('$') => ExprKind::Text(text),
             Flavor::Json => ExprKind::Plain(format_smolstr!("the {text}")),
         }
+    }
+
+    /// A text with values, which are in the text syntax wherever it stands.
+    fn template(&mut self, depth: usize) -> ExprKind {
+        let flavor = std::mem::replace(&mut self.flavor, Flavor::Text);
+        let mut parts = Vec::new();
+        for _ in 0..=self.choice.below(2) {
+            let name = self.choice.name_text();
+            let kind = match self.choice.below(4) {
+                0 => ExprKind::Name(name),
+                1 => ExprKind::Call(self.fluent(depth)),
+                2 => ExprKind::Field(Box::new(self.term(depth)), self.choice.word()),
+                _ => ExprKind::Arith(ArithOp::Add, Box::new(self.term(depth)), Box::new(self.term(0))),
+            };
+            // What is quoted inside would end the value.
+            let value = self.expr(kind);
+            let is_plain = !crate::print::expression(&value).contains(['"', '{']);
+            let value = if is_plain { value } else { self.expr(ExprKind::Name("mug_1".into())) };
+            parts.extend([
+                TextPart::Literal(format_smolstr!("the {}", self.choice.text())),
+                TextPart::Value(value),
+            ]);
+        }
+        self.flavor = flavor;
+        ExprKind::Template(parts)
     }
 
     fn fluent(&mut self, depth: usize) -> Call {

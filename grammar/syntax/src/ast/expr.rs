@@ -29,6 +29,9 @@ pub enum ExprKind {
     Quantity(f64, Unit),
     /// A text: `"red mug"`.
     Text(SmolStr),
+    /// A text with values: `"I see {count(cans)} cans"`; at least one part is a value, and no two literal
+    /// parts are neighbours.
+    Template(Vec<TextPart>),
     /// `mug`: a binding, parameter, entity, enumeration case or resource.
     Name(SmolStr),
     /// `"$mug"` in JSON, `$mug` in text: a binding or parameter and nothing else.
@@ -55,6 +58,15 @@ pub enum ExprKind {
     Compare(CompareOp, Box<Expr>, Box<Expr>),
     /// An arithmetic expression: `a + b`.
     Arith(ArithOp, Box<Expr>, Box<Expr>),
+}
+
+/// Part of a text with values.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TextPart {
+    /// Characters as they are, with single braces; never empty.
+    Literal(SmolStr),
+    /// A term in braces.
+    Value(Expr),
 }
 
 impl Expr {

@@ -29,6 +29,8 @@ pub struct Step {
 pub enum StepKind {
     /// `let m = detect("mug") within 2 s retry 1`
     Do(Do),
+    /// `let limit = 0.5 m`: a name for a value. A lone call is a [`StepKind::Do`] with a binding.
+    Let { name: Name, value: Expr },
     /// A named group: `sequence tidy { … }`.
     Sequence { name: Name, body: Block },
     /// `if c { … } else { … }`

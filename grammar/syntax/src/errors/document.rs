@@ -31,6 +31,16 @@ crate::mistakes! {
         })
     }
 
+    /// What stands in the braces of a text is no value. `fix` is what to write in place of the span for the
+    /// braces themselves.
+    BadTextValue("M0123", Error) { written: SmolStr, reason: String, fix: Option<String> }
+    message(m) { format!("`{}` in a text is no value: {}", m.written, m.reason) }
+    help(_m) {
+        let value = "a value is a name or a term in braces, such as `{count(cans)}`";
+        Some(format!("{value}; a brace itself is written twice: `{{{{`"))
+    }
+    fix(m) { m.fix.as_ref().map(|text| replacement(m.span, text, text)) }
+
     /// A word after a number that is not a unit.
     UnknownUnit("M0120", Error) { unit: SmolStr }
     message(m) { format!("unknown unit `{}`", m.unit) }

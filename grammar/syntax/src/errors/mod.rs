@@ -1,12 +1,12 @@
-//! The mistakes of the syntax stage (M0101 to M0122): one struct and one code each. Raised by
+//! The mistakes of the syntax stage (M0101 to M0123): one struct and one code each. Raised by
 //! [`crate::read()`] and by the front ends for text and JSON; each becomes a [`Diagnostic`].
 
 mod document;
 mod json;
 
 pub(crate) use document::{
-    DocumentKind, Empty, IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TextSyntax, TooDeep, TooLarge,
-    TooManySteps, TooManyTokens, UnknownUnit,
+    BadTextValue, DocumentKind, Empty, IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TextSyntax, TooDeep,
+    TooLarge, TooManySteps, TooManyTokens, UnknownUnit,
 };
 pub(crate) use json::{
     BadName, BadValue, DuplicateKey, JsonSyntax, MissingKey, NoForm, NumberRange, ReadShape, ReservedKey,

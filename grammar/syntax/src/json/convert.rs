@@ -69,6 +69,9 @@ impl Converter {
     fn step(&mut self, step: wire::Step, span: Span, depth: usize) -> StepKind {
         let (kind, cleanup) = match step {
             wire::Step::Do(step) => (StepKind::Do(self.call_step(step, span, depth)), None),
+            wire::Step::Let(step) => {
+                (StepKind::Let { name: self.name(step.r#let), value: self.term(step.be, depth + 1) }, None)
+            }
             wire::Step::Sequence(step) => {
                 let (name, body) = (self.name(step.sequence), self.block(step.steps, depth + 1));
                 (StepKind::Sequence { name, body }, step.finally)

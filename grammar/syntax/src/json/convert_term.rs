@@ -10,6 +10,7 @@ use super::term::{Args, Condition, Count, Duration, Form, Pair, Relation, Term};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
 use crate::errors::{BadValue, MissingKey, TooDeep, WrongType};
 use crate::source::Span;
+use crate::text::template::{self, ReadText};
 use crate::text::{self, Origin};
 use crate::unit::{Dimension, Unit, parse_quantity};
 use crate::words::{is_bare_name, is_name};
@@ -100,7 +101,7 @@ impl Converter {
         let kind = match value {
             Term::Bool(value) => ExprKind::Bool(value),
             Term::Number(value) => ExprKind::Number(value),
-            Term::Text(text) => self.string(text, span),
+            Term::Text(text) => self.string(text, span, level),
             Term::List(members) => {
                 ExprKind::List(members.into_iter().map(|member| self.term(member, level + 1)).collect())
             }
@@ -109,13 +110,31 @@ impl Converter {
         Expr { kind, span }
     }
 
-    /// A string that is no condition: `$x` is a binding, `$$` a dollar sign, anything else is settled later.
-    fn string(&mut self, text: SmolStr, span: Span) -> ExprKind {
+    /// A string that is no condition: `$x` is a binding, `$$` a dollar sign, braces hold a value, anything
+    /// else is settled later.
+    fn string(&mut self, text: SmolStr, span: Span, level: usize) -> ExprKind {
         match text.strip_prefix('$') {
-            None => ExprKind::Plain(text),
-            Some(rest) if rest.starts_with('$') => ExprKind::Text(rest.into()),
+            None => match self.template(text, span, 0, level) {
+                ExprKind::Text(text) => ExprKind::Plain(text),
+                other => other,
+            },
+            Some(rest) if rest.starts_with('$') => self.template(rest.into(), span, 1, level),
             Some(rest) => ExprKind::Binding(self.name(Spanned { value: SmolStr::new(rest), span }).text),
         }
+    }
+
+    /// A text behind so many bytes of its string.
+    fn template(&mut self, text: SmolStr, span: Span, behind: u32, level: usize) -> ExprKind {
+        let is_plain = (span.end - span.start) as usize == text.len() + behind as usize + 2;
+        let start = span.start + 1 + behind;
+        let origin = if is_plain { Origin::At(self.file, start) } else { Origin::Within(span) };
+        let ReadText { kind, height, found } = template::read(text, origin, span);
+        self.found.extend(found);
+        if level + height > MAX_NESTING + 1 {
+            self.found.push(TooDeep { span, limit: MAX_NESTING }.into());
+            return ExprKind::Wrong(SmolStr::default());
+        }
+        kind
     }
 
     fn form(&mut self, form: Form, span: Span, level: usize) -> ExprKind {

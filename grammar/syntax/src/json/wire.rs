@@ -1,8 +1,8 @@
 //! Wire types of a policy in JSON. From them it is read, written, and described (`motet schema policy`: their
 //! doc comments are its descriptions). They are not the AST: [`super::convert`] turns one into the other.
 //!
-//! A step is an object that has one of the keys `do sequence if wait monitor try repeat each parallel end`; a
-//! condition or a term is a literal or an object that has one of the keys of [`Form`].
+//! A step is an object that has one of the keys `do let sequence if wait monitor try repeat each parallel
+//! end`; a condition or a term is a literal or an object that has one of the keys of [`Form`].
 //!
 //! Beyond the forms of the language page: `more`, `at_least`, `unequal` compare; `add`, `subtract`,
 //! `multiply`, `divide` calculate; `true` and `false` are conditions; an array is a list; the plain string
@@ -55,6 +55,8 @@ pub(crate) type Cleanup = Option<Box<Steps>>;
 pub(crate) enum Step {
     /// A call of a primitive or sub-policy.
     Do(Do),
+    /// A name for a value.
+    Let(Box<Let>),
     /// A named group.
     Sequence(Sequence),
     /// A choice between steps.
@@ -73,6 +75,16 @@ pub(crate) enum Step {
     Parallel(Parallel),
     /// An ending of the policy.
     End(End),
+}
+
+/// Gives a value a name. The value is found once, when the step runs.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Let {
+    /// The name; `"$name"` stands for the value afterwards.
+    pub(crate) r#let: Spanned<SmolStr>,
+    /// The value that is named.
+    pub(crate) be: Spanned<Term>,
 }
 
 /// A named group of steps.
@@ -290,7 +302,7 @@ impl Step {
             Self::Repeat(step) => &mut step.finally,
             Self::Each(step) => &mut step.finally,
             Self::Parallel(step) => &mut step.finally,
-            Self::Do(_) | Self::Wait(_) | Self::End(_) => return,
+            Self::Do(_) | Self::Let(_) | Self::Wait(_) | Self::End(_) => return,
         };
         *cleanup = Some(Box::new(steps));
     }
@@ -300,6 +312,7 @@ impl Serialize for Step {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Do(step) => step.serialize(serializer),
+            Self::Let(step) => step.serialize(serializer),
             Self::Sequence(step) => step.serialize(serializer),
             Self::If(step) => step.serialize(serializer),
             Self::Wait(step) => step.serialize(serializer),

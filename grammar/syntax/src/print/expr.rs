@@ -1,9 +1,11 @@
 //! Conditions and terms in the text syntax, with as few parentheses as the grammar needs, and those that help
 //! a reader.
 
+use std::borrow::Cow;
+
 use smol_str::SmolStr;
 
-use crate::ast::{ArithOp, Call, Expr, ExprKind, Name};
+use crate::ast::{ArithOp, Call, Expr, ExprKind, Name, TextPart};
 use crate::unit::Unit;
 use crate::unit::parse_quantity;
 use crate::words::spelled;
@@ -39,6 +41,7 @@ fn level(expr: &Expr) -> Precedence {
         | ExprKind::Number(_)
         | ExprKind::Quantity(..)
         | ExprKind::Text(_)
+        | ExprKind::Template(_)
         | ExprKind::Name(_)
         | ExprKind::Binding(_)
         | ExprKind::Plain(_)
@@ -67,7 +70,8 @@ fn bare(text: &mut String, expr: &Expr) {
         ExprKind::Bool(value) => text.push_str(if *value { "true" } else { "false" }),
         ExprKind::Number(value) => number(text, *value),
         ExprKind::Quantity(value, unit) => measure(text, *value, *unit),
-        ExprKind::Text(value) => literal(text, value),
+        ExprKind::Text(value) => literal(text, &braces(value)),
+        ExprKind::Template(parts) => literal(text, &template(parts)),
         ExprKind::Name(value) | ExprKind::Binding(value) => name(text, value),
         ExprKind::Plain(value) | ExprKind::Wrong(value) => plain(text, value),
         ExprKind::Any => text.push_str("any"),
@@ -83,6 +87,7 @@ fn bare(text: &mut String, expr: &Expr) {
                 ExprKind::Plain(value) => parse_quantity(value).is_some(),
                 ExprKind::Bool(_)
                 | ExprKind::Text(_)
+                | ExprKind::Template(_)
                 | ExprKind::Name(_)
                 | ExprKind::Binding(_)
                 | ExprKind::Wrong(_)
@@ -190,8 +195,33 @@ fn plain(text: &mut String, value: &SmolStr) {
     } else if !value.is_empty() && value.chars().all(is_id) {
         name(text, value);
     } else {
-        literal(text, value);
+        literal(text, &braces(value));
     }
+}
+
+/// A text as it is written, before quotes and escapes: with each brace twice.
+pub(super) fn braces(text: &str) -> Cow<'_, str> {
+    if text.contains(['{', '}']) {
+        Cow::Owned(text.replace('{', "{{").replace('}', "}}"))
+    } else {
+        Cow::Borrowed(text)
+    }
+}
+
+/// A text with values as it is written, before quotes and escapes.
+pub(super) fn template(parts: &[TextPart]) -> String {
+    let mut text = String::new();
+    for part in parts {
+        match part {
+            TextPart::Literal(literal) => text.push_str(&braces(literal)),
+            TextPart::Value(value) => {
+                text.push('{');
+                write(&mut text, value);
+                text.push('}');
+            }
+        }
+    }
+    text
 }
 
 fn measure(text: &mut String, value: f64, unit: Unit) {

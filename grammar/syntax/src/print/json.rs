@@ -9,6 +9,7 @@ use rustc_hash::FxHashSet;
 use serde_json::Value;
 use smol_str::{SmolStr, format_smolstr};
 
+use super::expr::{braces, template};
 use crate::ast::{
     Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Name, Policy, Reaction, Step,
     StepKind, When,
@@ -67,6 +68,11 @@ impl WireTranslation {
     fn step(&mut self, step: &Step) -> wire::Step {
         match &step.kind {
             StepKind::Do(step) => wire::Step::Do(self.call_step(step)),
+            StepKind::Let { name: bound, value } => {
+                let be = self.term(value).into();
+                self.scope.insert(bound.text.clone());
+                wire::Step::Let(Box::new(wire::Let { r#let: name(bound), be }))
+            }
             StepKind::Sequence { name: group, body } => {
                 let steps = self.block(body);
                 wire::Step::Sequence(wire::Sequence { sequence: name(group), steps, finally: None })
@@ -201,6 +207,7 @@ impl WireTranslation {
             ExprKind::Number(_)
             | ExprKind::Quantity(..)
             | ExprKind::Text(_)
+            | ExprKind::Template(_)
             | ExprKind::Name(_)
             | ExprKind::Plain(_)
             | ExprKind::Wrong(_)
@@ -227,9 +234,11 @@ impl WireTranslation {
                 let is_si = unit.dimension() != Dimension::NONE && Unit::si(unit.dimension()) == Some(*unit);
                 if is_si { Term::Number(*value) } else { Term::Text(super::expression(expr).into()) }
             }
-            ExprKind::Text(text) | ExprKind::Plain(text) | ExprKind::Wrong(text) => Term::Text(escaped(text)),
+            ExprKind::Text(text) | ExprKind::Plain(text) => Term::Text(escaped(&braces(text))),
+            ExprKind::Template(parts) => Term::Text(escaped(&template(parts))),
+            ExprKind::Wrong(text) => Term::Text(escaped(text)),
             ExprKind::Name(bound) if self.scope.contains(bound) => binding(bound),
-            ExprKind::Name(plain) => Term::Text(plain.clone()),
+            ExprKind::Name(plain) => Term::Text(SmolStr::new(braces(plain))),
             ExprKind::Binding(bound) => binding(bound),
             ExprKind::Any => Term::Text("any".into()),
             ExprKind::List(members) => {
@@ -286,6 +295,7 @@ impl WireTranslation {
             | ExprKind::Number(_)
             | ExprKind::Quantity(..)
             | ExprKind::Text(_)
+            | ExprKind::Template(_)
             | ExprKind::Name(_)
             | ExprKind::Binding(_)
             | ExprKind::Plain(_)
@@ -325,6 +335,7 @@ fn has_unnamed(expr: &Expr) -> bool {
         | ExprKind::Number(_)
         | ExprKind::Quantity(..)
         | ExprKind::Text(_)
+        | ExprKind::Template(_)
         | ExprKind::Name(_)
         | ExprKind::Binding(_)
         | ExprKind::Plain(_)
@@ -350,8 +361,8 @@ fn binding(bound: &SmolStr) -> Term {
 }
 
 /// A text that begins with `$` is written with two.
-fn escaped(text: &SmolStr) -> SmolStr {
-    if text.starts_with('$') { format_smolstr!("${text}") } else { text.clone() }
+fn escaped(text: &str) -> SmolStr {
+    if text.starts_with('$') { format_smolstr!("${text}") } else { SmolStr::new(text) }
 }
 
 /// Values that end before this column stay on their line.

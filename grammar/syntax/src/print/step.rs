@@ -37,6 +37,11 @@ impl Writer<'_> {
     fn inner(&mut self, step: &Step) {
         match &step.kind {
             StepKind::Do(step) => self.call_step(step),
+            StepKind::Let { name, value } => {
+                self.text.push_str("let ");
+                expr::name(&mut self.text, &name.text);
+                self.word_and(" = ", value);
+            }
             StepKind::Sequence { name, body } => {
                 self.text.push_str("sequence ");
                 expr::name(&mut self.text, &name.text);

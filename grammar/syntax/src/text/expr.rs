@@ -6,8 +6,9 @@ use smol_str::SmolStr;
 
 use super::builder::{Builder, Children};
 
-use super::{Pair, Rule};
-use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
+use super::template::{self, ReadText};
+use super::{Origin, Pair, Rule};
+use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING, Name};
 use crate::errors::{NumberRange, TextSyntax, TooDeep};
 use crate::source::Span;
 use crate::unit::Unit;
@@ -49,6 +50,12 @@ impl Builder {
             self.found.push(TooDeep { span, limit: MAX_NESTING }.into());
         }
         Some(call)
+    }
+
+    /// An `expr` pair with the levels of its tree.
+    pub(super) fn measured(&mut self, pair: Pair<'_>) -> (Expr, usize) {
+        let built = self.build(pair);
+        (built.expr, built.height)
     }
 
     fn limit(&mut self, built: &PartialExpr, depth: usize) {
@@ -195,16 +202,28 @@ impl Builder {
         }
     }
 
-    /// An atom and the fields taken of it.
+    /// An atom, and the fields and elements taken of it.
     fn operand(&mut self, pair: Pair<'_>) -> PartialExpr {
         let span = self.span(&pair);
         let mut parts = Children::of(pair);
         let nothing = PartialExpr { expr: Expr { kind: ExprKind::Any, span }, outer: span, height: 1 };
         let Some(mut built) = parts.next().and_then(|atom| self.atom(atom)) else { return nothing };
-        for field in parts {
-            let Some(name) = Children::of(field).next().map(|name| self.name(name)) else { continue };
-            let outer = built.outer.to(name.span);
-            built = self.wrap(built, outer, |expr| ExprKind::Field(Box::new(expr), name));
+        for part in parts {
+            let is_index = part.as_rule() == Rule::index;
+            let end = self.span(&part);
+            let Some(inner) = Children::of(part).next() else { continue };
+            let outer = built.outer.to(end);
+            built = if is_index {
+                if inner.as_str() != "0" {
+                    let message = format!("a list has no element `[{}]`", inner.as_str());
+                    let help = "write `[0]` for the first element, or `each` for all of them";
+                    self.found.push(TextSyntax::new(end, message, help).into());
+                }
+                self.wrap(built, outer, |expr| ExprKind::Call(first(expr, end)))
+            } else {
+                let name = self.name(inner);
+                self.wrap(built, outer, |expr| ExprKind::Field(Box::new(expr), name))
+            };
         }
         built
     }
@@ -222,7 +241,17 @@ impl Builder {
         let leaf = |kind| PartialExpr { expr: Expr { kind, span: outer }, outer, height: 1 };
         Some(match pair.as_rule() {
             Rule::quantity => leaf(self.quantity(pair, outer)?),
-            Rule::text => leaf(ExprKind::Text(self.text(pair, outer))),
+            Rule::text => {
+                let has_escapes = pair.as_str().contains('\\');
+                let text = self.text(pair, outer);
+                let origin = match self.origin {
+                    Origin::At(..) if !has_escapes => Origin::At(outer.file, outer.start + 1),
+                    Origin::At(..) | Origin::Within(_) => Origin::Within(outer),
+                };
+                let ReadText { kind, height, found } = template::read(text, origin, outer);
+                self.found.extend(found);
+                PartialExpr { height, ..leaf(kind) }
+            }
             Rule::kw_true => leaf(ExprKind::Bool(true)),
             Rule::kw_false => leaf(ExprKind::Bool(false)),
             Rule::kw_any => leaf(ExprKind::Any),
@@ -314,6 +343,13 @@ impl Builder {
         }
         SmolStr::from(text)
     }
+}
+
+/// `x[0]` as `first(x)`.
+fn first(list: Expr, index: Span) -> Call {
+    let span = list.span.to(index);
+    let name = Name { text: SmolStr::new_static("first"), span: index };
+    Call { name, args: vec![Arg { name: None, span: list.span, value: list }], span }
 }
 
 type Flat = std::iter::Peekable<std::vec::IntoIter<Element>>;

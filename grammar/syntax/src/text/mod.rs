@@ -6,6 +6,7 @@ mod expr;
 pub(crate) mod lexer;
 mod step;
 mod syntax_error;
+pub(crate) mod template;
 
 use pest::Parser as _;
 
@@ -83,6 +84,30 @@ pub fn parse_condition(text: &str) -> Result<ast::Expr, String> {
     }
 }
 
+/// Reads a text with values as it stands between quotes: `I see {count(cans)} cans`. Without values it is an
+/// [`ast::ExprKind::Text`], with single braces.
+///
+/// ```
+/// use motet_syntax::{print, text};
+///
+/// let read = text::parse_text("I see { x } in {{ }}").unwrap();
+/// assert_eq!(print::expression(&read), "\"I see {x} in {{ }}\"");
+/// assert!(text::parse_text("I see {x").is_err());
+/// ```
+///
+/// # Errors
+///
+/// The reason, in words, if a value in braces cannot be read.
+pub fn parse_text(text: &str) -> Result<ast::Expr, String> {
+    let file = FileId::default();
+    let span = Span::new(file, 0, text.len());
+    let read = template::read(text.into(), Origin::At(file, 0), span);
+    match read.found.into_iter().next() {
+        Some(mistake) => Err(mistake.message),
+        None => Ok(ast::Expr { kind: read.kind, span }),
+    }
+}
+
 /// Position of a text in its document.
 #[derive(Clone, Copy)]
 pub(crate) enum Origin {
@@ -97,6 +122,15 @@ impl Origin {
         match self {
             Self::At(file, offset) => Span::new(file, start + offset as usize, end + offset as usize),
             Self::Within(span) => span,
+        }
+    }
+
+    /// Position of what begins so many bytes later.
+    fn moved_by(self, bytes: usize) -> Self {
+        let bytes = u32::try_from(bytes).unwrap_or(u32::MAX);
+        match self {
+            Self::At(file, offset) => Self::At(file, offset.saturating_add(bytes)),
+            Self::Within(_) => self,
         }
     }
 

@@ -4,9 +4,10 @@
 use super::builder::{Builder, Children};
 use super::{Pair, Rule};
 use crate::ast::{
-    Block, Catch, CatchOn, Do, End, EndKind, Expr, MAX_NESTING, MAX_STEPS, Reaction, Step, StepKind, When,
+    Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, MAX_NESTING, MAX_STEPS, Reaction, Step,
+    StepKind, When,
 };
-use crate::errors::{TooDeep, TooManySteps};
+use crate::errors::{TextSyntax, TooDeep, TooManySteps};
 use crate::source::Span;
 
 impl Builder {
@@ -49,6 +50,7 @@ impl Builder {
         let mut parts = Children::of(pair);
         let kind = match rule {
             Rule::do_step => self.do_step(parts, depth)?,
+            Rule::let_step => self.let_step(parts, depth)?,
             Rule::sequence => StepKind::Sequence {
                 name: self.name(parts.next()?),
                 body: self.block(parts.next()?, depth + 1),
@@ -94,16 +96,35 @@ impl Builder {
     }
 
     fn do_step(&mut self, mut parts: Children<'_>, depth: usize) -> Option<StepKind> {
-        let bind = parts.next_of(Rule::name).map(|name| self.name(name));
         let call = self.call(parts.next()?, depth)?;
-        let mut step = Do { call, bind, within: None, retry: None };
+        Some(StepKind::Do(self.modified(Do { call, bind: None, within: None, retry: None }, parts, depth)))
+    }
+
+    /// A name for a value, or for the result of a call.
+    fn let_step(&mut self, mut parts: Children<'_>, depth: usize) -> Option<StepKind> {
+        let name = self.name(parts.next()?);
+        let value = self.expr(parts.next()?, depth);
+        if let ExprKind::Call(call) = value.kind {
+            let step = Do { call, bind: Some(name), within: None, retry: None };
+            return Some(StepKind::Do(self.modified(step, parts, depth)));
+        }
+        if let Some(part) = parts.next() {
+            let message = "a value takes neither `within` nor `retry`".into();
+            let help = "only a call of a primitive takes time, and can fail";
+            self.found.push(TextSyntax::new(self.span(&part), message, help).into());
+        }
+        Some(StepKind::Let { name, value })
+    }
+
+    /// A call with its deadline and its retries.
+    fn modified(&mut self, mut step: Do, parts: Children<'_>, depth: usize) -> Do {
         for part in parts {
             match part.as_rule() {
                 Rule::within => step.within = self.expr_in(Some(part), depth),
                 _ => step.retry = self.expr_in(Some(part), depth),
             }
         }
-        Some(StepKind::Do(step))
+        step
     }
 
     /// `if a { } else if b { } else { }`: each `else if` is an `if` alone in a block of its own. The braces

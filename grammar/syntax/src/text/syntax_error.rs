@@ -173,11 +173,6 @@ impl<'t> ErrorContext<'t> {
         if let Some(meant) = suggest::closest(word.text, starters).filter(|meant| *meant != word.text) {
             return (Some(format!("did you mean `{meant}`?")), Some(meant.into()));
         }
-        if self.earlier.is_some_and(|earlier| earlier.text == "=") {
-            let advice =
-                format!("a binding is the result of a call: write `{}` where it is meant", word.text);
-            return (Some(advice), None);
-        }
         let rest = text.get(word.end()..).unwrap_or("");
         let ends_line = rest.trim_start_matches([' ', '\t', '\r']).starts_with(['\n', '}']);
         // `pick mug`: what stands behind it on its line is its argument.
@@ -318,13 +313,13 @@ fn words(expected: &[Rule]) -> Option<String> {
     let has = |words: &str| labels.iter().any(|(_, label)| *label == words);
     // What always goes is named only where nothing else does.
     let (step, declaration, value) = (has(STEP), has(DECLARATION), has(VALUE));
-    let strong = labels.iter().any(|(_, label)| !matches!(*label, OPERATOR | "`(`" | "`.`"));
+    let strong = labels.iter().any(|(_, label)| !matches!(*label, OPERATOR | "`(`" | "`.`" | "`[`"));
     labels.retain(|(_, label)| match *label {
         STEP | DECLARATION => true,
         "`}`" | CLAUSE => step || declaration || !value,
         VALUE => !step && !declaration,
         _ if step || declaration || value => false,
-        OPERATOR | "`(`" | "`.`" => !strong,
+        OPERATOR | "`(`" | "`.`" | "`[`" => !strong,
         _ => true,
     });
     match labels.as_slice() {
@@ -348,6 +343,7 @@ const OPERATOR: &str = "an operator";
 fn label(rule: Rule) -> Option<(u8, &'static str)> {
     Some(match rule {
         Rule::do_step
+        | Rule::let_step
         | Rule::sequence
         | Rule::if_else
         | Rule::wait
@@ -412,7 +408,7 @@ fn label(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::rbrace => (5, "`}`"),
         Rule::args | Rule::params | Rule::lparen => (5, "`(`"),
         Rule::rparen => (5, "`)`"),
-        Rule::lbracket => (5, "`[`"),
+        Rule::lbracket | Rule::index => (5, "`[`"),
         Rule::rbracket => (5, "`]`"),
         Rule::comma => (6, "`,`"),
         Rule::colon => (6, "`:`"),

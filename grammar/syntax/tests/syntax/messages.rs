@@ -198,10 +198,7 @@ fn help_names_the_intended_word() {
         "policy p {\n    pick(mug) retry 3 within 20 s retry 2\n}\n",
         &[("M0101", "stand once behind a call")],
     );
-    check(
-        "policy p {\n    let mug = mug_1\n    go(mug)\n}\n",
-        &[("M0101", "write `mug_1` where it is meant")],
-    );
+    check("policy p {\n    say(\"an { open brace\")\n}\n", &[("M0123", "a brace itself is written twice")]);
 }
 
 #[test]

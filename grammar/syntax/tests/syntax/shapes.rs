@@ -279,7 +279,7 @@ fn shapes_with_several_readings_are_errors() {
 #[test]
 fn shapes_leave_what_the_language_has_as_it_is() {
     for steps in [
-        r#"{"do": "act", "action": "wave", "name": "x", "args": ["a"], "arguments": "{}"}"#,
+        r#"{"do": "act", "action": "wave", "name": "x", "args": ["a"], "arguments": "{{}}"}"#,
         r#"{"do": "act", "args": {"get": "battery"}}"#,
         r#"{"do": "act", "function": "x", "type": "function"}"#,
     ] {

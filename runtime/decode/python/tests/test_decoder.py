@@ -50,7 +50,7 @@ def test_a_mask_is_taken_by_numpy(environment, tokenizer):
 def test_a_policy_is_followed_forced_and_taken_back(environment, tokenizer):
     decoder = motet.Decoder(environment=environment, tokenizer=tokenizer)
     assert decoder.forced() == '{"motet":1,"policy":"'
-    feed(decoder, START + '{"do":"pick","object":"mug_1","from":"auto"}')
+    feed(decoder, START + '{"do":"go","to":"mug_1"},{"do":"pick","object":"mug_1","from":"auto"}')
     again = ',{"do":"pick","object":"mug_2","from":"auto"}'
     assert "M0501" in [said["code"] for said in decoder.why_not(again)]
     assert decoder.why_not(',{"do":"go","to":"user"}') == []

@@ -3,6 +3,7 @@
 use motet_syntax::Syntax;
 use toktrie::{Recognizer, SimpleVob};
 
+use super::event_log::UNSEEN;
 use super::lookahead::ByteSet;
 use super::machine::Machine;
 use super::{Acceptor, AcceptorFactory};
@@ -160,6 +161,7 @@ impl Machine {
         let text = |op| matches!(automaton.op(op), Op::Text { .. });
         let pos = state.pos as usize;
         let (free, op) = match automaton.op(state.op) {
+            Op::Text { .. } if state.lo != UNSEEN || state.hi != UNSEEN => return None,
             Op::Text { .. } if pos + longest <= MAX_TEXT_CHARS => (Free::Text { pos }, state.op),
             Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text { pos }, *other),
             Op::Name(_) => (Free::Name { pos, most: MAX_NAME_CHARS.saturating_sub(pos) }, state.op),
@@ -173,6 +175,7 @@ impl Machine {
     /// Adds the tokens that continue or end a text.
     fn mask_text(&mut self, tokens: &Tokens, pos: usize, set: &mut SimpleVob) {
         set.or(&tokens.text);
+        tokens.braces.add_bias(&mut Stepper(self), set, &[]);
         if self.text_matters() {
             tokens.text_ends.add_bias(&mut Stepper(self), set, &[]);
             return;

@@ -237,7 +237,7 @@ impl Builder<'_> {
                 let name = self.arenas.name(id)?;
                 ExprKind::Binding(self.text(name.start, name.len))
             }
-            Event::Text(start, len) => ExprKind::Plain(self.text(start, len)),
+            Event::Text(start, len) => written(self.text(start, len)),
             Event::AnyText => ExprKind::Plain(SmolStr::new_static("~")),
             Event::Number(units, decimals) => ExprKind::Number(Decimal { units, decimals }.value()),
             Event::Constant(Constant::True) => ExprKind::Bool(true),
@@ -409,6 +409,15 @@ impl Builder<'_> {
 
     fn end(&mut self, kind: EndKind) -> End {
         End { kind, why: self.value().or(end(kind).why), span: Span::default() }
+    }
+}
+
+/// A text as it stands between quotes; what it cannot mean is never written.
+fn written(text: SmolStr) -> ExprKind {
+    match motet_syntax::text::parse_text(&text).map(|read| read.kind) {
+        Ok(ExprKind::Text(text)) => ExprKind::Plain(text),
+        Ok(template) => template,
+        Err(_) => ExprKind::Plain(text),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Recognition letter by letter: of words, by the range of a sorted list that still fits, of texts, and of
 //! new names.
 
+use motet_compiler::signature::Type;
 use motet_syntax::Syntax;
 
 use super::event_log::{Event, Id, Name, State, UNSEEN};
@@ -168,6 +169,9 @@ impl Machine {
     pub(super) fn text(&mut self, mut state: State, arg: Option<u8>, byte: u8) -> Option<State> {
         let next = state.op + 1;
         if byte == b'"' {
+            if state.lo != UNSEEN || state.hi != UNSEEN {
+                return None;
+            }
             let (start, len) = self.written(state.pos).filter(|_| state.pos > 0)?;
             let event = Event::Text(start, len);
             if arg.is_some() && !self.permits_text(&state, event) {
@@ -176,12 +180,49 @@ impl Machine {
             state.event = self.record(state.event, event);
             return Some(self.follow_epsilon(state, next));
         }
+        // Bytes that must follow for the text to end: those of a value, and the second of two braces.
+        let mut open = 0;
+        match (state.lo, state.hi, byte) {
+            (UNSEEN, UNSEEN, b'{') => (state.lo, open) = (0, 1),
+            (UNSEEN, UNSEEN, b'}') => (state.hi, open) = (0, 1),
+            (UNSEEN, UNSEEN, _) => {}
+            (UNSEEN, _, b'}') => state.hi = UNSEEN,
+            (UNSEEN, ..) => return None,
+            (0, _, b'{') => state.lo = UNSEEN,
+            (begun, ..) => {
+                let (start, len) = self.written(begun)?;
+                let rest = self.rest_of_value(&state, (start, len), byte)?;
+                state.lo = if byte == b'}' { UNSEEN } else { begun + 1 };
+                open = rest;
+            }
+        }
         let can = is_text_char(char::from(byte))
-            && (state.pos as usize) < MAX_TEXT_CHARS
+            && state.pos as usize + open < MAX_TEXT_CHARS
             && !(state.pos == 0 && byte == b'$')
-            && self.fits(2, next, state.frame);
+            && self.fits(2 + open, next, state.frame);
         state.pos += 1;
         can.then_some(state)
+    }
+
+    /// The number of bytes that end a value in a text behind one more byte: the shortest name that goes on
+    /// like that, and the brace.
+    fn rest_of_value(&self, state: &State, (start, len): (u32, u32), byte: u8) -> Option<usize> {
+        let bytes = |start: u32, len: u32| self.bytes.get(start as usize..(start + len) as usize);
+        let begun = bytes(start, len)?;
+        let can_say = |name: &Name| {
+            let mut ty = self.context.automaton.ty(name.ty);
+            while let Some(Type::List(element)) = ty {
+                ty = Some(element);
+            }
+            ty.is_some_and(|ty| *ty != Type::Pose)
+        };
+        let visible = self.visible(state.scope);
+        let names = visible.iter().filter(|(_, name)| can_say(name));
+        let names = names.filter_map(|(_, name)| bytes(name.start, name.len)?.strip_prefix(begun));
+        if byte == b'}' {
+            return (len > 0 && names.into_iter().any(<[u8]>::is_empty)).then_some(0);
+        }
+        names.filter(|rest| rest.first() == Some(&byte)).map(<[u8]>::len).min()
     }
 
     pub(super) fn name(&mut self, mut state: State, naming: NameUse, byte: u8) -> Option<State> {

@@ -329,7 +329,7 @@ impl WordTable {
     pub(crate) fn of_kind(signatures: &Signatures, kind: usize) -> Self {
         Self::new(signatures.entities.iter().enumerate().filter_map(|(index, (name, of))| {
             let meaning = Meaning::Entity(u16::try_from(index).ok()?);
-            signatures.is_kind(*of, kind).then(|| Word {
+            (signatures.is_kind(*of, kind) && is_single(name)).then(|| Word {
                 name: name.clone(),
                 meaning,
                 to: None,
@@ -341,7 +341,7 @@ impl WordTable {
     /// The cases of an enumeration.
     pub(crate) fn of_cases(signatures: &Signatures, id: usize) -> Self {
         let cases = signatures.enums.get(id).map(|def| def.cases.as_slice()).unwrap_or_default();
-        Self::new(cases.iter().enumerate().filter_map(|(index, name)| {
+        Self::new(cases.iter().enumerate().filter(|(_, name)| is_single(name)).filter_map(|(index, name)| {
             let meaning = Meaning::Case(u16::try_from(id).ok()?, u16::try_from(index).ok()?);
             Some(Word { name: name.clone(), meaning, to: None, guard: Guard::Open })
         }))
@@ -358,4 +358,9 @@ impl WordTable {
     pub(crate) fn get(&self, index: u32) -> Option<&Word> {
         self.entries.get(index as usize)
     }
+}
+
+/// A name has no braces, which JSON would write twice.
+fn is_single(name: &str) -> bool {
+    !name.contains(['{', '}'])
 }

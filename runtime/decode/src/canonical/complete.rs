@@ -72,6 +72,10 @@ impl Completer<'_> {
         let mut given = None;
         let (kind, items) = match &step.kind {
             StepKind::Do(call) => return self.call(call),
+            StepKind::Let { .. } => {
+                let why = "a name is bound by a call or a loop in the canonical subset";
+                return Err(outside(step.span, why));
+            }
             StepKind::Sequence { name, body } => {
                 given = Some(self.new_name(&name.text, name.span)?);
                 (NodeKind::Sequence, vec![self.inner(body, depth, 1)?])
@@ -301,6 +305,9 @@ fn names(block: &Block, found: &mut FxHashSet<SmolStr>) {
             StepKind::Parallel { branches } => branches.iter().for_each(|block| names(block, found)),
             // It is outside of the subset.
             StepKind::Finally { .. } => {}
+            StepKind::Let { name, .. } => {
+                found.insert(name.text.clone());
+            }
             StepKind::Wait { .. } | StepKind::Delay { .. } | StepKind::End(_) => {}
         }
     }

@@ -1,7 +1,7 @@
 //! Completion of values, by the types that are asked for, and of conditions.
 
 use motet_compiler::signature::{Signatures, Type};
-use motet_syntax::ast::{Call, Expr, ExprKind};
+use motet_syntax::ast::{Call, Expr, ExprKind, TextPart};
 use motet_syntax::unit::Dimension;
 use motet_syntax::{Span, Syntax};
 use rustc_hash::FxHashSet;
@@ -39,6 +39,7 @@ impl Completer<'_> {
             (ExprKind::Binding(name), _) => self.binding(name, expr),
             (ExprKind::Name(name), _) => self.named(name, expr, ty),
             (ExprKind::Plain(text) | ExprKind::Text(text), Type::Text) => self.text(text, expr),
+            (ExprKind::Template(parts), Type::Text) => self.template(parts, expr),
             (ExprKind::Plain(name), Type::Entity(_) | Type::Enum(_)) => {
                 let known = self.is_known(name, ty);
                 known.then(|| Value::Name(name.clone())).ok_or_else(|| {
@@ -98,9 +99,35 @@ impl Completer<'_> {
         })
     }
 
+    /// A text with values, all of them bound names.
+    fn template(&self, parts: &[TextPart], expr: &Expr) -> Result<Value, OutsideSubset> {
+        let mut written = String::new();
+        for part in parts {
+            match part {
+                TextPart::Literal(text) => written.push_str(&doubled(text)),
+                TextPart::Value(value) => match &value.kind {
+                    // An unknown name is the checker's business.
+                    ExprKind::Name(name) | ExprKind::Binding(name) => {
+                        let name = self.new_name(name, value.span)?;
+                        written.push_str(&format!("{{{name}}}"));
+                    }
+                    _ => {
+                        let why = "a value in a text is a bound name in the canonical subset";
+                        return Err(outside(value.span, why));
+                    }
+                },
+            }
+        }
+        self.written(written.into(), expr)
+    }
+
     fn text(&self, text: &SmolStr, expr: &Expr) -> Result<Value, OutsideSubset> {
-        if subset::is_text(text) {
-            return Ok(Value::Text(text.clone()));
+        self.written(doubled(text), expr)
+    }
+
+    fn written(&self, text: SmolStr, expr: &Expr) -> Result<Value, OutsideSubset> {
+        if subset::is_text(&text) {
+            return Ok(Value::Text(text));
         }
         let most = subset::MAX_TEXT_CHARS;
         Err(outside(
@@ -308,6 +335,11 @@ impl Completer<'_> {
         motet_syntax::print::identifier(name) != name
             || self.signatures.enums.iter().any(|def| def.cases.iter().any(|case| case == name))
     }
+}
+
+/// A text with each brace twice.
+fn doubled(text: &str) -> SmolStr {
+    text.replace('{', "{{").replace('}', "}}").into()
 }
 
 /// The argument for a parameter, by its name or its place.

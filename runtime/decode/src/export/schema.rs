@@ -17,7 +17,11 @@ pub(super) fn schema(grammar: &Grammar) -> Value {
     deriver.define("name", json!({"type": "string", "pattern": "^[a-zA-Z_][a-zA-Z0-9_]*$"}));
     deriver.define("binding", json!({"type": "string", "pattern": "^\\$[a-zA-Z_][a-zA-Z0-9_]*$"}));
     // Without a bound: one makes engines slow. The class is that of the subset, which needs no escape.
-    deriver.define("text", json!({"type": "string", "pattern": "^[ !#%-\\[\\]-~][ !#-\\[\\]-~]*$"}));
+    // A brace is written twice, or holds a name.
+    let braces = r"\{\{|\}\}|\{[a-zA-Z_][a-zA-Z0-9_]*\}";
+    let (first, rest) = (r"[ !#%-\[\]-z|~]", r"[ !#-\[\]-z|~]");
+    let pattern = format!("^({first}|{braces})({rest}|{braces})*$");
+    deriver.define("text", json!({"type": "string", "pattern": pattern}));
     let mut root =
         deriver.object("", &grammar.document, Level { depth: grammar.subset.depth, in_goal: false });
     if let Value::Object(root) = &mut root {

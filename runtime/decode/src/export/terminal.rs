@@ -6,8 +6,8 @@ use super::ebnf::EbnfExpr;
 use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange};
 
 /// The characters of a text, and those with which one begins.
-pub(super) const TEXT: &[(char, char)] = &[(' ', '!'), ('#', '['), (']', '~')];
-const TEXT_FIRST: &[(char, char)] = &[(' ', '!'), ('#', '#'), ('%', '['), (']', '~')];
+const TEXT: &[(char, char)] = &[(' ', '!'), ('#', '['), (']', 'z'), ('|', '|'), ('~', '~')];
+const TEXT_FIRST: &[(char, char)] = &[(' ', '!'), ('#', '#'), ('%', '['), (']', 'z'), ('|', '|'), ('~', '~')];
 const NAME: &[(char, char)] = &[('a', 'z'), ('A', 'Z'), ('0', '9'), ('_', '_')];
 const NAME_FIRST: &[(char, char)] = &[('a', 'z'), ('A', 'Z'), ('_', '_')];
 
@@ -20,8 +20,12 @@ struct Tree {
 
 /// A text, without its quotes.
 pub(super) fn text() -> EbnfExpr {
-    let rest = EbnfExpr::Class(TEXT.to_vec()).repeat(0, bound(MAX_TEXT_CHARS - 1));
-    EbnfExpr::seq(vec![EbnfExpr::Class(TEXT_FIRST.to_vec()), rest])
+    let value = EbnfExpr::seq(vec![EbnfExpr::literal("{"), name(), EbnfExpr::literal("}")]);
+    let braces = || [EbnfExpr::literal("{{"), EbnfExpr::literal("}}"), value.clone()];
+    let of = |class: &[(char, char)]| {
+        EbnfExpr::choice(std::iter::once(EbnfExpr::Class(class.to_vec())).chain(braces()).collect())
+    };
+    EbnfExpr::seq(vec![of(TEXT_FIRST), of(TEXT).repeat(0, bound(MAX_TEXT_CHARS - 1))])
 }
 
 /// A name, whatever it is.

@@ -65,8 +65,14 @@ pub fn is_text_char(character: char) -> bool {
     matches!(character, ' '..='~') && !matches!(character, '"' | '\\')
 }
 
-/// The text is in the subset: short enough, and without a character that needs an escape. An empty text,
-/// and one that begins with `$`, which in JSON is a binding, is not.
+/// The character begins or ends a value in a text; two of them are one brace.
+#[must_use]
+pub(crate) fn is_brace(byte: u8) -> bool {
+    matches!(byte, b'{' | b'}')
+}
+
+/// The text is in the subset, with each of its braces written twice: short enough, and without a character
+/// that needs an escape. An empty text, and one that begins with `$`, which in JSON is a binding, is not.
 #[must_use]
 pub fn is_text(text: &str) -> bool {
     (1..=MAX_TEXT_CHARS).contains(&text.len()) && text.chars().all(is_text_char) && !text.starts_with('$')

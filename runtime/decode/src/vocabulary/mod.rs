@@ -19,7 +19,7 @@ pub use self::token_list::{
     EndToken, LONGEST_TOKEN, MAX_FILE_BYTES, MAX_TOKEN_BYTES, MAX_TOKENS, VocabularyError,
 };
 pub(crate) use self::token_tree::{Node, Tree};
-use crate::subset::{MAX_NAME_CHARS, is_text_char};
+use crate::subset::{MAX_NAME_CHARS, is_brace, is_text_char};
 
 /// The tokens of a language model. Cloning is cheap, and threads may share it.
 ///
@@ -42,6 +42,8 @@ pub(crate) struct Tokens {
     pub(crate) text: SimpleVob,
     /// Tokens that end a text, or whose position in it matters.
     pub(crate) text_ends: TokTrie,
+    /// Tokens with a brace in a text.
+    pub(crate) braces: TokTrie,
     /// Tokens that begin with `$` and can stand inside a text, but not begin it.
     pub(crate) dollars: SimpleVob,
     /// Tokens that begin with `$` and reach into a text.
@@ -93,7 +95,7 @@ impl Vocabulary {
         let tokens = tokens.as_slice();
         let trie = TokTrie::from(&TokRxInfo::new(size, end), tokens);
         let is_name_byte = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
-        let is_text_byte = |byte: &u8| is_text_char(char::from(*byte));
+        let is_text_byte = |byte: &u8| is_text_char(char::from(*byte)) && !is_brace(*byte);
         let set = |picks: &dyn Fn(&[u8]) -> bool| {
             let mut set = trie.alloc_token_set();
             for (id, bytes) in (0..size).zip(tokens) {
@@ -110,6 +112,11 @@ impl Vocabulary {
             bytes.first() == Some(&b'$')
                 || (ends && before_quote(bytes).is_some_and(|before| before.iter().all(is_text_byte)))
         });
+        let braces = trie.filter(&set(&|bytes| {
+            let before = bytes.split(|byte| *byte == b'"').next().unwrap_or_default();
+            before.iter().all(|byte| is_text_char(char::from(*byte)))
+                && before.iter().any(|byte| is_brace(*byte))
+        }));
         let dollars = set(&|bytes| bytes.iter().all(is_text_byte) && bytes.first() == Some(&b'$'));
         let dollar_ends = trie.filter(&set(&|bytes| bytes.first() == Some(&b'$')));
         let ends = (0..size).zip(tokens).filter_map(|(id, bytes)| {
@@ -154,6 +161,7 @@ impl Vocabulary {
             tree,
             text,
             text_ends,
+            braces,
             dollars,
             dollar_ends,
             text_tails,

@@ -4,7 +4,7 @@ use super::cells::{Beliefs, CellId};
 use crate::query::{Answer, Pattern, Query, Truth};
 use crate::time::Time;
 use crate::verifier::derived;
-use motet_graph::{Arithmetic, Comparison, Condition, Fact, FactArg, Graph, Term, Value};
+use motet_graph::{Arithmetic, Comparison, Condition, Fact, FactArg, Graph, Term, TextPart, Value, spoken};
 
 /// Required freshness of a belief.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -27,6 +27,8 @@ pub(crate) struct Evaluator<'a> {
     /// Current value of [`Term::Each`].
     pub(crate) each: Option<Value>,
     pub(crate) fresh: Freshness,
+    /// True if a text says of an unknown value that it is unknown; otherwise the whole text is.
+    pub(crate) vague: bool,
     /// Collects the queries that are unknown and can be observed.
     pub(crate) missing: Option<&'a mut Vec<CellId>>,
 }
@@ -79,7 +81,34 @@ impl Evaluator<'_> {
                 let (left, right) = (self.term(left), self.term(right));
                 arithmetic(*operation, &left?, &right?)
             }
+            Term::Count(list) => match self.term(list)? {
+                Value::List(items) => i64::try_from(items.len()).ok().map(Value::Int),
+                Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) => None,
+                Value::Entity(_) | Value::Case(_) | Value::Pose(_) => None,
+            },
+            Term::First(list) => match self.term(list)? {
+                Value::List(items) => items.into_iter().next(),
+                Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) => None,
+                Value::Entity(_) | Value::Case(_) | Value::Pose(_) => None,
+            },
+            Term::Template(parts) => self.template(parts),
         }
+    }
+
+    /// A text with its values. All are looked at, so that everything that is missing is asked for together.
+    fn template(&mut self, parts: &[TextPart]) -> Option<Value> {
+        let mut text = Some(String::new());
+        for part in parts {
+            let said = match part {
+                TextPart::Literal(literal) => Some(literal.to_string()),
+                TextPart::Value(value, ty) => match self.term(value) {
+                    Some(value) => Some(spoken(self.graph, &value, ty)),
+                    None => self.vague.then(|| "unknown".to_owned()),
+                },
+            };
+            text = text.zip(said).map(|(text, said)| text + &said);
+        }
+        text.map(|text| Value::Text(text.into()))
     }
 
     /// The arguments of a fact; none where one is not known.
@@ -122,6 +151,14 @@ impl Evaluator<'_> {
                 }
             }
             Term::List(items) => items.iter().for_each(|item| self.term_queries(item, found)),
+            Term::Count(list) | Term::First(list) => self.term_queries(list, found),
+            Term::Template(parts) => {
+                for part in parts {
+                    if let TextPart::Value(value, _) = part {
+                        self.term_queries(value, found);
+                    }
+                }
+            }
             Term::Arith(_, left, right) => {
                 self.term_queries(left, found);
                 self.term_queries(right, found);
@@ -201,6 +238,7 @@ impl Evaluator<'_> {
                 Some(Query::Measure { measure, args })
             }
             Term::Literal(_) | Term::Binding(_) | Term::Each | Term::List(_) | Term::Arith(..) => None,
+            Term::Count(_) | Term::First(_) | Term::Template(_) => None,
         }
     }
 

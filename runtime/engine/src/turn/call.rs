@@ -70,7 +70,7 @@ impl Turn<'_> {
                 if self.ask(node) {
                     self.run.nodes.at_mut(node.index()).phase = Phase::Checking;
                 } else {
-                    self.refuse(node, refusal);
+                    self.go_without(node, refusal);
                 }
             }
             GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
@@ -106,7 +106,8 @@ impl Turn<'_> {
             GuardCheck::Unknown(_) if self.awaits(node) => {}
             // What was known when the motion was asked for may have become unknown since.
             GuardCheck::Unknown(_) if self.is_verifying(node) && self.ask(node) => {}
-            GuardCheck::Unknown(refusal) | GuardCheck::Refused(refusal) => self.refuse(node, refusal),
+            GuardCheck::Unknown(refusal) => self.go_without(node, refusal),
+            GuardCheck::Refused(refusal) => self.refuse(node, refusal),
             GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
             GuardCheck::Wait(_) => {}
             GuardCheck::Go(command) => self.start(node, command),
@@ -118,6 +119,23 @@ impl Turn<'_> {
         self.run.missing.clear();
         let is_verifying = self.is_verifying(node);
         match self.look(node) {
+            GuardCheck::Unknown(refusal) => self.go_without(node, refusal),
+            GuardCheck::Refused(refusal) => self.refuse(node, refusal),
+            GuardCheck::Ask(motion) if is_verifying => self.start(node, motion.command),
+            GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
+            GuardCheck::Wait(motion) => self.start(node, motion.command.clone()),
+            GuardCheck::Go(command) => self.start(node, command),
+        }
+    }
+
+    /// Nothing more will be known: a text says so, and anything else that is unknown refuses the step.
+    fn go_without(&mut self, node: NodeId, refusal: StartRefusal) {
+        if !matches!(refusal, StartRefusal::Argument) {
+            return self.refuse(node, refusal);
+        }
+        self.run.missing.clear();
+        let is_verifying = self.is_verifying(node);
+        match self.look_at_all(node, true) {
             GuardCheck::Unknown(refusal) | GuardCheck::Refused(refusal) => self.refuse(node, refusal),
             GuardCheck::Ask(motion) if is_verifying => self.start(node, motion.command),
             GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
@@ -127,6 +145,11 @@ impl Turn<'_> {
     }
 
     fn look(&mut self, node: NodeId) -> GuardCheck {
+        self.look_at_all(node, false)
+    }
+
+    /// Evaluates a call's guards and arguments; `vague` as in [`crate::belief::Evaluator`].
+    fn look_at_all(&mut self, node: NodeId, vague: bool) -> GuardCheck {
         let plan = self.plan;
         let Some(call) = plan.call(node) else { return GuardCheck::Unknown(StartRefusal::Argument) };
         let (since, seen, attempt) = {
@@ -155,7 +178,7 @@ impl Turn<'_> {
             return unknown
                 .map_or_else(|| self.look_at_motion(node, call, command.clone()), GuardCheck::Unknown);
         }
-        let args: Option<Vec<Value>> = self.values(&call.args, fresh);
+        let args: Option<Vec<Value>> = self.values(&call.args, fresh, vague);
         match (unknown, args.and_then(|args| plan.command(call, args.into_iter().map(Some)))) {
             (Some(refusal), _) => GuardCheck::Unknown(refusal),
             (None, None) => GuardCheck::Unknown(StartRefusal::Argument),
@@ -163,8 +186,9 @@ impl Turn<'_> {
         }
     }
 
-    pub(super) fn values(&mut self, terms: &[Term], fresh: Freshness) -> Option<Vec<Value>> {
+    pub(super) fn values(&mut self, terms: &[Term], fresh: Freshness, vague: bool) -> Option<Vec<Value>> {
         let mut judge = self.judge_missing(fresh);
+        judge.vague = vague;
         let mut known = Some(Vec::with_capacity(terms.len()));
         // All are looked at, so that everything that is missing is asked for together.
         for term in terms {

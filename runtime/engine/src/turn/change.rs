@@ -209,6 +209,7 @@ impl Contracts<'_> {
             bindings: self.bindings,
             each,
             fresh: Freshness::Readings(self.now),
+            vague: false,
             missing: None,
         }
     }

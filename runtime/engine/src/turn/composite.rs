@@ -38,7 +38,11 @@ impl Turn<'_> {
             // It does not come here.
             NodeKind::Finally { .. } => {}
             // These own no region.
-            NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {}
+            NodeKind::Call(_)
+            | NodeKind::Let { .. }
+            | NodeKind::Wait { .. }
+            | NodeKind::Delay { .. }
+            | NodeKind::End { .. } => {}
         }
     }
 
@@ -140,7 +144,7 @@ impl Turn<'_> {
             }
             NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => None,
             NodeKind::Each { .. } | NodeKind::Parallel { .. } | NodeKind::End { .. } => None,
-            NodeKind::Delay { .. } | NodeKind::Finally { .. } => None,
+            NodeKind::Let { .. } | NodeKind::Delay { .. } | NodeKind::Finally { .. } => None,
         });
         if let Some((of, body)) = inline {
             let ending = match how {
@@ -165,10 +169,11 @@ impl Turn<'_> {
         }
     }
 
-    /// A reason in words; none where it is not known.
+    /// A reason in words, with what was last known; none where it is not known.
     fn say(&mut self, why: &Term) -> Option<String> {
-        let now = self.run.now;
-        self.judge(crate::belief::Freshness::Readings(now)).term(why).map(|value| match value {
+        let mut judge = self.judge(crate::belief::Freshness::Readings(Time::ZERO));
+        judge.vague = true;
+        judge.term(why).map(|value| match value {
             Value::Text(text) => text.to_string(),
             Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Entity(_) => value.to_string(),
             Value::Case(_) | Value::Pose(_) | Value::List(_) => value.to_string(),

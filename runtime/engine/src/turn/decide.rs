@@ -11,7 +11,7 @@ use crate::query::Truth;
 use crate::state::{MotionCheck, Phase};
 use crate::time::Time;
 use crate::trace::{EndCause, TraceEventKind};
-use motet_graph::{CallNode, Condition, NodeId, NodeKind, TIMEOUT, Verdict};
+use motet_graph::{CallNode, Condition, NodeId, NodeKind, TIMEOUT, Value, Verdict};
 use std::sync::Arc;
 
 impl Turn<'_> {
@@ -27,7 +27,7 @@ impl Turn<'_> {
             return GuardCheck::Go(command);
         };
         let now = self.run.now;
-        let Some(args) = self.values(&motion.args, Freshness::Readings(now)) else {
+        let Some(args) = self.values(&motion.args, Freshness::Readings(now), false) else {
             return GuardCheck::Go(command);
         };
         let motion = DeferredMotion { query: motion.query.clone(), args, command };
@@ -85,41 +85,96 @@ impl Turn<'_> {
     }
 }
 
+/// Outcome of what a step depends on.
+enum Decision {
+    Truth(Truth),
+    /// A value; none where it is not known.
+    Value(Option<Value>),
+}
+
+impl Decision {
+    fn is_open(&self) -> bool {
+        matches!(self, Self::Truth(Truth::Unknown) | Self::Value(None))
+    }
+}
+
 impl Turn<'_> {
-    /// Tests the condition of an `if`, or the `until` of a loop.
+    /// Tests the condition of an `if` or the `until` of a loop, or finds the value of a `let`.
     pub(super) fn decide(&mut self, node: NodeId) {
         let now = self.run.now;
         let state = self.run.nodes.at_mut(node.index());
         state.phase = Phase::Deciding;
         state.since = now;
-        let truth = self.test(node);
-        if truth == Truth::Unknown && self.ask(node) {
+        let decision = self.decision(node, false);
+        if decision.is_open() && self.ask(node) {
             return;
         }
-        self.tested(node, truth);
+        self.decided(node, decision);
     }
 
     /// Something was learned that a test may depend on.
     pub(super) fn decide_again(&mut self, node: NodeId) {
-        let truth = self.test(node);
-        if truth != Truth::Unknown || !self.awaits(node) {
-            self.tested(node, truth);
+        let decision = self.decision(node, false);
+        if !decision.is_open() || !self.awaits(node) {
+            self.decided(node, decision);
         }
     }
 
-    fn test(&mut self, node: NodeId) -> Truth {
+    fn decided(&mut self, node: NodeId, decision: Decision) {
+        match decision {
+            Decision::Truth(truth) => self.tested(node, truth),
+            Decision::Value(Some(value)) => self.found(node, Some(value)),
+            // Nothing more will be known: a text says so.
+            Decision::Value(None) => match self.decision(node, true) {
+                Decision::Value(value) => self.found(node, value),
+                Decision::Truth(_) => {}
+            },
+        }
+    }
+
+    /// Evaluates what a step depends on; `vague` as in [`crate::belief::Evaluator`].
+    fn decision(&mut self, node: NodeId, vague: bool) -> Decision {
         let since = self.run.nodes.at(node.index()).since;
         self.run.missing.clear();
-        match &self.plan.node(node).kind {
+        let plan = self.plan;
+        match &plan.node(node).kind {
             NodeKind::If { condition, .. } | NodeKind::Repeat { until: Some(condition), .. } => {
-                self.judge_missing(Freshness::Readings(since)).condition(condition)
+                Decision::Truth(self.judge_missing(Freshness::Readings(since)).condition(condition))
+            }
+            NodeKind::Let { value, .. } => {
+                let mut judge = self.judge_missing(Freshness::Readings(since));
+                judge.vague = vague;
+                Decision::Value(judge.term(value))
             }
             NodeKind::Repeat { until: None, .. } | NodeKind::Call(_) | NodeKind::Sequence { .. } => {
-                Truth::Unknown
+                Decision::Truth(Truth::Unknown)
             }
-            NodeKind::Inline { .. } | NodeKind::Wait { .. } | NodeKind::Monitor { .. } => Truth::Unknown,
-            NodeKind::Try { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => Truth::Unknown,
-            NodeKind::Delay { .. } | NodeKind::Finally { .. } | NodeKind::End { .. } => Truth::Unknown,
+            NodeKind::Inline { .. } | NodeKind::Wait { .. } | NodeKind::Monitor { .. } => {
+                Decision::Truth(Truth::Unknown)
+            }
+            NodeKind::Try { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => {
+                Decision::Truth(Truth::Unknown)
+            }
+            NodeKind::Delay { .. } | NodeKind::Finally { .. } | NodeKind::End { .. } => {
+                Decision::Truth(Truth::Unknown)
+            }
+        }
+    }
+
+    /// The value of a `let` is known, or will not be.
+    fn found(&mut self, node: NodeId, value: Option<Value>) {
+        self.forget_asked(node);
+        self.run.nodes.at_mut(node.index()).phase = Phase::Inside;
+        let plan = self.plan;
+        let NodeKind::Let { binding, .. } = &plan.node(node).kind else { return };
+        let ty = plan.graph.bindings.get(binding.index()).map(|binding| &binding.ty);
+        match value {
+            Some(value) if ty.is_some_and(|ty| value.fits(ty)) => {
+                self.bind(*binding, value);
+                self.succeed(node);
+            }
+            Some(_) => self.fail(node, plan.failed, EndCause::BadValue),
+            None => self.fail(node, TIMEOUT, EndCause::BadValue),
         }
     }
 
@@ -142,6 +197,7 @@ impl Turn<'_> {
                 }
             }
             NodeKind::Call(_)
+            | NodeKind::Let { .. }
             | NodeKind::Sequence { .. }
             | NodeKind::Inline { .. }
             | NodeKind::Wait { .. } => {}
@@ -233,8 +289,8 @@ impl Turn<'_> {
     pub(super) fn node_due(&mut self, node: NodeId) {
         match self.run.nodes.at(node.index()).phase {
             Phase::Deciding => {
-                let truth = self.test(node);
-                self.tested(node, truth);
+                let decision = self.decision(node, false);
+                self.decided(node, decision);
             }
             Phase::Waiting => {
                 self.leave_wait(node);

@@ -266,6 +266,7 @@ impl Turn<'_> {
             bindings: &self.run.bindings,
             each: None,
             fresh,
+            vague: false,
             missing: None,
         }
     }
@@ -278,6 +279,7 @@ impl Turn<'_> {
             bindings: &self.run.bindings,
             each: None,
             fresh,
+            vague: false,
             missing: Some(&mut self.run.missing),
         }
     }

@@ -34,7 +34,7 @@ impl Turn<'_> {
         let now = self.run.now;
         let command = literal.or_else(|| {
             self.run.missing.clear();
-            let args = self.values(&call.args, crate::belief::Freshness::Readings(now))?;
+            let args = self.values(&call.args, crate::belief::Freshness::Readings(now), false)?;
             plan.command(call, args.into_iter().map(Some)).map(std::sync::Arc::new)
         });
         let Some(command) = command else { return false };

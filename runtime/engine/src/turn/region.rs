@@ -66,7 +66,7 @@ impl Turn<'_> {
                 self.run.composites.at_mut(node.index()).body_ended = None;
                 self.enter_region(*body);
             }
-            NodeKind::If { .. } => self.decide(node),
+            NodeKind::If { .. } | NodeKind::Let { .. } => self.decide(node),
             NodeKind::End { how, of, why } => {
                 match how {
                     Ending::Done | Ending::Cannot | Ending::Replan => self.succeed(node),
@@ -192,7 +192,7 @@ impl Turn<'_> {
             NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
             }
             NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
-            NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
+            NodeKind::Let { .. } | NodeKind::Delay { .. } | NodeKind::Finally { .. } => {}
             NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
         }
         self.run.composites.at_mut(node.index()).after = AfterStop::Nothing;

@@ -192,8 +192,8 @@ impl Turn<'_> {
                 NodeKind::Each { .. } | NodeKind::Parallel { .. } => {
                     walk.extend(self.plan.owned(node).iter().rev());
                 }
-                NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::Delay { .. } | NodeKind::End { .. } => {
-                }
+                NodeKind::Call(_) | NodeKind::Let { .. } | NodeKind::Wait { .. } => {}
+                NodeKind::Delay { .. } | NodeKind::End { .. } => {}
             },
         }
     }

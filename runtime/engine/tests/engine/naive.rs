@@ -6,7 +6,7 @@
 use motet_graph::arbitrary::{CallSketch, StepSketch, graph, steps};
 use motet_graph::{
     Arithmetic, BindingId, CallNode, Comparison, Condition, Ending, Fact, FactArg, Graph, NodeId, NodeKind,
-    ROOT, RegionId, Term, Value, Verdict,
+    ROOT, RegionId, Term, TextPart, Value, Verdict, spoken,
 };
 use motet_runtime::{
     Answer, Command, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap, Query,
@@ -45,6 +45,7 @@ fn single(steps: &[StepSketch]) -> Vec<StepSketch> {
             }
             StepSketch::Each(list, most, steps) => StepSketch::Each(list.clone(), *most, single(steps)),
             StepSketch::Parallel(branches) => StepSketch::Sequence(single(&branches.concat())),
+            StepSketch::Let(value) => StepSketch::Let(value.clone()),
             StepSketch::End(how) => StepSketch::End(*how),
         })
         .collect()
@@ -230,6 +231,11 @@ impl Naive {
                         flow => return flow,
                     }
                 }
+                Flow::Ok
+            }
+            NodeKind::Let { binding, value } => {
+                let value = self.term(&value, &mut Vec::new()).unwrap();
+                self.bindings.insert(binding, value);
                 Flow::Ok
             }
             NodeKind::End { how, of: Some(of), .. } => Flow::Leave(of, how, id),
@@ -462,6 +468,23 @@ impl Naive {
                     .map(|item| self.term(item, missing))
                     .collect::<Option<_>>()
                     .map(Value::List);
+            }
+            Term::Count(list) => {
+                let Some(Value::List(items)) = self.term(list, missing) else { return None };
+                return Some(Value::Int(items.len() as i64));
+            }
+            Term::First(list) => {
+                let Some(Value::List(items)) = self.term(list, missing) else { return None };
+                return items.first().cloned();
+            }
+            Term::Template(parts) => {
+                let parts = parts.iter().map(|part| match part {
+                    TextPart::Literal(text) => Some(text.to_string()),
+                    TextPart::Value(value, ty) => {
+                        self.term(value, missing).map(|value| spoken(&self.graph, &value, ty))
+                    }
+                });
+                return parts.collect::<Option<String>>().map(|text| Value::Text(text.into()));
             }
             Term::Field(of, field) => {
                 let Some(Value::Entity(entity)) = self.term(of, missing) else { return None };

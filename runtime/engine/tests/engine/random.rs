@@ -351,7 +351,7 @@ fn conflict(a: &[String], b: &[String]) -> bool {
 #[derive(Clone, Debug)]
 enum Input {
     Event(Event),
-    Swap(Graph),
+    Swap(Box<Graph>),
 }
 
 /// It can update `go` and `pick`, and hold all but `place`.
@@ -402,7 +402,7 @@ fn drive(
         match &input {
             Input::Event(event) => engine.handle(now, event.clone(), &mut out),
             Input::Swap(graph) => {
-                if !swap(engine, ledger, now, graph.clone(), &mut out) {
+                if !swap(engine, ledger, now, (**graph).clone(), &mut out) {
                     return;
                 }
             }
@@ -425,7 +425,7 @@ fn drive(
             Act::Swap(number) => usize::from(*number)
                 .checked_rem(others.len())
                 .and_then(|index| others.get(index).cloned())
-                .map(Input::Swap),
+                .map(|graph| Input::Swap(Box::new(graph))),
             act => ledger.event(act).map(Input::Event),
         };
         if let Some(input) = input {
@@ -475,7 +475,7 @@ fn replay(engine: &Engine, inputs: &[(Time, Input)]) -> Vec<Effect> {
         match input {
             Input::Event(event) => engine.handle(*now, event.clone(), &mut out),
             Input::Swap(graph) => {
-                let prepared = PreparedSwap::new(graph.clone(), &engine.running()).unwrap();
+                let prepared = PreparedSwap::new((**graph).clone(), &engine.running()).unwrap();
                 engine.swap(*now, prepared, &mut out).unwrap();
             }
         }
@@ -582,7 +582,7 @@ fn engine_laws_hold_and_every_run_ends() {
             let strict = dice.below(2) == 0;
             let (ledger, inputs) = drive(&engine, &others, &dice.acts(), strict);
             let swapped = inputs.iter().filter_map(|(_, input)| match input {
-                Input::Swap(graph) => Some(graph),
+                Input::Swap(graph) => Some(&**graph),
                 Input::Event(_) => None,
             });
             let graphs: Vec<&Graph> = std::iter::once(&graph).chain(swapped).collect();

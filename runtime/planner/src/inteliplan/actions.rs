@@ -341,6 +341,7 @@ impl Writer<'_> {
             StepKind::Parallel { branches } => {
                 branches.iter().for_each(|branch| self.without("that branches run together", branch));
             }
+            StepKind::Let { .. } => self.left_out.push("a name for a value".to_owned()),
             StepKind::Wait { .. } | StepKind::Delay { .. } => self.left_out.push("a wait".to_owned()),
             StepKind::Finally { step, cleanup } => {
                 self.step(step);

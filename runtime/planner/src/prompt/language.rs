@@ -60,8 +60,7 @@ fn form(robot: &Robot) -> String {
     let name = &robot.name;
     format!(
         "You plan for a robot, {} (`{name}`). Answer with one policy for it and nothing else, as JSON:\n\
-         {{\"motet\": 1, \"policy\": NAME, \"robot\": \"{name}\", \"steps\": [STEP, …]}}\n\
-         It is checked before the robot moves.\n",
+         {{\"motet\": 1, \"policy\": NAME, \"robot\": \"{name}\", \"steps\": [STEP, …]}}\n",
         robot.title
     )
 }

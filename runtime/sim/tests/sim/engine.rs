@@ -52,6 +52,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
         }),
     });
     Graph {
+        names: Vec::new(),
         policy: "fetch".into(),
         robot: "hsr".into(),
         kinds: vec![kind("Entity", None), kind("Object", Some(KindId(0)))],

@@ -107,7 +107,7 @@ fn a_policy_is_written() {
         assert_eq!(taken(motet_decoder_forced(decoder)), "{\"motet\":1,\"policy\":\"");
         let start = concat!(
             r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"#,
-            r#""steps":[{"do":"pick","object":"mug_1","from":"auto"}"#,
+            r#""steps":[{"do":"go","to":"mug_1"},{"do":"pick","object":"mug_1","from":"auto"}"#,
         )
         .as_bytes();
         for byte in start {

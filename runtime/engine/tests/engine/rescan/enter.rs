@@ -118,6 +118,7 @@ impl Naive {
                     None => self.live(node).at = At::Ended(Flow::Ok),
                 }
             }
+            NodeKind::Let { .. } => panic!("left out"),
             NodeKind::End { how, of, .. } => {
                 let flow = if how == Ending::Fail { Flow::Fail("failed".into(), node) } else { Flow::Ok };
                 self.live(node).at = At::Ended(flow);

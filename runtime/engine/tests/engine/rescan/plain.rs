@@ -37,6 +37,7 @@ fn plain(steps: &[StepSketch]) -> Vec<StepSketch> {
             StepSketch::Parallel(branches) => {
                 StepSketch::Parallel(branches.iter().map(|steps| plain(steps)).collect())
             }
+            StepSketch::Let(_) => StepSketch::Sequence(Vec::new()),
             StepSketch::End(how) => StepSketch::End(*how),
         })
         .collect()
@@ -86,8 +87,10 @@ pub(super) fn known(steps: &[StepSketch]) -> Graph {
                 (call.needs, call.effects, call.unsettles) = (Vec::new(), Vec::new(), Vec::new());
                 call.deadline_secs = times.next();
                 for arg in &mut call.args {
-                    if let Term::Binding(_) = arg {
-                        *arg = v::entity("mug");
+                    match arg {
+                        Term::Binding(_) => *arg = v::entity("mug"),
+                        Term::Template(_) => *arg = v::text("mug"),
+                        _ => {}
                     }
                 }
             }
@@ -134,8 +137,10 @@ pub(super) fn elsewhere(step: &StepSketch) -> StepSketch {
         StepSketch::Parallel(branches) => {
             StepSketch::Parallel(branches.iter().map(|steps| all(steps)).collect())
         }
-        StepSketch::Call(_) | StepSketch::Wait(..) | StepSketch::Delay(_) | StepSketch::End(_) => {
-            step.clone()
-        }
+        StepSketch::Call(_)
+        | StepSketch::Let(_)
+        | StepSketch::Wait(..)
+        | StepSketch::Delay(_)
+        | StepSketch::End(_) => step.clone(),
     }
 }
