@@ -111,7 +111,8 @@ pub(crate) trait Domain<'p> {
     /// The collected states as a path; `None` without any.
     fn collected(&self, states: &Self::Collector) -> Option<Self::Path>;
 
-    /// Leads from the mark of a `try` to the states in which a handler starts. Returns false if there are none.
+    /// Leads from the mark of a `try` to the states in which a handler starts. Returns false if
+    /// there are none.
     fn follow_failures(&mut self, states: &Self::Collector) -> bool {
         let failed = self.collected(states);
         if let Some(failed) = &failed {
