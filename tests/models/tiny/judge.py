@@ -30,10 +30,12 @@ def checked(binary, world, reply):
 def binding_only(error, reply):
     """Whether an error is about a name that the policy binds, or does not."""
     is_text = not reply.lstrip().startswith("{")
-    # In the text form what a policy binds is written like an entity, so a name that nobody bound is one that is not there.
-    if error["code"] not in BINDINGS and not (is_text and error["code"] == "M0202"):
-        return False
     span = error["span"]
+    # In the text form, and in the braces of a text, what a policy binds is written like an entity, so a name that nobody bound
+    # is one that is not there.
+    is_in_text = is_text or reply.encode()[: span["start"]].endswith(b"{")
+    if error["code"] not in BINDINGS and not (is_in_text and error["code"] == "M0202"):
+        return False
     at = reply.encode()[span["start"] : span["end"]].decode(errors="replace")
     bound = set(re.findall(r"\b(?:let|each) (\w+)", reply)) if is_text else set()
     return error["code"] != "M0301" or "$" in at or at.strip() in bound
