@@ -192,7 +192,12 @@ pub(crate) trait Domain<'p> {
         }
         let Some(step) = self.program().step(id) else { return };
         match &step.kind {
-            StepKind::Call(call) => self.transfer(id, call, step.span),
+            StepKind::Call(call) => {
+                self.transfer(id, call, step.span);
+                if call.is_faulty {
+                    self.lose(id);
+                }
+            }
             StepKind::Let { binding, value } => {
                 if value.may_lack_value() {
                     self.throw(Some(TIMEOUT), usize::MAX);

@@ -27,6 +27,8 @@ pub(crate) struct Elaborator<'a> {
     pub(crate) bindings: Vec<Binding>,
     /// Bindings of which a use without a value was reported, by the span where they are bound.
     pub(crate) gaps_told: FxHashSet<Span>,
+    /// True behind a step that could not be read, which may have bound any name.
+    pub(crate) is_behind_gap: bool,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
@@ -69,7 +71,8 @@ impl<'a> Elaborator<'a> {
     pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Syntax) -> Self {
         let (scope, bindings, diagnostics) = (Scope::default(), Vec::new(), Vec::new());
         let gaps_told = FxHashSet::default();
-        Self { library, entities, has_scene, form, scope, bindings, gaps_told, diagnostics }
+        let is_behind_gap = false;
+        Self { library, entities, has_scene, form, scope, bindings, gaps_told, is_behind_gap, diagnostics }
     }
 
     pub(crate) fn report(&mut self, mistake: impl Into<Diagnostic>) {

@@ -106,6 +106,9 @@ impl Elaborator<'_> {
         if let Some(found) = self.in_scope(name, span) {
             return found;
         }
+        if self.is_behind_gap {
+            return (Term::Unknown, Ty::UNKNOWN);
+        }
         let same = self.entities.find(name).map(|_| name.clone());
         let near = same.or_else(|| near(name, self.scope.names().map(SmolStr::as_str)));
         let is_text = wanted.is_some_and(|wanted| wanted.ty == Ty::TEXT);
@@ -126,6 +129,9 @@ impl Elaborator<'_> {
         wanted: Option<Expected<'_>>,
         written: NameNotation,
     ) {
+        if self.is_behind_gap && written == NameNotation::Bare {
+            return;
+        }
         let name = name.clone();
         let call = self.call_of(&name).filter(|_| written == NameNotation::Bare);
         let library = self.library;

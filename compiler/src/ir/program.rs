@@ -314,6 +314,8 @@ pub(crate) struct Call {
     pub(crate) within_secs: Option<f64>,
     /// Number of further attempts after a failure.
     pub(crate) retries: u32,
+    /// True if an argument has an error: what the call needs and changes is not known.
+    pub(crate) is_faulty: bool,
 }
 
 impl Call {

@@ -29,14 +29,16 @@ impl Writer<'_> {
             Repair::Before(id, calls) => {
                 let step = self.step(*id)?;
                 let (calls, renamed) = self.calls(calls)?;
-                let (title, texts) = (title("insert", &calls, "before"), self.texts(&calls));
+                let texts = self.texts(&calls);
+                let title = title("insert", &texts, "before");
                 let mut edits = vec![self.insert_before(step.span, &texts)?];
                 edits.extend(self.in_place_of(step, &renamed));
                 Some(Fix { title, edits })
             }
             Repair::After(id, calls) => {
                 let (calls, _) = self.calls(calls)?;
-                let (title, texts) = (title("add", &calls, "at the end"), self.texts(&calls));
+                let texts = self.texts(&calls);
+                let title = title("add", &texts, "at the end");
                 Some(Fix { title, edits: vec![self.insert_after(self.step(*id)?.span, &texts)?] })
             }
             Repair::Watch(id, fluent) => self.watched(*id, *fluent),
@@ -355,7 +357,7 @@ fn is_step(text: &str) -> bool {
 }
 
 /// Title of a fix: "insert `go(table)` before".
-fn title(verb: &str, calls: &[Do], place: &str) -> String {
-    let calls: Vec<_> = calls.iter().map(|call| format!("`{}`", print::call(call, Syntax::Text))).collect();
-    format!("{verb} {} {place}", calls.join(", "))
+fn title(verb: &str, steps: &[String], place: &str) -> String {
+    let steps: Vec<_> = steps.iter().map(|step| format!("`{step}`")).collect();
+    format!("{verb} {} {place}", steps.join(", "))
 }

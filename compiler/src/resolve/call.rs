@@ -106,6 +106,7 @@ impl StepResolver<'_> {
             .iter()
             .map(|param| FormalParam { name: &param.name, ty: param.ty, optional: param.default.is_some() })
             .collect();
+        let said = self.elaborator.diagnostics.len();
         let given = self.match_arguments(call, &def.name, &formals);
         let mut args = SmallVec::with_capacity(given.len());
         let mut spans = SmallVec::with_capacity(given.len());
@@ -126,6 +127,8 @@ impl StepResolver<'_> {
             spans.push(at);
             units.push(arg.and_then(Expr::unit));
         }
+        let has_error = self.elaborator.is_behind_gap || self.elaborator.diagnostics.len() > said;
+        let is_faulty = has_error && args.contains(&Term::Unknown);
         let within_secs =
             call.within.as_ref().and_then(|within| self.elaborator.seconds(within, "a deadline"));
         let retries =
@@ -151,7 +154,8 @@ impl StepResolver<'_> {
             (None, None) => None,
         };
         let retries = retries.unwrap_or(0);
-        self.fill(id, StepKind::Call(ir::Call { primitive, args, spans, units, binds, within_secs, retries }))
+        let call = ir::Call { primitive, args, spans, units, binds, within_secs, retries, is_faulty };
+        self.fill(id, StepKind::Call(call))
     }
 
     fn inline(&mut self, call: &Do, policy: &Policy, span: Span, position: StepPosition) -> Option<StepId> {

@@ -123,15 +123,26 @@ impl<'a> StepResolver<'a> {
     /// Resolves a block, whose names stay visible.
     pub(super) fn block(&mut self, block: &Block, parent: Option<StepId>, slot: BlockSlot) -> ir::Block {
         let mut steps = Vec::with_capacity(block.steps.len());
-        for (index, step) in block.steps.iter().enumerate() {
-            let position = StepPosition { parent, slot, index: u32::try_from(index).unwrap_or(u32::MAX) };
-            match self.step(step, position) {
+        for (index, step) in (0_u32..).zip(block.written()) {
+            let position = StepPosition { parent, slot, index };
+            let id = match step {
+                Some(step) => self.step(step, position),
+                None => self.gap(block.span, position),
+            };
+            match id {
                 Some(id) => steps.push(id),
                 None if self.full => break,
                 None => {}
             }
         }
         steps
+    }
+
+    /// A step that could not be read: it may have bound any name, and changed anything.
+    fn gap(&mut self, span: Span, position: StepPosition) -> Option<StepId> {
+        self.elaborator.is_behind_gap = true;
+        let id = self.reserve(span, position)?;
+        self.fill(id, ir::StepKind::Unknown)
     }
 
     /// Resolves the one block of a step, which runs at least once.

@@ -43,3 +43,38 @@ fn check_document_refuses_all_policies_of_a_broken_document() {
     assert!(check.diagnostics.iter().any(|found| found.severity == Severity::Error));
     assert_eq!(check.policies[0].graph, None);
 }
+
+fn found(document: &str) -> Vec<(&'static str, String)> {
+    let document = read(document);
+    let found = session().check_document(&document).diagnostics.into_iter();
+    found.map(|found| (found.code.0, found.path)).collect()
+}
+
+/// What could not be read may have bound any name and changed any fact, and still has its number.
+#[test]
+fn check_document_goes_on_behind_a_step_that_cannot_be_read() {
+    let json = r#"{"motet": 1, "policy": "p", "steps": [
+        {"say": "a", "to": "b"},
+        {"do": "pick", "object": "$cup"},
+        {"foo": 1},
+        {"do": "sya", "text": "hello"},
+        {"repeat": 2, "steps": [{"bar": 2}, {"do": "say", "text": "{cup}", "volume": 3}]}
+    ]}"#;
+    let places = ["/steps/0", "/steps/2", "/steps/3/do", "/steps/4/steps/0", "/steps/4/steps/1/volume"];
+    let paths: Vec<_> = found(json).into_iter().map(|(_, path)| path).collect();
+    assert_eq!(paths, places);
+
+    let text = "policy p {\n let cup = search(\n say(cup)\n pick(cup)\n sya(\"done\")\n}\n";
+    let codes = found(text);
+    assert_eq!(codes, [("M0201", "/steps/3/do".to_owned()), ("M0101", String::new())]);
+}
+
+#[test]
+fn check_document_tells_one_mistake_once() {
+    let text = "policy p {\n let cup = detct(\"cup\")\n pick(cup)\n place(cup)\n done\n}\n";
+    let codes: Vec<_> = found(text).into_iter().map(|(code, _)| code).collect();
+    assert_eq!(codes, ["M0201", "M0303"]);
+    let text = "policy p {\n pick($cup)\n pick(mug_1)\n done\n}\n";
+    let codes: Vec<_> = found(text).into_iter().map(|(code, _)| code).collect();
+    assert_eq!(codes, ["M0203", "M0202"]);
+}

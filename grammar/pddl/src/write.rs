@@ -133,7 +133,7 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
         params: Vec::new(),
         robot: None,
         achieves: conjunction(problem.goal.iter().map(|part| literal(part, &[])).collect()),
-        body: Block { steps: steps.collect(), span },
+        body: Block::new(steps.collect(), span),
         cleanup: None,
         span,
     }

@@ -55,7 +55,7 @@ impl PointerWalk<'_> {
         let index = steps.partition_point(|step| step.span.end < self.span.end);
         let Some(step) = steps.get(index).filter(|step| step.span.contains(self.span)) else { return false };
         self.key(key);
-        self.index(index);
+        self.index(written_index(block, index));
         self.step(step);
         true
     }
@@ -267,6 +267,14 @@ impl PointerWalk<'_> {
             self.pointer.truncate(before);
         }
     }
+}
+
+/// Position of a step in its list as it is written, with what could not be read before it.
+fn written_index(block: &Block, mut index: usize) -> usize {
+    for gap in &block.gaps {
+        index += usize::from(usize::try_from(*gap).is_ok_and(|gap| gap <= index));
+    }
+    index
 }
 
 fn reaction_span(reaction: &Reaction) -> Span {

@@ -142,7 +142,7 @@ impl TreeGenerator<'_> {
     /// A block. Its names may be used behind it, where other ways may have bound them too.
     fn block(&mut self, depth: usize) -> Block {
         let steps = self.some(0, |it| it.step(depth));
-        Block { steps, span: self.span() }
+        Block::new(steps, self.span())
     }
 
     fn step(&mut self, depth: usize) -> Step {

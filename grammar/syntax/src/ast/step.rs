@@ -10,9 +10,29 @@ use crate::source::Span;
 #[derive_where(PartialEq)]
 pub struct Block {
     pub steps: Vec<Step>,
+    /// Positions of what could not be read as a step, ascending, in the list as it is written.
+    #[derive_where(skip)]
+    pub gaps: Vec<u32>,
     /// Range with the braces or brackets.
     #[derive_where(skip)]
     pub span: Span,
+}
+
+impl Block {
+    /// A block of which every step could be read.
+    #[must_use]
+    pub fn new(steps: Vec<Step>, span: Span) -> Self {
+        Self { steps, gaps: Vec::new(), span }
+    }
+
+    /// The steps as they are written; `None` stands for what could not be read.
+    pub fn written(&self) -> impl Iterator<Item = Option<&Step>> {
+        let (mut steps, mut gaps) = (self.steps.iter(), self.gaps.iter().peekable());
+        (0_u32..).map_while(move |index| match gaps.next_if(|gap| **gap == index) {
+            Some(_) => Some(None),
+            None => steps.next().map(Some),
+        })
+    }
 }
 
 /// One step of a block.

@@ -48,11 +48,14 @@ impl Converter {
         let span = steps.span;
         if depth > MAX_NESTING {
             self.found.push(TooDeep { span, limit: MAX_NESTING }.into());
-            return Block { steps: Vec::new(), span };
+            return Block::new(Vec::new(), span);
         }
-        let mut block = Vec::with_capacity(steps.value.len());
-        for Lenient(step) in steps.value {
-            let Some(step) = step else { continue };
+        let (mut block, mut gaps) = (Vec::with_capacity(steps.value.len()), Vec::new());
+        for (index, Lenient(step)) in (0_u32..).zip(steps.value) {
+            let Some(step) = step else {
+                gaps.push(index);
+                continue;
+            };
             self.steps += 1;
             if self.steps > MAX_STEPS {
                 if self.steps == MAX_STEPS + 1 {
@@ -63,7 +66,7 @@ impl Converter {
             let span = step.span;
             block.push(Step { kind: self.step(step.value, span, depth), span });
         }
-        Block { steps: block, span }
+        Block { steps: block, gaps, span }
     }
 
     fn step(&mut self, step: wire::Step, span: Span, depth: usize) -> StepKind {

@@ -3,6 +3,8 @@
 
 use std::fmt::Write as _;
 
+use indexmap::IndexMap;
+
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::Sources;
 
@@ -11,24 +13,58 @@ use crate::source::Sources;
 pub const MAX_CHARS: usize = 320;
 
 /// One line a finding: errors in the order in which the steps run, the goal after them, then warnings and
-/// notes. Of several errors of one step only the first is told, since the others mostly follow from it.
+/// notes. What several steps have in common is told once, with all of them. A syntax error has no step, but
+/// the number of its line in `sources`, if it is there.
 #[must_use]
-pub fn llm(diagnostics: &[Diagnostic], _sources: &Sources) -> String {
+pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
     let mut order: Vec<&Diagnostic> = diagnostics.iter().collect();
     order.sort_by_key(|said| (std::cmp::Reverse(said.severity), rank(said), said.span));
     let mut text = String::new();
-    let mut told: Vec<&str> = Vec::new();
+    let mut told: IndexMap<(Severity, &str, Option<&str>), Vec<Place>> = IndexMap::new();
     for said in order {
-        let step = step_pointer(&said.path);
-        if said.severity == Severity::Error && !step.is_empty() {
-            if told.contains(&step) {
-                continue;
-            }
-            told.push(step);
-        }
-        line(&mut text, said);
+        let advice = said.fix.as_ref().map(|fix| &fix.title).or(said.help.as_ref());
+        let place = step_label(&said.path).map(Place::Step).or_else(|| line_of(said, sources));
+        let key = (said.severity, said.message.as_str(), advice.map(String::as_str));
+        let places = told.entry(key).or_default();
+        places.extend(place.filter(|place| !places.contains(place)));
+    }
+    for ((severity, message, advice), places) in told {
+        line(&mut text, severity, message, advice, &places);
     }
     text
+}
+
+/// Place of a finding in a document.
+#[derive(Clone, PartialEq, Eq, Debug)]
+enum Place {
+    /// A step, such as `2.then.1`.
+    Step(String),
+    /// A line, from 1.
+    Line(usize),
+}
+
+impl Place {
+    fn kind(&self) -> &'static str {
+        match self {
+            Self::Step(_) => "Step",
+            Self::Line(_) => "Line",
+        }
+    }
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Step(label) => f.write_str(label),
+            Self::Line(number) => write!(f, "{number}"),
+        }
+    }
+}
+
+/// Line of a mistake in the syntax, which belongs to no step.
+fn line_of(said: &Diagnostic, sources: &Sources) -> Option<Place> {
+    let source = sources.get(said.span.file).filter(|_| said.code.0.starts_with("M01"))?;
+    Some(Place::Line(source.line_column(said.span.start).0))
 }
 
 /// Rank of a diagnostic: the document as a whole first, then its steps, then its goal.
@@ -43,28 +79,44 @@ fn rank(said: &Diagnostic) -> u8 {
     }
 }
 
-fn line(text: &mut String, said: &Diagnostic) {
-    let place = step_label(&said.path);
-    let mut sentence = match said.severity {
-        Severity::Error => String::new(),
-        Severity::Warning => "Warning: ".to_owned(),
-        Severity::Note => "Note: ".to_owned(),
+/// The most steps that one finding names.
+const MAX_PLACES: usize = 5;
+
+fn line(text: &mut String, severity: Severity, message: &str, advice: Option<&str>, places: &[Place]) {
+    let kind = match severity {
+        Severity::Error => "",
+        Severity::Warning => "Warning: ",
+        Severity::Note => "Note: ",
     };
-    // Writing to a string cannot fail.
-    let _ = match place {
-        Some(place) => write!(sentence, "{place}: {}.", said.message),
-        None => write!(sentence, "{}.", capital(&said.message)),
+    let sentence = match place(places) {
+        Some(place) => format!("{kind}{place}: {message}."),
+        None if kind.is_empty() => format!("{}.", capital(message)),
+        None => format!("{kind}{}.", capital(message)),
     };
-    let advice = said.fix.as_ref().map(|fix| &fix.title).or(said.help.as_ref());
     let sentence = shorter(&sentence, MAX_CHARS);
     text.push_str(&sentence);
     let room = MAX_CHARS.saturating_sub(sentence.chars().count() + 2);
     if let Some(advice) = advice.filter(|advice| advice.chars().count() < room) {
         let advice = capital(advice);
         let end = if advice.ends_with(['.', '?', '!']) { "" } else { "." };
+        // Writing to a string cannot fail.
         let _ = write!(text, " {advice}{end}");
     }
     text.push('\n');
+}
+
+/// `Step 2`, `Steps 2, 4.then.1 and 5`; `None` without a place.
+fn place(places: &[Place]) -> Option<String> {
+    let (last, rest) = places.split_last()?;
+    let kind = last.kind();
+    if rest.is_empty() {
+        return Some(format!("{kind} {last}"));
+    }
+    let joined = |places: &[Place]| places.iter().map(Place::to_string).collect::<Vec<_>>().join(", ");
+    Some(match (places.get(..MAX_PLACES), places.len().saturating_sub(MAX_PLACES)) {
+        (Some(first), more @ 1..) => format!("{kind}s {} and {more} more", joined(first)),
+        _ => format!("{kind}s {} and {last}", joined(rest)),
+    })
 }
 
 /// On one line and cut at a word, where it is longer than it may be.
@@ -110,7 +162,7 @@ fn step_pointer(path: &str) -> &str {
     path.get(..end).unwrap_or_default()
 }
 
-/// `step 2.then.1` of `/steps/1/then/0/object`: numbers from 1, `steps` left unsaid.
+/// `2.then.1` of `/steps/1/then/0/object`: numbers from 1, `steps` left unsaid.
 fn step_label(path: &str) -> Option<String> {
     let parts: Vec<String> = step_pointer(path)
         .split('/')
@@ -119,7 +171,7 @@ fn step_label(path: &str) -> Option<String> {
         .map(|(_, part)| part)
         .map(|part| part.parse::<usize>().map_or_else(|_| part.to_owned(), |index| (index + 1).to_string()))
         .collect();
-    (!parts.is_empty()).then(|| format!("Step {}", parts.join(".")))
+    (!parts.is_empty()).then(|| parts.join("."))
 }
 
 /// Checks if the key of a document is another one for its steps.
@@ -136,12 +188,12 @@ mod tests {
         for (path, label) in [
             ("", None),
             ("/achieves", None),
-            ("/steps/2", Some("Step 3")),
-            ("/2", Some("Step 3")),
-            ("/plan/2/args/object", Some("Step 3")),
-            ("/steps/1/then/0/object", Some("Step 2.then.1")),
-            ("/steps/0/catch/1/steps/0", Some("Step 1.catch.2.1")),
-            ("/steps/0/monitor/0/when/less/1", Some("Step 1.monitor.1.when.less.2")),
+            ("/steps/2", Some("3")),
+            ("/2", Some("3")),
+            ("/plan/2/args/object", Some("3")),
+            ("/steps/1/then/0/object", Some("2.then.1")),
+            ("/steps/0/catch/1/steps/0", Some("1.catch.2.1")),
+            ("/steps/0/monitor/0/when/less/1", Some("1.monitor.1.when.less.2")),
         ] {
             assert_eq!(step_label(path).as_deref(), label, "{path}");
         }

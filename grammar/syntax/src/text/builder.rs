@@ -20,6 +20,8 @@ pub(super) struct Builder {
     pub(super) found: Vec<Diagnostic>,
     /// Steps so far.
     pub(super) steps: usize,
+    /// Offsets of steps that could not be read, ascending.
+    pub(super) gaps: Vec<usize>,
 }
 
 /// Children of a pair without marks and most keywords.
@@ -119,7 +121,7 @@ fn is_mark(rule: Rule) -> bool {
 
 impl Builder {
     pub(super) fn new(file: FileId) -> Self {
-        Self { origin: Origin::At(file, 0), found: Vec::new(), steps: 0 }
+        Self { origin: Origin::At(file, 0), found: Vec::new(), steps: 0, gaps: Vec::new() }
     }
 
     /// The declarations of a `file` pair.

@@ -4,6 +4,7 @@
 mod builder;
 mod expr;
 pub(crate) mod lexer;
+mod recover;
 mod step;
 mod syntax_error;
 pub(crate) mod template;
@@ -25,21 +26,38 @@ mod grammar {
 }
 
 use grammar::{MotetParser, Rule};
+use recover::Refusal;
 
 type Pair<'s> = pest::iterators::Pair<'s, Rule>;
 
-/// Parses a text of declarations and policies. A syntax error is one diagnostic and an empty file. O(bytes).
+/// Parses a text of declarations and policies, with all of its syntax errors. The tree then holds what could
+/// be read; it is empty where a block lost a brace. O(bytes) without a syntax error.
 pub(crate) fn parse(text: &str, file: FileId) -> (ast::File, Vec<Diagnostic>) {
-    if let Err(diagnostic) = lexer::check(text, file) {
-        return (ast::File::default(), vec![*diagnostic]);
-    }
+    let first = match parse_whole(text, file, Vec::new()) {
+        Ok(parsed) => return parsed,
+        Err(refusal) => refusal,
+    };
+    let recover::Recovered { rest, gaps, found } =
+        recover::recover(text, first, |rest| parse_whole(rest, file, Vec::new()).err());
+    let tree = rest.and_then(|rest| parse_whole(&rest, file, gaps).ok());
+    let (tree, more) = tree.unwrap_or_default();
+    let mut found: Vec<Diagnostic> = found.into_iter().chain(more).collect();
+    found.sort_by_key(|diagnostic| diagnostic.span.start);
+    (tree, found)
+}
+
+/// Parses a text that lacks what stood at `gaps`, and stops at the first syntax error.
+fn parse_whole(text: &str, file: FileId, gaps: Vec<usize>) -> Result<(ast::File, Vec<Diagnostic>), Refusal> {
+    // What the lexer refuses may stand anywhere.
+    lexer::check(text, file).map_err(|diagnostic| Refusal { diagnostic, is_between: true })?;
     match MotetParser::parse(Rule::file, text) {
         Ok(mut pairs) => {
             let mut builder = builder::Builder::new(file);
+            builder.gaps = gaps;
             let tree = pairs.next().map(|pair| builder.items(pair)).unwrap_or_default();
-            (tree, builder.found)
+            Ok((tree, builder.found))
         }
-        Err(error) => (ast::File::default(), vec![syntax_error::diagnostic(text, &error, file)]),
+        Err(error) => Err(syntax_error::refusal(text, &error, file)),
     }
 }
 
@@ -58,7 +76,7 @@ pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<as
             let expr = inner.map(|pair| builder.expr(pair, depth));
             (expr, builder.found)
         }
-        Err(error) => moved(syntax_error::diagnostic(text, &error, file)),
+        Err(error) => moved(*syntax_error::refusal(text, &error, file).diagnostic),
     }
 }
 

@@ -29,7 +29,19 @@ impl Builder {
                 Step { kind: StepKind::Finally { step: Box::new(of), cleanup }, span }
             }));
         }
-        Block { steps, span }
+        let gaps = self.gaps_in(span, &steps);
+        Block { steps, gaps, span }
+    }
+
+    /// Positions among the steps of a block at which others could not be read.
+    fn gaps_in(&self, block: Span, steps: &[Step]) -> Vec<u32> {
+        let is_here = |gap: &&usize| {
+            let contains = |span: Span| span.range().contains(*gap);
+            contains(block) && !steps.iter().any(|step| contains(step.span))
+        };
+        let before = |gap: &usize| steps.iter().filter(|step| step.span.range().end <= *gap).count();
+        let gaps = self.gaps.iter().filter(is_here).enumerate();
+        gaps.filter_map(|(earlier, gap)| u32::try_from(earlier + before(gap)).ok()).collect()
     }
 
     /// The block of a `finally`.
@@ -152,7 +164,7 @@ impl Builder {
         while let Some(outer) = arms.pop() {
             let span = Span { end: whole.end, ..start };
             let steps = vec![Step { kind: StepKind::If { condition, then, otherwise }, span }];
-            otherwise = Some(Block { steps, span });
+            otherwise = Some(Block::new(steps, span));
             self.steps += 1;
             (condition, then, start) = outer;
         }

@@ -5,6 +5,7 @@ use pest::error::{Error, ErrorVariant, InputLocation};
 
 use super::Rule;
 use super::lexer::{Token, TokenKind, tokens};
+use super::recover::Refusal;
 use crate::diagnostic::Diagnostic;
 use crate::errors::{DocumentKind, Empty, TextSyntax, UnknownUnit};
 use crate::source::{FileId, Span};
@@ -12,16 +13,21 @@ use crate::suggest;
 use crate::unit::Unit;
 use crate::words::{CLAUSES, DECLARATIONS, STEP_WORDS, is_bare_name};
 
-/// The diagnostic for an error of the parser.
-pub(super) fn diagnostic(text: &str, error: &Error<Rule>, file: FileId) -> Diagnostic {
-    let at = match error.location {
-        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
-    };
+/// The diagnostic for an error of the parser, and where it stopped.
+pub(super) fn refusal(text: &str, error: &Error<Rule>, file: FileId) -> Refusal {
     let expected: &[Rule] = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => positives,
         ErrorVariant::CustomError { .. } => &[],
     };
-    let place = ErrorContext::find(text, at, expected);
+    let begins = |rule: &Rule| matches!(label(*rule), Some((_, STEP | DECLARATION)));
+    let diagnostic = Box::new(diagnostic(text, error, expected, file));
+    // A word alone is blamed where something else was expected behind it.
+    let is_earlier = location(error) > diagnostic.span.start as usize;
+    Refusal { diagnostic, is_between: is_earlier || expected.iter().any(begins) }
+}
+
+fn diagnostic(text: &str, error: &Error<Rule>, expected: &[Rule], file: FileId) -> Diagnostic {
+    let place = ErrorContext::find(text, location(error), expected);
     if let Some(unit) = place.unknown_unit() {
         return UnknownUnit { span: unit.span(file), unit: unit.text.into() }.into();
     }
@@ -50,6 +56,12 @@ pub(super) fn diagnostic(text: &str, error: &Error<Rule>, file: FileId) -> Diagn
     };
     let (help, fix) = place.advice();
     TextSyntax { span, message, help, related: None, fix }.into()
+}
+
+fn location(error: &Error<Rule>) -> usize {
+    match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    }
 }
 
 fn is_control(token: Token<'_>) -> bool {
@@ -91,7 +103,6 @@ const HABITS: &[(&str, &str)] = &[
     ("func", "write `policy name { … }`"),
     ("function", "write `policy name { … }`"),
     ("except", "write `catch any { … }`"),
-    ("finally", "write the steps after the `try`"),
     ("switch", "write `if c { … } else if d { … }`"),
     ("match", "write `if c { … } else if d { … }`"),
     ("do", "write the call itself: `pick(mug)`"),

@@ -110,7 +110,7 @@ impl TextScanner {
         let file = FileId::default();
         lexer::check(text, file).map_err(|found| found.message)?;
         let mut pairs = MotetParser::parse(Rule::lone_expr, text)
-            .map_err(|error| syntax_error::diagnostic(text, &error, file).message)?;
+            .map_err(|error| syntax_error::refusal(text, &error, file).diagnostic.message)?;
         let mut builder = Builder::new(file);
         builder.origin = self.origin.moved_by(at);
         let inner = pairs.next().and_then(|pair| pair.into_inner().next());

@@ -230,3 +230,21 @@ fn too_deep_is_the_same_in_both_syntaxes() {
     let document = format!(r#"{{"motet": 1, "policy": "p", "steps": {}"#, "[".repeat(300));
     check(&document, &[("M0111", "more than 264 levels deep; brackets nest at most 264 deep")]);
 }
+
+/// All syntax errors of a text are told, and none that only follows from another.
+#[test]
+fn syntax_errors_are_told_together() {
+    let document = "policy p {\n    go(fridge\n    open(fridge)\n    while x { go(y) }\n    pick(mug);\n    \
+                    if holding(mug) && visible(mug) {\n        say(\"a)\n    }\n    foo\n    done\n}\n";
+    check(
+        document,
+        &[
+            ("M0101", "loops are bounded"),
+            ("M0101", "remove `;`"),
+            ("M0101", "write `and`"),
+            ("M0101", "the text is not closed"),
+            ("M0101", "a call needs its parentheses"),
+            ("M0101", "close the `(` with `)` first"),
+        ],
+    );
+}

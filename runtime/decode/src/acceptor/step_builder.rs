@@ -52,7 +52,7 @@ impl Builder<'_> {
                 return Some(Step { kind: fail().kind, span: PROGRAM_POINT });
             }
             Event::Hole => {
-                let body = Block { steps: self.choice.to_vec(), span: Span::default() };
+                let body = Block::new(self.choice.to_vec(), Span::default());
                 let kind = StepKind::Sequence { name: named(SmolStr::new_static("_")), body };
                 return Some(Step { kind, span: CHOICE });
             }
@@ -164,7 +164,7 @@ impl Builder<'_> {
             match self.peek() {
                 Some(Event::Close) => {
                     self.next();
-                    return Block { steps, span: Span::default() };
+                    return Block::new(steps, Span::default());
                 }
                 None => return closed(steps),
                 Some(_) => match self.step() {
@@ -445,5 +445,5 @@ fn fail() -> Step {
 /// A block that no path leaves: it ends with `fail`.
 fn closed(mut steps: Vec<Step>) -> Block {
     steps.push(fail());
-    Block { steps, span: Span::default() }
+    Block::new(steps, Span::default())
 }

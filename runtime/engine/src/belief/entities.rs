@@ -80,6 +80,22 @@ impl Entities {
         }
     }
 
+    /// Returns whether a value fits a type, also by the kinds of the entities in it: one that is known to be
+    /// of another kind does not. An entity that nobody has heard of is new, and fits.
+    pub(crate) fn fits(&self, graph: &Graph, value: &Value, ty: &Type) -> bool {
+        let is_foreign = |id: &SmolStr, wanted: KindId| {
+            let known = self.index.get(id).and_then(|index| self.list.get(*index as usize));
+            let kind = known.and_then(|(_, kind)| self.kinds.get((*kind)? as usize));
+            let kind = kind.and_then(|kind| find(graph, kind));
+            kind.is_some_and(|kind| !is_kind(graph, kind, wanted) && !is_kind(graph, wanted, kind))
+        };
+        match (value, ty) {
+            (Value::Entity(id), Type::Entity(wanted)) => !is_foreign(id, *wanted),
+            (Value::List(items), Type::List(inner)) => items.iter().all(|item| self.fits(graph, item, inner)),
+            (value, ty) => value.fits(ty),
+        }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.list.len()
     }

@@ -197,7 +197,8 @@ impl Turn<'_> {
         let Some(call) = plan.call(node) else { return };
         if let Some(binding) = call.binds {
             let ty = plan.graph.bindings.get(binding.index()).map(|binding| &binding.ty);
-            match value.filter(|value| ty.is_some_and(|ty| value.fits(ty))) {
+            let entities = &self.run.beliefs.entities;
+            match value.filter(|value| ty.is_some_and(|ty| entities.fits(&plan.graph, value, ty))) {
                 Some(value) => self.bind(binding, value),
                 None => {
                     self.goal_failed(node, goal, plan.failed, EndCause::BadValue);

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use motet_compiler::{Session, Signatures};
 use motet_decode::{AcceptorFactory, Grammar, Subset};
-use motet_syntax::{Diagnostic, Sources, print, render};
+use motet_syntax::{Diagnostic, Source, Sources, print, render};
 
 use super::background::{PendingRest, RestProgress, first_step};
 use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
@@ -142,7 +142,7 @@ impl<'m> ModelPlanner<'m> {
                 RoundResult::Good(planned) => return Ok(*planned),
                 RoundResult::Said(words) => return Err(PlanError::Said { words }),
                 RoundResult::Bad { reply, findings, otherwise } => {
-                    let words = render::llm(&findings, &Sources::default());
+                    let words = render::llm(&findings, &sources_of(&reply));
                     self.listener.hear(&ModelEvent::Refused { round, reply: &reply, findings: &words });
                     let written: String = reply.split_whitespace().collect();
                     let insists = refused.contains(&written);
@@ -331,7 +331,7 @@ impl Planner for ModelPlanner<'_> {
                     return RemainingSteps::Whole(policy);
                 }
                 RestProgress::Wrong(findings) => {
-                    let findings = render::llm(&findings, &Sources::default());
+                    let findings = render::llm(&findings, &sources_of(reply));
                     self.listener.hear(&ModelEvent::Refused { round, reply, findings: &findings });
                     self.later = None;
                     return RemainingSteps::Broken;
@@ -344,6 +344,13 @@ impl Planner for ModelPlanner<'_> {
             }
         }
     }
+}
+
+/// A reply as the file of its findings.
+fn sources_of(reply: &str) -> Sources {
+    let mut sources = Sources::default();
+    sources.add(Source::new("reply", reply));
+    sources
 }
 
 /// First messages to a model, within `tokens` as estimated from bytes. No motion is searched, so that the
