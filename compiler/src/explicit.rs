@@ -7,7 +7,7 @@
 
 use motet_syntax::Syntax;
 use motet_syntax::ast::{
-    Arg, Block, Call, Do, End, Expr, ExprKind, Name, Policy, Reaction, StepKind, TextPart,
+    Arg, Block, Call, Do, End, Expr, ExprKind, Manner, Name, Policy, Reaction, StepKind, TextPart,
 };
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
@@ -54,7 +54,7 @@ impl Writer<'_> {
 
     fn step(&self, step: &mut StepKind) {
         // Whether a call has a value or is a step only the library knows.
-        if let StepKind::Do(Do { call, bind: Some(name), within: None, retry: None }) = step
+        if let StepKind::Do(Do { call, bind: Some(name), manner: None, within: None, retry: None }) = step
             && self.called(&call.name.text).is_none()
             && self.observed(&call.name.text).is_some()
         {
@@ -66,6 +66,9 @@ impl Writer<'_> {
             StepKind::Do(call) => {
                 let params = self.called(&call.call.name.text);
                 self.call(&mut call.call, params);
+                if let Some(Manner::At(ratio, _)) = &mut call.manner {
+                    self.term(ratio, Some(Ty::RATIO));
+                }
                 self.optional(call.within.as_mut(), Ty::DURATION);
                 self.optional(call.retry.as_mut(), Ty::INT);
             }

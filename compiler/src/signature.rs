@@ -73,6 +73,8 @@ pub struct Callable {
     pub result: Option<Type>,
     /// True for a policy, which takes neither a deadline nor retries.
     pub is_policy: bool,
+    /// True for a primitive that moves the robot, and so has a manner.
+    pub moves: bool,
 }
 
 /// Signature of a parameter.
@@ -283,6 +285,7 @@ fn primitives(library: &Library) -> Vec<Callable> {
             params: params.collect::<Option<_>>()?,
             result,
             is_policy: false,
+            moves: library.moves(def),
         })
     };
     provided.filter_map(signature).collect()
@@ -298,7 +301,7 @@ fn of_policy(policy: &Policy, library: &Library) -> Option<Callable> {
         })
     });
     let params = params.collect::<Option<_>>()?;
-    Some(Callable { name: policy.name.text.clone(), params, result: None, is_policy: true })
+    Some(Callable { name: policy.name.text.clone(), params, result: None, is_policy: true, moves: false })
 }
 
 /// Returns whether a policy has no errors but those that depend on its state.

@@ -45,7 +45,7 @@ pub(crate) struct DecodeArgs {
     /// Syntax of the prefix
     #[arg(long, alias = "surface", value_enum, default_value = "json", value_name = "SYNTAX")]
     syntax: SyntaxArg,
-    /// Allow deadlines and retries
+    /// Allow manners, deadlines and retries
     #[arg(long)]
     modifiers: bool,
     /// Maximum size of the whole policy, in bytes

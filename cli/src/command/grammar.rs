@@ -36,7 +36,7 @@ pub(crate) struct GrammarArgs {
     /// Syntax that the model writes
     #[arg(long, alias = "surface", value_enum, default_value = "json", value_name = "SYNTAX")]
     syntax: SyntaxArg,
-    /// Allow deadlines and retries
+    /// Allow manners, deadlines and retries
     #[arg(long)]
     modifiers: bool,
     /// Maximum nesting of blocks inside the policy's own block

@@ -185,12 +185,16 @@ pub(crate) fn diagnostics(diagnostics: &[Diagnostic], sources: &Sources, out: &m
 
 fn commanded(goal: GoalId, command: &Command, deadline: Time) -> serde_json::Value {
     let args: Map<_, _> = command.args.iter().map(|(name, arg)| (name.to_string(), value(arg))).collect();
-    json!({
+    let mut line = json!({
         "goal": goal.to_string(),
         "primitive": command.primitive.as_str(),
         "args": args,
         "deadline": deadline.secs(),
-    })
+    });
+    if let (Some(manner), Some(line)) = (command.manner, line.as_object_mut()) {
+        line.insert("manner".into(), json!(manner));
+    }
+    line
 }
 
 fn ended(failure: Option<String>, ending: NodeEnding, cause: EndCause) -> serde_json::Value {

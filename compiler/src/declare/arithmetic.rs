@@ -6,7 +6,7 @@ use motet_syntax::suggest::one_of;
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
 
-use super::elaborator::{Elaborator, Expected, ValueRole};
+use super::elaborator::{Elaborator, Expected, ValueRole, percent};
 use super::errors;
 use super::errors::WrongDimension;
 use super::name::article;
@@ -164,6 +164,9 @@ pub const MAX_COUNT: u32 = 1_000_000;
 /// Maximal deadline in seconds: a week.
 pub const MAX_SECONDS: f64 = 604_800.0;
 
+/// Least part of a robot's speed that a manner may ask for.
+const LEAST_PART: f64 = 0.01;
+
 impl Elaborator<'_> {
     /// Elaborates a constant duration, in seconds.
     pub(crate) fn seconds(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {
@@ -197,6 +200,32 @@ impl Elaborator<'_> {
     /// Returns whether a binding is a parameter, whose value is known only at a call.
     fn is_param(&self, id: BindingId) -> bool {
         self.bindings.get(id.index()).is_some_and(|binding| binding.is_param)
+    }
+
+    /// Elaborates a constant part of a whole, from [`LEAST_PART`] to 1.
+    pub(crate) fn part(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {
+        let wanted = Expected { ty: Ty::RATIO, place: ValueRole::Named(place) };
+        match self.term_of(expr, wanted) {
+            Term::Number(value) if value >= LEAST_PART => Some(value),
+            Term::Number(value) => {
+                let shown = |part: f64| format!("{} %", percent(part));
+                self.report(errors::OutOfRange {
+                    span: expr.span,
+                    place: place.to_owned(),
+                    least: shown(LEAST_PART),
+                    greatest: shown(1.0),
+                    actual: shown(value),
+                    meant: None,
+                });
+                None
+            }
+            Term::Unknown => None,
+            Term::Binding(id) if self.is_param(id) => None,
+            _ => {
+                self.report(errors::NotConstant { span: expr.span, place });
+                None
+            }
+        }
     }
 
     /// Elaborates a constant count of at least `least`.

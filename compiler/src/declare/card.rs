@@ -12,7 +12,7 @@ use smol_str::SmolStr;
 
 use super::builder::Declarations;
 use super::errors::UnknownResource;
-use super::library::{EnumDef, Library, ResourceDef, ResourceSet};
+use super::library::{EnumDef, Library, Manners, ResourceDef, ResourceSet};
 use super::name::{list, near};
 use crate::ir::{Base, EnumId, Ty};
 
@@ -27,6 +27,7 @@ pub(super) fn apply(library: &mut Library, robot: Option<&Robot>) {
         Some(robot) => {
             library.robot = robot.name.clone();
             library.observe_within_secs = robot.observe_within_secs;
+            library.manners = Manners::of(&robot.manners);
             library.serving_reach = ServingReach::of(robot);
             resources(library, robot);
             numbers(library, robot);

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use indexmap::IndexMap;
+use motet_graph::Manner;
 use motet_robots::scene::ServingReach;
 use motet_stdlib::lang;
 use motet_syntax::Span;
@@ -40,6 +41,8 @@ pub struct Library {
     pub(crate) serving_reach: Option<ServingReach>,
     /// Time limit of one observation, in seconds.
     pub(crate) observe_within_secs: f64,
+    /// Meanings of the words for manners.
+    pub(crate) manners: Manners,
     pub(crate) names: Names,
     pub(crate) lang_items: LangItems,
     /// Fluents that a perception makes and that become stale.
@@ -171,7 +174,43 @@ impl NeedDef {
     }
 }
 
+/// Meanings of the words for manners.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Manners {
+    pub(crate) slowly: Manner,
+    pub(crate) gently: Manner,
+}
+
+impl Manners {
+    /// The manners of a robot's card.
+    pub(crate) fn of(manners: &motet_robots::card::Manners) -> Self {
+        let manner = |spec: motet_robots::card::MannerSpec| Manner {
+            speed: spec.speed,
+            acceleration: spec.acceleration,
+        };
+        Self { slowly: manner(manners.slowly), gently: manner(manners.gently) }
+    }
+}
+
+impl Default for Manners {
+    fn default() -> Self {
+        Self::of(&motet_robots::card::Manners::default())
+    }
+}
+
 impl Library {
+    /// Checks if a primitive moves the robot: by a motion of its own other than a look, or by a resource that
+    /// such a motion of an action uses. O(primitives × resources).
+    #[must_use]
+    pub(crate) fn moves(&self, def: &PrimitiveDef) -> bool {
+        let has_motion = |def: &PrimitiveDef| def.motion.as_ref().is_some_and(|(motion, _)| motion.moves());
+        let mut actions = self.primitives.iter().filter(|other| other.form == PrimitiveKind::Action);
+        has_motion(def)
+            || actions.any(|other| {
+                has_motion(other) && other.uses_named.iter().any(|resource| def.uses_named.contains(resource))
+            })
+    }
+
     /// Returns whether `kind` is `ancestor` or a descendant of it. O(depth).
     #[must_use]
     pub(crate) fn is_kind(&self, kind: Kind, ancestor: Kind) -> bool {

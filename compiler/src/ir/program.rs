@@ -1,5 +1,6 @@
 //! The program: a policy after name resolution and typing.
 
+use motet_graph::Manner;
 use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
 use motet_syntax::unit::Unit;
@@ -310,6 +311,8 @@ pub(crate) struct Call {
     /// Unit of each argument as written, if it is a quantity.
     pub(crate) units: SmallVec<[Option<Unit>; 4]>,
     pub(crate) binds: Option<BindingId>,
+    /// Manner of its motion, if one is written.
+    pub(crate) manner: Option<Manner>,
     /// Deadline in seconds, if one is written.
     pub(crate) within_secs: Option<f64>,
     /// Number of further attempts after a failure.
@@ -319,6 +322,11 @@ pub(crate) struct Call {
 }
 
 impl Call {
+    /// Deadline in seconds: the one written, or else the longest time of the primitive in this manner.
+    pub(crate) fn deadline_secs(&self, takes: (f64, f64)) -> f64 {
+        self.within_secs.unwrap_or_else(|| takes.1 * self.manner.map_or(1.0, Manner::stretch))
+    }
+
     /// The first literal text among the arguments: the description, if the call is a perception.
     pub(crate) fn text(&self) -> Option<&SmolStr> {
         self.args.iter().find_map(|arg| if let Term::Text(text) = arg { Some(text) } else { None })

@@ -51,10 +51,10 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
     let block = |block: &Block| of_block(block, program);
     let bounds = match kind {
         StepKind::Call(call) => {
-            let (least, greatest) = library.primitive(call.primitive).map_or((0.0, 0.0), |def| def.takes);
-            let deadline = call.within_secs.unwrap_or(greatest);
+            let takes = library.primitive(call.primitive).map_or((0.0, 0.0), |def| def.takes);
+            let deadline = call.deadline_secs(takes);
             // Guards are observed before each attempt.
-            (least.min(deadline), (deadline + observe) * f64::from(call.retries.saturating_add(1)))
+            (takes.0.min(deadline), (deadline + observe) * f64::from(call.retries.saturating_add(1)))
         }
         StepKind::Sequence { body, .. } | StepKind::Inline { body, .. } => block(body),
         StepKind::If { then, otherwise, .. } => {

@@ -272,6 +272,7 @@ impl Lowering<'_> {
                 primitive,
                 args,
                 binds,
+                manner: call.manner,
                 deadline_secs: 0.0,
                 retries: 0,
                 needs: Vec::new(),
@@ -291,7 +292,8 @@ impl Lowering<'_> {
             primitive,
             args,
             binds,
-            deadline_secs: call.within_secs.unwrap_or(def.takes.1),
+            manner: call.manner,
+            deadline_secs: call.deadline_secs(def.takes),
             retries: call.retries,
             needs,
             motion: def.motion.as_ref().map(|(query, args)| {

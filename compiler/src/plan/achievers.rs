@@ -355,7 +355,7 @@ pub(crate) fn spell_call(
         args.push(Arg { name, value: Expr { kind, span }, span });
     }
     let call = Call { name: Name { text: def.name.clone(), span }, args, span };
-    Some(Do { call, bind: None, within: None, retry: None })
+    Some(Do { call, bind: None, manner: None, within: None, retry: None })
 }
 
 /// Spelling of a value; `None` if it has none in the language, or one that depends on its place.

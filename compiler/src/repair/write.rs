@@ -229,11 +229,12 @@ impl Writer<'_> {
     }
 
     /// Adapts the name in a fix to the syntax: in JSON with the quotes and the `$` of the name that it
-    /// replaces, in text in back-quotes if it needs them. Numbers, quantities and whole steps stay. `None` if
-    /// the name is not written in the document as it is: in a string with escapes, or as a part of a shape.
+    /// replaces, in text in back-quotes if it needs them. Numbers, quantities, manners and whole steps stay.
+    /// `None` if the name is not written in the document as it is: in a string with escapes, or as a part of
+    /// a shape.
     pub(super) fn in_form(&self, code: Code, mut fix: Fix) -> Option<Fix> {
-        let is_number = matches!(code.0, "M0302" | "M0310");
-        for edit in fix.edits.iter_mut().filter(|_| !is_number) {
+        let is_no_name = matches!(code.0, "M0302" | "M0310" | "M0315");
+        for edit in fix.edits.iter_mut().filter(|_| !is_no_name) {
             let old = self.parsed.text.get(edit.span.range()).unwrap_or_default();
             if is_step(old) && is_step(&edit.text) {
                 continue;

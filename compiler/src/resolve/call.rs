@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use motet_syntax::ast::{Do, Expr, ExprKind, Policy, PrimitiveKind};
+use motet_syntax::ast::{Do, Expr, ExprKind, Manner, Policy, PrimitiveKind};
 use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
-use super::errors::{NoResult, Recursion, UnknownPrimitive};
+use super::errors::{NoMotion, NoResult, Recursion, UnknownPrimitive};
 use super::meant::step_to_write;
 use super::step::StepResolver;
 use crate::declare::PrimitiveDef;
@@ -44,6 +44,7 @@ impl StepResolver<'_> {
             return self.inline(call, &Arc::clone(policy), span, position);
         }
         if let (Some(bind), None, None) = (&call.bind, &call.within, &call.retry)
+            && call.manner.is_none()
             && self.elaborator.has_value(name)
         {
             let value = Expr { kind: ExprKind::Call(call.call.clone()), span: call.call.span };
@@ -129,6 +130,7 @@ impl StepResolver<'_> {
         }
         let has_error = self.elaborator.is_behind_gap || self.elaborator.diagnostics.len() > said;
         let is_faulty = has_error && args.contains(&Term::Unknown);
+        let manner = call.manner.as_ref().and_then(|manner| self.manner(manner, def));
         let within_secs =
             call.within.as_ref().and_then(|within| self.elaborator.seconds(within, "a deadline"));
         let retries =
@@ -154,8 +156,26 @@ impl StepResolver<'_> {
             (None, None) => None,
         };
         let retries = retries.unwrap_or(0);
-        let call = ir::Call { primitive, args, spans, units, binds, within_secs, retries, is_faulty };
+        let call = ir::Call { primitive, args, spans, units, binds, manner, within_secs, retries, is_faulty };
         self.fill(id, StepKind::Call(call))
+    }
+
+    /// The manner of a call; an error for a primitive that moves nothing.
+    fn manner(&mut self, manner: &Manner, def: &PrimitiveDef) -> Option<motet_graph::Manner> {
+        let library = self.elaborator.library;
+        if !library.moves(def) {
+            let is_text = self.elaborator.form == Syntax::Text;
+            self.elaborator.report(NoMotion { span: manner.span(), callee: def.name.clone(), is_text });
+            return None;
+        }
+        match manner {
+            Manner::Slowly(_) => Some(library.manners.slowly),
+            Manner::Gently(_) => Some(library.manners.gently),
+            Manner::At(ratio, _) => {
+                let part = self.elaborator.part(ratio, "the part of the robot's speed")?;
+                Some(motet_graph::Manner { speed: part, acceleration: part })
+            }
+        }
     }
 
     fn inline(&mut self, call: &Do, policy: &Policy, span: Span, position: StepPosition) -> Option<StepId> {
@@ -166,6 +186,13 @@ impl StepResolver<'_> {
                 span: bind.span,
                 callee: name.clone(),
                 name: bind.text.clone(),
+            });
+        }
+        if let Some(manner) = &call.manner {
+            self.elaborator.report(BadDeclaration {
+                span: manner.span(),
+                what: format!("`{name}` is a policy, which has no manner of its own"),
+                remedy: "put the manner on those of its steps that move".to_owned(),
             });
         }
         for clause in [&call.within, &call.retry].into_iter().flatten() {
@@ -313,8 +340,12 @@ impl StepResolver<'_> {
             call.call.args.iter().any(|arg| arg.name.as_ref().is_some_and(|name| name.text == known))
         };
         let params = || formals.iter().map(|formal| formal.name.as_str());
-        let keys =
-            [("within", call.within.is_none()), ("retry", call.retry.is_none()), ("as", call.bind.is_none())];
+        let keys = [
+            ("manner", call.manner.is_none()),
+            ("within", call.within.is_none()),
+            ("retry", call.retry.is_none()),
+            ("as", call.bind.is_none()),
+        ];
         let is_json = self.elaborator.form == Syntax::Json;
         let free_keys = keys.into_iter().filter(|(_, is_free)| is_json && *is_free).map(|(key, _)| key);
         let free = params().filter(|param| !is_given(param)).chain(free_keys);

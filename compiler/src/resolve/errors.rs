@@ -1,7 +1,7 @@
 //! Diagnostics of unknown callees, and of names that a step must not bind (M0201, M0206, M0207, M0212,
-//! M0305).
+//! M0305, M0315).
 
-use motet_syntax::{Fix, Related, Span};
+use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
 use crate::declare::errors::{did_you_mean, replace};
@@ -45,10 +45,20 @@ motet_syntax::mistakes! {
     message(m) { format!("the policy has more than {} steps, with its sub-policies inlined", m.limit) }
     help(_m) { Some("use `repeat` or `each` instead of copies of steps".to_owned()) }
 
-    /// Binding of a step without result.
+    /// Binding of the result of a step without one.
     NoResult("M0305", Error) { callee: SmolStr, name: SmolStr }
     message(m) { format!("`{}` has no result to bind to `{}`", m.callee, m.name) }
     help(m) { Some(format!("call it without binding `{}`", m.name)) }
+
+    /// Manner of a step that moves nothing.
+    NoMotion("M0315", Error) { callee: SmolStr, is_text: bool }
+    message(m) { format!("`{}` moves nothing, so it has no manner", m.callee) }
+    help(_m) { Some("remove the manner".to_owned()) }
+    fix(m) {
+        let text = if m.is_text { "" } else { "null" };
+        let edits = vec![Edit { span: m.span, text: text.to_owned() }];
+        Some(Fix { title: "remove the manner".to_owned(), edits })
+    }
 }
 
 /// The step to write for a word that is no callee.

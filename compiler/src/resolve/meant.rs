@@ -34,6 +34,7 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
             };
             let is_bare = call.call.args.is_empty()
                 && call.bind.is_none()
+                && call.manner.is_none()
                 && call.within.is_none()
                 && call.retry.is_none();
             let help = format!("write `{step}`");

@@ -125,7 +125,10 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
         });
         let call =
             Call { name: Name { text: step.action, span: step.span }, args: args.collect(), span: step.span };
-        Step { kind: StepKind::Do(Do { call, bind: None, within: None, retry: None }), span: step.span }
+        Step {
+            kind: StepKind::Do(Do { call, bind: None, manner: None, within: None, retry: None }),
+            span: step.span,
+        }
     });
     Policy {
         doc: format_smolstr!("A plan for the PDDL problem `{}`.", problem.name),

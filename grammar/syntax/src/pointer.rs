@@ -3,7 +3,7 @@
 
 use smol_str::SmolStr;
 
-use crate::ast::{Arg, Block, Call, Expr, ExprKind, Policy, Reaction, Step, StepKind, When};
+use crate::ast::{Arg, Block, Call, Expr, ExprKind, Manner, Policy, Reaction, Step, StepKind, When};
 use crate::located::push_token;
 use crate::source::Span;
 
@@ -65,6 +65,7 @@ impl PointerWalk<'_> {
             StepKind::Do(step) => {
                 let _ = self.args(&step.call)
                     || self.positional(&step.call)
+                    || self.name("manner", step.manner.as_ref().map(Manner::span))
                     || self.optional("within", step.within.as_ref())
                     || self.optional("retry", step.retry.as_ref())
                     || self.name("as", step.bind.as_ref().map(|name| name.span))

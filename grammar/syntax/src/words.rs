@@ -35,7 +35,7 @@ pub const STEP_WORDS: [&str; 19] = [
 ];
 
 /// Keys of a `do` step in JSON that are not arguments.
-pub const CALL_KEYS: [&str; 4] = ["do", "as", "within", "retry"];
+pub const CALL_KEYS: [&str; 5] = ["do", "as", "manner", "within", "retry"];
 
 /// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
 /// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a

@@ -32,6 +32,8 @@ pub struct Robot {
     pub observes: Vec<SmolStr>,
     /// Longest time of one observation, in s.
     pub observe_within_secs: f64,
+    /// Meanings of the words for manners.
+    pub manners: Manners,
     /// Primitives that it provides, by name, with bounds on their numeric parameters.
     pub primitives: IndexMap<SmolStr, IndexMap<SmolStr, Range>>,
     /// Numbers that contracts may use as `robot.NAME`, in SI units, with their quantity type
@@ -45,6 +47,34 @@ pub struct Robot {
     pub declarations: String,
     /// Spans of the names that only the compiler can check.
     pub spans: CardSpans,
+}
+
+/// Meanings of `slowly` and `gently`.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Manners {
+    /// The manner of `slowly`.
+    pub slowly: MannerSpec,
+    /// The manner of `gently`.
+    pub gently: MannerSpec,
+}
+
+/// Parts of the greatest speed and acceleration that a motion may use, above 0 and at most 1.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct MannerSpec {
+    /// Part of the speed.
+    pub speed: f64,
+    /// Part of the acceleration.
+    pub acceleration: f64,
+}
+
+impl Default for Manners {
+    /// Manners of a card that gives none.
+    fn default() -> Self {
+        Self {
+            slowly: MannerSpec { speed: 0.5, acceleration: 0.5 },
+            gently: MannerSpec { speed: 0.3, acceleration: 0.25 },
+        }
+    }
 }
 
 /// Mobile or fixed base.

@@ -51,6 +51,21 @@ impl QuantityReader {
         self.checked(key, self.span(at), value, sign)
     }
 
+    /// Reads a part, above 0 and at most 1; 1 if it is wrong.
+    pub(super) fn part(&mut self, key: &str, at: &TomlSpanned<WrittenQuantity>) -> f64 {
+        let before = self.found.len();
+        let value = self.of(key, at, Dimension::NONE, Sign::Positive);
+        if self.found.len() == before && value <= 1.0 {
+            return value;
+        }
+        if self.found.len() == before {
+            let (span, wanted) = (self.span(at), "at most 1");
+            let actual = value.to_string();
+            self.found.push(OutOfRange { span, key: key.to_owned(), actual, wanted }.into());
+        }
+        1.0
+    }
+
     /// Reads a quantity of any dimension with its unit, in SI units.
     pub(super) fn any(
         &mut self,

@@ -10,7 +10,9 @@ use toml::de::DeTable;
 use super::errors::{
     BadName, ListedTwice, NotAResource, NotToml, ResourceCycle, TakenName, TakenNumber, UnknownResource,
 };
-use super::model::{BaseSpec, BoundSpan, CameraSpec, CardSpans, Drive, HandSpec, Range, Robot};
+use super::model::{
+    BaseSpec, BoundSpan, CameraSpec, CardSpans, Drive, HandSpec, MannerSpec, Manners, Range, Robot,
+};
 use super::quantity::{QuantityReader, Sign};
 use super::wire::TomlSpanned;
 use super::{model, shape, wire};
@@ -93,6 +95,7 @@ impl CardReader {
             resources,
             observes: self.observes(&card.observes),
             observe_within_secs,
+            manners: self.manners(&card.manners),
             primitives: self.primitives(card),
             numbers,
             initially: card.initially.iter().map(|fact| fact.get().clone()).collect(),
@@ -106,6 +109,20 @@ impl CardReader {
         let starts = letters.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
         if !starts || !letters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
             self.numbers.found.push(BadName { span, name: name.to_owned() }.into());
+        }
+    }
+
+    fn manners(&mut self, manners: &wire::MannersTable) -> Manners {
+        let default = Manners::default();
+        let mut manner = |word: &str, table: Option<&wire::MannerTable>, default: MannerSpec| {
+            table.map_or(default, |table| MannerSpec {
+                speed: self.numbers.part(&format!("manners.{word}.speed"), &table.speed),
+                acceleration: self.numbers.part(&format!("manners.{word}.acceleration"), &table.acceleration),
+            })
+        };
+        Manners {
+            slowly: manner("slowly", manners.slowly.as_ref(), default.slowly),
+            gently: manner("gently", manners.gently.as_ref(), default.gently),
         }
     }
 

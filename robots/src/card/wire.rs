@@ -63,6 +63,9 @@ pub struct CardTable {
     pub title: TomlSpanned<String>,
     /// The longest time that one observation takes, in s.
     pub observe_within: TomlSpanned<WrittenQuantity>,
+    /// What `slowly` and `gently` mean for it.
+    #[serde(default)]
+    pub manners: MannersTable,
     /// Fluents and measures that it can observe.
     pub observes: Vec<TomlSpanned<String>>,
     /// Facts that hold at the start unless a state says otherwise, as text conditions: `not standing(robot)`.
@@ -92,6 +95,32 @@ pub struct CardTable {
     pub numbers: IndexMap<String, TomlSpanned<WrittenQuantity>>,
     /// The primitives that it provides, each with bounds on its numeric parameters.
     pub primitives: IndexMap<String, TomlSpanned<IndexMap<String, TomlSpanned<RangeTable>>>>,
+}
+
+/// Meanings of the words for manners.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Manners")]
+pub struct MannersTable {
+    /// The manner of `slowly`; half the speed and acceleration where none is given.
+    #[serde(default)]
+    #[schemars(with = "MannerTable")]
+    pub slowly: Option<MannerTable>,
+    /// The manner of `gently`; 30 % of the speed and 25 % of the acceleration where none is given.
+    #[serde(default)]
+    #[schemars(with = "MannerTable")]
+    pub gently: Option<MannerTable>,
+}
+
+/// A part of the greatest speed and acceleration.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Manner")]
+pub struct MannerTable {
+    /// Part of the speed, above 0 and at most 1, or a text such as `"50 %"`.
+    pub speed: TomlSpanned<WrittenQuantity>,
+    /// Part of the acceleration, likewise.
+    pub acceleration: TomlSpanned<WrittenQuantity>,
 }
 
 /// Mobile or fixed base.

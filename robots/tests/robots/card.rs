@@ -77,6 +77,23 @@ fn card_reader_reads_a_complete_card() {
     assert_eq!(robot.numbers["tray"], (2.0, "Mass".into()));
     assert_eq!(robot.numbers["payload"], (0.5, "Mass".into()));
     assert_eq!(robot.resources["arm"], ["hand", "eye"]);
+    assert_eq!(robot.manners, card::Manners::default());
+}
+
+#[test]
+fn card_reader_reads_manners() {
+    let table = "[manners]\nslowly = { speed = \"40 %\", acceleration = 0.2 }\n\n[numbers]";
+    let (robot, found, _) = read(&GOOD.replacen("[numbers]", table, 1));
+    assert_eq!(found, []);
+    let manners = robot.unwrap().manners;
+    assert_eq!(manners.slowly, card::MannerSpec { speed: 0.4, acceleration: 0.2 });
+    assert_eq!(manners.gently, card::Manners::default().gently);
+    let wrong = "[manners]\ngently = { speed = 1.5, acceleration = 0 }\n\n[numbers]";
+    let told = [
+        "M0416 [1.5] `manners.gently.speed` is 1.5, but must be at most 1",
+        "M0416 [0] `manners.gently.acceleration` is 0, but must be above zero",
+    ];
+    check("[numbers]", wrong, &told);
 }
 
 #[test]
@@ -135,7 +152,7 @@ fn card_reader_reports_all_wrong_keys_at_once() {
         "colour = 3",
         &[
             "M0413 [] the card has no `title` / add `title = …` at the top of the card",
-            "M0412 [colour] unknown key `colour` / possible here: `title`, `initially`, `model` or \
+            "M0412 [colour] unknown key `colour` / possible here: `title`, `manners`, `initially`, `model` or \
                 `postures`",
         ],
     );

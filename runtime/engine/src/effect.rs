@@ -4,7 +4,7 @@ use crate::ids::{CheckId, GoalId};
 use crate::query::Query;
 use crate::time::Time;
 use crate::trace::TraceEvent;
-use motet_graph::{NodeId, Value};
+use motet_graph::{Manner, NodeId, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -113,6 +113,9 @@ pub struct Command {
     pub args: Vec<(SmolStr, Value)>,
     /// Names of the resources that it may use until it has ended.
     pub uses: Arc<[SmolStr]>,
+    /// Manner of its motion; absent for the robot's own speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub manner: Option<Manner>,
     /// Seconds after which the engine cancels it.
     pub deadline_secs: f64,
 }
@@ -184,7 +187,8 @@ impl fmt::Display for Command {
             let comma = if index > 0 { ", " } else { "" };
             write!(f, "{comma}{name}: {value}")?;
         }
-        f.write_str(")")
+        f.write_str(")")?;
+        self.manner.map_or(Ok(()), |manner| write!(f, " {manner}"))
     }
 }
 

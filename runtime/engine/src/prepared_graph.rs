@@ -193,6 +193,7 @@ impl PreparedGraph {
             primitive: primitive.name.clone(),
             args: named,
             uses: self.means.get(call.primitive.index())?.uses.clone(),
+            manner: call.manner,
             deadline_secs: call.deadline_secs,
         })
     }

@@ -4,6 +4,7 @@ use crate::command::SimCommand;
 use crate::motion::BaseMotion;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task, TaskContext, TaskStage};
+use motet_graph::Manner;
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, PrimitiveSet, Query, Time};
 use rand::RngExt;
 use smol_str::SmolStr;
@@ -32,6 +33,7 @@ impl Driver for Sim {
             work_secs: command.deadline_secs * share * jitter,
             command: parsed,
             slower: fault.slower,
+            stretch: stretch(command),
             fails: fault.fails,
             stage: TaskStage::Working(Time::NEVER),
             step: 0,
@@ -69,6 +71,7 @@ impl Driver for Sim {
             self.world.motion = None;
         }
         task.command = SimCommand::of(command);
+        task.stretch = stretch(command);
         if hangs {
             self.tasks.push(task);
         } else {
@@ -160,6 +163,11 @@ const fn until_after(until: Time, now: Time) -> Time {
     if until.nanos() == Time::NEVER.nanos() { until } else { until.since(now) }
 }
 
+/// Factor by which the manner of a command makes its motion longer.
+fn stretch(command: &Command) -> f64 {
+    command.manner.map_or(1.0, Manner::stretch)
+}
+
 impl Sim {
     /// Takes a task to its next stage, or ends it.
     pub(crate) fn go_on(&mut self, mut task: Task) {
@@ -180,7 +188,7 @@ impl Sim {
             }
         };
         if let Some(motion) = motion {
-            let motion = motion.slowed(task.slower);
+            let motion = motion.slowed(task.slower * task.stretch);
             self.world.motion = Some(motion);
             task.stage = TaskStage::Driving(motion.end());
             self.tasks.push(task);

@@ -22,6 +22,8 @@ pub(crate) struct Task {
     pub(crate) work_secs: f64,
     /// Factor on all durations.
     pub(crate) slower: f64,
+    /// Factor of the manner on the time of a drive; the time of the work follows the deadline.
+    pub(crate) stretch: f64,
     /// Ends in this failure, whatever else.
     pub(crate) fails: Option<SmolStr>,
     pub(crate) stage: TaskStage,

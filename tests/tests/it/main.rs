@@ -24,6 +24,7 @@ mod forms;
 mod grammars;
 mod hostile;
 mod library;
+mod manners;
 mod oracle;
 mod pddl;
 mod planning;

@@ -217,6 +217,7 @@ impl Layout {
             primitive,
             args,
             binds,
+            manner: call.manner,
             deadline_secs: call.deadline_secs,
             retries: call.retries,
             needs: contract.needs,

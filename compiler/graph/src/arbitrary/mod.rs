@@ -13,7 +13,7 @@ pub use layout::graph;
 pub use strategy::{conditions, graphs, steps};
 
 use self::vocabulary as v;
-use crate::model::{BindingId, Condition, Ending, FailureId, PrimitiveId, Term, Verdict};
+use crate::model::{BindingId, Condition, Ending, FailureId, Manner, PrimitiveId, Term, Verdict};
 
 /// Sketch of a step.
 #[derive(Clone, Debug)]
@@ -51,6 +51,8 @@ pub struct CallSketch {
     /// Its arguments; [`CallSketch::NEAREST`] stands for the object that was bound last, or `mug` where none
     /// was.
     pub args: Vec<Term>,
+    /// The manner of the motion.
+    pub manner: Option<Manner>,
     /// The deadline in seconds.
     pub deadline_secs: f64,
     pub retries: u32,
@@ -87,7 +89,7 @@ impl CallSketch {
     /// A call with a deadline of 10 s, no retries and its needs deferred.
     #[must_use]
     pub fn new(primitive: PrimitiveId, args: Vec<Term>) -> Self {
-        Self { primitive, args, deadline_secs: 10.0, retries: 0, verdict: Verdict::Deferred }
+        Self { primitive, args, manner: None, deadline_secs: 10.0, retries: 0, verdict: Verdict::Deferred }
     }
 
     /// Sets the number of retries.

@@ -3,7 +3,8 @@
 use super::vocabulary::{self as v, entity, fact};
 use super::{CallSketch, ReactionSketch, StepSketch, WatchSketch, layout};
 use crate::model::{
-    Comparison, Condition, Ending, Fact, FactArg, Graph, PrimitiveId, Term, TextPart, Type, Value, Verdict,
+    Comparison, Condition, Ending, Fact, FactArg, Graph, Manner, PrimitiveId, Term, TextPart, Type, Value,
+    Verdict,
 };
 use proptest::collection::vec;
 use proptest::option;
@@ -105,11 +106,16 @@ fn call() -> impl Strategy<Value = CallSketch> {
         2 => what().prop_map(|text| (v::SAY, vec![text])),
         1 => template().prop_map(|text| (v::SAY, vec![text])),
     ];
-    (primitive, 0.0..5.0, 0..3_u32, any::<bool>()).prop_map(
-        |((primitive, args), deadline_secs, retries, proven)| {
+    let part = || prop_oneof![Just(1.0), 0.01..1.0];
+    let manner = prop_oneof![
+        3 => Just(None),
+        1 => (part(), part()).prop_map(|(speed, acceleration)| Some(Manner { speed, acceleration })),
+    ];
+    (primitive, manner, 0.0..5.0, 0..3_u32, any::<bool>()).prop_map(
+        |((primitive, args), manner, deadline_secs, retries, proven)| {
             let verdict = if proven { Verdict::Proven } else { Verdict::Deferred };
             let _: PrimitiveId = primitive;
-            CallSketch { primitive, args, deadline_secs, retries, verdict }
+            CallSketch { primitive, args, manner, deadline_secs, retries, verdict }
         },
     )
 }

@@ -56,7 +56,8 @@ impl<'a> Names<'a> {
                 let binds = call.binds.map(|id| self.binding(id)).filter(|name| *name != "_");
                 let binds = binds.map_or_else(String::new, |name| format!("let {name} = "));
                 let args = call.args.iter().enumerate().map(|(index, arg)| self.argument(call, index, arg));
-                format!("{binds}{name}({})", args.collect::<Vec<_>>().join(", "))
+                let manner = manner(call);
+                format!("{binds}{name}({}){manner}", args.collect::<Vec<_>>().join(", "))
             }
             NodeKind::Monitor { watches, .. } => {
                 let watched: Vec<_> = watches.iter().map(|watch| self.condition(&watch.condition)).collect();
@@ -100,7 +101,8 @@ impl<'a> Names<'a> {
         let name = primitive.map_or(NOBODY, |primitive| &primitive.name);
         let binds = call.binds.map_or_else(String::new, |id| format!("let {} = ", self.binding(id)));
         let retry = if call.retries > 0 { format!(" retry {}", call.retries) } else { String::new() };
-        format!("{binds}{name}({args}) within {} s{retry}", call.deadline_secs)
+        let manner = manner(call);
+        format!("{binds}{name}({args}){manner} within {} s{retry}", call.deadline_secs)
     }
 
     fn ending(&self, how: Ending, part: bool, why: Option<&Term>) -> String {
@@ -289,6 +291,11 @@ pub(super) fn type_of<'a>(graph: &'a Graph, term: &Term) -> Option<&'a Type> {
         Term::Literal(_) | Term::Each | Term::Field(..) | Term::List(_) | Term::Arith(..) => None,
         Term::Count(_) | Term::First(_) | Term::Template(_) => None,
     }
+}
+
+/// Manner of a call, with a space before it.
+fn manner(call: &CallNode) -> String {
+    call.manner.map_or_else(String::new, |manner| format!(" {manner}"))
 }
 
 #[cfg(test)]

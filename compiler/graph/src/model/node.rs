@@ -1,5 +1,7 @@
 //! Regions and nodes: the control flow of a policy.
 
+use std::fmt;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -195,6 +197,9 @@ pub struct CallNode {
     /// Binding of the result; present exactly if the primitive has a result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub binds: Option<BindingId>,
+    /// Manner of the motion; absent for the robot's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub manner: Option<Manner>,
     /// Deadline of one attempt in seconds.
     #[serde(rename = "deadline")]
     pub deadline_secs: f64,
@@ -209,6 +214,36 @@ pub struct CallNode {
     pub effects: Vec<CallEffect>,
     /// Facts that become unknown at the start; after a failure also the facts of `effects`.
     pub unsettles: Vec<Unsettled>,
+}
+
+/// Manner of a motion: the parts of the robot's greatest speed and acceleration that it may use.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Manner {
+    /// Part of the speed, above 0 and at most 1.
+    pub speed: f64,
+    /// Part of the acceleration, above 0 and at most 1.
+    pub acceleration: f64,
+}
+
+impl Manner {
+    /// Factor by which a motion takes longer. A motion that takes `k` times as long has speeds divided by `k`
+    /// and accelerations divided by `k²`.
+    #[must_use]
+    pub fn stretch(self) -> f64 {
+        (1.0 / self.speed).max(1.0 / self.acceleration.sqrt())
+    }
+}
+
+impl fmt::Display for Manner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let percent = |part: f64| (part * 1e4).round() / 100.0;
+        let (speed, acceleration) = (percent(self.speed), percent(self.acceleration));
+        match speed == acceleration {
+            true => write!(f, "at {speed} %"),
+            false => write!(f, "at {speed} % of the speed and {acceleration} % of the acceleration"),
+        }
+    }
 }
 
 /// Verdict of the compiler on a precondition or a motion.

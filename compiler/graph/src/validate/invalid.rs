@@ -57,6 +57,9 @@ pub enum InvalidReason {
     /// An ending inside a cleanup that it would leave.
     #[error("an ending leaves a cleanup")]
     EndsCleanup,
+    /// A part is not above 0 and at most 1.
+    #[error("{what} is {value}, which is not above 0 and at most 1")]
+    Part { what: &'static str, value: f64 },
     /// A number is not finite or out of its range.
     #[error("{what} is {value}, which is no finite number of at least 0")]
     Number { what: &'static str, value: f64 },

@@ -129,6 +129,16 @@ pub(super) fn check_numbers(graph: &Graph, findings: &mut Findings) {
         match &node.kind {
             NodeKind::Call(call) => {
                 span(findings, node, "the deadline", call.deadline_secs);
+                for (what, value) in call.manner.iter().flat_map(|manner| {
+                    [
+                        ("the part of the speed", manner.speed),
+                        ("the part of the acceleration", manner.acceleration),
+                    ]
+                }) {
+                    if !(value > 0.0 && value <= 1.0) {
+                        findings.node(node, InvalidReason::Part { what, value });
+                    }
+                }
                 if let Some(why) = call.motion.as_ref().and_then(bad_motion) {
                     findings.node(node, InvalidReason::Witness(why));
                 }

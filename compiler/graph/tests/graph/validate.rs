@@ -4,7 +4,8 @@ use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{
     BindingId, Comparison, Condition, Ending, Fact, FactArg, FailureId, FluentId, Graph, InitialFact, KindId,
-    MeasureId, NodeId, NodeKind, PrimitiveId, Reaction, RegionId, ResourceId, Term, Type, Value, validate,
+    Manner, MeasureId, NodeId, NodeKind, PrimitiveId, Reaction, RegionId, ResourceId, Term, Type, Value,
+    validate,
 };
 
 /// Nodes: 0 detect, 1 try, 2 pick, 3 replan, 4 monitor, 5 go, 6 say (block), 7 policy, 8 done, 9 parallel, 10
@@ -157,6 +158,16 @@ fn numbers() {
     check(
         |g| call(g, 0).deadline_secs = -1.0,
         "/steps/0: the deadline is -1, which is no finite number of at least 0",
+    );
+    for (part, shown) in [(0.0, "0"), (1.5, "1.5"), (f64::NAN, "NaN")] {
+        check(
+            |g| call(g, 0).manner = Some(Manner { speed: part, acceleration: 1.0 }),
+            &format!("/steps/0: the part of the speed is {shown}, which is not above 0 and at most 1"),
+        );
+    }
+    check(
+        |g| call(g, 0).manner = Some(Manner { speed: 0.5, acceleration: -1.0 }),
+        "/steps/0: the part of the acceleration is -1, which is not above 0 and at most 1",
     );
     check(
         |g| watches(g)[0].hold_secs = f64::INFINITY,

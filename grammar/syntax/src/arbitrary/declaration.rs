@@ -5,8 +5,8 @@ use smol_str::SmolStr;
 use super::{DEPTH, Flavor, TreeGenerator};
 use crate::ast::{
     Block, Catch, CatchOn, Clause, Do, End, EndKind, EntitiesDecl, EnumDecl, ExprKind, FailureDecl, File,
-    FluentDecl, InitiallyDecl, Item, KindDecl, MeasureDecl, Param, Policy, PrimitiveDecl, PrimitiveKind,
-    Quantified, Reaction, Step, StepKind, TypeExpr, When,
+    FluentDecl, InitiallyDecl, Item, KindDecl, Manner, MeasureDecl, Param, Policy, PrimitiveDecl,
+    PrimitiveKind, Quantified, Reaction, Step, StepKind, TypeExpr, When,
 };
 
 impl TreeGenerator<'_> {
@@ -170,12 +170,22 @@ impl TreeGenerator<'_> {
             3 => StepKind::Delay { time: self.time() },
             _ => {
                 let call = self.call(2);
+                let manner = self.maybe(Self::manner);
                 let within = self.maybe(Self::duration);
                 let retry = self.maybe(Self::count);
                 let bind = self.maybe(|it| it.choice.bound());
                 self.scope.extend(bind.as_ref().map(|bind| bind.text.clone()));
-                StepKind::Do(Do { call, bind, within, retry })
+                StepKind::Do(Do { call, bind, manner, within, retry })
             }
+        }
+    }
+
+    fn manner(&mut self) -> Manner {
+        match self.choice.below(4) {
+            0 => Manner::Slowly(self.span()),
+            1 => Manner::Gently(self.span()),
+            2 => Manner::At(self.number(), self.span()),
+            _ => Manner::At(self.percent(), self.span()),
         }
     }
 

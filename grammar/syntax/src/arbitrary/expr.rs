@@ -105,6 +105,17 @@ impl TreeGenerator<'_> {
         }
     }
 
+    /// A number without a unit.
+    pub(super) fn number(&mut self) -> Expr {
+        let value = self.choice.number();
+        self.expr(ExprKind::Number(value))
+    }
+
+    pub(super) fn percent(&mut self) -> Expr {
+        let value = self.choice.number();
+        self.expr(ExprKind::Quantity(value, Unit::Percent))
+    }
+
     /// A text; in JSON one that could be nothing else.
     fn literal(&mut self) -> ExprKind {
         let text = self.choice.text();

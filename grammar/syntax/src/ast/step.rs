@@ -116,10 +116,34 @@ pub struct Do {
     pub call: Call,
     /// Binding of the result.
     pub bind: Option<Name>,
+    /// Manner of its motion.
+    pub manner: Option<Manner>,
     /// Deadline of the call: a duration.
     pub within: Option<Expr>,
     /// Number of retries after a failure: a whole number.
     pub retry: Option<Expr>,
+}
+
+/// Manner in which a call moves: a part of the robot's speed and acceleration.
+#[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
+pub enum Manner {
+    /// The word `slowly`.
+    Slowly(#[derive_where(skip)] Span),
+    /// The word `gently`.
+    Gently(#[derive_where(skip)] Span),
+    /// `at 30 %`: a ratio, and the range with the `at`.
+    At(Expr, #[derive_where(skip)] Span),
+}
+
+impl Manner {
+    /// Range of the manner in the document.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Slowly(span) | Self::Gently(span) | Self::At(_, span) => *span,
+        }
+    }
 }
 
 /// A watched condition with its reaction: `when c for 200 ms then R`.

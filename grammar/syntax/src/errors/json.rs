@@ -181,7 +181,8 @@ crate::mistakes! {
     message(m) { format!("`{}` is no argument of a `do` step", m.key) }
     help(m) {
         words::json_key_owner(&m.key).map(|owner| {
-            format!("the key belongs to {owner}; a `do` step has `as`, `within`, `retry` and arguments")
+            let own = "`as`, `manner`, `within`, `retry` and arguments";
+            format!("the key belongs to {owner}; a `do` step has {own}")
         })
     }
 

@@ -155,6 +155,7 @@ impl Converter {
         Do {
             call: self.call(step.r#do, step.args, span, depth + 1, false),
             bind: step.r#as.map(|bind| self.name(*bind)),
+            manner: step.manner.and_then(|manner| self.manner(*manner, depth)),
             within: step.within.map(|within| self.duration(*within, depth)),
             retry: step.retry.map(|retry| self.count(*retry, depth)),
         }

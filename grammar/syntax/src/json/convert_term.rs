@@ -6,8 +6,8 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::Spanned;
 use super::convert::Converter;
-use super::term::{Args, Condition, Count, Duration, Form, Pair, Relation, Term};
-use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
+use super::term::{Args, Condition, Count, Duration, Form, Manner, Pair, Relation, Term};
+use crate::ast::{self, Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
 use crate::errors::{BadValue, MissingKey, TooDeep, WrongType};
 use crate::source::Span;
 use crate::text::template::{self, ReadText};
@@ -66,6 +66,37 @@ impl Converter {
             Term::Bool(_) | Term::List(_) => return self.wrong(&value, span, "a number of seconds"),
         };
         Expr { kind, span }
+    }
+
+    /// A manner: a word or a ratio.
+    pub(super) fn manner(&mut self, manner: Manner, depth: usize) -> Option<ast::Manner> {
+        let Spanned { value, span } = manner.0;
+        let kind = match value {
+            Term::Number(ratio) => ExprKind::Number(ratio),
+            Term::Form(_) => {
+                let ratio = self.term(Spanned { value, span }, depth + 1);
+                return Some(ast::Manner::At(ratio, span));
+            }
+            Term::Text(text) => {
+                let word = text.trim();
+                let part = word.strip_prefix("at ").unwrap_or(word);
+                match (word, parse_quantity(part).filter(|(_, unit)| *unit == Unit::Percent)) {
+                    ("slowly", _) => return Some(ast::Manner::Slowly(span)),
+                    ("gently", _) => return Some(ast::Manner::Gently(span)),
+                    (_, Some((value, unit))) => ExprKind::Quantity(value, unit),
+                    (_, None) => {
+                        let what = format!("`{text}` is not a manner");
+                        self.bad_value(span, what, &["slowly", "gently", "30 %"]);
+                        return None;
+                    }
+                }
+            }
+            other @ (Term::Bool(_) | Term::List(_)) => {
+                self.wrong(&other, span, "`\"slowly\"`, `\"gently\"` or a part such as `\"30 %\"`");
+                return None;
+            }
+        };
+        Some(ast::Manner::At(Expr { kind, span }, span))
     }
 
     /// A whole number; whether it is one is for the compiler to check.

@@ -77,6 +77,9 @@ pub(crate) struct Do {
     /// Arguments by parameter.
     #[serde(flatten)]
     pub(crate) args: Args,
+    /// Manner of its motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) manner: Option<Box<Manner>>,
     /// Deadline of the call.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) within: Option<Box<Duration>>,
@@ -171,6 +174,12 @@ pub(crate) struct Awaited(pub(crate) Spanned<Term>);
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct Duration(pub(crate) Spanned<Term>);
+
+/// A manner: `"slowly"`, `"gently"`, or a part of the robot's speed and acceleration, such as `"30 %"` or
+/// `0.3`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct Manner(pub(crate) Spanned<Term>);
 
 /// A whole number.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -290,6 +299,7 @@ trait WithArguments: Sized {
 struct CallParts {
     name: Option<Spanned<SmolStr>>,
     args: Vec<(Spanned<SmolStr>, Spanned<Term>)>,
+    manner: Option<Box<Manner>>,
     within: Option<Box<Duration>>,
     retry: Option<Box<Count>>,
     bind: Option<Box<Spanned<SmolStr>>>,
@@ -334,7 +344,7 @@ impl<'de, T: WithArguments> Visitor<'de> for WithArgumentsVisitor<T> {
 }
 
 impl WithArguments for Do {
-    const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", crate::located::OPEN];
+    const KEYS: &'static [&'static str] = &["do", "as", "manner", "within", "retry", crate::located::OPEN];
 
     fn take<'de, A: MapAccess<'de>>(
         parts: &mut CallParts,
@@ -343,6 +353,7 @@ impl WithArguments for Do {
     ) -> Result<bool, A::Error> {
         match key {
             "as" => parts.bind = access.next_value()?,
+            "manner" => parts.manner = access.next_value()?,
             "within" => parts.within = access.next_value()?,
             "retry" => parts.retry = access.next_value()?,
             _ => return Ok(false),
@@ -351,8 +362,8 @@ impl WithArguments for Do {
     }
 
     fn make(name: Spanned<SmolStr>, parts: CallParts) -> Self {
-        let CallParts { args, within, retry, bind, .. } = parts;
-        Self { r#do: name, args: Args(args), within, retry, r#as: bind }
+        let CallParts { args, manner, within, retry, bind, .. } = parts;
+        Self { r#do: name, args: Args(args), manner, within, retry, r#as: bind }
     }
 }
 

@@ -14,7 +14,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-use super::term::{Args, Awaited, Condition, Count, Do, Duration, Form, Term};
+use super::term::{Args, Awaited, Condition, Count, Do, Duration, Form, Manner, Term};
 use super::{Lenient, Spanned};
 
 /// A Motet policy.
@@ -402,6 +402,23 @@ impl JsonSchema for Duration {
         json_schema!({
             "description": "A duration: seconds, a string with a unit such as `\"200 ms\"`, or a binding.",
             "anyOf": [{"type": "number"}, {"type": "string"}, generator.subschema_for::<Form>()],
+        })
+    }
+}
+
+impl JsonSchema for Manner {
+    fn schema_name() -> Cow<'static, str> {
+        "Manner".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "How a call moves: `\"slowly\"`, `\"gently\"`, or a part of the robot's speed and \
+                            acceleration, such as `\"30 %\"` or `0.3`.",
+            "anyOf": [
+                {"type": "string"},
+                {"type": "number"},
+                generator.subschema_for::<Form>(),
+            ],
         })
     }
 }

@@ -11,8 +11,8 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::expr::{braces, template};
 use crate::ast::{
-    Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Name, Policy, Reaction, Step,
-    StepKind, When,
+    Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Manner, Name, Policy, Reaction,
+    Step, StepKind, When,
 };
 use crate::json::term::{self, Args, Awaited, Condition, Count, Duration, Field, Form, Get, Is, Term};
 use crate::json::{Lenient, Spanned, wire};
@@ -132,12 +132,21 @@ impl WireTranslation {
         let translated = term::Do {
             r#do: name(&step.call.name),
             args: self.args(&step.call),
+            manner: step.manner.as_ref().map(|manner| Box::new(self.manner(manner))),
             within: step.within.as_ref().map(|within| Box::new(self.duration(within))),
             retry: step.retry.as_ref().map(|retry| Box::new(self.count(retry))),
             r#as: step.bind.as_ref().map(|bind| Box::new(name(bind))),
         };
         self.scope.extend(step.bind.as_ref().map(|bind| bind.text.clone()));
         translated
+    }
+
+    fn manner(&mut self, manner: &Manner) -> term::Manner {
+        term::Manner(match manner {
+            Manner::Slowly(_) => Term::Text("slowly".into()).into(),
+            Manner::Gently(_) => Term::Text("gently".into()).into(),
+            Manner::At(ratio, _) => self.term(ratio).into(),
+        })
     }
 
     fn when(&mut self, when: &When) -> wire::When {

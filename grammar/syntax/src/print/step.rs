@@ -2,7 +2,7 @@
 
 use super::expr;
 use super::writer::{Blank, Writer};
-use crate::ast::{Block, CatchOn, Do, End, EndKind, Expr, Reaction, Step, StepKind, When};
+use crate::ast::{Block, CatchOn, Do, End, EndKind, Expr, Manner, Reaction, Step, StepKind, When};
 
 /// Length of `monitor` and about that of `parallel`: the brace behind them has no place in the tree.
 const KEYWORD: u32 = 7;
@@ -123,6 +123,12 @@ impl Writer<'_> {
             self.text.push_str(" = ");
         }
         expr::call(&mut self.text, &step.call);
+        match &step.manner {
+            Some(Manner::Slowly(_)) => self.text.push_str(" slowly"),
+            Some(Manner::Gently(_)) => self.text.push_str(" gently"),
+            Some(Manner::At(ratio, _)) => self.word_and(" at ", ratio),
+            None => {}
+        }
         self.optional(" within ", step.within.as_ref());
         self.optional(" retry ", step.retry.as_ref());
     }

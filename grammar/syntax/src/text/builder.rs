@@ -94,6 +94,8 @@ fn is_mark(rule: Rule) -> bool {
             | Rule::kw_let
             | Rule::kw_within
             | Rule::kw_retry
+            | Rule::kw_slowly
+            | Rule::kw_gently
             | Rule::kw_sequence
             | Rule::kw_if
             | Rule::kw_else

@@ -4,7 +4,7 @@
 use super::builder::{Builder, Children};
 use super::{Pair, Rule};
 use crate::ast::{
-    Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, MAX_NESTING, MAX_STEPS, Reaction, Step,
+    Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, MAX_NESTING, MAX_STEPS, Manner, Reaction, Step,
     StepKind, When,
 };
 use crate::errors::{TextSyntax, TooDeep, TooManySteps};
@@ -109,7 +109,8 @@ impl Builder {
 
     fn do_step(&mut self, mut parts: Children<'_>, depth: usize) -> Option<StepKind> {
         let call = self.call(parts.next()?, depth)?;
-        Some(StepKind::Do(self.modified(Do { call, bind: None, within: None, retry: None }, parts, depth)))
+        let step = Do { call, bind: None, manner: None, within: None, retry: None };
+        Some(StepKind::Do(self.modified(step, parts, depth)))
     }
 
     /// A name for a value, or for the result of a call.
@@ -117,26 +118,36 @@ impl Builder {
         let name = self.name(parts.next()?);
         let value = self.expr(parts.next()?, depth);
         if let ExprKind::Call(call) = value.kind {
-            let step = Do { call, bind: Some(name), within: None, retry: None };
+            let step = Do { call, bind: Some(name), manner: None, within: None, retry: None };
             return Some(StepKind::Do(self.modified(step, parts, depth)));
         }
         if let Some(part) = parts.next() {
-            let message = "a value takes neither `within` nor `retry`".into();
+            let message = "a value takes neither `within` nor `retry`, and does not move".into();
             let help = "only a call of a primitive takes time, and can fail";
             self.found.push(TextSyntax::new(self.span(&part), message, help).into());
         }
         Some(StepKind::Let { name, value })
     }
 
-    /// A call with its deadline and its retries.
+    /// A call with its manner, its deadline and its retries.
     fn modified(&mut self, mut step: Do, parts: Children<'_>, depth: usize) -> Do {
         for part in parts {
             match part.as_rule() {
+                Rule::manner => step.manner = self.manner(part, depth),
                 Rule::within => step.within = self.expr_in(Some(part), depth),
                 _ => step.retry = self.expr_in(Some(part), depth),
             }
         }
         step
+    }
+
+    fn manner(&mut self, pair: Pair<'_>, depth: usize) -> Option<Manner> {
+        let part = Children::of(pair.clone()).next();
+        match part {
+            Some(ratio) => Some(Manner::At(self.expr(ratio, depth), self.span(&pair))),
+            None if pair.as_str().starts_with("slowly") => Some(Manner::Slowly(self.span(&pair))),
+            None => Some(Manner::Gently(self.span(&pair))),
+        }
     }
 
     /// `if a { } else if b { } else { }`: each `else if` is an `if` alone in a block of its own. The braces

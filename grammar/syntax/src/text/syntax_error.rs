@@ -107,6 +107,7 @@ const HABITS: &[(&str, &str)] = &[
     ("match", "write `if c { … } else if d { … }`"),
     ("do", "write the call itself: `pick(mug)`"),
     ("call", "write the call itself: `pick(mug)`"),
+    ("slow", "write `go(user) slowly`, or `at 30 %`"),
     ("timeout", "write `within 20 s`"),
     ("deadline", "write `within 20 s`"),
     ("retries", "write `retry 2`"),
@@ -175,9 +176,9 @@ impl<'t> ErrorContext<'t> {
                 Some(format!("let {}", word.text)),
             );
         }
-        if matches!(word.text, "retry" | "within") {
-            let advice = "`within` and `retry` stand once behind a call, in this order: \
-                          `pick(mug) within 20 s retry 2`";
+        if matches!(word.text, "retry" | "within" | "slowly" | "gently") {
+            let advice = "a manner, `within` and `retry` stand once behind a call, in this order: \
+                          `pick(mug) gently within 20 s retry 2`";
             return (Some(advice.into()), None);
         }
         let starters = STEP_WORDS.into_iter().chain(DECLARATIONS).chain(CLAUSES);
@@ -221,6 +222,9 @@ impl<'t> ErrorContext<'t> {
             (_, "{") if before == "sequence" => say("a sequence has a name: `sequence tidy { … }`"),
             _ if before == "retry" && self.expects(VALUE) => say("say how often: `retry 2`"),
             _ if before == "within" && self.expects(VALUE) => say("say how long: `within 20 s`"),
+            _ if before == "at" && self.expects(VALUE) => {
+                say("say at which part of the robot's speed: `go(user) at 30 %`")
+            }
             _ if matches!(before, "and" | "or" | "not") && self.expects(VALUE) => {
                 say("a condition follows: `holding(mug) and not lifted(mug)`")
             }
@@ -438,6 +442,7 @@ fn label(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::kw_in => (7, "`in`"),
         Rule::kw_each => (7, "`each`"),
         Rule::kw_at | Rule::kw_most | Rule::at_most => (7, "`at most`"),
+        Rule::kw_slowly | Rule::kw_gently | Rule::manner => (7, "a manner such as `slowly`"),
         Rule::kw_within | Rule::within => (7, "`within`"),
         Rule::kw_retry | Rule::retry => (7, "`retry`"),
         Rule::kw_for | Rule::for_robot | Rule::for_each | Rule::hold => (7, "`for`"),

@@ -198,6 +198,15 @@ fn help_names_the_intended_word() {
         "policy p {\n    pick(mug) retry 3 within 20 s retry 2\n}\n",
         &[("M0101", "stand once behind a call")],
     );
+    check("policy p {\n    pick(mug) slowly slowly\n}\n", &[("M0101", "stand once behind a call")]);
+    check("policy p {\n    go(user) at speed\n}\n", &[("M0101", "at which part of the robot's speed")]);
+    check("policy p {\n    let x = 3 m slowly\n}\n", &[("M0101", "only a call of a primitive takes time")]);
+    let step = |manner: &str| {
+        format!(r#"{{"motet": 1, "policy": "p", "steps": [{{"do": "go", "manner": {manner}}}]}}"#)
+    };
+    check(&step("\"fast\""), &[("M0108", "`fast` is not a manner")]);
+    check(&step("\"3 cm\""), &[("M0108", "`3 cm` is not a manner")]);
+    check(&step("[3]"), &[("M0106", "or a part such as")]);
     check("policy p {\n    say(\"an { open brace\")\n}\n", &[("M0123", "a brace itself is written twice")]);
 }
 

@@ -63,6 +63,51 @@ fn read_reads_both_syntaxes_alike() {
     }
 }
 
+/// Manner, deadline and retries stand behind a call in any order; the printer has one.
+#[test]
+fn manners_stand_behind_calls() {
+    let document = r"policy p {
+    go(a) slowly within 9 s retry 1
+    let m = pick(b) retry 1 gently within 9 s
+    go(c) within 9 s at 30 % retry 1
+    slowly(d)
+    gently (d)
+    at(robot, d)
+}
+";
+    let printed = r"policy p {
+    go(a) slowly within 9 s retry 1
+    let m = pick(b) gently within 9 s retry 1
+    go(c) at 30 % within 9 s retry 1
+    slowly(d)
+    gently(d)
+    at(robot, d)
+}
+";
+    let parsed = parse(document);
+    assert_eq!(parsed.diagnostics, []);
+    assert_eq!(motet_syntax::print::text(&parsed.file), printed);
+    let [Item::Policy(policy)] = parsed.file.items.as_slice() else { panic!("{:?}", parsed.file) };
+    let place = |index: usize| match &policy.body.steps[index].kind {
+        StepKind::Do(step) => step.manner.as_ref().map(|manner| {
+            let span = manner.span();
+            &document[span.start as usize..span.end as usize]
+        }),
+        _ => None,
+    };
+    let places: Vec<_> = (0..6).map(place).collect();
+    assert_eq!(places, [Some("slowly"), Some("gently"), Some("at 30 %"), None, None, None]);
+    let json = r#"{"motet": 1, "policy": "p", "steps": [
+        {"do": "go", "to": "a", "manner": "slowly"}, {"do": "go", "to": "a", "manner": "gently"},
+        {"do": "go", "to": "a", "manner": "30 %"}, {"do": "go", "to": "a", "manner": 0.3},
+        {"do": "go", "to": "a", "manner": "at 30 %"}, {"do": "go", "to": "a", "manner": null}]}"#;
+    let parsed = parse(json);
+    assert_eq!(parsed.diagnostics, []);
+    let text = motet_syntax::print::text(&parsed.file);
+    let ends: Vec<_> = text.lines().filter_map(|line| line.split_once("a)")).map(|(_, end)| end).collect();
+    assert_eq!(ends, [" slowly", " gently", " at 30 %", " at 0.3", " at 30 %", ""]);
+}
+
 #[test]
 fn read_reads_the_standard_library() {
     for name in ["world", "motion", "manipulation", "perception", "people", "policies"] {

@@ -49,7 +49,13 @@ fn entity(id: &str) -> Value {
 
 fn command(primitive: &str, args: Vec<(&str, Value)>, uses: &str) -> Command {
     let args = args.into_iter().map(|(name, value)| (name.into(), value)).collect();
-    Command { primitive: primitive.into(), args, uses: [uses.into()].into(), deadline_secs: 10.0 }
+    Command {
+        primitive: primitive.into(),
+        args,
+        uses: [uses.into()].into(),
+        manner: None,
+        deadline_secs: 10.0,
+    }
 }
 
 #[test]

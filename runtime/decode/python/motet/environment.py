@@ -14,7 +14,7 @@ class Environment:
 
     `robot` is a built-in name or a folder with a robot.toml, `scene` a built-in name, a file or a dictionary, `state` a file
     or a dictionary of facts at the start such as `{"holding(mug_1)": True}`, `domain` a file of further declarations. With
-    `modifiers` a policy may have deadlines and retries. `syntax` is "json" or "text". Raises `ValueError` if an argument is wrong.
+    `modifiers` a policy may have manners, deadlines and retries. `syntax` is "json" or "text". Raises `ValueError` if an argument is wrong.
     """
 
     def __init__(self, robot=None, scene=None, state=None, domain=None, modifiers=False, syntax="json"):

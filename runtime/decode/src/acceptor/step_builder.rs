@@ -7,7 +7,8 @@ use motet_compiler::incremental::{CHOICE, PROGRAM_POINT};
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{
-    Arg, Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Name, Reaction, Step, StepKind, When,
+    Arg, Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Manner, Name, Reaction, Step,
+    StepKind, When,
 };
 use smol_str::SmolStr;
 
@@ -183,10 +184,25 @@ impl Builder<'_> {
             args.push(argument(&param.name, value));
         }
         let is_policy = callable.is_some_and(|callable| callable.is_policy);
+        let manner = if callable.is_some_and(|callable| callable.moves) { self.manner() } else { None };
         let (within, retry) = if is_policy { (None, None) } else { (self.modifier(), self.modifier()) };
         let bind = matches!(self.peek(), Some(Event::Name(..))).then(|| self.name());
         let name = callable.map(|callable| callable.name.clone()).unwrap_or_default();
-        Do { call: Call { name: named(name), args, span: Span::default() }, bind, within, retry }
+        Do { call: Call { name: named(name), args, span: Span::default() }, bind, manner, within, retry }
+    }
+
+    /// Reads a manner, if the subset has them.
+    fn manner(&mut self) -> Option<Manner> {
+        let manner = match self.peek() {
+            Some(Event::Constant(Constant::Slowly)) => Some(Manner::Slowly(Span::default())),
+            Some(Event::Constant(Constant::Gently)) => Some(Manner::Gently(Span::default())),
+            _ => None,
+        };
+        let is_written = self.automaton.subset.modifiers == Modifiers::Written;
+        if manner.is_some() || is_written && self.peek() == Some(Event::Constant(Constant::Null)) {
+            self.next();
+        }
+        manner
     }
 
     /// Reads a deadline or retries, if the subset has them.
@@ -251,7 +267,7 @@ impl Builder<'_> {
                 self.close();
                 return Some(expr(ExprKind::List(items)));
             }
-            Event::Constant(Constant::Null)
+            Event::Constant(Constant::Null | Constant::Slowly | Constant::Gently)
             | Event::Open(_)
             | Event::Close
             | Event::Name(..)

@@ -151,6 +151,7 @@ impl Lowering<'_> {
             Part::Value { ty, range, place } => self.placed_value(ty, *range, *place),
             Part::Number(range) => self.number(*range),
             Part::OptionalNumber { lead, range } => self.optional_number(lead, *range),
+            Part::Manner => self.manner(),
             Part::Relation(ty) => self.relation(ty),
             Part::Failures => self.failures(),
             Part::EntityList => self.entity_list(),

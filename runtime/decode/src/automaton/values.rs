@@ -239,6 +239,37 @@ impl Lowering<'_> {
         }
     }
 
+    /// A word for a manner, or its default.
+    pub(super) fn manner(&mut self) {
+        let lead = self.grammar.manner_lead();
+        if self.is_json() {
+            self.asm.literal(lead);
+            let choice = self.later();
+            let (mut ways, mut jumps) = (Vec::new(), Vec::new());
+            for (word, constant) in
+                [("null", Constant::Null), ("\"slowly\"", Constant::Slowly), ("\"gently\"", Constant::Gently)]
+            {
+                ways.push((word.into(), self.asm.here(), Guard::Open));
+                self.constant(constant);
+                jumps.push(self.later());
+            }
+            jumps.into_iter().for_each(|jump| self.land_here(jump));
+            self.asm.choose(choice, &ways);
+            return;
+        }
+        let mut jumps = Vec::new();
+        for (word, constant) in [("slowly", Constant::Slowly), ("gently", Constant::Gently)] {
+            let choice = self.later();
+            let then = self.asm.here();
+            self.constant(constant);
+            jumps.push(self.later());
+            let other = self.asm.here();
+            self.asm.optional(choice, (&format!("{lead}{word}"), then, Guard::Open), (other, Guard::Open));
+        }
+        self.constant(Constant::Null);
+        jumps.into_iter().for_each(|jump| self.land_here(jump));
+    }
+
     /// A text, or a name of one.
     fn text(&mut self, role: WordRole) {
         let arg = if let WordRole::Argument(arg) = role { Some(arg) } else { None };

@@ -1,6 +1,6 @@
 //! Completion: from the syntax tree of a policy to the tree of the canonical subset.
 
-use motet_compiler::signature::Type;
+use motet_compiler::signature::{Callable, Type};
 use motet_syntax::Span;
 use motet_syntax::ast::{self, Block, CatchOn, Do, EndKind, Expr, Policy, StepKind};
 use rustc_hash::FxHashSet;
@@ -156,6 +156,7 @@ impl Completer<'_> {
             };
             items.push(Item::Value(self.value(arg, &param.ty, param.range)?));
         }
+        items.extend(self.manner(step.manner.as_ref(), callable)?);
         let within = self.within(step.within.as_ref())?;
         let retry = self.modifier(step.retry.as_ref(), |retry| self.count(retry, 0, MAX_RETRIES))?;
         if !callable.is_policy {
@@ -242,6 +243,26 @@ impl Completer<'_> {
             }
         };
         Ok(Node { kind, span: end.span, name: None, items })
+    }
+
+    fn manner(
+        &self,
+        manner: Option<&ast::Manner>,
+        callable: &Callable,
+    ) -> Result<Option<Item>, OutsideSubset> {
+        let is_written = callable.moves && self.subset.modifiers == Modifiers::Written;
+        match manner {
+            None => Ok(is_written.then_some(Item::Nothing)),
+            Some(manner) if !is_written => {
+                let why = "manners are only written in a subset with modifiers, and of steps that move";
+                Err(outside(manner.span(), why))
+            }
+            Some(ast::Manner::Slowly(_)) => Ok(Some(Item::Manner("slowly"))),
+            Some(ast::Manner::Gently(_)) => Ok(Some(Item::Manner("gently"))),
+            Some(ast::Manner::At(_, span)) => {
+                Err(outside(*span, "the manners of the canonical subset are `slowly` and `gently`"))
+            }
+        }
     }
 
     fn within(&self, within: Option<&Expr>) -> Result<Option<Item>, OutsideSubset> {

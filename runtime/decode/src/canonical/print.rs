@@ -30,6 +30,8 @@ pub(super) enum Item {
     Nothing,
     Value(Value),
     Number(Decimal),
+    /// A word for a manner.
+    Manner(&'static str),
     Relation(Relation),
     /// The kinds of failure of a handler; empty for `any`.
     Failures(Vec<SmolStr>),
@@ -140,6 +142,15 @@ impl Printer<'_> {
                 self.put("null");
             }
             (Part::OptionalNumber { .. }, Item::Nothing) => {}
+            (Part::Manner, Item::Manner(word)) => {
+                self.put(self.grammar.manner_lead());
+                self.put(&if self.is_json { quoted(word) } else { (*word).to_owned() });
+            }
+            (Part::Manner, Item::Nothing) if self.is_json => {
+                self.put(self.grammar.manner_lead());
+                self.put("null");
+            }
+            (Part::Manner, Item::Nothing) => {}
             (Part::Relation(_), Item::Relation(relation)) => {
                 let word = if self.is_json { quoted(relation.word()) } else { relation.symbol().to_owned() };
                 self.spaced(&word);

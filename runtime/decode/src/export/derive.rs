@@ -151,6 +151,20 @@ impl Deriver<'_> {
                     found.push(Expr::Seq(some).optional());
                 }
             }
+            Part::Manner => {
+                let words = ["slowly", "gently"];
+                let lead = self.grammar.manner_lead();
+                if self.is_json {
+                    self.literal(lead, found);
+                    let words = words.map(|word| Expr::literal(format!("\"{word}\"")));
+                    found.push(Expr::choice(words.into_iter().chain([Expr::literal("null")]).collect()));
+                } else {
+                    let mut some = Vec::new();
+                    self.literal(lead, &mut some);
+                    some.push(Expr::choice(words.map(Expr::literal).into()));
+                    found.push(Expr::Seq(some).optional());
+                }
+            }
             Part::Relation(ty) => {
                 let relations: &[Relation] =
                     if ValueSet::is_ordered(ty) { &Relation::ALL } else { &Relation::EQUALITY };

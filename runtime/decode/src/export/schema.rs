@@ -167,6 +167,11 @@ impl Deriver<'_> {
                     let name = format!("optional_{}_{}_{}", range.least, range.greatest, range.decimals);
                     self.once(name, |_| json!({"anyOf": [number(range), {"type": "null"}]}))
                 }
+                Part::Manner => {
+                    keys.text.push_str(self.grammar.manner_lead());
+                    let words = words(&["slowly", "gently"]);
+                    self.once("manner".to_owned(), |_| json!({"anyOf": [words, {"type": "null"}]}))
+                }
                 // Objects whose `{"` was spelled before the choice.
                 Part::Choice(_, alternatives) => {
                     let open = keys.text.strip_suffix("{\"").map(str::to_owned);
@@ -247,7 +252,7 @@ impl Deriver<'_> {
                 };
                 array(item, usize::from(repeat.least), usize::from(repeat.most))
             }
-            Part::Literal(_) | Part::Action(_) | Part::OptionalNumber { .. } => Value::Null,
+            Part::Literal(_) | Part::Action(_) | Part::OptionalNumber { .. } | Part::Manner => Value::Null,
             Part::Choice(_, alternatives) => self.choice("", alternatives, level),
             // Nothing may be left out in JSON.
             Part::Optional { .. } => Value::Null,

@@ -176,6 +176,8 @@ pub(crate) enum ConditionUse {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Constant {
     Null,
+    Slowly,
+    Gently,
     True,
     False,
 }

@@ -208,6 +208,9 @@ impl Grammar {
             if !is_json {
                 parts.push(Part::literal(")"));
             }
+            if callable.moves && self.subset.modifiers == Modifiers::Written {
+                parts.push(Part::Manner);
+            }
             if !callable.is_policy {
                 parts.extend(self.modifier("within", NumberRange::DURATION));
                 parts.extend(self.modifier("retry", NumberRange::whole(0, MAX_RETRIES)));
@@ -227,6 +230,14 @@ impl Grammar {
             calls.push((call, callable.result.is_some()));
         }
         calls
+    }
+
+    /// The bytes before a word for a manner.
+    pub(crate) fn manner_lead(&self) -> &'static str {
+        match self.subset.syntax {
+            Syntax::Json => ",\"manner\":",
+            Syntax::Text => " ",
+        }
     }
 
     /// A deadline or retries, where the subset has them.

@@ -29,6 +29,8 @@ pub(crate) enum Part {
         lead: SmolStr,
         range: NumberRange,
     },
+    /// A word for the manner of a call, or nothing, as an optional number.
+    Manner,
     /// A relation between values of a type; in text with the space behind it.
     Relation(Type),
     /// The kinds of failure of a handler, with brackets in JSON, with the space behind them in text.

@@ -37,13 +37,14 @@ pub const DEFAULT_DEPTH: usize = 4;
 pub struct Subset {
     /// The syntax: JSON or text.
     pub syntax: Syntax,
-    /// Deadlines and retries.
+    /// Manners, deadlines and retries.
     pub modifiers: Modifiers,
     /// The nesting depth of blocks below the policy's own; with 0 no step has steps.
     pub depth: usize,
 }
 
-/// The treatment of modifiers: `within` of a step, of a `wait` and of a `pause`, and `retry`.
+/// The treatment of modifiers: the manner of a step that moves, `within` of a step, of a `wait` and of a
+/// `pause`, and `retry`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Modifiers {
     /// Modifiers are left to their defaults and cannot be written.

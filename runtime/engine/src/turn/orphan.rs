@@ -43,6 +43,7 @@ impl Turn<'_> {
             orphan.is_free()
                 && own.primitive == command.primitive
                 && own.args == command.args
+                && own.manner == command.manner
                 && own.uses == command.uses
         });
         if let Some(index) = same {

@@ -260,10 +260,13 @@ impl Naive {
                 primitive: primitive.name.clone(),
                 args: names.zip(values).collect(),
                 uses: primitive.uses.iter().map(|id| self.graph.resources[id.index()].name.clone()).collect(),
+                manner: call.manner,
                 deadline_secs: call.deadline_secs,
             };
             let goes_on = |orphan: &Orphan| {
-                orphan.command.args == command.args && orphan.command.primitive == command.primitive
+                orphan.command.args == command.args
+                    && orphan.command.primitive == command.primitive
+                    && orphan.command.manner == command.manner
             };
             let number = if self.is_free && self.orphan.as_ref().is_some_and(goes_on) {
                 self.log.push(format!("kept {command}"));

@@ -5,7 +5,7 @@ use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Lost, Refused, Stop, Stopped, Swap, Tick};
 use crate::script::{distance, entity, holding};
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
-use motet_graph::{Condition, Fact, FactArg, Graph, InitialFact, NodeId, Value};
+use motet_graph::{Condition, Fact, FactArg, Graph, InitialFact, Manner, NodeId, Value};
 use motet_runtime::{
     DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, RunEnd, StartState, SwapRefusal, Time, Truth,
 };
@@ -40,6 +40,17 @@ fn swap_another_target_is_an_update() {
     check!(
         [StepSketch::go("table")],
         [(0.1, Ack(1)), (1.0, Swap(vec![StepSketch::go("shelf"), StepSketch::say("new")])), (2.0, Done(1))]
+    );
+}
+
+/// A call in another manner is another command.
+#[test]
+fn swap_another_manner_is_an_update() {
+    let manner = Some(Manner { speed: 0.5, acceleration: 0.5 });
+    let slowly = StepSketch::Call(CallSketch { manner, ..CallSketch::new(v::GO, vec![v::entity("table")]) });
+    check!(
+        [StepSketch::go("table")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![slowly, StepSketch::say("new")])), (2.0, Done(1))]
     );
 }
 

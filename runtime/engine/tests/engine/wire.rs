@@ -1,6 +1,6 @@
 //! Wire forms lose nothing, and the same value gives the same bytes.
 
-use motet_graph::{NodeId, Pose, Value};
+use motet_graph::{Manner, NodeId, Pose, Value};
 use motet_runtime::{
     Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, EndCause, Event, Fault, GoalId,
     NodeEnding, Outcome, Pattern, Query, RunEnd, Time, TraceEvent, TraceEventKind, Truth, Verification,
@@ -92,11 +92,16 @@ proptest! {
     }
 
     #[test]
-    fn wire_starts(goal: u64, node: u32, args in vec((any::<String>(), value()), 0..4), deadline: u64) {
+    fn wire_starts(
+        (goal, node, deadline) in any::<(u64, u32, u64)>(),
+        args in vec((any::<String>(), value()), 0..4),
+        manner in proptest::option::of((0.01..1.0, 0.01..1.0)),
+    ) {
         let command = Command {
             primitive: "pick".into(),
             args: args.into_iter().map(|(name, value)| (name.into(), value)).collect(),
             uses: ["hand".into()].into(),
+            manner: manner.map(|(speed, acceleration)| Manner { speed, acceleration }),
             deadline_secs: 20.1,
         };
         let (goal, node, command) = (GoalId::from_number(goal), NodeId(node), Arc::new(command));
@@ -109,7 +114,7 @@ proptest! {
     #[test]
     fn wire_motions(args in vec(value(), 0..3), check: u64, why: String) {
         let (primitive, uses) = ("pick".into(), [].into());
-        let command = Command { primitive, args: Vec::new(), uses, deadline_secs: 20.1 };
+        let command = Command { primitive, args: Vec::new(), uses, manner: None, deadline_secs: 20.1 };
         let motion = Arc::new(DeferredMotion { query: "reach".into(), args, command: Arc::new(command) });
         let check = CheckId::from_number(check);
         there_and_back!(Effect, Effect::Verify { check, node: NodeId(3), motion });
@@ -178,6 +183,7 @@ fn wire_form_keeps_its_bytes() {
         primitive: "pick".into(),
         args: vec![("object".into(), Value::Entity("mug".into()))],
         uses: ["hand".into()].into(),
+        manner: Some(Manner { speed: 0.3, acceleration: 0.25 }),
         deadline_secs: 20.1,
     });
     let check = CheckId::from_number(4);

@@ -34,6 +34,7 @@ fn remote_driver_example_in_python_keeps_the_laws() {
             primitive: "go".into(),
             args: vec![("to".into(), user())],
             uses: ["base".into()].into(),
+            manner: None,
             deadline_secs: 10.0,
         },
         query: Query::Measure { measure: "distance".into(), args: vec![user()] },

@@ -19,6 +19,7 @@ fn laws(fresh: &mut dyn FnMut() -> Box<dyn Driver>) -> (BTreeSet<Law>, Vec<Strin
             primitive: "go".into(),
             args: vec![("to".into(), entity("kitchen_table"))],
             uses: ["base".into()].into(),
+            manner: None,
             deadline_secs: 60.0,
         },
         query: Query::Measure { measure: "distance".into(), args: vec![entity("kitchen_table")] },

@@ -43,6 +43,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
                 .map(|(_, value)| value.clone().map_or(Term::Binding(BindingId(0)), Term::Literal))
                 .collect(),
             binds: (*name == "detect").then_some(BindingId(0)),
+            manner: None,
             deadline_secs: 60.0,
             retries,
             needs: Vec::new(),

@@ -75,6 +75,7 @@ impl Bench {
             primitive: primitive.into(),
             args: args.iter().map(|(name, value)| ((*name).into(), value.clone())).collect(),
             uses: ["hand".into()].into(),
+            manner: None,
             deadline_secs: 20.0,
         };
         self.sim.start(self.now, goal, &command);

@@ -1,6 +1,6 @@
 //! What the interpreter keeps.
 
-use motet_graph::{Condition, FactArg, Graph, NodeId, NodeKind, PrimitiveId, RegionId, Term, Value};
+use motet_graph::{Condition, FactArg, Graph, Manner, NodeId, NodeKind, PrimitiveId, RegionId, Term, Value};
 use motet_runtime::RunEnd;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -94,6 +94,7 @@ pub(super) struct Orphan {
 pub(super) struct Call {
     pub(super) primitive: PrimitiveId,
     pub(super) args: Vec<Term>,
+    pub(super) manner: Option<Manner>,
     pub(super) uses: Vec<String>,
 }
 
@@ -204,7 +205,8 @@ impl Naive {
         let NodeKind::Call(call) = self.kind(node) else { panic!("no call") };
         let uses = &self.graph.primitives[call.primitive.index()].uses;
         let uses = uses.iter().map(|id| self.graph.resources[id.index()].name.to_string());
-        Call { primitive: call.primitive, args: call.args.clone(), uses: uses.collect() }
+        let (args, manner, uses) = (call.args.clone(), call.manner, uses.collect());
+        Call { primitive: call.primitive, args, manner, uses }
     }
 
     /// Whether nobody holds what a step needs, but for the orphan of a number.
