@@ -26,6 +26,7 @@ names! {
         CONTAINER = "Container"
         OBJECT = "Object"
         PERSON = "Person"
+        ZONE = "Zone"
     }
     /// Enumerations of the standard library.
     enums {

@@ -11,6 +11,7 @@ use motet_project::SavedDriver;
 use motet_robots::scene::{EntityShape, Scene};
 use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_sim::Sim;
+use motet_stdlib::lang::kinds;
 
 use crate::error::{CliError, Exit};
 use crate::output::note;
@@ -108,7 +109,8 @@ impl SceneReplay {
         self.retrace.take(&mut self.sim, entry).ok()?;
         let base = self.sim.base();
         let bodies = self.scene.entities.values().filter_map(|entity| {
-            let pose = entity.pose?;
+            // A zone is an area, not a body.
+            let pose = entity.pose.filter(|_| entity.kind != kinds::ZONE)?;
             let solid = match entity.shape.as_ref()? {
                 EntityShape::Box(size) => McapSolid::Box(*size),
                 EntityShape::Cylinder { radius, height } => {

@@ -20,7 +20,7 @@ impl Scenery {
     pub(crate) fn new(scene: &Scene, world: &SceneState) -> Option<Self> {
         let mut solids = Vec::new();
         for (at, entity) in scene.entities.values().enumerate() {
-            if world.holds(&entity.id) {
+            if world.holds(&entity.id) || entity.kind == "Zone" {
                 continue;
             }
             let Some((shape, pose)) = entity.shape.as_ref().zip(world.pose(entity)) else { continue };

@@ -2,11 +2,12 @@
 //! number checked against the range of its quantity. Impossible values are left out.
 
 use indexmap::IndexMap;
+use motet_stdlib::lang::kinds;
 use motet_syntax::json::Spanned;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use super::errors::{EmptyName, FieldTwice, NotPositive, TooFar, TooWideAngle, ZeroAxis};
+use super::errors::{BadZone, EmptyName, FieldTwice, NotPositive, TooFar, TooWideAngle, ZeroAxis};
 use super::model::{CameraView, Entity, EntityShape, EntitySpans, Placement, Scene, Travel};
 use super::quantity::{FURTHEST, SceneQuantity};
 use super::wire;
@@ -23,7 +24,7 @@ pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut NumberReader) -
         numbers.found.push(EmptyName { span: wire.kind.span, key: "kind" }.into());
     }
     let name = |name: &Option<Spanned<SmolStr>>| name.as_ref().map(|name| name.value.clone());
-    Entity {
+    let entity = Entity {
         id: wire.id.value.clone(),
         kind: wire.kind.value.clone(),
         class: wire.class.clone(),
@@ -41,7 +42,36 @@ pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut NumberReader) -
         travel: wire.travel.0.as_ref().and_then(|it| travel(it, numbers)),
         fields: fields(wire, numbers),
         spans: EntitySpans { id: wire.id.span, kind: wire.kind.span },
+    };
+    if let Some(problem) = zone_problem(wire, &entity) {
+        numbers.found.push(BadZone { span: wire.id.span, id: wire.id.value.clone(), problem }.into());
     }
+    entity
+}
+
+/// Reason for which a zone is none: it lacks its extent, or has a property of a thing. A part with a mistake
+/// of its own is not counted as missing.
+fn zone_problem(wire: &wire::Entity, entity: &Entity) -> Option<&'static str> {
+    if entity.kind != kinds::ZONE {
+        return None;
+    }
+    let is_upright = |pose: &Placement| pose.rpy[0] == 0.0 && pose.rpy[1] == 0.0;
+    if wire.pose.0.is_none() {
+        return Some("has no `pose`");
+    }
+    if wire.shape.0.is_none() {
+        return Some("has no `shape`");
+    }
+    if !matches!(entity.shape, Some(EntityShape::Box(_) | EntityShape::Cylinder { .. }) | None) {
+        return Some("has no `box` or `cylinder` as its shape");
+    }
+    if entity.pose.as_ref().is_some_and(|pose| !is_upright(pose)) {
+        return Some("is tilted");
+    }
+    if wire.on.is_some() || wire.r#in.is_some() {
+        return Some("is on or in something");
+    }
+    (wire.mass.is_some() || wire.travel.0.is_some()).then_some("has a `mass` or a `travel`")
 }
 
 fn fields(wire: &wire::Entity, numbers: &mut NumberReader) -> IndexMap<SmolStr, f64> {

@@ -1,4 +1,4 @@
-//! Diagnostics of a scene beyond its JSON (M0431 to M0445): numbers, ids and relations.
+//! Diagnostics of a scene beyond its JSON (M0431 to M0445, M0481): numbers, ids and relations.
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
@@ -135,6 +135,13 @@ motet_syntax::mistakes! {
     EmptyName("M0445", Error) { key: &'static str }
     message(m) { format!("`{}` is empty", m.key) }
     help(_m) { Some("write the name of a kind such as `Object`".into()) }
+
+    /// A zone that is no area of the floor.
+    BadZone("M0481", Error) { id: SmolStr, problem: &'static str }
+    message(m) { format!("the zone `{}` {}; a zone is an area of the floor", m.id, m.problem) }
+    help(_m) {
+        Some("give its middle on the floor as `pose`, and its extent as a `box` or a `cylinder`".into())
+    }
 }
 
 fn quoted(text: &str) -> String {

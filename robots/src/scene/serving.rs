@@ -4,6 +4,8 @@
 //! Distances are in the plane, from the axis of the base to the outline of the entity from above. Where the
 //! definition of the planner is narrower, as for an object by its centre, the cases between both stay open.
 
+use motet_stdlib::lang::kinds;
+
 use super::model::{Entity, EntityShape, Scene, Travel};
 use crate::card::Robot;
 
@@ -169,7 +171,12 @@ fn distance(scene: &Scene, entity: &Entity, kind: ServedKind) -> DistanceBounds 
             let outline = entity.shape.as_ref().map_or(usual, Outline::of).filter(|_| is_upright);
             let (sin, cos) = yaw.sin_cos();
             let outline = outline.map(|outline| outline.gap([cos * dx + sin * dy, cos * dy - sin * dx]));
-            let by_centre = matches!(kind, ServedKind::Object | ServedKind::Place);
+            let is_zone = entity.kind == kinds::ZONE && entity.shape.is_some();
+            let by_centre = match kind {
+                ServedKind::Place => !is_zone,
+                ServedKind::Object => true,
+                ServedKind::Person | ServedKind::Furniture => false,
+            };
             let greatest = if by_centre { Some(centre) } else { outline };
             DistanceBounds { least: outline, greatest, outline }
         }

@@ -76,8 +76,8 @@ fn is_absent<T>(value: &Lenient<T>) -> bool {
 pub(super) struct Entity {
     /// Its id, unique in the scene.
     pub(super) id: Spanned<SmolStr>,
-    /// The name of its kind: `Object`, `Surface`, `Container`, `Place`, `Person`, or one that a robot
-    /// declares.
+    /// The name of its kind: `Object`, `Surface`, `Container`, `Place`, `Zone`, `Person`, or one that a
+    /// robot declares.
     pub(super) kind: Spanned<SmolStr>,
     /// Class, such as `mug`.
     #[serde(default)]
@@ -88,11 +88,11 @@ pub(super) struct Entity {
     /// Categories, such as `drinkware`.
     #[serde(default)]
     pub(super) categories: Vec<SmolStr>,
-    /// The pose of its shape's centre, of the feet for a `Person` and a `Place`; of what opens, the pose when
-    /// closed.
+    /// The pose of its shape's centre, of the feet for a `Person`, a `Place` and a `Zone`; of what opens, the
+    /// pose when closed.
     #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
     pub(super) pose: Lenient<Pose>,
-    /// Shape about its pose.
+    /// Shape about its pose; of a `Zone`, its extent on the floor: a box or a cylinder of any height.
     #[serde(default = "absent::<Shape>", skip_serializing_if = "is_absent")]
     pub(super) shape: Lenient<Shape>,
     /// Its mass in kg.

@@ -167,6 +167,38 @@ fn scene_reader_checks_numbers() {
 }
 
 #[test]
+fn scene_reader_checks_zones() {
+    let zone = |zone: &str| said(&room(&format!(r#"{{"id": "stairs", "kind": "Zone", {zone}}}"#)));
+    let pose = r#""pose": {"xyz": [2, 0, 0], "rpy": [0, 0, 1]}"#;
+    assert_eq!(zone(&format!(r#"{pose}, "shape": {{"box": [1, 2, 0.1]}}"#)), "");
+    assert_eq!(zone(&format!(r#"{pose}, "shape": {{"cylinder": {{"radius": 1, "height": 1}}}}"#)), "");
+    assert_snapshot!(zone(pose), @r#"
+    M0481 "stairs": the zone `stairs` has no `shape`; a zone is an area of the floor
+      give its middle on the floor as `pose`, and its extent as a `box` or a `cylinder`
+    "#);
+    assert_snapshot!(zone(r#""shape": {"box": [1, 2, 0.1]}"#), @r#"
+    M0481 "stairs": the zone `stairs` has no `pose`; a zone is an area of the floor
+      give its middle on the floor as `pose`, and its extent as a `box` or a `cylinder`
+    "#);
+    assert_snapshot!(zone(&format!(r#"{pose}, "shape": {{"sphere": {{"radius": 1}}}}"#)), @r#"
+    M0481 "stairs": the zone `stairs` has no `box` or `cylinder` as its shape; a zone is an area of the floor
+      give its middle on the floor as `pose`, and its extent as a `box` or a `cylinder`
+    "#);
+    let tilted = r#""pose": {"xyz": [0, 0, 0], "rpy": [1, 0, 0]}"#;
+    assert_snapshot!(zone(&format!(r#"{tilted}, "shape": {{"box": [1, 2, 1]}}"#)), @r#"
+    M0481 "stairs": the zone `stairs` is tilted; a zone is an area of the floor
+      give its middle on the floor as `pose`, and its extent as a `box` or a `cylinder`
+    "#);
+    assert_snapshot!(zone(&format!(r#"{pose}, "shape": {{"box": [1, 2, 1]}}, "mass": 1"#)), @r#"
+    M0481 "stairs": the zone `stairs` has a `mass` or a `travel`; a zone is an area of the floor
+      give its middle on the floor as `pose`, and its extent as a `box` or a `cylinder`
+    "#);
+    // A mistake in the shape is told once.
+    let flat = format!(r#"{pose}, "shape": {{"box": [1, 0, 1]}}"#);
+    assert_snapshot!(zone(&flat), @"M0441 [1, 0, 1]: a size is 0 m, but must be above zero");
+}
+
+#[test]
 fn scene_reader_checks_doors_and_drawers() {
     let travel =
         |travel: &str| said(&room(&format!(r#"{{"id": "a", "kind": "Container", "travel": {travel}}}"#)));

@@ -185,7 +185,7 @@ fn role(entity: &Entity, options: &SimOptions) -> Role {
     let mut kind = &entity.kind;
     for _ in 0..=options.kinds.len() {
         match kind.as_str() {
-            "Place" => return Role::Place,
+            "Place" | "Zone" => return Role::Place,
             "Surface" => return Role::Surface,
             "Container" => return Role::Container,
             "Object" => return Role::Object,

@@ -17,6 +17,7 @@ const MARGIN: f64 = 0.5;
 const LEGEND: [f64; 2] = [330.0, 18.0];
 const STYLE: &str = ".thing{fill:#d9d4c7;stroke:#8a8576}.start{fill:#8a8a8a;fill-opacity:.35}\
                      .end{fill-opacity:.18;stroke-opacity:.5}.way{fill:none;stroke-width:2.5}\
+                     .zone{fill:#e8c46a;fill-opacity:.25;stroke:#b08a2e;stroke-dasharray:4 3}\
                      .moved{fill-opacity:.12;stroke-width:1.5}.mark{fill:none;stroke:#444;stroke-width:1.5}\
                      .number{font-weight:bold;text-anchor:middle}.none{fill:#777}";
 /// Colours for all kinds of colour vision (Okabe and Ito 2008), without the yellow, which is faint on white.
@@ -129,8 +130,15 @@ fn patches(
     inks: &[Option<Ink>],
 ) -> Vec<Patch> {
     let plain = |class| move |points| Patch { class, ink: None, points };
-    let mut patches: Vec<Patch> =
-        room.obstacles().map(|(_, solid)| solid.outline()).map(plain("thing")).collect();
+    let mut patches: Vec<Patch> = scene
+        .entities
+        .values()
+        .filter_map(|it| world.zone(it))
+        .map(|it| it.outline())
+        .map(plain("zone"))
+        .collect();
+    let things = room.obstacles().map(|(_, solid)| solid.outline()).map(plain("thing"));
+    patches.extend(things);
     patches.extend(room.robot_at(room.start()).iter().map(|solid| solid.outline()).map(plain("start")));
     for ((query, answer), ink) in answers.iter().zip(inks) {
         let MotionAnswer::Feasible(witness) = answer else { continue };

@@ -6,7 +6,7 @@ use motet_compiler::{Access, Session};
 use motet_graph::Value;
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
-use motet_robots::scene::{Entity, Scene};
+use motet_robots::scene::{Entity, EntityShape, Scene};
 use motet_runtime::memory::Memory;
 use smol_str::SmolStr;
 
@@ -17,6 +17,9 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
         let names: Vec<&str> = entity.names.iter().map(SmolStr::as_str).collect();
         let called = if names.is_empty() { entity.class.to_string() } else { names.join(", ") };
         text.push_str(&format!("- {} ({}): {called}", entity.id, entity.kind));
+        if let Some(extent) = extent(entity) {
+            text.push_str(&format!("; {extent}"));
+        }
         let now = situation.supports.iter().find(|(id, _)| *id == entity.id);
         match now {
             Some((_, Some(support))) => {
@@ -57,6 +60,16 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
     }
     text
 }
+
+/// Extent of a zone on the floor.
+fn extent(entity: &Entity) -> Option<String> {
+    match entity.shape.as_ref().filter(|_| entity.kind == "Zone")? {
+        EntityShape::Box([x, y, _]) => Some(format!("{x} m x {y} m of the floor")),
+        EntityShape::Cylinder { radius, .. } => Some(format!("{} m across", 2.0 * radius)),
+        EntityShape::Sphere { .. } | EntityShape::Capsule { .. } | EntityShape::Mesh { .. } => None,
+    }
+}
+
 /// Position of the robot, the thing in its hand, what is known of the robot, and the steps that run.
 pub(super) fn now(situation: &RequestContext<'_>, session: &Session, memory: &Memory) -> String {
     let robot = situation.supports.iter().rev().find(|(id, _)| id == ROBOT);

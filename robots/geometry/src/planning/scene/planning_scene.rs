@@ -196,7 +196,7 @@ impl<'w> PlanningScene<'w> {
         entity: &Entity,
         [x, y]: [f64; 2],
     ) -> impl Fn(f64, f64) -> f64 + use<> {
-        let is_point = matches!(entity.kind.as_str(), kinds::OBJECT | kinds::PLACE);
+        let is_point = matches!(entity.kind.as_str(), kinds::OBJECT | kinds::PLACE | kinds::ZONE);
         let outline: Vec<Solid> = if is_point { vec![] } else { self.solids_of(index).copied().collect() };
         move |at_x, at_y| {
             let solids = outline.iter().map(|solid| beside(solid, at_x, at_y));
@@ -207,7 +207,7 @@ impl<'w> PlanningScene<'w> {
     /// Greatest distance in m from which the base serves an entity.
     pub(crate) fn served_within(&self, entity: &Entity) -> f64 {
         match (entity.kind.as_str(), self.model.hand()) {
-            (kinds::PLACE, _) | (_, None) => AT_PLACE,
+            (kinds::PLACE | kinds::ZONE, _) | (_, None) => AT_PLACE,
             (_, Some(hand)) => hand.card.reach_m,
         }
     }
@@ -234,13 +234,13 @@ impl<'w> PlanningScene<'w> {
     }
 }
 
-/// Solids of an entity; none where it has no shape or no known pose, or is held.
+/// Solids of an entity; none where it has no shape or no known pose, is held, or is a zone.
 ///
 /// A closed container is as solid as its shape. An open drawer is a box without a lid, moved by its travel;
 /// a container with an open door is a box without one face, and the door turned outwards.
 pub(crate) fn solids(entity: &Entity, state: &SceneState) -> Vec<Solid> {
     let (Some(pose), Some(shape)) = (state.pose(entity), solid_shape(entity)) else { return vec![] };
-    if state.holds(&entity.id) {
+    if state.holds(&entity.id) || entity.kind == kinds::ZONE {
         return vec![];
     }
     let opening = state.is_open(entity).then(|| Articulation::new(entity, state)).flatten();

@@ -9,6 +9,10 @@ use smol_str::SmolStr;
 
 use super::configuration::Configuration;
 use super::robot_model::{HandModel, RobotModel};
+use crate::collision::{Shape, Solid};
+
+/// Height of the column over a zone, in m.
+const COLUMN: f64 = 4.0;
 
 /// Scene state: robot configuration, moved objects, held object and open containers.
 #[derive(Clone, PartialEq, Debug)]
@@ -29,7 +33,7 @@ pub(crate) struct HeldObject<'a> {
     pub(crate) id: SmolStr,
     pub(crate) tip_from_object: Isometry3<f64>,
     pub(crate) hand: &'a HandModel,
-    pub(crate) shape: crate::collision::Shape,
+    pub(crate) shape: Shape,
     /// Width between the fingers, in m.
     pub(crate) width: f64,
 }
@@ -87,6 +91,24 @@ impl SceneState {
             _ => 0.0,
         };
         Some(pose * Translation3::new(0.0, 0.0, lifted))
+    }
+
+    /// Column over a zone, from the floor to above every robot. `None` for any other entity, and without an
+    /// extent.
+    #[must_use]
+    pub fn zone(&self, entity: &Entity) -> Option<Solid> {
+        if entity.kind != kinds::ZONE {
+            return None;
+        }
+        let shape = match entity.shape.as_ref()? {
+            EntityShape::Box([x, y, _]) => Shape::Box(Vector3::new(x / 2.0, y / 2.0, COLUMN / 2.0)),
+            EntityShape::Cylinder { radius, .. } => Shape::Cylinder { radius: *radius, half: COLUMN / 2.0 },
+            EntityShape::Sphere { .. } | EntityShape::Capsule { .. } | EntityShape::Mesh { .. } => {
+                return None;
+            }
+        };
+        let floor = self.pose(entity)?;
+        Some(Solid::new(&(floor * Translation3::new(0.0, 0.0, COLUMN / 2.0)), shape))
     }
 
     /// Fingerprint of the state: equal, bit for bit, for equal states of one robot and scene.
@@ -152,16 +174,12 @@ pub(crate) fn isometry(placement: &Placement) -> Isometry3<f64> {
 }
 
 /// Solid shape of an entity; `None` for a mesh or without a shape.
-pub(crate) fn solid_shape(entity: &Entity) -> Option<crate::collision::Shape> {
+pub(crate) fn solid_shape(entity: &Entity) -> Option<Shape> {
     Some(match entity.shape.as_ref()? {
-        EntityShape::Box([x, y, z]) => crate::collision::Shape::Box(Vector3::new(x / 2.0, y / 2.0, z / 2.0)),
-        EntityShape::Cylinder { radius, height } => {
-            crate::collision::Shape::Cylinder { radius: *radius, half: height / 2.0 }
-        }
-        EntityShape::Sphere { radius } => crate::collision::Shape::Capsule { radius: *radius, half: 0.0 },
-        EntityShape::Capsule { radius, height } => {
-            crate::collision::Shape::Capsule { radius: *radius, half: height / 2.0 }
-        }
+        EntityShape::Box([x, y, z]) => Shape::Box(Vector3::new(x / 2.0, y / 2.0, z / 2.0)),
+        EntityShape::Cylinder { radius, height } => Shape::Cylinder { radius: *radius, half: height / 2.0 },
+        EntityShape::Sphere { radius } => Shape::Capsule { radius: *radius, half: 0.0 },
+        EntityShape::Capsule { radius, height } => Shape::Capsule { radius: *radius, half: height / 2.0 },
         EntityShape::Mesh { .. } => return None,
     })
 }
