@@ -74,7 +74,7 @@ impl Elaborator<'_> {
     }
 
     /// Proposed spelling for a value of the wrong type, where the value shows what was meant.
-    pub(super) fn instead(&self, term: &Term, ty: Ty, expr: &Expr, wanted: Ty) -> Option<String> {
+    pub(super) fn instead(&self, term: &Term, expr: &Expr, wanted: Ty) -> Option<String> {
         let is_known = |name: &str| self.scope.find(name).is_some() || self.entities.find(name).is_some();
         match (&expr.kind, wanted) {
             (ExprKind::Text(text), Ty { base: Base::Entity(_), lists: 0 }) if is_known(text) => {
@@ -91,14 +91,6 @@ impl Elaborator<'_> {
                     None => return None,
                 };
                 Some(format!("`\"{number} {}\"`", unit.symbol()))
-            }
-            (ExprKind::Name(name) | ExprKind::Plain(name), wanted)
-                if wanted.element().is_some_and(|element| self.library.fits(element, ty)) =>
-            {
-                Some(match expr.kind {
-                    ExprKind::Plain(_) => format!("`[\"{name}\"]`"),
-                    _ => format!("`[{name}]`"),
-                })
             }
             (_, Ty { base: Base::Entity(kind), lists: 0 }) if matches!(term, Term::Entity(_)) => {
                 let fitting = self.entities.iter().filter(|(.., of)| self.library.is_kind(*of, kind));

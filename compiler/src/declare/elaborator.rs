@@ -80,8 +80,14 @@ impl<'a> Elaborator<'a> {
     }
 
     /// Elaborates a value that must have the expected type.
+    /// One value stands for a list of it.
     pub(crate) fn term_of(&mut self, expr: &Expr, wanted: Expected<'_>) -> Term {
-        let (term, ty) = self.term(expr, Some(wanted));
+        let element = wanted.ty.element().filter(|_| !matches!(expr.kind, ExprKind::List(_)));
+        let (mut term, mut ty) =
+            self.term(expr, Some(element.map_or(wanted, |ty| Expected { ty, ..wanted })));
+        if element.is_some_and(|element| ty.base != Base::Unknown && self.library.fits(element, ty)) {
+            (term, ty) = (Term::List(vec![term]), ty.list());
+        }
         if self.library.fits(wanted.ty, ty) {
             return match (term, wanted.ty) {
                 // A whole number where a number is asked for.
@@ -95,7 +101,7 @@ impl<'a> Elaborator<'a> {
         let actual = self.describe(&term, ty);
         let expected = article(&self.library.type_name(wanted.ty));
         let example = self.example(wanted.ty);
-        let instead = self.instead(&term, ty, expr, wanted.ty);
+        let instead = self.instead(&term, expr, wanted.ty);
         let place = wanted.place.to_string();
         self.report(WrongType { span: expr.span, expected, actual, place, example, instead });
         Term::Unknown

@@ -224,6 +224,12 @@ impl MotionChecker<'_> {
                 Some(Term::Param(_)) | None => Err(unknown()),
                 Some(term) => self.named(term, call),
             },
+            Term::First(list) => {
+                let param = if let Term::Param(index) = **list { Some(index) } else { None };
+                let list = param.map_or(Some(&**list), |index| call.args.get(usize::from(index)));
+                let Some(Term::List(items)) = list else { return Err(unknown()) };
+                self.named(items.first().ok_or_else(unknown)?, call)
+            }
             Term::Result => {
                 let bound = call.binds.and_then(|id| self.symbols.of_binding(id.index()));
                 entity(bound.ok_or_else(unknown)?)
@@ -239,7 +245,6 @@ impl MotionChecker<'_> {
             | Term::Arith(..)
             | Term::Template(_)
             | Term::Count(_)
-            | Term::First(_)
             | Term::Unknown => Err(unknown()),
         }
     }

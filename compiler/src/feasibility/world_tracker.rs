@@ -222,7 +222,12 @@ fn named(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<SmolS
         Term::Binding(_) | Term::Each | Term::Unknown => None,
         Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::List(_) => None,
         Term::Field(..) | Term::Measure(..) | Term::Arith(..) => None,
-        Term::Template(_) | Term::Count(_) | Term::First(_) => None,
+        Term::First(list) => {
+            let Term::Param(index) = **list else { return None };
+            let Value::List(items) = &call.args.get(usize::from(index))?.1 else { return None };
+            name(items.first()?)
+        }
+        Term::Template(_) | Term::Count(_) => None,
     }
 }
 

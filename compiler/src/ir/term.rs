@@ -230,6 +230,11 @@ impl Ty {
         (self.lists > 0).then(|| Self { base: self.base, lists: self.lists - 1 })
     }
 
+    /// Kind of a single entity, or of the entities of a list; `None` for other types.
+    pub(crate) fn kind_within(self) -> Option<Kind> {
+        self.kind().or_else(|| self.element()?.kind())
+    }
+
     /// Kind of a single entity; `None` for other types.
     #[must_use]
     pub(crate) fn kind(self) -> Option<Kind> {

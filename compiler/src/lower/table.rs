@@ -243,7 +243,17 @@ impl Tables<'_> {
                 graph::Term::Arith(op, Box::new(left), Box::new(right))
             }
             Term::Count(list) => graph::Term::Count(Box::new(self.term(list, args, result))),
-            Term::First(list) => graph::Term::First(Box::new(self.term(list, args, result))),
+            Term::First(list) => {
+                let list = self.term(list, args, result);
+                let first = if let graph::Term::List(items) = &list {
+                    items.first().cloned()
+                } else if let graph::Term::Literal(graph::Value::List(items)) = &list {
+                    items.first().cloned().map(graph::Term::Literal)
+                } else {
+                    None
+                };
+                first.unwrap_or_else(|| graph::Term::First(Box::new(list)))
+            }
             Term::Template(parts) => {
                 let parts = parts.iter().map(|part| self.part(part, args, result));
                 graph::Term::Template(parts.collect())

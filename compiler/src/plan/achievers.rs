@@ -147,9 +147,9 @@ impl<'a> Prover<'a> {
         for (param, slot) in
             def.params.iter().zip(args).filter(|(param, slot)| slot.is_none() && param.default.is_none())
         {
-            let Some(kind) = param.ty.kind() else { continue };
+            let Some(kind) = param.ty.kind_within() else { continue };
             let place = places.iter().find(|place| self.is_of_kind(**place, kind));
-            *slot = place.map(|place| Term::Entity(*place));
+            *slot = place.map(|place| argument_of(param.ty, *place));
         }
     }
 
@@ -249,7 +249,7 @@ impl<'a> Prover<'a> {
                     next.push(args);
                     continue;
                 }
-                let choices = match (&param.default, param.ty.kind()) {
+                let choices = match (&param.default, param.ty.kind_within()) {
                     (Some(default), _) => vec![default.clone()],
                     (None, Some(_)) => self.choices(def, index, &args),
                     (None, None) => Vec::new(),
@@ -271,7 +271,7 @@ impl<'a> Prover<'a> {
     /// kind.
     pub(super) fn choices(&self, def: &PrimitiveDef, index: usize, args: &[Option<Term>]) -> Vec<Term> {
         let Some(param) = def.params.get(index) else { return Vec::new() };
-        let Some(kind) = param.ty.kind() else { return Vec::new() };
+        let Some(kind) = param.ty.kind_within() else { return Vec::new() };
         let mut found = Vec::new();
         let facts = def.needs.iter().flat_map(|need| match &need.condition {
             Condition::AnyOf(parts) => parts.as_slice(),
@@ -325,8 +325,20 @@ impl<'a> Prover<'a> {
         };
         found.sort_by_key(rank);
         found.truncate(MAX_CANDIDATES);
-        found.into_iter().map(Term::Entity).collect()
+        found.into_iter().map(|entity| argument_of(param.ty, entity)).collect()
     }
+}
+
+/// An entity as an argument: for a list, the list of it.
+fn argument_of(ty: Ty, entity: Entity) -> Term {
+    let one = Term::Entity(entity);
+    if ty.lists == 0 { one } else { Term::List(vec![one]) }
+}
+
+/// The one entity of an argument.
+pub(super) fn entity_of(arg: &Term) -> Option<Entity> {
+    let one = if let Term::List(items) = arg { items.first().filter(|_| items.len() == 1)? } else { arg };
+    if let Term::Entity(entity) = one { Some(*entity) } else { None }
 }
 
 /// Writes a call in a syntax, without defaults, with these names of bindings. `None` if an argument has no
@@ -367,9 +379,17 @@ fn spelled(term: &Term, library: &Library, environment: &Environment) -> Option<
         Term::Text(text) => ExprKind::Text(text.clone()),
         Term::Bool(value) => ExprKind::Bool(*value),
         // A number would need the unit that its parameter has; no primitive that makes a fact asks for one.
+        Term::List(items) => match items.as_slice() {
+            [one] => spelled(one, library, environment)?,
+            items => {
+                let span = Span::default();
+                let items =
+                    items.iter().map(|item| Some(Expr { kind: spelled(item, library, environment)?, span }));
+                ExprKind::List(items.collect::<Option<_>>()?)
+            }
+        },
         Term::Int(_)
         | Term::Number(_)
-        | Term::List(_)
         | Term::Binding(_)
         | Term::Param(_)
         | Term::Result

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use crate::declare::{MAX_FLUENT_PARAMS, NeedDef, PrimitiveDef};
 use crate::facts::TruthSet;
 use crate::ir::{Condition, Fact, Kind, Term};
-use crate::plan::achievers::{Achiever, CandidateCall, Subgoal};
+use crate::plan::achievers::{Achiever, CandidateCall, Subgoal, entity_of};
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
 
@@ -251,14 +251,11 @@ impl<'p, 'a> Estimate<'p, 'a> {
     /// Cost of parameters that are more general than their arguments.
     fn general(&self, def: &PrimitiveDef, call: &CandidateCall) -> u32 {
         let library = self.prover.library;
-        let args = call.args.iter().zip(&def.params).filter_map(|(arg, param)| match arg {
-            Term::Entity(entity) => {
-                let kind = self.prover.environment.entities().kind(*entity)?;
-                let wanted = param.ty.kind()?;
-                let above = std::iter::successors(Some(kind), |kind| library.kinds.get(kind.index())?.parent);
-                u32::try_from(above.take_while(|kind| *kind != wanted).count()).ok()
-            }
-            _ => None,
+        let args = call.args.iter().zip(&def.params).filter_map(|(arg, param)| {
+            let kind = self.prover.environment.entities().kind(entity_of(arg)?)?;
+            let wanted = param.ty.kind_within()?;
+            let above = std::iter::successors(Some(kind), |kind| library.kinds.get(kind.index())?.parent);
+            u32::try_from(above.take_while(|kind| *kind != wanted).count()).ok()
         });
         args.sum::<u32>().saturating_mul(GENERAL)
     }
@@ -291,14 +288,20 @@ fn guesses(def: &PrimitiveDef, call: &CandidateCall) -> u32 {
     let guessed = args.filter(|(index, (arg, param))| {
         let own = Term::Param(u16::try_from(*index).unwrap_or(u16::MAX));
         let spoken = |fact: &Fact| fact.args.iter().flatten().any(|term| *term == own);
-        matches!(arg, Term::Entity(_))
+        entity_of(arg).is_some()
             && param.default.as_ref() != Some(arg)
             && !def.makes.iter().any(|effect| {
                 spoken(&effect.fact) || effect.when.as_ref().is_some_and(|when| speaks(when, &own))
             })
             && !def.needs.iter().any(|need| speaks(&need.condition, &own))
+            && !def.motion.as_ref().is_some_and(|(_, args)| args.iter().any(|arg| is_of(arg, &own)))
     });
     u32::try_from(guessed.count()).unwrap_or(u32::MAX).saturating_mul(GUESS)
+}
+
+/// Returns whether an argument of a motion is a term, or the first of a list that the term is.
+fn is_of(arg: &Term, term: &Term) -> bool {
+    arg == term || matches!(arg, Term::First(list) if **list == *term)
 }
 
 /// Returns whether a condition mentions a term.

@@ -30,6 +30,10 @@ impl Prover<'_> {
                 Term::Param(_) => None,
                 term => self.argument(term, frame),
             },
+            Term::First(list) => {
+                let Term::List(items) = self.literal(list, frame)? else { return None };
+                self.argument(items.first()?, frame)
+            }
             Term::Result => frame.result.map(|entity| entity.0),
             Term::Each => frame.each.map(|entity| entity.0),
             Term::Bool(_)
@@ -42,7 +46,6 @@ impl Prover<'_> {
             | Term::Arith(..)
             | Term::Template(_)
             | Term::Count(_)
-            | Term::First(_)
             | Term::Unknown => None,
         }
     }

@@ -22,7 +22,8 @@ pub(crate) enum SimCommand {
     Push(SmolStr),
     Detect(SmolStr),
     DetectAll(SmolStr),
-    Search(SmolStr, SmolStr),
+    /// A search for a description at some places in order.
+    Search(SmolStr, Vec<SmolStr>),
     Locate(SmolStr),
     Ground(SmolStr),
     Inspect(SmolStr),
@@ -67,7 +68,10 @@ impl SimCommand {
             "push" => Self::Push(entity("what")?),
             "detect" => Self::Detect(text("what")?),
             "detect_all" => Self::DetectAll(text("what")?),
-            "search" => Self::Search(text("what")?, entity("around")?),
+            "search" => Self::Search(
+                text("what")?,
+                ids(command.arg("around")?).or_else(|| Some(vec![entity("around")?]))?,
+            ),
             "locate" => Self::Locate(entity("object")?),
             "ground" => Self::Ground(entity("object")?),
             "inspect" => Self::Inspect(entity("what")?),

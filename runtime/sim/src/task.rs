@@ -131,25 +131,36 @@ impl TaskContext<'_> {
         self.world.stance_for_hand(id).map_or(NextStage::Drive(self.world.base), NextStage::Drive)
     }
 
-    /// Drives to where it looks, looks around, and drives to what it found.
-    fn search(&mut self, task: &mut Task, what: &str, around: &str, step: u32) -> NextStage {
-        match (step, task.found.clone()) {
-            (0, _) => self.world.place_for(around).map_or_else(|| fail("unreachable"), NextStage::Drive),
-            (1, _) => NextStage::Work,
-            (2, _) => match SimWorld::the_one(self.world.found(self.scene, what, ViewDirection::Around)) {
-                Ok(id) => {
-                    task.found = Some(id.clone());
-                    self.world.saw(&id);
-                    self.world.place_for(&id).map_or_else(|| fail("unreachable"), NextStage::Drive)
-                }
-                Err(failure) => fail(failure),
-            },
-            (_, Some(id)) if self.world.look_at(&id).is_ok() => {
-                self.world.visit(&id);
-                task.command.leave_arm(self.world);
-                NextStage::End(Outcome::Success(Some(Value::Entity(id))))
+    /// Drives to each place, looks around there, and drives to what it found.
+    fn search(&mut self, task: &mut Task, what: &str, around: &[SmolStr], step: u32) -> NextStage {
+        if let Some(id) = &task.found {
+            if self.world.look_at(id).is_err() {
+                return fail("not_found");
             }
-            (_, _) => fail("not_found"),
+            let id = id.clone();
+            self.world.visit(&id);
+            task.command.leave_arm(self.world);
+            return NextStage::End(Outcome::Success(Some(Value::Entity(id))));
+        }
+        // Even stages drive to the next place, odd ones look around there.
+        if step % 2 == 1 {
+            return NextStage::Work;
+        }
+        if step > 0 {
+            match SimWorld::the_one(self.world.found(self.scene, what, ViewDirection::Around)) {
+                Ok(id) => {
+                    self.world.saw(&id);
+                    let place = self.world.place_for(&id);
+                    task.found = Some(id);
+                    return place.map_or_else(|| fail("unreachable"), NextStage::Drive);
+                }
+                Err("not_found") => {}
+                Err(failure) => return fail(failure),
+            }
+        }
+        match around.get(step as usize / 2) {
+            Some(next) => self.world.place_for(next).map_or_else(|| fail("unreachable"), NextStage::Drive),
+            None => fail("not_found"),
         }
     }
 

@@ -210,7 +210,7 @@ fn diagnostics_help_says_what_to_write() {
     );
     assert!(found.len() == 1 && found[0].ends_with(r#"; write `"90 deg"`"#), "{found:?}");
     let found = errors("policy p for hsr { let m = choose(\"x\", mug_1) go(m) }");
-    assert!(found.len() == 1 && found[0].ends_with("; write `[mug_1]`"), "{found:?}");
+    assert_eq!(found, [""; 0], "one value stands for a list of it");
 }
 
 #[test]

@@ -107,7 +107,12 @@ fn walk(
             Err(outside) if outside.to_string().starts_with("a text has") && text.contains('{') => continue,
             Err(outside) => panic!("{outside}\n{text}"),
         };
-        assert_eq!(again, text);
+        // A grammar does not know the types of names: one value in the place of a list is a list of it.
+        let without_brackets = |line: &str| line.replace(['[', ']'], "");
+        assert_eq!(without_brackets(&again), without_brackets(&text));
+        let whole = check(session, &again, false, &mut BTreeMap::new());
+        let whole = whole.file.runnable().next().unwrap();
+        assert_eq!(canonical(whole, canon).unwrap(), again);
     }
     found
 }

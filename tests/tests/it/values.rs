@@ -79,3 +79,34 @@ fn values_that_are_none_have_a_place() {
     assert_eq!(&json[found.span.start as usize..found.span.end as usize], "{");
     assert_eq!(found.fix.as_ref().unwrap().edits[0].text, "{{");
 }
+
+/// One place stands for a list of it; the motion of a search is that to its first place.
+#[test]
+fn values_one_value_stands_for_a_list() {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    let graph = |document: &str| {
+        let parsed = read(&Source::new("p", document), FileId(0));
+        let compiled = session.compile(&parsed, None);
+        compiled.graph.unwrap_or_else(|| panic!("{document}: {:#?}", compiled.diagnostics))
+    };
+    let json = |around: &str| {
+        let step = format!(r#"{{"do": "search", "what": "bottle", "around": {around}, "as": "it"}}"#);
+        let pick = r#"{"do": "inspect", "what": "$it"}"#;
+        graph(&format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}, {pick}]}}"#))
+    };
+    let text =
+        |around: &str| graph(&format!("policy p {{ let it = search(\"bottle\", {around}) inspect(it) }}"));
+    let entity = |id: &str| motet_graph::Term::Literal(motet_graph::Value::Entity(id.into()));
+    let one = json(r#""counter""#);
+    for other in [json(r#"["counter"]"#), text("counter"), text("[counter]")] {
+        assert_eq!(one, other);
+    }
+    let two = json(r#"["counter", "shelf"]"#);
+    assert_eq!(two, text("[counter, shelf]"));
+    assert_ne!(one, two);
+    for graph in [one, two] {
+        let motet_graph::NodeKind::Call(call) = &graph.nodes[0].kind else { panic!("{graph:?}") };
+        assert_eq!(call.motion.as_ref().unwrap().args, [entity("counter")]);
+    }
+}

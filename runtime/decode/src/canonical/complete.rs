@@ -23,6 +23,7 @@ pub(super) fn complete(policy: &Policy, grammar: &Grammar) -> Result<Node, Outsi
         signatures,
         subset: grammar.subset,
         bound: Vec::new(),
+        lists: FxHashSet::default(),
         names: FxHashSet::default(),
         fresh: 0,
     };
@@ -173,6 +174,9 @@ impl Completer<'_> {
             }
         };
         self.bound.extend(name.clone());
+        if matches!(callable.result, Some(Type::List(_))) {
+            self.lists.extend(name.iter().cloned().chain(step.bind.as_ref().map(|name| name.text.clone())));
+        }
         Ok(Node { kind: NodeKind::Do(number), span: call.span, name, items })
     }
 

@@ -18,6 +18,8 @@ pub(super) struct Completer<'a> {
     pub(super) subset: Subset,
     /// The names bound so far, in order.
     pub(super) bound: Vec<SmolStr>,
+    /// Those that are bound to a list.
+    pub(super) lists: FxHashSet<SmolStr>,
     /// Every name that is bound anywhere in the policy.
     pub(super) names: FxHashSet<SmolStr>,
     pub(super) fresh: usize,
@@ -36,6 +38,16 @@ impl Completer<'_> {
         card: Option<(f64, f64)>,
     ) -> Result<Value, OutsideSubset> {
         match (&expr.kind, ty) {
+            // One value stands for a list of it.
+            (ExprKind::Name(name) | ExprKind::Binding(name), Type::List(element))
+                if (self.is_bound(name) && !self.lists.contains(name))
+                    || matches!(expr.kind, ExprKind::Name(_)) && self.is_known(name, element) =>
+            {
+                Ok(Value::List(vec![self.value(expr, element, None)?]))
+            }
+            (ExprKind::Plain(_) | ExprKind::Text(_), Type::List(element)) => {
+                Ok(Value::List(vec![self.value(expr, element, None)?]))
+            }
             (ExprKind::Binding(name), _) => self.binding(name, expr),
             (ExprKind::Name(name), _) => self.named(name, expr, ty),
             (ExprKind::Plain(text) | ExprKind::Text(text), Type::Text) => self.text(text, expr),
@@ -170,7 +182,12 @@ impl Completer<'_> {
     /// be.
     pub(super) fn each_list(&self, expr: &Expr) -> Result<Value, OutsideSubset> {
         const ROOT: usize = 0;
-        let list = self.value(expr, &Type::List(Box::new(Type::Entity(ROOT))), None)?;
+        let ty = Type::List(Box::new(Type::Entity(ROOT)));
+        let list = match &expr.kind {
+            ExprKind::Name(name) => self.named(name, expr, &ty)?,
+            ExprKind::Binding(name) => self.binding(name, expr)?,
+            _ => self.value(expr, &ty, None)?,
+        };
         let kind = |value: &Value| match value {
             Value::Name(name) => {
                 self.signatures.entities.iter().find(|(entity, _)| entity == name).map(|row| row.1)

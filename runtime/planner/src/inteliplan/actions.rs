@@ -364,6 +364,14 @@ impl Writer<'_> {
         // The dialect has no word for it: who goes there sees what is there.
         let looks_there = name == "search" && args.len() == 2;
         let words = written(if looks_there { "go" } else { name }).replace('_', " ");
+        if let (true, Some(ExprKind::List(places))) =
+            (looks_there, call.call.args.get(1).map(|arg| &arg.value.kind))
+        {
+            let places: Vec<String> =
+                places.iter().map(|place| format!("go {}", self.arg(&place.kind))).collect();
+            self.actions.extend(places);
+            return;
+        }
         let joined = match (name, args.as_slice()) {
             ("search", [_, around]) => around.clone(),
             ("place", [what, to]) => {

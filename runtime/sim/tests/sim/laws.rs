@@ -21,7 +21,7 @@ fn commands() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
         ("turn", vec![("by", Value::Number(2.5))]),
         ("detect", vec![("what", text("red mug"))]),
         ("detect_all", vec![("what", text("drinkware"))]),
-        ("search", vec![("what", text("blue mug")), ("around", entity("shelf"))]),
+        ("search", vec![("what", text("blue mug")), ("around", Value::List(vec![entity("shelf")]))]),
         ("pick", vec![mug()]),
         ("pick", vec![("object", entity("nothing"))]),
         ("grasp", vec![("object", entity("apple"))]),

@@ -97,7 +97,8 @@ fn sim_failures_tell_the_truth() {
 #[test]
 fn sim_looks_for_things_where_it_is_told() {
     let mut bench = Bench::kitchen();
-    let found = bench.call("search", &[("what", text("water bottle")), ("around", entity("counter"))]);
+    let found = bench
+        .call("search", &[("what", text("water bottle")), ("around", Value::List(vec![entity("counter")]))]);
     assert_eq!(found, Outcome::Success(Some(entity("bottle"))));
     bench.is("at", &["robot", "bottle"], true);
     bench.is("at", &["robot", "counter"], true);
@@ -107,6 +108,24 @@ fn sim_looks_for_things_where_it_is_told() {
     bench.fails("detect", &[("what", text("drink"))], "ambiguous");
     let place = bench.call("locate", &[("object", entity("bottle"))]);
     assert!(matches!(place, Outcome::Success(Some(Value::Pose(pose))) if pose.xyz[2] > 0.9));
+}
+
+/// The places of a search in their order: it ends at the first where the thing is.
+#[test]
+fn sim_looks_at_one_place_after_the_other() {
+    let search = |bench: &mut Bench, what: &str, places: &[&str]| {
+        let places = places.iter().map(|place| entity(place)).collect();
+        bench.call("search", &[("what", text(what)), ("around", Value::List(places))])
+    };
+    let mut near = Bench::kitchen();
+    assert_eq!(search(&mut near, "bottle", &["counter"]), Outcome::Success(Some(entity("bottle"))));
+    let mut bench = Bench::kitchen();
+    let found = search(&mut bench, "bottle", &["shelf", "counter", "kitchen_table"]);
+    assert_eq!(found, Outcome::Success(Some(entity("bottle"))));
+    bench.is("at", &["robot", "counter"], true);
+    assert!(bench.now > near.now, "{} after the shelf, {} at once", bench.now, near.now);
+    assert_eq!(search(&mut bench, "a unicorn", &["shelf", "counter"]), Outcome::Failure("not_found".into()));
+    assert_eq!(search(&mut bench, "bottle", &[]), Outcome::Failure("not_found".into()));
 }
 
 #[test]
