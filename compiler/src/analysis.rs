@@ -387,7 +387,7 @@ pub(crate) trait Domain<'p> {
     /// Walks over the reaction of a monitor that fires in the present states.
     fn react(&mut self, when: &'p When) {
         match &when.reaction {
-            Reaction::Pause { .. } => self.throw(Some(TIMEOUT), usize::MAX),
+            Reaction::Pause { .. } | Reaction::Timeout => self.throw(Some(TIMEOUT), usize::MAX),
             Reaction::Restart { .. } => self.throw(self.exhausted(), usize::MAX),
             Reaction::Resume { body, .. } => {
                 self.throw(self.exhausted(), usize::MAX);

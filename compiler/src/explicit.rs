@@ -83,6 +83,10 @@ impl Writer<'_> {
                 self.optional(within.as_mut(), Ty::DURATION);
             }
             StepKind::Delay { time } => self.term(time, Some(Ty::DURATION)),
+            StepKind::Within { time, body } => {
+                self.term(time, Some(Ty::DURATION));
+                self.block(body);
+            }
             StepKind::Finally { step, cleanup } => {
                 self.step(&mut step.kind);
                 self.block(cleanup);

@@ -340,7 +340,7 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
                 Reaction::Resume { body, .. } => self.moves_in(body),
                 // The body may begin again from anywhere within it.
                 Reaction::Restart { .. } => moves,
-                Reaction::Pause { .. } | Reaction::End { .. } => false,
+                Reaction::Pause { .. } | Reaction::Timeout | Reaction::End { .. } => false,
             };
             let is_anywhere = moves || matches!(when.reaction, Reaction::Resume { .. });
             self.worlds = if is_anywhere { Worlds::lost(why()) } else { entry.clone() };

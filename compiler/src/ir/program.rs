@@ -34,7 +34,11 @@ impl Program {
         let mut slot = self.step(id).map(|step| step.position.slot);
         self.around(id).any(|(_, outer)| {
             let inside = slot.replace(outer.position.slot);
-            matches!(inside, Some(BlockSlot::During | BlockSlot::Reaction(_) | BlockSlot::Branch(_)))
+            let Some(inside) = inside else { return false };
+            matches!(
+                inside,
+                BlockSlot::During | BlockSlot::Timed | BlockSlot::Reaction(_) | BlockSlot::Branch(_)
+            )
         })
     }
 
@@ -150,6 +154,8 @@ pub(crate) enum BlockSlot {
     Try,
     Catch(u16),
     During,
+    /// `steps` of a `within`.
+    Timed,
     Reaction(u16),
     Branch(u16),
     /// Body of an inlined policy.
@@ -198,6 +204,7 @@ pub(crate) enum StepKind {
         body: Block,
         cleanup: Block,
     },
+    /// A monitor, or a `within`, which is one that waits for nothing but time.
     Monitor {
         whens: Vec<When>,
         body: Block,
@@ -248,7 +255,8 @@ impl StepKind {
             Self::Monitor { whens, body } => {
                 let reactions = whens.iter().filter_map(|when| match &when.reaction {
                     Reaction::Resume { body, .. } => Some(body),
-                    Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. } => None,
+                    Reaction::Pause { .. } | Reaction::Timeout => None,
+                    Reaction::Restart { .. } | Reaction::End { .. } => None,
                 });
                 reactions.chain([body]).collect()
             }
@@ -259,6 +267,13 @@ impl StepKind {
         }
     }
 
+    /// The time in seconds that a `within` gives its body.
+    pub(crate) fn deadline(&self) -> Option<f64> {
+        let Self::Monitor { whens, .. } = self else { return None };
+        let is_deadline = |when: &&When| matches!(when.reaction, Reaction::Timeout);
+        whens.iter().find(is_deadline).map(|when| when.hold_secs)
+    }
+
     /// Endings of the step itself, each with the inlined policy that it ends.
     pub(crate) fn endings(&self) -> SmallVec<[(EndKind, Option<StepId>); 1]> {
         match self {
@@ -266,7 +281,8 @@ impl StepKind {
             Self::Monitor { whens, .. } => {
                 let endings = whens.iter().filter_map(|when| match &when.reaction {
                     Reaction::End { kind, of, .. } => Some((*kind, *of)),
-                    Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::Resume { .. } => None,
+                    Reaction::Pause { .. } | Reaction::Timeout => None,
+                    Reaction::Restart { .. } | Reaction::Resume { .. } => None,
                 });
                 endings.collect()
             }
@@ -351,6 +367,8 @@ pub(crate) enum Reaction {
         /// Maximal duration of the pause in seconds.
         within_secs: f64,
     },
+    /// Fails with `timeout`: the body of a `within` has had its time.
+    Timeout,
     /// Restarts the body.
     Restart { at_most: u32 },
     /// Runs a block, then resumes the body.

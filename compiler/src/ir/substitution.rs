@@ -73,7 +73,7 @@ pub(crate) trait Rewrite {
                 for when in whens {
                     self.condition(&mut when.condition);
                     match &mut when.reaction {
-                        Reaction::Pause { .. } | Reaction::Restart { .. } => {}
+                        Reaction::Pause { .. } | Reaction::Timeout | Reaction::Restart { .. } => {}
                         Reaction::Resume { body, .. } => self.block(body),
                         Reaction::End { of, why, .. } => self.end(of, why),
                     }

@@ -71,6 +71,12 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
             (body.0, body.1 + block(cleanup).1)
         }
         StepKind::Monitor { whens, body } => {
+            if let Some(deadline) = kind.deadline() {
+                // What the deadline interrupts is cleaned up behind it.
+                let (least, greatest) = block(body);
+                let last = deadline + cleanups(body, program);
+                return finite((least.min(deadline), greatest.min(last)));
+            }
             let body = block(body);
             let mut greatest = body.1;
             for when in whens {
@@ -78,7 +84,7 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
                     Reaction::Pause { within_secs } => *within_secs,
                     Reaction::Restart { at_most } => f64::from(*at_most) * body.1,
                     Reaction::Resume { at_most, body } => f64::from(*at_most) * block(body).1,
-                    Reaction::End { .. } => 0.0,
+                    Reaction::Timeout | Reaction::End { .. } => 0.0,
                 };
             }
             (0.0, greatest)
@@ -103,6 +109,34 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
     finite(bounds)
 }
 
+/// Longest time that the cleanups in a block take if it is interrupted. The nesting of policies bounds the
+/// recursion.
+fn cleanups(block: &Block, program: &Program) -> f64 {
+    let of_step = |kind: &StepKind| {
+        let inner = kind.blocks();
+        let inner = inner.iter().map(|block| cleanups(block, program));
+        match kind {
+            StepKind::Finally { body, cleanup } => cleanups(body, program) + of_block(cleanup, program).1,
+            // The body waits while a reaction runs.
+            StepKind::Monitor { .. } => inner.sum(),
+            StepKind::Call(_)
+            | StepKind::Let { .. }
+            | StepKind::Sequence { .. }
+            | StepKind::Inline { .. }
+            | StepKind::If { .. }
+            | StepKind::Wait { .. }
+            | StepKind::Delay { .. }
+            | StepKind::Try { .. }
+            | StepKind::Repeat { .. }
+            | StepKind::Each { .. }
+            | StepKind::Parallel { .. }
+            | StepKind::End { .. }
+            | StepKind::Unknown => inner.fold(0.0, f64::max),
+        }
+    };
+    block.iter().filter_map(|id| program.step(*id)).map(|step| of_step(&step.kind)).fold(0.0, f64::max)
+}
+
 /// Replaces infinite bounds by the largest number: nested loops can exceed any.
 fn finite((least, greatest): Bounds) -> Bounds {
     (least.min(f64::MAX), greatest.min(f64::MAX))
@@ -112,6 +146,7 @@ fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagno
     let (what, body) = match kind {
         StepKind::Repeat { body, .. } => ("`repeat`", body),
         StepKind::Each { body, .. } => ("`each`", body),
+        StepKind::Monitor { body, .. } if kind.deadline().is_some() => ("`within`", body),
         StepKind::Monitor { body, .. } => ("`monitor`", body),
         StepKind::Try { body, .. } => ("`try`", body),
         StepKind::Finally { cleanup, .. } => ("`finally`", cleanup),

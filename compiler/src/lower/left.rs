@@ -85,7 +85,7 @@ fn number(program: &Program, id: StepId) -> String {
     let parts = own.filter_map(|step| {
         let number = step.position.index + 1;
         let part = match step.position.slot {
-            BlockSlot::Steps | BlockSlot::Inlined => number.to_string(),
+            BlockSlot::Steps | BlockSlot::Timed | BlockSlot::Inlined => number.to_string(),
             BlockSlot::Then => format!("then.{number}"),
             BlockSlot::Else => format!("else.{number}"),
             BlockSlot::Try => format!("try.{number}"),

@@ -251,6 +251,8 @@ impl Lowering<'_> {
     fn reaction(&mut self, reaction: &Reaction, owner: Option<NodeId>) -> graph::Reaction {
         match reaction {
             Reaction::Pause { within_secs } => graph::Reaction::Pause { within_secs: *within_secs },
+            // No time to pause is the failure at once.
+            Reaction::Timeout => graph::Reaction::Pause { within_secs: 0.0 },
             Reaction::Restart { at_most } => graph::Reaction::Restart { at_most: *at_most },
             Reaction::Resume { at_most, body } => {
                 graph::Reaction::Resume { at_most: *at_most, body: self.region(body, owner) }

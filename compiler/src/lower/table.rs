@@ -376,7 +376,7 @@ pub(crate) fn pointer(program: &Program, step: StepId) -> SmolStr {
         let index = place.index;
         // Writing to a string cannot fail.
         let _ = match place.slot {
-            BlockSlot::Steps => write!(path, "/steps/{index}"),
+            BlockSlot::Steps | BlockSlot::Timed => write!(path, "/steps/{index}"),
             BlockSlot::Then => write!(path, "/then/{index}"),
             BlockSlot::Else => write!(path, "/else/{index}"),
             BlockSlot::Try => write!(path, "/try/{index}"),

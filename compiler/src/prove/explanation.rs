@@ -245,6 +245,7 @@ impl Prover<'_> {
             Some(StepKind::Let { .. }) => "let".into(),
             Some(StepKind::If { .. }) => "if".into(),
             Some(StepKind::Wait { .. }) => "wait".into(),
+            Some(kind @ StepKind::Monitor { .. }) if kind.deadline().is_some() => "within".into(),
             Some(StepKind::Monitor { .. }) => "monitor".into(),
             Some(StepKind::Repeat { .. }) => "repeat".into(),
             Some(StepKind::Each { .. }) => "each".into(),

@@ -97,12 +97,12 @@ impl<'a> Prover<'a> {
             |enclosing: &Enclosing<_>| matches!(enclosing, Enclosing::Try { .. } | Enclosing::Cleanup(_));
         let caught = cleaned || around.iter().any(catches);
         let outside = match &when.reaction {
-            Reaction::Pause { .. } => !caught,
+            Reaction::Pause { .. } | Reaction::Timeout => !caught,
             Reaction::End { kind: EndKind::Fail, of: None, .. } => !cleaned,
             Reaction::End { kind: EndKind::Cannot | EndKind::Replan, .. } => !cleaned,
             Reaction::Restart { .. } | Reaction::Resume { .. } | Reaction::End { .. } => false,
         };
-        outside && !constant(&when.condition)
+        outside && (matches!(when.reaction, Reaction::Timeout) || !constant(&when.condition))
     }
 
     /// Proves the body of a monitor whose reactions need no proof.

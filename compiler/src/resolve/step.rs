@@ -258,6 +258,16 @@ impl<'a> StepResolver<'a> {
                     whens.iter().enumerate().map(|(index, when)| self.when(when, id, index)).collect();
                 ir::StepKind::Monitor { whens, body: self.only_block(body, (id, BlockSlot::During)) }
             }
+            StepKind::Within { time, body } => {
+                let hold_secs = self.elaborator.seconds(time, "the time of a `within`").unwrap_or(0.0);
+                let condition = ir::Condition::Literal(true);
+                let when =
+                    ir::When { condition, span: time.span, hold_secs, reaction: ir::Reaction::Timeout };
+                ir::StepKind::Monitor {
+                    whens: vec![when],
+                    body: self.only_block(body, (id, BlockSlot::Timed)),
+                }
+            }
             StepKind::Try { body, catches } => {
                 let mut fork = self.fork(id);
                 let whole = "the body of the `try`";

@@ -88,6 +88,9 @@ impl PointerWalk<'_> {
             StepKind::Delay { time } => {
                 let _ = self.expr("wait", time);
             }
+            StepKind::Within { time, body } => {
+                let _ = self.expr("within", time) || self.block("steps", body);
+            }
             StepKind::Finally { step, cleanup } => {
                 if !self.block("finally", cleanup) {
                     self.step(step);

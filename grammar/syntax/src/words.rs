@@ -37,6 +37,9 @@ pub const STEP_WORDS: [&str; 19] = [
 /// Keys of a `do` step in JSON that are not arguments.
 pub const CALL_KEYS: [&str; 5] = ["do", "as", "manner", "within", "retry"];
 
+/// Key of a deadline in JSON. It names the form of a step only if no other key does.
+pub const DEADLINE: &str = "within";
+
 /// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
 /// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a
 /// support.
@@ -54,7 +57,7 @@ pub const FORM_KEYS: [(&str, &str); 28] = [
     ("finally", "the steps that have steps of their own"),
     ("repeat", "a step of its own"),
     ("until", "`repeat`"),
-    ("steps", "`sequence`, `repeat` and `each`"),
+    ("steps", "`sequence`, `repeat`, `each` and `within`"),
     ("each", "a step of its own"),
     ("in", "`each`"),
     ("at_most", "`each` and to the reactions"),

@@ -35,6 +35,7 @@ fn parts(graph: &Graph, kind: &NodeKind) -> Vec<(String, RegionId)> {
             let otherwise = otherwise.map(|region| ("else".to_owned(), region));
             std::iter::once(("then".to_owned(), *then)).chain(otherwise).collect()
         }
+        NodeKind::Monitor { body, .. } if kind.deadline_secs().is_some() => vec![(String::new(), *body)],
         NodeKind::Monitor { watches, body } => {
             let blocks = watches.iter().filter_map(|watch| match &watch.reaction {
                 Reaction::Resume { body, .. } => Some((names.watch(watch), *body)),

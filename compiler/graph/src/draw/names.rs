@@ -32,7 +32,9 @@ impl<'a> Names<'a> {
             }
             NodeKind::Delay { secs } => format!("wait {secs} s"),
             NodeKind::Finally { .. } => "with cleanup".to_owned(),
-            NodeKind::Monitor { .. } => "monitor".to_owned(),
+            NodeKind::Monitor { .. } => {
+                kind.deadline_secs().map_or_else(|| "monitor".to_owned(), |secs| format!("within {secs} s"))
+            }
             NodeKind::Try { .. } => "try".to_owned(),
             NodeKind::Repeat { times, until: None, .. } => format!("repeat {times}"),
             NodeKind::Repeat { times, until: Some(until), .. } => {
@@ -59,6 +61,7 @@ impl<'a> Names<'a> {
                 let manner = manner(call);
                 format!("{binds}{name}({}){manner}", args.collect::<Vec<_>>().join(", "))
             }
+            NodeKind::Monitor { .. } if kind.deadline_secs().is_some() => self.step(kind),
             NodeKind::Monitor { watches, .. } => {
                 let watched: Vec<_> = watches.iter().map(|watch| self.condition(&watch.condition)).collect();
                 format!("monitor {}", watched.join("; "))
@@ -150,6 +153,7 @@ impl<'a> Names<'a> {
     pub(super) fn watch(&self, watch: &Watch) -> String {
         let hold = if watch.hold_secs > 0.0 { format!(" for {} s", watch.hold_secs) } else { String::new() };
         let reaction = match &watch.reaction {
+            Reaction::Pause { within_secs: 0.0 } => "fail with timeout".to_owned(),
             Reaction::Pause { within_secs } => format!("pause within {within_secs} s"),
             Reaction::Restart { at_most } => format!("restart at most {at_most}"),
             Reaction::Resume { at_most, .. } => format!("resume at most {at_most}"),

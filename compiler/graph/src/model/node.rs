@@ -123,6 +123,17 @@ pub enum NodeKind {
     },
 }
 
+impl NodeKind {
+    /// Seconds that the body has, of a monitor that is a deadline of its body and nothing else.
+    #[must_use]
+    pub fn deadline_secs(&self) -> Option<f64> {
+        let Self::Monitor { watches, .. } = self else { return None };
+        let [only] = watches.as_slice() else { return None };
+        let is_timeout = matches!(only.reaction, Reaction::Pause { within_secs: 0.0 });
+        (is_timeout && only.condition == Condition::Literal(true)).then_some(only.hold_secs)
+    }
+}
+
 /// Outcome that a policy states itself.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -153,7 +164,8 @@ pub struct Watch {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Reaction {
     /// Holds the body until the condition is false again; more than `within_secs` in all is the failure
-    /// `timeout`.
+    /// `timeout`. With no time to pause it comes at once: so a deadline of the body is a watch whose
+    /// condition always holds.
     Pause {
         /// The longest pause in seconds, all pauses of one run of the monitor taken together.
         #[serde(rename = "within")]

@@ -191,13 +191,18 @@ impl TreeGenerator<'_> {
 
     /// A step that may have blocks, and with them a cleanup.
     fn inner(&mut self, depth: usize) -> StepKind {
+        if self.choice.below(12) == 1 {
+            let tried = StepKind::Try { body: self.block(depth), catches: Vec::new() };
+            let step = Box::new(Step { kind: tried, span: self.span() });
+            return StepKind::Finally { step, cleanup: self.block(depth) };
+        }
         let kind = self.protected(depth);
         let has_blocks = match &kind {
             StepKind::Do(_) | StepKind::Let { .. } | StepKind::End(_) => false,
             StepKind::Wait { .. } | StepKind::Delay { .. } => false,
             StepKind::Sequence { .. } | StepKind::If { .. } | StepKind::Monitor { .. } => true,
             StepKind::Try { .. } | StepKind::Repeat { .. } | StepKind::Each { .. } => true,
-            StepKind::Parallel { .. } => true,
+            StepKind::Parallel { .. } | StepKind::Within { .. } => true,
             StepKind::Finally { .. } => false,
         };
         if !has_blocks || self.choice.below(4) > 0 {
@@ -208,7 +213,7 @@ impl TreeGenerator<'_> {
     }
 
     fn protected(&mut self, depth: usize) -> StepKind {
-        match self.choice.below(9) {
+        match self.choice.below(10) {
             0 => StepKind::Sequence { name: self.choice.name(), body: self.block(depth) },
             1 => StepKind::If {
                 condition: self.condition(3),
@@ -230,6 +235,7 @@ impl TreeGenerator<'_> {
                 StepKind::Each { item, list, at_most, body }
             }
             6 => StepKind::Parallel { branches: self.some(1, |it| it.block(depth)) },
+            7 => StepKind::Within { time: self.duration(), body: self.block(depth) },
             _ => self.leaf(),
         }
     }

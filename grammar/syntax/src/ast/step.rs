@@ -70,7 +70,7 @@ pub enum StepKind {
     /// `try { … } catch slipped { … }`
     Try {
         body: Block,
-        /// The handlers, first match wins; at least one.
+        /// The handlers, first match wins; none only where the step has a cleanup.
         catches: Vec<Catch>,
     },
     /// `repeat 3 { … } until c`
@@ -99,6 +99,12 @@ pub enum StepKind {
     Delay {
         /// Time to wait: a duration.
         time: Expr,
+    },
+    /// `within 30 s { … }`
+    Within {
+        /// Time that the block has: a duration.
+        time: Expr,
+        body: Block,
     },
     /// A step with blocks and its cleanup: `sequence tidy { … } finally { … }`.
     Finally {

@@ -93,9 +93,15 @@ impl Converter {
                 (StepKind::Monitor { whens, body: self.block(step.during, depth + 1) }, step.finally)
             }
             wire::Step::Try(step) => {
-                self.at_least_one(step.catch.value.is_empty(), step.catch.span, "try", "handler");
+                let place = Span { end: step.r#try.span.start + 1, ..step.r#try.span };
+                let is_bare = step.catch.is_none();
+                if is_bare && step.finally.is_none() {
+                    self.found.push(MissingKey { key: "catch".into(), span: place }.into());
+                }
+                let Spanned { value: catch, span } = step.catch.unwrap_or_else(|| Vec::new().into());
+                self.at_least_one(catch.is_empty() && !is_bare, span, "try", "handler");
                 let body = self.block(step.r#try, depth + 1);
-                let catches = step.catch.value.into_iter().filter_map(|Lenient(catch)| catch);
+                let catches = catch.into_iter().filter_map(|Lenient(catch)| catch);
                 let catches = catches.map(|catch| self.catch(catch, depth)).collect();
                 (StepKind::Try { body, catches }, step.finally)
             }
@@ -114,6 +120,10 @@ impl Converter {
                 let branches = step.parallel.value.into_iter();
                 let branches = branches.map(|steps| self.block(steps, depth + 2)).collect();
                 (StepKind::Parallel { branches }, step.finally)
+            }
+            wire::Step::Within(step) => {
+                let (time, body) = (self.duration(step.within, depth), self.block(step.steps, depth + 1));
+                (StepKind::Within { time, body }, step.finally)
             }
             wire::Step::End(end) => (StepKind::End(self.end(end, span, depth)), None),
         };

@@ -2,7 +2,7 @@
 //! doc comments are its descriptions). They are not the AST: [`super::convert`] turns one into the other.
 //!
 //! A step is an object that has one of the keys `do let sequence if wait monitor try repeat each parallel
-//! end`; a condition or a term is a literal or an object that has one of the keys of [`Form`].
+//! within end`; a condition or a term is a literal or an object that has one of the keys of [`Form`].
 //!
 //! Beyond the forms of the language page: `more`, `at_least`, `unequal` compare; `add`, `subtract`,
 //! `multiply`, `divide` calculate; `true` and `false` are conditions; an array is a list; the plain string
@@ -75,6 +75,8 @@ pub(crate) enum Step {
     Parallel(Parallel),
     /// An ending of the policy.
     End(End),
+    /// Steps that have a deadline.
+    Within(Within),
 }
 
 /// Gives a value a name. The value is found once, when the step runs.
@@ -202,9 +204,10 @@ pub(crate) enum ReactKind {
 pub(crate) struct Try {
     /// Steps that may fail.
     pub(crate) r#try: Steps,
-    /// Handlers, tried in order.
+    /// Handlers, tried in order; may be left out beside `finally`.
     #[schemars(length(min = 1))]
-    pub(crate) catch: Spanned<Vec<Lenient<Spanned<Catch>>>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) catch: Option<Spanned<Vec<Lenient<Spanned<Catch>>>>>,
     /// Steps that run once, however the steps and their handlers are left.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) finally: Cleanup,
@@ -266,6 +269,19 @@ pub(crate) struct Parallel {
     pub(crate) finally: Cleanup,
 }
 
+/// Runs the steps, and interrupts them after a time: the failure `timeout`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Within {
+    /// Time that the steps have.
+    pub(crate) within: Duration,
+    /// Steps that have this time.
+    pub(crate) steps: Steps,
+    /// Steps that run once, however the steps are left. They are not in the deadline.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
+}
+
 /// Ends the policy.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -302,6 +318,7 @@ impl Step {
             Self::Repeat(step) => &mut step.finally,
             Self::Each(step) => &mut step.finally,
             Self::Parallel(step) => &mut step.finally,
+            Self::Within(step) => &mut step.finally,
             Self::Do(_) | Self::Let(_) | Self::Wait(_) | Self::End(_) => return,
         };
         *cleanup = Some(Box::new(steps));
@@ -321,6 +338,7 @@ impl Serialize for Step {
             Self::Repeat(step) => step.serialize(serializer),
             Self::Each(step) => step.serialize(serializer),
             Self::Parallel(step) => step.serialize(serializer),
+            Self::Within(step) => step.serialize(serializer),
             Self::End(step) => step.serialize(serializer),
         }
     }

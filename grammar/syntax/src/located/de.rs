@@ -16,6 +16,7 @@ use serde::de::{
 
 use super::{LENIENT, Located, LocatedValue, Number, SPANNED};
 use crate::source::Span;
+use crate::words::DEADLINE;
 
 /// Entry in a struct's list of fields: any other key is welcome too.
 pub(crate) const OPEN: &str = "*";
@@ -204,7 +205,9 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
         match &node.value {
             LocatedValue::Object(members) => {
                 let names = |key: &Located<'_>| key.text().is_some_and(|key| variants.contains(&key));
-                let variant = members.iter().find(|(key, _)| names(key));
+                let mut named = members.iter().filter(|(key, _)| names(key));
+                let decides = |key: &Located<'_>| key.text() != Some(DEADLINE);
+                let variant = named.clone().find(|(key, _)| decides(key)).or_else(|| named.next());
                 let Some(variant) = variant else {
                     return Err(Fault::of_shape("no key says what this object is").or_at(node));
                 };

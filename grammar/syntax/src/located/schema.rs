@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 
 use super::{Located, LocatedValue, Number, push_token};
 use crate::suggest;
+use crate::words::DEADLINE;
 
 /// A part of a document that does not fit its schema.
 #[derive(Clone, Debug)]
@@ -188,11 +189,12 @@ impl<'t> SchemaCheck<'t> {
         }
     }
 
-    /// An object with several forms: the first key that names one decides.
+    /// An object with several forms: the first key that names one decides, a deadline only if no other does.
     fn form(&mut self, node: &'t Located<'t>, forms: &[Leaf<'t>]) {
         let form_of = |key: &Located<'_>| forms.iter().find(|form| form_key(form.schema) == key.text());
-        let Some((first, form)) = node.members().iter().find_map(|(key, _)| Some((key, form_of(key)?)))
-        else {
+        let mut named = node.members().iter().filter_map(|(key, _)| Some((key, form_of(key)?)));
+        let decisive = named.clone().find(|(key, _)| key.text() != Some(DEADLINE)).or_else(|| named.next());
+        let Some((first, form)) = decisive else {
             let heads = forms.iter().filter_map(|form| form_key(form.schema)).collect();
             return self.report(node, MismatchKind::NoForm { forms: heads });
         };

@@ -100,7 +100,8 @@ impl WireTranslation {
                 let r#try = self.block(body);
                 let catch: Vec<_> =
                     catches.iter().map(|catch| Lenient::from(Spanned::from(self.catch(catch)))).collect();
-                wire::Step::Try(wire::Try { r#try, catch: catch.into(), finally: None })
+                let catch = if catch.is_empty() { None } else { Some(catch.into()) };
+                wire::Step::Try(wire::Try { r#try, catch, finally: None })
             }
             StepKind::Repeat { times, body, until } => wire::Step::Repeat(Box::new(wire::Repeat {
                 repeat: self.count(times),
@@ -118,6 +119,10 @@ impl WireTranslation {
             StepKind::Parallel { branches } => {
                 let branches: Vec<_> = branches.iter().map(|branch| self.block(branch)).collect();
                 wire::Step::Parallel(wire::Parallel { parallel: branches.into(), finally: None })
+            }
+            StepKind::Within { time, body } => {
+                let (within, steps) = (self.duration(time), self.block(body));
+                wire::Step::Within(wire::Within { within, steps, finally: None })
             }
             StepKind::Finally { step, cleanup } => {
                 let mut step = self.step(step);

@@ -108,6 +108,11 @@ impl Writer<'_> {
                 self.close(step.span.end.saturating_sub(1));
             }
             StepKind::Delay { time } => self.word_and("wait ", time),
+            StepKind::Within { time, body } => {
+                self.word_and("within ", time);
+                self.text.push(' ');
+                self.block(body);
+            }
             StepKind::Finally { step, cleanup } => {
                 self.inner(step);
                 self.finally(cleanup);

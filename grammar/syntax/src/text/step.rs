@@ -101,6 +101,10 @@ impl Builder {
             Rule::parallel => {
                 StepKind::Parallel { branches: parts.map(|branch| self.block(branch, depth + 2)).collect() }
             }
+            Rule::timed => StepKind::Within {
+                time: self.expr(parts.next()?, depth),
+                body: self.block(parts.next()?, depth + 1),
+            },
             Rule::end => StepKind::End(self.end(parts, span, depth)?),
             _ => return None,
         };

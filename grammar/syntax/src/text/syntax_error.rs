@@ -367,6 +367,7 @@ fn label(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::repeat
         | Rule::each
         | Rule::parallel
+        | Rule::timed
         | Rule::end
         | Rule::kw_let
         | Rule::kw_sequence

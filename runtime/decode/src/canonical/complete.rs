@@ -97,6 +97,9 @@ impl Completer<'_> {
                 return Err(outside(time.span, "a wait has a condition in the canonical subset"));
             }
             StepKind::Finally { cleanup, .. } => return Err(uncleaned(cleanup)),
+            StepKind::Within { time, .. } => {
+                return Err(outside(time.span, "the canonical subset has no `within` before a block"));
+            }
             StepKind::Monitor { whens, body } => {
                 count(whens.len(), 1, "a monitor", "conditions", step.span)?;
                 let whens = whens.iter().map(|when| self.when(when, depth)).collect::<Result<_, _>>()?;
@@ -328,8 +331,8 @@ fn names(block: &Block, found: &mut FxHashSet<SmolStr>) {
                 catches.iter().for_each(|catch| names(&catch.body, found));
             }
             StepKind::Parallel { branches } => branches.iter().for_each(|block| names(block, found)),
-            // It is outside of the subset.
-            StepKind::Finally { .. } => {}
+            // They are outside of the subset.
+            StepKind::Finally { .. } | StepKind::Within { .. } => {}
             StepKind::Let { name, .. } => {
                 found.insert(name.text.clone());
             }

@@ -402,3 +402,59 @@ fn monitor_block_that_was_about_to_run_is_dropped_when_its_monitor_is_stopped() 
         ]
     );
 }
+
+fn deadline(secs: f64, body: Vec<StepSketch>) -> StepSketch {
+    let watch = WatchSketch {
+        condition: Condition::Literal(true),
+        hold_secs: secs,
+        react: ReactionSketch::Pause(0.0),
+    };
+    StepSketch::Monitor(vec![watch], body)
+}
+
+fn late(body: StepSketch) -> Vec<StepSketch> {
+    vec![StepSketch::Try(vec![body], vec![(Some(vec![v::TIMEOUT]), vec![StepSketch::say("late")])])]
+}
+
+#[test]
+fn monitor_deadline_interrupts_its_body_and_fails() {
+    check!(
+        late(deadline(5.0, vec![StepSketch::go("table")])),
+        [(0.1, Ack(1)), (5.0, Tick), (5.2, Interrupted(1)), (6.0, Done(2))]
+    );
+}
+
+#[test]
+fn monitor_deadline_is_over_with_its_body() {
+    check!(
+        [deadline(5.0, vec![StepSketch::go("table")]), StepSketch::go("shelf")],
+        [(0.1, Ack(1)), (4.0, Done(1)), (4.1, Ack(2)), (5.0, Tick), (6.0, Done(2))]
+    );
+}
+
+#[test]
+fn monitor_deadline_cleans_up_before_its_handler() {
+    let carry = StepSketch::Finally(vec![StepSketch::go("table")], vec![StepSketch::say("clean")]);
+    check!(
+        late(deadline(5.0, vec![carry])),
+        [(0.1, Ack(1)), (5.0, Tick), (5.2, Interrupted(1)), (6.0, Done(2)), (7.0, Done(3))]
+    );
+}
+
+#[test]
+fn monitor_deadline_passes_while_a_pause_holds_the_body() {
+    let inner = late(deadline(5.0, vec![StepSketch::go("table")]));
+    let outer = StepSketch::Monitor(vec![when(near(0.5), ReactionSketch::Pause(60.0))], inner);
+    check!(
+        [outer],
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (4.0, distance(0.3)),
+            (7.0, Tick),
+            (8.0, distance(3.0)),
+            (8.2, Interrupted(1)),
+            (9.0, Done(2)),
+        ]
+    );
+}

@@ -335,6 +335,7 @@ impl Writer<'_> {
             StepKind::Do(call) => self.call(call),
             StepKind::Sequence { body, .. } => self.block(body),
             StepKind::Monitor { body, .. } => self.without("a monitor", body),
+            StepKind::Within { body, .. } => self.without("a deadline", body),
             StepKind::Try { body, .. } => self.without("what is done after a failure", body),
             StepKind::If { then, .. } => self.without("a condition", then),
             StepKind::Repeat { body, .. } | StepKind::Each { body, .. } => self.without("a loop", body),

@@ -16,7 +16,7 @@ use crate::diagnostic::{Diagnostic, Edit, Fix};
 use crate::errors::ReadShape;
 use crate::located::{Leaf, Located, LocatedValue, SchemaView, form_key};
 use crate::source::Span;
-use crate::words::{is_bare_name, is_name};
+use crate::words::{DEADLINE, is_bare_name, is_name};
 
 pub(super) use edits::EditedText;
 
@@ -28,7 +28,8 @@ pub(super) fn plain_form(
     schema: &Json,
 ) -> Option<(EditedText, Vec<Diagnostic>)> {
     let view = SchemaView::new(schema);
-    let (steps, terms) = (view.forms("Step"), view.forms("Form"));
+    let (mut steps, terms) = (view.forms("Step"), view.forms("Form"));
+    steps.retain(|key| *key != DEADLINE);
     let mut reader = ShapeReader { view, steps, terms, text, readings: Vec::new() };
     reader.document(tree);
     let mut edits: Vec<Edit> =
@@ -58,7 +59,7 @@ impl Reading {
 
 struct ShapeReader<'t> {
     view: SchemaView<'t>,
-    /// Keys that name the forms of a step, and those of a condition or a term.
+    /// Keys that name the forms of a step without that of a deadline, and those of a condition or a term.
     steps: Vec<&'t str>,
     terms: Vec<&'t str>,
     text: &'t str,
@@ -211,7 +212,8 @@ impl<'t> ShapeReader<'t> {
             several => node.members().iter().find_map(|(key, value)| {
                 let name = table::condition_key(key.text()?);
                 // A `do` that names nothing is the body of another form.
-                let is_form = name != "do" || value.text().is_some();
+                let is_form = (name != "do" || value.text().is_some())
+                    && (name != DEADLINE || member(node, "steps").is_some());
                 several.iter().copied().find(|(head, _)| *head == name && is_form)
             }),
         };
@@ -259,7 +261,8 @@ impl<'t> ShapeReader<'t> {
         let is_form = |(key, value): &&(Located<'_>, Located<'_>)| {
             is_any(key, &self.steps) && (key.text() != Some("do") || value.text().is_some())
         };
-        node.members().iter().find(is_form)
+        let deadline = || member(node, DEADLINE).filter(|_| member(node, "steps").is_some());
+        node.members().iter().find(is_form).or_else(deadline)
     }
 
     /// Checks if a value is a step, in the form of the language or in another shape.
