@@ -45,10 +45,10 @@ class Robot:
         return example(self.results.get(command["primitive"]))
 
     def answer(self, query):
-        """What the robot sees: that every fact holds, and that everything is 1 m, 1 kg … away, heavy or full."""
+        """What the robot sees: that every fact holds, that all is 1 m away, and that any other measure is 0.05."""
         if "fact" in query:
             return {"truth": True}
-        return {"value": {"number": 1.0}}
+        return {"value": {"number": 1.0 if query.get("measure") == "distance" else 0.05}}
 
 
 def example(kind):

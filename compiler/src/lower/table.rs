@@ -14,6 +14,7 @@ use crate::environment::Environment;
 use crate::ir::{
     Base, BlockSlot, Condition, Fact, Failure, Fluent, Measure, Primitive, Program, StepId, Term, Ty,
 };
+use crate::prove::symbols::described;
 
 pub(super) struct Tables<'a> {
     pub(super) library: &'a Library,
@@ -78,7 +79,10 @@ impl<'a> Tables<'a> {
                 (name, count) => format_smolstr!("{name}'{count}"),
             };
             let ty = self.ty(binding.ty);
-            self.bindings.push(graph::Binding { name, ty, given: false });
+            let found = described(binding, self.library, self.environment).unwrap_or_default();
+            let among =
+                found.into_iter().filter_map(|entity| self.environment.entities().name(entity).cloned());
+            self.bindings.push(graph::Binding { name, ty, given: false, among: among.collect() });
         }
     }
 

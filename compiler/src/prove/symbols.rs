@@ -23,10 +23,15 @@ pub(crate) struct Symbol {
 }
 
 /// Entities that fit the descriptions of a binding; `None` if it may be another one on some way.
-fn described(binding: &Binding, find: impl Fn(&str) -> Vec<Entity>) -> Option<Vec<Entity>> {
+pub(crate) fn described(
+    binding: &Binding,
+    library: &Library,
+    environment: &Environment,
+) -> Option<Vec<Entity>> {
+    let Ty { base: Base::Entity(kind), lists: 0 } = binding.ty else { return None };
     let mut all = Vec::new();
     for text in binding.descriptions.as_ref()? {
-        let found = find(text);
+        let found = environment.described(library, text, kind);
         if found.is_empty() {
             return None;
         }
@@ -53,7 +58,7 @@ impl Symbols {
                 self.bindings.push(None);
                 continue;
             };
-            let found = described(binding, |text| environment.described(library, text, kind));
+            let found = described(binding, library, environment);
             let entity = match found.as_deref() {
                 Some([only]) => Some(*only),
                 Some([]) | None => self.add(kind, None),

@@ -186,6 +186,8 @@ pub(crate) struct Run {
     pub(crate) freed: bool,
     /// Monitors that wait for their body to be down before they run a block.
     pub(crate) clearing: Vec<NodeId>,
+    /// True if a step found another thing than the proofs assume: what they proved is checked from then on.
+    pub(crate) is_unproven: bool,
     /// Motions of calls that are about to start.
     pub(crate) checks: Vec<MotionCheck>,
     /// Number of checks so far.
@@ -267,6 +269,7 @@ impl Run {
             dirty: BinaryHeap::new(),
             ending: None,
             halted: false,
+            is_unproven: false,
             uncleaned: Vec::new(),
             closing: None,
             orphans: Vec::new(),

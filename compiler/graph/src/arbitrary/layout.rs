@@ -292,6 +292,7 @@ impl Layout {
             name: SmolStr::from(format!("{name}'{}", id.0)),
             ty,
             given: false,
+            among: Vec::new(),
         });
         id
     }

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-use super::{Fact, FailureId, KindId, ResourceId, Type};
+use super::{Fact, FailureId, KindId, ResourceId, Type, Value};
 
 /// An entity kind in the hierarchy of kinds.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
@@ -96,6 +96,22 @@ pub struct Binding {
     /// True if the name is bound before the first step: by the run that this policy takes over, or by a host.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub given: bool,
+    /// Entities of which a found value is one, as the proofs assume; behind another one, whatever they proved
+    /// is a guard. Empty where the proofs assume nothing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub among: Vec<SmolStr>,
+}
+
+impl Binding {
+    /// Checks if a value is one that the proofs assume.
+    #[must_use]
+    pub fn is_assumed(&self, value: &Value) -> bool {
+        match value {
+            Value::Entity(id) => self.among.is_empty() || self.among.contains(id),
+            Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) | Value::Case(_) => true,
+            Value::List(_) | Value::Pose(_) => true,
+        }
+    }
 }
 
 /// A fact from which the policy was proved.

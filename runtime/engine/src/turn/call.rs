@@ -57,7 +57,8 @@ impl Turn<'_> {
             // A goal of the policy before goes on for it.
         } else if !self.reserve(step) {
             self.enqueue(node);
-        } else if let Some(command) = step.command.as_ref().filter(|_| step.is_ready) {
+        } else if let Some(command) = step.command.as_ref().filter(|_| step.is_ready && !self.run.is_unproven)
+        {
             self.launch(node, step, command.clone());
         } else {
             self.check(node);
@@ -159,7 +160,7 @@ impl Turn<'_> {
         let fresh = Freshness::Readings(since);
         let mut unknown = None;
         for (index, need) in call.needs.iter().enumerate() {
-            if need.verdict == Verdict::Proven {
+            if !self.is_open(need.verdict) {
                 continue;
             }
             let mut truth = self.need(need, fresh);
@@ -184,6 +185,11 @@ impl Turn<'_> {
             (None, None) => GuardCheck::Unknown(StartRefusal::Argument),
             (None, Some(command)) => self.look_at_motion(node, call, Arc::new(command)),
         }
+    }
+
+    /// Returns whether a need or a motion with this verdict is to be checked before its step.
+    pub(super) fn is_open(&self, verdict: Verdict) -> bool {
+        verdict == Verdict::Deferred || self.run.is_unproven
     }
 
     pub(super) fn values(&mut self, terms: &[Term], fresh: Freshness, vague: bool) -> Option<Vec<Value>> {
@@ -240,7 +246,7 @@ impl Turn<'_> {
         let plan = self.plan;
         let Some(call) = plan.call(node) else { return };
         for (index, need) in call.needs.iter().enumerate() {
-            if need.verdict == Verdict::Deferred {
+            if self.is_open(need.verdict) {
                 self.report(move || TraceEventKind::Guard { node, need: index as u32, truth: Truth::True });
             }
         }

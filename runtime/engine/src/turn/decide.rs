@@ -11,7 +11,7 @@ use crate::query::Truth;
 use crate::state::{MotionCheck, Phase};
 use crate::time::Time;
 use crate::trace::{EndCause, TraceEventKind};
-use motet_graph::{CallNode, Condition, NodeId, NodeKind, TIMEOUT, Value, Verdict};
+use motet_graph::{CallNode, Condition, NodeId, NodeKind, TIMEOUT, Value};
 use std::sync::Arc;
 
 impl Turn<'_> {
@@ -22,7 +22,7 @@ impl Turn<'_> {
         call: &CallNode,
         command: Arc<Command>,
     ) -> GuardCheck {
-        let deferred = call.motion.as_ref().filter(|motion| motion.verdict == Verdict::Deferred);
+        let deferred = call.motion.as_ref().filter(|motion| self.is_open(motion.verdict));
         let Some(motion) = deferred.filter(|_| self.settings.verify_within.is_some()) else {
             return GuardCheck::Go(command);
         };
@@ -167,9 +167,10 @@ impl Turn<'_> {
         self.run.nodes.at_mut(node.index()).phase = Phase::Inside;
         let plan = self.plan;
         let NodeKind::Let { binding, .. } = &plan.node(node).kind else { return };
-        let ty = plan.graph.bindings.get(binding.index()).map(|binding| &binding.ty);
+        let declared = plan.graph.bindings.get(binding.index());
+        let entities = &self.run.beliefs.entities;
         match value {
-            Some(value) if ty.is_some_and(|ty| value.fits(ty)) => {
+            Some(value) if declared.is_some_and(|it| entities.fits(&plan.graph, &value, &it.ty)) => {
                 self.bind(*binding, value);
                 self.succeed(node);
             }

@@ -196,10 +196,13 @@ impl Turn<'_> {
         let plan = self.plan;
         let Some(call) = plan.call(node) else { return };
         if let Some(binding) = call.binds {
-            let ty = plan.graph.bindings.get(binding.index()).map(|binding| &binding.ty);
+            let declared = plan.graph.bindings.get(binding.index());
             let entities = &self.run.beliefs.entities;
-            match value.filter(|value| ty.is_some_and(|ty| entities.fits(&plan.graph, value, ty))) {
-                Some(value) => self.bind(binding, value),
+            match value.filter(|value| declared.is_some_and(|it| entities.fits(&plan.graph, value, &it.ty))) {
+                Some(value) => {
+                    self.run.is_unproven |= declared.is_some_and(|it| !it.is_assumed(&value));
+                    self.bind(binding, value);
+                }
                 None => {
                     self.goal_failed(node, goal, plan.failed, EndCause::BadValue);
                     return;

@@ -5,9 +5,10 @@ use crate::check;
 use crate::script::Feed::{
     Ack, Done, DriverLost, Fails, Gives, Interrupted, Lost, NotHeld, Refused, Stop, Stopped, Tick,
 };
-use crate::script::{at, entity, holding, holding_any};
+use crate::script::{at, entity, holding, holding_any, transcript_from, transcript_of};
 use motet_graph::Value;
-use motet_graph::arbitrary::{CallSketch, StepSketch, vocabulary as v};
+use motet_graph::arbitrary::{CallSketch, StepSketch, graph, vocabulary as v};
+use motet_runtime::StartState;
 
 fn pick(object: &str) -> CallSketch {
     CallSketch::new(v::PICK, vec![v::entity(object)])
@@ -112,6 +113,40 @@ fn call_result_is_bound_and_used() {
 #[test]
 fn call_result_of_the_wrong_type_is_a_failure() {
     check!([StepSketch::detect("mug")], [(1.0, Gives(1, Value::Int(3)))]);
+}
+
+/// A person is no object.
+#[test]
+fn call_result_of_another_kind_is_a_failure() {
+    let found = |id: &str| {
+        let steps = [StepSketch::go("table"), StepSketch::detect("mug")];
+        let start = StartState {
+            entities: vec![("user".into(), "Person".into()), ("mug_1".into(), "Object".into())],
+            ..StartState::default()
+        };
+        transcript_from(graph(&steps), &start, vec![(1.0, Done(1)), (2.0, Gives(2, entity(id)))])
+    };
+    for (id, is_taken) in [("mug_1", true), ("unheard_of", true), ("user", false)] {
+        let transcript = found(id);
+        assert_eq!(transcript.contains("finished: done"), is_taken, "{id}\n{transcript}");
+    }
+}
+
+/// A thing that is none of those that the proofs assume brings back the guards that they spared.
+#[test]
+fn call_result_other_than_the_proofs_assume_brings_guards_back() {
+    let place = CallSketch::new(v::PLACE, vec![CallSketch::NEAREST, v::entity("table")]).proven();
+    let found = |id: &str| {
+        let mut graph = graph(&[StepSketch::detect("mug"), StepSketch::Call(place.clone())]);
+        for binding in &mut graph.bindings {
+            binding.among = vec!["mug_1".into(), "mug_2".into()];
+        }
+        transcript_of(graph, vec![(1.0, Gives(1, entity(id)))])
+    };
+    for (id, is_proven) in [("mug_1", true), ("mug_2", true), ("mug_3", false), ("unheard_of", false)] {
+        let transcript = found(id);
+        assert_eq!(!transcript.contains("guard 0 of /steps/1"), is_proven, "{id}\n{transcript}");
+    }
 }
 
 #[test]

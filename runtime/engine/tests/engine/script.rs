@@ -34,9 +34,14 @@ pub(crate) fn transcript(steps: &[StepSketch], script: Vec<(f64, Feed)>) -> Stri
 
 /// The transcript of a graph under a script.
 pub(crate) fn transcript_of(graph: Graph, script: Vec<(f64, Feed)>) -> String {
+    transcript_from(graph, &StartState::default(), script)
+}
+
+/// The transcript of a graph under a script, from a state.
+pub(crate) fn transcript_from(graph: Graph, start: &StartState, script: Vec<(f64, Feed)>) -> String {
     let go = PrimitiveSet::Only(["go".into()].into());
     let capabilities = Capabilities { update: go, ..Capabilities::default() };
-    let mut engine = Engine::new(graph, &StartState::default()).unwrap().with_capabilities(capabilities);
+    let mut engine = Engine::new(graph, start).unwrap().with_capabilities(capabilities);
     let mut goals = BTreeMap::new();
     let mut text = String::new();
     step(&mut engine, 0.0, Event::Begin, "begin", &mut goals, &mut text);

@@ -62,7 +62,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
         primitives: primitives.collect(),
         failures: failures.map(Into::into).to_vec(),
         resources: Vec::new(),
-        bindings: vec![Binding { name: "found".into(), ty: object.clone(), given: false }],
+        bindings: vec![Binding { name: "found".into(), ty: object.clone(), given: false, among: Vec::new() }],
         nodes: nodes.collect(),
         regions: vec![Region { owner: None, entry: Some(NodeId(0)) }],
         initial: Vec::new(),
