@@ -7,7 +7,8 @@
 
 use motet_syntax::Syntax;
 use motet_syntax::ast::{
-    Arg, Block, Call, Do, End, Expr, ExprKind, Manner, Name, Policy, Reaction, StepKind, TextPart,
+    Arg, Block, Call, Do, End, Expr, ExprKind, Keep, KeepKind, Manner, Name, Policy, Reaction, StepKind,
+    TextPart,
 };
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
@@ -36,6 +37,7 @@ pub fn make_explicit(policy: &mut Policy, library: &Library, form: Syntax) {
     if let Some(goal) = &mut policy.achieves {
         writer.condition(goal);
     }
+    writer.keeps(&mut policy.keeps);
     writer.block(&mut policy.body);
     policy.cleanup.iter_mut().for_each(|cleanup| writer.block(cleanup));
 }
@@ -113,8 +115,24 @@ impl Writer<'_> {
                 self.term(at_most, Some(Ty::INT));
                 self.block(body);
             }
+            StepKind::Keep { keeps, body } => {
+                self.keeps(keeps);
+                self.block(body);
+            }
             StepKind::Parallel { branches } => branches.iter_mut().for_each(|branch| self.block(branch)),
             StepKind::End(end) => self.end(end),
+        }
+    }
+
+    fn keeps(&self, keeps: &mut [Keep]) {
+        for keep in keeps {
+            match &mut keep.kind {
+                KeepKind::OutOf(zone) => self.term(zone, None),
+                KeepKind::Distance { to, at_least } => {
+                    self.term(to, None);
+                    self.term(at_least, Some(Ty::LENGTH));
+                }
+            }
         }
     }
 

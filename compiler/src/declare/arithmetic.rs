@@ -155,11 +155,34 @@ fn literal(term: &Term) -> Option<f64> {
 pub const MAX_COUNT: u32 = 1_000_000;
 /// Maximal deadline in seconds: a week.
 pub const MAX_SECONDS: f64 = 604_800.0;
+/// Maximal distance in m that a `keep` can ask for.
+const MAX_DISTANCE_M: f64 = 1000.0;
 
 /// Least part of a robot's speed that a manner may ask for.
 const LEAST_PART: f64 = 0.01;
 
 impl Elaborator<'_> {
+    /// Elaborates a least distance: a length that is not negative.
+    pub(crate) fn distance(&mut self, expr: &Expr) -> Term {
+        let wanted = Expected { ty: Ty::LENGTH, place: ValueRole::Named("a least distance") };
+        let term = self.term_of(expr, wanted);
+        match term {
+            Term::Number(value) if !(0.0..=MAX_DISTANCE_M).contains(&value) => {
+                let unit = expr.unit().unwrap_or(Unit::Metre);
+                self.report(errors::OutOfRange {
+                    span: expr.span,
+                    place: "a least distance".to_owned(),
+                    least: unit.show(0.0),
+                    greatest: unit.show(MAX_DISTANCE_M),
+                    actual: unit.show(value),
+                    meant: None,
+                });
+                Term::Unknown
+            }
+            term => term,
+        }
+    }
+
     /// Elaborates a constant duration, in seconds.
     pub(crate) fn seconds(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {
         let wanted = Expected { ty: Ty::DURATION, place: ValueRole::Named(place) };

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use motet_geometry::planning::{
-    BaseMapCache, Configuration as Placed, Infeasible, MotionAnswer, MotionQuery, MotionWitness,
+    BaseMapCache, Configuration as Placed, Infeasible, KeptRegion, MotionAnswer, MotionQuery, MotionWitness,
     QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason,
 };
 use motet_robots::card::Robot;
@@ -155,6 +155,14 @@ impl Geometry {
             memo.answers.insert(key, Arc::clone(&answer));
         }
         answer
+    }
+
+    /// The world with these regions, which the robot may not enter, in place of its own.
+    pub(super) fn keeping(&self, at: &Arc<Fingerprinted>, kept: Vec<KeptRegion>) -> Arc<Fingerprinted> {
+        if at.world.kept == kept {
+            return Arc::clone(at);
+        }
+        Arc::new(fingerprinted(SceneState { kept, ..at.world.clone() }))
     }
 
     /// Explanation of infeasibility in a world, with a proposed change.

@@ -1,8 +1,8 @@
 //! Transfer function of a call: the answers of its motion in all possible worlds, and the worlds after it.
 
 use motet_geometry::planning::{
-    GraspSide, InfeasibleReason, MotionAnswer, MotionQuery, MotionWitness, RobotModel, UnknownReason,
-    components,
+    GraspSide, InfeasibleReason, KeptRegion, MotionAnswer, MotionQuery, MotionWitness, RobotModel,
+    UnknownReason, components,
 };
 use motet_graph as graph;
 use motet_stdlib::lang;
@@ -15,7 +15,7 @@ use super::motion::{MotionEffect, failures, makes, motion_effect, motion_query, 
 use super::verdict::MotionVerdict;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::PrimitiveDef;
-use crate::ir::{Call, Entity, ROBOT, START, StepId, Term};
+use crate::ir::{Call, Entity, Keep, ROBOT, START, StepId, Term};
 
 impl MotionChecker<'_> {
     /// Leads to the worlds after a call that succeeds.
@@ -44,7 +44,10 @@ impl MotionChecker<'_> {
         let mut after = Worlds { known: Vec::new(), lost: before.lost.clone() };
         let (mut witness, mut unknown, mut refused, mut is_refused) = (None, before.lost.clone(), None, true);
         let mut warned = None;
-        for possible in before.known {
+        for mut possible in before.known {
+            let (regions, unplaced) = self.kept(id, call, &possible);
+            unknown = unknown.or(unplaced);
+            possible.at = self.geometry.keeping(&possible.at, regions);
             let answer = self.geometry.answer(&possible.at, &query);
             match &*answer {
                 MotionAnswer::Feasible(way) => {
@@ -97,8 +100,34 @@ impl MotionChecker<'_> {
             (unknown, ..) => MotionVerdict::Deferred(unknown),
         };
         let refused = refused.filter(|(_, certain)| is_error(*certain)).map(|(told, _)| told);
+        // The next step has its own rules.
+        for possible in &mut after.known {
+            possible.at = self.geometry.keeping(&possible.at, Vec::new());
+        }
         self.found(id, Some(verdict), refused.or(warned));
         self.worlds = after;
+    }
+
+    /// Regions that the rules around a step forbid in a possible world, and the reason why the region of one
+    /// is left to the run, if there is one.
+    fn kept(&self, id: StepId, call: &Call, at: &PossibleWorld) -> (Vec<KeptRegion>, Option<SmolStr>) {
+        let (mut regions, mut unplaced) = (Vec::new(), None);
+        for keep in self.program.kept(id) {
+            let (Keep::OutOf(to) | Keep::Distance { to, .. }) = keep;
+            let region = self.named(to, call).and_then(|name| {
+                let entity = self.geometry.scene().entities.get(&name);
+                let region = entity.and_then(|entity| match keep {
+                    Keep::OutOf(_) => at.at.world.kept_out_of(entity),
+                    Keep::Distance { at_least, .. } => at.at.world.kept_from(entity, at_least?),
+                });
+                region.ok_or_else(|| format_smolstr!("it is not known where to keep away from `{name}`"))
+            });
+            match region {
+                Ok(region) => regions.push(region),
+                Err(why) => unplaced = unplaced.or(Some(why)),
+            }
+        }
+        (regions, unplaced)
     }
 
     /// Returns true if a handler around this step catches the failure that an infeasible motion leads to.

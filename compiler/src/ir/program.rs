@@ -2,7 +2,7 @@
 
 use motet_graph::Manner;
 use motet_syntax::Span;
-use motet_syntax::ast::EndKind;
+use motet_syntax::ast::{CompareOp, EndKind};
 use motet_syntax::unit::Unit;
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
@@ -37,7 +37,12 @@ impl Program {
             let Some(inside) = inside else { return false };
             matches!(
                 inside,
-                BlockSlot::During | BlockSlot::Timed | BlockSlot::Reaction(_) | BlockSlot::Branch(_)
+                BlockSlot::During
+                    | BlockSlot::Kept
+                    | BlockSlot::KeptWhole
+                    | BlockSlot::Timed
+                    | BlockSlot::Reaction(_)
+                    | BlockSlot::Branch(_)
             )
         })
     }
@@ -58,6 +63,27 @@ impl Program {
         false
     }
 
+    /// Rules of where the robot may not go during a step, innermost first. O(ancestors).
+    pub(crate) fn kept(&self, id: StepId) -> impl Iterator<Item = Keep<'_>> {
+        let mut slot = self.step(id).map(|step| step.position.slot);
+        let around = self.around(id).filter_map(move |(_, outer)| {
+            let inside = slot.replace(outer.position.slot);
+            matches!(inside, Some(BlockSlot::Kept | BlockSlot::KeptWhole)).then_some(&outer.kind)
+        });
+        let conditions = around.flat_map(StepKind::conditions);
+        conditions.filter_map(|condition| match condition {
+            Condition::Compare(op, Term::Measure(_, args), limit) => {
+                let to = args.first()?;
+                Some(match (op, limit) {
+                    (CompareOp::AtMost, _) => Keep::OutOf(to),
+                    (_, Term::Number(at_least)) => Keep::Distance { to, at_least: Some(*at_least) },
+                    _ => Keep::Distance { to, at_least: None },
+                })
+            }
+            _ => None,
+        })
+    }
+
     /// Ancestors of a step, innermost first.
     pub(crate) fn around(&self, id: StepId) -> impl Iterator<Item = (StepId, &Step)> {
         let outer = |id: StepId| {
@@ -70,6 +96,18 @@ impl Program {
 
 /// Steps that run one after the other.
 pub(crate) type Block = Vec<StepId>;
+
+/// Rule of where the robot may not go, as the conditions of its monitor say it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Keep<'p> {
+    /// Zone that nothing of the robot enters.
+    OutOf(&'p Term),
+    Distance {
+        to: &'p Term,
+        /// Least distance in m; `None` if only the run determines it.
+        at_least: Option<f64>,
+    },
+}
 
 /// A name for the result of a step.
 #[derive(Clone, Debug)]
@@ -156,6 +194,10 @@ pub(crate) enum BlockSlot {
     During,
     /// `steps` of a `within`.
     Timed,
+    /// Block of a `keep`, which is a monitor.
+    Kept,
+    /// Block of the `keep` of a whole policy.
+    KeptWhole,
     Reaction(u16),
     Branch(u16),
     /// Body of an inlined policy.

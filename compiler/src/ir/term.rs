@@ -210,6 +210,8 @@ impl Ty {
     pub(crate) const INT: Self = Self::plain(Base::Int);
     /// The type `Ratio`.
     pub(crate) const RATIO: Self = Self::plain(Base::Quantity(Dimension::NONE));
+    /// The type `Length`.
+    pub(crate) const LENGTH: Self = Self::plain(Base::Quantity(Dimension::LENGTH));
     pub(crate) const DURATION: Self = Self::plain(Base::Quantity(Dimension::DURATION));
 
     /// Type without a list.

@@ -85,7 +85,7 @@ fn number(program: &Program, id: StepId) -> String {
     let parts = own.filter_map(|step| {
         let number = step.position.index + 1;
         let part = match step.position.slot {
-            BlockSlot::Steps | BlockSlot::Timed | BlockSlot::Inlined => number.to_string(),
+            BlockSlot::Steps | BlockSlot::Timed | BlockSlot::Kept | BlockSlot::Inlined => number.to_string(),
             BlockSlot::Then => format!("then.{number}"),
             BlockSlot::Else => format!("else.{number}"),
             BlockSlot::Try => format!("try.{number}"),
@@ -95,7 +95,7 @@ fn number(program: &Program, id: StepId) -> String {
             BlockSlot::Branch(index) => format!("parallel.{}.{number}", index + 1),
             BlockSlot::Finally => format!("finally.{number}"),
             // It has no place of its own.
-            BlockSlot::Protected | BlockSlot::InlinedWhole => return None,
+            BlockSlot::Protected | BlockSlot::KeptWhole | BlockSlot::InlinedWhole => return None,
         };
         Some(part)
     });

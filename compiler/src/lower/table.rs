@@ -389,7 +389,8 @@ pub(crate) fn pointer(program: &Program, step: StepId) -> SmolStr {
             BlockSlot::Reaction(watch) => write!(path, "/monitor/{watch}/then/steps/{index}"),
             BlockSlot::Branch(branch) => write!(path, "/parallel/{branch}/{index}"),
             BlockSlot::Inlined => write!(path, ":/steps/{index}"),
-            BlockSlot::Protected => Ok(()),
+            BlockSlot::Kept => write!(path, "/steps/{index}"),
+            BlockSlot::Protected | BlockSlot::KeptWhole => Ok(()),
             BlockSlot::InlinedWhole => write!(path, ":"),
             BlockSlot::Finally => write!(path, "/finally/{index}"),
         };

@@ -1,7 +1,8 @@
 //! Resolution of steps and blocks.
 
 use motet_syntax::ast::{
-    Block, Catch, CatchOn, End, EndKind, Expr, Name, Policy, Reaction, Step, StepKind, When,
+    Block, Catch, CatchOn, CompareOp, End, EndKind, Expr, Keep, KeepKind, Name, Policy, Reaction, Step,
+    StepKind, When,
 };
 use motet_syntax::{Diagnostic, Span};
 use smallvec::{SmallVec, smallvec};
@@ -14,7 +15,7 @@ use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::errors::{NotACondition, UnknownFailure};
 use crate::declare::gap::Unbound;
 use crate::declare::name::{Scope, ScopeMark, list, near};
-use crate::ir::{self, Binding, BindingId, BlockSlot, Program, StepId, StepPosition, Term, Ty};
+use crate::ir::{self, Binding, BindingId, BlockSlot, Condition, Program, StepId, StepPosition, Term, Ty};
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
 pub const MAX_NODES: usize = 100_000;
@@ -97,8 +98,25 @@ impl<'a> StepResolver<'a> {
             None => (BlockSlot::Steps, BlockSlot::Protected),
             Some(_) => (BlockSlot::Inlined, BlockSlot::InlinedWhole),
         };
-        let Some(cleanup) = &policy.cleanup else { return self.block(&policy.body, call, steps) };
-        let position = StepPosition { parent: call, slot: whole, index: 0 };
+        let mut position = StepPosition { parent: call, slot: whole, index: 0 };
+        if policy.keeps.is_empty() {
+            return match &policy.cleanup {
+                Some(cleanup) => self.cleaned(policy, cleanup, position),
+                None => self.block(&policy.body, call, steps),
+            };
+        }
+        let Some(id) = self.reserve(policy.body.span, position) else { return Vec::new() };
+        let whens = self.keeps(&policy.keeps);
+        position = StepPosition { parent: Some(id), slot: BlockSlot::KeptWhole, index: 0 };
+        let body = match &policy.cleanup {
+            Some(cleanup) => self.cleaned(policy, cleanup, position),
+            None => self.block(&policy.body, Some(id), BlockSlot::Kept),
+        };
+        self.fill(id, ir::StepKind::Monitor { whens, body }).into_iter().collect()
+    }
+
+    /// Resolves the steps of a policy with its cleanup as one step around them.
+    fn cleaned(&mut self, policy: &Policy, cleanup: &Block, position: StepPosition) -> ir::Block {
         let Some(id) = self.reserve(policy.body.span, position) else { return Vec::new() };
         let (scope, goes_on) = (self.elaborator.scope.mark(), self.goes_on);
         let body = self.block(&policy.body, Some(id), BlockSlot::Steps);
@@ -268,6 +286,10 @@ impl<'a> StepResolver<'a> {
                     body: self.only_block(body, (id, BlockSlot::Timed)),
                 }
             }
+            StepKind::Keep { keeps, body } => {
+                let whens = self.keeps(keeps);
+                ir::StepKind::Monitor { whens, body: self.only_block(body, (id, BlockSlot::Kept)) }
+            }
             StepKind::Try { body, catches } => {
                 let mut fork = self.fork(id);
                 let whole = "the body of the `try`";
@@ -383,6 +405,38 @@ impl<'a> StepResolver<'a> {
             }
         };
         ir::When { condition, span: when.condition.span, hold_secs, reaction }
+    }
+
+    /// Resolves the rules of a `keep` to the conditions of a monitor, which pauses where a rule is broken.
+    fn keeps(&mut self, keeps: &[Keep]) -> Vec<ir::When> {
+        keeps.iter().map(|keep| self.kept(keep)).collect()
+    }
+
+    fn kept(&mut self, keep: &Keep) -> ir::When {
+        let items = self.elaborator.library.lang_items;
+        let entity = |kind: Option<ir::Kind>, place: &'static str| Expected {
+            ty: kind.map_or(Ty::UNKNOWN, |kind| Ty::plain(ir::Base::Entity(kind))),
+            place: ValueRole::Named(place),
+        };
+        let (to, op, limit) = match &keep.kind {
+            KeepKind::OutOf(zone) => {
+                let zone = self.elaborator.term_of(zone, entity(items.zone, "the area that is kept out of"));
+                (zone, CompareOp::AtMost, Term::Number(0.0))
+            }
+            KeepKind::Distance { to, at_least } => {
+                let wanted = entity(Some(ir::Kind::ROOT), "what a distance is kept to");
+                let to = self.elaborator.term_of(to, wanted);
+                (to, CompareOp::Less, self.elaborator.distance(at_least))
+            }
+        };
+        let condition = match items.distance {
+            Some(measure) if to != Term::Unknown && limit != Term::Unknown => {
+                Condition::Compare(op, Term::Measure(measure, vec![to]), limit)
+            }
+            Some(_) | None => Condition::Unknown,
+        };
+        let reaction = ir::Reaction::Pause { within_secs: DEFAULT_WAIT_SECS };
+        ir::When { condition, span: keep.span, hold_secs: 0.0, reaction }
     }
 
     fn catch(&mut self, catch: &Catch, fork: &mut Fork, index: usize) -> ir::Catch {

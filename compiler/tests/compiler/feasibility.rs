@@ -263,3 +263,46 @@ fn what_is_reached_is_reachable() {
     let need = pick.unwrap().needs.iter().find(is_it).unwrap();
     assert_eq!(need.verdict, Verdict::Proven);
 }
+
+/// The kitchen with a zone of this extent.
+fn with_zone(at: [f64; 2], size: [f64; 2]) -> Scene {
+    let mut scene = kitchen();
+    let pose = Placement { xyz: [at[0], at[1], 0.0], rpy: [0.0; 3] };
+    let mut zone = scene::Entity::place("stairs".into(), pose);
+    zone.kind = "Zone".into();
+    zone.shape = Some(scene::EntityShape::Box([size[0], size[1], 0.1]));
+    scene.entities.insert("stairs".into(), zone);
+    scene
+}
+
+#[test]
+fn a_way_into_a_zone_that_is_kept_out_of_is_refused() {
+    let session = session(&with_zone([2.1, -2.1], [2.4, 2.4]));
+    let found = motions(&session, "policy wash for hsr { go(sink) }");
+    assert_eq!(found[0].1, Verdict::Proven);
+    let said = refusal(&session, "policy wash for hsr keep out of stairs { go(sink) }").0;
+    assert!(said.contains("what `keep out of stairs` forbids"), "{said}");
+    let said = refusal(&session, "policy wash for hsr { keep out of stairs { go(sink) } }").0;
+    assert!(said.contains("what `keep out of stairs` forbids"), "{said}");
+    // The rule ends with its block.
+    let after = motions(&session, "policy wash for hsr { keep out of stairs { go(user) } go(sink) }");
+    assert!(after.iter().all(|(_, verdict, _)| *verdict == Verdict::Proven), "{after:?}");
+}
+
+#[test]
+fn a_distance_is_kept_by_the_whole_motion() {
+    let said = refusal(&KITCHEN, "policy come for hsr keep distance(user) >= 1.5 m { go(user) }").0;
+    assert!(said.contains("what `keep distance(user) >= 1.5 m` forbids"), "{said}");
+    let found = motions(&KITCHEN, "policy wash for hsr keep distance(user) >= 30 cm { go(sink) }");
+    assert_eq!(found[0].1, Verdict::Proven);
+}
+
+#[test]
+fn a_distance_to_something_without_a_pose_is_left_to_the_run() {
+    let mut scene = kitchen();
+    scene.entities["user"].pose = None;
+    let found = motions(&session(&scene), "policy wash for hsr keep distance(user) >= 1 m { go(sink) }");
+    let (_, verdict, why) = &found[0];
+    assert_eq!(*verdict, Verdict::Deferred);
+    assert_eq!(why, "it is not known where to keep away from `user`");
+}

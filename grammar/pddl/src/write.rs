@@ -137,6 +137,7 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
         robot: None,
         achieves: conjunction(problem.goal.iter().map(|part| literal(part, &[])).collect()),
         body: Block::new(steps.collect(), span),
+        keeps: Vec::new(),
         cleanup: None,
         span,
     }

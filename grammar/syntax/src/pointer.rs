@@ -3,7 +3,9 @@
 
 use smol_str::SmolStr;
 
-use crate::ast::{Arg, Block, Call, Expr, ExprKind, Manner, Policy, Reaction, Step, StepKind, When};
+use crate::ast::{
+    Arg, Block, Call, Expr, ExprKind, Keep, KeepKind, Manner, Policy, Reaction, Step, StepKind, When,
+};
 use crate::located::push_token;
 use crate::source::Span;
 
@@ -27,7 +29,8 @@ pub fn pointer_to(policy: &Policy, span: Span, parameter: &dyn Fn(&str, usize) -
     if let Some(goal) = &policy.achieves {
         walk.expr("achieves", goal);
     }
-    let _ = walk.block("steps", &policy.body)
+    let _ = walk.keeps(&policy.keeps)
+        || walk.block("steps", &policy.body)
         || policy.cleanup.as_ref().is_some_and(|cleanup| walk.block("finally", cleanup));
     walk.pointer
 }
@@ -120,6 +123,9 @@ impl PointerWalk<'_> {
                     || self.expr("at_most", at_most)
                     || self.block("steps", body);
             }
+            StepKind::Keep { keeps, body } => {
+                let _ = self.keeps(keeps) || self.block("steps", body);
+            }
             StepKind::Parallel { branches } => self.group("parallel", |walk| {
                 let _ =
                     branches.iter().enumerate().any(|(index, branch)| walk.block(&index.to_string(), branch));
@@ -128,6 +134,19 @@ impl PointerWalk<'_> {
                 let _ = self.optional("why", end.why.as_ref());
             }
         }
+    }
+
+    fn keeps(&mut self, keeps: &[Keep]) -> bool {
+        let Some(index) = keeps.iter().position(|keep| keep.span.contains(self.span)) else { return false };
+        self.key("keep");
+        self.index(index);
+        let _ = keeps.get(index).is_some_and(|keep| match &keep.kind {
+            KeepKind::OutOf(zone) => self.expr("out_of", zone),
+            KeepKind::Distance { to, at_least } => {
+                self.expr("distance", to) || self.expr("at_least", at_least)
+            }
+        });
+        true
     }
 
     fn whens(&mut self, whens: &[When]) -> bool {

@@ -43,7 +43,7 @@ pub const DEADLINE: &str = "within";
 /// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
 /// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a
 /// support.
-pub const FORM_KEYS: [(&str, &str); 28] = [
+pub const FORM_KEYS: [(&str, &str); 29] = [
     ("let", "a step of its own"),
     ("be", "`let`"),
     ("if", "a step of its own"),
@@ -57,11 +57,12 @@ pub const FORM_KEYS: [(&str, &str); 28] = [
     ("finally", "the steps that have steps of their own"),
     ("repeat", "a step of its own"),
     ("until", "`repeat`"),
-    ("steps", "`sequence`, `repeat`, `each` and `within`"),
+    ("steps", "`sequence`, `repeat`, `each`, `within` and `keep`"),
     ("each", "a step of its own"),
     ("in", "`each`"),
     ("at_most", "`each` and to the reactions"),
     ("parallel", "a step of its own"),
+    ("keep", "a step of its own"),
     ("end", "a step of its own"),
     ("why", "`end`"),
     ("sequence", "a step of its own"),

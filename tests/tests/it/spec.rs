@@ -92,3 +92,8 @@ fn spec_values() {
 fn spec_scopes() {
     check(include_str!("../../spec/scopes.md"), |code| !is_intent(code));
 }
+
+#[test]
+fn spec_keep() {
+    check(include_str!("../../spec/keep.md"), |code| !is_intent(code));
+}

@@ -4,10 +4,11 @@ use smol_str::SmolStr;
 
 use super::{DEPTH, Flavor, TreeGenerator};
 use crate::ast::{
-    Block, Catch, CatchOn, Clause, Do, End, EndKind, EntitiesDecl, EnumDecl, ExprKind, FailureDecl, File,
-    FluentDecl, InitiallyDecl, Item, KindDecl, Manner, MeasureDecl, Param, Policy, PrimitiveDecl,
-    PrimitiveKind, Quantified, Reaction, Step, StepKind, TypeExpr, When,
+    Block, Catch, CatchOn, Clause, Do, End, EndKind, EntitiesDecl, EnumDecl, Expr, ExprKind, FailureDecl,
+    File, FluentDecl, InitiallyDecl, Item, Keep, KeepKind, KindDecl, Manner, MeasureDecl, Param, Policy,
+    PrimitiveDecl, PrimitiveKind, Quantified, Reaction, Step, StepKind, TypeExpr, When,
 };
+use crate::unit::Unit;
 
 impl TreeGenerator<'_> {
     pub(super) fn file(&mut self) -> File {
@@ -133,6 +134,7 @@ impl TreeGenerator<'_> {
             params,
             robot: self.maybe(|it| it.choice.name()),
             achieves: self.maybe(|it| it.condition(2)),
+            keeps: self.maybe(Self::keeps).unwrap_or_default(),
             body: self.block(DEPTH),
             cleanup: self.maybe(|it| it.block(DEPTH - 1)),
             span: self.span(),
@@ -202,7 +204,7 @@ impl TreeGenerator<'_> {
             StepKind::Wait { .. } | StepKind::Delay { .. } => false,
             StepKind::Sequence { .. } | StepKind::If { .. } | StepKind::Monitor { .. } => true,
             StepKind::Try { .. } | StepKind::Repeat { .. } | StepKind::Each { .. } => true,
-            StepKind::Parallel { .. } | StepKind::Within { .. } => true,
+            StepKind::Parallel { .. } | StepKind::Within { .. } | StepKind::Keep { .. } => true,
             StepKind::Finally { .. } => false,
         };
         if !has_blocks || self.choice.below(4) > 0 {
@@ -213,7 +215,7 @@ impl TreeGenerator<'_> {
     }
 
     fn protected(&mut self, depth: usize) -> StepKind {
-        match self.choice.below(10) {
+        match self.choice.below(11) {
             0 => StepKind::Sequence { name: self.choice.name(), body: self.block(depth) },
             1 => StepKind::If {
                 condition: self.condition(3),
@@ -236,8 +238,21 @@ impl TreeGenerator<'_> {
             }
             6 => StepKind::Parallel { branches: self.some(1, |it| it.block(depth)) },
             7 => StepKind::Within { time: self.duration(), body: self.block(depth) },
+            8 => StepKind::Keep { keeps: self.keeps(), body: self.block(depth) },
             _ => self.leaf(),
         }
+    }
+
+    fn keeps(&mut self) -> Vec<Keep> {
+        self.some(1, |it| {
+            let kind = if it.choice.is_heads() {
+                KeepKind::OutOf(it.term(1))
+            } else {
+                let at_least = Expr { kind: ExprKind::Quantity(0.5, Unit::Metre), span: it.span() };
+                KeepKind::Distance { to: it.term(1), at_least }
+            };
+            Keep { kind, span: it.span() }
+        })
     }
 
     fn when(&mut self, depth: usize) -> When {

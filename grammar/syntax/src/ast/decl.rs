@@ -2,7 +2,7 @@
 
 use derive_where::derive_where;
 
-use super::{Block, Call, Doc, Expr, Name};
+use super::{Block, Call, Doc, Expr, Keep, Name};
 use crate::source::Span;
 
 /// Declaration of a kind: `kind Object: Entity { width: Length, mass: Mass }`.
@@ -188,6 +188,8 @@ pub struct Policy {
     pub robot: Option<Name>,
     /// The goal that the prover must not find refuted where it is done.
     pub achieves: Option<Expr>,
+    /// Rules of where the robot may not go while the policy runs, its cleanup included.
+    pub keeps: Vec<Keep>,
     pub body: Block,
     /// Steps that run once, however the policy ends.
     pub cleanup: Option<Block>,

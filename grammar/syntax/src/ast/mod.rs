@@ -57,6 +57,7 @@ impl File {
 /// One declaration of a file.
 #[derive(Clone, Debug)]
 #[derive_where(PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "most items are policies, and files have few")]
 pub enum Item {
     Kind(KindDecl),
     Fluent(FluentDecl),

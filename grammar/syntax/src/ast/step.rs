@@ -95,6 +95,12 @@ pub enum StepKind {
         /// The branches; at least one.
         branches: Vec<Block>,
     },
+    /// `keep out of stairs, distance(baby) >= 1 m { … }`
+    Keep {
+        /// The rules; at least one.
+        keeps: Vec<Keep>,
+        body: Block,
+    },
     /// `wait 5 s`
     Delay {
         /// Time to wait: a duration.
@@ -150,6 +156,28 @@ impl Manner {
             Self::Slowly(span) | Self::Gently(span) | Self::At(_, span) => *span,
         }
     }
+}
+
+/// A rule of where the robot may not go.
+#[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
+pub struct Keep {
+    pub kind: KeepKind,
+    #[derive_where(skip)]
+    pub span: Span,
+}
+
+/// Kind of a rule of where the robot may not go.
+#[derive(Clone, Debug, PartialEq)]
+pub enum KeepKind {
+    /// A zone that nothing of the robot enters: `out of stairs`.
+    OutOf(Expr),
+    /// `distance(baby) >= 1 m`
+    Distance {
+        to: Expr,
+        /// Least distance: a length.
+        at_least: Expr,
+    },
 }
 
 /// A watched condition with its reaction: `when c for 200 ms then R`.

@@ -6,13 +6,13 @@ use super::term::{Condition, Duration, Form, Term};
 use super::wire::{self, ReactKind};
 use super::{Lenient, Spanned};
 use crate::ast::{
-    Block, Catch, CatchOn, Do, End, EndKind, MAX_NESTING, MAX_STEPS, Name, Policy, Reaction, Step, StepKind,
-    When,
+    Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, MAX_NESTING, MAX_STEPS, Name,
+    Policy, Reaction, Step, StepKind, When,
 };
 use crate::diagnostic::Diagnostic;
 use crate::errors::{BadName, BadValue, MissingKey, ReservedKey, TooDeep, TooManySteps, UnknownKey};
 use crate::source::{FileId, Span};
-use crate::unit::parse_quantity;
+use crate::unit::{Unit, parse_quantity};
 use crate::words;
 
 /// The policy of a document, and what is wrong with it.
@@ -29,6 +29,7 @@ pub(super) fn policy(document: Spanned<wire::Document>, file: FileId) -> (Policy
         params: Vec::new(),
         robot: document.robot.map(|robot| converter.name(robot)),
         achieves: document.achieves.map(|goal| converter.condition(goal, 1)),
+        keeps: document.keep.map(|keeps| converter.keeps(keeps, 0)).unwrap_or_default(),
         body: converter.block(document.steps, 1),
         cleanup: document.finally.map(|steps| converter.block(*steps, 1)),
         span,
@@ -125,10 +126,43 @@ impl Converter {
                 let (time, body) = (self.duration(step.within, depth), self.block(step.steps, depth + 1));
                 (StepKind::Within { time, body }, step.finally)
             }
+            wire::Step::Keep(step) => {
+                self.at_least_one(step.keep.value.is_empty(), step.keep.span, "keep", "rule");
+                let (keeps, body) = (self.keeps(step.keep, depth), self.block(step.steps, depth + 1));
+                (StepKind::Keep { keeps, body }, step.finally)
+            }
             wire::Step::End(end) => (StepKind::End(self.end(end, span, depth)), None),
         };
         let Some(cleanup) = cleanup else { return kind };
         StepKind::Finally { step: Box::new(Step { kind, span }), cleanup: self.block(*cleanup, depth + 1) }
+    }
+
+    fn keeps(&mut self, keeps: wire::Keeps, depth: usize) -> Vec<Keep> {
+        let keeps = keeps.value.into_iter().filter_map(|Lenient(kept)| kept);
+        let one = |Spanned { value, span }: Spanned<wire::Kept>| {
+            let kind = match value {
+                wire::Kept::OutOf(kept) => KeepKind::OutOf(self.term(kept.out_of, depth + 1)),
+                wire::Kept::Distance(kept) => KeepKind::Distance {
+                    to: self.term(kept.distance, depth + 1),
+                    at_least: self.length(kept.at_least, depth),
+                },
+            };
+            Keep { kind, span }
+        };
+        keeps.map(one).collect()
+    }
+
+    /// A length: a bare number is metres.
+    fn length(&mut self, length: Spanned<Term>, depth: usize) -> Expr {
+        let kind = match &length.value {
+            Term::Number(metres) => ExprKind::Quantity(*metres, Unit::Metre),
+            Term::Text(text) => match parse_quantity(text) {
+                Some((value, unit)) => ExprKind::Quantity(value, unit),
+                None => return self.term(length, depth + 1),
+            },
+            Term::Bool(_) | Term::List(_) | Term::Form(_) => return self.term(length, depth + 1),
+        };
+        Expr { kind, span: length.span }
     }
 
     /// A number or a quantity is a time, anything else a condition.

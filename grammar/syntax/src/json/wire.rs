@@ -2,7 +2,7 @@
 //! doc comments are its descriptions). They are not the AST: [`super::convert`] turns one into the other.
 //!
 //! A step is an object that has one of the keys `do let sequence if wait monitor try repeat each parallel
-//! within end`; a condition or a term is a literal or an object that has one of the keys of [`Form`].
+//! within keep end`; a condition or a term is a literal or an object that has one of the keys of [`Form`].
 //!
 //! Beyond the forms of the language page: `more`, `at_least`, `unequal` compare; `add`, `subtract`,
 //! `multiply`, `divide` calculate; `true` and `false` are conditions; an array is a list; the plain string
@@ -33,6 +33,9 @@ pub(crate) struct Document {
     /// Condition that holds when the policy is done.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) achieves: Option<Condition>,
+    /// Where the robot may not go while the policy runs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) keep: Option<Keeps>,
     /// Steps of the policy, in order.
     pub(crate) steps: Steps,
     /// Steps that run once, however the policy ends.
@@ -73,6 +76,8 @@ pub(crate) enum Step {
     Each(Box<Each>),
     /// Steps at the same time.
     Parallel(Parallel),
+    /// Steps during which the robot stays away from something.
+    Keep(Keep),
     /// An ending of the policy.
     End(End),
     /// Steps that have a deadline.
@@ -282,6 +287,52 @@ pub(crate) struct Within {
     pub(crate) finally: Cleanup,
 }
 
+/// Runs the steps while the robot stays out of zones, or at a distance.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Keep {
+    /// Where the robot may not go.
+    #[schemars(length(min = 1))]
+    pub(crate) keep: Keeps,
+    /// Steps that run meanwhile.
+    pub(crate) steps: Steps,
+    /// Steps that run once, however the steps are left. Nothing is kept during them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) finally: Cleanup,
+}
+
+/// Rules of where the robot may not go.
+pub(crate) type Keeps = Spanned<Vec<Lenient<Spanned<Kept>>>>;
+
+/// Rule of where the robot may not go; its first key names the form.
+#[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Kept", untagged)]
+pub(crate) enum Kept {
+    /// A zone that nothing of the robot enters.
+    OutOf(OutOf),
+    /// A least distance.
+    Distance(KeptDistance),
+}
+
+/// A zone that nothing of the robot enters.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OutOf {
+    /// Zone to stay out of.
+    pub(crate) out_of: Spanned<Term>,
+}
+
+/// A least distance between the robot and an entity.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct KeptDistance {
+    /// Entity to stay away from.
+    pub(crate) distance: Spanned<Term>,
+    /// The least distance: in m, or a string with a unit.
+    pub(crate) at_least: Spanned<Term>,
+}
+
 /// Ends the policy.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -319,6 +370,7 @@ impl Step {
             Self::Each(step) => &mut step.finally,
             Self::Parallel(step) => &mut step.finally,
             Self::Within(step) => &mut step.finally,
+            Self::Keep(step) => &mut step.finally,
             Self::Do(_) | Self::Let(_) | Self::Wait(_) | Self::End(_) => return,
         };
         *cleanup = Some(Box::new(steps));
@@ -339,7 +391,17 @@ impl Serialize for Step {
             Self::Each(step) => step.serialize(serializer),
             Self::Parallel(step) => step.serialize(serializer),
             Self::Within(step) => step.serialize(serializer),
+            Self::Keep(step) => step.serialize(serializer),
             Self::End(step) => step.serialize(serializer),
+        }
+    }
+}
+
+impl Serialize for Kept {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::OutOf(kept) => kept.serialize(serializer),
+            Self::Distance(kept) => kept.serialize(serializer),
         }
     }
 }

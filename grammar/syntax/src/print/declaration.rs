@@ -100,6 +100,10 @@ impl Writer<'_> {
             expr::write(&mut self.text, goal);
         }
         self.text.push(' ');
+        if !policy.keeps.is_empty() {
+            self.keeps(&policy.keeps);
+            self.text.push(' ');
+        }
         self.block(&policy.body);
         if let Some(cleanup) = &policy.cleanup {
             self.finally(cleanup);

@@ -11,8 +11,8 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::expr::{braces, template};
 use crate::ast::{
-    Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Manner, Name, Policy, Reaction,
-    Step, StepKind, When,
+    Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, Manner, Name,
+    Policy, Reaction, Step, StepKind, When,
 };
 use crate::json::term::{self, Args, Awaited, Condition, Count, Duration, Field, Form, Get, Is, Term};
 use crate::json::{Lenient, Spanned, wire};
@@ -43,6 +43,7 @@ fn policy_wire(policy: &Policy) -> wire::Document {
         policy: name(&policy.name),
         robot: policy.robot.as_ref().map(name),
         achieves: policy.achieves.as_ref().map(|goal| translation.condition(goal)),
+        keep: (!policy.keeps.is_empty()).then(|| translation.keeps(&policy.keeps)),
         steps: translation.block(&policy.body),
         finally: policy.cleanup.as_ref().map(|cleanup| Box::new(translation.block(cleanup))),
     }
@@ -124,6 +125,10 @@ impl WireTranslation {
                 let (within, steps) = (self.duration(time), self.block(body));
                 wire::Step::Within(wire::Within { within, steps, finally: None })
             }
+            StepKind::Keep { keeps, body } => {
+                let (keep, steps) = (self.keeps(keeps), self.block(body));
+                wire::Step::Keep(wire::Keep { keep, steps, finally: None })
+            }
             StepKind::Finally { step, cleanup } => {
                 let mut step = self.step(step);
                 step.set_finally(self.block(cleanup));
@@ -152,6 +157,18 @@ impl WireTranslation {
             Manner::Gently(_) => Term::Text("gently".into()).into(),
             Manner::At(ratio, _) => self.term(ratio).into(),
         })
+    }
+
+    fn keeps(&mut self, keeps: &[Keep]) -> wire::Keeps {
+        let one = |keep: &Keep| match &keep.kind {
+            KeepKind::OutOf(zone) => wire::Kept::OutOf(wire::OutOf { out_of: self.term(zone).into() }),
+            KeepKind::Distance { to, at_least } => wire::Kept::Distance(wire::KeptDistance {
+                distance: self.term(to).into(),
+                at_least: self.term(at_least).into(),
+            }),
+        };
+        let keeps: Vec<_> = keeps.iter().map(one).map(|kept| Lenient::from(Spanned::from(kept))).collect();
+        keeps.into()
     }
 
     fn when(&mut self, when: &When) -> wire::When {

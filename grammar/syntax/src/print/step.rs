@@ -2,7 +2,9 @@
 
 use super::expr;
 use super::writer::{Blank, Writer};
-use crate::ast::{Block, CatchOn, Do, End, EndKind, Expr, Manner, Reaction, Step, StepKind, When};
+use crate::ast::{
+    Block, CatchOn, Do, End, EndKind, Expr, Keep, KeepKind, Manner, Reaction, Step, StepKind, When,
+};
 
 /// Length of `monitor` and about that of `parallel`: the brace behind them has no place in the tree.
 const KEYWORD: u32 = 7;
@@ -107,6 +109,11 @@ impl Writer<'_> {
                 }
                 self.close(step.span.end.saturating_sub(1));
             }
+            StepKind::Keep { keeps, body } => {
+                self.keeps(keeps);
+                self.text.push(' ');
+                self.block(body);
+            }
             StepKind::Delay { time } => self.word_and("wait ", time),
             StepKind::Within { time, body } => {
                 self.word_and("within ", time);
@@ -118,6 +125,23 @@ impl Writer<'_> {
                 self.finally(cleanup);
             }
             StepKind::End(end) => self.ending(end),
+        }
+    }
+
+    /// The rules of a `keep`, without its block.
+    pub(super) fn keeps(&mut self, keeps: &[Keep]) {
+        self.text.push_str("keep ");
+        for (index, keep) in keeps.iter().enumerate() {
+            if index > 0 {
+                self.text.push_str(", ");
+            }
+            match &keep.kind {
+                KeepKind::OutOf(zone) => self.word_and("out of ", zone),
+                KeepKind::Distance { to, at_least } => {
+                    self.word_and("distance(", to);
+                    self.word_and(") >= ", at_least);
+                }
+            }
         }
     }
 

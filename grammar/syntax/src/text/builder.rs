@@ -91,6 +91,9 @@ fn is_mark(rule: Rule) -> bool {
             | Rule::kw_lasts
             | Rule::kw_for
             | Rule::kw_achieves
+            | Rule::kw_keep
+            | Rule::kw_out
+            | Rule::kw_of
             | Rule::kw_let
             | Rule::kw_within
             | Rule::kw_retry
@@ -216,9 +219,10 @@ impl Builder {
             .and_then(|pair| Children::of(pair).next())
             .map(|name| self.name(name));
         let achieves = self.expr_in(parts.next_of(Rule::achieves), 1);
+        let keeps = parts.next_of(Rule::keeps).map(|keeps| self.keeps(keeps, 1)).unwrap_or_default();
         let body = self.block(parts.next()?, 1);
         let cleanup = parts.next_of(Rule::finally).and_then(|pair| self.finally(pair, 1));
-        Some(Policy { doc, name, params, robot, achieves, body, cleanup, span })
+        Some(Policy { doc, name, params, robot, achieves, keeps, body, cleanup, span })
     }
 
     /// The parameters or fields between brackets.

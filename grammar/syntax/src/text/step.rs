@@ -4,8 +4,8 @@
 use super::builder::{Builder, Children};
 use super::{Pair, Rule};
 use crate::ast::{
-    Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, MAX_NESTING, MAX_STEPS, Manner, Reaction, Step,
-    StepKind, When,
+    Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, MAX_NESTING, MAX_STEPS, Manner,
+    Reaction, Step, StepKind, When,
 };
 use crate::errors::{TextSyntax, TooDeep, TooManySteps};
 use crate::source::Span;
@@ -105,10 +105,33 @@ impl Builder {
                 time: self.expr(parts.next()?, depth),
                 body: self.block(parts.next()?, depth + 1),
             },
+            Rule::keep => StepKind::Keep {
+                keeps: parts.next_of(Rule::keeps).map(|keeps| self.keeps(keeps, depth))?,
+                body: self.block(parts.next()?, depth + 1),
+            },
             Rule::end => StepKind::End(self.end(parts, span, depth)?),
             _ => return None,
         };
         Some(Step { kind, span })
+    }
+
+    /// The rules of a `keep`.
+    pub(super) fn keeps(&mut self, pair: Pair<'_>, depth: usize) -> Vec<Keep> {
+        Children::of(pair).filter_map(|kept| self.kept(kept, depth)).collect()
+    }
+
+    fn kept(&mut self, pair: Pair<'_>, depth: usize) -> Option<Keep> {
+        let span = self.span(&pair);
+        let mut parts = Children::of(pair);
+        let is_distance = parts.next_of(Rule::kw_distance).is_some();
+        let first = self.expr(parts.next()?, depth);
+        let kind = if is_distance {
+            let at_least = parts.find(|part| part.as_rule() == Rule::expr)?;
+            KeepKind::Distance { to: first, at_least: self.expr(at_least, depth) }
+        } else {
+            KeepKind::OutOf(first)
+        };
+        Some(Keep { kind, span })
     }
 
     fn do_step(&mut self, mut parts: Children<'_>, depth: usize) -> Option<StepKind> {

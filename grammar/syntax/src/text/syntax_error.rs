@@ -368,6 +368,7 @@ fn label(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::each
         | Rule::parallel
         | Rule::timed
+        | Rule::keep
         | Rule::end
         | Rule::kw_let
         | Rule::kw_sequence
@@ -448,6 +449,9 @@ fn label(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::kw_retry | Rule::retry => (7, "`retry`"),
         Rule::kw_for | Rule::for_robot | Rule::for_each | Rule::hold => (7, "`for`"),
         Rule::kw_achieves | Rule::achieves => (7, "`achieves`"),
+        Rule::kw_keep | Rule::keeps => (7, "`keep`"),
+        Rule::kw_out | Rule::kw_of | Rule::kept => (7, "`out of`"),
+        Rule::kw_distance => (7, "`distance`"),
         Rule::kw_world => (7, "`world`"),
         Rule::kw_any => (3, "`any`"),
         Rule::pause | Rule::restart | Rule::resume | Rule::kw_pause | Rule::kw_restart | Rule::kw_resume => {

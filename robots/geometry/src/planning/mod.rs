@@ -21,6 +21,6 @@ pub use query::{
     MotionQuery, MotionWitness, ReachLength, SearchBudget, UnknownReason,
 };
 pub use scene::{
-    AllowedCollisions, Articulation, Configuration, Contact, HandModel, IkSolver, MIN_CLEARANCE,
+    AllowedCollisions, Articulation, Configuration, Contact, HandModel, IkSolver, KeptRegion, MIN_CLEARANCE,
     PlanningScene, RobotModel, SceneState, components,
 };

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use motet_stdlib::lang::approaches;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::scene::{Configuration, Contact};
+use super::scene::{Configuration, Contact, KEPT};
 
 /// Direction from which an object is grasped.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -342,9 +342,9 @@ pub struct BearingLimit {
     pub limit: f64,
 }
 
-/// Body as it is written in a message: the robot itself has no id.
+/// Body as it is written in a message: the robot itself and kept regions have no id.
 fn named(by: &str) -> String {
-    if by.starts_with(ITSELF) { by.to_owned() } else { format!("`{by}`") }
+    if by.starts_with(ITSELF) || by.starts_with(KEPT) { by.to_owned() } else { format!("`{by}`") }
 }
 
 /// Name of the robot in the reasons of its own contacts.

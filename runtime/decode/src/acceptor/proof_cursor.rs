@@ -69,6 +69,7 @@ impl Transcript<'_> {
             robot: robot.cloned().map(named),
             achieves,
             body: ast::Block::default(),
+            keeps: Vec::new(),
             cleanup: None,
             span: Span::default(),
         }

@@ -33,6 +33,9 @@ pub(super) fn complete(policy: &Policy, grammar: &Grammar) -> Result<Node, Outsi
     if let Some(cleanup) = &policy.cleanup {
         return Err(uncleaned(cleanup));
     }
+    if let Some(keep) = policy.keeps.first() {
+        return Err(outside(keep.span, NO_KEEP));
+    }
     names(&policy.body, &mut completer.names);
     if let Some(written) = policy.robot.as_ref().filter(|written| Some(&written.text) != grammar.robot()) {
         return Err(outside(written.span, format!("the policy is for `{}`", written.text)));
@@ -100,6 +103,7 @@ impl Completer<'_> {
             StepKind::Within { time, .. } => {
                 return Err(outside(time.span, "the canonical subset has no `within` before a block"));
             }
+            StepKind::Keep { .. } => return Err(outside(step.span, NO_KEEP)),
             StepKind::Monitor { whens, body } => {
                 count(whens.len(), 1, "a monitor", "conditions", step.span)?;
                 let whens = whens.iter().map(|when| self.when(when, depth)).collect::<Result<_, _>>()?;
@@ -293,6 +297,9 @@ impl Completer<'_> {
     }
 }
 
+/// Reason for which a `keep` is outside of the subset.
+const NO_KEEP: &str = "the canonical subset has no `keep`";
+
 fn uncleaned(cleanup: &Block) -> OutsideSubset {
     outside(cleanup.span, "the canonical subset has no `finally`")
 }
@@ -332,7 +339,7 @@ fn names(block: &Block, found: &mut FxHashSet<SmolStr>) {
             }
             StepKind::Parallel { branches } => branches.iter().for_each(|block| names(block, found)),
             // They are outside of the subset.
-            StepKind::Finally { .. } | StepKind::Within { .. } => {}
+            StepKind::Finally { .. } | StepKind::Within { .. } | StepKind::Keep { .. } => {}
             StepKind::Let { name, .. } => {
                 found.insert(name.text.clone());
             }

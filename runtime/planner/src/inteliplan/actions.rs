@@ -312,7 +312,11 @@ fn quoted(text: &str) -> String {
 #[must_use]
 pub fn write(policy: &Policy, scene: &Scene) -> (String, Vec<String>) {
     let mut writer = Writer { scene, actions: Vec::new(), left_out: Vec::new() };
-    writer.block(&policy.body);
+    if policy.keeps.is_empty() {
+        writer.block(&policy.body);
+    } else {
+        writer.without("where the robot may not go", &policy.body);
+    }
     if let Some(cleanup) = &policy.cleanup {
         writer.without("that it is cleaned up after a failure too", cleanup);
     }
@@ -336,6 +340,7 @@ impl Writer<'_> {
             StepKind::Sequence { body, .. } => self.block(body),
             StepKind::Monitor { body, .. } => self.without("a monitor", body),
             StepKind::Within { body, .. } => self.without("a deadline", body),
+            StepKind::Keep { body, .. } => self.without("where the robot may not go", body),
             StepKind::Try { body, .. } => self.without("what is done after a failure", body),
             StepKind::If { then, .. } => self.without("a condition", then),
             StepKind::Repeat { body, .. } | StepKind::Each { body, .. } => self.without("a loop", body),

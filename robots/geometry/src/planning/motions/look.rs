@@ -140,7 +140,7 @@ fn sees(
         let line = segment(&eye, point);
         let near =
             context.obstacles.near([line.centre.x, line.centre.y], far / 2.0).map(|(_, obstacle)| obstacle);
-        let mut others = near.filter(|obstacle| obstacle.entity != index);
+        let mut others = near.filter(|obstacle| obstacle.entity != index && !context.is_kept(obstacle));
         match others.find(|obstacle| !line.is_farther(&obstacle.solid, 0.0)) {
             None => return Visibility::Free,
             Some(obstacle) => found = Visibility::Hidden(context.name(obstacle.entity)),

@@ -17,5 +17,5 @@ pub use planning_scene::PlanningScene;
 pub(crate) use planning_scene::{ABOVE, SupportSurface};
 pub(crate) use robot_model::away;
 pub use robot_model::{HandModel, IkSolver, RobotModel};
-pub(crate) use scene_state::{HeldObject, solid_shape};
-pub use scene_state::{SceneState, components};
+pub(crate) use scene_state::{HeldObject, KEPT, solid_shape};
+pub use scene_state::{KeptRegion, SceneState, components};

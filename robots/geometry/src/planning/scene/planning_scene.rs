@@ -46,6 +46,9 @@ impl<'w> PlanningScene<'w> {
             let parts = solids(entity, state).into_iter();
             obstacles.extend(parts.map(|solid| Obstacle::new(at, solid)));
         }
+        for (region, at) in state.kept.iter().zip(scene.entities.len()..) {
+            obstacles.extend(region.columns.iter().map(|column| Obstacle::new(at, *column)));
+        }
         let mut body = model.body().clone();
         let mut held = None;
         if let (Some((id, tip_from_object)), Some(hand)) = (&state.held, model.hand())
@@ -83,7 +86,8 @@ impl<'w> PlanningScene<'w> {
 
     /// Obstacles by entity id, in the scene's order. An entity may have several solids.
     pub fn obstacles(&self) -> impl Iterator<Item = (SmolStr, &Solid)> {
-        self.obstacles.iter().map(|obstacle| (self.name(obstacle.entity), &obstacle.solid))
+        let things = self.obstacles.iter().filter(|obstacle| !self.is_kept(obstacle));
+        things.map(|obstacle| (self.name(obstacle.entity), &obstacle.solid))
     }
 
     /// Solids of the robot and of the held object in a configuration.
@@ -118,7 +122,16 @@ impl<'w> PlanningScene<'w> {
 
     /// Id of an entity by its index.
     pub(crate) fn name(&self, entity: usize) -> SmolStr {
-        self.scene.entities.get_index(entity).map(|(id, _)| id.clone()).unwrap_or_default()
+        if let Some((id, _)) = self.scene.entities.get_index(entity) {
+            return id.clone();
+        }
+        let kept = entity.checked_sub(self.scene.entities.len()).and_then(|at| self.state.kept.get(at));
+        kept.map(|region| region.name.clone()).unwrap_or_default()
+    }
+
+    /// Checks whether an obstacle is a region that the robot may not enter, with nothing in it.
+    pub(crate) fn is_kept(&self, obstacle: &Obstacle) -> bool {
+        obstacle.entity >= self.scene.entities.len()
     }
 
     pub(crate) fn named_contact(&self, part: usize, other: ContactTarget) -> Contact {
@@ -229,7 +242,8 @@ impl<'w> PlanningScene<'w> {
         let is_near = |obstacle: &Obstacle| own.iter().any(|own| !own.is_farther(&obstacle.solid, gap));
         let all =
             own.iter().flat_map(|own| self.obstacles.near([own.centre.x, own.centre.y], own.reach() + gap));
-        let others = all.filter(|(_, obstacle)| obstacle.entity != entity && is_near(obstacle));
+        let is_other = |at: &Obstacle| at.entity != entity && !self.is_kept(at);
+        let others = all.filter(|(_, obstacle)| is_other(obstacle) && is_near(obstacle));
         others.min_by_key(|(index, _)| *index).map(|(_, obstacle)| obstacle.entity)
     }
 }

@@ -2,15 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
+use motet_robots::scene::{Entity, EntityShape, Outline, Placement, Scene};
 use motet_stdlib::lang::kinds;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
-use smol_str::SmolStr;
+use smol_str::{SmolStr, format_smolstr};
 
 use super::configuration::Configuration;
 use super::robot_model::{HandModel, RobotModel};
 use crate::collision::{Shape, Solid};
 
+/// Beginning of the names of kept regions in messages.
+pub(crate) const KEPT: &str = "what `keep ";
+/// Radius in m of a person without a shape.
+const PERSON_RADIUS_M: f64 = 0.3;
 /// Height of the column over a zone, in m.
 const COLUMN: f64 = 4.0;
 
@@ -25,6 +29,16 @@ pub struct SceneState {
     pub held: Option<(SmolStr, Isometry3<f64>)>,
     /// Containers whose state differs from the scene: `true` where open.
     pub open: BTreeMap<SmolStr, bool>,
+    /// Regions that no part of the robot and of what it holds may enter.
+    pub kept: Vec<KeptRegion>,
+}
+
+/// Region that no part of the robot and of what it holds may enter: columns over the floor.
+#[derive(Clone, PartialEq, Debug)]
+pub struct KeptRegion {
+    /// Name in messages.
+    pub(crate) name: SmolStr,
+    pub(crate) columns: Vec<Solid>,
 }
 
 /// Held object with its hand.
@@ -72,6 +86,7 @@ impl SceneState {
             moved: BTreeMap::new(),
             held,
             open: BTreeMap::new(),
+            kept: Vec::new(),
         }
     }
 
@@ -111,6 +126,47 @@ impl SceneState {
         Some(Solid::new(&(floor * Translation3::new(0.0, 0.0, COLUMN / 2.0)), shape))
     }
 
+    /// Region over a zone; `None` where its extent is not known.
+    #[must_use]
+    pub fn kept_out_of(&self, entity: &Entity) -> Option<KeptRegion> {
+        let name = format_smolstr!("{KEPT}out of {}` forbids", entity.id);
+        Some(KeptRegion { name, columns: vec![self.zone(entity)?] })
+    }
+
+    /// Region within a distance in m of an entity, measured in the plane from its outline. `None` where its
+    /// pose or its outline is not known, or the hand holds it.
+    #[must_use]
+    pub fn kept_from(&self, entity: &Entity, at_least: f64) -> Option<KeptRegion> {
+        if self.holds(&entity.id) {
+            return None;
+        }
+        let outline = match (&entity.shape, entity.kind.as_str()) {
+            (Some(shape), _) => Outline::of(shape)?,
+            (None, kinds::PERSON) => Outline::Disc { radius: PERSON_RADIUS_M },
+            (None, kinds::PLACE) => Outline::Disc { radius: 0.0 },
+            (None, _) => return None,
+        };
+        let mut pose = self.pose(entity)?;
+        if (pose.rotation * Vector3::z()).z < 1.0 - 1e-6 {
+            return None;
+        }
+        pose.translation.vector.z = COLUMN / 2.0;
+        let column = |x: f64, y: f64, shape: Shape| Solid::new(&(pose * Translation3::new(x, y, 0.0)), shape);
+        let disc = |radius: f64| Shape::Cylinder { radius, half: COLUMN / 2.0 };
+        let slab = |x: f64, y: f64| Shape::Box(Vector3::new(x, y, COLUMN / 2.0));
+        let columns = match outline {
+            Outline::Disc { radius } => vec![column(0.0, 0.0, disc(radius + at_least))],
+            Outline::Rectangle { half: [x, y] } => {
+                let corners = [(x, y), (x, -y), (-x, y), (-x, -y)];
+                let corners = corners.map(|(x, y)| column(x, y, disc(at_least)));
+                let slabs = [slab(x + at_least, y), slab(x, y + at_least)];
+                slabs.map(|slab| column(0.0, 0.0, slab)).into_iter().chain(corners).collect()
+            }
+        };
+        let name = format_smolstr!("{KEPT}distance({}) >= {at_least} m` forbids", entity.id);
+        Some(KeptRegion { name, columns })
+    }
+
     /// Fingerprint of the state: equal, bit for bit, for equal states of one robot and scene.
     #[must_use]
     pub fn fingerprint(&self) -> Vec<u8> {
@@ -140,6 +196,14 @@ impl SceneState {
         for (id, open) in &self.open {
             key.extend_from_slice(id.as_bytes());
             key.push(if *open { 3 } else { 4 });
+        }
+        for region in &self.kept {
+            key.push(5);
+            key.extend_from_slice(region.name.as_bytes());
+            for column in &region.columns {
+                numbers(&mut key, column.centre.as_slice());
+                column.axes.iter().for_each(|axis| numbers(&mut key, axis.as_slice()));
+            }
         }
         key
     }
