@@ -11,7 +11,7 @@ pub(crate) use standing::Standing;
 
 use std::sync::Arc;
 
-use motet_robots::scene::{Scene, normal};
+use motet_robots::scene::{Scene, is_anything, normal, singular};
 use motet_stdlib::lang;
 use motet_syntax::Diagnostic;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -150,10 +150,21 @@ impl Environment {
 
     /// Entities of a kind that a description fits, in the order of the environment.
     pub(crate) fn described(&self, library: &Library, description: &str, kind: Kind) -> Vec<Entity> {
-        let found = self.descriptions.get(&normal(description)).map(Vec::as_slice).unwrap_or_default();
         let fits =
             |entity: &Entity| self.entities.kind(*entity).is_some_and(|found| library.is_kind(found, kind));
-        found.iter().copied().filter(fits).collect()
+        let fitting = |wanted: &str| -> Vec<Entity> {
+            let found = self.descriptions.get(wanted).map(Vec::as_slice).unwrap_or_default();
+            found.iter().copied().filter(fits).collect()
+        };
+        let wanted = normal(description);
+        let mut found = fitting(&wanted);
+        if found.is_empty() {
+            found = fitting(singular(&wanted));
+        }
+        if found.is_empty() && is_anything(&wanted) {
+            found = self.entities.iter().map(|(entity, ..)| entity).filter(fits).collect();
+        }
+        found
     }
 
     /// A description that finds an entity and no other of its kind: its name, or else the shortest

@@ -196,14 +196,23 @@ impl Scene {
     /// Entities that a description such as `"the red mug"` fits, in the order of the file.
     ///
     /// A description fits by id, a name, the class or a category, as a whole; letter case, leading articles,
-    /// and the difference of `_`, `-` and a space do not count. An empty description fits none. O(entities).
+    /// and the difference of `_`, `-` and a space do not count. Where it fits none, its [`singular`] is tried,
+    /// and a word for anything fits all ([`is_anything`]). An empty description fits none. O(entities).
     #[must_use]
     pub fn matches(&self, description: &str) -> Vec<&Entity> {
+        let fitting = |wanted: &str| -> Vec<&Entity> {
+            let fits = |entity: &&Entity| !wanted.is_empty() && entity.descriptions().any(|name| name == wanted);
+            self.entities.values().filter(fits).collect()
+        };
         let wanted = normal(description);
-        if wanted.is_empty() {
-            return Vec::new();
+        let mut found = fitting(&wanted);
+        if found.is_empty() {
+            found = fitting(singular(&wanted));
         }
-        self.entities.values().filter(|entity| entity.descriptions().any(|name| name == wanted)).collect()
+        if found.is_empty() && is_anything(&wanted) {
+            found = self.entities.values().collect();
+        }
+        found
     }
 }
 
@@ -237,6 +246,37 @@ impl Entity {
     pub fn descriptions(&self) -> impl Iterator<Item = String> {
         let names = [&self.id, &self.class].into_iter().chain(&self.names).chain(&self.categories);
         names.map(|name| normal(name)).filter(|name| !name.is_empty())
+    }
+}
+
+/// Checks if a description in [`normal`] form is a word for anything: "objects", "thing".
+///
+/// ```
+/// use motet_robots::scene;
+///
+/// assert!(scene::is_anything("things") && !scene::is_anything("red things"));
+/// ```
+#[must_use]
+pub fn is_anything(description: &str) -> bool {
+    matches!(singular(description), "object" | "thing" | "item" | "anything" | "everything")
+}
+
+/// Singular of a description whose last word may be a plural, by its last letters; not always a word.
+///
+/// ```
+/// use motet_robots::scene;
+///
+/// assert_eq!(scene::singular("red mugs"), "red mug");
+/// assert_eq!(scene::singular("glasses"), "glass");
+/// assert_eq!(scene::singular("glass"), "glass");
+/// ```
+#[must_use]
+pub fn singular(description: &str) -> &str {
+    let is_stem = |stem: &&str| stem.ends_with(['s', 'x', 'z']) || stem.ends_with("ch") || stem.ends_with("sh");
+    let shorter = |end: &str| description.strip_suffix(end).filter(|stem| !stem.is_empty());
+    match shorter("es").filter(is_stem) {
+        Some(stem) => stem,
+        None => shorter("s").filter(|stem| !stem.ends_with('s')).unwrap_or(description),
     }
 }
 
