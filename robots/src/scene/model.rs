@@ -196,12 +196,14 @@ impl Scene {
     /// Entities that a description such as `"the red mug"` fits, in the order of the file.
     ///
     /// A description fits by id, a name, the class or a category, as a whole; letter case, leading articles,
-    /// and the difference of `_`, `-` and a space do not count. Where it fits none, its [`singular`] is tried,
-    /// and a word for anything fits all ([`is_anything`]). An empty description fits none. O(entities).
+    /// and the difference of `_`, `-` and a space do not count. Where it fits none, its [`singular`] is
+    /// tried, and a word for anything fits all ([`is_anything`]). An empty description fits none.
+    /// O(entities).
     #[must_use]
     pub fn matches(&self, description: &str) -> Vec<&Entity> {
         let fitting = |wanted: &str| -> Vec<&Entity> {
-            let fits = |entity: &&Entity| !wanted.is_empty() && entity.descriptions().any(|name| name == wanted);
+            let fits =
+                |entity: &&Entity| !wanted.is_empty() && entity.descriptions().any(|name| name == wanted);
             self.entities.values().filter(fits).collect()
         };
         let wanted = normal(description);
@@ -272,7 +274,8 @@ pub fn is_anything(description: &str) -> bool {
 /// ```
 #[must_use]
 pub fn singular(description: &str) -> &str {
-    let is_stem = |stem: &&str| stem.ends_with(['s', 'x', 'z']) || stem.ends_with("ch") || stem.ends_with("sh");
+    let is_stem =
+        |stem: &&str| stem.ends_with(['s', 'x', 'z']) || stem.ends_with("ch") || stem.ends_with("sh");
     let shorter = |end: &str| description.strip_suffix(end).filter(|stem| !stem.is_empty());
     match shorter("es").filter(is_stem) {
         Some(stem) => stem,
