@@ -13,7 +13,7 @@ use crate::environment::Environment;
 use crate::feasibility::{Geometry, MotionVerdicts};
 use crate::ir::{Program, StepKind};
 use crate::limits::errors::NoPolicy;
-use crate::prove::Proof;
+use crate::prove::{GoalVerdict, Proof};
 use crate::repair::{Finding, RepairFinder};
 use crate::session::Session;
 
@@ -127,14 +127,23 @@ impl Session {
     /// ```
     #[must_use]
     pub fn misses_goal(&self, parsed: &Parsed) -> bool {
-        let mut is_missed = false;
+        self.goals(parsed).iter().any(|goal| !goal.may_hold)
+    }
+
+    /// Returns true if every policy of the document that has a goal reaches it, by proof, wherever it is done.
+    pub(crate) fn proves_goals(&self, parsed: &Parsed) -> bool {
+        self.goals(parsed).iter().all(|goal| goal.is_proven)
+    }
+
+    /// Verdicts on the goals of the policies that have one and can end as done.
+    fn goals(&self, parsed: &Parsed) -> Vec<GoalVerdict> {
+        let mut goals = Vec::new();
         self.within(parsed, &mut Vec::new(), |library, environment, _| {
-            is_missed = parsed.file.policies().any(|policy| {
-                let analysis = self.analyse(policy, parsed, library, environment, None);
-                analysis.proof.may_reach_goal == Some(false)
-            });
+            let analyses =
+                parsed.file.policies().map(|policy| self.analyse(policy, parsed, library, environment, None));
+            goals.extend(analyses.filter_map(|analysis| analysis.proof.goal));
         });
-        is_missed
+        goals
     }
 
     /// Checks names, types, durations and the robot's limits in a document of one policy, without following

@@ -6,7 +6,7 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::errors::GoalRefuted;
 use super::evaluation::CallFrame;
-use super::{Mode, PolicyEnd, Problem, Prover};
+use super::{GoalVerdict, Mode, PolicyEnd, Problem, Prover};
 use crate::facts::{Cause, show};
 use crate::ir::{Base, BlockSlot, Condition, Entity, Fact, Fluent, StepId, StepKind, Term};
 
@@ -198,8 +198,9 @@ impl Prover<'_> {
         let Some((goal, span)) = &program.achieves else { return };
         let frame = CallFrame::default();
         let value = self.evaluate(goal, frame);
-        let reaches = self.proof.may_reach_goal.get_or_insert(false);
-        *reaches |= !value.is_false();
+        let verdict = self.proof.goal.get_or_insert(GoalVerdict { may_hold: false, is_proven: true });
+        verdict.may_hold |= !value.is_false();
+        verdict.is_proven &= value.is_true();
         if !value.no.is_some() {
             return;
         }

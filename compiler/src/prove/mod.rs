@@ -65,8 +65,17 @@ pub(crate) struct Proof {
     pub(crate) reached: Vec<bool>,
     /// Certain facts just before a step with a motion.
     pub(crate) certain: FxHashMap<StepId, Vec<CertainFact>>,
-    /// True if the goal may hold at some end of the policy; `None` without a goal or an end.
-    pub(crate) may_reach_goal: Option<bool>,
+    /// Verdict on the goal; `None` without a goal or an end.
+    pub(crate) goal: Option<GoalVerdict>,
+}
+
+/// Verdict on the goal over all ends at which the policy is done.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GoalVerdict {
+    /// True if the goal may hold at one of the ends.
+    pub may_hold: bool,
+    /// True if the goal holds at every end.
+    pub is_proven: bool,
 }
 
 /// A fact about poses that is certain at some step.

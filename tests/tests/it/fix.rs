@@ -223,6 +223,26 @@ fn fix_safe_fixes_take_nothing_away_and_undo_nothing() {
 }
 
 #[test]
+fn fix_proven_goal_stays_proven() {
+    let mut sources = Sources::default();
+    sources.add(Source::new("policy", ""));
+    let session = Session::builder().build(&mut sources);
+    let text = |light: &str| {
+        format!(
+            "fluent lit(what: Entity)\nfluent warm(what: Entity)\ninitially not lit(user)\n\
+             action heat(what: Entity) makes warm(what)\naction read(what: Entity) needs lit(what)\n\
+             action light(what: Entity) makes lit(what){light}\n\
+             policy p achieves warm(user) {{\n    heat(user)\n    read(user)\n}}\n"
+        )
+    };
+    let mended = mend(&session, &text(""));
+    assert!(mended.text.contains("heat(user)\n    light(user)\n    read(user)"), "{}", mended.text);
+    // This light may cool the user, so it is lit before.
+    let mended = mend(&session, &text(" unsettles warm(what)"));
+    assert!(mended.text.contains("light(user)\n    heat(user)\n    read(user)"), "{}", mended.text);
+}
+
+#[test]
 fn fix_what_safe_fixes_write_runs() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let mut mended = Vec::new();
