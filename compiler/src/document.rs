@@ -130,7 +130,7 @@ impl Session {
         self.goals(parsed).iter().any(|goal| !goal.may_hold)
     }
 
-    /// Returns true if every policy of the document that has a goal reaches it, by proof, wherever it is done.
+    /// Returns true if every policy with a goal is proven to reach it at each of its ends.
     pub(crate) fn proves_goals(&self, parsed: &Parsed) -> bool {
         self.goals(parsed).iter().all(|goal| goal.is_proven)
     }
