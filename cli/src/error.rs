@@ -39,7 +39,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     Project(ProjectError),
     /// An input has errors, which the report has printed.
-    #[error("the {0} cannot be used: see above")]
+    #[error("invalid {0} (see the diagnostics above)")]
     Invalid(&'static str),
     #[error("cannot write `{}`: {}", path.display(), reason(source))]
     Write { path: PathBuf, source: io::Error },

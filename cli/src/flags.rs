@@ -157,13 +157,13 @@ impl From<SyntaxArg> for Syntax {
 pub(crate) enum ServerDialect {
     /// vLLM 0.12 and later
     Vllm,
-    /// Server of llama.cpp
+    /// llama.cpp (llama-server)
     Llamacpp,
-    /// Ollama, at its own chat address
+    /// Ollama, through its native chat endpoint
     Ollama,
-    /// Server of SGLang
+    /// SGLang
     Sglang,
-    /// OpenAI, and servers that speak like it
+    /// OpenAI and compatible servers
     Openai,
 }
 

@@ -49,7 +49,7 @@ enum Command {
     Do(command::r#do::DoArgs),
     /// Plan a policy for a request or a goal, without a model
     Plan(command::plan::PlanArgs),
-    /// Print the prompt that a model would get for a request
+    /// Print the prompt that `motet do` sends to a model for a request
     Prompt(command::prompt::PromptArgs),
     /// Convert plans in the dialect of InteLiPlan to policies, or write an exchange in it
     Dialog(command::dialog::DialogArgs),

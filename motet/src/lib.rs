@@ -27,5 +27,8 @@ pub use {
 #[doc = include_str!("../../docs/embedding.md")]
 mod embedding_page {}
 #[cfg(doctest)]
+#[doc = include_str!("../../docs/first-driver.md")]
+mod first_driver_page {}
+#[cfg(doctest)]
 #[doc = include_str!("../../docs/runtime.md")]
 mod runtime_page {}

@@ -59,10 +59,10 @@ struct MakeArgs {
     /// Folder for train.jsonl, test.jsonl and scenes.jsonl
     #[arg(long, value_name = "FOLDER", required = true)]
     out: Option<PathBuf>,
-    /// Trainer whose format the rows have
+    /// Row format, by trainer
     #[arg(long, value_enum, default_value_t, value_name = "FORM")]
     form: RowFormat,
-    /// Give each row a picture of the robot's camera, in the folder `images`
+    /// Give each row an image of the robot's camera, in the folder `images`
     #[arg(long)]
     images: bool,
     /// Robot: a built-in name, or a folder with a robot.toml; repeatable
@@ -74,16 +74,16 @@ struct MakeArgs {
     /// File with the wordings of requests and answers, one `KEY: WORDING` per line [default: built in]
     #[arg(long, value_name = "FILE")]
     wordings: Option<PathBuf>,
-    /// Scene whose objects are added to the rooms [default: built in]
+    /// Scene whose objects are added to the varied scenes [default: built in]
     #[arg(long, value_name = "FILE")]
     things: Option<String>,
-    /// Number of varied rooms
+    /// Number of varied scenes
     #[arg(long, default_value_t = 30, value_name = "N", value_parser = value_parser!(u32).range(1..=100_000))]
     scenes: u32,
-    /// Number of conversations per robot and room
+    /// Number of conversations per robot and varied scene
     #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000))]
     cases: u32,
-    /// Share of the rooms for test.jsonl
+    /// Share of the varied scenes for test.jsonl
     #[arg(long, default_value_t = 0.2, value_name = "SHARE", value_parser = share)]
     test: f64,
     /// Seed; the same seed gives the same files
@@ -97,7 +97,7 @@ struct MakeArgs {
 #[derive(Args, Debug)]
 #[command(after_help = "Exit codes: 0 no findings, 1 findings, 2 the command could not run.")]
 struct LintArgs {
-    /// Files with one row per line; their rooms are in scenes.jsonl beside them
+    /// Files with one row per line; their scenes are in scenes.jsonl beside them
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Robot of rows that name none: a built-in name, or a folder with a robot.toml

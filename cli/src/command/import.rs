@@ -33,8 +33,10 @@ enum ImportCommand {
     motet import pddl domain.pddl problem.pddl --plan plan.txt -o plan.motet\n  \
     motet check plan.motet --domain blocks.motet")]
 struct PddlArgs {
+    /// PDDL domain file
     #[arg(value_name = "DOMAIN")]
     domain: PathBuf,
+    /// PDDL problem file
     #[arg(value_name = "PROBLEM")]
     problem: PathBuf,
     /// Plan with one `(action argument …)` per line. It becomes a policy with the goal of the problem; check

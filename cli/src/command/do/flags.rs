@@ -67,10 +67,10 @@ pub(super) struct ModelArgs {
     /// Image of the scene for the model, as PNG, JPEG, WebP or GIF; repeatable
     #[arg(long, value_name = "FILE")]
     pub(super) image: Vec<PathBuf>,
-    /// Show the model a camera picture with each request, and ask it for the points of `ground`
+    /// Show the model a camera image with each request, and ask it for the points of `ground`
     #[arg(long)]
     pub(super) camera: bool,
-    /// Environment variable with the server's key
+    /// Environment variable that holds the server's API key
     #[arg(long, value_name = "VARIABLE")]
     pub(super) key_from: Option<String>,
     /// Maximum time to wait for a reply, in seconds
