@@ -2,6 +2,7 @@
 
 pub mod builtin;
 pub mod card;
+pub mod clearance;
 pub mod mesh;
 pub mod quaternion;
 pub mod scene;

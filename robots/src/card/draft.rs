@@ -85,6 +85,15 @@ fn write_card(
         radius(urdf, parts.base),
         link(urdf, parts.base).escape_debug()
     )?;
+    writeln!(
+        card,
+        "\n# How far it may be from where it ought to be; motions keep this distance from obstacles."
+    )?;
+    writeln!(card, "[errors]")?;
+    if drive != "fixed" {
+        writeln!(card, "localisation = \"2 cm\"  # guessed")?;
+    }
+    writeln!(card, "tracking = \"{}\"  # guessed", if drive == "fixed" { "5 mm" } else { "1 cm" })?;
     if let Some(hand) = &parts.hand {
         write_hand(card, urdf, hand)?;
     }

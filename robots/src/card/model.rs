@@ -8,6 +8,8 @@ use smol_str::SmolStr;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::clearance::Clearance;
+
 /// Robot as its card describes it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Robot {
@@ -32,6 +34,8 @@ pub struct Robot {
     pub observes: Vec<SmolStr>,
     /// Longest time of one observation, in s.
     pub observe_within_secs: f64,
+    /// Distances that its motions keep from obstacles.
+    pub clearance: Clearance,
     /// Meanings of the words for manners.
     pub manners: Manners,
     /// Primitives that it provides, by name, with bounds on their numeric parameters.

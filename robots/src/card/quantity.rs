@@ -7,6 +7,7 @@ use super::errors::{BadQuantity, EmptyRange, OutOfRange, WrongDimension};
 use super::model::Range;
 use super::wire;
 use super::wire::{TomlSpanned, WrittenQuantity};
+use crate::clearance::GREATEST_CLEARANCE;
 
 /// Allowed sign of a number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,6 +16,17 @@ pub(super) enum Sign {
     /// Zero or more.
     NotNegative,
     Any,
+}
+
+/// Upper end of a length, in m and as words.
+#[derive(Clone, Copy)]
+pub(super) struct Greatest(f64, &'static str);
+
+impl Greatest {
+    /// Upper end of a clearance.
+    pub(super) const CLEARANCE: Self = Self(GREATEST_CLEARANCE, "at most 0.5 m");
+    /// Upper end of an error: two of them are a clearance.
+    pub(super) const ERROR: Self = Self(GREATEST_CLEARANCE / 2.0, "at most 0.25 m");
 }
 
 /// Greatest length, mass, time or speed of a robot.
@@ -49,6 +61,22 @@ impl QuantityReader {
             return 0.0;
         }
         self.checked(key, self.span(at), value, sign)
+    }
+
+    /// Reads a length from 0 to an upper end; 0 if it is wrong.
+    pub(super) fn up_to(
+        &mut self,
+        key: &str,
+        at: &TomlSpanned<WrittenQuantity>,
+        Greatest(greatest, wanted): Greatest,
+    ) -> f64 {
+        let value = self.of(key, at, Dimension::LENGTH, Sign::NotNegative);
+        if value <= greatest {
+            return value;
+        }
+        let (span, actual) = (self.span(at), format!("{value} m"));
+        self.found.push(OutOfRange { span, key: key.to_owned(), actual, wanted }.into());
+        0.0
     }
 
     /// Reads a part, above 0 and at most 1; 1 if it is wrong.

@@ -13,9 +13,10 @@ use super::errors::{
 use super::model::{
     BaseSpec, BoundSpan, CameraSpec, CardSpans, Drive, HandSpec, MannerSpec, Manners, Range, Robot,
 };
-use super::quantity::{QuantityReader, Sign};
-use super::wire::TomlSpanned;
+use super::quantity::{Greatest, QuantityReader, Sign};
+use super::wire::{TomlSpanned, WrittenQuantity};
 use super::{model, shape, wire};
+use crate::clearance::{Clearance, ClearanceOverride};
 
 /// Reads the card of a robot. `declarations` is the text of its `primitives.motet`, which is kept for the
 /// compiler. `None` for the robot if there is an error. O(bytes).
@@ -95,6 +96,7 @@ impl CardReader {
             resources,
             observes: self.observes(&card.observes),
             observe_within_secs,
+            clearance: self.clearance(card),
             manners: self.manners(&card.manners),
             primitives: self.primitives(card),
             numbers,
@@ -124,6 +126,21 @@ impl CardReader {
             slowly: manner("slowly", manners.slowly.as_ref(), default.slowly),
             gently: manner("gently", manners.gently.as_ref(), default.gently),
         }
+    }
+
+    /// Clearance of the card, or the one that its errors ask for: the base may be off in the map and off its
+    /// path, the arm off its path.
+    fn clearance(&mut self, card: &wire::CardTable) -> Clearance {
+        let (given, errors) = (&card.clearance, &card.errors);
+        let mut of = |key: &str, at: &Option<TomlSpanned<WrittenQuantity>>, greatest: Greatest| {
+            at.as_ref().map(|at| self.numbers.up_to(key, at, greatest))
+        };
+        let localisation = of("errors.localisation", &errors.localisation, Greatest::ERROR);
+        let tracking = of("errors.tracking", &errors.tracking, Greatest::ERROR).unwrap_or(0.0);
+        let base_m = of("clearance.base", &given.base, Greatest::CLEARANCE);
+        let arm_m = of("clearance.arm", &given.arm, Greatest::CLEARANCE);
+        let derived = Clearance { base_m: localisation.unwrap_or(0.0) + tracking, arm_m: tracking };
+        ClearanceOverride { base_m, arm_m }.over(derived)
     }
 
     fn base(&mut self, base: &wire::BaseTable) -> BaseSpec {

@@ -66,6 +66,12 @@ pub struct CardTable {
     /// What `slowly` and `gently` mean for it.
     #[serde(default)]
     pub manners: MannersTable,
+    /// Clearance that its motions keep from obstacles.
+    #[serde(default)]
+    pub clearance: ClearanceTable,
+    /// Greatest errors of its motions, from which the clearance follows where none is given.
+    #[serde(default)]
+    pub errors: ErrorsTable,
     /// Fluents and measures that it can observe.
     pub observes: Vec<TomlSpanned<String>>,
     /// Facts that hold at the start unless a state says otherwise, as text conditions: `not standing(robot)`.
@@ -121,6 +127,37 @@ pub struct MannerTable {
     pub speed: TomlSpanned<WrittenQuantity>,
     /// Part of the acceleration, likewise.
     pub acceleration: TomlSpanned<WrittenQuantity>,
+}
+
+/// Distances that motions keep from obstacles, at most 0.5 m.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Clearance")]
+pub struct ClearanceTable {
+    /// Distance in m of every part that the arm does not move; the errors of localisation and tracking
+    /// together where none is given.
+    #[serde(default)]
+    #[schemars(with = "WrittenQuantity")]
+    pub base: Option<TomlSpanned<WrittenQuantity>>,
+    /// Distance in m of the arm, the hand and the held object; the error of tracking where none is given.
+    #[serde(default)]
+    #[schemars(with = "WrittenQuantity")]
+    pub arm: Option<TomlSpanned<WrittenQuantity>>,
+}
+
+/// Greatest errors of the robot's motions, at most 0.25 m each; 0 where none is given.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Errors")]
+pub struct ErrorsTable {
+    /// Error in m of the base's position in the map.
+    #[serde(default)]
+    #[schemars(with = "WrittenQuantity")]
+    pub localisation: Option<TomlSpanned<WrittenQuantity>>,
+    /// Distance in m of any point of the robot from the path that it follows.
+    #[serde(default)]
+    #[schemars(with = "WrittenQuantity")]
+    pub tracking: Option<TomlSpanned<WrittenQuantity>>,
 }
 
 /// Mobile or fixed base.

@@ -7,11 +7,14 @@ use motet_syntax::json::Spanned;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use super::errors::{BadZone, EmptyName, FieldTwice, NotPositive, TooFar, TooWideAngle, ZeroAxis};
+use super::errors::{
+    BadClearance, BadZone, EmptyName, FieldTwice, NotPositive, TooFar, TooWideAngle, ZeroAxis,
+};
 use super::model::{CameraView, Entity, EntityShape, EntitySpans, Placement, Scene, Travel};
 use super::quantity::{FURTHEST, SceneQuantity};
 use super::wire;
 use crate::card::JointPosition;
+use crate::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
 use crate::mesh::UnreadMesh;
 use crate::urdf::Urdf;
 
@@ -36,12 +39,16 @@ pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut NumberReader) -
         fixed: wire.fixed,
         on: name(&wire.on),
         inside: name(&wire.r#in),
-        visible: wire.visible,
+        visible: wire.visible.as_ref().map(|visible| visible.value),
         open: wire.open,
         locked: wire.locked,
         travel: wire.travel.0.as_ref().and_then(|it| travel(it, numbers)),
         fields: fields(wire, numbers),
-        spans: EntitySpans { id: wire.id.span, kind: wire.kind.span },
+        spans: EntitySpans {
+            id: wire.id.span,
+            kind: wire.kind.span,
+            visible: wire.visible.as_ref().map_or(wire.id.span, |visible| visible.span),
+        },
     };
     if let Some(problem) = zone_problem(wire, &entity) {
         numbers.found.push(BadZone { span: wire.id.span, id: wire.id.value.clone(), problem }.into());
@@ -89,7 +96,13 @@ fn fields(wire: &wire::Entity, numbers: &mut NumberReader) -> IndexMap<SmolStr, 
     fields
 }
 
-fn placement(pose: &wire::Pose, numbers: &mut NumberReader) -> Option<Placement> {
+/// Converts the clearance of a room.
+pub(super) fn clearance(clearance: &wire::Clearance, numbers: &mut NumberReader) -> ClearanceOverride {
+    let mut one = |number: &Option<Spanned<f64>>| numbers.one(number.as_ref()?, SceneQuantity::Clearance);
+    ClearanceOverride { base_m: one(&clearance.base), arm_m: one(&clearance.arm) }
+}
+
+pub(super) fn placement(pose: &wire::Pose, numbers: &mut NumberReader) -> Option<Placement> {
     let xyz = numbers.three(&pose.xyz, SceneQuantity::Coordinate);
     let rpy = match &pose.rpy {
         Some(rpy) => numbers.three(rpy, SceneQuantity::Angle),
@@ -230,6 +243,8 @@ impl NumberReader {
     fn value(&mut self, value: f64, span: Span, quantity: SceneQuantity) -> Option<f64> {
         if quantity.has_to_be_positive() && value <= 0.0 {
             self.found.push(NotPositive { span, quantity, found: value }.into());
+        } else if quantity == SceneQuantity::Clearance && !(0.0..=GREATEST_CLEARANCE).contains(&value) {
+            self.found.push(BadClearance { span, found: value }.into());
         } else if quantity.has_bound() && value.abs() > FURTHEST {
             self.found.push(TooFar { span, quantity, found: value }.into());
         } else {

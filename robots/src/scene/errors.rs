@@ -1,10 +1,11 @@
-//! Diagnostics of a scene beyond its JSON (M0431 to M0445, M0481): numbers, ids and relations.
+//! Diagnostics of a scene beyond its JSON (M0431 to M0445, M0481 to M0483): numbers, ids and relations.
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
 use super::model::MAX_ENTITIES;
 use super::quantity::{FURTHEST, SceneQuantity};
+use crate::clearance::GREATEST_CLEARANCE;
 
 motet_syntax::mistakes! {
     pub const CODES;
@@ -135,6 +136,18 @@ motet_syntax::mistakes! {
     EmptyName("M0445", Error) { key: &'static str }
     message(m) { format!("`{}` is empty", m.key) }
     help(_m) { Some("write the name of a kind such as `Object`".into()) }
+
+    /// A clearance that no room needs.
+    BadClearance("M0482", Error) { found: f64 }
+    message(m) {
+        format!("the clearance is {} m, but must be from 0 to {GREATEST_CLEARANCE} m", m.found)
+    }
+    help(_m) { Some("it is the distance from obstacles in metres: 5 cm is 0.05".into()) }
+
+    /// A grip of nothing.
+    GripOfNothing("M0483", Error) {}
+    message(_m) { "`grip` is the pose of a held entity, but `holding` names none".into() }
+    help(_m) { Some("name the held entity in `holding`, or leave out `grip`".into()) }
 
     /// A zone that is no area of the floor.
     BadZone("M0481", Error) { id: SmolStr, problem: &'static str }

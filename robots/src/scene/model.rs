@@ -6,6 +6,8 @@ use motet_stdlib::lang::kinds;
 use motet_syntax::Span;
 use smol_str::SmolStr;
 
+use crate::clearance::ClearanceOverride;
+
 /// Greatest number of entities in one scene.
 pub const MAX_ENTITIES: usize = 20_000;
 
@@ -14,6 +16,8 @@ pub const MAX_ENTITIES: usize = 20_000;
 pub struct Scene {
     /// State of the robot at the start.
     pub robot: RobotState,
+    /// Distances from obstacles that motions keep in this room, in place of those of the card.
+    pub clearance: ClearanceOverride,
     /// Entities by id, in the order of the file.
     pub entities: IndexMap<SmolStr, Entity>,
     /// Images of a camera in the room.
@@ -29,10 +33,21 @@ pub struct RobotState {
     pub joints: IndexMap<SmolStr, f64>,
     /// Held entity: `None` if the scene does not say, `Some(None)` for an empty hand.
     pub holding: Option<Option<SmolStr>>,
+    /// Grasp of a held entity, if the scene gives it. It counts while the hand holds this entity.
+    pub grip: Option<Grip>,
     /// Entity at which the robot is within its working area, if the scene gives it.
     pub at: Option<SmolStr>,
     /// Spans of the joints in the file of the scene.
     pub spans: JointSpans,
+}
+
+/// Grasp of an entity.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Grip {
+    /// Id of the entity.
+    pub of: SmolStr,
+    /// Pose of the entity in the frame of the hand's tip.
+    pub tip_from_object: Placement,
 }
 
 /// Spans of joints by name. They are not part of the state, so any two are equal.
@@ -88,6 +103,8 @@ pub struct Entity {
 pub struct EntitySpans {
     pub id: Span,
     pub kind: Span,
+    /// Value of `visible`; the id without one.
+    pub visible: Span,
 }
 
 impl PartialEq for EntitySpans {

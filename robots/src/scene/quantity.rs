@@ -11,6 +11,8 @@ pub(crate) enum SceneQuantity {
     Coordinate,
     /// Extent, radius, height, width or distance, in m.
     Size,
+    /// Distance from obstacles, in m.
+    Clearance,
     /// Mass in kg.
     Mass,
     /// Angle in rad.
@@ -37,6 +39,7 @@ impl SceneQuantity {
         match self {
             Self::Coordinate => "a coordinate",
             Self::Size => "a size",
+            Self::Clearance => "a clearance",
             Self::Mass => "the mass",
             Self::Angle => "an angle",
             Self::Opening => "the angle of a door",
@@ -52,7 +55,7 @@ impl SceneQuantity {
     /// Formats a number with the unit.
     pub(super) fn show(self, value: f64) -> String {
         let unit = match self {
-            Self::Coordinate | Self::Size => " m",
+            Self::Coordinate | Self::Size | Self::Clearance => " m",
             Self::Mass => " kg",
             Self::Angle | Self::Opening => " rad",
             Self::FocalLength | Self::Pixel => " px",
@@ -64,9 +67,13 @@ impl SceneQuantity {
     pub(super) fn has_to_be_positive(self) -> bool {
         match self {
             Self::Size | Self::Mass | Self::Opening | Self::Scale | Self::FocalLength => true,
-            Self::Coordinate | Self::Angle | Self::Pixel | Self::Joint | Self::Direction | Self::Field => {
-                false
-            }
+            Self::Coordinate
+            | Self::Clearance
+            | Self::Angle
+            | Self::Pixel
+            | Self::Joint
+            | Self::Direction
+            | Self::Field => false,
         }
     }
 
@@ -74,7 +81,9 @@ impl SceneQuantity {
     pub(super) fn has_bound(self) -> bool {
         match self {
             Self::Coordinate | Self::Size | Self::Angle | Self::Joint => true,
-            Self::Mass
+            // A clearance has a bound of its own.
+            Self::Clearance
+            | Self::Mass
             | Self::Opening
             | Self::Scale
             | Self::FocalLength

@@ -10,10 +10,10 @@ use smol_str::SmolStr;
 
 use super::check::NumberReader;
 use super::errors::{
-    BadId, DuplicateId, Frame, HeldElsewhere, ReservedId, SupportCycle, TooManyEntities, UnknownEntity,
-    Version,
+    BadId, DuplicateId, Frame, GripOfNothing, HeldElsewhere, ReservedId, SupportCycle, TooManyEntities,
+    UnknownEntity, Version,
 };
-use super::model::{Entity, JointSpans, MAX_ENTITIES, RobotState, Scene};
+use super::model::{Entity, Grip, JointSpans, MAX_ENTITIES, RobotState, Scene};
 use super::quantity::SceneQuantity;
 use super::{check, wire};
 
@@ -44,7 +44,9 @@ pub fn read(source: &Source, file: FileId) -> (Option<Scene>, Vec<Diagnostic>) {
     let wires: Vec<_> =
         document.entities.into_iter().take(MAX_ENTITIES).filter_map(|entity| entity.0).collect();
     let robot = document.robot.0.unwrap_or_default();
+    let clearance = document.clearance.0.as_ref();
     let mut scene = Scene {
+        clearance: clearance.map(|it| check::clearance(it, &mut numbers)).unwrap_or_default(),
         entities: entities(&wires, &mut numbers),
         views: document.views.iter().filter_map(|view| check::view(view.0.as_ref()?, &mut numbers)).collect(),
         robot: at_start(&robot, &mut numbers),
@@ -89,9 +91,19 @@ fn at_start(robot: &wire::Robot, numbers: &mut NumberReader) -> RobotState {
         base: base.unwrap_or_default(),
         joints: joints.collect(),
         holding: robot.holding.as_ref().map(|held| held.as_ref().map(|id| id.value.clone())),
+        grip: grip(robot, numbers),
         at: robot.at.as_ref().map(|at| at.value.clone()),
         spans: JointSpans(robot.joints.iter().map(|(name, value)| (name.clone(), value.span)).collect()),
     }
+}
+
+fn grip(robot: &wire::Robot, numbers: &mut NumberReader) -> Option<Grip> {
+    let grip = robot.grip.0.as_ref()?;
+    let Some(Some(held)) = &robot.holding else {
+        numbers.found.push(GripOfNothing { span: grip.xyz.span }.into());
+        return None;
+    };
+    Some(Grip { of: held.value.clone(), tip_from_object: check::placement(grip, numbers)? })
 }
 
 /// Number of mistakes for which a close name is searched, and of entities of a cycle that are listed.
@@ -147,6 +159,7 @@ impl Relations<'_> {
     fn robot(&mut self, robot: &wire::Robot) {
         if robot.holding.iter().flatten().any(|held| self.unknown("holding", held)) {
             self.scene.robot.holding = None;
+            self.scene.robot.grip = None;
         }
         if robot.at.as_ref().is_some_and(|at| self.unknown("at", at)) {
             self.scene.robot.at = None;

@@ -28,6 +28,9 @@ pub(super) struct Document {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("const" = "map"))]
     pub(super) frame: Option<Spanned<SmolStr>>,
+    /// Distances from obstacles that motions keep in this room, in place of those of the robot's card.
+    #[serde(default = "absent::<Clearance>", skip_serializing_if = "is_absent")]
+    pub(super) clearance: Lenient<Clearance>,
     /// The robot at the start.
     #[serde(default = "absent::<Robot>", skip_serializing_if = "is_absent")]
     pub(super) robot: Lenient<Robot>,
@@ -37,6 +40,18 @@ pub(super) struct Document {
     /// Images of cameras in the room.
     #[serde(default)]
     pub(super) views: Vec<Lenient<View>>,
+}
+
+/// Distances from obstacles in m, from 0 to 0.5.
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Clearance {
+    /// Distance of every part that the arm does not move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) base: Option<Spanned<f64>>,
+    /// Distance of the arm, the hand and the held object.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) arm: Option<Spanned<f64>>,
 }
 
 /// The robot at the start.
@@ -52,6 +67,9 @@ pub(super) struct Robot {
     /// Held entity: `null` for an empty hand; without the key nothing is known.
     #[serde(default, deserialize_with = "present", skip_serializing_if = "Option::is_none")]
     pub(super) holding: Option<Option<Spanned<SmolStr>>>,
+    /// The pose of the held entity in the frame of the hand's tip; without it a grasp that holds it upright.
+    #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
+    pub(super) grip: Lenient<Pose>,
     /// Entity at which the robot is within its working area.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) at: Option<Spanned<SmolStr>>,
@@ -112,7 +130,7 @@ pub(super) struct Entity {
     pub(super) r#in: Option<Spanned<SmolStr>>,
     /// Visibility to the camera of the robot at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) visible: Option<bool>,
+    pub(super) visible: Option<Spanned<bool>>,
     /// Open (true) or closed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) open: Option<bool>,
@@ -127,8 +145,8 @@ pub(super) struct Entity {
     pub(super) fields: IndexMap<SmolStr, Spanned<f64>>,
 }
 
-/// A pose in the frame `map`.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+/// A pose in the frame `map`, or in that of the key.
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Pose {
     /// Position in m.

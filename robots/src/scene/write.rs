@@ -4,6 +4,7 @@
 use serde_json::{Map, Value, json};
 
 use super::model::{CameraView, Entity, EntityShape, Placement, RobotState, Scene, Travel};
+use crate::clearance::ClearanceOverride;
 
 /// Writes a scene as one line of JSON. Reading it again gives the same scene where all its numbers are
 /// finite. O(entities).
@@ -23,6 +24,13 @@ pub fn write(scene: &Scene) -> String {
     document.insert("motet_scene".to_owned(), json!(1));
     document.insert("frame".to_owned(), json!("map"));
     document.insert("robot".to_owned(), robot(&scene.robot));
+    let ClearanceOverride { base_m, arm_m } = scene.clearance;
+    let parts = [("base", base_m), ("arm", arm_m)].into_iter();
+    let parts: Map<String, Value> =
+        parts.filter_map(|(key, value)| Some((key.to_owned(), json!(value?)))).collect();
+    if !parts.is_empty() {
+        document.insert("clearance".to_owned(), Value::Object(parts));
+    }
     document.insert("entities".to_owned(), entities.into());
     if !scene.views.is_empty() {
         document.insert("views".to_owned(), scene.views.iter().map(view).collect());
@@ -39,6 +47,9 @@ fn robot(robot: &RobotState) -> Value {
     }
     if let Some(holding) = &robot.holding {
         map.insert("holding".to_owned(), holding.as_deref().map_or(Value::Null, Value::from));
+    }
+    if let Some(grip) = robot.grip.as_ref().filter(|grip| robot.holding == Some(Some(grip.of.clone()))) {
+        map.insert("grip".to_owned(), placement(&grip.tip_from_object));
     }
     if let Some(at) = &robot.at {
         map.insert("at".to_owned(), json!(at.as_str()));
@@ -144,7 +155,8 @@ mod tests {
     use crate::scene::read;
 
     const ALL: &str = r#"{"motet_scene": 1, "robot": {"base": [1, 2, 0.5], "joints": {"lift": 0.1},
-        "holding": "ball", "at": "box"},
+        "holding": "ball", "grip": {"xyz": [0, 0, 0.1], "rpy": [0, 1.5, 0]}, "at": "box"},
+        "clearance": {"base": 0.04},
         "entities": [
           {"id": "box", "kind": "Container", "pose": {"xyz": [0, 1, 2]}, "shape": {"box": [1, 1, 1]},
               "open": true, "locked": false,

@@ -65,6 +65,29 @@ fn told(found: &Diagnostic, source: &Source) -> String {
     format!("{} [{under}] {}{help}", found.code, found.message)
 }
 
+/// The clearance that a card gives, or that follows from the errors of localisation and tracking.
+#[test]
+fn clearance_follows_from_the_errors_of_a_card() {
+    let clearance = |sections: &str| {
+        let (robot, found, _) = read(&GOOD.replacen("[hands.hand]", &format!("{sections}\n[hands.hand]"), 1));
+        assert_eq!(found, []);
+        let card::Robot { clearance, .. } = robot.unwrap();
+        (clearance.base_m, clearance.arm_m)
+    };
+    assert_eq!(clearance(""), (0.0, 0.0));
+    assert_eq!(clearance("[errors]\nlocalisation = \"3 cm\"\ntracking = 0.01"), (0.04, 0.01));
+    assert_eq!(clearance("[errors]\ntracking = \"5 mm\""), (0.005, 0.005));
+    assert_eq!(clearance("[errors]\ntracking = 0.01\n[clearance]\nbase = \"8 cm\""), (0.08, 0.01));
+    assert_eq!(clearance("[clearance]\nbase = 0.5\narm = 0"), (0.5, 0.0));
+    let section = |text: &str| format!("{text}\n\n[hands.hand]");
+    let expected = ["M0416 [\"1 m\"] `clearance.base` is 1 m, but must be at most 0.5 m"];
+    check("[hands.hand]", &section("[clearance]\nbase = \"1 m\""), &expected);
+    let expected = ["M0416 [0.3] `errors.localisation` is 0.3 m, but must be at most 0.25 m"];
+    check("[hands.hand]", &section("[errors]\nlocalisation = 0.3"), &expected);
+    let expected = ["M0416 [-0.1] `clearance.arm` is -0.1, but must be zero or more"];
+    check("[hands.hand]", &section("[clearance]\narm = -0.1"), &expected);
+}
+
 #[test]
 fn card_reader_reads_a_complete_card() {
     let (robot, found, _) = read(GOOD);

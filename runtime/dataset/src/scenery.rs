@@ -42,7 +42,7 @@ pub fn things() -> Scene {
 #[must_use]
 pub fn vary(room: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
     let in_view = in_view(room);
-    let mut scene = Scene { robot: room.robot.clone(), entities: furniture(room, draw), views: Vec::new() };
+    let mut scene = Scene { entities: furniture(room, draw), views: Vec::new(), ..room.clone() };
     scene.robot.holding = Some(None);
     scene.robot.at = None;
     let places: Vec<_> = scene.entities.values().filter(|entity| entity.kind == "Place").collect();
