@@ -124,7 +124,7 @@ impl MotionChecker<'_> {
         let told = RefusedMotion {
             callee: callee.clone(),
             motion: query.to_string(),
-            says: why.reason.to_string(),
+            says: why.says(),
             story,
             change: why.change.clone(),
             is_certified: why.certified,

@@ -331,7 +331,7 @@ fn said(answer: &MotionAnswer) -> Access {
         MotionAnswer::Feasible(_) => Access::Feasible,
         MotionAnswer::Infeasible(why) => {
             let is_certified = why.certified;
-            Access::Infeasible { why: format_smolstr!("{}", why.reason), is_certified }
+            Access::Infeasible { why: why.says().into(), is_certified }
         }
         MotionAnswer::Unknown(UnknownReason::Budget) => {
             Access::Unknown(SmolStr::new_static("the search was cut short"))

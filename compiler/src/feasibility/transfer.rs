@@ -326,6 +326,10 @@ fn kept(machine: &RobotModel, witness: &MotionWitness) -> graph::Witness {
             graph::Grasp { xyz, quaternion, width: grasp.width }
         }),
         clearance: witness.margins.clearance,
+        keeps: graph::Clearance {
+            base: witness.margins.required.base_m,
+            arm: witness.margins.required.arm_m,
+        },
         limit: witness.margins.limit,
         payload: witness.margins.payload,
     }

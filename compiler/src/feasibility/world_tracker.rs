@@ -145,8 +145,8 @@ impl WorldTracker {
 
     fn infeasible(&self, def: &PrimitiveDef, why: &Infeasible) -> Forecast {
         let says = match &why.change {
-            Some(change) => format!("{}; {change}", why.reason),
-            None => why.reason.to_string(),
+            Some(change) => format!("{}; {change}", why.says()),
+            None => why.says(),
         };
         let listed = failures(&self.library, &why.reason).into_iter().flatten();
         match listed.into_iter().find(|failure| def.fails.contains(failure)) {

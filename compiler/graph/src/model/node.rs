@@ -318,12 +318,31 @@ pub struct Witness {
     pub grasp: Option<Grasp>,
     /// Least clearance along the path in m, at most 1.
     pub clearance: f64,
+    /// Distances from obstacles that the whole path was checked to keep.
+    #[serde(default, skip_serializing_if = "Clearance::is_none")]
+    pub keeps: Clearance,
     /// Distance at the end to the nearest limit of a joint that moved, in m or rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
     /// Spare payload of the hand in kg.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub payload: Option<f64>,
+}
+
+/// Distances from obstacles in m, 0 or more.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Clearance {
+    /// Distance of every part that the arm does not move.
+    pub base: f64,
+    /// Distance of the arm, the hand and the held thing.
+    pub arm: f64,
+}
+
+impl Clearance {
+    fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// A configuration along a path.

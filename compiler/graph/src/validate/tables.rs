@@ -207,6 +207,7 @@ fn bad_motion(motion: &Motion) -> Option<&'static str> {
         .iter()
         .flat_map(|grasp| grasp.xyz.iter().chain(&grasp.quaternion).chain([&grasp.width]));
     let margins = [&witness.clearance].into_iter().chain(&witness.limit).chain(&witness.payload);
+    let margins = margins.chain([&witness.keeps.base, &witness.keeps.arm]);
     let is_number = path.chain(grasp).chain(margins).all(|value| value.is_finite());
     (!is_number).then_some("has a number that is not finite")
 }

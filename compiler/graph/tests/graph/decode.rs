@@ -2,8 +2,8 @@
 
 use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{
-    Arithmetic, Comparison, Condition, Ending, Fact, FactArg, Graph, Grasp, InitialFact, Motion, NodeKind,
-    Pose, Term, Unsettled, Value, Verdict, Waypoint, Witness, decode, draw, encode, hash,
+    Arithmetic, Clearance, Comparison, Condition, Ending, Fact, FactArg, Graph, Grasp, InitialFact, Motion,
+    NodeKind, Pose, Term, Unsettled, Value, Verdict, Waypoint, Witness, decode, draw, encode, hash,
 };
 
 #[track_caller]
@@ -110,6 +110,7 @@ fn sample() -> Graph {
                     path: vec![Waypoint { base: [0.0, 1.0, 2.0], joints: vec![0.5] }],
                     grasp: Some(Grasp { xyz: [0.1; 3], quaternion: [0.0, 0.0, 0.0, 1.0], width: 0.08 }),
                     clearance: 0.02,
+                    keeps: Clearance { base: 0.04, arm: 0.01 },
                     limit: Some(0.1),
                     payload: None,
                 })

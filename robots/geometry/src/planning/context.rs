@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, OnceLock};
 
+use motet_robots::clearance::Clearance;
 use motet_robots::scene::Scene;
 
 use super::base::BaseMap;
@@ -33,7 +34,7 @@ pub struct QueryContext<'w> {
 }
 
 /// Cache of base maps, shared by the contexts of one robot and scene. A map does not depend on the base's
-/// pose.
+/// pose, unless the base stands nearer to an obstacle than the clearance.
 #[derive(Debug, Default)]
 pub struct BaseMapCache(Mutex<BTreeMap<Vec<u8>, Arc<BaseMap>>>);
 
@@ -61,8 +62,12 @@ impl<'w> QueryContext<'w> {
     /// Context of a robot in a scene and a state; O(entities). Everything else is computed at first use.
     #[must_use]
     pub fn new(model: &'w RobotModel, scene: &'w Scene, state: &'w SceneState) -> Self {
+        Self::of(PlanningScene::new(model, scene, state))
+    }
+
+    fn of(planning: PlanningScene<'w>) -> Self {
         Self {
-            planning: PlanningScene::new(model, scene, state),
+            planning,
             map: OnceLock::new(),
             maps: None,
             escapes: OnceLock::new(),
@@ -78,13 +83,38 @@ impl<'w> QueryContext<'w> {
         Self { maps: Some(maps), ..self }
     }
 
-    /// Context of the same robot, scene and maps in another state.
+    /// Context of the same robot, scene, clearance and maps in another state.
     pub(crate) fn in_state<'o>(&self, state: &'o SceneState) -> QueryContext<'o>
     where
         'w: 'o,
     {
-        let context = QueryContext::new(self.model, self.scene, state);
-        QueryContext { maps: self.maps, ..context }
+        let planning = PlanningScene::with_clearance(self.model, self.scene, state, self.clearance);
+        QueryContext { maps: self.maps, ..QueryContext::of(planning) }
+    }
+
+    /// Context of the same robot, state and clearance in another scene.
+    pub(crate) fn in_scene<'o>(&self, scene: &'o Scene) -> QueryContext<'o>
+    where
+        'w: 'o,
+    {
+        QueryContext::of(PlanningScene::with_clearance(self.model, scene, self.state, self.clearance))
+    }
+
+    /// Context of the same robot, scene and state that keeps another clearance.
+    pub(crate) fn keeping(&self, clearance: Clearance) -> Self {
+        QueryContext::of(PlanningScene::with_clearance(self.model, self.scene, self.state, clearance))
+    }
+
+    /// Key of the map: the state without the base, and what only this start permits.
+    fn map_key(&self) -> Vec<u8> {
+        let mut key = self.state.key_without_base();
+        let Clearance { base_m, arm_m } = self.clearance;
+        let mut add = |value: f64| key.extend_from_slice(&value.to_bits().to_le_bytes());
+        [base_m, arm_m].into_iter().for_each(&mut add);
+        for (at, padding) in self.permitted() {
+            [at as f64, padding.base, padding.arm].into_iter().for_each(&mut add);
+        }
+        key
     }
 
     /// Map of the floor with the arm as it is; `None` for a base that does not drive.
@@ -92,7 +122,7 @@ impl<'w> QueryContext<'w> {
         let make = || Arc::new(BaseMap::new(&self.planning, &self.state.robot.joints));
         let map = self.map.get_or_init(|| {
             self.model.drives().then(|| match self.maps {
-                Some(maps) => maps.get(&self.state.key_without_base(), make),
+                Some(maps) => maps.get(&self.map_key(), make),
                 None => make(),
             })
         });

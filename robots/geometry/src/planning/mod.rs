@@ -17,8 +17,8 @@ mod search;
 
 pub use context::{BaseMapCache, QueryContext};
 pub use query::{
-    BearingLimit, ContactShare, Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer,
-    MotionQuery, MotionWitness, ReachLength, SearchBudget, UnknownReason,
+    BearingLimit, ContactShare, Gap, Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer,
+    MotionQuery, MotionWitness, ReachLength, SearchBudget, TightGroup, TightSpot, UnknownReason,
 };
 pub use scene::{
     AllowedCollisions, Articulation, Configuration, Contact, HandModel, IkSolver, KeptRegion, MIN_CLEARANCE,

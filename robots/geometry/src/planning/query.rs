@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use motet_robots::clearance::Clearance;
 use motet_stdlib::lang::approaches;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -179,8 +180,12 @@ pub struct Grasp {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Margins {
     /// Least distance to obstacles and floor, in m, at most 1, at the way-points and half-way between them.
-    /// Along the whole path it is at least [`MIN_CLEARANCE`](crate::planning::MIN_CLEARANCE).
+    /// Along the whole path it is at least [`MIN_CLEARANCE`](crate::planning::MIN_CLEARANCE). What may come
+    /// near by intent, such as the hand to the support of what it grasps, does not count.
     pub clearance: f64,
+    /// Distances from obstacles that the whole path was checked to keep; see
+    /// [`PlanningScene::clearance_kept`](crate::planning::PlanningScene::clearance_kept).
+    pub required: Clearance,
     /// Distance of the last configuration to the nearest limit of a joint that moved, in rad or m; `None`
     /// where none moved.
     pub limit: Option<f64>,
@@ -200,17 +205,95 @@ pub struct Infeasible {
     pub certified: bool,
     /// Free goal configuration to which no path was found. `None` where a proof excludes one.
     pub configuration: Option<Box<Configuration>>,
+    /// Place that is too tight for the clearance, where a smaller clearance leaves a motion; known after
+    /// [`QueryContext::explain`](crate::planning::QueryContext::explain).
+    pub tight: Option<TightSpot>,
+}
+
+/// Place that is too tight for the clearance.
+#[derive(Clone, PartialEq, Debug)]
+pub struct TightSpot {
+    /// Parts whose clearance excludes the motion.
+    pub group: TightGroup,
+    /// Clearance that they have to keep, in m.
+    pub needs: f64,
+    /// Clearance with which a motion was found, in m: at most a thirtieth of `needs` below the greatest.
+    pub most: f64,
+    /// Obstacle that this motion passes at the least distance, if it is known.
+    pub by: Option<SmolStr>,
+    /// Gap between two obstacles, if the base passes one there.
+    pub gap: Option<Gap>,
+}
+
+/// Parts of the robot that keep one clearance.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum TightGroup {
+    Base,
+    Arm,
+    /// Neither clearance alone excludes the motion; lengths are those of the arm.
+    Both,
+}
+
+/// Gap between two obstacles that the base passes.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Gap {
+    /// Obstacle on the other side.
+    pub other: SmolStr,
+    /// Width of the gap, in m.
+    pub width: f64,
+    /// Width of the base between the two obstacles, in m.
+    pub base: f64,
+}
+
+impl std::fmt::Display for TightSpot {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { group, needs, most, by, gap } = self;
+        let needs = Centimetres(*needs);
+        if let (Some(by), Some(Gap { other, width, base })) = (by, gap) {
+            let (one, other) = (named(by), named(other));
+            return write!(
+                f,
+                "the gap between {one} and {other} is {width:.2} m; the base needs {base:.2} m and {needs} \
+                 clearance on each side"
+            );
+        }
+        let who = match group {
+            TightGroup::Base => "the base",
+            TightGroup::Arm => "the arm",
+            TightGroup::Both => "the robot",
+        };
+        write!(f, "{who} needs a clearance of {needs}, and there is room for {}", Centimetres(*most))?;
+        by.as_ref().map_or(Ok(()), |by| write!(f, " beside {}", named(by)))
+    }
+}
+
+/// Length in m, written in cm and rounded down to a tenth.
+struct Centimetres(f64);
+
+impl std::fmt::Display for Centimetres {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} cm", libm::floor(self.0 * 1000.0 + 1e-6) / 10.0)
+    }
 }
 
 impl Infeasible {
     /// Infeasibility with a proof.
     pub(crate) fn proven(reason: InfeasibleReason, change: Option<String>) -> Self {
-        Self { reason, change, certified: true, configuration: None }
+        Self { reason, change, certified: true, configuration: None, tight: None }
     }
 
     /// Infeasibility after a search without a result.
     pub(crate) fn exhausted(reason: InfeasibleReason) -> Self {
-        Self { reason, change: None, certified: false, configuration: None }
+        Self { reason, change: None, certified: false, configuration: None, tight: None }
+    }
+
+    /// Reason in words, with the place that is too tight for the clearance.
+    #[must_use]
+    pub fn says(&self) -> String {
+        match &self.tight {
+            Some(tight) => format!("{}; {tight}", self.reason),
+            None => self.reason.to_string(),
+        }
     }
 }
 

@@ -22,14 +22,16 @@ pub(crate) enum PairTarget {
 }
 
 /// Pair of a part and another body.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct BatchPair {
     pub(crate) part: usize,
     pub(crate) target: PairTarget,
+    /// Distance required beyond that of the batch, in m.
+    pub(crate) beyond: f32,
 }
 
 /// Pair that may touch.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct NearPair {
     pub(crate) pair: BatchPair,
     /// Bit mask of the configurations around which the pair may touch while the robot moves as far as given.
@@ -55,11 +57,14 @@ pub(crate) struct BatchCheck<'a, F> {
     pub(crate) pairs: Option<&'a [(BatchPair, u8)]>,
     /// Buffer for the poses of the robot.
     pub(crate) posed: &'a mut PosedBatch,
-    /// Filter for pairs of a part and an entity, or the floor (`None`), where all pairs are checked.
-    pub(crate) counts: F,
+    /// Greatest distance that `beyond` gives, in m.
+    pub(crate) most_beyond: f32,
+    /// Distance required beyond that of the batch, in m, of a part and an obstacle by its index, or the floor
+    /// (`None`), where all pairs are checked; `None` for a pair that does not count.
+    pub(crate) beyond: F,
 }
 
-impl<F: Fn(usize, Option<usize>) -> bool> BatchCheck<'_, F> {
+impl<F: Fn(usize, Option<usize>) -> Option<f32>> BatchCheck<'_, F> {
     /// Pairs that may touch, in a fixed order.
     pub(crate) fn near_pairs(self) -> Vec<NearPair> {
         self.near_pairs_on(Arch::new())
@@ -71,7 +76,7 @@ impl<F: Fn(usize, Option<usize>) -> bool> BatchCheck<'_, F> {
     }
 }
 
-impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for BatchCheck<'_, F> {
+impl<F: Fn(usize, Option<usize>) -> Option<f32>> WithSimd for BatchCheck<'_, F> {
     type Output = Vec<NearPair>;
 
     #[cfg_attr(optimised, inline(always))]
@@ -80,7 +85,7 @@ impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for BatchCheck<'_, F> {
             None => self.posed.set(simd, self.batch_model, self.batch, |_| true, true),
             Some(pairs) => {
                 let mut needed = 0;
-                for (BatchPair { part, target }, _) in pairs {
+                for (BatchPair { part, target, .. }, _) in pairs {
                     needed |= bit(*part);
                     if let PairTarget::Part(at, _) = target {
                         needed |= bit(*at);
@@ -104,7 +109,7 @@ impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for BatchCheck<'_, F> {
                     looked.look(simd, *pair, *lanes, &mut near_pairs);
                 }
             }
-            None => looked.all(simd, self.counts, self.is_own, &mut near_pairs),
+            None => looked.all(simd, self.beyond, self.most_beyond, self.is_own, &mut near_pairs),
         }
         near_pairs
     }
@@ -124,14 +129,16 @@ impl BatchChecker<'_> {
     fn all<S: Simd>(
         &mut self,
         simd: S,
-        counts: impl Fn(usize, Option<usize>) -> bool,
+        beyond: impl Fn(usize, Option<usize>) -> Option<f32>,
+        most_beyond: f32,
         is_own: bool,
         near_pairs: &mut Vec<NearPair>,
     ) {
         // More than the error of any two parts.
-        let wide = self.gaps.iter().fold(0.0, |most: f32, gap| most.max(*gap))
+        let wide_own = self.gaps.iter().fold(0.0, |most: f32, gap| most.max(*gap))
             + self.batch_model.parts.iter().fold(0.0, |most: f32, part| most.max(2.0 * part.slack))
             + TOLD;
+        let wide = wide_own + most_beyond;
         let PosedBatch { parts, bounds, .. } = &mut *self.posed;
         let mut all = Aabb::NOWHERE;
         for (place, at) in parts.iter().zip(0..) {
@@ -155,23 +162,20 @@ impl BatchChecker<'_> {
                 }
                 for lane in ones(obbs.near(simd, row, &place.bound, wide)) {
                     let at = 8 * row + lane;
-                    if self.obbs.all.get(at).is_some_and(|obb| counts(part, Some(obb.entity))) {
-                        touched |= self.look(
-                            simd,
-                            BatchPair { part, target: PairTarget::Obb(at) },
-                            u8::MAX,
-                            near_pairs,
-                        );
-                        if self.is_told(touched) {
-                            return;
-                        }
+                    let Some(beyond) = beyond(part, Some(at)) else { continue };
+                    let pair = BatchPair { part, target: PairTarget::Obb(at), beyond };
+                    touched |= self.look(simd, pair, u8::MAX, near_pairs);
+                    if self.is_told(touched) {
+                        return;
                     }
                 }
             }
             let [_, _, lowest] = place.bound.low;
-            if lowest <= wide && counts(part, None) {
-                touched |=
-                    self.look(simd, BatchPair { part, target: PairTarget::Floor }, u8::MAX, near_pairs);
+            if lowest <= wide
+                && let Some(beyond) = beyond(part, None)
+            {
+                let pair = BatchPair { part, target: PairTarget::Floor, beyond };
+                touched |= self.look(simd, pair, u8::MAX, near_pairs);
                 if self.is_told(touched) {
                     return;
                 }
@@ -184,7 +188,7 @@ impl BatchChecker<'_> {
         let figures = self.batch_model.parts.iter().zip(&self.batch_model.beside);
         for ((place, (own, beside)), part) in posed.parts.iter().zip(figures).zip(0..) {
             for (row, others) in beside.iter().enumerate().filter(|(_, others)| others.parts != 0) {
-                for lane in ones(others.parts & posed.bounds.near(simd, row, &place.bound, wide)) {
+                for lane in ones(others.parts & posed.bounds.near(simd, row, &place.bound, wide_own)) {
                     let at = 8 * row + lane;
                     let Some(other) = self.batch_model.parts.get(at) else { continue };
                     // A joint that moves both, or none, keeps their distance.
@@ -194,7 +198,7 @@ impl BatchChecker<'_> {
                     let common = others.common.get(lane).copied().unwrap_or_default();
                     touched |= self.look(
                         simd,
-                        BatchPair { part, target: PairTarget::Part(at, common) },
+                        BatchPair { part, target: PairTarget::Part(at, common), beyond: 0.0 },
                         u8::MAX,
                         near_pairs,
                     );

@@ -95,8 +95,6 @@ impl AabbRows {
 /// Oriented bounding box of an obstacle, in m from the origin of a neighbourhood.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Obb {
-    /// Index of the entity in the scene.
-    pub(crate) entity: usize,
     pub(super) centre: [f32; 3],
     pub(super) axes: [[f32; 3]; 3],
     pub(super) half: [f32; 3],
@@ -134,7 +132,7 @@ impl Obb {
     }
 
     /// Oriented box of a solid; `None` for an unbounded one.
-    pub(crate) fn new(entity: usize, solid: &Solid, [x, y]: [f64; 2]) -> Option<Self> {
+    pub(crate) fn new(solid: &Solid, [x, y]: [f64; 2]) -> Option<Self> {
         let half = sides(&solid.shape)?;
         let centre = solid.centre - Vector3::new(x, y, 0.0);
         // A large or distant box is rounded more, in proportion to 3 m.
@@ -147,7 +145,6 @@ impl Obb {
             .fold(Vector3::zeros(), |sum: Vector3<f64>, (axis, half)| sum + axis.abs() * *half);
         let (low, high) = (centre - extent, centre + extent);
         Some(Self {
-            entity,
             centre: single(&centre),
             axes: [0, 1, 2].map(|at: usize| solid.axes.get(at).map_or([0.0; 3], single)),
             half: single(&half),

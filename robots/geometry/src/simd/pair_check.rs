@@ -18,7 +18,7 @@ impl BatchChecker<'_> {
     pub(super) fn chunk<S: Simd>(
         &self,
         simd: S,
-        BatchPair { part, target }: BatchPair,
+        BatchPair { part, target, beyond }: BatchPair,
         chunk: usize,
     ) -> [u8; 3] {
         let Some((own, place)) = self.batch_model.parts.get(part).zip(self.posed.parts.get(part)) else {
@@ -26,7 +26,7 @@ impl BatchChecker<'_> {
         };
         let axis = place.axis(simd, chunk);
         let goes = Lanes::of(simd, &place.goes, chunk);
-        let gap = Lanes::of(simd, &self.gaps, chunk);
+        let gap = Lanes::of(simd, &self.gaps, chunk) + Lanes::splat(simd, beyond);
         match target {
             PairTarget::Floor => {
                 let Lanes3([_, _, height]) = axis.centre;

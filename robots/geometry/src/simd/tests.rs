@@ -81,11 +81,22 @@ fn things() -> Vec<Solid> {
 }
 
 fn near_pairs(robot: &Robot, batch: &Batch8, obbs: &ObbSet, gap: f32, arch: Arch) -> Vec<NearPair> {
-    let counts = |_: usize, _: Option<usize>| true;
+    let beyond = |_: usize, _: Option<usize>| Some(0.0);
     let (batch_model, pairs, posed) = (&robot.batch_model, None, &mut PosedBatch::default());
     let gaps = [gap; 8];
-    BatchCheck { batch_model, batch, obbs, gaps, is_own: true, is_first: false, pairs, posed, counts }
-        .near_pairs_on(arch)
+    BatchCheck {
+        batch_model,
+        batch,
+        obbs,
+        gaps,
+        is_own: true,
+        is_first: false,
+        pairs,
+        posed,
+        most_beyond: 0.0,
+        beyond,
+    }
+    .near_pairs_on(arch)
 }
 
 const GAP: f32 = 0.01;
@@ -93,7 +104,7 @@ const GAP: f32 = 0.01;
 #[test]
 fn batch_check_finds_all_near_pairs() {
     let things = things();
-    let obbs: ObbSet = things.iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
+    let obbs: ObbSet = things.iter().map(|thing| Obb::new(thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         let (mut told, mut near, mut sure) = (0, 0, 0);
@@ -152,7 +163,7 @@ fn batch_check_finds_all_near_pairs() {
 
 #[test]
 fn batch_check_is_equal_on_every_processor() {
-    let obbs: ObbSet = things().iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
+    let obbs: ObbSet = things().iter().map(|thing| Obb::new(thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         for block in 0..24 {
@@ -175,7 +186,7 @@ fn batch_check_is_equal_on_every_processor() {
 #[test]
 fn batch_check_is_sound_along_an_edge() {
     let things = things();
-    let obbs: ObbSet = things.iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
+    let obbs: ObbSet = things.iter().map(|thing| Obb::new(thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         let (mut near, mut told) = (0, 0);

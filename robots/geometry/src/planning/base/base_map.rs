@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Mutex;
 
-use super::footprint::{Footprint, FootprintIndex, about_vertical};
+use super::footprint::{Footprint, FootprintIndex, PartDisc, about_vertical};
 use crate::planning::scene::{Configuration, Obstacle, PlanningScene};
 
 /// Side of a cell in m, for scenes of up to [`CELLS`] cells a side.
@@ -47,9 +47,12 @@ impl BaseMap {
     pub(crate) fn new(scene: &PlanningScene<'_>, joints: &[f64]) -> Self {
         let configuration = Configuration { base: [0.0; 3], joints: joints.to_vec() };
         let placed = scene.body.placed(&scene.model.map_from_links(&configuration));
-        let discs: Vec<(f64, [f64; 2])> =
-            placed.iter().map(|solid| about_vertical(solid, 0.0, 0.0)).collect();
-        let owned = |obstacle: &Obstacle| Some((Footprint::new(&obstacle.solid, &discs)?, obstacle.entity));
+        let discs = placed.iter().zip(0..).map(|(solid, part)| {
+            let (radius, heights) = about_vertical(solid, 0.0, 0.0);
+            PartDisc { radius, heights, is_carried: scene.is_carried(part) }
+        });
+        let discs: Vec<PartDisc> = discs.collect();
+        let owned = |obstacle: &Obstacle| Some((Footprint::new(obstacle, &discs)?, obstacle.entity));
         let (outlines, owners): (Vec<Footprint>, Vec<usize>) =
             scene.obstacles.iter().filter_map(owned).unzip();
         let [x, y, _] = scene.state.robot.base;

@@ -3,12 +3,21 @@
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
-use crate::planning::scene::MIN_CLEARANCE;
+use crate::planning::scene::Obstacle;
 
 /// Cap of the clearance, in m.
 const WIDE: f64 = 0.4;
 /// Side of a square of the grid, in m.
 const SQUARE: f64 = 0.5;
+
+/// Disc about the base's axis that a part of the robot fills at most.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PartDisc {
+    pub(crate) radius: f64,
+    pub(crate) heights: [f64; 2],
+    /// Set for a part of the arm.
+    pub(crate) is_carried: bool,
+}
 
 /// Footprints of a scene with a grid over them.
 #[derive(Clone, Debug)]
@@ -90,13 +99,16 @@ impl FootprintIndex {
 }
 
 impl Footprint {
-    /// Footprint of a solid; `None` where no part of the robot is at its heights.
-    pub(crate) fn new(solid: &Solid, discs: &[(f64, [f64; 2])]) -> Option<Self> {
+    /// Footprint of an obstacle; `None` where no part of the robot is at its heights.
+    pub(crate) fn new(Obstacle { solid, padding, .. }: &Obstacle, discs: &[PartDisc]) -> Option<Self> {
         let up = solid.extent(&Vector3::z());
-        let (low, high) = (solid.centre.z - up - MIN_CLEARANCE, solid.centre.z + up + MIN_CLEARANCE);
-        let meets = discs.iter().filter(|(_, [least, greatest])| *greatest >= low && *least <= high);
-        let widest = meets.map(|(radius, _)| *radius).fold(f64::NEG_INFINITY, f64::max);
-        if widest < 0.0 {
+        let [low, high] = [solid.centre.z - up, solid.centre.z + up];
+        let meets = discs.iter().filter_map(|disc| {
+            let (pad, [least, greatest]) = (padding.of(disc.is_carried), disc.heights);
+            (greatest >= low - pad && least <= high + pad).then_some(disc.radius + pad)
+        });
+        let keep_off = meets.fold(f64::NEG_INFINITY, f64::max);
+        if keep_off < 0.0 {
             return None;
         }
         let [x, _, z] = &solid.axes;
@@ -110,13 +122,7 @@ impl Footprint {
                 ([1.0, 0.0], [solid.extent(&Vector3::x()), solid.extent(&Vector3::y())], 0.0)
             }
         };
-        Some(Self {
-            centre: [solid.centre.x, solid.centre.y],
-            side,
-            half,
-            round,
-            keep_off: widest + MIN_CLEARANCE,
-        })
+        Some(Self { centre: [solid.centre.x, solid.centre.y], side, half, round, keep_off })
     }
 
     /// Centre in the map, in m.

@@ -6,9 +6,10 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
+use super::deflate::SLACK;
 use crate::collision::{Shape, Solid};
 use crate::planning::scene::{
-    ABOVE, Configuration, HeldObject, MIN_CLEARANCE, PlanningScene, SupportSurface,
+    ABOVE, Configuration, HeldObject, MIN_CLEARANCE, Obstacle, Padding, PlanningScene, SupportSurface,
 };
 
 /// Side of a square in m, for scenes of up to [`CELLS`] squares a side.
@@ -26,12 +27,13 @@ impl PlanningScene<'_> {
     /// a part that no joint moves.
     pub(crate) fn is_shut_off(&self, around: [f64; 2], reach: f64, far: impl Fn(f64, f64) -> f64) -> bool {
         let Some((radius, height)) = self.core() else { return false };
-        let walls: Vec<Solid> =
-            self.obstacles.iter().filter_map(|obstacle| section(&obstacle.solid, height)).collect();
+        // The disc is within one part, so it keeps that part's distance.
+        let wall = |obstacle: &Obstacle| Some((section(&obstacle.solid, height)?, obstacle.padding.base));
+        let walls: Vec<(Solid, f64)> = self.obstacles.iter().filter_map(wall).collect();
         let [x, y, _] = self.state.robot.base;
         let (mut low, mut high) = ([x, y], [x, y]);
         let wide = |at: f64, half: f64| [at - half, at + half];
-        let solids = walls.iter().map(|wall| {
+        let solids = walls.iter().map(|(wall, _)| {
             let [half_x, half_y] = [Vector3::x(), Vector3::y()].map(|axis| wall.extent(&axis));
             [wide(wall.centre.x, half_x), wide(wall.centre.y, half_y)]
         });
@@ -41,7 +43,7 @@ impl PlanningScene<'_> {
             }
         }
         // In the ring around everything the base always drives.
-        let margin = MARGIN + radius;
+        let margin = MARGIN + radius + Padding::new(self.clearance).base;
         let origin = low.map(|low| low - margin);
         let span = [high[0] - origin[0] + margin, high[1] - origin[1] + margin];
         let cell = CELL.max(span[0].max(span[1]) / CELLS as f64);
@@ -51,7 +53,8 @@ impl PlanningScene<'_> {
             |[column, row]: [i64; 2]| [origin[0] + column as f64 * cell, origin[1] + row as f64 * cell];
         let is_dead = |[x, y]: [f64; 2]| {
             let point = disc(x, y, height);
-            walls.iter().any(|wall| radius - off > 0.0 && !wall.is_farther(&point, radius - off))
+            let is_near = |(wall, pad): &(Solid, f64)| !wall.is_farther(&point, radius + pad - off - SLACK);
+            radius - off > 0.0 && walls.iter().any(is_near)
         };
         let begin = [(x - origin[0]) / cell, (y - origin[1]) / cell].map(|at| libm::round(at) as i64);
         let index = |[column, row]: [i64; 2]| usize::try_from(row * size[0] + column).ok();
@@ -115,12 +118,8 @@ impl PlanningScene<'_> {
         };
         // A round object is as wide all over only within the ball at its middle.
         let tall = if matches!(held.shape, Shape::Capsule { .. }) { 0.0 } else { bottom };
-        let others: Vec<&Solid> = self
-            .obstacles
-            .iter()
-            .filter(|obstacle| obstacle.entity != index)
-            .map(|obstacle| &obstacle.solid)
-            .collect();
+        let others: Vec<&Obstacle> =
+            self.obstacles.iter().filter(|obstacle| obstacle.entity != index).collect();
         let spread = on.half.map(|half| (half - around).max(0.0));
         let mut open = vec![([0.0, 0.0], spread, 0)];
         while let Some(([x, y], [half_x, half_y], depth)) = open.pop() {
@@ -136,7 +135,8 @@ impl PlanningScene<'_> {
                     Shape::Capsule { radius: left.max(1e-6), half: 0.0 }
                 },
             };
-            if left > 0.0 && others.iter().any(|other| !stands.is_farther(other, MIN_CLEARANCE)) {
+            let is_near = |other: &&Obstacle| !stands.is_farther(&other.solid, other.padding.arm);
+            if left > 0.0 && others.iter().any(is_near) {
                 continue;
             }
             if depth >= DEPTH {

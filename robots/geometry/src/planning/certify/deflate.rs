@@ -4,7 +4,6 @@
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
-use crate::planning::scene::MIN_CLEARANCE;
 
 /// Numerical slack of positions and lengths, in m: far more than rounding and than the error of a URDF's
 /// axes.
@@ -21,29 +20,28 @@ pub(crate) struct DeflatedPart {
 
 impl DeflatedPart {
     /// Checks whether the part is in contact with a solid for all poses within both drifts. `inner` is the
-    /// radius of a ball within that solid, `reach` of one around it.
+    /// radius of a ball within that solid, `reach` of one around it, `pad` the distance of a contact.
     #[inline]
-    pub(crate) fn touches(&self, other: &Solid, inner: f64, reach: f64, drift: f64) -> bool {
+    pub(crate) fn touches(&self, other: &Solid, [inner, reach]: [f64; 2], pad: f64, drift: f64) -> bool {
         let off = drift + SLACK;
         let from_other = (off - self.inner).max(0.0);
         // An unknown drift is NaN or infinite.
         if off.is_nan() || from_other >= inner {
             return false;
         }
-        let (wide, between) =
-            (self.reach + MIN_CLEARANCE - off.min(self.inner), self.solid.centre - other.centre);
+        let (wide, between) = (self.reach + pad - off.min(self.inner), self.solid.centre - other.centre);
         let most = wide + reach - from_other;
         if wide < 0.0 || between.norm_squared() > most * most || beyond(other, &between, wide - from_other) {
             return false;
         }
         let (one, far) = (within(&self.solid, off.min(self.inner)), within(other, from_other));
-        one.is_nearer(&far, MIN_CLEARANCE)
+        one.is_nearer(&far, pad)
     }
 
     /// Checks whether the part is apart from a solid for all poses within both drifts.
     #[inline]
-    pub(crate) fn is_apart(&self, other: &Solid, reach: f64, drift: f64) -> bool {
-        let wide = self.reach + MIN_CLEARANCE + drift + SLACK;
+    pub(crate) fn is_apart(&self, other: &Solid, reach: f64, pad: f64, drift: f64) -> bool {
+        let wide = self.reach + pad + drift + SLACK;
         let between = self.solid.centre - other.centre;
         let most = wide + reach;
         between.norm_squared() > most * most || beyond(other, &between, wide)
@@ -97,6 +95,7 @@ mod tests {
 
     use super::{DeflatedPart, inner};
     use crate::collision::{Shape, Solid};
+    use crate::planning::scene::MIN_CLEARANCE;
 
     fn solid(at: [f64; 3], turn: [f64; 3], shape: Shape) -> Solid {
         let turned = UnitQuaternion::from_scaled_axis(Vector3::from(turn));
@@ -113,7 +112,7 @@ mod tests {
             turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64], half in 0.05..0.4_f64,
             radius in 0.01..0.06_f64, drift in 0.0..0.25_f64, kind in 0..3_u8,
             shift in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64], share in 0.0..1.0_f64,
-            board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.03_f64],
+            board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.03_f64], clearance in 0.0..0.08_f64,
             lean in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64],
         ) {
             let shape = match kind {
@@ -124,8 +123,9 @@ mod tests {
             let own = solid(at, turn, shape);
             let board = solid([0.0; 3], lean, Shape::Box(Vector3::from(board)));
             let placed = DeflatedPart { solid: own, inner: inner(&own), reach: own.reach(), drift };
-            let is_stuck = placed.touches(&board, inner(&board), board.reach(), drift);
-            let is_apart = placed.is_apart(&board, board.reach(), drift);
+            let pad = clearance.max(MIN_CLEARANCE);
+            let is_stuck = placed.touches(&board, [inner(&board), board.reach()], pad, drift);
+            let is_apart = placed.is_apart(&board, board.reach(), pad, drift);
             // A turn about its centre and a shift that together stay within the drift.
             let [x, y, z] = shift;
             let along = Vector3::new(x, y, z + 1e-3).normalize();
@@ -135,8 +135,8 @@ mod tests {
             let moved = Translation3::from(along * ((1.0 - share) * drift)) * about * turned
                 * about.inverse();
             let moved = own.moved(&moved);
-            prop_assert!(!is_stuck || moved.is_nearer(&board, super::MIN_CLEARANCE));
-            prop_assert!(!is_apart || moved.is_farther(&board, super::MIN_CLEARANCE));
+            prop_assert!(!is_stuck || moved.is_nearer(&board, pad));
+            prop_assert!(!is_apart || moved.is_farther(&board, pad));
         }
     }
 }

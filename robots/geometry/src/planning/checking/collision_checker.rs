@@ -9,7 +9,8 @@ use crate::collision::Solid;
 use crate::planning::context::QueryContext;
 use crate::planning::query::ContactTally;
 use crate::planning::scene::{
-    AllowedCollisions, Configuration, Contact, ContactTarget, HandModel, MIN_CLEARANCE, above_floor, plane,
+    AllowedCollisions, Configuration, Contact, ContactTarget, HandModel, MIN_CLEARANCE, Padding, above_floor,
+    plane,
 };
 use crate::simd::{BatchPair, NearPair, ObbSet, PairTarget, PosedBatch};
 
@@ -42,12 +43,13 @@ pub(crate) struct NearObstacle {
     pub(crate) entity: usize,
     pub(crate) solid: Solid,
     pub(crate) reach: f64,
+    pub(crate) padding: Padding,
 }
 
 impl<'w> QueryContext<'w> {
     /// Checker for base positions within `far` m of a place.
     pub(crate) fn around(&self, place: [f64; 2], far: f64) -> CollisionChecker<'_, 'w> {
-        let wide = far + self.model.extent() + self.held_reach() + MIN_CLEARANCE;
+        let wide = far + self.model.extent() + self.held_reach() + Padding::new(self.clearance).most();
         let [x, y] = place;
         let obstacles = self.obstacles.near(place, wide).filter(|(_, obstacle)| {
             let (dx, dy, wide) =
@@ -59,6 +61,7 @@ impl<'w> QueryContext<'w> {
             entity: obstacle.entity,
             solid: obstacle.solid,
             reach: obstacle.reach,
+            padding: obstacle.padding,
         });
         CollisionChecker {
             context: self,
@@ -115,7 +118,7 @@ impl QueryContext<'_> {
         self.start_contact.get_or_init(find).as_ref()
     }
 
-    /// First contact in a configuration, with a padding of [`MIN_CLEARANCE`]. O(parts × obstacles near).
+    /// First contact in a configuration, with the padding of each obstacle. O(parts × obstacles near).
     ///
     /// ```
     /// use motet_geometry::planning::{AllowedCollisions, QueryContext, RobotModel, SceneState};
@@ -174,7 +177,7 @@ impl QueryContext<'_> {
 }
 
 impl CollisionChecker<'_, '_> {
-    /// First contact in a configuration, with a padding of [`MIN_CLEARANCE`].
+    /// First contact in a configuration, with the padding of each obstacle.
     pub(crate) fn contact(
         &self,
         configuration: &Configuration,
@@ -231,7 +234,13 @@ impl CollisionChecker<'_, '_> {
             }
             for near in &self.obstacles {
                 if !limb.may_touch(near.entity, allowed)
-                    && is_touching(solid, limb.reach, &near.solid, near.reach)
+                    && is_nearer(
+                        solid,
+                        limb.reach,
+                        &near.solid,
+                        near.reach,
+                        limb.padding(near.entity, near.padding, allowed),
+                    )
                 {
                     return Some((part, ContactTarget::Obstacle(near.index)));
                 }
@@ -242,7 +251,7 @@ impl CollisionChecker<'_, '_> {
         }
         self.context.body.pairs().iter().find_map(|[one, other]| {
             let (a, b) = (self.limbs.get(*one)?, self.limbs.get(*other)?);
-            is_touching(placed.get(*one)?, a.reach, placed.get(*other)?, b.reach)
+            is_nearer(placed.get(*one)?, a.reach, placed.get(*other)?, b.reach, MIN_CLEARANCE)
                 .then_some((*one, ContactTarget::Part(*other)))
         })
     }
@@ -274,12 +283,35 @@ impl CollisionChecker<'_, '_> {
         let placed = self.context.body.placed(&self.context.model.map_from_links(configuration));
         for (limb, solid) in self.limbs.iter().zip(&placed).filter(|(limb, _)| limb.counts) {
             for near in &self.obstacles {
-                if !limb.may_touch(near.entity, allowed) {
+                if limb.is_kept_from(near.entity, allowed) {
                     least = solid.distance_to(limb.reach, &near.solid, near.reach, least).min(least);
                 }
             }
             if limb.is_carried {
                 least = above_floor(solid).min(least);
+            }
+        }
+        least
+    }
+
+    /// Nearest obstacle, by its index in the scene, of some groups of parts, with the distance in m. `counts`
+    /// chooses by the mark of the arm's parts.
+    pub(crate) fn nearest(
+        &self,
+        configuration: &Configuration,
+        allowed: AllowedCollisions,
+        counts: impl Fn(bool) -> bool,
+    ) -> Option<(f64, usize)> {
+        let placed = self.context.robot_at(configuration);
+        let limbs = self.limbs.iter().zip(&placed).filter(|(limb, _)| limb.counts && counts(limb.is_carried));
+        let mut least: Option<(f64, usize)> = None;
+        for (limb, solid) in limbs {
+            for near in self.obstacles.iter().filter(|near| limb.is_kept_from(near.entity, allowed)) {
+                let enough = least.map_or(f64::INFINITY, |(known, _)| known);
+                let metres = solid.distance_to(limb.reach, &near.solid, near.reach, enough);
+                if metres < enough {
+                    least = Some((metres, near.index));
+                }
             }
         }
         least
@@ -381,7 +413,8 @@ impl CollisionChecker<'_, '_> {
         let (placed, last) = (placed(from), placed(to));
         let solids: Vec<(Solid, Vector3<f64>)> =
             placed.iter().zip(&last).map(|(one, other)| (*one, other.centre - one.centre)).collect();
-        let look = |part: usize, other: ContactTarget| match self.touches_swept(&solids, part, other) {
+        let look = |part: usize, other: ContactTarget| match self.touches_swept(&solids, part, other, allowed)
+        {
             Some(other) => Err(context.named_contact(part, other)),
             None => Ok(()),
         };
@@ -407,14 +440,15 @@ impl CollisionChecker<'_, '_> {
         solids: &[(Solid, Vector3<f64>)],
         part: usize,
         other: ContactTarget,
+        allowed: AllowedCollisions,
     ) -> Option<ContactTarget> {
         let ((solid, shift), limb) = solids.get(part).zip(self.limbs.get(part))?;
         match other {
             ContactTarget::Obstacle(at) => {
                 let near = self.obstacles.get(at)?;
-                let metres =
-                    solid.swept_distance_to(shift, limb.reach, &near.solid, near.reach, MIN_CLEARANCE);
-                (metres <= MIN_CLEARANCE).then_some(ContactTarget::Obstacle(near.index))
+                let pad = limb.padding(near.entity, near.padding, allowed);
+                let metres = solid.swept_distance_to(shift, limb.reach, &near.solid, near.reach, pad);
+                (metres <= pad).then_some(ContactTarget::Obstacle(near.index))
             }
             ContactTarget::Floor => (above_floor(solid) + shift.z.min(0.0) <= MIN_CLEARANCE).then_some(other),
             ContactTarget::Part(at) => {
@@ -432,14 +466,23 @@ impl CollisionChecker<'_, '_> {
 
 impl CheckedPart {
     pub(crate) fn may_touch(&self, entity: usize, allowed: AllowedCollisions) -> bool {
-        (self.in_hand && allowed.hand == Some(entity)) || (self.is_held && allowed.held == Some(entity))
+        self.in_hand && allowed.touches(entity, self.is_held)
+    }
+
+    /// Distance in m that the part keeps from an obstacle of an entity that it may not touch.
+    pub(crate) fn padding(&self, entity: usize, padding: Padding, allowed: AllowedCollisions) -> f64 {
+        if self.in_hand && allowed.is_near(entity) { MIN_CLEARANCE } else { padding.of(self.is_carried) }
+    }
+
+    /// Checks whether the clearance of the part from an entity counts.
+    pub(crate) fn is_kept_from(&self, entity: usize, allowed: AllowedCollisions) -> bool {
+        !self.may_touch(entity, allowed) && !(self.in_hand && allowed.is_near(entity))
     }
 }
 
-/// Checks whether two solids are within [`MIN_CLEARANCE`] of each other.
-pub(crate) fn is_touching(one: &Solid, reach: f64, other: &Solid, other_reach: f64) -> bool {
-    one.apart(reach, other, other_reach, [MIN_CLEARANCE, MIN_CLEARANCE], &mut Vector3::zeros())
-        <= MIN_CLEARANCE
+/// Checks whether two solids are within `metres` of each other.
+pub(crate) fn is_nearer(one: &Solid, reach: f64, other: &Solid, other_reach: f64, metres: f64) -> bool {
+    one.apart(reach, other, other_reach, [metres, metres], &mut Vector3::zeros()) <= metres
 }
 
 /// Prefilter data of a neighbourhood, filled at first use.

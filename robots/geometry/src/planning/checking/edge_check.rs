@@ -55,7 +55,7 @@ impl CollisionChecker<'_, '_> {
         if self.context.is_straight(from, to) {
             return self.swept(from, to, allowed);
         }
-        let mut way = EdgeCheck::new(self, from, to);
+        let mut way = EdgeCheck::new(self, from, to, allowed);
         // Undecided segments, the longest first: they meet a contact soonest.
         let mut open = VecDeque::new();
         let mut pairs: Vec<SolidPair> = Vec::new();
@@ -66,7 +66,7 @@ impl CollisionChecker<'_, '_> {
             way.go_to(leg.middle, leg.half);
             let first = pairs.len();
             match leg.pairs {
-                None => way.all(allowed, |way, pair| way.look(pair, leg.depth, &mut pairs))?,
+                None => way.all(|way, pair| way.look(pair, leg.depth, &mut pairs))?,
                 Some([from, to]) => {
                     for at in from..to {
                         let Some(pair) = pairs.get(at).copied() else { continue };
@@ -96,7 +96,8 @@ impl CollisionChecker<'_, '_> {
     ) -> Result<bool, Contact> {
         let Some(near) = self.near_on(way, &SegmentCentres::WHOLE, allowed, None) else { return Ok(false) };
         let mut rows = VecDeque::new();
-        self.add(way, SegmentBatch { legs: SegmentCentres::WHOLE, depth: EIGHTH, near }, &mut rows)?;
+        let whole = SegmentBatch { legs: SegmentCentres::WHOLE, depth: EIGHTH, near };
+        self.add(way, whole, allowed, &mut rows)?;
         while let Some(row) = rows.pop_front() {
             if row.depth >= QUICK {
                 for lane in row.open() {
@@ -111,7 +112,7 @@ impl CollisionChecker<'_, '_> {
             }
             for (legs, depth, near) in row.pieces() {
                 let Some(near) = self.near_on(way, &legs, allowed, Some(&near)) else { return Ok(false) };
-                self.add(way, SegmentBatch { legs, depth, near }, &mut rows)?;
+                self.add(way, SegmentBatch { legs, depth, near }, allowed, &mut rows)?;
             }
         }
         Ok(true)
@@ -122,9 +123,10 @@ impl CollisionChecker<'_, '_> {
         &self,
         way: [&Configuration; 2],
         row: SegmentBatch,
+        allowed: AllowedCollisions,
         rows: &mut VecDeque<SegmentBatch>,
     ) -> Result<(), Contact> {
-        self.still(way, &row)?;
+        self.still(way, &row, allowed)?;
         if !row.near.is_empty() {
             rows.push_back(row);
         }
@@ -136,11 +138,12 @@ impl CollisionChecker<'_, '_> {
         &self,
         [from, to]: [&Configuration; 2],
         SegmentBatch { legs, near, .. }: &SegmentBatch,
+        allowed: AllowedCollisions,
     ) -> Result<(), Contact> {
         let still = near.iter().fold(0, |lanes, met| lanes | met.still);
         for (lane, middle) in legs.middles.iter().enumerate().filter(|(lane, _)| still >> lane & 1 == 1) {
             let configuration = from.towards(to, *middle);
-            if let Some(contact) = self.contact_among(near, lane, &configuration) {
+            if let Some(contact) = self.contact_among(near, lane, &configuration, allowed) {
                 return Err(contact);
             }
         }
@@ -235,6 +238,7 @@ struct Segment {
 struct EdgeCheck<'a, 'r, 'w> {
     checker: &'a CollisionChecker<'r, 'w>,
     motion_bound: MotionBound<'a>,
+    allowed: AllowedCollisions,
     /// Configuration at the middle.
     configuration: Configuration,
     along: crate::kinematics::EdgePoses,
@@ -243,11 +247,17 @@ struct EdgeCheck<'a, 'r, 'w> {
 }
 
 impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
-    fn new(checker: &'a CollisionChecker<'r, 'w>, from: &'a Configuration, to: &'a Configuration) -> Self {
+    fn new(
+        checker: &'a CollisionChecker<'r, 'w>,
+        from: &'a Configuration,
+        to: &'a Configuration,
+        allowed: AllowedCollisions,
+    ) -> Self {
         let nowhere = PlacedPart { leg: 0, solid: Solid::floor(), whole: 0.0 };
         Self {
             checker,
             motion_bound: MotionBound { from, to, half: 0.0 },
+            allowed,
             configuration: from.clone(),
             along: checker.context.model.tree().edge_poses(&from.joints, &to.joints),
             moved: vec![nowhere; checker.limbs.len()],
@@ -266,10 +276,9 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
     /// Visits every pair that may not be in contact.
     fn all(
         &mut self,
-        allowed: AllowedCollisions,
         mut look: impl FnMut(&mut Self, SolidPair) -> Result<(), Contact>,
     ) -> Result<(), Contact> {
-        let checker = self.checker;
+        let (checker, allowed) = (self.checker, self.allowed);
         for (limb, part) in checker.limbs.iter().zip(0..).filter(|(limb, _)| limb.counts) {
             for (near, at) in checker.obstacles.iter().zip(0..) {
                 if !limb.may_touch(near.entity, allowed) {
@@ -293,25 +302,30 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         let Some((one, limb)) = self.moved(pair.part).zip(checker.limbs.get(pair.part)) else {
             return Ok(());
         };
-        let (metres, limit) = match pair.other {
+        let (metres, pad, limit) = match pair.other {
             ContactTarget::Obstacle(at) => {
                 let Some(near) = checker.obstacles.get(at) else { return Ok(()) };
-                let limit = MIN_CLEARANCE + one.whole;
-                let told = [MIN_CLEARANCE, limit];
-                (one.solid.apart(limb.reach, &near.solid, near.reach, told, &mut pair.axis), limit)
+                let pad = limb.padding(near.entity, near.padding, self.allowed);
+                let limit = pad + one.whole;
+                (
+                    one.solid.apart(limb.reach, &near.solid, near.reach, [pad, limit], &mut pair.axis),
+                    pad,
+                    limit,
+                )
             }
             ContactTarget::Part(at) => {
                 let Some((other, beyond)) = self.moved(at).zip(checker.limbs.get(at)) else { return Ok(()) };
                 let limit = MIN_CLEARANCE + self.approach(pair.part, &one.solid, at, &other.solid);
                 let told = [MIN_CLEARANCE, limit];
-                (one.solid.apart(limb.reach, &other.solid, beyond.reach, told, &mut pair.axis), limit)
+                let metres = one.solid.apart(limb.reach, &other.solid, beyond.reach, told, &mut pair.axis);
+                (metres, MIN_CLEARANCE, limit)
             }
-            ContactTarget::Floor => (above_floor(&one.solid), MIN_CLEARANCE + one.whole),
+            ContactTarget::Floor => (above_floor(&one.solid), MIN_CLEARANCE, MIN_CLEARANCE + one.whole),
         };
         if metres > limit {
             return Ok(());
         }
-        if depth >= DEPTH || metres <= MIN_CLEARANCE {
+        if depth >= DEPTH || metres <= pad {
             let other = match pair.other {
                 ContactTarget::Obstacle(at) => {
                     ContactTarget::Obstacle(checker.obstacles.get(at).map_or(at, |near| near.index))

@@ -5,18 +5,17 @@ use std::cell::{OnceCell, RefCell};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
 
-use super::collision_checker::is_touching;
+use super::collision_checker::is_nearer;
 use crate::collision::Solid;
 use crate::planning::scene::{
-    AllowedCollisions, Contact, HandModel, MIN_CLEARANCE, Obstacle, PlanningScene, above_floor,
+    AllowedCollisions, Contact, HandModel, MIN_CLEARANCE, Obstacle, Padding, PlanningScene, above_floor,
 };
 use crate::simd::{BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
 
 /// Open hand without its arm, and the obstacles near the object that it grasps.
 pub(crate) struct HandChecker<'r, 'w> {
     scene: &'r PlanningScene<'w>,
-    /// Entity that the held object may touch.
-    beneath: Option<usize>,
+    allowed: AllowedCollisions,
     parts: Vec<HandPart>,
     obstacles: Vec<Obstacle>,
     /// Mean position of the poses.
@@ -60,7 +59,7 @@ impl<'w> PlanningScene<'w> {
         let centre = places.clone().sum::<Vector3<f64>>() / (tips.len().max(1) as f64);
         let far = places.map(|place| (place - centre).norm()).fold(0.0, f64::max);
         let reach = parts.iter().map(|own| own.solid.centre.norm() + own.reach).fold(0.0, f64::max);
-        let far = far + reach + MIN_CLEARANCE;
+        let far = far + reach + Padding::new(self.clearance).most();
         let near = self.obstacles.near([centre.x, centre.y], far).filter(|(_, obstacle)| {
             let wide = far + obstacle.reach;
             allowed.hand != Some(obstacle.entity)
@@ -70,7 +69,7 @@ impl<'w> PlanningScene<'w> {
         let middle = Vector3::new(centre.x, centre.y, 0.0);
         HandChecker {
             scene: self,
-            beneath: allowed.held,
+            allowed,
             parts,
             obstacles,
             middle,
@@ -99,8 +98,7 @@ impl HandChecker<'_, '_> {
     fn prefilter(&self) -> Option<&(BatchModel, ObbSet)> {
         let place = [self.middle.x, self.middle.y];
         let make = || {
-            let obbs =
-                self.obstacles.iter().map(|obstacle| Obb::new(obstacle.entity, &obstacle.solid, place));
+            let obbs = self.obstacles.iter().map(|obstacle| Obb::new(&obstacle.solid, place));
             let obbs = obbs.collect::<Option<ObbSet>>()?;
             Some((BatchModel::rigid(self.parts.iter().map(|own| &own.solid))?, obbs))
         };
@@ -114,9 +112,12 @@ impl HandChecker<'_, '_> {
             Isometry3::from_parts(Translation3::from(tip.translation.vector - self.middle), tip.rotation)
         };
         let batch = batch_model.at(&map_from_tips.iter().map(seen).collect::<Vec<_>>())?;
-        let counts = |part: usize, entity: Option<usize>| {
-            self.parts.get(part).is_some_and(|own| entity.is_none() || !own.is_held || self.beneath != entity)
+        let beyond = |part: usize, obstacle: Option<usize>| {
+            let own = self.parts.get(part)?;
+            let Some(at) = obstacle else { return Some(0.0) };
+            Some((self.padding(own, self.obstacles.get(at)?)? - MIN_CLEARANCE) as f32)
         };
+        let most = Padding::new(self.scene.clearance).most() - MIN_CLEARANCE;
         let look = BatchCheck {
             batch_model,
             batch: &batch,
@@ -126,7 +127,8 @@ impl HandChecker<'_, '_> {
             is_first: true,
             pairs: None,
             posed: &mut self.posed.borrow_mut(),
-            counts,
+            most_beyond: most as f32,
+            beyond,
         };
         Some(look.near_pairs())
     }
@@ -136,13 +138,20 @@ impl HandChecker<'_, '_> {
         let Some(own) = self.parts.get(met.pair.part) else { return false };
         let solid = own.solid.moved(map_from_tip);
         match met.pair.target {
-            PairTarget::Obb(at) => self
-                .obstacles
-                .get(at)
-                .is_some_and(|obstacle| is_touching(&solid, own.reach, &obstacle.solid, obstacle.reach)),
+            PairTarget::Obb(at) => self.obstacles.get(at).is_some_and(|obstacle| {
+                let pad = self.padding(own, obstacle);
+                pad.is_some_and(|pad| is_nearer(&solid, own.reach, &obstacle.solid, obstacle.reach, pad))
+            }),
             PairTarget::Floor => above_floor(&solid) <= MIN_CLEARANCE,
             PairTarget::Part(..) => false,
         }
+    }
+
+    /// Distance in m that a part keeps from an obstacle; `None` where it may touch it.
+    fn padding(&self, own: &HandPart, obstacle: &Obstacle) -> Option<f64> {
+        let is_near = self.allowed.is_near(obstacle.entity);
+        let pad = if is_near { MIN_CLEARANCE } else { obstacle.padding.arm };
+        (!self.allowed.touches(obstacle.entity, own.is_held)).then_some(pad)
     }
 
     /// Contact of a pair.
@@ -167,10 +176,8 @@ impl HandChecker<'_, '_> {
         for own in &self.parts {
             let solid = own.solid.moved(map_from_tip);
             for obstacle in &self.obstacles {
-                if own.is_held && self.beneath == Some(obstacle.entity) {
-                    continue;
-                }
-                if is_touching(&solid, own.reach, &obstacle.solid, obstacle.reach) {
+                let Some(pad) = self.padding(own, obstacle) else { continue };
+                if is_nearer(&solid, own.reach, &obstacle.solid, obstacle.reach, pad) {
                     return Some(self.contact_of(own, self.scene.name(obstacle.entity)));
                 }
             }

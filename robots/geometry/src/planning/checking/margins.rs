@@ -69,7 +69,7 @@ impl CollisionChecker<'_, '_> {
             let moved = values.filter(|(((before, after), _), at)| before != after && !is_finger(*at));
             moved.map(|(((_, after), known), _)| known.limit_margin(*after))
         });
-        Margins { clearance, limit: rooms.reduce(f64::min), payload: None }
+        Margins { clearance, required: self.context.clearance, limit: rooms.reduce(f64::min), payload: None }
     }
 
     /// Clearance of a configuration, with the nearest obstacles first.

@@ -1,10 +1,10 @@
 //! Broad phase in batches of eight: drops the pairs that are apart for certain in `f32`, so that `f64`
 //! decides the near ones only.
 
-use super::collision_checker::{CollisionChecker, SegmentCentres, is_touching, other};
+use super::collision_checker::{CollisionChecker, SegmentCentres, is_nearer, other};
 use crate::planning::context::QueryContext;
 use crate::planning::scene::{
-    AllowedCollisions, Configuration, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+    AllowedCollisions, Configuration, Contact, ContactTarget, MIN_CLEARANCE, Padding, above_floor,
 };
 use crate::simd::{Batch8, BatchCheck, BatchModel, BatchPair, NearPair, Obb, ObbSet};
 
@@ -61,7 +61,7 @@ impl QueryContext<'_> {
 impl CollisionChecker<'_, '_> {
     fn obbs(&self) -> Option<&ObbSet> {
         let make = || {
-            let obbs = self.obstacles.iter().map(|near| Obb::new(near.entity, &near.solid, self.place()));
+            let obbs = self.obstacles.iter().map(|near| Obb::new(&near.solid, self.place()));
             obbs.collect()
         };
         self.prefilter.obbs.get_or_init(make).as_ref()
@@ -154,12 +154,19 @@ impl CollisionChecker<'_, '_> {
     ) -> Option<Vec<NearPair>> {
         let obbs = self.obbs()?;
         let mut posed = self.prefilter.posed.borrow_mut();
-        let counts = |part: usize, entity: Option<usize>| {
-            self.limbs.get(part).is_some_and(|limb| match entity {
-                Some(entity) => limb.counts && !limb.may_touch(entity, allowed),
-                None => limb.counts && limb.is_carried,
-            })
+        // A clearance is measured, not required.
+        let is_measured = !gap.is_own;
+        let beyond = |part: usize, obstacle: Option<usize>| {
+            let limb = self.limbs.get(part).filter(|limb| limb.counts)?;
+            let Some(near) = obstacle else { return limb.is_carried.then_some(0.0) };
+            let near = self.obstacles.get(near)?;
+            if is_measured {
+                return limb.is_kept_from(near.entity, allowed).then_some(0.0);
+            }
+            let pad = || limb.padding(near.entity, near.padding, allowed) - MIN_CLEARANCE;
+            (!limb.may_touch(near.entity, allowed)).then(|| pad() as f32)
         };
+        let most = Padding::new(self.context.clearance).most() - MIN_CLEARANCE;
         let look = BatchCheck {
             batch_model,
             batch,
@@ -170,7 +177,8 @@ impl CollisionChecker<'_, '_> {
             is_first: gap.is_own,
             pairs,
             posed: &mut posed,
-            counts,
+            most_beyond: if is_measured { 0.0 } else { most as f32 },
+            beyond,
         };
         Some(look.near_pairs())
     }
@@ -202,7 +210,7 @@ impl CollisionChecker<'_, '_> {
         configurations
             .iter()
             .zip(0..)
-            .map(|(configuration, lane)| self.contact_among(&near, lane, configuration))
+            .map(|(configuration, lane)| self.contact_among(&near, lane, configuration, allowed))
             .collect()
     }
 
@@ -213,11 +221,12 @@ impl CollisionChecker<'_, '_> {
         near: &[NearPair],
         lane: usize,
         configuration: &Configuration,
+        allowed: AllowedCollisions,
     ) -> Option<Contact> {
         let sure = near.iter().find(|near| near.sure >> lane & 1 == 1).map(|near| self.named_contact(near));
         sure.or_else(|| {
             let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1);
-            near.find_map(|near| self.contact_of(near, configuration))
+            near.find_map(|near| self.contact_of(near, configuration, allowed))
         })
     }
 
@@ -233,17 +242,23 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// Checks a near pair in `f64`.
-    pub(crate) fn contact_of(&self, near: &NearPair, configuration: &Configuration) -> Option<Contact> {
+    fn contact_of(
+        &self,
+        near: &NearPair,
+        configuration: &Configuration,
+        allowed: AllowedCollisions,
+    ) -> Option<Contact> {
         let solid = |part: usize| Some((self.part_at(part, configuration)?, self.limbs.get(part)?));
         let (one, limb) = solid(near.pair.part)?;
         let is_touched = match other(&near.pair) {
             ContactTarget::Obstacle(at) => {
                 let obstacle = self.obstacles.get(at)?;
-                is_touching(&one, limb.reach, &obstacle.solid, obstacle.reach)
+                let pad = limb.padding(obstacle.entity, obstacle.padding, allowed);
+                is_nearer(&one, limb.reach, &obstacle.solid, obstacle.reach, pad)
             }
             ContactTarget::Part(at) => {
                 let (other, beyond) = solid(at)?;
-                is_touching(&one, limb.reach, &other, beyond.reach)
+                is_nearer(&one, limb.reach, &other, beyond.reach, MIN_CLEARANCE)
             }
             ContactTarget::Floor => above_floor(&one) <= MIN_CLEARANCE,
         };

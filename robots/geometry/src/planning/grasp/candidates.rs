@@ -67,6 +67,27 @@ pub(crate) fn grasp_candidates(
     (holds, least)
 }
 
+/// Steps in which candidates are ordered by their approach.
+const STEPS: usize = 20;
+
+/// Orders candidates: from the robot's side first, and from above, which is rarely blocked, in the middle.
+/// `ahead` leads from the base to the object.
+pub(crate) fn in_order(holds: &mut [GraspCandidate], ahead: &Vector3<f64>) {
+    holds.sort_by_cached_key(|hold| rank(hold, ahead));
+}
+
+/// Rank of a candidate, the best the least. In steps, so that rounding does not change the order.
+pub(crate) fn rank(hold: &GraspCandidate, ahead: &Vector3<f64>) -> usize {
+    match hold.side {
+        GraspSide::Top => STEPS / 2,
+        GraspSide::Side | GraspSide::Front => {
+            let far = (ahead.x * ahead.x + ahead.y * ahead.y).sqrt().max(1e-9);
+            let worth = (hold.approach.x * ahead.x + hold.approach.y * ahead.y) / far;
+            STEPS.saturating_sub_signed(libm::round(worth * f64::from(STEPS as u32)) as isize)
+        }
+    }
+}
+
 /// Checks whether the fingers point within 45° of a direction in the plane.
 pub(crate) fn is_ahead(approach: &Vector3<f64>, [x, y]: [f64; 2]) -> bool {
     let flat = libm::hypot(approach.x, approach.y);

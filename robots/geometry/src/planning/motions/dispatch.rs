@@ -79,8 +79,10 @@ impl QueryContext<'_> {
         let end = &Configuration { base: end.base, joints: hand.around(&end.joints, rest, grasp.width) };
         let (index, _) = self.entity(&grasp.object)?;
         let support = self.support(index);
-        let after = self.in_state(&state);
-        let held = AllowedCollisions { hand: None, held: support };
+        let mut after = self.in_state(&state);
+        // Beside what it stood nearer to than the clearance, the object is lifted off.
+        after.planning.permit_held(&grasp.map_from_tip);
+        let held = AllowedCollisions { held: support, ..AllowedCollisions::default() };
         let up = Vector3::new(0.0, 0.0, LIFT);
         let back = |far: f64| away(&grasp.map_from_tip, hand, far);
         let ways = [up, back(BACK[0]), back(BACK[1]), up + back(BACK[0])];
@@ -104,7 +106,7 @@ impl QueryContext<'_> {
         state.moved.insert(grasp.object.clone(), grasp.map_from_tip * grasp.tip_from_object);
         let (index, _) = self.entity(&grasp.object)?;
         let after = self.in_state(&state);
-        let allowed = AllowedCollisions { hand: Some(index), held: None };
+        let allowed = AllowedCollisions::of_grasp(&after, index);
         // The fingers open before the hand draws back.
         let open = Configuration { base: end.base, joints: hand.opened(&end.joints) };
         after.edge(end, &open, allowed).ok()?;
@@ -136,10 +138,10 @@ impl QueryContext<'_> {
     /// path leads back; `None` where neither was found.
     #[must_use]
     pub fn after_pull(&self, witness: &MotionWitness) -> Option<SceneState> {
-        let none = AllowedCollisions::default();
         let grasp = witness.grasp.as_ref()?;
         let (hand, end) = (self.model.hand()?, witness.path.last()?);
-        let (_, entity) = self.entity(&grasp.object)?;
+        let (index, entity) = self.entity(&grasp.object)?;
+        let allowed = AllowedCollisions::near(index);
         let opening = Articulation::new(entity, self.state)?;
         let was_open = self.state.is_open(entity);
         let (from, to) = if was_open { (1.0, 0.0) } else { (0.0, 1.0) };
@@ -163,7 +165,7 @@ impl QueryContext<'_> {
                 hand.around(&configuration.joints, self.model.rest(), width.min(hand.card.opening_m))
             };
             let open = Configuration { base: end.base, joints: fingers(end) };
-            if after.edge(end, &open, none).is_err() {
+            if after.edge(end, &open, allowed).is_err() {
                 continue;
             }
             let shift = away(&map_from_tip, hand, far);
@@ -175,9 +177,10 @@ impl QueryContext<'_> {
                     joints: fingers(configuration),
                 })
                 .collect();
-            let is_free = after.around(plane(&open), LAST).is_free(&line, none, &mut ContactTally::default());
+            let is_free =
+                after.around(plane(&open), LAST).is_free(&line, allowed, &mut ContactTally::default());
             let Some(first) = line.first().filter(|_| is_free) else { continue };
-            if leads_back(&after, first, &map_from_tip.translation.vector) {
+            if leads_back(&after, first, &map_from_tip.translation.vector, allowed) {
                 return Some(state);
             }
             let [x, y, yaw] = first.base;
@@ -206,9 +209,10 @@ pub(crate) fn leads_back(
     context: &QueryContext<'_>,
     configuration: &Configuration,
     place: &Vector3<f64>,
+    allowed: AllowedCollisions,
 ) -> bool {
-    let (inwards, none) = (configuration.inwards(place), AllowedCollisions::default());
+    let inwards = configuration.inwards(place);
     context
-        .route_along(std::slice::from_ref(configuration), inwards, none, &mut ContactTally::default())
+        .route_along(std::slice::from_ref(configuration), inwards, allowed, &mut ContactTally::default())
         .is_some()
 }

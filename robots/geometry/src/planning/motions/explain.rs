@@ -8,6 +8,7 @@ use motet_stdlib::lang::kinds;
 use nalgebra::Translation3;
 use smol_str::SmolStr;
 
+use super::tight::tight_spot;
 use crate::planning::context::QueryContext;
 use crate::planning::query::{
     BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, ReachLength, SearchBudget,
@@ -62,13 +63,14 @@ impl QueryContext<'_> {
     #[must_use]
     pub fn explain(&self, query: &MotionQuery, why: &Infeasible, budget: SearchBudget) -> Infeasible {
         let mut explained = why.clone();
-        if explained.change.is_some() {
-            return explained;
-        }
         let mut least = budget;
         least.candidates = least.candidates.min(EFFORT[0]);
         least.paths = least.paths.min(EFFORT[1]);
         least.cells = least.cells.min(CELLS);
+        explained.tight = tight_spot(self, query, &why.reason, [budget, least]);
+        if explained.change.is_some() {
+            return explained;
+        }
         explained.change = match &why.reason {
             InfeasibleReason::TooHeavy { .. } | InfeasibleReason::TooWide { .. } => None,
             InfeasibleReason::OutOfReach { length: ReachLength::Sight, needs, reach } => {
@@ -129,7 +131,7 @@ fn cut_off(
     let fixed = names.iter().find(|id| !may_go(context, query, id));
     let helps = || {
         let scene = without(context.scene, &names);
-        let context = QueryContext::new(context.model, &scene, context.state);
+        let context = context.in_scene(&scene);
         matches!(context.answer(query, budget), MotionAnswer::Feasible(_))
     };
     let may_help = fixed.is_none() && !names.is_empty() && names.len() <= TAKEN;
@@ -183,7 +185,7 @@ fn cleared(
     let tried = by.into_iter().chain(near.into_iter().map(|(_, id)| id)).take(TAKEN);
     let helps = |id: &&SmolStr| {
         let scene = without(context.scene, std::slice::from_ref(*id));
-        let context = QueryContext::new(context.model, &scene, context.state);
+        let context = context.in_scene(&scene);
         matches!(context.answer(query, budget), MotionAnswer::Feasible(_))
     };
     let id = { tried }.find(helps)?;

@@ -74,7 +74,7 @@ pub(crate) fn go_to(context: &QueryContext<'_>, id: &str, _budget: SearchBudget)
     }
     let reason = if is_free_somewhere { InfeasibleReason::BlockedPath { by: None } } else { met.none_free() };
     let certified = context.is_shut_off([centre.x, centre.y], reach, far);
-    MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None })
+    MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None, tight: None })
 }
 
 /// Answers `posture`: the arm to a posture of the card, with the base still.

@@ -13,7 +13,7 @@ use crate::planning::grasp::{GraspCandidate, GraspManifold};
 use crate::planning::query::{ContactTally, GraspSide};
 use crate::planning::scene::{
     AllowedCollisions, Articulation, Configuration, Contact, HandModel, IkSolver, MIN_CLEARANCE, Obstacle,
-    ObstacleIndex, RobotModel, THICK, plane,
+    ObstacleIndex, Padding, RobotModel, THICK, plane,
 };
 use crate::trigonometry::turn;
 
@@ -27,12 +27,16 @@ const PLACES: [f64; 3] = [0.0, 0.6, -0.6];
 /// Handle to be grasped, and the travel that it follows.
 pub(crate) struct HandlePull<'a> {
     pub(crate) id: &'a str,
+    /// Index of the container.
+    pub(crate) index: usize,
     pub(crate) hand: &'a HandModel,
     pub(crate) opening: Articulation,
     /// Start and end of the travel, 0 closed and 1 open.
     pub(crate) parts: [f64; 2],
     /// Distance of the bar's middle before the tip, in m.
     pub(crate) depth: f64,
+    /// Distances that base and arm keep from the moving parts.
+    pub(crate) padding: Padding,
 }
 
 /// Part of the robot that follows the handle.
@@ -223,7 +227,7 @@ pub(crate) fn follow(
             return None;
         }
         let free = checker
-            .edge(one, other, AllowedCollisions::default())
+            .edge(one, other, AllowedCollisions::near(pull.index))
             .and_then(|()| edge_beside(context, one, other, pull, done));
         if let Err(contact) = free {
             met.add(&contact);
@@ -298,6 +302,7 @@ fn edge_beside(
         begin + (end - begin) * done
     };
     let drives = context.model.drives();
+    let padding = pull.padding;
     let mut open = vec![(0.5, 0.5, 0)];
     while let Some((middle, half, depth)) = open.pop() {
         let configuration = from.towards(to, middle);
@@ -307,18 +312,23 @@ fn edge_beside(
         let moving = pull.opening.moving(part(middle));
         let span = (part(middle + half) - part(middle - half)).abs() / 2.0;
         let mut is_certain = true;
-        for (own, solid) in context.body.parts().iter().zip(&placed) {
+        for ((own, solid), part) in context.body.parts().iter().zip(&placed).zip(0..) {
             if !drives && pull.hand.carried.get(own.link) != Some(&true) {
                 continue;
             }
             let ancestors = context.model.ancestor_joints(own.link);
             let goes = motion_bound.in_map(configuration.base, ancestors, &poses, solid, solid.reach());
+            // The hand is at the handle by intent.
+            let pad = match pull.hand.members.get(own.link) {
+                Some(true) => MIN_CLEARANCE,
+                Some(false) | None => padding.of(context.is_carried(part)),
+            };
             for other in &moving {
                 let margin = goes + pull.opening.goes(other, span);
-                if solid.is_farther(other, MIN_CLEARANCE + margin) {
+                if solid.is_farther(other, pad + margin) {
                     continue;
                 }
-                if depth >= DEPTH || !solid.is_farther(other, MIN_CLEARANCE) {
+                if depth >= DEPTH || !solid.is_farther(other, pad) {
                     let link = context.model.tree().links().get(own.link).cloned().unwrap_or_default();
                     return Err(Contact { link, other: pull.id.into(), is_own: false });
                 }
@@ -352,7 +362,8 @@ pub(crate) fn without<'w>(
         .iter()
         .filter(|obstacle| obstacle.entity != index)
         .partition(|obstacle| carried(obstacle.entity));
-    let still = opening.still().iter().map(|solid| Obstacle::new(index, *solid));
+    let padding = context.padding_of(index);
+    let still = opening.still().iter().map(|solid| Obstacle::new(index, *solid, padding));
     changed.planning.obstacles = ObstacleIndex::new(around.into_iter().chain(still).collect());
     changed.planning.opening = Some(index);
     (changed, inside.iter().map(|obstacle| obstacle.solid.moved(&back)).collect())
@@ -362,8 +373,9 @@ pub(crate) fn without<'w>(
 pub(crate) fn beside<'w>(context: &QueryContext<'w>, opening: &Articulation, part: f64) -> QueryContext<'w> {
     let mut changed = context.clone();
     let entity = context.opening.unwrap_or(usize::MAX);
-    changed.planning.obstacles =
-        context.obstacles.with(opening.moving(part).into_iter().map(|solid| Obstacle::new(entity, solid)));
+    let padding = context.padding_of(entity);
+    let moving = opening.moving(part).into_iter().map(|solid| Obstacle::new(entity, solid, padding));
+    changed.planning.obstacles = context.obstacles.with(moving);
     changed
 }
 

@@ -10,3 +10,4 @@ mod pull;
 mod push;
 mod put;
 mod reach;
+mod tight;

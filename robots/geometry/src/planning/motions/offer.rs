@@ -59,6 +59,7 @@ pub(crate) fn offer(context: &QueryContext<'_>, id: &str, to: &str, budget: Sear
             change,
             certified: false,
             configuration: None,
+            tight: None,
         });
     }
     let (mut poses, mut ways, mut tried) = (ContactTally::default(), ContactTally::default(), 0);

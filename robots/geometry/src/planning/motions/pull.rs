@@ -55,11 +55,12 @@ pub(crate) fn pull(
         return certain(InfeasibleReason::BlockedPath { by: Some(by) }, change);
     }
     let depth = (front_around(context, hand, THICK) - BEYOND).max(hand.palm + THICK / 2.0);
-    let pull = HandlePull { id, hand, opening, parts, depth };
+    let padding = context.padding_of(index);
+    let pull = HandlePull { id, index, hand, opening, parts, depth, padding };
     let all = pull.holds();
     let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
     let mut poses = ContactTally::default();
-    let free = free_holds(context, hand, &all, &tips, &mut poses);
+    let free = free_holds(context, (hand, index), &all, &tips, &mut poses);
     let answer = search_pull(context, &pull, &clear, &free, budget, poses);
     let MotionAnswer::Infeasible(found) = answer else { return answer };
     let bar = (pull.opening.map_moved(from) * pull.opening.handle().centre).coords;
@@ -74,12 +75,12 @@ pub(crate) fn pull(
 /// Grasp candidates in which the hand alone is free.
 fn free_holds<'h>(
     context: &QueryContext<'_>,
-    hand: &HandModel,
+    (hand, index): (&HandModel, usize),
     all: &'h [GraspCandidate],
     tips: &[Isometry3<f64>],
     met: &mut ContactTally,
 ) -> Vec<&'h GraspCandidate> {
-    let hand_checker = context.hand_checker(hand, tips, AllowedCollisions::default());
+    let hand_checker = context.hand_checker(hand, tips, AllowedCollisions::near(index));
     let is_free = |hold: &&GraspCandidate| {
         hand_checker.contact(&hold.map_from_tip).map(|contact| met.add(&contact)).is_none()
     };
@@ -100,6 +101,7 @@ fn search_pull(
     let checker = context.around([bar.x, bar.y], wide);
     let mut ways = ContactTally::default();
     let (mut tried, mut is_cut_off, mut is_free) = (0, false, false);
+    let allowed = AllowedCollisions::near(pull.index);
     for at in 0..budget.candidates {
         for hold in holds {
             for configuration in context.candidates(pull.hand, &hold.map_from_tip, at) {
@@ -107,7 +109,7 @@ fn search_pull(
                     is_cut_off = true;
                     continue;
                 }
-                if let Some(contact) = checker.contact(&configuration, AllowedCollisions::default()) {
+                if let Some(contact) = checker.contact(&configuration, allowed) {
                     poses.add(&contact);
                     continue;
                 }
@@ -117,7 +119,7 @@ fn search_pull(
                     let Some(last) = follows_to(clear, pull, hold, &configuration, following) else {
                         continue;
                     };
-                    if let Some(contact) = end.contact(&last, AllowedCollisions::default()) {
+                    if let Some(contact) = end.contact(&last, allowed) {
                         ways.add(&contact);
                         continue;
                     }
@@ -144,9 +146,8 @@ fn search_pull(
     // A free configuration contradicts a proof.
     if !is_free {
         let manifold = pull.manifold();
-        let none = AllowedCollisions::default();
         let covered =
-            checker.covered(pull.hand, &manifold, none, budget.cells, |_, _| ControlFlow::Break(()));
+            checker.covered(pull.hand, &manifold, allowed, budget.cells, |_, _| ControlFlow::Break(()));
         if covered == Certificate::Nowhere {
             return certain(poses.none_free(), None);
         }
@@ -166,7 +167,7 @@ fn way_to_handle(
         let mut line = context.approach(pull.hand, configuration, &hold.map_from_tip, back)?;
         line.push(gripping(context, pull.hand, configuration));
         let inwards = line.first()?.inwards(&hold.map_from_tip.translation.vector);
-        context.route_along(&line, inwards, AllowedCollisions::default(), met)
+        context.route_along(&line, inwards, AllowedCollisions::near(pull.index), met)
     })
 }
 
@@ -178,15 +179,15 @@ fn pulled_along(
     way_in: Vec<Configuration>,
     way: Vec<Configuration>,
 ) -> MotionWitness {
-    let none = AllowedCollisions::default();
-    let first = context.margins(&way_in, none);
-    let second = clear.margins(&way, none);
+    let allowed = AllowedCollisions::near(pull.index);
+    let first = context.margins(&way_in, allowed);
+    let second = clear.margins(&way, allowed);
     let count = way.len().saturating_sub(1).max(1) as f64;
     let [from, to] = pull.parts;
     // Clearance to the moving door at the way-points.
     let nearest = way.iter().zip(0..).map(|(configuration, at)| {
         let part = from + (to - from) * (f64::from(at) / count);
-        beside(clear, &pull.opening, part).clearance(configuration, none)
+        beside(clear, &pull.opening, part).clearance(configuration, allowed)
     });
     let clearance = nearest.fold(first.clearance.min(second.clearance), f64::min);
     let turns = way_in.last().zip(way.first()).map_or(0.0, |(end, begin)| end.base[2] - begin.base[2]);
@@ -200,5 +201,5 @@ fn pulled_along(
         tip_from_object: hold.map_from_tip.inverse() * pull.map_from_handle(pull.parts[0]),
         width: hold.width,
     });
-    MotionWitness { path, grasp, margins: Margins { clearance, limit, payload: None } }
+    MotionWitness { path, grasp, margins: Margins { clearance, limit, ..first } }
 }

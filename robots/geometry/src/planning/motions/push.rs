@@ -90,7 +90,7 @@ pub(crate) fn push(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     {
         return MotionAnswer::Infeasible(Infeasible { change, ..Infeasible::exhausted(reason) });
     }
-    let allowed = AllowedCollisions { hand: Some(index), held: None };
+    let allowed = AllowedCollisions::of_grasp(context, index);
     let (mut poses, mut ways, mut tried) = (ContactTally::default(), ContactTally::default(), 0);
     for at in 0..budget.candidates {
         for (along, map_from_tip) in &ends {
@@ -159,7 +159,9 @@ fn is_walled_in(object: &Solid, others: &[&Obstacle], ahead: &Vector3<f64>) -> b
             // Deflated by the padding, since the object may slide along an obstacle.
             let drift = gone * half + MIN_CLEARANCE;
             let placed = DeflatedPart { solid, inner: inner(&solid), reach: solid.reach(), drift };
-            others.iter().any(|it| placed.touches(&it.solid, inner(&it.solid), it.reach, drift))
+            others
+                .iter()
+                .any(|it| placed.touches(&it.solid, [inner(&it.solid), it.reach], MIN_CLEARANCE, drift))
         });
         if is_stopped {
             continue;

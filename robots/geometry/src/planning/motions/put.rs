@@ -11,7 +11,7 @@ use crate::planning::query::{
     SearchBudget, UnknownReason,
 };
 use crate::planning::scene::{
-    ABOVE, AllowedCollisions, Configuration, HeldObject, MIN_CLEARANCE, SupportSurface, WALL, solid_shape,
+    ABOVE, AllowedCollisions, Configuration, HeldObject, Padding, SupportSurface, WALL, solid_shape,
 };
 use crate::planning::search::{GoalPose, GoalSpec, LAST, PLANE, ReachEnvelope, part};
 
@@ -39,14 +39,20 @@ pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: Search
         Ok(support) => support,
         Err(answer) => return answer,
     };
-    let allowed = AllowedCollisions { hand: None, held: Some(index) };
+    let allowed = AllowedCollisions { held: Some(index), ..AllowedCollisions::default() };
     let mut met = ContactTally::default();
     let wanted = PLACES * (budget.candidates / SearchBudget::default().candidates).clamp(1, MOST_TIMES);
     let (places, is_cut) = places(context, &held, (&support, index), wanted, &mut met);
     if places.is_empty() {
         let reason = met.none_free();
         let certified = context.is_full(&held, &support, index);
-        return MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None });
+        return MotionAnswer::Infeasible(Infeasible {
+            reason,
+            change: None,
+            certified,
+            configuration: None,
+            tight: None,
+        });
     }
     let tip_from_place = held.tip_from_object.inverse();
     let face = support.map_from_face.translation;
@@ -59,7 +65,13 @@ pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: Search
     let envelope = context.reach_envelope(held.hand);
     if let Some((reason, change)) = envelope.beyond_all(&face.vector, &format!("the top of `{on}`"), &tips) {
         let certified = matches!(envelope, ReachEnvelope::Heights(..));
-        return MotionAnswer::Infeasible(Infeasible { reason, change, certified, configuration: None });
+        return MotionAnswer::Infeasible(Infeasible {
+            reason,
+            change,
+            certified,
+            configuration: None,
+            tight: None,
+        });
     }
     let goal = GoalSpec {
         hand: held.hand,
@@ -163,10 +175,10 @@ fn places(
         let stands = Solid::new(&upright(*spot, 0), held.shape);
         let others = context
             .obstacles
-            .near([spot.x, spot.y], stands.reach() + MIN_CLEARANCE)
+            .near([spot.x, spot.y], stands.reach() + Padding::new(context.clearance).arm)
             .map(|(_, obstacle)| obstacle);
         let mut others = others.filter(|obstacle| obstacle.entity != index);
-        let other = others.find(|obstacle| !stands.is_farther(&obstacle.solid, MIN_CLEARANCE));
+        let other = others.find(|obstacle| !stands.is_farther(&obstacle.solid, obstacle.padding.arm));
         other.inspect(|other| met.add_entity(context.name(other.entity))).is_none()
     };
     let (mut chosen, mut is_cut) = (Vec::new(), false);

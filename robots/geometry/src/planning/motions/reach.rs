@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Vector3};
 use crate::collision::Solid;
 use crate::planning::checking::CollisionChecker;
 use crate::planning::context::QueryContext;
-use crate::planning::grasp::{GraspCandidate, GraspManifold, grasp_candidates};
+use crate::planning::grasp::{GraspCandidate, GraspManifold, grasp_candidates, in_order};
 use crate::planning::query::{
     Grasp, GraspSide, InfeasibleReason, Margins, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
     certain,
@@ -16,9 +16,6 @@ use crate::planning::search::{GoalPose, GoalSpec, LAST};
 
 /// Approach distances before the object, in m; the shorter where the longer is blocked.
 const BACK: [f64; 2] = [0.1, 0.05];
-/// Steps in which candidates are ordered by their approach.
-const STEPS: usize = 20;
-
 /// Answers `reach`: a grasp of an entity.
 pub(crate) fn reach(
     context: &QueryContext<'_>,
@@ -48,14 +45,8 @@ pub(crate) fn reach(
     if all.is_empty() && side.is_none() {
         return unknown(format!("no grasp by `{}` is known for its shape", hand.name));
     }
-    let target = ReachTarget {
-        id,
-        entity,
-        pose,
-        object,
-        hand,
-        allowed: AllowedCollisions { hand: Some(index), held: None },
-    };
+    let target =
+        ReachTarget { id, entity, pose, object, hand, allowed: AllowedCollisions::of_grasp(context, index) };
     let (mut all, envelope) = (all, context.reach_envelope(hand));
     let manifold = GraspManifold::new(hand, &target.object, side, context.state.robot.base);
     if let Some(answer) = envelope.beyond(&target.pose.translation.vector, id, &all)
@@ -65,7 +56,8 @@ pub(crate) fn reach(
     }
     // A pose outside of the workspace needs no search.
     all.retain(|hold| envelope.holds(&hold.map_from_tip));
-    sort(context, &mut all, &target);
+    let [x, y, _] = context.state.robot.base;
+    in_order(&mut all, &(target.pose.translation.vector - Vector3::new(x, y, 0.0)));
     let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
     let centre = target.pose.translation;
     let grasp = hand.palm.abs().max(hand.fingers.abs()) + target.object.reach();
@@ -112,26 +104,6 @@ fn backs(context: &QueryContext<'_>, tip: &Isometry3<f64>, hand: &HandModel) -> 
         backs.extend([past, -past]);
     }
     backs
-}
-
-/// Orders candidates: from the robot's side first, and from above, which is rarely blocked, in the middle.
-fn sort(context: &QueryContext<'_>, holds: &mut Vec<GraspCandidate>, target: &ReachTarget<'_>) {
-    let [x, y, _] = context.state.robot.base;
-    let ahead = Vector3::new(target.pose.translation.x - x, target.pose.translation.y - y, 0.0);
-    let far = (ahead.x * ahead.x + ahead.y * ahead.y).sqrt().max(1e-9);
-    // In steps, so that rounding does not change the order; the best is the least.
-    let step = |hold: &GraspCandidate| match hold.side {
-        GraspSide::Top => STEPS / 2,
-        GraspSide::Side | GraspSide::Front => {
-            let worth = hold.approach.dot(&ahead) / far;
-            STEPS.saturating_sub_signed(libm::round(worth * f64::from(STEPS as u32)) as isize)
-        }
-    };
-    let mut steps: [Vec<usize>; 2 * STEPS + 1] = [const { vec![] }; 2 * STEPS + 1];
-    for (hold, at) in holds.iter().zip(0..) {
-        steps.get_mut(step(hold)).into_iter().for_each(|slot| slot.push(at));
-    }
-    *holds = steps.iter().flatten().filter_map(|at| holds.get(*at).copied()).collect();
 }
 
 impl CollisionChecker<'_, '_> {

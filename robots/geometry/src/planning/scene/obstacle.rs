@@ -1,6 +1,7 @@
 //! Obstacles of a planning scene, listed by square of the floor so that a search near a place does not visit
 //! all, and contacts with them.
 
+use motet_robots::clearance::Clearance;
 use nalgebra::Vector3;
 use smol_str::SmolStr;
 
@@ -8,6 +9,46 @@ use crate::collision::Solid;
 
 /// Padding of every check: the least distance between any two bodies that may not touch, in m.
 pub const MIN_CLEARANCE: f64 = 0.002;
+/// Part of the distance at the start that a motion may give up beside an obstacle that is nearer than the
+/// clearance there, in m: room for the certificate of the first edge.
+const LEEWAY: f64 = 0.001;
+
+/// Distances in m that the groups of the robot's parts keep from one obstacle, at least [`MIN_CLEARANCE`].
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Padding {
+    pub(crate) base: f64,
+    pub(crate) arm: f64,
+}
+
+impl Padding {
+    /// Padding without a clearance.
+    pub(crate) const LEAST: Self = Self { base: MIN_CLEARANCE, arm: MIN_CLEARANCE };
+
+    pub(crate) fn new(clearance: Clearance) -> Self {
+        Self { base: clearance.base_m.max(MIN_CLEARANCE), arm: clearance.arm_m.max(MIN_CLEARANCE) }
+    }
+
+    /// Distance of the arm, or of the other parts.
+    pub(crate) fn of(&self, is_carried: bool) -> f64 {
+        if is_carried { self.arm } else { self.base }
+    }
+
+    /// The greater of both distances.
+    pub(crate) fn most(&self) -> f64 {
+        self.base.max(self.arm)
+    }
+
+    /// The smaller distances of two.
+    pub(crate) fn least(self, other: Self) -> Self {
+        Self { base: self.base.min(other.base), arm: self.arm.min(other.arm) }
+    }
+
+    /// Lets the parts of a group stay where they are: as near as `metres`.
+    pub(crate) fn permit(&mut self, is_carried: bool, metres: f64) {
+        let slot = if is_carried { &mut self.arm } else { &mut self.base };
+        *slot = slot.min((metres - LEEWAY).max(MIN_CLEARANCE));
+    }
+}
 
 /// Pairs that may be in contact, besides those that always may.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -16,9 +57,39 @@ pub struct AllowedCollisions {
     pub hand: Option<usize>,
     /// Index of the entity that the held object may touch: the one on which it stands.
     pub held: Option<usize>,
+    /// Index of the entity to which the hand may come nearer than the clearance: the support of the object
+    /// that it grasps or released, or the container whose handle it grasps.
+    pub near: Option<usize>,
+    /// Set before the last approach: the hand and the held object may come near to these entities, but touch
+    /// none.
+    pub(crate) is_before: bool,
 }
 
-/// Contact between two bodies: they are closer than [`MIN_CLEARANCE`].
+impl AllowedCollisions {
+    /// No contact, but the hand near an entity.
+    #[must_use]
+    pub(crate) fn near(entity: usize) -> Self {
+        Self { near: Some(entity), ..Self::default() }
+    }
+
+    /// What remains allowed before the last approach.
+    #[must_use]
+    pub(crate) fn before(self) -> Self {
+        Self { is_before: true, ..self }
+    }
+
+    /// Checks whether the hand, or the held object, may touch an entity.
+    pub(crate) fn touches(self, entity: usize, is_held: bool) -> bool {
+        !self.is_before && (self.hand == Some(entity) || (is_held && self.held == Some(entity)))
+    }
+
+    /// Checks whether the hand and the held object may come nearer to an entity than the clearance.
+    pub(crate) fn is_near(self, entity: usize) -> bool {
+        [self.near, self.held, self.hand].contains(&Some(entity))
+    }
+}
+
+/// Contact between two bodies: they are closer than [`MIN_CLEARANCE`], or than the padding of an obstacle.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Contact {
     /// Link of the robot; the link of the hand for the held object.
@@ -57,11 +128,12 @@ pub(crate) struct Obstacle {
     pub(crate) solid: Solid,
     /// Radius of its bounding ball, in m.
     pub(crate) reach: f64,
+    pub(crate) padding: Padding,
 }
 
 impl Obstacle {
-    pub(crate) fn new(entity: usize, solid: Solid) -> Self {
-        Self { entity, solid, reach: solid.reach() }
+    pub(crate) fn new(entity: usize, solid: Solid, padding: Padding) -> Self {
+        Self { entity, solid, reach: solid.reach(), padding }
     }
 }
 
@@ -176,6 +248,27 @@ impl ObstacleIndex {
         }
         let every = if is_every { 0..self.all.len() } else { 0..0 };
         every.chain(found).filter_map(|index| Some((index, self.all.get(index)?)))
+    }
+
+    /// Lets some parts stay where they are beside each obstacle, nearer than the padding, which is at most
+    /// `most`. Each part has the radius of its bounding ball, and a mark for the arm's.
+    /// O(parts × obstacles near).
+    pub(crate) fn permit(&mut self, parts: &[(Solid, f64, bool)], most: f64) {
+        let Some((first, ..)) = parts.first() else { return };
+        let off = |solid: &Solid| (solid.centre - first.centre).norm();
+        let wide = parts.iter().map(|(solid, reach, _)| off(solid) + reach).fold(0.0, f64::max);
+        let near = self.near([first.centre.x, first.centre.y], wide + most + LEEWAY);
+        let near: Vec<usize> = near.map(|(index, _)| index).collect();
+        for index in near {
+            let Some(obstacle) = self.all.get_mut(index) else { continue };
+            for (solid, reach, is_carried) in parts {
+                let wanted = obstacle.padding.of(*is_carried) + LEEWAY;
+                let metres = solid.distance_to(*reach, &obstacle.solid, obstacle.reach, wanted);
+                if metres < wanted {
+                    obstacle.padding.permit(*is_carried, metres);
+                }
+            }
+        }
     }
 
     /// Copy with more obstacles at the end.

@@ -3,6 +3,7 @@
 //! It holds nothing that is computed lazily; a [`QueryContext`](crate::planning::QueryContext) keeps that.
 
 use motet_robots::card::Drive;
+use motet_robots::clearance::Clearance;
 use motet_robots::scene::{Entity, EntityShape, Scene};
 use motet_stdlib::lang::kinds;
 use nalgebra::{Isometry3, Translation3, Vector3};
@@ -10,7 +11,9 @@ use smol_str::SmolStr;
 
 use super::articulation::Articulation;
 use super::configuration::Configuration;
-use super::obstacle::{Contact, ContactTarget, MIN_CLEARANCE, Obstacle, ObstacleIndex};
+use super::obstacle::{
+    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, Obstacle, ObstacleIndex, Padding,
+};
 use super::robot_model::{HandModel, IkSolver, RobotModel};
 use super::scene_state::{HeldObject, SceneState, solid_shape};
 use crate::collision::{CollisionModel, LinkSolid, Shape, Solid};
@@ -30,6 +33,8 @@ pub struct PlanningScene<'w> {
     pub(crate) body: CollisionModel,
     /// Index of the part that is held.
     pub(crate) held: Option<usize>,
+    /// Distances that motions keep from obstacles.
+    pub(crate) clearance: Clearance,
     pub(crate) obstacles: ObstacleIndex,
     /// Index of the container that is about to open or close, whose moving parts are not among the obstacles.
     pub(crate) opening: Option<usize>,
@@ -38,16 +43,30 @@ pub struct PlanningScene<'w> {
 }
 
 impl<'w> PlanningScene<'w> {
-    /// Scene of a robot in a state; O(entities).
+    /// Scene of a robot in a state, with the clearance of the scene or, where it gives none, of the card.
+    /// O(entities + parts × obstacles near).
     #[must_use]
     pub fn new(model: &'w RobotModel, scene: &'w Scene, state: &'w SceneState) -> Self {
+        Self::with_clearance(model, scene, state, scene.clearance.over(model.card().clearance))
+    }
+
+    /// Scene whose motions keep a given clearance.
+    pub(crate) fn with_clearance(
+        model: &'w RobotModel,
+        scene: &'w Scene,
+        state: &'w SceneState,
+        clearance: Clearance,
+    ) -> Self {
+        let padding = Padding::new(clearance);
         let mut obstacles = Vec::new();
         for (entity, at) in scene.entities.values().zip(0..) {
             let parts = solids(entity, state).into_iter();
-            obstacles.extend(parts.map(|solid| Obstacle::new(at, solid)));
+            obstacles.extend(parts.map(|solid| Obstacle::new(at, solid, padding)));
         }
         for (region, at) in state.kept.iter().zip(scene.entities.len()..) {
-            obstacles.extend(region.columns.iter().map(|column| Obstacle::new(at, *column)));
+            // A distance that a rule gives is the greater one: the clearance counts from what it is about.
+            let padding = if region.is_distance { Padding::LEAST } else { padding };
+            obstacles.extend(region.columns.iter().map(|column| Obstacle::new(at, *column, padding)));
         }
         let mut body = model.body().clone();
         let mut held = None;
@@ -60,16 +79,72 @@ impl<'w> PlanningScene<'w> {
         }
         let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(EntityShape::Mesh { .. }));
         let unseen = scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
-        Self {
+        let mut planning = Self {
             model,
             scene,
             state,
             body,
             held,
+            clearance,
             obstacles: ObstacleIndex::new(obstacles),
             opening: None,
             unseen,
+        };
+        planning.permit_start();
+        planning
+    }
+
+    /// Lets the robot begin nearer to an obstacle than the clearance: it then keeps the distance that it has.
+    fn permit_start(&mut self) {
+        if self.obstacles.iter().all(|obstacle| obstacle.padding == Padding::LEAST) {
+            return;
         }
+        let placed = self.robot_at(&self.state.robot);
+        let placed: Vec<(Solid, f64, bool)> = placed
+            .iter()
+            .zip(0..)
+            .map(|(solid, part)| (*solid, solid.reach(), self.is_carried(part)))
+            .collect();
+        self.obstacles.permit(&placed, Padding::new(self.clearance).most());
+    }
+
+    /// Lets the held object begin nearer to an obstacle than the clearance, with the tip at a pose.
+    pub(crate) fn permit_held(&mut self, map_from_tip: &Isometry3<f64>) {
+        let held = self.state.held.as_ref();
+        let shape = held.and_then(|(id, _)| solid_shape(self.scene.entities.get(id)?));
+        let Some(((_, tip_from_object), shape)) = held.zip(shape) else { return };
+        let solid = Solid::new(&(map_from_tip * tip_from_object), shape);
+        let most = Padding::new(self.clearance).most();
+        self.obstacles.permit(&[(solid, solid.reach(), true)], most);
+    }
+
+    /// Checks whether a part of the body belongs to the arm, to the hand, or is held.
+    pub(crate) fn is_carried(&self, part: usize) -> bool {
+        let link = self.body.parts().get(part).map(|part| part.link);
+        let carried = self.model.hand().map(|hand| &hand.carried);
+        self.held == Some(part) || carried.zip(link).is_some_and(|(all, link)| all.get(link) == Some(&true))
+    }
+
+    /// Distances in m that motions of the base and the arm keep from obstacles. Nearer may come what touches
+    /// by intent: the hand to the object that it grasps or released and to its support, the held object to
+    /// the surface on which it stands, the hand to the container whose handle it grasps. Where the robot
+    /// begins nearer to an obstacle, it keeps the distance that it has there, less a millimetre.
+    #[must_use]
+    pub fn clearance_kept(&self) -> Clearance {
+        self.clearance
+    }
+
+    /// Padding of the obstacles of an entity: the least of theirs.
+    pub(crate) fn padding_of(&self, entity: usize) -> Padding {
+        let own = self.obstacles.iter().filter(|obstacle| obstacle.entity == entity);
+        own.map(|obstacle| obstacle.padding).fold(Padding::new(self.clearance), Padding::least)
+    }
+
+    /// Obstacles with a smaller padding than the clearance asks for, by index.
+    pub(crate) fn permitted(&self) -> impl Iterator<Item = (usize, Padding)> {
+        let padding = Padding::new(self.clearance);
+        let all = self.obstacles.iter().zip(0..).map(|(obstacle, at)| (at, obstacle.padding));
+        all.filter(move |(_, own)| *own != padding)
     }
 
     /// Model of the robot.
@@ -245,6 +320,13 @@ impl<'w> PlanningScene<'w> {
         let is_other = |at: &Obstacle| at.entity != entity && !self.is_kept(at);
         let others = all.filter(|(_, obstacle)| is_other(obstacle) && is_near(obstacle));
         others.min_by_key(|(index, _)| *index).map(|(_, obstacle)| obstacle.entity)
+    }
+}
+
+impl AllowedCollisions {
+    /// Contacts of the hand that is about to grasp an entity or just released it.
+    pub(crate) fn of_grasp(scene: &PlanningScene<'_>, entity: usize) -> Self {
+        Self { hand: Some(entity), near: scene.support(entity), ..Self::default() }
     }
 }
 

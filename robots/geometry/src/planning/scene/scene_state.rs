@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use motet_robots::scene::{Entity, EntityShape, Outline, Placement, Scene};
+use motet_robots::scene::{Entity, EntityShape, Outline, Placement};
 use motet_stdlib::lang::kinds;
-use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::configuration::Configuration;
-use super::robot_model::{HandModel, RobotModel};
+use super::robot_model::HandModel;
 use crate::collision::{Shape, Solid};
 
 /// Beginning of the names of kept regions in messages.
@@ -39,6 +39,8 @@ pub struct KeptRegion {
     /// Name in messages.
     pub(crate) name: SmolStr,
     pub(crate) columns: Vec<Solid>,
+    /// Set where the columns are grown by a distance that a rule gives.
+    pub(crate) is_distance: bool,
 }
 
 /// Held object with its hand.
@@ -53,43 +55,6 @@ pub(crate) struct HeldObject<'a> {
 }
 
 impl SceneState {
-    /// State that a scene describes. Joints that it does not name are at rest. A scene does not give the
-    /// grasp of a held object: it is upright, as a grasp from the side holds it.
-    #[must_use]
-    pub fn new(model: &RobotModel, scene: &Scene) -> Self {
-        let mut joints = model.rest().to_vec();
-        for (name, value) in &scene.robot.joints {
-            if let Some(slot) = model.tree().dof(name).ok().and_then(|at| joints.get_mut(at)) {
-                *slot = *value;
-            }
-        }
-        let held = scene.robot.holding.clone().flatten().and_then(|id| {
-            let (hand, entity) = model.hand().zip(scene.entities.get(&id))?;
-            let half = match entity.shape.as_ref()? {
-                EntityShape::Box([x, ..]) => x / 2.0,
-                EntityShape::Cylinder { radius, .. }
-                | EntityShape::Sphere { radius }
-                | EntityShape::Capsule { radius, .. } => *radius,
-                EntityShape::Mesh { .. } => return None,
-            };
-            let points = Vector3::from(hand.card.points);
-            let closes = Vector3::from(hand.card.closes);
-            // Upright in the hand: its z axis is square to both directions of the hand.
-            let axes = Matrix3::from_columns(&[points, closes, points.cross(&closes)]);
-            let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-            let depth = (hand.palm + half).max(0.0);
-            let middle = points * depth + closes * hand.middle(2.0 * half);
-            Some((id, Isometry3::from_parts(Translation3::from(middle), rotation)))
-        });
-        Self {
-            robot: Configuration { base: scene.robot.base, joints },
-            moved: BTreeMap::new(),
-            held,
-            open: BTreeMap::new(),
-            kept: Vec::new(),
-        }
-    }
-
     /// Pose of an entity's centre: of its shape, or of the entity itself without one. `None` where it is
     /// not known.
     #[must_use]
@@ -130,7 +95,7 @@ impl SceneState {
     #[must_use]
     pub fn kept_out_of(&self, entity: &Entity) -> Option<KeptRegion> {
         let name = format_smolstr!("{KEPT}out of {}` forbids", entity.id);
-        Some(KeptRegion { name, columns: vec![self.zone(entity)?] })
+        Some(KeptRegion { name, columns: vec![self.zone(entity)?], is_distance: false })
     }
 
     /// Region within a distance in m of an entity, measured in the plane from its outline. `None` where its
@@ -164,7 +129,7 @@ impl SceneState {
             }
         };
         let name = format_smolstr!("{KEPT}distance({}) >= {at_least} m` forbids", entity.id);
-        Some(KeptRegion { name, columns })
+        Some(KeptRegion { name, columns, is_distance: true })
     }
 
     /// Fingerprint of the state: equal, bit for bit, for equal states of one robot and scene.

@@ -48,7 +48,7 @@ impl QueryContext<'_> {
         met: &mut ContactTally,
     ) -> Option<Vec<Configuration>> {
         let [x, y, _] = from.base;
-        self.around([x, y], 0.01).unfold(from, to, met)
+        self.around([x, y], 0.01).unfold(from, to, AllowedCollisions::default(), met)
     }
 
     /// Checks whether the base can drive near to a place with the arm as at the start; approximate.
@@ -231,9 +231,10 @@ impl CollisionChecker<'_, '_> {
             let [x, y, yaw] = first.base;
             first.at([x - inwards[0] * back, y - inwards[1] * back, yaw])
         };
-        // Before the line no contact is permitted.
+        // Before the line no contact is permitted, but the hand may come near.
+        let before = allowed.before();
         let outsides: Vec<Configuration> = std::iter::once(&0.0).chain(backs).map(outside).collect();
-        let contacts = self.contacts(&outsides.iter().collect::<Vec<_>>(), AllowedCollisions::default());
+        let contacts = self.contacts(&outsides.iter().collect::<Vec<_>>(), before);
         let mut contacts = contacts.into_iter();
         let way = |pair: &[Configuration]| match pair {
             [one, other] => self.between(one, other, allowed).err(),
@@ -245,7 +246,7 @@ impl CollisionChecker<'_, '_> {
         }
         let outsides = outsides.into_iter().skip(1).zip(contacts).zip(backs);
         for ((outside, contact), back) in outsides {
-            let Some(mut path) = self.route(&outside, contact, first, met) else { continue };
+            let Some(mut path) = self.route((&outside, contact), first, before, met) else { continue };
             let shifted = (*back > 0.0).then_some(first).into_iter().chain(rest);
             // The route may end some full turns away.
             let turns = path.last().map_or(0.0, |last| last.base[2] - first.base[2]);
@@ -256,12 +257,12 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// Route from the start to a configuration, both included, from which a pure translation leads to the
-    /// goal. `touch` is the contact of that configuration.
+    /// goal. The first comes with its contact.
     fn route(
         &self,
-        outside: &Configuration,
-        contact: Option<Contact>,
+        (outside, contact): (&Configuration, Option<Contact>),
         to: &Configuration,
+        allowed: AllowedCollisions,
         met: &mut ContactTally,
     ) -> Option<Vec<Configuration>> {
         let context = self.context;
@@ -270,7 +271,7 @@ impl CollisionChecker<'_, '_> {
         let free = contact.map_or(Ok(()), Err);
         if let Err(contact) = free.and_then(|()| match outside.base == to.base {
             true => Ok(()),
-            false => self.between(outside, to, AllowedCollisions::default()),
+            false => self.between(outside, to, allowed),
         }) {
             met.add(&contact);
             return None;
@@ -278,7 +279,7 @@ impl CollisionChecker<'_, '_> {
         if !is_drivable {
             return None;
         }
-        context.driven(self.unfold(&folded, outside, met)?)
+        context.driven(self.unfold(&folded, outside, allowed, met)?)
     }
 
     /// Arm motion between two free configurations with the base still: straight, over a raised lift, or
@@ -287,14 +288,14 @@ impl CollisionChecker<'_, '_> {
         &self,
         from: &Configuration,
         to: &Configuration,
+        allowed: AllowedCollisions,
         met: &mut ContactTally,
     ) -> Option<Vec<Configuration>> {
-        let none = AllowedCollisions::default();
         let mut is_free = |way: &[&Configuration]| {
             let inner = way.get(1..way.len().saturating_sub(1)).unwrap_or_default();
-            let contact = self.first_contact(inner, none).or_else(|| {
+            let contact = self.first_contact(inner, allowed).or_else(|| {
                 way.windows(2).find_map(|pair| match pair {
-                    [one, other] => self.between(one, other, none).err(),
+                    [one, other] => self.between(one, other, allowed).err(),
                     _ => None,
                 })
             });

@@ -9,7 +9,7 @@ use motet_robots::card;
 use motet_robots::scene::{EntityShape, Placement, Scene, Travel};
 use motet_syntax::{FileId, Source};
 
-use super::{changed, embedded, model, motion_query};
+use super::{bare, changed, embedded, model, motion_query};
 
 /// The HSR with a line of its card replaced.
 fn hsr(from: &str, to: &str) -> RobotModel {
@@ -36,7 +36,7 @@ fn asked(model: &RobotModel, scene: &Scene, query: &str) -> (MotionAnswer, Optio
     }
 }
 
-fn refused(model: &RobotModel, scene: &Scene, query: &str) -> (Infeasible, Option<String>) {
+pub(super) fn refused(model: &RobotModel, scene: &Scene, query: &str) -> (Infeasible, Option<String>) {
     match asked(model, scene, query) {
         (MotionAnswer::Infeasible(why), help) => (why, help),
         (other, _) => panic!("{query}: {other:?}"),
@@ -97,7 +97,7 @@ fn look_reports_a_distance_beyond_the_range() {
 }
 
 /// Adds a wall to the scene.
-fn wall(scene: &mut Scene, id: &str, xyz: [f64; 3], extents: [f64; 3]) {
+pub(super) fn wall(scene: &mut Scene, id: &str, xyz: [f64; 3], extents: [f64; 3]) {
     let mut wall = embedded("kitchen").entities["kitchen_table"].clone();
     wall.id = id.into();
     wall.pose = Some(Placement { xyz, rpy: [0.0; 3] });
@@ -144,7 +144,7 @@ fn explain_names_an_obstacle_whose_removal_helps() {
 
 /// The mug on a table in a closed room, in the only gap of which, so many metres to either side, stands
 /// something.
-fn doorway(gap: f64, chairs: &[(&str, [f64; 2], f64)]) -> Scene {
+pub(super) fn doorway(gap: f64, chairs: &[(&str, [f64; 2], f64)]) -> Scene {
     changed(|scene| {
         scene.entities.retain(|id, _| id == "mug_1");
         let (middle, wide) = ((2.7 + gap) / 2.0, 2.7 - gap);
@@ -174,7 +174,7 @@ fn explain_names_the_obstacle_in_the_only_doorway() {
             ("reach(mug_1)", "a place from which `mug_1` is in reach"),
         ] {
             // One far from the doorway, as near to the table, is of no matter.
-            let scene = doorway(gap, &[("stool", [4.8, 1.5], 0.3), ("chair", [1.5, 0.0], 0.4)]);
+            let scene = bare(doorway(gap, &[("stool", [4.8, 1.5], 0.3), ("chair", [1.5, 0.0], 0.4)]));
             let (why, help) = refused(&model, &scene, query);
             assert_eq!(
                 why.reason,
@@ -186,7 +186,7 @@ fn explain_names_the_obstacle_in_the_only_doorway() {
             assert!(help.ends_with("is blocked by `chair`: move it away"), "{robot}, {query}: {help}");
             // What never moves is told, and not asked away; the thing itself and the robot are never in the
             // way.
-            let mut walled = doorway(gap, &[]);
+            let mut walled = bare(doorway(gap, &[]));
             wall(&mut walled, "board", [1.5, 0.0, 1.0], [0.1, 2.0 * gap, 2.0]);
             let (why, help) = refused(&model, &walled, query);
             assert_eq!(help, None, "{robot}, {query}");

@@ -1,5 +1,6 @@
 //! Motion queries: what is feasible holds under an independent check, and what is infeasible says why.
 
+mod clearance;
 mod help;
 mod narrow;
 mod opening;
@@ -31,6 +32,20 @@ fn motion_query(text: &str) -> MotionQuery {
 fn model(name: &str) -> (RobotModel, Urdf) {
     let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
     (RobotModel::new(&robot, &urdf), urdf)
+}
+
+/// Pose of a placement in a scene.
+fn isometry_of(placement: &Placement) -> nalgebra::Isometry3<f64> {
+    let [roll, pitch, yaw] = placement.rpy;
+    let rotation = nalgebra::UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+    nalgebra::Isometry3::from_parts(placement.xyz.into(), rotation)
+}
+
+/// No clearance beyond the padding of every check.
+fn bare(mut scene: Scene) -> Scene {
+    let none = Some(0.0);
+    scene.clearance = motet_robots::clearance::ClearanceOverride { base_m: none, arm_m: none };
+    scene
 }
 
 fn embedded(name: &str) -> Scene {

@@ -3,7 +3,7 @@
 use motet_geometry::planning::{MotionAnswer, MotionQuery, QueryContext, SceneState, SearchBudget};
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 
-use super::{model, verify};
+use super::{bare, model, verify};
 
 /// A scene of boxes, each with its middle, and one thing.
 fn scene(boxes: &[(&str, [f64; 3], [f64; 3])], at: [f64; 3], shape: EntityShape) -> Scene {
@@ -19,7 +19,7 @@ fn scene(boxes: &[(&str, [f64; 3], [f64; 3])], at: [f64; 3], shape: EntityShape)
 
 /// Asks a robot to reach the thing, which has to be feasible, and the witness to hold.
 fn reached(robot: &str, scene: &Scene) {
-    let (model, urdf) = model(robot);
+    let ((model, urdf), scene) = (model(robot), &bare(scene.clone()));
     let state = SceneState::new(&model, scene);
     let context = QueryContext::new(&model, scene, &state);
     let query = MotionQuery::Reach("thing".into(), None);

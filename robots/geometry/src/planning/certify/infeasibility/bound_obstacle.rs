@@ -11,7 +11,6 @@ use nalgebra::Vector3;
 use crate::collision::{Shape, Solid};
 use crate::inverse::interval::DisplacementBound;
 use crate::planning::certify::deflate::SLACK;
-use crate::planning::scene::MIN_CLEARANCE;
 
 /// Number of points on a line that are tried, each nearer to the best.
 const PLACES: usize = 6;
@@ -82,9 +81,9 @@ impl InnerLine {
     }
 }
 
-/// Checks whether a solid is in contact with another one throughout its motion.
+/// Checks whether a solid is within `pad` m of another one throughout its motion.
 #[inline]
-pub(super) fn is_in(solid: &Solid, goes: &impl MotionExtent, other: &Solid) -> bool {
+pub(super) fn is_in(solid: &Solid, goes: &impl MotionExtent, other: &Solid, pad: f64) -> bool {
     let Some(inside) = InnerLine::new(solid) else { return false };
     let [_, _, z] = &solid.axes;
     let upright = match solid.shape {
@@ -93,14 +92,14 @@ pub(super) fn is_in(solid: &Solid, goes: &impl MotionExtent, other: &Solid) -> b
     };
     match (other.shape, upright) {
         (Shape::Box(half), Some((radius, long))) => {
-            is_in_upright(solid, radius, long, goes, other, [half.x, half.y, half.z])
+            is_in_upright(solid, [radius, long], goes, other, [half.x, half.y, half.z], pad)
         }
-        (Shape::Box(half), None) => is_in_box(solid, &inside, goes, other, [half.x, half.y, half.z]),
+        (Shape::Box(half), None) => is_in_box(solid, &inside, goes, other, [half.x, half.y, half.z], pad),
         (Shape::Cylinder { radius, half }, _) => {
-            is_in_round(solid, &inside, goes, other, RoundBody { radius, half, rim: 0.0 })
+            is_in_round(solid, &inside, goes, other, RoundBody { radius, half, rim: 0.0 }, pad)
         }
         (Shape::Capsule { radius, half }, _) => {
-            is_in_round(solid, &inside, goes, other, RoundBody { radius: 0.0, half, rim: radius })
+            is_in_round(solid, &inside, goes, other, RoundBody { radius: 0.0, half, rim: radius }, pad)
         }
         (Shape::HalfSpace, _) => false,
     }
@@ -121,10 +120,11 @@ fn is_in_round(
     goes: &impl MotionExtent,
     other: &Solid,
     round: RoundBody,
+    pad: f64,
 ) -> bool {
     let [_, _, z] = &other.axes;
     let between = solid.centre - other.centre;
-    let near = inside.radius + round.rim + MIN_CLEARANCE - SLACK;
+    let near = inside.radius + round.rim + pad - SLACK;
     let is_near = |share: f64| {
         let point = between + inside.step * share;
         let up = point.dot(z);
@@ -189,10 +189,11 @@ fn is_in_box(
     goes: &impl MotionExtent,
     board: &Solid,
     half: [f64; 3],
+    pad: f64,
 ) -> bool {
     let step = inside.step;
     let between = solid.centre - board.centre;
-    let near = inside.radius + MIN_CLEARANCE - SLACK;
+    let near = inside.radius + pad - SLACK;
     let mut line = BoxLine { ends: [[0.0; 3]; 2], gone: [[0.0; 3]; 2], half };
     let [first, last] = &mut line.ends;
     for (((axis, half), first), last) in board.axes.iter().zip(half).zip(first).zip(last) {
@@ -216,19 +217,19 @@ fn is_in_box(
         }
     }
     // Only a round solid has a ball at the ends of its line.
-    line.stays(inside.share, near)
-        || line.leads_through(if inside.is_round { near } else { MIN_CLEARANCE - SLACK })
+    line.stays(inside.share, near) || line.leads_through(if inside.is_round { near } else { pad - SLACK })
 }
 
 /// Checks contact of an upright cylinder that stays upright with a box, by the motion of its axis alone.
 fn is_in_upright(
     solid: &Solid,
-    radius: f64,
-    long: f64,
+    [radius, long]: [f64; 2],
     goes: &impl MotionExtent,
     board: &Solid,
     half: [f64; 3],
+    pad: f64,
 ) -> bool {
+    let radius = radius + pad - SLACK;
     let between = solid.centre - board.centre;
     let mut beside = 0.0;
     let mut has_height = false;
@@ -365,7 +366,7 @@ mod tests {
             board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.3_f64], lean in -1.5..1.5_f64,
             slide in [-0.2..0.2_f64, -0.2..0.2_f64, -0.2..0.2_f64], spin in 0.0..0.6_f64,
             bend in 0.0..0.4_f64, centre in [-0.5..0.5_f64, -0.5..0.5_f64, -0.5..0.5_f64],
-            size in prop::sample::select(vec![0.03, 0.3, 1.0]),
+            size in prop::sample::select(vec![0.03, 0.3, 1.0]), clearance in 0.0..0.08_f64,
             moved in prop::collection::vec(prop::sample::select(vec![-1.0, -0.6, 0.0, 0.3, 1.0]), 30),
         ) {
             let shape = match kind {
@@ -391,13 +392,14 @@ mod tests {
                 drift = drift.spun(axis, centre, bend);
             }
             let drift = drift.spun(Vector3::z(), centre, spin);
-            if is_in(&own, &drift, &board) {
+            let pad = clearance.max(MIN_CLEARANCE);
+            if is_in(&own, &drift, &board, pad) {
                 for by in moved.chunks(3) {
                     let moves = spun(&Vector3::z(), &centre, spin * by[0])
                         * spun(&axis, &centre, bend * by[1])
                         * Translation3::from(slide * by[2]);
                     let moved = own.moved(&moves);
-                    prop_assert!(moved.is_nearer(&board, MIN_CLEARANCE), "{own:?} {moved:?} {board:?}");
+                    prop_assert!(moved.is_nearer(&board, pad), "{own:?} {moved:?} {board:?}");
                 }
             }
         }
@@ -408,10 +410,11 @@ mod tests {
     fn obstacle_bound_finds_an_arm_through_a_board() {
         let arm = solid([0.0; 3], [0.0; 3], Shape::Capsule { radius: 0.05, half: 0.3 });
         let board = solid([0.0; 3], [0.0; 3], Shape::Box(Vector3::new(1.0, 1.0, 0.005)));
-        let slid = |step: Vector3<f64>| is_in(&arm, &DisplacementBound::none().slid(step), &board);
+        let slid =
+            |step: Vector3<f64>| is_in(&arm, &DisplacementBound::none().slid(step), &board, MIN_CLEARANCE);
         assert!(slid(Vector3::new(0.9, 0.0, 0.25)));
         assert!(!slid(Vector3::new(0.0, 0.0, 0.4)) && !slid(Vector3::new(1.2, 0.0, 0.0)));
         let far = DisplacementBound::none().spun(Vector3::z(), Vector3::new(0.3, 0.0, 0.0), 3.0);
-        assert!(is_in(&arm, &far, &board));
+        assert!(is_in(&arm, &far, &board, MIN_CLEARANCE));
     }
 }

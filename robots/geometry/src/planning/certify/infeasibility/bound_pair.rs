@@ -118,9 +118,9 @@ impl CellModel<'_, '_, '_> {
             return ends.iter().all(|end| one.solid.is_nearer(end, MIN_CLEARANCE - SLACK));
         }
         let is_round = |joined: &RelativePart<'_>| matches!(joined.solid.shape, Shape::Capsule { .. });
-        if is_round(&other) && is_in(other.solid, &ScaledMotion(share, &relative), one.solid)
+        if is_round(&other) && is_in(other.solid, &ScaledMotion(share, &relative), one.solid, MIN_CLEARANCE)
             || (is_round(&one) || !is_round(&other))
-                && is_in(one.solid, &ScaledMotion(share, &back), other.solid)
+                && is_in(one.solid, &ScaledMotion(share, &back), other.solid, MIN_CLEARANCE)
         {
             return true;
         }
@@ -194,7 +194,7 @@ impl RelativePart<'_> {
     /// Checks whether two parts are in contact throughout a drift.
     pub(super) fn touches(&self, other: RelativePart<'_>, drift: f64) -> bool {
         let own = DeflatedPart { solid: *self.solid, inner: self.limb.inner, reach: self.limb.reach, drift };
-        own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
+        own.touches(other.solid, [other.limb.inner, other.limb.reach], MIN_CLEARANCE, drift)
     }
 
     /// Checks whether two parts are apart throughout a drift.

@@ -13,7 +13,7 @@ use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, Interva
 use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 use crate::kinematics::ReducedModel;
 use crate::planning::certify::deflate::{DeflatedPart, SLACK, inner};
-use crate::planning::checking::CollisionChecker;
+use crate::planning::checking::{CollisionChecker, NearObstacle};
 use crate::planning::scene::{AllowedCollisions, HandModel, IkSolver, MIN_CLEARANCE, above_floor};
 
 /// Robot, hand and obstacles of one certificate.
@@ -184,7 +184,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         let mut obstacles: Vec<u16> = Vec::new();
         for at in group.obstacles.iter().copied() {
             let Some(near) = self.checker.obstacles.get(usize::from(at)) else { continue };
-            if is_fewer && own.is_apart(&near.solid, near.reach, own.drift) {
+            if is_fewer && own.is_apart(&near.solid, near.reach, self.padding(part, near), own.drift) {
                 continue;
             }
             if self.is_in(placing, own, part, at, 1.0) {
@@ -309,19 +309,26 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         }
     }
 
+    /// Distance in m that a part keeps from an obstacle.
+    fn padding(&self, part: u16, near: &NearObstacle) -> f64 {
+        let limb = self.checker.limbs.get(usize::from(part));
+        limb.map_or(MIN_CLEARANCE, |limb| limb.padding(near.entity, near.padding, self.allowed))
+    }
+
     /// Checks whether a part is in contact with an obstacle throughout.
     fn is_in(&self, placing: &CellPlacement, own: &DeflatedPart, part: u16, at: u16, share: f64) -> bool {
         let at = usize::from(at);
         let Some((near, inner)) = self.checker.obstacles.get(at).zip(self.obstacles.get(at)) else {
             return false;
         };
-        let wide = own.reach + near.reach + MIN_CLEARANCE;
+        let pad = self.padding(part, near);
+        let wide = own.reach + near.reach + pad;
         if (own.solid.centre - near.solid.centre).norm_squared() > wide * wide {
             return false;
         }
         let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
-        frame.is_some_and(|(_, drift)| is_in(&own.solid, &ScaledMotion(share, drift), &near.solid))
-            || own.touches(&near.solid, *inner, near.reach, share * own.drift)
+        frame.is_some_and(|(_, drift)| is_in(&own.solid, &ScaledMotion(share, drift), &near.solid, pad))
+            || own.touches(&near.solid, [*inner, near.reach], pad, share * own.drift)
     }
 
     /// Checks whether a part is in contact with the floor throughout, by its lowest point in the middle.
@@ -340,7 +347,8 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
                 let at = usize::from(at);
                 let obstacle = self.checker.obstacles.get(at).zip(self.obstacles.get(at));
                 self.part(placing, part).zip(obstacle).is_some_and(|(own, (near, inner))| {
-                    own.drift.is_finite() && own.touches(&near.solid, *inner, near.reach, 0.0)
+                    own.drift.is_finite()
+                        && own.touches(&near.solid, [*inner, near.reach], self.padding(part, near), 0.0)
                 })
             }
             BodyPair::RelativePlacement(part, at) => {

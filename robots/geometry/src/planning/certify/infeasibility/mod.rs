@@ -5,7 +5,7 @@
 //! The latter holds where they are in contact in its middle, each deflated by its drift: let one solid's
 //! points move at most `d` and the other's at most `e`; if a point is so deep within both that the depths
 //! add up to `d + e`, the balls of these depths around it still meet after the motion. The padding is the
-//! one of all checks, [`MIN_CLEARANCE`].
+//! one of all checks: the clearance, or [`MIN_CLEARANCE`] between parts and where the hand may come near.
 //!
 //! An undecided cell is split along the parameter that contributes most to keeping the nearly closing
 //! constraint open (`split`), or that moves the robot most; where that is the patch, the patch is split, and

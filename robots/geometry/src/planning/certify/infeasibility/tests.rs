@@ -165,7 +165,7 @@ fn poses(
     scene: &Scene,
 ) -> (Vec<Isometry3<f64>>, AllowedCollisions, Solid) {
     let (index, _, entity) = scene.entities.get_full("can").unwrap();
-    let allowed = AllowedCollisions { hand: Some(index), held: None };
+    let allowed = AllowedCollisions::of_grasp(context, index);
     let pose = context.state.pose(entity).unwrap();
     let object = Solid::new(&pose, solid_shape(entity).unwrap());
     let (holds, _) = grasp_candidates(hand, &object, None, context.state.robot.base);
