@@ -45,7 +45,8 @@ fn about(told: &RefusedMotion) -> Option<About> {
     Some(About { primitive: Some(told.callee.clone()), ..About::default() })
 }
 
-/// Declares the diagnostics of infeasible motions, and the choice among them by the reason.
+/// Declares the diagnostics of infeasible motions, with the choice among them by the reason, and the one of a
+/// scene.
 macro_rules! refusals {
     ($($(#[$doc:meta])* $name:ident($code:literal))*) => {
         motet_syntax::mistakes! {
@@ -58,6 +59,20 @@ macro_rules! refusals {
                 related(m) { m.told.since.clone() }
                 about(m) { about(&m.told) }
             )*
+
+            /// Visibility in a scene that contradicts what the camera sees.
+            SightDisagrees("M0608", Warning) {
+                id: SmolStr, says_visible: bool, from: [f64; 2], sees: String
+            }
+            message(m) {
+                let is = if m.says_visible { "is visible" } else { "is not visible" };
+                let [x, y] = m.from;
+                format!("the scene says `{}` {is}; from ({x:.2}, {y:.2}) {}", m.id, m.sees)
+            }
+            help(m) {
+                let right = !m.says_visible;
+                Some(format!("write `\"visible\": {right}`, leave it out, or correct the poses"))
+            }
         }
 
         /// Diagnostic of a reason.

@@ -217,7 +217,12 @@ impl Geometry {
         world
     }
 
-    fn room<'w>(&'w self, world: &'w SceneState) -> QueryContext<'w> {
+    /// Search budget of a motion.
+    pub(super) fn budget(&self) -> SearchBudget {
+        self.budget
+    }
+
+    pub(super) fn room<'w>(&'w self, world: &'w SceneState) -> QueryContext<'w> {
         QueryContext::new(&self.machine, &self.scene, world).with_base_maps(&self.maps)
     }
 

@@ -12,6 +12,7 @@ mod domain;
 pub(crate) mod errors;
 mod geometry;
 mod motion;
+mod sight;
 mod transfer;
 mod verdict;
 mod world_tracker;

@@ -270,7 +270,9 @@ impl Case {
                 let urdf =
                     urdf::read(&Source::new("robot.urdf", text), FileId(0)).0.ok_or("a broken URDF")?;
                 let budget = motet_geometry::planning::SearchBudget::default();
-                session.with_geometry(Geometry::new(robot, &urdf, scene, state, budget).into())
+                let geometry = Geometry::new(robot, &urdf, scene, state, budget);
+                self.said.extend(geometry.contradicted_sight());
+                session.with_geometry(geometry.into())
             }
             _ => session,
         };

@@ -251,6 +251,9 @@ impl Project {
             require("scene", &scene::fit(scene, &urdf), &sources, sink)?;
             let budget = SearchBudget::default().times(effort.into());
             (session, geometry) = inputs.add_motions(session, &urdf, budget);
+            if let Some(geometry) = &geometry {
+                require("scene", &geometry.contradicted_sight(), &sources, sink)?;
+            }
         }
         Ok(ProjectSession {
             session,
