@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum, value_parser};
 use motet_decode::export::Dialect;
 use motet_planner::runtime_check::CheckMode;
 use motet_project::{Project, ProjectBuilder};
+use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
 use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
 
@@ -75,6 +76,7 @@ impl SessionArgs {
         if let Some(secs) = self.max_duration {
             project = project.max_duration(secs);
         }
+        project = project.clearance(self.motions.clearance.given());
         if self.motions.no_geometry { project } else { project.motion_effort(self.motions.effort) }
     }
 }
@@ -89,6 +91,24 @@ pub(crate) struct MotionArgs {
     #[arg(long, value_name = "FACTOR", default_value_t = 1,
           value_parser = value_parser!(u16).range(1..=1000))]
     pub(crate) effort: u16,
+    #[command(flatten)]
+    pub(crate) clearance: ClearanceArgs,
+}
+
+/// Distances that motions keep from obstacles.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct ClearanceArgs {
+    /// Distances that motions keep from obstacles, in m or with a unit: `base=5cm,arm=0.01` [default: those
+    /// of the scene, or of the robot]
+    #[arg(long, value_name = "base=M,arm=M", value_parser = clearance)]
+    clearance: Option<ClearanceOverride>,
+}
+
+impl ClearanceArgs {
+    /// Distances that are given.
+    pub(crate) fn given(self) -> ClearanceOverride {
+        self.clearance.unwrap_or_default()
+    }
 }
 
 /// Format of diagnostics.
@@ -234,6 +254,38 @@ impl FromStr for Speed {
     }
 }
 
+/// Reads clearances such as `base=5cm,arm=0.01`.
+fn clearance(text: &str) -> Result<ClearanceOverride, String> {
+    let wrong =
+        || format!("write `base` and `arm` with 0 to {GREATEST_CLEARANCE} m each, such as base=5cm,arm=0.01");
+    let mut read = ClearanceOverride::default();
+    for part in text.split(',') {
+        let (group, length) = part.split_once('=').ok_or_else(wrong)?;
+        let slot = match group.trim() {
+            "base" => &mut read.base_m,
+            "arm" => &mut read.arm_m,
+            _ => return Err(wrong()),
+        };
+        let metres = length_m(length.trim()).filter(|metres| (0.0..=GREATEST_CLEARANCE).contains(metres));
+        // A group that is given twice is a mistake.
+        if slot.replace(metres.ok_or_else(wrong)?).is_some() {
+            return Err(wrong());
+        }
+    }
+    Ok(read)
+}
+
+/// Reads a length, in m where it has no unit.
+fn length_m(text: &str) -> Option<f64> {
+    let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at_checked(end)?;
+    let number: f64 = number.parse().ok()?;
+    match unit.trim() {
+        "" => Some(number),
+        unit => Some(Unit::parse(unit).filter(|unit| unit.dimension() == Dimension::LENGTH)?.to_si(number)),
+    }
+}
+
 /// Reads a duration such as `90s`, `10 min` or `1h`; in seconds.
 pub(crate) fn duration(text: &str) -> Result<f64, String> {
     let text = text.trim();
@@ -248,7 +300,20 @@ pub(crate) fn duration(text: &str) -> Result<f64, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::duration;
+    use motet_robots::clearance::ClearanceOverride;
+
+    use super::{clearance, duration};
+
+    #[test]
+    fn clearance_reads_lengths_of_base_and_arm() {
+        let of = |base_m, arm_m| Ok(ClearanceOverride { base_m, arm_m });
+        assert_eq!(clearance("base=5cm,arm=0.01"), of(Some(0.05), Some(0.01)));
+        assert_eq!(clearance("arm = 3 mm"), of(None, Some(0.003)));
+        assert_eq!(clearance("base=0"), of(Some(0.0), None));
+        for text in ["", "base", "base=", "base=-1", "base=1", "head=0.1", "base=0.1,base=0.2", "arm=5kg"] {
+            assert!(clearance(text).is_err(), "{text}");
+        }
+    }
 
     #[test]
     fn duration_reads_numbers_with_units() {

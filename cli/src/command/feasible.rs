@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use clap::{Args, value_parser};
 use motet_compiler::Session;
 use motet_geometry::planning::{
-    Configuration, GraspSide, InfeasibleReason, MotionAnswer, MotionQuery, MotionWitness, QueryContext,
-    RobotModel, SceneState, SearchBudget, UnknownReason, components,
+    Configuration, GraspSide, InfeasibleReason, MIN_CLEARANCE, MotionAnswer, MotionQuery, MotionWitness,
+    QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason, components,
 };
 use motet_project::{open_robot, read_scene, require};
 use motet_robots::scene::{self, Scene};
@@ -19,7 +19,7 @@ use serde_json::{Map, Value, json};
 use smol_str::SmolStr;
 
 use crate::error::{CliError, Exit};
-use crate::flags::OutputFormat;
+use crate::flags::{ClearanceArgs, OutputFormat};
 use crate::output::{Colors, count};
 use crate::report::Report;
 
@@ -52,6 +52,8 @@ pub(crate) struct FeasibleArgs {
     #[arg(long, value_name = "FACTOR", default_value_t = 1,
           value_parser = value_parser!(u16).range(1..=1000))]
     effort: u16,
+    #[command(flatten)]
+    clearance: ClearanceArgs,
     /// Format of the answers
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     format: OutputFormat,
@@ -71,7 +73,8 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
     let Some(urdf) = urdf else {
         return Err(CliError::Message(format!("the card of `{}` names no URDF under [model]", robot.name)));
     };
-    let scene = read_scene(&args.scene, &mut sources, report)?;
+    let mut scene = read_scene(&args.scene, &mut sources, report)?;
+    scene.clearance = args.clearance.given().or(scene.clearance);
     require("scene", &scene::fit(&scene, &urdf), &sources, report)?;
     let machine = RobotModel::new(&robot, &urdf);
     let queries = if args.all {
@@ -221,6 +224,11 @@ fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
                 count(witness.path.len().saturating_sub(1), "leg"),
                 witness.margins.clearance,
             );
+            let required = witness.margins.required;
+            if required.base_m.max(required.arm_m) > MIN_CLEARANCE {
+                let [base, arm] = [required.base_m, required.arm_m].map(|metres| metres * 100.0);
+                line.push_str(&format!(" (kept: base {base:.1} cm, arm {arm:.1} cm)"));
+            }
             if let Some(limit) = witness.margins.limit {
                 line.push_str(&format!(", {limit:.2} rad or m from a joint's limit"));
             }
@@ -232,7 +240,7 @@ fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
         MotionAnswer::Infeasible(why) => {
             let proof = if why.certified { "proven" } else { "the search ended without one" };
             let help = why.change.as_ref().map_or_else(String::new, |change| format!("  help: {change}\n"));
-            format!("{query}: {}, {} ({proof})\n{help}", why.reason.name(), why.reason)
+            format!("{query}: {}, {} ({proof})\n{help}", why.reason.name(), why.says())
         }
         MotionAnswer::Unknown(UnknownReason::Budget) => format!(
             "{query}: unknown, the search ran out of its budget\n  \
@@ -279,7 +287,7 @@ fn json_line(machine: &RobotModel, query: &MotionQuery, answer: &MotionAnswer) -
         MotionAnswer::Infeasible(why) => {
             object.insert("answer".into(), "infeasible".into());
             object.insert("reason".into(), why.reason.name().into());
-            object.insert("says".into(), why.reason.to_string().into());
+            object.insert("says".into(), why.says().into());
             for (name, value) in numbers(&why.reason) {
                 object.insert(name.into(), json!(value));
             }
@@ -317,6 +325,7 @@ fn witness_json(machine: &RobotModel, witness: &MotionWitness) -> Value {
         "grasp": grasp,
         "margins": {
             "clearance": witness.margins.clearance,
+            "required": {"base": witness.margins.required.base_m, "arm": witness.margins.required.arm_m},
             "limit": witness.margins.limit,
             "payload": witness.margins.payload,
         },

@@ -9,6 +9,7 @@ use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContex
 use motet_project::files::{add_source, read_small};
 use motet_project::{Discard, ProjectError, RobotFiles, find_stance, require, robot_names};
 use motet_robots::card::{DraftInputs, DraftStance, Drive, Range, Robot};
+use motet_robots::clearance::Clearance;
 use motet_robots::scene::Scene;
 use motet_robots::srdf::{self, Srdf};
 use motet_robots::urdf::Urdf;
@@ -123,6 +124,8 @@ fn body(robot: &Robot, report: &mut Report) {
     for (name, parts) in robot.resources.iter().filter(|(_, parts)| !parts.is_empty()) {
         report.out.line(&format!("  {name:8}  contains {}", parts.join(", ")));
     }
+    let Clearance { base_m, arm_m } = robot.clearance;
+    report.out.line(&format!("  keeps     {base_m} m from obstacles with the base, {arm_m} m with the arm"));
     report.out.line(&format!("  observes  {}", robot.observes.join(", ")));
     if !robot.initially.is_empty() {
         report.out.line(&format!("  at first  {}", robot.initially.join(", ")));

@@ -9,6 +9,7 @@ use motet_compiler::{CheckOptions, Geometry, InitialState, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_robots::builtin;
 use motet_robots::card::Robot;
+use motet_robots::clearance::ClearanceOverride;
 use motet_robots::scene::{self, Scene};
 use motet_robots::urdf::Urdf;
 use motet_syntax::ast::File;
@@ -30,6 +31,8 @@ pub struct ProjectBuilder {
     pub(crate) state: Option<PathBuf>,
     pub(crate) domains: Vec<PathBuf>,
     pub(crate) max_duration_secs: Option<f64>,
+    /// Distances from obstacles in place of those of scene and robot.
+    pub(crate) clearance: ClearanceOverride,
     /// Factor of the default search budget; `None` defers every motion.
     pub(crate) effort: Option<u16>,
 }
@@ -42,6 +45,7 @@ impl Default for ProjectBuilder {
             state: None,
             domains: Vec::new(),
             max_duration_secs: None,
+            clearance: ClearanceOverride::default(),
             effort: Some(1),
         }
     }
@@ -92,6 +96,13 @@ impl ProjectBuilder {
         self
     }
 
+    /// Sets the distances that motions keep from obstacles, in place of those of the scene and the robot.
+    #[must_use]
+    pub fn clearance(mut self, clearance: ClearanceOverride) -> Self {
+        self.clearance = clearance;
+        self
+    }
+
     /// Defers every motion to the run.
     #[must_use]
     pub fn without_motions(mut self) -> Self {
@@ -132,7 +143,9 @@ impl ProjectBuilder {
         let mut scene_text = None;
         if let Some(name) = &self.scene {
             let file = FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX));
-            scene = Some(read_scene(name, &mut sources, sink)?);
+            let mut read = read_scene(name, &mut sources, sink)?;
+            read.clearance = self.clearance.or(read.clearance);
+            scene = Some(read);
             scene_text = sources.get(file).map(|source| source.text.to_string());
         }
         let state = match &self.state {

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use indexmap::IndexMap;
 use motet_compiler::WorldTracker;
 use motet_host::remote::DriverAddress;
+use motet_robots::clearance::ClearanceOverride;
 use motet_robots::{card, scene};
 use motet_sim::{Faults, PersonScript, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
@@ -196,6 +197,8 @@ pub struct SavedProject {
     state: Option<PathBuf>,
     domain: Vec<PathBuf>,
     effort: u16,
+    #[serde(default, skip_serializing_if = "ClearanceOverride::is_empty")]
+    clearance: ClearanceOverride,
 }
 
 impl SavedProject {
@@ -211,6 +214,7 @@ impl SavedProject {
             state: inputs.state.clone(),
             domain: inputs.domains.clone(),
             effort: inputs.effort?,
+            clearance: inputs.clearance,
         })
     }
 
@@ -226,6 +230,7 @@ impl SavedProject {
             state: self.state.clone(),
             domains: self.domain.clone(),
             effort: Some(self.effort),
+            clearance: self.clearance,
             ..ProjectBuilder::default()
         };
         let mut project: Project = inputs.open_with(sink)?;
