@@ -7,8 +7,8 @@
 
 use motet_syntax::Syntax;
 use motet_syntax::ast::{
-    Arg, Block, Call, Do, End, Expr, ExprKind, Keep, KeepKind, Manner, Name, Policy, Reaction, StepKind,
-    TextPart,
+    Arg, Block, Call, Do, End, Expr, ExprKind, Keep, KeepKind, Manner, Name, POSE, Policy, Reaction,
+    StepKind, TextPart,
 };
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
@@ -176,7 +176,10 @@ impl Writer<'_> {
     /// Parameters of the fluent or measure with a name.
     fn observed(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
         let names = &self.library.names;
-        let own = || [COUNT, FIRST, IS_EMPTY].iter().any(|own| own == name).then(|| vec![(OF, Ty::UNKNOWN)]);
+        let own = || {
+            let of_list = [COUNT, FIRST, IS_EMPTY].iter().any(|own| own == name);
+            of_list.then(|| vec![(OF, Ty::UNKNOWN)]).or_else(|| (name == POSE).then(Vec::new))
+        };
         let fluent =
             names.fluents.get(name).and_then(|id| self.library.fluent(*id)).map(|def| def.params.clone());
         let measure = || {
@@ -191,6 +194,19 @@ impl Writer<'_> {
         match params {
             Some(params) => self.arguments(&mut call.args, &params),
             None => call.args.iter_mut().for_each(|arg| self.term(&mut arg.value, None)),
+        }
+    }
+
+    /// Returns whether a call is a pose, and not the measure of a declaration.
+    fn is_pose(&self, call: &Call) -> bool {
+        call.is_pose() && !self.library.names.measures.contains_key(&call.name.text)
+    }
+
+    /// Rewrites the numbers of a pose: lengths, and an angle at the end.
+    fn pose(&self, call: &mut Call) {
+        let last = call.args.len().saturating_sub(1);
+        for (index, arg) in call.args.iter_mut().enumerate() {
+            self.term(&mut arg.value, Some(if index == last { Ty::ANGLE } else { Ty::LENGTH }));
         }
     }
 
@@ -260,6 +276,15 @@ impl Writer<'_> {
                     expr.kind = quantity(*value, dimension);
                 }
             }
+            ExprKind::List(items) if ty == Some(Ty::plain(Base::Pose)) => {
+                let (span, name) = (expr.span, Name { text: POSE.into(), span: expr.span });
+                let values = std::mem::take(items).into_iter();
+                let args = values.map(|value| Arg { name: None, span: value.span, value }).collect();
+                let mut call = Call { name, args, span };
+                self.pose(&mut call);
+                expr.kind = ExprKind::Call(call);
+            }
+            ExprKind::Call(call) if self.is_pose(call) => self.pose(call),
             ExprKind::List(items) => {
                 let element = ty.and_then(Ty::element);
                 items.iter_mut().for_each(|item| self.term(item, element));

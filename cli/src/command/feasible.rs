@@ -7,13 +7,14 @@ use std::path::PathBuf;
 use clap::{Args, value_parser};
 use motet_compiler::Session;
 use motet_geometry::planning::{
-    Configuration, GraspSide, InfeasibleReason, MIN_CLEARANCE, MotionAnswer, MotionQuery, MotionWitness,
-    QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason, components,
+    Configuration, ExactNumber, GraspSide, InfeasibleReason, MIN_CLEARANCE, MapPose, Misfit, MotionAnswer, MotionQuery,
+    MotionWitness, PlaceRules, QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason, components,
 };
 use motet_project::{open_robot, read_scene, require};
 use motet_robots::scene::{self, Scene};
-use motet_syntax::ast::{Arg, ExprKind};
+use motet_syntax::ast::{Arg, Call, Expr, ExprKind};
 use motet_syntax::text::parse_condition;
+use motet_syntax::unit::Dimension;
 use motet_syntax::{Diagnostic, FileId, Source, Sources, Span, suggest};
 use serde_json::{Map, Value, json};
 use smol_str::SmolStr;
@@ -30,7 +31,9 @@ use crate::report::Report;
     motet feasible --robot hsr --scene kitchen --for 'reach(coke, top)' --svg coke.svg\n  \
     motet feasible --robot hsr --scene kitchen --all --format json\n\n\
     A motion is go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY),\n\
-    offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME).\n\
+    offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY), posture(NAME) or\n\
+    stand_at(pose(1.2 m, 0.5 m, 90 deg)). A place has rules: put(OBJECT, ENTITY, near: ENTITY),\n\
+    and likewise beside: ENTITY, away_from_edge: 10 cm, upright: false, at: pose(…).\n\
     The scene defines the object in the hand:\n\
     \"robot\": {\"holding\": …}.\n\
     Exit codes: 0 all motions of --for are feasible, 1 one is not or is unknown, 2 could not run.")]
@@ -124,13 +127,18 @@ fn parse_motions(
             what: "motion",
             name: motion.clone(),
             help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), \
-                   put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) \
+                   put(OBJECT, ENTITY), put(OBJECT, ENTITY, near: ENTITY), stand_at(pose(X, Y, YAW)), \
+                   offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) \
                    or posture(NAME)"
                 .to_owned(),
         })?;
         let entities = || scene.entities.keys().map(SmolStr::as_str);
         match &query {
-            MotionQuery::Put(object, other) | MotionQuery::Offer(object, other) => {
+            MotionQuery::Put(object, on, rules) => {
+                let named = [Some(object), Some(on), rules.near.as_ref(), rules.beside.as_ref()];
+                named.into_iter().flatten().try_for_each(|id| require_known("entity", id, entities))?;
+            }
+            MotionQuery::Offer(object, other) => {
                 require_known("entity", object, entities)?;
                 require_known("entity", other, entities)?;
             }
@@ -144,7 +152,7 @@ fn parse_motions(
             MotionQuery::Posture(name) => {
                 require_known("posture", name, || machine.card().postures.keys().map(SmolStr::as_str))?;
             }
-            MotionQuery::Other(_) => {}
+            MotionQuery::StandAt(_) | MotionQuery::Other(_) => {}
         }
         Ok(query)
     });
@@ -153,23 +161,73 @@ fn parse_motions(
 
 /// Parses a motion such as `reach(mug_1, top)`; `None` for any other text.
 fn parse_motion(motion: &str) -> Option<MotionQuery> {
+    let ExprKind::Call(call) = parse_condition(motion).ok()?.kind else { return None };
+    if let ("stand_at", [Arg { name: None, value, .. }]) = (call.name.text.as_str(), call.args.as_slice()) {
+        return parse_pose(value).map(MotionQuery::StandAt);
+    }
+    let rules = parse_rules(&call)?;
     let (name, mut args) = parse_call(motion, FileId::default())?;
     let side = if name == "reach" && args.len() == 2 { args.pop() } else { None };
     let side = match side.filter(|(side, _)| side != "auto") {
         Some((side, _)) => Some(GraspSide::from_name(&side)?),
         None => None,
     };
-    MotionQuery::from_call(&name, args.into_iter().map(|(id, _)| id), side)
+    let query = MotionQuery::from_call(&name, args.into_iter().map(|(id, _)| id), side)?;
+    Some(match query {
+        MotionQuery::Put(object, on, _) => MotionQuery::Put(object, on, rules),
+        query if rules == PlaceRules::default() => query,
+        _ => return None,
+    })
 }
 
-/// Parses the name of a motion and its arguments, with their spans in a file.
+/// Parses the rules of a place, which are the named arguments of a motion; `None` for anything else.
+fn parse_rules(call: &Call) -> Option<PlaceRules> {
+    let mut rules = PlaceRules::default();
+    for arg in &call.args {
+        let Some(name) = &arg.name else { continue };
+        match (name.text.as_str(), &arg.value.kind) {
+            ("near", ExprKind::Name(id)) => rules.near = Some(id.clone()),
+            ("beside", ExprKind::Name(id)) => rules.beside = Some(id.clone()),
+            ("away_from_edge", ExprKind::Quantity(far, unit)) if unit.dimension() == Dimension::LENGTH => {
+                rules.from_edge = ExactNumber::new(unit.to_si(*far).max(0.0));
+            }
+            ("upright", ExprKind::Bool(upright)) => rules.may_lie = !upright,
+            ("at", _) => rules.at = Some(parse_pose(&arg.value)?),
+            _ => return None,
+        }
+    }
+    Some(rules)
+}
+
+/// Parses a pose such as `pose(1.2 m, 0.5 m, 90 deg)`; `None` for anything else.
+fn parse_pose(expr: &Expr) -> Option<MapPose> {
+    let ExprKind::Call(call) = &expr.kind else { return None };
+    let number = |arg: &Arg| match arg.value.kind {
+        ExprKind::Quantity(value, unit) => Some((unit.to_si(value), unit.dimension())),
+        _ => None,
+    };
+    let numbers = call.args.iter().map(number).collect::<Option<Vec<_>>>().filter(|_| call.is_pose())?;
+    let (length, angle) = (Dimension::LENGTH, Dimension::ANGLE);
+    match *numbers.as_slice() {
+        [(x, a), (y, b), (yaw, c)] if [a, b, c] == [length, length, angle] => {
+            Some(MapPose::new([x, y, 0.0], yaw))
+        }
+        [(x, a), (y, b), (z, c), (yaw, d)] if [a, b, c, d] == [length, length, length, angle] => {
+            Some(MapPose::new([x, y, z], yaw))
+        }
+        _ => None,
+    }
+}
+
+/// Parses the name of a motion and its arguments without names, with their spans in a file.
 fn parse_call(motion: &str, file: FileId) -> Option<(SmolStr, Vec<(SmolStr, Span)>)> {
     let ExprKind::Call(call) = parse_condition(motion).ok()?.kind else { return None };
     let arg = |arg: Arg| match arg.value.kind {
         ExprKind::Name(id) if arg.name.is_none() => Some((id, Span { file, ..arg.value.span })),
         _ => None,
     };
-    Some((call.name.text, call.args.into_iter().map(arg).collect::<Option<_>>()?))
+    let plain = call.args.into_iter().filter(|arg| arg.name.is_none());
+    Some((call.name.text, plain.map(arg).collect::<Option<_>>()?))
 }
 
 /// Type-checks the entities of a motion.
@@ -267,7 +325,11 @@ fn numbers(reason: &InfeasibleReason) -> Vec<(&'static str, f64)> {
         InfeasibleReason::NotInView { aside: Some(aside), .. } => {
             vec![("needs", aside.needs.abs()), ("limit", aside.limit)]
         }
-        InfeasibleReason::NoFreePose { .. }
+        InfeasibleReason::NoPlace(Misfit::Narrow { needs, limit, .. }) => {
+            vec![("needs", *needs), ("limit", *limit)]
+        }
+        InfeasibleReason::NoPlace(_)
+        | InfeasibleReason::NoFreePose { .. }
         | InfeasibleReason::BlockedPath { .. }
         | InfeasibleReason::NotInView { aside: None, .. } => {
             vec![]

@@ -118,6 +118,7 @@ impl Elaborator<'_> {
             Term::Bool(_)
             | Term::Int(_)
             | Term::Number(_)
+            | Term::Pose { .. }
             | Term::List(_)
             | Term::Param(_)
             | Term::Result

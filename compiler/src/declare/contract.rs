@@ -136,7 +136,18 @@ fn primitive(
             elaborator.report(Duplicate { span: param.name.span, name, what: "parameter", first });
         }
         let wanted = Expected { ty, place: ValueRole::Param(param_name, &name) };
-        let default = param.default.as_ref().map(|default| elaborator.term_of(default, wanted));
+        let default = param.default.as_ref().map(|default| {
+            let term = elaborator.term_of(default, wanted);
+            if !matches!(term, Term::Param(_)) && term.last_param().is_some() {
+                elaborator.report(BadDeclaration {
+                    span: default.span,
+                    what: "a default is a constant, or an earlier parameter alone".to_owned(),
+                    remedy: "give the value in each call".to_owned(),
+                });
+                return Term::Unknown;
+            }
+            term
+        });
         let term = Term::Param(u16::try_from(index).unwrap_or(u16::MAX));
         elaborator.scope.push(param_name.clone(), term, ty, param.name.span);
         let range =
@@ -194,12 +205,13 @@ fn clause_into(elaborator: &mut Elaborator<'_>, clause: &Clause, def: &mut Primi
                 elaborator.report(UnknownMotion { span: call.name.span, name: name.clone(), near });
                 return;
             };
-            let arity = kind.arity();
-            if call.args.len() != arity {
-                let plural = if arity == 1 { "" } else { "s" };
+            let (least, most) = (kind.arity(), kind.arity() + kind.options().len());
+            if !(least..=most).contains(&call.args.len()) {
+                let plural = if most == 1 { "" } else { "s" };
+                let count = if least == most { least.to_string() } else { format!("{least} to {most}") };
                 elaborator.report(BadDeclaration {
                     span: call.span,
-                    what: format!("the motion `{name}` takes {arity} argument{plural}"),
+                    what: format!("the motion `{name}` takes {count} argument{plural}"),
                     remedy: "give one entity or term for each argument".to_owned(),
                 });
             }

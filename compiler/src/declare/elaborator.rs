@@ -125,6 +125,9 @@ impl<'a> Elaborator<'a> {
                 self.report(MisplacedAny { span: expr.span });
                 (Term::Unknown, Ty::UNKNOWN)
             }
+            ExprKind::List(items) if wanted.is_some_and(|wanted| wanted.ty == Ty::plain(Base::Pose)) => {
+                self.pose(&items.iter().collect::<Vec<_>>(), expr.span)
+            }
             ExprKind::List(items) => self.list(items, wanted),
             ExprKind::Call(call) => self.measure(call),
             ExprKind::Field(of, name) => self.field(of, name),
@@ -211,7 +214,7 @@ impl<'a> Elaborator<'a> {
     fn measure(&mut self, call: &motet_syntax::ast::Call) -> (Term, Ty) {
         let library = self.library;
         let Some(id) = library.names.measures.get(&call.name.text).copied() else {
-            if let Some(found) = self.of_list(call) {
+            if let Some(found) = self.of_list(call).or_else(|| self.of_pose(call)) {
                 return found;
             }
             if library.names.fluents.contains_key(&call.name.text) || call.name.text == IS_EMPTY {

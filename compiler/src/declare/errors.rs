@@ -15,6 +15,9 @@ pub(crate) fn did_you_mean(near: Option<&SmolStr>) -> Option<String> {
     near.map(|near| format!("did you mean `{near}`?"))
 }
 
+/// Place of a number of a pose, in messages.
+pub(crate) const POSE_NUMBER: &str = "a number of a pose";
+
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
@@ -266,7 +269,11 @@ motet_syntax::mistakes! {
     /// Deadline or count that is not constant.
     NotConstant("M0309", Error) { place: &'static str }
     message(m) { format!("{} must be a constant", m.place) }
-    help(_m) { Some("write a number, so that the longest duration of the policy is known".to_owned()) }
+    help(m) {
+        let of_pose = m.place == POSE_NUMBER;
+        let why = if of_pose { "with its unit" } else { "so that the longest duration of the policy is known" };
+        Some(format!("write a number, {why}"))
+    }
 
     /// Number outside of its valid range.
     OutOfRange("M0310", Error) {

@@ -135,9 +135,33 @@ pub(crate) struct PrimitiveDef {
 pub(crate) struct ParamDef {
     pub(crate) name: SmolStr,
     pub(crate) ty: Ty,
+    /// Default argument: a constant, or an earlier parameter.
     pub(crate) default: Option<Term>,
     /// Least and greatest value from the card, in SI units.
     pub(crate) range: Option<(f64, f64)>,
+}
+
+impl ParamDef {
+    /// Default argument of a call with these arguments for the earlier parameters; `None` without one.
+    pub(crate) fn default_after<'t>(
+        &'t self,
+        arg: impl FnOnce(usize) -> Option<&'t Term>,
+    ) -> Option<&'t Term> {
+        match self.default.as_ref()? {
+            Term::Param(earlier) => arg(usize::from(*earlier)),
+            constant => Some(constant),
+        }
+    }
+}
+
+impl PrimitiveDef {
+    /// Arguments of a call that are not the defaults of their parameters.
+    pub(crate) fn asked<'t>(&'t self, args: &'t [Term]) -> impl Iterator<Item = &'t Term> {
+        let is_asked = |(arg, param): &(&'t Term, &'t ParamDef)| {
+            param.default_after(|earlier| args.get(earlier)) != Some(*arg)
+        };
+        args.iter().zip(&self.params).filter(is_asked).map(|(arg, _)| arg)
+    }
 }
 
 /// Need of a primitive: a condition that must hold when the call starts.

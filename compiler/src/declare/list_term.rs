@@ -2,7 +2,7 @@
 //! declaration of the same name replaces one. And texts with values.
 
 use motet_syntax::Span;
-use motet_syntax::ast::{Call, CompareOp, Expr, ExprKind, TextPart};
+use motet_syntax::ast::{Call, CompareOp, Expr, ExprKind, POSE, TextPart};
 use smol_str::SmolStr;
 
 use super::elaborator::{Elaborator, ValueRole};
@@ -19,9 +19,11 @@ pub(crate) const IS_EMPTY: SmolStr = SmolStr::new_static("is_empty");
 pub(crate) const OF: SmolStr = SmolStr::new_static("of");
 
 impl Elaborator<'_> {
-    /// Returns whether a call has a value: of a measure, or of a list.
+    /// Returns whether a call has a value: of a measure, of a list, or a pose.
     pub(crate) fn has_value(&self, name: &str) -> bool {
-        self.library.names.measures.contains_key(name) || [COUNT, FIRST].iter().any(|known| known == name)
+        self.library.names.measures.contains_key(name)
+            || name == POSE
+            || [COUNT, FIRST].iter().any(|known| known == name)
     }
 
     /// Elaborates `count` or `first`; `None` for another name.

@@ -16,6 +16,7 @@ pub(crate) mod gap;
 pub(crate) mod library;
 pub(crate) mod list_term;
 pub(crate) mod name;
+mod pose;
 pub(crate) mod words;
 
 pub use self::arithmetic::{MAX_COUNT, MAX_SECONDS};

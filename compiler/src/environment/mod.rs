@@ -4,7 +4,7 @@
 mod errors;
 mod initial_state;
 mod scene_facts;
-mod standing;
+pub(crate) mod standing;
 
 pub use initial_state::InitialState;
 pub(crate) use standing::Standing;

@@ -115,6 +115,34 @@ pub(super) fn derive(library: &Library, environment: &mut Environment) {
     }
 }
 
+/// Facts about what the robot serves and is near with its base at a point of the floor: of things that never
+/// move, by fluent and key. O(entities).
+pub(crate) fn from_base(
+    library: &Library,
+    environment: &Environment,
+    base: [f64; 2],
+) -> Vec<(Fluent, FactKey, bool)> {
+    let (Some(fluents), Some(reach)) = (PlaceFluents::of(library), library.serving_reach) else {
+        return Vec::new();
+    };
+    let Some(scene) = environment.scene.as_ref().filter(|_| !library.closed_world) else { return Vec::new() };
+    let mut found = Vec::new();
+    for (entity, name, kind) in environment.entities.iter() {
+        let kind = served_kind(library, kind);
+        let stays = |thing: &&motet_robots::scene::Entity| thing.fixed || kind == ServedKind::Place;
+        let Some(thing) = scene.entities.get(name).filter(stays) else { continue };
+        if kind == ServedKind::Person {
+            continue;
+        }
+        let serves = reach.serves_from(base, scene, thing, kind);
+        let near = reach.is_near_from(base, scene, thing, kind);
+        let near = near.and_then(|near| Some((fluents.nearby(entity)?, near)));
+        let facts = serves.map(|serves| (fluents.served(entity), serves)).into_iter().chain(near);
+        found.extend(facts.map(|(fact, holds)| (fact.fluent, key(&fact), holds)));
+    }
+    found
+}
+
 fn served_kind(library: &Library, kind: Kind) -> ServedKind {
     let items = &library.lang_items;
     let is = |wanted: Option<Kind>| wanted.is_some_and(|wanted| library.is_kind(kind, wanted));

@@ -1,7 +1,7 @@
 //! Diagnostics of infeasible motions (M06xx), one code for each reason, and their explanations: the steps
 //! that led to the world in which a motion is infeasible.
 
-use motet_geometry::planning::{Infeasible, InfeasibleReason, MotionQuery};
+use motet_geometry::planning::{Infeasible, InfeasibleReason, Misfit, MotionQuery};
 use motet_syntax::{About, Diagnostic, Related, Severity, Span};
 use smol_str::SmolStr;
 
@@ -95,6 +95,8 @@ refusals! {
     TooHeavy("M0604")
     /// Thing that is wider than the opening of the hand.
     TooWide("M0605")
+    /// Support without a free place as the step asks for one.
+    NoPlace("M0607")
     /// Target that no camera can see.
     NotInView("M0606")
 }
@@ -116,7 +118,9 @@ impl MotionChecker<'_> {
             InfeasibleReason::NoFreePose { by, .. }
             | InfeasibleReason::BlockedPath { by }
             | InfeasibleReason::NotInView { by, .. } => by.as_ref(),
-            InfeasibleReason::OutOfReach { .. }
+            InfeasibleReason::NoPlace(Misfit::Taken { by, .. }) => by.as_ref(),
+            InfeasibleReason::NoPlace(_)
+            | InfeasibleReason::OutOfReach { .. }
             | InfeasibleReason::TooHeavy { .. }
             | InfeasibleReason::TooWide { .. } => None,
         };
@@ -161,8 +165,9 @@ impl MotionChecker<'_> {
         let Some(StepKind::Call(call)) = self.program.steps.get(step.index()).map(|step| &step.kind) else {
             return "a step".to_owned();
         };
-        let name = self.library.primitive(call.primitive).map_or("a step", |def| def.name.as_str());
-        let args = call.args.iter().filter_map(|arg| match arg {
+        let def = self.library.primitive(call.primitive);
+        let name = def.map_or("a step", |def| def.name.as_str());
+        let args = def.into_iter().flat_map(|def| def.asked(&call.args)).filter_map(|arg| match arg {
             Term::Entity(entity) => Some(self.environment.name(*entity)),
             Term::Binding(id) => self.program.bindings.get(id.index()).map(|binding| binding.name.clone()),
             _ => None,

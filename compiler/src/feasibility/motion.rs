@@ -1,6 +1,6 @@
 //! Translation of calls to motion queries, and of contracts to changes of the scene.
 
-use motet_geometry::planning::{GraspSide, InfeasibleReason, MotionQuery};
+use motet_geometry::planning::{ExactNumber, GraspSide, InfeasibleReason, MapPose, MotionQuery, PlaceRules};
 use motet_stdlib::lang;
 use smol_str::SmolStr;
 
@@ -8,21 +8,55 @@ use super::geometry::SceneChange;
 use crate::declare::{EffectDef, Library, PrimitiveDef};
 use crate::ir::{Failure, Fluent, MotionKind};
 
-/// Motion query of a name and arguments.
-pub(super) fn motion_query(kind: MotionKind, args: Vec<SmolStr>, side: Option<GraspSide>) -> MotionQuery {
-    let mut args = args.into_iter();
-    let (first, second) = (args.next().unwrap_or_default(), args.next());
-    match (kind, second) {
-        (MotionKind::GoTo, None) => MotionQuery::GoTo(first),
-        (MotionKind::Reach, None) => MotionQuery::Reach(first, side),
-        (MotionKind::Put, Some(on)) => MotionQuery::Put(first, on),
-        (MotionKind::Offer, Some(to)) => MotionQuery::Offer(first, to),
-        (MotionKind::Look, None) => MotionQuery::Look(first),
-        (MotionKind::Pull, None) => MotionQuery::Pull(first),
-        (MotionKind::Push, None) => MotionQuery::Push(first),
-        (MotionKind::Posture, None) => MotionQuery::Posture(first),
+/// Argument of a motion.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum MotionArg {
+    /// Entity or case, by its name in the scene.
+    Name(SmolStr),
+    Number(f64),
+    Truth(bool),
+    Pose(MapPose),
+}
+
+/// Motion query of a kind and arguments; one that is not computed where they do not fit the kind.
+pub(super) fn motion_query(kind: MotionKind, args: &[MotionArg], side: Option<GraspSide>) -> MotionQuery {
+    use MotionArg::{Name, Pose};
+    match (kind, args) {
+        (MotionKind::GoTo, [Name(to)]) => MotionQuery::GoTo(to.clone()),
+        (MotionKind::StandAt, [Pose(pose)]) => MotionQuery::StandAt(*pose),
+        (MotionKind::Reach, [Name(object)]) => MotionQuery::Reach(object.clone(), side),
+        (MotionKind::Put, [Name(object), Name(on), options @ ..]) => match place_rules(on, options) {
+            Some(rules) => MotionQuery::Put(object.clone(), on.clone(), rules),
+            None => MotionQuery::Other(kind.name().into()),
+        },
+        (MotionKind::PutAt, [Name(object), Name(on), Pose(at)]) => {
+            let rules = PlaceRules { at: Some(*at), ..PlaceRules::default() };
+            MotionQuery::Put(object.clone(), on.clone(), rules)
+        }
+        (MotionKind::Offer, [Name(object), Name(to)]) => MotionQuery::Offer(object.clone(), to.clone()),
+        (MotionKind::Look, [Name(at)]) => MotionQuery::Look(at.clone()),
+        (MotionKind::Pull, [Name(what)]) => MotionQuery::Pull(what.clone()),
+        (MotionKind::Push, [Name(what)]) => MotionQuery::Push(what.clone()),
+        (MotionKind::Posture, [Name(name)]) => MotionQuery::Posture(name.clone()),
         (kind, _) => MotionQuery::Other(kind.name().into()),
     }
+}
+
+/// Rules for a place on `on`, in the order of [`MotionKind::options`]. What is to be near or beside its own
+/// support may be anywhere on it.
+fn place_rules(on: &SmolStr, options: &[MotionArg]) -> Option<PlaceRules> {
+    let mut rules = PlaceRules::default();
+    let other = |id: &SmolStr| (id != on).then(|| id.clone());
+    for (index, option) in options.iter().enumerate() {
+        match (index, option) {
+            (0, MotionArg::Name(id)) => rules.near = other(id),
+            (1, MotionArg::Name(id)) => rules.beside = other(id),
+            (2, MotionArg::Number(far)) => rules.from_edge = ExactNumber::new(far.max(0.0)),
+            (3, MotionArg::Truth(upright)) => rules.may_lie = !upright,
+            _ => return None,
+        }
+    }
+    Some(rules)
 }
 
 /// Side of a case of `Approach`; `None` if any side is allowed.
@@ -50,7 +84,9 @@ pub(super) fn motion_effect(library: &Library, def: &PrimitiveDef, query: &Motio
     let items = &library.lang_items;
     let makes = |fluent: Option<Fluent>, value: bool| makes(fluent, def, value).is_some();
     match query {
-        MotionQuery::GoTo(_) | MotionQuery::Posture(_) => MotionEffect::Changed(SceneChange::Gone),
+        MotionQuery::GoTo(_) | MotionQuery::StandAt(_) | MotionQuery::Posture(_) => {
+            MotionEffect::Changed(SceneChange::Gone)
+        }
         MotionQuery::Reach(..) if makes(items.holding, true) => MotionEffect::Changed(SceneChange::Taken),
         MotionQuery::Reach(..) | MotionQuery::Look(_) => MotionEffect::Nothing,
         MotionQuery::Put(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Put),
@@ -95,9 +131,9 @@ pub(super) fn failures(library: &Library, reason: &InfeasibleReason) -> [Option<
             [items.unreachable, None, None]
         }
         InfeasibleReason::TooHeavy { .. } => [items.too_heavy, items.unreachable, None],
-        InfeasibleReason::NoFreePose { .. } | InfeasibleReason::BlockedPath { .. } => {
-            [items.unreachable, items.blocked, None]
-        }
+        InfeasibleReason::NoFreePose { .. }
+        | InfeasibleReason::BlockedPath { .. }
+        | InfeasibleReason::NoPlace(_) => [items.unreachable, items.blocked, None],
         InfeasibleReason::NotInView { .. } => [items.unreachable, items.blocked, items.not_found],
     }
 }

@@ -1,7 +1,7 @@
 //! Transfer function of a call: the answers of its motion in all possible worlds, and the worlds after it.
 
 use motet_geometry::planning::{
-    GraspSide, InfeasibleReason, KeptRegion, MotionAnswer, MotionQuery, MotionWitness, RobotModel,
+    GraspSide, InfeasibleReason, KeptRegion, MapPose, MotionAnswer, MotionQuery, MotionWitness, RobotModel,
     UnknownReason, components,
 };
 use motet_graph as graph;
@@ -11,7 +11,9 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::domain::{MotionChecker, PossibleWorld, Worlds};
 use super::geometry::SceneChange;
-use super::motion::{MotionEffect, failures, makes, motion_effect, motion_query, moves_blindly, side_of};
+use super::motion::{
+    MotionArg, MotionEffect, failures, makes, motion_effect, motion_query, moves_blindly, side_of,
+};
 use super::verdict::MotionVerdict;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::PrimitiveDef;
@@ -169,10 +171,11 @@ impl MotionChecker<'_> {
                     Some(Ok(_)) | None => {}
                 }
             }
+            (SceneChange::Gone, MotionQuery::StandAt(_)) => next.stands_since = Some(id),
             (SceneChange::Taken, _) => next.held_since = Some(id),
             (
                 SceneChange::Put | SceneChange::Given,
-                MotionQuery::Put(object, _) | MotionQuery::Offer(object, _),
+                MotionQuery::Put(object, ..) | MotionQuery::Offer(object, _),
             ) => {
                 next.held_since = None;
                 next.changed.push((object.clone(), id));
@@ -211,11 +214,19 @@ impl MotionChecker<'_> {
     /// The reason why its arguments are unknown.
     pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<MotionQuery, SmolStr> {
         let Some((name, args)) = &def.motion else { return Err(SmolStr::new_static("it has no motion")) };
-        let mut names = Vec::with_capacity(args.len());
-        for arg in args {
-            names.push(self.named(arg, call)?);
-        }
-        Ok(motion_query(*name, names, self.side(call)))
+        let args = args.iter().map(|arg| self.motion_arg(arg, call)).collect::<Result<Vec<_>, _>>()?;
+        Ok(motion_query(*name, &args, self.side(call)))
+    }
+
+    /// Value of an argument of a motion at a call.
+    fn motion_arg(&self, term: &Term, call: &Call) -> Result<MotionArg, SmolStr> {
+        let given = if let Term::Param(index) = term { call.args.get(usize::from(*index)) } else { None };
+        Ok(match given.unwrap_or(term) {
+            Term::Number(value) => MotionArg::Number(*value),
+            Term::Bool(value) => MotionArg::Truth(*value),
+            Term::Pose { xyz, yaw } => MotionArg::Pose(MapPose::new(*xyz, *yaw)),
+            _ => MotionArg::Name(self.named(term, call)?),
+        })
     }
 
     /// Side of a grasp that an argument of the call asks for.
@@ -267,6 +278,7 @@ impl MotionChecker<'_> {
             | Term::Int(_)
             | Term::Number(_)
             | Term::Text(_)
+            | Term::Pose { .. }
             | Term::List(_)
             | Term::Each
             | Term::Field(..)

@@ -5,14 +5,14 @@
 
 use std::sync::Arc;
 
-use motet_geometry::planning::{Infeasible, MotionAnswer, MotionQuery, UnknownReason};
+use motet_geometry::planning::{Infeasible, MapPose, MotionAnswer, MotionQuery, UnknownReason};
 use motet_graph::Value;
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::geometry::{Fingerprinted, Geometry, SceneChange};
 use super::motion::{
-    MotionEffect, failures, makes, may_move, motion_effect, motion_query, moves_blindly, side_of,
+    MotionArg, MotionEffect, failures, makes, may_move, motion_effect, motion_query, moves_blindly, side_of,
 };
 use crate::declare::{Library, PrimitiveDef};
 use crate::ir::{Entity, MotionKind, ROBOT, START, Term};
@@ -71,11 +71,11 @@ impl WorldTracker {
             Ok(at) => at,
             Err(why) => return unknown(why),
         };
-        let Some(names) = of.iter().map(name).collect::<Option<Vec<_>>>() else {
+        let Some(args_of) = of.iter().map(motion_arg).collect::<Option<Vec<_>>>() else {
             return unknown("an argument is not in the scene");
         };
         let Some(kind) = MotionKind::from_name(motion) else { return unknown("the motion is not known") };
-        match &*self.geometry.answer(at, &motion_query(kind, names, side(args))) {
+        match &*self.geometry.answer(at, &motion_query(kind, &args_of, side(args))) {
             MotionAnswer::Feasible(_) => Forecast::Feasible,
             MotionAnswer::Infeasible(why) if why.certified => self.infeasible(def, why),
             MotionAnswer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),
@@ -174,8 +174,8 @@ fn after(
         };
     };
     let lost = || format_smolstr!("the outcome of `{}` is unknown", def.name);
-    let names = terms.iter().map(|term| named(library, term, call)).collect::<Option<Vec<_>>>();
-    let query = motion_query(*motion, names.ok_or_else(lost)?, side(call.args));
+    let args = terms.iter().map(|term| term_arg(library, term, call)).collect::<Option<Vec<_>>>();
+    let query = motion_query(*motion, &args.ok_or_else(lost)?, side(call.args));
     let change = match motion_effect(library, def, &query) {
         MotionEffect::Nothing => return Ok(Arc::clone(at)),
         MotionEffect::Unknown => return Err(lost()),
@@ -212,6 +212,30 @@ fn primitive_of<'l>(library: &'l Library, name: &str) -> Option<&'l PrimitiveDef
     library.primitive(library.names.primitives.get(name).copied()?)
 }
 
+/// Argument of a motion at a call.
+fn term_arg(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<MotionArg> {
+    match term {
+        Term::Param(index) => motion_arg(&call.args.get(usize::from(*index))?.1),
+        Term::Number(value) => Some(MotionArg::Number(*value)),
+        Term::Bool(value) => Some(MotionArg::Truth(*value)),
+        Term::Pose { xyz, yaw } => Some(MotionArg::Pose(MapPose::new(*xyz, *yaw))),
+        term => named(library, term, call).map(MotionArg::Name),
+    }
+}
+
+/// Value of a run as an argument of a motion.
+fn motion_arg(value: &Value) -> Option<MotionArg> {
+    match value {
+        Value::Number(value) => Some(MotionArg::Number(*value)),
+        Value::Int(value) => Some(MotionArg::Number(*value as f64)),
+        Value::Bool(value) => Some(MotionArg::Truth(*value)),
+        Value::Pose(pose) => Some(MotionArg::Pose(MapPose::new(pose.xyz, pose.yaw()))),
+        Value::Entity(_) | Value::Case(_) | Value::Text(_) | Value::List(_) => {
+            name(value).map(MotionArg::Name)
+        }
+    }
+}
+
 /// Name, in the scene, of a term of a contract at a call.
 fn named(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<SmolStr> {
     match term {
@@ -221,6 +245,7 @@ fn named(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<SmolS
         Term::Result => name(call.result?),
         Term::Binding(_) | Term::Each | Term::Unknown => None,
         Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::List(_) => None,
+        Term::Pose { .. } => None,
         Term::Field(..) | Term::Measure(..) | Term::Arith(..) => None,
         Term::First(list) => {
             let Term::Param(index) = **list else { return None };

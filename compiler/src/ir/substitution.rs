@@ -29,7 +29,7 @@ pub(crate) trait Rewrite {
             Term::Field(of, _) | Term::Count(of) | Term::First(of) => self.term(of),
             Term::Template(parts) => self.terms(parts.iter_mut().map(|(part, _)| part)),
             Term::Arith(_, left, right) => self.terms([&mut **left, &mut **right]),
-            Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) => {}
+            Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::Pose { .. } => {}
             Term::Case(..) | Term::Entity(_) | Term::Result | Term::Each | Term::Unknown => {}
         }
     }

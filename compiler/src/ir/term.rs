@@ -16,6 +16,11 @@ pub(crate) enum Term {
     /// Number in SI units.
     Number(f64),
     Text(SmolStr),
+    /// Pose in the map: a point in m and a yaw in rad.
+    Pose {
+        xyz: [f64; 3],
+        yaw: f64,
+    },
     /// Text with values: its parts, each with its type.
     Template(Vec<(Term, Ty)>),
     Case(EnumId, u16),
@@ -75,6 +80,7 @@ impl Term {
             | Self::Int(_)
             | Self::Number(_)
             | Self::Text(_)
+            | Self::Pose { .. }
             | Self::Template(_)
             | Self::Case(..)
             | Self::Entity(_)
@@ -95,7 +101,12 @@ impl Term {
     /// Returns whether the term is the same in every run.
     pub(crate) fn is_constant(&self) -> bool {
         let is_open = |part: &Self| match part {
-            Self::Bool(_) | Self::Int(_) | Self::Number(_) | Self::Text(_) | Self::Template(_) => false,
+            Self::Bool(_)
+            | Self::Int(_)
+            | Self::Number(_)
+            | Self::Text(_)
+            | Self::Template(_)
+            | Self::Pose { .. } => false,
             Self::Case(..) | Self::Entity(_) | Self::List(_) | Self::Arith(..) | Self::Count(_) => false,
             Self::Binding(_) | Self::Param(_) | Self::Result | Self::Each | Self::Unknown => true,
             Self::Field(..) | Self::Measure(..) | Self::First(_) => true,
@@ -212,6 +223,8 @@ impl Ty {
     pub(crate) const RATIO: Self = Self::plain(Base::Quantity(Dimension::NONE));
     /// The type `Length`.
     pub(crate) const LENGTH: Self = Self::plain(Base::Quantity(Dimension::LENGTH));
+    /// The type `Angle`.
+    pub(crate) const ANGLE: Self = Self::plain(Base::Quantity(Dimension::ANGLE));
     pub(crate) const DURATION: Self = Self::plain(Base::Quantity(Dimension::DURATION));
 
     /// Type without a list.
@@ -251,8 +264,10 @@ impl Ty {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum MotionKind {
     GoTo,
+    StandAt,
     Reach,
     Put,
+    PutAt,
     Pull,
     Push,
     Offer,
@@ -262,15 +277,27 @@ pub(crate) enum MotionKind {
 
 impl MotionKind {
     /// All kinds, in the order of the language page.
-    pub(crate) const ALL: &[Self] =
-        &[Self::GoTo, Self::Reach, Self::Put, Self::Pull, Self::Push, Self::Offer, Self::Look, Self::Posture];
+    pub(crate) const ALL: &[Self] = &[
+        Self::GoTo,
+        Self::StandAt,
+        Self::Reach,
+        Self::Put,
+        Self::PutAt,
+        Self::Pull,
+        Self::Push,
+        Self::Offer,
+        Self::Look,
+        Self::Posture,
+    ];
 
     /// Name of the motion in a contract.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::GoTo => "go_to",
+            Self::StandAt => "stand_at",
             Self::Reach => "reach",
             Self::Put => "put",
+            Self::PutAt => "put_at",
             Self::Pull => "pull",
             Self::Push => "push",
             Self::Offer => "offer",
@@ -284,11 +311,22 @@ impl MotionKind {
         Self::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 
-    /// Number of arguments.
+    /// Number of arguments that it must have.
     pub(crate) const fn arity(self) -> usize {
         match self {
+            Self::PutAt => 3,
             Self::Put | Self::Offer => 2,
-            Self::GoTo | Self::Reach | Self::Pull | Self::Push | Self::Look | Self::Posture => 1,
+            Self::GoTo | Self::StandAt | Self::Reach | Self::Pull | Self::Push | Self::Look => 1,
+            Self::Posture => 1,
+        }
+    }
+
+    /// Further arguments that it may have, in order: the rules of a place.
+    pub(crate) const fn options(self) -> &'static [&'static str] {
+        match self {
+            Self::Put => &["near", "beside", "away_from_edge", "upright"],
+            Self::GoTo | Self::StandAt | Self::Reach | Self::PutAt | Self::Pull => &[],
+            Self::Push | Self::Offer | Self::Look | Self::Posture => &[],
         }
     }
 

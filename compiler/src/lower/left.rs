@@ -7,7 +7,7 @@ use super::is_of_motion;
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
 use crate::feasibility::{MotionVerdict, MotionVerdicts};
-use crate::ir::{BlockSlot, Call, Program, StepId, StepKind};
+use crate::ir::{BlockSlot, Call, Program, StepId, StepKind, Term};
 use crate::prove::errors::LeftToRun;
 use crate::prove::evaluation::CallFrame;
 use crate::prove::{NeedVerdict, Proof, Prover};
@@ -44,7 +44,15 @@ pub(crate) fn left_to_run(
         let mut left = needs(&prover, proof, verdict, StepId(id), (call, def));
         if let (Some(MotionVerdict::Deferred(_)), Some((kind, args))) = (verdict, &def.motion) {
             let frame = CallFrame { args: &call.args, ..CallFrame::default() };
-            let args = args.iter().map(|arg| prover.term_text(arg, frame).to_string());
+            let is_asked = |(index, arg): &(usize, &Term)| {
+                // A rule with its default asks for nothing.
+                let Term::Param(param) = arg else { return true };
+                let param = usize::from(*param);
+                let default = def.params.get(param).and_then(|it| it.default_after(|at| call.args.get(at)));
+                *index < kind.arity() || default != call.args.get(param)
+            };
+            let args = args.iter().enumerate().filter(is_asked);
+            let args = args.map(|(_, arg)| prover.term_text(arg, frame).to_string());
             left.push(format!("the motion `{}({})`", kind.name(), args.collect::<Vec<_>>().join(", ")));
         }
         let Some((last, rest)) = left.split_last() else { continue };

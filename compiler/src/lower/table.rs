@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use motet_geometry::kinematics::planar;
+use motet_geometry::planning::components;
 use motet_graph as graph;
 use motet_stdlib::lang;
 use motet_syntax::ast::{ArithOp, CompareOp};
@@ -220,6 +222,10 @@ impl Tables<'_> {
             Term::Int(value) => literal(Value::Int(*value)),
             Term::Number(value) => literal(Value::Number(*value)),
             Term::Text(text) => literal(Value::Text(text.clone())),
+            Term::Pose { xyz, yaw } => {
+                let (_, quaternion) = components(&planar(0.0, 0.0, *yaw));
+                literal(Value::Pose(graph::Pose { xyz: *xyz, quaternion }))
+            }
             Term::Case(id, case) => literal(Value::Case(self.library.case_name(*id, *case).into())),
             Term::Entity(entity) => literal(Value::Entity(self.environment.name(*entity))),
             Term::List(items) => self.list(items, args, result),

@@ -249,7 +249,8 @@ impl<'a> Prover<'a> {
                     next.push(args);
                     continue;
                 }
-                let choices = match (&param.default, param.ty.kind_within()) {
+                let default = param.default_after(|earlier| args.get(earlier)?.as_ref());
+                let choices = match (default, param.ty.kind_within()) {
                     (Some(default), _) => vec![default.clone()],
                     (None, Some(_)) => self.choices(def, index, &args),
                     (None, None) => Vec::new(),
@@ -355,7 +356,7 @@ pub(crate) fn spell_call(
     let mut args = Vec::new();
     let mut is_plain = syntax == Syntax::Text;
     for (term, param) in proposed.args.iter().zip(&def.params) {
-        if param.default.as_ref() == Some(term) {
+        if param.default_after(|earlier| proposed.args.get(earlier)) == Some(term) {
             is_plain = false;
             continue;
         }
@@ -390,6 +391,7 @@ fn spelled(term: &Term, library: &Library, environment: &Environment) -> Option<
         },
         Term::Int(_)
         | Term::Number(_)
+        | Term::Pose { .. }
         | Term::Binding(_)
         | Term::Param(_)
         | Term::Result

@@ -289,7 +289,7 @@ fn guesses(def: &PrimitiveDef, call: &CandidateCall) -> u32 {
         let own = Term::Param(u16::try_from(*index).unwrap_or(u16::MAX));
         let spoken = |fact: &Fact| fact.args.iter().flatten().any(|term| *term == own);
         entity_of(arg).is_some()
-            && param.default.as_ref() != Some(arg)
+            && param.default_after(|earlier| call.args.get(earlier)) != Some(*arg)
             && !def.makes.iter().any(|effect| {
                 spoken(&effect.fact) || effect.when.as_ref().is_some_and(|when| speaks(when, &own))
             })

@@ -3,14 +3,15 @@
 use motet_syntax::{Diagnostic, Mistake, Span};
 use smallvec::SmallVec;
 
-use super::effects::{FactChange, PerceptionLifetime};
+use super::effects::{Certainty, FactChange, PerceptionLifetime};
 use super::errors::{Refuted, Stale};
 use super::evaluation::{CallFrame, MAX_ALIASES};
 use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
 use crate::analysis::Domain;
 use crate::declare::{LastsDef, NeedDef, PrimitiveDef, ResourceSet};
+use crate::environment::standing;
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
-use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, StepKind, Term, Ty};
+use crate::ir::{Base, BindingId, Call, Entity, Fluent, MotionKind, StepId, StepKind, Term, Ty};
 
 impl<'a> Prover<'a> {
     pub(crate) fn call(&mut self, id: StepId, call: &Call, span: Span) {
@@ -44,6 +45,7 @@ impl<'a> Prover<'a> {
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
         let armed = self.armed(id);
         self.make(&makes, cause);
+        self.stand(def, frame, cause);
         self.check_fired(&armed, id);
         self.buffers = (makes, unsettles);
         self.bind(id, call, def, frame);
@@ -52,6 +54,17 @@ impl<'a> Prover<'a> {
         if let Some(slot) = self.proof.needs.get_mut(id.index()) {
             *slot = verdicts;
         }
+    }
+
+    /// Records what the robot serves and is near after a drive to a pose that is written out, in the scene.
+    fn stand(&mut self, def: &PrimitiveDef, frame: CallFrame<'_>, cause: Cause) {
+        let Some((MotionKind::StandAt, args)) = &def.motion else { return };
+        let Some(Term::Param(index)) = args.first() else { return };
+        let Some(Term::Pose { xyz: [x, y, _], .. }) = frame.args.get(usize::from(*index)) else { return };
+        let facts = standing::from_base(self.library, self.environment, [*x, *y]);
+        let change = |(fluent, key, truth)| FactChange { fluent, key, truth, sure: Certainty::Always };
+        let changes: Vec<FactChange> = facts.into_iter().map(change).collect();
+        self.make(&changes, cause);
     }
 
     /// Records the certain facts about open containers and the hand before a motion, which rule out possible

@@ -18,7 +18,7 @@ pub(crate) struct FactChange {
     pub(crate) fluent: Fluent,
     pub(crate) key: FactKey,
     pub(crate) truth: bool,
-    sure: Certainty,
+    pub(super) sure: Certainty,
 }
 
 impl FactChange {
@@ -30,7 +30,7 @@ impl FactChange {
 
 /// Certainty of the condition of an effect.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Certainty {
+pub(super) enum Certainty {
     Always,
     Sometimes,
     Unknown,

@@ -40,6 +40,7 @@ impl Prover<'_> {
             | Term::Int(_)
             | Term::Number(_)
             | Term::Text(_)
+            | Term::Pose { .. }
             | Term::List(_)
             | Term::Field(..)
             | Term::Measure(..)
@@ -230,6 +231,7 @@ impl Prover<'_> {
             }
             Term::Bool(_)
             | Term::Text(_)
+            | Term::Pose { .. }
             | Term::Case(..)
             | Term::Entity(_)
             | Term::List(_)

@@ -236,11 +236,13 @@ impl Prover<'_> {
         let step = cause.as_step().and_then(|id| self.program.step(id));
         match step.map(|step| &step.kind) {
             Some(StepKind::Call(call)) => {
-                let name = self.library.primitive(call.primitive).map_or("a step", |def| def.name.as_str());
-                let args = call.args.iter().filter_map(|arg| match arg {
-                    Term::Entity(_) | Term::Binding(_) => Some(self.term_text(arg, CallFrame::default())),
-                    _ => None,
-                });
+                let def = self.library.primitive(call.primitive);
+                let name = def.map_or("a step", |def| def.name.as_str());
+                let args =
+                    def.into_iter().flat_map(|def| def.asked(&call.args)).filter_map(|arg| match arg {
+                        Term::Entity(_) | Term::Binding(_) => Some(self.term_text(arg, CallFrame::default())),
+                        _ => None,
+                    });
                 format_smolstr!("{name}({})", args.collect::<Vec<_>>().join(", "))
             }
             Some(StepKind::Let { .. }) => "let".into(),
@@ -353,6 +355,10 @@ impl Prover<'_> {
             Term::Int(value) => value.to_string(),
             Term::Number(value) => round(*value).to_string(),
             Term::Text(text) => format!("\"{text}\""),
+            Term::Pose { xyz: [x, y, z], yaw } => {
+                let height = if *z == 0.0 { String::new() } else { format!("{} m, ", round(*z)) };
+                format!("pose({} m, {} m, {height}{} rad)", round(*x), round(*y), round(*yaw))
+            }
             Term::Case(id, case) => self.library.case_name(*id, *case).to_owned(),
             Term::Entity(entity) => self.environment.name(*entity).to_string(),
             Term::List(items) => {

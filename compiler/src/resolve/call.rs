@@ -2,17 +2,18 @@
 
 use std::sync::Arc;
 
-use motet_syntax::ast::{Do, Expr, ExprKind, Manner, Policy, PrimitiveKind};
+use motet_syntax::ast::{Arg, Do, Expr, ExprKind, Manner, Policy, PrimitiveKind};
 use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
-use super::errors::{NoMotion, NoResult, Recursion, UnknownPrimitive};
+use super::errors::{NoMotion, NoResult, PoseForEntity, Recursion, UnknownPrimitive};
 use super::meant::step_to_write;
 use super::step::StepResolver;
 use crate::declare::PrimitiveDef;
 use crate::declare::elaborator::{Expected, ValueRole};
 use crate::declare::errors::{BadDeclaration, MissingArgument, TooManyArguments, UnknownParameter};
+use crate::declare::library::ParamDef;
 use crate::declare::name::{list, near};
 use crate::declare::words;
 use crate::ir::{self, Base, BlockSlot, StepId, StepKind, StepPosition, Term, Ty};
@@ -109,17 +110,26 @@ impl StepResolver<'_> {
             .collect();
         let said = self.elaborator.diagnostics.len();
         let given = self.match_arguments(call, &def.name, &formals);
-        let mut args = SmallVec::with_capacity(given.len());
+        let mut args: SmallVec<[Term; 2]> = SmallVec::with_capacity(given.len());
         let mut spans = SmallVec::with_capacity(given.len());
         let mut units = SmallVec::with_capacity(given.len());
         let mut description = None;
         for ((arg, param), formal) in given.into_iter().zip(&def.params).zip(&formals) {
-            let (term, at) = match arg {
-                Some(expr) => {
+            let twin = arg.filter(|expr| is_pose(expr)).and_then(|_| self.for_pose(call, def, param));
+            let (term, at) = match (arg, twin) {
+                (Some(&Expr { span, .. }), Some(twin)) => {
+                    let (callee, name, param) = (def.name.clone(), call.call.name.span, param.name.clone());
+                    self.elaborator.report(PoseForEntity { span, callee, name, param, twin });
+                    (Term::Unknown, span)
+                }
+                (Some(expr), None) => {
                     let wanted = Expected { ty: formal.ty, place: ValueRole::Param(&param.name, &def.name) };
                     (self.elaborator.term_of(expr, wanted), expr.span)
                 }
-                None => (param.default.clone().unwrap_or(Term::Unknown), call.call.span),
+                (None, _) => {
+                    let default = param.default_after(|earlier| args.get(earlier)).cloned();
+                    (default.unwrap_or(Term::Unknown), call.call.span)
+                }
             };
             if let (Term::Text(text), None, PrimitiveKind::Perception) = (&term, &description, def.form) {
                 description = Some(text.clone());
@@ -158,6 +168,32 @@ impl StepResolver<'_> {
         let retries = retries.unwrap_or(0);
         let call = ir::Call { primitive, args, spans, units, binds, manner, within_secs, retries, is_faulty };
         self.fill(id, StepKind::Call(call))
+    }
+
+    /// The primitive that takes a pose under the name of a parameter that takes an entity, and all else that
+    /// the call gives.
+    fn for_pose(&self, call: &Do, def: &PrimitiveDef, param: &ParamDef) -> Option<SmolStr> {
+        param.ty.kind()?;
+        let is_given = |name: &SmolStr| {
+            let named = |arg: &Arg| arg.name.as_ref().is_some_and(|given| given.text == *name);
+            call.call.args.iter().any(named)
+                || def
+                    .params
+                    .iter()
+                    .position(|known| known.name == *name)
+                    .is_some_and(|at| call.call.args.get(at).is_some_and(|arg| arg.name.is_none()))
+        };
+        let fits = |other: &&PrimitiveDef| {
+            let takes = |wanted: &SmolStr| other.params.iter().find(|known| known.name == *wanted);
+            let is_pose = takes(&param.name).is_some_and(|known| known.ty == Ty::plain(Base::Pose));
+            let is_full = other.params.iter().all(|known| known.default.is_some() || is_given(&known.name));
+            let has_all =
+                def.params.iter().all(|known| !is_given(&known.name) || takes(&known.name).is_some());
+            other.provided && is_pose && is_full && has_all
+        };
+        let mut twins = self.elaborator.library.primitives.iter().filter(fits);
+        let twin = twins.next()?.name.clone();
+        twins.next().is_none().then_some(twin)
     }
 
     /// The manner of a call; an error for a primitive that moves nothing.
@@ -351,6 +387,16 @@ impl StepResolver<'_> {
         let free = params().filter(|param| !is_given(param)).chain(free_keys);
         let meant = words::parameter(name, free).map(SmolStr::new);
         meant.or_else(|| near(name, params())).or_else(|| only_missing(call, formals))
+    }
+}
+
+/// Returns whether an expression writes out a pose: by its word, or as three or four numbers.
+fn is_pose(expr: &Expr) -> bool {
+    let is_number = |item: &Expr| matches!(item.kind, ExprKind::Number(_) | ExprKind::Quantity(..));
+    match &expr.kind {
+        ExprKind::Call(call) => call.is_pose(),
+        ExprKind::List(items) => (3..=4).contains(&items.len()) && items.iter().all(is_number),
+        _ => false,
     }
 }
 

@@ -1,5 +1,5 @@
 //! Diagnostics of unknown callees, and of names that a step must not bind (M0201, M0206, M0207, M0212,
-//! M0305, M0315).
+//! M0305, M0315, M0316).
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
@@ -49,6 +49,12 @@ motet_syntax::mistakes! {
     NoResult("M0305", Error) { callee: SmolStr, name: SmolStr }
     message(m) { format!("`{}` has no result to bind to `{}`", m.callee, m.name) }
     help(m) { Some(format!("call it without binding `{}`", m.name)) }
+
+    /// Pose in the place of an entity, where another primitive takes one.
+    PoseForEntity("M0316", Error) { callee: SmolStr, name: Span, param: SmolStr, twin: SmolStr }
+    message(m) { format!("`{}` of `{}` is an entity, not a pose", m.param, m.callee) }
+    help(m) { Some(format!("`{}` takes a pose", m.twin)) }
+    fix(m) { replace(m.name, &m.twin) }
 
     /// Manner of a step that moves nothing.
     NoMotion("M0315", Error) { callee: SmolStr, is_text: bool }

@@ -306,3 +306,55 @@ fn a_distance_to_something_without_a_pose_is_left_to_the_run() {
     assert_eq!(*verdict, Verdict::Deferred);
     assert_eq!(why, "it is not known where to keep away from `user`");
 }
+
+#[test]
+fn places_by_rules_and_poses_are_feasible_one_after_the_other() {
+    let found = motions(
+        &KITCHEN,
+        "policy set for hsr {
+            go_to_pose(pose(1.3 m, 0.35 m, 0 deg))
+            pick(mug_1)
+            place(mug_1, kitchen_table, beside: apple)
+            pick(mug_1)
+            place(mug_1, kitchen_table, near: plate, away_from_edge: 5 cm)
+            pick(mug_1)
+            place_at(mug_1, kitchen_table, pose(1.95 m, 0.4 m, 0.77 m, 0 deg))
+        }",
+    );
+    for (query, verdict, why) in &found {
+        assert_eq!(*verdict, Verdict::Proven, "{query}: {why}");
+    }
+    let queries: Vec<&str> = found.iter().map(|(query, ..)| query.as_str()).collect();
+    assert_eq!(queries, ["stand_at", "reach", "put", "reach", "put", "reach", "put_at"]);
+}
+
+/// Errors of a policy that picks the mug and puts it on the table by some rules.
+fn placed(rules: &str) -> Vec<String> {
+    let policy = format!("policy p for hsr {{ go(mug_1) pick(mug_1) place(mug_1, kitchen_table, {rules}) }}");
+    errors(&compile(&KITCHEN, &policy).1)
+}
+
+#[test]
+fn places_that_do_not_exist_are_refused() {
+    assert_eq!(placed("near: plate"), [""; 0]);
+    assert_eq!(
+        placed("near: bottle"),
+        [
+            "M0607 `place` cannot perform `put(mug_1, kitchen_table, near: bottle)`: nothing of `kitchen_table` \
+          within 0.30 m of `bottle` is free; the robot stands where `go(mug_1)` brought it, the hand holds `mug_1`"
+        ]
+    );
+    assert!(placed("away_from_edge: 60 cm")[0].contains("needs 0.60 m to the rim of `kitchen_table`"));
+    assert!(placed("beside: coke")[0].contains("`coke` is not on `kitchen_table`"));
+    assert!(placed("away_from_edge: -1 cm")[0].starts_with("M04"), "{:?}", placed("away_from_edge: -1 cm"));
+}
+
+#[test]
+fn poses_of_the_base_that_are_taken_are_refused() {
+    let ask = |policy: &str| refusal(&KITCHEN, policy).0;
+    let inside = ask("policy p for hsr { go_to_pose(pose(2.2 m, 0.5 m, 0 deg)) }");
+    assert!(inside.starts_with("M0602 `go_to_pose` cannot perform `stand_at(pose(2.2 m, 0.5 m, 0 deg))`"));
+    let kept =
+        "policy p for hsr keep distance(kitchen_table) >= 1 m { go_to_pose(pose(1.4 m, 0.5 m, 0 deg)) }";
+    assert!(ask(kept).contains("what `keep distance(kitchen_table) >= 1 m` forbids"), "{}", ask(kept));
+}

@@ -13,6 +13,7 @@
 mod check;
 mod errors;
 pub mod model;
+mod outline;
 mod quantity;
 mod read;
 mod serving;
@@ -22,7 +23,8 @@ mod write;
 pub use check::fit;
 pub use errors::CODES;
 pub use model::{normal, *};
+pub use outline::{Outline, PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, PlacedOutline};
 pub use read::read;
-pub use serving::{NEAR_M, Outline, ServedKind, ServingReach, serving_gap};
+pub use serving::{NEAR_M, ServedKind, ServingReach, serving_gap};
 pub use wire::schema;
 pub use write::write;

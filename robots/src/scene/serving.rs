@@ -6,7 +6,8 @@
 
 use motet_stdlib::lang::kinds;
 
-use super::model::{Entity, EntityShape, Scene, Travel};
+use super::model::{Entity, Scene, Travel};
+use super::outline::Outline;
 use crate::card::Robot;
 
 /// Distance for the fluent `near`, in m, from the rim of the base to an outline.
@@ -24,51 +25,6 @@ const UPRIGHT_RAD: f64 = 1e-3;
 /// Outlines of what has no shape: a person and a place.
 const PERSON_RADIUS_M: f64 = 0.3;
 const PLACE_RADIUS_M: f64 = 0.01;
-
-/// Outline of an upright thing from above.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Outline {
-    /// Disc about the axis.
-    Disc {
-        /// Radius in m.
-        radius: f64,
-    },
-    /// Rectangle along the axes of the thing.
-    Rectangle {
-        /// Half of its lengths along x and y, in m.
-        half: [f64; 2],
-    },
-}
-
-impl Outline {
-    /// Outline of a shape; `None` for a mesh, whose file is not read here.
-    #[must_use]
-    pub fn of(shape: &EntityShape) -> Option<Self> {
-        match shape {
-            EntityShape::Box([x, y, _]) => Some(Self::Rectangle { half: [x / 2.0, y / 2.0] }),
-            EntityShape::Cylinder { radius, .. }
-            | EntityShape::Sphere { radius }
-            | EntityShape::Capsule { radius, .. } => Some(Self::Disc { radius: *radius }),
-            EntityShape::Mesh { .. } => None,
-        }
-    }
-
-    /// Metres from a point in the frame of the thing to its outline; 0 within.
-    ///
-    /// ```
-    /// use motet_robots::scene::Outline;
-    ///
-    /// assert_eq!(Outline::Rectangle { half: [0.5, 0.25] }.gap([1.5, 0.0]), 1.0);
-    /// assert_eq!(Outline::Disc { radius: 0.5 }.gap([0.1, 0.1]), 0.0);
-    /// ```
-    #[must_use]
-    pub fn gap(self, [u, v]: [f64; 2]) -> f64 {
-        match self {
-            Self::Disc { radius } => (u.hypot(v) - radius).max(0.0),
-            Self::Rectangle { half: [a, b] } => (u.abs() - a).max(0.0).hypot((v.abs() - b).max(0.0)),
-        }
-    }
-}
 
 /// Kinds of entities that differ in how a robot serves them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -125,6 +81,19 @@ impl ServingReach {
     /// pose does not decide it. O(supports of the entity).
     #[must_use]
     pub fn serves(&self, scene: &Scene, entity: &Entity, kind: ServedKind) -> Option<bool> {
+        let [x, y, _] = scene.robot.base;
+        self.serves_from([x, y], scene, entity, kind)
+    }
+
+    /// Decides whether the robot serves an entity with its base at a point of the floor, as [`Self::serves`].
+    #[must_use]
+    pub fn serves_from(
+        &self,
+        base: [f64; 2],
+        scene: &Scene,
+        entity: &Entity,
+        kind: ServedKind,
+    ) -> Option<bool> {
         let [least, greatest] = self.hands_m;
         let (within, beyond) = match kind {
             ServedKind::Place => (AT_PLACE_M, OFF_PLACE_M),
@@ -132,14 +101,27 @@ impl ServingReach {
                 (least, serving_gap(kind, greatest))
             }
         };
-        let bounds = distance(scene, entity, kind);
+        let bounds = distance(base, scene, entity, kind);
         decide(bounds.least, bounds.greatest, within, beyond)
     }
 
     /// Decides whether the robot is near an entity, as [`Self::serves`].
     #[must_use]
     pub fn is_near(&self, scene: &Scene, entity: &Entity, kind: ServedKind) -> Option<bool> {
-        let bounds = distance(scene, entity, kind);
+        let [x, y, _] = scene.robot.base;
+        self.is_near_from([x, y], scene, entity, kind)
+    }
+
+    /// Decides whether the robot is near an entity with its base at a point of the floor.
+    #[must_use]
+    pub fn is_near_from(
+        &self,
+        base: [f64; 2],
+        scene: &Scene,
+        entity: &Entity,
+        kind: ServedKind,
+    ) -> Option<bool> {
+        let bounds = distance(base, scene, entity, kind);
         let within = NEAR_M + self.radius_m;
         decide(bounds.least, bounds.outline.or(bounds.greatest), within, within)
     }
@@ -154,8 +136,7 @@ fn decide(least: Option<f64>, greatest: Option<f64>, within: f64, beyond: f64) -
 
 /// Bounds of the distance from the axis of the base to an entity. What stands on or lies in something without
 /// a pose of its own is no nearer than that.
-fn distance(scene: &Scene, entity: &Entity, kind: ServedKind) -> DistanceBounds {
-    let [x, y, _] = scene.robot.base;
+fn distance([x, y]: [f64; 2], scene: &Scene, entity: &Entity, kind: ServedKind) -> DistanceBounds {
     let slack = slack(scene, entity);
     let mut bounds = match entity.pose {
         Some(pose) => {
@@ -180,7 +161,10 @@ fn distance(scene: &Scene, entity: &Entity, kind: ServedKind) -> DistanceBounds 
             let greatest = if by_centre { Some(centre) } else { outline };
             DistanceBounds { least: outline, greatest, outline }
         }
-        None => DistanceBounds { least: support_distance(scene, entity), greatest: None, outline: None },
+        None => {
+            let least = support_distance([x, y], scene, entity);
+            DistanceBounds { least, greatest: None, outline: None }
+        }
     };
     bounds.least = bounds.least.map(|least| least - slack);
     bounds.greatest = bounds.greatest.map(|greatest| greatest + slack);
@@ -189,13 +173,13 @@ fn distance(scene: &Scene, entity: &Entity, kind: ServedKind) -> DistanceBounds 
 }
 
 /// Distance to the outline of the first support with a pose.
-fn support_distance(scene: &Scene, entity: &Entity) -> Option<f64> {
+fn support_distance(base: [f64; 2], scene: &Scene, entity: &Entity) -> Option<f64> {
     let support = supports(scene, entity).find(|support| support.pose.is_some())?;
     // What rests on an object may jut out beyond it.
     if !support.fixed {
         return None;
     }
-    distance(scene, support, ServedKind::Furniture).least
+    distance(base, scene, support, ServedKind::Furniture).least
 }
 
 /// Entities that carry or contain an entity, the nearest first.

@@ -2,7 +2,7 @@
 //! as upright.
 
 use motet_graph::Pose;
-use motet_robots::scene::{EntityShape, Outline, Placement};
+use motet_robots::scene::{EntityShape, Outline, PlacedOutline, Placement};
 
 /// Position where the robot stands: x and y in m in the frame `map`, heading in rad.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -112,6 +112,12 @@ impl UprightBody {
         let (sin, cos) = self.yaw.sin_cos();
         let (dx, dy) = (x - self.x(), y - self.y());
         [cos * dx + sin * dy, cos * dy - sin * dx]
+    }
+
+    /// Its outline at its place.
+    pub(crate) fn placed(&self) -> PlacedOutline {
+        let (sin, cos) = self.yaw.sin_cos();
+        PlacedOutline { outline: self.outline, centre: [self.x(), self.y()], axis: [cos, sin] }
     }
 
     /// Metres in the plane from a point to its outline; 0 within.

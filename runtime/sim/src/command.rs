@@ -1,13 +1,15 @@
 //! A command as the simulator understands it: the standard primitives, and everything else.
 
 use crate::world::SimWorld;
-use motet_graph::Value;
+use motet_graph::{Pose, Value};
 use motet_runtime::Command;
 use smol_str::SmolStr;
 
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum SimCommand {
     Go(SmolStr),
+    /// A drive to a pose of the base.
+    GoToPose(Pose),
     Turn(f64),
     Home,
     StartPose,
@@ -15,7 +17,8 @@ pub(crate) enum SimCommand {
     Pick(SmolStr),
     Grasp(SmolStr),
     Lift,
-    Place(SmolStr, SmolStr),
+    /// The object, its support, and the rules for its place.
+    Place(SmolStr, SmolStr, Placing),
     Handover(SmolStr, SmolStr),
     Open(SmolStr),
     Close(SmolStr),
@@ -54,6 +57,7 @@ impl SimCommand {
         };
         Some(match command.primitive.as_str() {
             "go" => Self::Go(entity("to")?),
+            "go_to_pose" => Self::GoToPose(pose(command.arg("to")?)?),
             "turn" => Self::Turn(number(command.arg("by")?)?),
             "home" => Self::Home,
             "start_pose" => Self::StartPose,
@@ -61,7 +65,21 @@ impl SimCommand {
             "pick" => Self::Pick(entity("object")?),
             "grasp" => Self::Grasp(entity("object")?),
             "lift" => Self::Lift,
-            "place" => Self::Place(entity("object")?, entity("on")?),
+            "place" => {
+                let on = entity("on")?;
+                let other = |name: &str| entity(name).filter(|id| *id != on);
+                let rules = Placing {
+                    near: other("near"),
+                    beside: other("beside"),
+                    from_edge: command.arg("away_from_edge").and_then(number).unwrap_or(0.0).max(0.0),
+                    at: None,
+                };
+                Self::Place(entity("object")?, on, rules)
+            }
+            "place_at" => {
+                let rules = Placing { at: Some(pose(command.arg("at")?)?), ..Placing::default() };
+                Self::Place(entity("object")?, entity("on")?, rules)
+            }
             "handover" => Self::Handover(entity("object")?, entity("to")?),
             "open" => Self::Open(entity("what")?),
             "close" => Self::Close(entity("what")?),
@@ -85,7 +103,7 @@ impl SimCommand {
     /// Share of the deadline that the work takes, driving aside.
     pub(crate) const fn share(&self) -> f64 {
         match self {
-            Self::Go(_) | Self::Turn(_) => 0.0,
+            Self::Go(_) | Self::GoToPose(_) | Self::Turn(_) => 0.0,
             Self::Search(_, _) => 0.01,
             Self::Ask(_) | Self::Choose(_) => 0.05,
             Self::Say(_) => 0.08,
@@ -93,7 +111,7 @@ impl SimCommand {
             Self::Detect(_) | Self::DetectAll(_) | Self::Locate(_) | Self::Ground(_) | Self::Inspect(_) => {
                 0.3
             }
-            Self::Pick(_) | Self::Grasp(_) | Self::Lift | Self::Place(_, _) => 0.4,
+            Self::Pick(_) | Self::Grasp(_) | Self::Lift | Self::Place(..) => 0.4,
             Self::Open(_) | Self::Close(_) | Self::Push(_) => 0.4,
             Self::Unknown => 0.5,
         }
@@ -106,15 +124,42 @@ impl SimCommand {
             Self::Home => ArmPose::Home,
             Self::StartPose | Self::Search(_, _) => ArmPose::Ready,
             Self::Lift => ArmPose::Carry,
-            Self::Pick(_) | Self::Grasp(_) | Self::Place(_, _) | Self::Handover(_, _) => ArmPose::Out,
+            Self::Pick(_) | Self::Grasp(_) | Self::Place(..) | Self::Handover(_, _) => ArmPose::Out,
             Self::Open(_) | Self::Close(_) | Self::Push(_) => ArmPose::Out,
-            Self::Go(_) | Self::Turn(_) | Self::WakeUp | Self::Unknown => return,
+            Self::Go(_) | Self::GoToPose(_) | Self::Turn(_) | Self::WakeUp | Self::Unknown => return,
             Self::Detect(_) | Self::DetectAll(_) | Self::Locate(_) | Self::Ground(_) | Self::Inspect(_) => {
                 return;
             }
             Self::Say(_) | Self::Ask(_) | Self::Choose(_) => return,
         };
         world.arm = arm;
+    }
+}
+
+/// Rules for the place of a thing on its support.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub(crate) struct Placing {
+    /// Entities near which and beside which it is put.
+    pub(crate) near: Option<SmolStr>,
+    pub(crate) beside: Option<SmolStr>,
+    /// Least distance in m of its whole outline to the rim of the support.
+    pub(crate) from_edge: f64,
+    /// Point that its middle is put over, and its turn.
+    pub(crate) at: Option<Pose>,
+}
+
+impl Placing {
+    /// True if any place will do.
+    pub(crate) fn is_any(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+const fn pose(value: &Value) -> Option<Pose> {
+    match value {
+        Value::Pose(pose) => Some(*pose),
+        Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) => None,
+        Value::Entity(_) | Value::Case(_) | Value::List(_) => None,
     }
 }
 

@@ -1,9 +1,11 @@
 //! Manipulation: effects of the hands on the world, and their failures.
 
 use crate::body::BasePose;
+use crate::command::Placing;
 use crate::motion::standing_place;
 use crate::world::{Rest, Role, SimWorld};
-use motet_robots::scene::{ServedKind, serving_gap};
+use motet_graph::Pose;
+use motet_robots::scene::{PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, ServedKind, serving_gap};
 use smol_str::SmolStr;
 
 /// A failure kind of the standard library.
@@ -170,8 +172,8 @@ impl SimWorld {
         }
     }
 
-    /// Puts a held thing down.
-    pub(crate) fn place(&mut self, id: &str, on: &str) -> Result<(), Failure> {
+    /// Puts a held thing down where the rules allow it.
+    pub(crate) fn place(&mut self, id: &str, on: &str, rules: &Placing) -> Result<(), Failure> {
         if self.holder(id).is_none() {
             return Err("slipped");
         }
@@ -183,7 +185,6 @@ impl SimWorld {
             return Err("unreachable");
         }
         let (body, role) = (target.body, target.role);
-        let stance = self.base;
         let (rest, bottom) = match role {
             Role::Container if !target.is_open() || self.shut_in(on).is_some() => return Err("blocked"),
             Role::Container => (Rest::In(on.into()), body.bottom() + 0.01),
@@ -191,20 +192,91 @@ impl SimWorld {
             Role::Place => (Rest::Free, 0.0),
             Role::Person => return Err("blocked"),
         };
-        let centre = [body.x(), body.y()];
-        let spot = match role {
-            Role::Surface => {
-                let ahead = 0.8 * self.reach();
-                let from = [stance.x + ahead * stance.heading.cos(), stance.y + ahead * stance.heading.sin()];
-                let spot = self.free_spot(id, on, from, |x, y| self.serves(stance, [x, y, body.top()]));
-                spot.ok_or("blocked")?
-            }
-            Role::Container | Role::Object | Role::Place | Role::Person => centre,
-        };
+        let spot = self.spot(id, on, rules, Some(self.base)).ok_or("blocked")?;
+        if rules.at.is_some() && !self.serves(self.base, [spot[0], spot[1], bottom]) {
+            return Err("unreachable");
+        }
         self.release(id);
+        if let (Some(pose), Some(thing)) = (&rules.at, self.things.get_mut(id)) {
+            thing.body.yaw = pose.yaw();
+        }
         self.put(id, spot, bottom, rest);
         self.saw(id);
         Ok(())
+    }
+
+    /// The spot on a support for a thing; on a surface one that is served `from` a stance, if there is one.
+    fn spot(&self, id: &str, on: &str, rules: &Placing, from: Option<BasePose>) -> Option<[f64; 2]> {
+        let target = self.thing(on)?;
+        let body = target.body;
+        if let Some(pose) = &rules.at {
+            return self.spot_at(id, on, pose);
+        }
+        if target.role != Role::Surface {
+            return Some([body.x(), body.y()]).filter(|spot| self.fits(id, on, rules, *spot));
+        }
+        let (stance, ahead) = (from.unwrap_or(self.base), 0.8 * self.reach());
+        let near = [stance.x + ahead * stance.heading.cos(), stance.y + ahead * stance.heading.sin()];
+        let step = if rules.is_any() { 0.05 } else { 0.02 };
+        self.free_spot(id, on, (near, step), |x, y| {
+            let is_served = from.is_none_or(|from| self.serves(from, [x, y, body.top()]));
+            is_served && self.fits(id, on, rules, [x, y])
+        })
+    }
+
+    /// The stance from which a thing is put where the rules allow it: here, or a shuffle along the support.
+    pub(crate) fn stance_for_place(&self, id: &str, on: &str, rules: &Placing) -> BasePose {
+        let serves = |stance: BasePose, [x, y]: [f64; 2]| {
+            self.thing(on).is_some_and(|target| self.serves(stance, [x, y, target.body.top()]))
+        };
+        let here = self.spot(id, on, rules, Some(self.base)).filter(|spot| serves(self.base, *spot));
+        let elsewhere = || {
+            let (spot, target) = (self.spot(id, on, rules, None)?, self.thing(on)?);
+            let others = self.obstacles(on);
+            let (reach, radius) = (self.reach(), self.drive.radius_m);
+            let clearance = radius.min(BASE_SHARE * reach) + MARGIN_M;
+            let stance = standing_place(&target.body, clearance, reach, self.base, &[spot], &others, radius)?;
+            let is_close = stance.distance_to(self.base.x, self.base.y) <= SHUFFLE_M;
+            (is_close && serves(stance, spot)).then_some(stance)
+        };
+        if here.is_some() || !self.stands_at(on) { self.base } else { elsewhere().unwrap_or(self.base) }
+    }
+
+    /// Checks if a thing put on a spot keeps to the rules for its place.
+    fn fits(&self, id: &str, on: &str, rules: &Placing, [x, y]: [f64; 2]) -> bool {
+        let (Some(thing), Some(support)) = (self.thing(id), self.thing(on)) else { return false };
+        let mut body = thing.body;
+        body.put(x, y, support.body.top());
+        let stands = body.placed();
+        let gap = |other: &SmolStr| self.thing(other).map(|other| other.body.placed().gap(&stands));
+        let is_near = |other: &SmolStr| gap(other).is_some_and(|gap| gap <= PLACED_NEAR_M);
+        let is_beside = |other: &SmolStr| {
+            let is_there = self.resting(on).any(|(resting, _)| resting == other);
+            let [least, most] = PLACED_BESIDE_M;
+            is_there && gap(other).is_some_and(|gap| (least..=most).contains(&gap))
+        };
+        let room = support.body.placed().room_around(&stands);
+        rules.near.as_ref().is_none_or(is_near)
+            && rules.beside.as_ref().is_none_or(is_beside)
+            && (rules.from_edge == 0.0 || room >= rules.from_edge - PLACED_TOLERANCE_M)
+    }
+
+    /// The point of a pose as a spot on a support, if the thing has room there.
+    fn spot_at(&self, id: &str, on: &str, pose: &Pose) -> Option<[f64; 2]> {
+        let ([x, y, _], support) = (pose.xyz, self.thing(on)?.body);
+        let mut body = self.thing(id)?.body;
+        body.yaw = pose.yaw();
+        body.put(x, y, support.top());
+        let stands = body.placed();
+        let mut others = self.resting(on).filter(|(other, _)| *other != id);
+        let is_on = support.placed().room_around(&stands) >= -PLACED_TOLERANCE_M;
+        (is_on && others.all(|(_, other)| other.body.placed().gap(&stands) > 0.0)).then_some([x, y])
+    }
+
+    /// Checks if the base has room at a point.
+    pub(crate) fn has_room_at(&self, x: f64, y: f64) -> bool {
+        let clearance = self.drive.radius_m.min(BASE_SHARE * self.reach());
+        self.obstacles("").iter().all(|other| other.gap(x, y) >= clearance)
     }
 
     /// Hands a held thing to a person.

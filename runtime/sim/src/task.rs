@@ -6,7 +6,7 @@ use crate::motion::BaseMotion;
 use crate::observation::ViewDirection;
 use crate::people::People;
 use crate::world::SimWorld;
-use motet_graph::Value;
+use motet_graph::{Pose, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{GoalId, Outcome, Time};
 use smol_str::SmolStr;
@@ -82,6 +82,7 @@ impl TaskContext<'_> {
         }
         match &task.command {
             SimCommand::Go(to) => self.go(to, step),
+            SimCommand::GoToPose(pose) => self.go_to_pose(pose, step),
             SimCommand::Search(what, around) => {
                 let (what, around) = (what.clone(), around.clone());
                 self.search(task, &what, &around, step)
@@ -95,7 +96,12 @@ impl TaskContext<'_> {
             | SimCommand::WakeUp
             | SimCommand::Lift
             | SimCommand::Unknown => self.work(task, step),
-            SimCommand::Place(_, _)
+            SimCommand::Place(id, on, rules) if !rules.is_any() && step < 2 => match step {
+                0 => NextStage::Drive(self.world.stance_for_place(id, on, rules)),
+                _ => NextStage::Work,
+            },
+            SimCommand::Place(_, _, rules) if !rules.is_any() => self.finish(task),
+            SimCommand::Place(..)
             | SimCommand::Handover(_, _)
             | SimCommand::Open(_)
             | SimCommand::Close(_) => self.work(task, step),
@@ -124,6 +130,18 @@ impl TaskContext<'_> {
         let is_further = |place: &BasePose| step == 0 || base.distance_to(place.x, place.y) > 0.01;
         let place = self.world.place_for(to).filter(is_further);
         place.map_or_else(|| fail("unreachable"), NextStage::Drive)
+    }
+
+    /// Drives to a pose of the base, where there is room for it.
+    fn go_to_pose(&mut self, pose: &Pose, step: u32) -> NextStage {
+        if step > 0 {
+            return NextStage::End(Outcome::Success(None));
+        }
+        let [x, y, _] = pose.xyz;
+        if !self.world.has_room_at(x, y) {
+            return fail("blocked");
+        }
+        NextStage::Drive(BasePose { x, y, heading: pose.yaw() })
     }
 
     /// A step along what it stands at, so that the hand reaches.
@@ -172,7 +190,7 @@ impl TaskContext<'_> {
             SimCommand::Pick(id) => world.grasp(id, &task.uses).and_then(|()| world.lift()).map(nothing),
             SimCommand::Grasp(id) => world.grasp(id, &task.uses).map(nothing),
             SimCommand::Lift => world.lift().map(nothing),
-            SimCommand::Place(id, on) => world.place(id, on).map(nothing),
+            SimCommand::Place(id, on, rules) => world.place(id, on, rules).map(nothing),
             SimCommand::Handover(id, to) => world.hand_over(id, to).map(nothing),
             SimCommand::Open(id) => world.work_door(id, true).map(nothing),
             SimCommand::Close(id) => world.work_door(id, false).map(nothing),
@@ -205,7 +223,7 @@ impl TaskContext<'_> {
                 self.people.choice(self.scene, among).map(|chosen| Some(Value::Entity(chosen)))
             }
             SimCommand::Home | SimCommand::StartPose | SimCommand::Turn(_) | SimCommand::Unknown => Ok(None),
-            SimCommand::Go(_) | SimCommand::Search(_, _) => Ok(None),
+            SimCommand::Go(_) | SimCommand::GoToPose(_) | SimCommand::Search(_, _) => Ok(None),
         };
         match result {
             Ok(value) => {

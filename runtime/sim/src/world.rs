@@ -198,13 +198,13 @@ impl SimWorld {
         others.map(|(_, thing)| thing.body).collect()
     }
 
-    /// A free spot for a thing on a support, the one nearest to `from` of those that `fits` takes: its x and
-    /// y.
+    /// A free spot for a thing on a support, the one nearest to `from` of a grid with a step in m and of
+    /// those that `fits` takes: its x and y.
     pub(crate) fn free_spot(
         &self,
         id: &str,
         support: &str,
-        from: [f64; 2],
+        (from, step): ([f64; 2], f64),
         fits: impl Fn(f64, f64) -> bool,
     ) -> Option<[f64; 2]> {
         let (thing, target) = (self.thing(id)?, self.thing(support)?.body);
@@ -217,7 +217,7 @@ impl SimWorld {
                 && fits(*x, *y)
         };
         let away = |[x, y]: &[f64; 2]| (x - from[0]).hypot(y - from[1]);
-        target.grid(0.05).into_iter().filter(is_free).min_by(|a, b| away(a).total_cmp(&away(b)))
+        target.grid(step).into_iter().filter(is_free).min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// Puts a thing down on a spot: its bottom comes to a height.

@@ -85,7 +85,7 @@ impl SimWorld {
     pub(crate) fn lay(&mut self, id: &str, support: &str, rest: Rest) {
         let Some(target) = self.thing(support).map(|thing| thing.body) else { return };
         let middle = [target.x(), target.y()];
-        let spot = self.free_spot(id, support, middle, |_, _| true).unwrap_or(middle);
+        let spot = self.free_spot(id, support, (middle, 0.05), |_, _| true).unwrap_or(middle);
         let bottom = if matches!(rest, Rest::In(_)) { target.bottom() + 0.01 } else { target.top() };
         self.put(id, spot, bottom, rest);
     }

@@ -27,6 +27,7 @@ mod library;
 mod manners;
 mod oracle;
 mod pddl;
+mod places;
 mod planning;
 mod promises;
 mod prompt;

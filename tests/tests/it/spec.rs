@@ -97,3 +97,8 @@ fn spec_scopes() {
 fn spec_keep() {
     check(include_str!("../../spec/keep.md"), |code| !is_intent(code));
 }
+
+#[test]
+fn spec_places() {
+    check(include_str!("../../spec/places.md"), |code| !is_intent(code));
+}

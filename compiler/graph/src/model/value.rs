@@ -76,6 +76,15 @@ pub struct Pose {
     pub quaternion: [f64; 4],
 }
 
+impl Pose {
+    /// Turn about the vertical in rad, from -pi to pi.
+    #[must_use]
+    pub fn yaw(&self) -> f64 {
+        let [x, y, z, w] = self.quaternion;
+        (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))
+    }
+}
+
 impl Value {
     /// True if this is a value of the type. Numbers must be finite; a whole number also stands for a number.
     /// The kind of an entity is not checked, because a value does not carry it.

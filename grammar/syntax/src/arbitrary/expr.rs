@@ -47,7 +47,7 @@ impl TreeGenerator<'_> {
 
     fn term_in(&mut self, place: TermPosition, depth: usize) -> Expr {
         let leaf = depth == 0;
-        let kind = match self.choice.below(if leaf { 7 } else { 11 }) {
+        let kind = match self.choice.below(if leaf { 7 } else { 12 }) {
             0 => self.name_in(place),
             1 => ExprKind::Number(self.choice.number()),
             2 => self.quantity(),
@@ -63,6 +63,7 @@ impl TreeGenerator<'_> {
                 ExprKind::Field(of, self.choice.word())
             }
             9 => ExprKind::List(self.some(0, |it| it.term(depth - 1))),
+            10 => ExprKind::Call(self.pose(depth - 1)),
             _ => {
                 use ArithOp::{Add, Divide, Multiply, Subtract};
                 let op = self.choice.of(&[Add, Subtract, Multiply, Divide], Add);
@@ -149,6 +150,14 @@ impl TreeGenerator<'_> {
         }
         self.flavor = flavor;
         ExprKind::Template(parts)
+    }
+
+    /// A pose, whose numbers have no names in either syntax.
+    fn pose(&mut self, depth: usize) -> Call {
+        let values = self.some(0, |it| it.term(depth)).into_iter();
+        let args = values.map(|value| Arg { name: None, span: value.span, value }).collect();
+        let name = crate::ast::Name { text: crate::ast::POSE.into(), span: self.span() };
+        Call { name, args, span: self.span() }
     }
 
     fn fluent(&mut self, depth: usize) -> Call {

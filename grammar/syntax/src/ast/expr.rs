@@ -91,6 +91,17 @@ pub struct Call {
     pub span: Span,
 }
 
+/// Name of the call that writes a pose: `pose(1.2 m, 0.5 m, 90 deg)`.
+pub const POSE: &str = "pose";
+
+impl Call {
+    /// Returns whether this is a pose by its numbers, which JSON writes as `{"pose": […]}`.
+    #[must_use]
+    pub fn is_pose(&self) -> bool {
+        self.name.text == POSE && self.args.iter().all(|arg| arg.name.is_none())
+    }
+}
+
 /// One argument of a call.
 #[derive(Clone, Debug)]
 #[derive_where(PartialEq)]

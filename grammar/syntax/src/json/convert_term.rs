@@ -194,6 +194,11 @@ impl Converter {
             Form::Subtract(pair) => self.arithmetic(A::Subtract, pair, level),
             Form::Multiply(pair) => self.arithmetic(A::Multiply, pair, level),
             Form::Divide(pair) => self.arithmetic(A::Divide, pair, level),
+            Form::Pose(numbers) => {
+                let values = numbers.into_iter().map(|number| self.term(number, level + 1));
+                let args = values.map(|value| Arg { name: None, span: value.span, value }).collect();
+                ExprKind::Call(Call { name: ast::Name { text: ast::POSE.into(), span }, args, span })
+            }
         }
     }
 

@@ -58,6 +58,8 @@ pub(crate) enum Form {
     Multiply(Pair),
     /// The quotient: `/`.
     Divide(Pair),
+    /// A pose in the map: x, y and yaw, or x, y, z and yaw.
+    Pose(Vec<Spanned<Term>>),
     /// A fluent that holds.
     #[schemars(untagged)]
     Is(Is),
@@ -270,6 +272,7 @@ impl Serialize for Form {
             Self::Subtract(pair) => one(serializer, "subtract", pair),
             Self::Multiply(pair) => one(serializer, "multiply", pair),
             Self::Divide(pair) => one(serializer, "divide", pair),
+            Self::Pose(numbers) => one(serializer, "pose", numbers),
         }
     }
 }

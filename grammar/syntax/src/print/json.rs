@@ -288,6 +288,9 @@ impl WireTranslation {
     /// An expression that is an object in JSON; a literal is [`Self::term`]'s.
     fn form(&mut self, expr: &Expr, kind: ExprPosition) -> Term {
         let form = match &expr.kind {
+            ExprKind::Call(call) if call.is_pose() => {
+                Form::Pose(call.args.iter().map(|arg| self.term(&arg.value).into()).collect())
+            }
             ExprKind::Call(call) => {
                 let (head, args) = (name(&call.name), self.args(call));
                 match kind {
@@ -354,6 +357,7 @@ impl WireTranslation {
 /// Checks if a call in an expression has an argument without a name.
 fn has_unnamed(expr: &Expr) -> bool {
     match &expr.kind {
+        ExprKind::Call(call) if call.is_pose() => call.args.iter().any(|arg| has_unnamed(&arg.value)),
         ExprKind::Call(call) => call.args.iter().any(|arg| arg.name.is_none() || has_unnamed(&arg.value)),
         ExprKind::Not(inner) | ExprKind::Field(inner, _) => has_unnamed(inner),
         ExprKind::All(members) | ExprKind::AnyOf(members) | ExprKind::List(members) => {

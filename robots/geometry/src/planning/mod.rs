@@ -11,11 +11,13 @@ mod checking;
 mod context;
 mod grasp;
 mod motions;
+mod placing;
 mod query;
 mod scene;
 mod search;
 
 pub use context::{BaseMapCache, QueryContext};
+pub use placing::{ExactNumber, MapPose, Misfit, PlaceRules};
 pub use query::{
     BearingLimit, ContactShare, Gap, Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer,
     MotionQuery, MotionWitness, ReachLength, SearchBudget, TightGroup, TightSpot, UnknownReason,

@@ -7,6 +7,7 @@ use motet_robots::clearance::Clearance;
 use motet_stdlib::lang::approaches;
 use smol_str::{SmolStr, format_smolstr};
 
+use super::placing::{MapPose, Misfit, PlaceRules};
 use super::scene::{Configuration, Contact, KEPT};
 
 /// Direction from which an object is grasped.
@@ -48,8 +49,10 @@ pub enum MotionQuery {
     GoTo(SmolStr),
     /// Grasp an object, from a given side or from any.
     Reach(SmolStr, Option<GraspSide>),
-    /// Put the held object on a surface or into a container.
-    Put(SmolStr, SmolStr),
+    /// Drive to a pose of the base.
+    StandAt(MapPose),
+    /// Put the held object on a surface or into a container, at a place by these rules.
+    Put(SmolStr, SmolStr, PlaceRules),
     /// Hold the held object out to a person.
     Offer(SmolStr, SmolStr),
     /// Bring an entity into the camera's view.
@@ -87,7 +90,7 @@ impl MotionQuery {
             _ if third.is_some() => return None,
             ("reach", None, side) => Self::Reach(first, side),
             ("go_to", None, None) => Self::GoTo(first),
-            ("put", Some(on), None) => Self::Put(first, on),
+            ("put", Some(on), None) => Self::Put(first, on, PlaceRules::default()),
             ("offer", Some(to), None) => Self::Offer(first, to),
             ("look", None, None) => Self::Look(first),
             ("pull", None, None) => Self::Pull(first),
@@ -104,7 +107,8 @@ impl std::fmt::Display for MotionQuery {
             Self::GoTo(to) => write!(f, "go_to({to})"),
             Self::Reach(object, None) => write!(f, "reach({object})"),
             Self::Reach(object, Some(side)) => write!(f, "reach({object}, {})", side.name()),
-            Self::Put(object, on) => write!(f, "put({object}, {on})"),
+            Self::StandAt(pose) => write!(f, "stand_at({pose})"),
+            Self::Put(object, on, rules) => write!(f, "put({object}, {on}{rules})"),
             Self::Offer(object, to) => write!(f, "offer({object}, {to})"),
             Self::Look(at) => write!(f, "look({at})"),
             Self::Pull(what) => write!(f, "pull({what})"),
@@ -319,6 +323,8 @@ pub enum InfeasibleReason {
         /// Most frequent contact on the paths tried.
         by: Option<SmolStr>,
     },
+    /// No place on the support is as it should be.
+    NoPlace(Misfit),
     /// The camera does not see it from here.
     NotInView {
         /// Entity that hides it most often.
@@ -355,6 +361,7 @@ impl InfeasibleReason {
             Self::OutOfReach { .. } => "out_of_reach",
             Self::NoFreePose { .. } => "no_free_pose",
             Self::BlockedPath { .. } => "blocked_path",
+            Self::NoPlace(_) => "no_place",
             Self::NotInView { .. } => "not_in_view",
             Self::TooHeavy { .. } => "too_heavy",
             Self::TooWide { .. } => "too_wide",
@@ -396,6 +403,7 @@ impl std::fmt::Display for InfeasibleReason {
             Self::NoFreePose { by: None, .. } => f.write_str("no configuration of the robot reaches it"),
             Self::BlockedPath { by: Some(by) } => write!(f, "{} blocks the path", named(by)),
             Self::BlockedPath { by: None } => f.write_str("no path leads there"),
+            Self::NoPlace(why) => write!(f, "{why}"),
             Self::TooHeavy { needs, limit } => {
                 write!(f, "weighs {needs:.2} kg, the hand carries {limit:.2} kg")
             }

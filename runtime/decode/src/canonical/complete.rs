@@ -2,7 +2,7 @@
 
 use motet_compiler::signature::{Callable, Type};
 use motet_syntax::Span;
-use motet_syntax::ast::{self, Block, CatchOn, Do, EndKind, Expr, Policy, StepKind};
+use motet_syntax::ast::{self, Block, CatchOn, Do, EndKind, Expr, ExprKind, Policy, StepKind};
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -159,7 +159,17 @@ impl Completer<'_> {
         }
         let mut items = Vec::with_capacity(callable.params.len() + 2);
         for (index, param) in callable.params.iter().enumerate() {
-            let Some(arg) = argument(call, index, &param.name).or(param.default.as_ref()) else {
+            let given = argument(call, index, &param.name);
+            // A default may be an earlier parameter: then it is the argument for that one.
+            let earlier = param.default.as_ref().filter(|_| given.is_none() && !callable.is_policy);
+            if let Some(ExprKind::Name(name)) = earlier.map(|default| &default.kind)
+                && let Some(at) = callable.params.iter().take(index).position(|other| other.name == *name)
+                && let Some(item) = items.get(at).cloned()
+            {
+                items.push(item);
+                continue;
+            }
+            let Some(arg) = given.or(param.default.as_ref()) else {
                 return Err(outside(call.span, format!("`{}` lacks `{}`", callable.name, param.name)));
             };
             items.push(Item::Value(self.value(arg, &param.ty, param.range)?));

@@ -1,7 +1,7 @@
 //! Each standard primitive, where it can and where it cannot.
 
 use crate::{Bench, entity, text};
-use motet_graph::Value;
+use motet_graph::{Pose, Value};
 use motet_runtime::{Outcome, Time};
 use motet_sim::{PersonScript, SimOptions};
 
@@ -179,4 +179,56 @@ fn sim_what_it_is_told_is_so() {
     bench.is("on", &["mug_2", "shelf"], false);
     bench.is("on", &["apple", "kitchen_table"], false);
     bench.is("free", &["hand"], false);
+}
+
+/// A place by rules, with a step along the table where it has to be.
+#[test]
+fn sim_puts_things_where_the_rules_allow() {
+    let mut bench = Bench::kitchen();
+    bench.does("go", &[("to", entity("mug_1"))]);
+    let on = ("on", entity("kitchen_table"));
+    let gap = |bench: &Bench, other: &str| {
+        let [a, b] = ["mug_1", other].map(|id| bench.sim.position(id).unwrap());
+        (a[0] - b[0]).hypot(a[1] - b[1])
+    };
+    for (other, radius) in [("apple", 0.038), ("glass_1", 0.035), ("plate", 0.12)] {
+        bench.does("pick", &[("object", entity("mug_1"))]);
+        bench.does("place", &[("object", entity("mug_1")), on.clone(), ("near", entity(other))]);
+        assert!(gap(&bench, other) <= 0.3 + 0.04 + radius, "{other}: {}", gap(&bench, other));
+        bench.does("pick", &[("object", entity("mug_1"))]);
+        bench.does("place", &[("object", entity("mug_1")), on.clone(), ("beside", entity(other))]);
+        let beside = gap(&bench, other) - 0.04 - radius;
+        assert!((0.02..=0.15).contains(&beside), "{other}: {beside}");
+    }
+    bench.does("pick", &[("object", entity("mug_1"))]);
+    let far = ("away_from_edge", Value::Number(0.2));
+    bench.does("place", &[("object", entity("mug_1")), on.clone(), far]);
+    let [x, y, _] = bench.sim.position("mug_1").unwrap();
+    assert!((2.04..=2.36).contains(&x) && (0.14..=0.86).contains(&y), "{x} {y}");
+    bench.does("pick", &[("object", entity("mug_1"))]);
+    bench.fails("place", &[("object", entity("mug_1")), on.clone(), ("near", entity("bottle"))], "blocked");
+    bench.fails("place", &[("object", entity("mug_1")), on.clone(), ("beside", entity("coke"))], "blocked");
+    bench.is("holding", &["mug_1"], true);
+}
+
+#[test]
+fn sim_keeps_to_poses() {
+    let pose = |x: f64, y: f64, yaw: f64| {
+        Value::Pose(Pose { xyz: [x, y, 0.0], quaternion: [0.0, 0.0, (yaw / 2.0).sin(), (yaw / 2.0).cos()] })
+    };
+    let mut bench = Bench::kitchen();
+    bench.fails("go_to_pose", &[("to", pose(2.2, 0.5, 0.0))], "blocked");
+    bench.does("go_to_pose", &[("to", pose(1.4, 0.4, 0.3))]);
+    let base = bench.sim.base();
+    assert!(base.distance_to(1.4, 0.4) < 1e-9 && (base.heading - 0.3).abs() < 1e-9, "{base:?}");
+    bench.is("at", &["robot", "kitchen_table"], true);
+    bench.does("pick", &[("object", entity("mug_1"))]);
+    let put = |x: f64, y: f64| {
+        [("object", entity("mug_1")), ("on", entity("kitchen_table")), ("at", pose(x, y, 1.0))]
+    };
+    bench.fails("place_at", &put(1.0, 0.4), "blocked");
+    bench.fails("place_at", &put(1.96, 0.75), "blocked");
+    bench.does("place_at", &put(1.9, 0.4));
+    let [x, y, _] = bench.sim.position("mug_1").unwrap();
+    assert!((x - 1.9).abs() + (y - 0.4).abs() < 1e-9, "{x} {y}");
 }

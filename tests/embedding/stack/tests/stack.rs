@@ -9,7 +9,7 @@
 )]
 
 use motet_geometry::planning::{
-    Configuration, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
+    Configuration, MotionAnswer, MotionQuery, PlaceRules, QueryContext, RobotModel, SceneState, SearchBudget,
 };
 use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::scene::Scene;
@@ -63,7 +63,8 @@ fn on_a_small_stack(name: &'static str) {
             MotionQuery::Push("apple".into()),
         ];
         answers(name, &queries, false);
-        answers(name, &[MotionQuery::Put("mug_1".into(), "kitchen_table".into())], true);
+        let put = MotionQuery::Put("mug_1".into(), "kitchen_table".into(), PlaceRules::default());
+        answers(name, &[put], true);
     });
     thread.unwrap().join().unwrap();
 }

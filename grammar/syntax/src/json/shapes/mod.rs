@@ -229,6 +229,11 @@ impl<'t> ShapeReader<'t> {
             }
         }
         for (key, value) in node.members() {
+            if let Some(numbers) = self.pose(value).filter(|_| head == "do") {
+                let edits = vec![replace(value.span, format!("{{\"pose\": [{numbers}]}}"))];
+                self.read_as(start(value), pattern(value), "`{\"pose\": […]}`", edits);
+                continue;
+            }
             let own = table::condition_key(key.text().unwrap_or_default());
             let name = renamed.iter().find(|(alias, _)| *alias == key).map_or(own, |(_, name)| name);
             let bare = value.text().and_then(|text| text.strip_prefix('$')).filter(|bare| is_bare_name(bare));
@@ -238,6 +243,23 @@ impl<'t> ShapeReader<'t> {
             let schema = self.view.property(schema, name);
             schema.into_iter().for_each(|schema| self.value(value, schema));
         }
+    }
+
+    /// Numbers of a pose that is written as an object of them; `None` for any other value.
+    fn pose(&self, node: &Located<'_>) -> Option<String> {
+        let mut numbers = Vec::new();
+        for names in table::POSE {
+            let mut named = node.members().iter().filter(|(key, _)| is_any(key, names));
+            match (named.next(), named.next()) {
+                (Some((_, value)), None) if matches!(value.value, LocatedValue::Number(_)) => {
+                    numbers.push(self.source(value).to_owned());
+                }
+                // A height may be absent.
+                (None, _) if names.contains(&"z") => {}
+                _ => return None,
+            }
+        }
+        (numbers.len() == node.members().len()).then(|| numbers.join(", "))
     }
 
     fn step(&mut self, node: &Located<'_>) {

@@ -103,6 +103,9 @@ pub(super) const PROSE: [&str; 11] = [
     "analysis",
 ];
 
+/// Keys of a point or a pose as an object, for the numbers of a pose in order.
+pub(super) const POSE: [&[&str]; 4] = [&["x"], &["y"], &["z"], &["yaw", "theta", "heading", "angle"]];
+
 /// Name of a policy that has none.
 pub(super) const UNNAMED: &str = "plan";
 

@@ -21,6 +21,10 @@ const MARGIN: f64 = 0.6;
 /// Greatest number of divisions of a square on a surface.
 const DEPTH: u32 = 7;
 
+/// Check that no place of an object fits some rules, for a point of the map in m, a distance in m from it,
+/// and the radii of a disc within the object's outline and of one around it.
+pub(crate) type ExcludedPlaces<'f> = dyn Fn([f64; 2], f64, [f64; 2]) -> bool + 'f;
+
 impl PlanningScene<'_> {
     /// Checks whether no route of the base leads within `reach` of a target, by the 1-Lipschitz distance
     /// `far`. Sound for all arm configurations: it moves only the largest disc about the base's axis within
@@ -107,8 +111,16 @@ impl PlanningScene<'_> {
         best.filter(|(radius, _)| *radius > 2.0 * MIN_CLEARANCE)
     }
 
-    /// Checks whether no place on a surface is free for the held object, upright in any direction.
-    pub(crate) fn is_full(&self, held: &HeldObject<'_>, on: &SupportSurface, index: usize) -> bool {
+    /// Checks whether no place on a surface is free for the held object, upright in any direction, and not
+    /// excluded by rules. Where there are rules it covers every place at which the object is on the surface in
+    /// some direction; without any, those at which it is on it in every direction.
+    pub(crate) fn is_full(
+        &self,
+        held: &HeldObject<'_>,
+        on: &SupportSurface,
+        index: usize,
+        is_excluded: Option<&ExcludedPlaces<'_>>,
+    ) -> bool {
         let solid = Solid::new(&Isometry3::identity(), held.shape);
         let bottom = solid.extent(&Vector3::z());
         let (inner, around) = match held.shape {
@@ -120,7 +132,8 @@ impl PlanningScene<'_> {
         let tall = if matches!(held.shape, Shape::Capsule { .. }) { 0.0 } else { bottom };
         let others: Vec<&Obstacle> =
             self.obstacles.iter().filter(|obstacle| obstacle.entity != index).collect();
-        let spread = on.half.map(|half| (half - around).max(0.0));
+        let least = if is_excluded.is_some() { inner } else { around };
+        let spread = on.half.map(|half| (half - least).max(0.0));
         let mut open = vec![([0.0, 0.0], spread, 0)];
         while let Some(([x, y], [half_x, half_y], depth)) = open.pop() {
             let spot = on.map_from_face * Point3::new(x, y, bottom + ABOVE);
@@ -137,6 +150,9 @@ impl PlanningScene<'_> {
             };
             let is_near = |other: &&Obstacle| !stands.is_farther(&other.solid, other.padding.arm);
             if left > 0.0 && others.iter().any(is_near) {
+                continue;
+            }
+            if is_excluded.is_some_and(|rules| rules([spot.x, spot.y], off, [inner, around])) {
                 continue;
             }
             if depth >= DEPTH {

@@ -4,5 +4,6 @@ mod area_cover;
 mod deflate;
 mod infeasibility;
 
+pub(crate) use area_cover::ExcludedPlaces;
 pub(crate) use deflate::{DeflatedPart, inner, resized};
 pub(crate) use infeasibility::Certificate;

@@ -40,7 +40,8 @@ impl QueryContext<'_> {
         match query {
             MotionQuery::GoTo(to) => go_to::go_to(self, to, budget),
             MotionQuery::Reach(object, side) => reach::reach(self, object, *side, budget),
-            MotionQuery::Put(object, on) => put::put(self, object, on, budget),
+            MotionQuery::StandAt(pose) => go_to::stand_at(self, pose),
+            MotionQuery::Put(object, on, rules) => put::put(self, (object, on), rules, budget),
             MotionQuery::Offer(object, to) => offer::offer(self, object, to, budget),
             MotionQuery::Look(at) => look::look(self, at, budget),
             MotionQuery::Pull(id) => pull::pull(self, id, [0.0, 1.0], budget),

@@ -10,6 +10,7 @@ use smol_str::SmolStr;
 
 use super::tight::tight_spot;
 use crate::planning::context::QueryContext;
+use crate::planning::placing::{Misfit, PlaceRules};
 use crate::planning::query::{
     BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, ReachLength, SearchBudget,
 };
@@ -73,6 +74,10 @@ impl QueryContext<'_> {
         }
         explained.change = match &why.reason {
             InfeasibleReason::TooHeavy { .. } | InfeasibleReason::TooWide { .. } => None,
+            InfeasibleReason::NoPlace(Misfit::Taken { by, .. }) => {
+                cleared(self, query, by.as_ref(), least).or_else(|| unruled(self, query, least))
+            }
+            InfeasibleReason::NoPlace(_) => unruled(self, query, least),
             InfeasibleReason::OutOfReach { length: ReachLength::Sight, needs, reach } => {
                 targets(query).next_back().map(|id| {
                     let nearer = whole_centimetres(needs - reach);
@@ -198,6 +203,14 @@ fn cleared(
     })
 }
 
+/// Suggests to put the object anywhere on its support where the rules exclude every place.
+fn unruled(context: &QueryContext<'_>, query: &MotionQuery, budget: SearchBudget) -> Option<String> {
+    let MotionQuery::Put(object, on, _) = query else { return None };
+    let query = MotionQuery::Put(object.clone(), on.clone(), PlaceRules::default());
+    let helps = matches!(context.answer(&query, budget), MotionAnswer::Feasible(_));
+    helps.then(|| format!("it is feasible elsewhere on `{on}`"))
+}
+
 /// Suggests how much higher an object would have to be where no grasp pose is free.
 fn lifted(
     context: &QueryContext<'_>,
@@ -298,13 +311,13 @@ pub(crate) fn barrier(
 /// Targets of a query, the most relevant last.
 pub(crate) fn targets(query: &MotionQuery) -> impl DoubleEndedIterator<Item = &SmolStr> {
     let (first, second) = match query {
-        MotionQuery::Put(object, other) | MotionQuery::Offer(object, other) => (Some(object), Some(other)),
+        MotionQuery::Put(object, other, _) | MotionQuery::Offer(object, other) => (Some(object), Some(other)),
         MotionQuery::GoTo(id)
         | MotionQuery::Reach(id, _)
         | MotionQuery::Look(id)
         | MotionQuery::Pull(id)
         | MotionQuery::Push(id) => (Some(id), None),
-        MotionQuery::Posture(_) | MotionQuery::Other(_) => (None, None),
+        MotionQuery::StandAt(_) | MotionQuery::Posture(_) | MotionQuery::Other(_) => (None, None),
     };
     first.into_iter().chain(second)
 }

@@ -1,7 +1,8 @@
-//! `go_to`: a place of the base from which an entity is served, and a route to it; `posture`: the arm to a
-//! named posture.
+//! `go_to`: a place of the base from which an entity is served, and a route to it; `stand_at`: a route
+//! to a pose of the base; `posture`: the arm to a named posture.
 
 use crate::planning::context::QueryContext;
+use crate::planning::placing::MapPose;
 use crate::planning::query::{
     ContactTally, Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
     certain,
@@ -75,6 +76,50 @@ pub(crate) fn go_to(context: &QueryContext<'_>, id: &str, _budget: SearchBudget)
     let reason = if is_free_somewhere { InfeasibleReason::BlockedPath { by: None } } else { met.none_free() };
     let certified = context.is_shut_off([centre.x, centre.y], reach, far);
     MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None, tight: None })
+}
+
+/// Answers `stand_at`: a route to a pose of the base.
+pub(crate) fn stand_at(context: &QueryContext<'_>, pose: &MapPose) -> MotionAnswer {
+    if !context.model.drives() {
+        return MotionAnswer::Unknown(UnknownReason::Because("the robot's base does not drive".into()));
+    }
+    let start = &context.state.robot;
+    let ([x, y, _], none) = (pose.xyz(), AllowedCollisions::default());
+    let goal = start.at([x, y, crate::trigonometry::wrapped(pose.yaw())]);
+    // Only an exact route counts: the base stands in this pose and no other.
+    let far = |at_x: f64, at_y: f64| libm::hypot(at_x - x, at_y - y);
+    let infeasible = |reason: InfeasibleReason| {
+        let certified = context.is_shut_off([x, y], 0.0, far);
+        MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None })
+    };
+    let mut met = ContactTally::default();
+    if let Some(contact) = context.contact(&goal, none) {
+        met.add(&contact);
+        return infeasible(InfeasibleReason::NoFreePose { by: met.most(), share: None });
+    }
+    if context.is_drivable(&goal)
+        && let Some(path) = context.drive(&goal)
+    {
+        return gone(context, path);
+    }
+    for (step, back) in (0..DIRECTIONS).flat_map(|step| BACK.map(|back| (step, back))) {
+        let angle =
+            pose.yaw() + std::f64::consts::PI + std::f64::consts::TAU * step as f64 / DIRECTIONS as f64;
+        let (sin, cos) = libm::sincos(angle);
+        let [x, y, yaw] = goal.base;
+        let before = goal.at([x + cos * back, y + sin * back, yaw]);
+        let comes_in = step == 0 || context.slides();
+        if comes_in
+            && context.is_drivable(&before)
+            && context.edge(&before, &goal, none).map_err(|contact| met.add(&contact)).is_ok()
+            && let Some(mut path) = context.drive(&before)
+        {
+            let last = path.last().unwrap_or(start).clone();
+            path.push(goal.after(&last));
+            return gone(context, path);
+        }
+    }
+    infeasible(InfeasibleReason::BlockedPath { by: met.most() })
 }
 
 /// Answers `posture`: the arm to a posture of the card, with the base still.

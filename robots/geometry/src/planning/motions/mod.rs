@@ -6,6 +6,7 @@ mod go_to;
 mod handle;
 mod look;
 mod offer;
+mod place_goal;
 mod pull;
 mod push;
 mod put;

@@ -1,11 +1,14 @@
 //! `put`: a place for the held object on a surface or in a container, and a path to it.
 
 use motet_robots::scene::{Entity, Travel};
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use crate::collision::{Shape, Solid};
 use crate::kinematics::planar;
+use crate::planning::certify::ExcludedPlaces;
 use crate::planning::context::QueryContext;
+use crate::planning::motions::place_goal::{PlaceGoal, above};
+use crate::planning::placing::{Misfit, PlaceRules};
 use crate::planning::query::{
     ContactTally, Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer, MotionWitness,
     SearchBudget, UnknownReason,
@@ -14,6 +17,7 @@ use crate::planning::scene::{
     ABOVE, AllowedCollisions, Configuration, HeldObject, Padding, SupportSurface, WALL, solid_shape,
 };
 use crate::planning::search::{GoalPose, GoalSpec, LAST, PLANE, ReachEnvelope, part};
+use crate::trigonometry::turn;
 
 /// Heights in m from which the object is lowered straight down; the shorter where the longer is blocked.
 const LOWER: [f64; 2] = [0.1, 0.05];
@@ -22,11 +26,18 @@ const LOWER: [f64; 2] = [0.1, 0.05];
 const PLACES: usize = 16;
 /// Greatest factor of the places for a larger budget.
 const MOST_TIMES: usize = 16;
+/// Number of places that are tried once more by themselves, and of such rounds, where rules leave some only.
+const AGAIN: usize = 4;
 /// Number of rotations of the object.
 const TURNS: u32 = 8;
 
-/// Answers `put`: a place for the held object.
-pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: SearchBudget) -> MotionAnswer {
+/// Answers `put`: a place for the held object `id` on `on`, by some rules.
+pub(crate) fn put(
+    context: &QueryContext<'_>,
+    (id, on): (&str, &str),
+    rules: &PlaceRules,
+    budget: SearchBudget,
+) -> MotionAnswer {
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
     let Some(held) = context.held_object(id) else {
         return unknown(format!("the hand does not hold `{id}`"));
@@ -35,66 +46,132 @@ pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: Search
     if id == on {
         return unknown(format!("`{id}` does not stand on itself"));
     }
-    let support = match support_of(context, entity) {
-        Ok(support) => support,
-        Err(answer) => return answer,
-    };
-    let allowed = AllowedCollisions { held: Some(index), ..AllowedCollisions::default() };
-    let mut met = ContactTally::default();
-    let wanted = PLACES * (budget.candidates / SearchBudget::default().candidates).clamp(1, MOST_TIMES);
-    let (places, is_cut) = places(context, &held, (&support, index), wanted, &mut met);
-    if places.is_empty() {
-        let reason = met.none_free();
-        let certified = context.is_full(&held, &support, index);
-        return MotionAnswer::Infeasible(Infeasible {
-            reason,
-            change: None,
-            certified,
-            configuration: None,
-            tight: None,
-        });
+    let found = support_of(context, entity).and_then(|support| {
+        let order = PlaceGoal::new(context, &held, (on, &support), rules)?;
+        let task = PutTask { context, held: &held, on, index, support: &support, order: &order, budget };
+        let mut met = ContactTally::default();
+        let (spots, is_cut) = task.spots(&mut met)?;
+        if spots.is_empty() { Err(task.none(rules, &met)) } else { task.path(&spots, is_cut) }
+    });
+    match found {
+        Ok(witness) => MotionAnswer::Feasible(Box::new(witness)),
+        Err(answer) => answer,
     }
-    let tip_from_place = held.tip_from_object.inverse();
-    let face = support.map_from_face.translation;
-    let wide = libm::hypot(support.half[0], support.half[1]);
-    let checker = context.around([face.x, face.y], context.farthest(held.hand) + wide + LAST);
-    // Into a drawer the object comes from above its walls.
-    let over = (support.walls > 0.0).then(|| support.walls + LOWER[1]);
-    let tips: Vec<_> = places.iter().map(|place| place * tip_from_place).collect();
-    // Upright at one height, the wrist is at one height too, wherever the object is and however it is turned.
-    let envelope = context.reach_envelope(held.hand);
-    if let Some((reason, change)) = envelope.beyond_all(&face.vector, &format!("the top of `{on}`"), &tips) {
-        let certified = matches!(envelope, ReachEnvelope::Heights(..));
-        return MotionAnswer::Infeasible(Infeasible {
-            reason,
-            change,
-            certified,
-            configuration: None,
-            tight: None,
-        });
+}
+
+/// One object to put down on one support.
+struct PutTask<'t, 'w> {
+    context: &'t QueryContext<'w>,
+    held: &'t HeldObject<'t>,
+    /// Support by its id, its index in the scene and its face.
+    on: &'t str,
+    index: usize,
+    support: &'t SupportSurface,
+    order: &'t PlaceGoal,
+    budget: SearchBudget,
+}
+
+/// Places of an object by spot: at each in one or several turns.
+type Spots = Vec<Vec<Isometry3<f64>>>;
+
+impl PutTask<'_, '_> {
+    /// Places to try, and `true` where there are more.
+    ///
+    /// # Errors
+    ///
+    /// The answer where the pose that is asked for is none on the support.
+    fn spots(&self, met: &mut ContactTally) -> Result<(Spots, bool), MotionAnswer> {
+        let Self { context, held, on, index, support, order, budget } = *self;
+        if let Some(pose) = &order.at {
+            let place = order.place_at(pose, held.shape, (on, support))?;
+            let is_free = is_free(context, &Solid::new(&place, held.shape), index, met);
+            return Ok((if is_free { vec![vec![place]] } else { vec![] }, false));
+        }
+        let wanted = PLACES * (budget.candidates / SearchBudget::default().candidates).clamp(1, MOST_TIMES);
+        Ok(places(context, held, (support, index), order, wanted, met))
     }
-    let goal = GoalSpec {
-        hand: held.hand,
-        tips,
-        manifold: None,
-        allowed,
-        checker: &checker,
-        backs: &|_| over.into_iter().chain(LOWER).map(|up| Vector3::new(0.0, 0.0, up)).collect(),
-    };
-    match context.search_goal(&goal, budget) {
-        Ok((at, path)) => {
+
+    /// Answer where no place is free.
+    fn none(&self, rules: &PlaceRules, met: &ContactTally) -> MotionAnswer {
+        let order = self.order;
+        let reason = if order.excludes {
+            let (on, rules, by) = (self.on.into(), rules.clone(), met.most());
+            InfeasibleReason::NoPlace(Misfit::Taken { on, rules, by })
+        } else {
+            met.none_free()
+        };
+        let excluded = |point: [f64; 2], off: f64, radii: [f64; 2]| order.is_excluded(point, off, radii);
+        let excluded = order.excludes.then_some(&excluded as &ExcludedPlaces<'_>);
+        // One pose was checked as it is; the cover knows upright objects only.
+        let certified = order.at.is_some()
+            || (!order.may_lie && self.context.is_full(self.held, self.support, self.index, excluded));
+        MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None, tight: None })
+    }
+
+    /// Path to one of some places.
+    ///
+    /// # Errors
+    ///
+    /// The answer where none was found.
+    fn path(&self, spots: &Spots, is_cut: bool) -> Result<MotionWitness, MotionAnswer> {
+        let Self { context, held, on, index, support, order, budget } = *self;
+        let allowed = AllowedCollisions { held: Some(index), ..AllowedCollisions::default() };
+        let face = support.map_from_face.translation;
+        let wide = libm::hypot(support.half[0], support.half[1]);
+        let checker = context.around([face.x, face.y], context.farthest(held.hand) + wide + LAST);
+        // Into a drawer the object comes from above its walls.
+        let over = (support.walls > 0.0).then(|| support.walls + LOWER[1]);
+        let tip_from_place = held.tip_from_object.inverse();
+        let tips_of = |spots: &mut dyn Iterator<Item = &Vec<Isometry3<f64>>>| -> Vec<Isometry3<f64>> {
+            spots.flatten().map(|place| place * tip_from_place).collect()
+        };
+        let tips = tips_of(&mut spots.iter());
+        // Upright at one height, the wrist is at one height too, wherever the object is and however it is
+        // turned.
+        let envelope = context.reach_envelope(held.hand);
+        if let Some((reason, change)) =
+            envelope.beyond_all(&face.vector, &format!("the top of `{on}`"), &tips)
+        {
+            let certified = matches!(envelope, ReachEnvelope::Heights(..)) && !order.may_lie;
+            let none = Infeasible { reason, change, certified, configuration: None, tight: None };
+            return Err(MotionAnswer::Infeasible(none));
+        }
+        let search = |tips: Vec<Isometry3<f64>>| {
+            let goal = GoalSpec {
+                hand: held.hand,
+                tips,
+                manifold: None,
+                allowed,
+                checker: &checker,
+                backs: &|_| over.into_iter().chain(LOWER).map(|up| Vector3::new(0.0, 0.0, up)).collect(),
+            };
+            let (at, path) = context.search_goal(&goal, budget)?;
             let tip = match at {
                 GoalPose::Tip(at) => goal.tips.get(at).copied(),
                 GoalPose::Grasp(hold) => Some(hold.map_from_tip),
             };
-            let Some(tip) = tip else { return MotionAnswer::Unknown(UnknownReason::Budget) };
-            MotionAnswer::Feasible(Box::new(put_down(context, &held, path, tip, allowed)))
+            Ok((tip.ok_or(MotionAnswer::Unknown(UnknownReason::Budget))?, path))
+        };
+        let mut found = search(tips);
+        if order.excludes && spots.len() > AGAIN {
+            // The more poses share the budget, the fewer candidates each has: few places again, spread over
+            // all.
+            let stride = spots.len().div_ceil(AGAIN);
+            let rounds = (0..AGAIN).map(|round| round * stride / AGAIN);
+            for first in rounds.take_while(|first| *first < stride) {
+                if found.is_err() {
+                    found = search(tips_of(&mut spots.iter().skip(first).step_by(stride))).or(found);
+                }
+            }
         }
-        // Other places were not tried.
-        Err(MotionAnswer::Infeasible(Infeasible { certified: false, .. })) if is_cut => {
-            MotionAnswer::Unknown(UnknownReason::Budget)
+        match found {
+            Ok((tip, path)) => Ok(put_down(context, held, path, tip, allowed)),
+            // Other places were not tried.
+            Err(MotionAnswer::Infeasible(Infeasible { certified: false, .. })) if is_cut => {
+                Err(MotionAnswer::Unknown(UnknownReason::Budget))
+            }
+            Err(none) => Err(none),
         }
-        Err(none) => none,
     }
 }
 
@@ -137,62 +214,101 @@ fn support_of(context: &QueryContext<'_>, entity: &Entity) -> Result<SupportSurf
     Ok(SupportSurface { map_from_face, half: half.map(|half| half - inset), walls, is_disc })
 }
 
-/// Free upright places of the held object, up to a number: the nearest to the robot, others spread over the
-/// face, and half as many along the rim. Returns `true` where there are more.
+/// Checks whether an object that stands there touches nothing but its support.
+fn is_free(context: &QueryContext<'_>, stands: &Solid, support: usize, met: &mut ContactTally) -> bool {
+    let place = [stands.centre.x, stands.centre.y];
+    let others = context.obstacles.near(place, stands.reach() + Padding::new(context.clearance).arm).map(|(_, obstacle)| obstacle);
+    let mut others = others.filter(|obstacle| obstacle.entity != support);
+    let other = others.find(|obstacle| !stands.is_farther(&obstacle.solid, obstacle.padding.arm));
+    other.inspect(|other| met.add_entity(context.name(other.entity))).is_none()
+}
+
+/// Orientations in which an object may stand, before it is turned about the vertical.
+fn rests(shape: Shape, may_lie: bool) -> Vec<UnitQuaternion<f64>> {
+    let quarter = |axis: Unit<Vector3<f64>>| turn(&axis, std::f64::consts::FRAC_PI_2);
+    let lying = match shape {
+        _ if !may_lie => vec![],
+        Shape::Box(_) => vec![quarter(Vector3::x_axis()), quarter(Vector3::y_axis())],
+        Shape::Cylinder { .. } => vec![quarter(Vector3::x_axis())],
+        Shape::Capsule { half, .. } if half > 0.0 => vec![quarter(Vector3::x_axis())],
+        Shape::Capsule { .. } | Shape::HalfSpace => vec![],
+    };
+    std::iter::once(UnitQuaternion::identity()).chain(lying).collect()
+}
+
+/// Free places of the held object that fit the rules, up to a number: the nearest to the robot, others
+/// spread over the face, half as many along the rim, and some around what the rules name. Returns `true`
+/// where there are more.
 fn places(
     context: &QueryContext<'_>,
     held: &HeldObject<'_>,
     (on, index): (&SupportSurface, usize),
+    order: &PlaceGoal,
     wanted: usize,
     met: &mut ContactTally,
-) -> (Vec<Isometry3<f64>>, bool) {
-    let solid = Solid::new(&Isometry3::identity(), held.shape);
-    let bottom = solid.extent(&Vector3::z());
-    let around = libm::hypot(solid.extent(&Vector3::x()), solid.extent(&Vector3::y()));
-    let around = if matches!(held.shape, Shape::Box(_)) { around } else { solid.extent(&Vector3::x()) };
-    // An object larger than the surface may overhang, with its centre on the centre.
-    let spread = on.half.map(|half| (half - around).max(0.0));
-    let [base_x, base_y, _] = context.state.robot.base;
-    let sorted = |spots: Vec<[f64; 2]>| {
-        let spots = spots.into_iter().map(|[x, y]| {
-            let spot = on.map_from_face * Point3::new(x * spread[0], y * spread[1], bottom + ABOVE);
-            (libm::hypot(spot.x - base_x, spot.y - base_y), spot.coords)
-        });
-        let mut spots: Vec<(f64, Vector3<f64>)> = spots.collect();
-        spots.sort_by(|one, other| one.0.total_cmp(&other.0));
-        spots
-    };
-    let over =
-        (0..4 * wanted).map(|at| [part(at, 1, PLANE), part(at, 2, PLANE)].map(|part| 2.0 * part - 1.0));
-    let over = over.filter(|[x, y]| !on.is_disc || x * x + y * y <= 1.0).collect();
-    let along = (0..2 * wanted).map(|at| on.rim(at as f64 / (2 * wanted) as f64)).collect();
-    let turned = |turn: u32| std::f64::consts::TAU * f64::from(turn) / f64::from(TURNS);
-    let upright = |spot: Vector3<f64>, turn: u32| {
-        let rotation: UnitQuaternion<f64> = planar(0.0, 0.0, turned(turn)).rotation;
-        Isometry3::from_parts(Translation3::from(spot), rotation)
-    };
-    let mut is_free = |spot: &Vector3<f64>| {
-        let stands = Solid::new(&upright(*spot, 0), held.shape);
-        let others = context
-            .obstacles
-            .near([spot.x, spot.y], stands.reach() + Padding::new(context.clearance).arm)
-            .map(|(_, obstacle)| obstacle);
-        let mut others = others.filter(|obstacle| obstacle.entity != index);
-        let other = others.find(|obstacle| !stands.is_farther(&obstacle.solid, obstacle.padding.arm));
-        other.inspect(|other| met.add_entity(context.name(other.entity))).is_none()
-    };
+) -> (Spots, bool) {
     let (mut chosen, mut is_cut) = (Vec::new(), false);
-    for (spots, wanted) in [(sorted(over), wanted), (sorted(along), wanted / 2)] {
-        let free: Vec<Vector3<f64>> =
-            spots.into_iter().map(|(_, spot)| spot).filter(|spot| is_free(spot)).collect();
-        let (near, far) = free.split_at(free.len().min(wanted / 2));
-        // Every n-th by distance.
-        let step = far.len().div_ceil(wanted / 2).max(1);
-        chosen.extend(near.iter().chain(far.iter().step_by(step)).copied());
-        is_cut |= step > 1;
+    for rest in rests(held.shape, order.may_lie) {
+        let lies = Isometry3::from_parts(Translation3::identity(), rest);
+        let solid = Solid::new(&lies, held.shape);
+        let bottom = solid.extent(&Vector3::z());
+        let [wide, deep] = [Vector3::x(), Vector3::y()].map(|axis| solid.extent(&axis));
+        let is_round = !matches!(held.shape, Shape::Box(_)) && rest == UnitQuaternion::identity();
+        let around = if is_round { wide } else { libm::hypot(wide, deep) };
+        // An object larger than the surface may overhang, with its centre on the centre. Away from the rim
+        // each turn is checked for itself.
+        let from_rim = if order.from_edge > 0.0 { wide.min(deep) + order.from_edge } else { around };
+        let spread = on.half.map(|half| (half - from_rim).max(0.0));
+        let scaled = |[x, y]: [f64; 2]| {
+            (on.map_from_face * Point3::new(x * spread[0], y * spread[1], bottom + ABOVE)).coords
+        };
+        let over =
+            (0..4 * wanted).map(|at| [part(at, 1, PLANE), part(at, 2, PLANE)].map(|part| 2.0 * part - 1.0));
+        let over = over.filter(|[x, y]| !on.is_disc || x * x + y * y <= 1.0).map(scaled).collect();
+        let along = (0..2 * wanted).map(|at| scaled(on.rim(at as f64 / (2 * wanted) as f64))).collect();
+        let is_within = |spot: &Vector3<f64>| {
+            let at = on.map_from_face.inverse() * Point3::from(*spot);
+            let [x, y] = [at.x, at.y].map(f64::abs);
+            if on.is_disc { libm::hypot(x, y) <= spread[0] } else { x <= spread[0] && y <= spread[1] }
+        };
+        let named = order.spots(around).into_iter().map(|spot| above(on, spot, bottom + ABOVE));
+        let named: Vec<Vector3<f64>> = named.filter(is_within).collect();
+        let posed = |spot: &Vector3<f64>, step: u32| {
+            let angle = std::f64::consts::TAU * f64::from(step) / f64::from(TURNS);
+            let rotation: UnitQuaternion<f64> = planar(0.0, 0.0, angle).rotation;
+            Isometry3::from_parts(Translation3::from(*spot), rotation * rest)
+        };
+        let mut fitting = |spot: Vector3<f64>| -> Option<Vec<Isometry3<f64>>> {
+            let turned = (0..TURNS).map(|step| posed(&spot, step));
+            if !order.excludes {
+                let stands = Solid::new(&posed(&spot, 0), held.shape);
+                return is_free(context, &stands, index, met).then(|| turned.collect());
+            }
+            let fits = |place: &Isometry3<f64>| {
+                let stands = Solid::new(place, held.shape);
+                order.fits(&stands) && is_free(context, &stands, index, met)
+            };
+            Some(turned.filter(fits).collect()).filter(|turned: &Vec<_>| !turned.is_empty())
+        };
+        for (spots, wanted) in [(over, wanted), (along, wanted / 2), (named, wanted)] {
+            let free: Vec<_> = sorted(context, spots).into_iter().filter_map(&mut fitting).collect();
+            let (near, far) = free.split_at(free.len().min(wanted / 2));
+            // Every n-th by distance.
+            let step = far.len().div_ceil(wanted / 2).max(1);
+            chosen.extend(near.iter().chain(far.iter().step_by(step)).cloned());
+            is_cut |= step > 1;
+        }
     }
-    let turned = chosen.into_iter().flat_map(|spot| (0..TURNS).map(move |turn| upright(spot, turn)));
-    (turned.collect(), is_cut)
+    (chosen, is_cut)
+}
+
+/// Spots by their distance from the base, the nearest first.
+fn sorted(context: &QueryContext<'_>, spots: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
+    let [base_x, base_y, _] = context.state.robot.base;
+    let far = |spot: &Vector3<f64>| libm::hypot(spot.x - base_x, spot.y - base_y);
+    let mut spots = spots;
+    spots.sort_by(|one, other| far(one).total_cmp(&far(other)));
+    spots
 }
 
 /// Witness of a motion with the held object.

@@ -4,6 +4,7 @@ mod clearance;
 mod help;
 mod narrow;
 mod opening;
+mod placing;
 mod verify;
 
 use std::collections::BTreeMap;
@@ -249,7 +250,7 @@ fn put_on_a_surface_is_feasible_from_anywhere() {
         });
         let state = SceneState::new(&model, &scene);
         let context = QueryContext::new(&model, &scene, &state);
-        let query = MotionQuery::Put("mug_1".into(), on.into());
+        let query = motion_query(&format!("put(mug_1, {on})"));
         let MotionAnswer::Feasible(witness) = context.answer(&query, SearchBudget::default()) else {
             panic!("{base:?}, {query}")
         };
@@ -281,7 +282,7 @@ fn put_offer_and_look_follow_a_reach() {
     assert!(taken.holds("mug_1") && taken.robot.base == at_table.robot.base);
     for on in ["sink", "trash"] {
         let there = gone(&taken, on);
-        let put = answer(&there, MotionQuery::Put("mug_1".into(), on.into()), Some(on));
+        let put = answer(&there, motion_query(&format!("put(mug_1, {on})")), Some(on));
         let after = QueryContext::new(&model, &scene, &there).after_put(&put).unwrap();
         assert!(after.held.is_none());
         // It stands on it, its middle within its outline.
@@ -297,7 +298,7 @@ fn put_offer_and_look_follow_a_reach() {
     let at_drawer = gone(&taken, "drawer_1");
     let context = QueryContext::new(&model, &scene, &at_drawer);
     let (why, certified) =
-        reason(context.answer(&MotionQuery::Put("mug_1".into(), "drawer_1".into()), SearchBudget::default()));
+        reason(context.answer(&motion_query("put(mug_1, drawer_1)"), SearchBudget::default()));
     assert_eq!(
         (why, certified),
         (InfeasibleReason::NoFreePose { by: Some("drawer_1".into()), share: None }, true)
