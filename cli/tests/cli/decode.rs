@@ -3,7 +3,7 @@
 use crate::support::Place;
 
 const WORLD: &str = "decode - --robot hsr --scene kitchen";
-const HEAD: &str = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#;
+const HEAD: &str = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":["#;
 
 /// A drive to the table of the mugs.
 const GO: &str = r#"{"do":"go","to":"kitchen_table"}"#;
@@ -66,7 +66,7 @@ fn a_refusal_has_a_place_and_a_reason() {
     decode(
         "decode_spelling",
         "",
-        "{ \"motet\":1,\"policy\":\"p\",\"robot\":\"hsr\",\"achieves\":null,\"steps\":[{\"end\":\"done\"}]}",
+        "{ \"motet\":1,\"policy\":\"p\",\"robot\":\"hsr\",\"achieves\":null,\"keep\":null,\"steps\":[{\"end\":\"done\"}],\"finally\":null}",
     )
     .check(1, &["out:refused: \" \" at byte 1", "out:why: only the spelling"]);
 }
@@ -78,7 +78,7 @@ fn tokens_are_shown() {
     place
         .run_with(&format!("{line} 3"), b"", &[])
         .check(0, &["out:tokens: 2 of 4\n  0 \"{\"\n  1 \"{\\\"\"\n"]);
-    let whole = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"end":"done"}]}"#;
+    let whole = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":[{"end":"done"}],"finally":null}"#;
     place
         .run_with(&format!("{line} 3"), whole.as_bytes(), &[])
         .check(0, &["out:tokens: 1 of 4\n  3 the end\n"]);

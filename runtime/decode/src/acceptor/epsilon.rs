@@ -53,7 +53,10 @@ impl Machine {
         let changed = match apply {
             Action::Open(kind) => {
                 state.event = self.record(state.event, Event::Open(kind));
-                return;
+                if !kind.has_blocks() {
+                    return;
+                }
+                CallFrame { begun: state.scope, ..frame }
             }
             Action::Close => {
                 state.event = self.record(state.event, Event::Close);
@@ -104,12 +107,12 @@ impl Machine {
                 let flags = flags.without(Flags::GOAL).without(Flags::NEGATED);
                 let flags = match asks {
                     ConditionUse::Goal => flags.with(Flags::GOAL),
-                    ConditionUse::Branch => flags,
-                    ConditionUse::Wait if flags.has(Flags::SHARED) => {
+                    ConditionUse::Branch if !(flags.has(Flags::SHARED) && flags.has(Flags::CLEANUP)) => flags,
+                    ConditionUse::Wait | ConditionUse::Branch if flags.has(Flags::SHARED) => {
                         let flags = flags.with(Flags::STRICT);
                         if self.verify_beside(state.event, &[]) { flags.with(Flags::LOOSE) } else { flags }
                     }
-                    ConditionUse::Wait => flags,
+                    ConditionUse::Wait | ConditionUse::Branch => flags,
                     ConditionUse::Until if self.needs_no_test(state.event) => flags,
                     ConditionUse::Until => flags.with(Flags::STRICT),
                 };
@@ -120,6 +123,14 @@ impl Machine {
                     state.event = self.record(state.event, Event::Name(name.start, name.len));
                     state.scope = self.arenas.bind(Name { ty, ..name });
                 }
+                return;
+            }
+            Action::BindFirst => {
+                let list = match self.arenas.entry(state.event).map(|said| said.event) {
+                    Some(Event::Bound(list)) => self.element(list),
+                    _ => u16::MAX,
+                };
+                self.apply(state, Action::Bind(list));
                 return;
             }
             Action::Join(kind) => {
@@ -142,6 +153,11 @@ impl Machine {
             BlockRole::Branch | BlockRole::Reaction => flags = flags.with(Flags::SHARED),
             BlockRole::During if self.reacts_inside(state.event, flags) => flags = flags.with(Flags::SHARED),
             BlockRole::Try => flags = flags.with(Flags::TRIED),
+            // What a cleanup does may refute the goal at a `done` before it.
+            BlockRole::Cleanup if self.goal(state.event) != 0 => {
+                flags = flags.with(Flags::CLEANUP).with(Flags::SHARED);
+            }
+            BlockRole::Cleanup => flags = flags.with(Flags::CLEANUP),
             BlockRole::Body
             | BlockRole::Group
             | BlockRole::Then
@@ -150,11 +166,21 @@ impl Machine {
             | BlockRole::During
             | BlockRole::Loop => {}
         }
-        let is_fixpoint =
-            matches!(slot, BlockRole::Loop | BlockRole::Branch | BlockRole::During | BlockRole::Reaction);
+        let is_fixpoint = match slot {
+            BlockRole::Loop | BlockRole::Branch | BlockRole::During | BlockRole::Reaction => true,
+            BlockRole::Cleanup => true,
+            BlockRole::Body | BlockRole::Group | BlockRole::Then | BlockRole::Else => false,
+            BlockRole::Try | BlockRole::Catch => false,
+        };
         let (depth, fix) = (frame.depth, frame.fix);
-        if slot != BlockRole::Body {
-            state.event = self.record(state.event, Event::Open(NodeKind::Block));
+        let scope = state.scope;
+        match slot {
+            BlockRole::Body => {}
+            BlockRole::Cleanup => {
+                state.event = self.record(state.event, Event::Open(NodeKind::Finally));
+                state.scope = self.scope_of_cleanup(scope, frame.begun);
+            }
+            _ => state.event = self.record(state.event, Event::Open(NodeKind::Block)),
         }
         CallFrame {
             count: 0,
@@ -163,22 +189,28 @@ impl Machine {
             conditions: 0,
             flags,
             slot,
-            scope: state.scope,
+            scope,
             ..frame
         }
     }
 
-    /// The body of the monitor that ends the log may refute one of the monitor's reactions.
+    /// The body of the monitor that ends the log may refute one of the monitor's reactions, or make it fire.
     fn reacts_inside(&self, event: Id, flags: Flags) -> bool {
         let mut nested = 0usize;
         for said in self.arenas.back(event) {
             match said.event {
                 Event::Close => nested += 1,
                 Event::Open(NodeKind::Monitor) if nested == 0 => return false,
+                // Both are as a monitor that pauses.
+                Event::Open(NodeKind::Within | NodeKind::Keep) if nested == 0 => {
+                    return flags.has(Flags::TRIED) || flags.has(Flags::SHARED);
+                }
                 Event::Open(kind) => {
                     nested = nested.saturating_sub(1);
                     let is_inside = match kind {
                         NodeKind::Restart | NodeKind::Resume | NodeKind::Done | NodeKind::Field(_) => true,
+                        // A step of the body may make the monitor fire.
+                        NodeKind::Is(_) => true,
                         NodeKind::Pause => flags.has(Flags::TRIED) || flags.has(Flags::SHARED),
                         _ => false,
                     };

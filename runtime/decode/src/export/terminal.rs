@@ -18,9 +18,16 @@ struct Tree {
     next: BTreeMap<char, Tree>,
 }
 
-/// A text, without its quotes.
-pub(super) fn text() -> EbnfExpr {
-    let value = EbnfExpr::seq(vec![EbnfExpr::literal("{"), name(), EbnfExpr::literal("}")]);
+/// The terms on lists that a text may say.
+pub(super) const TEXT_TERMS: [&str; 2] = ["count", "first"];
+
+/// A text, without its quotes, in which some terms on lists may be said.
+pub(super) fn text(terms: &[&str]) -> EbnfExpr {
+    let of = |term: &&str| {
+        EbnfExpr::seq(vec![EbnfExpr::literal(format!("{term}(")), name(), EbnfExpr::literal(")")])
+    };
+    let values = EbnfExpr::choice(std::iter::once(name()).chain(terms.iter().map(of)).collect());
+    let value = EbnfExpr::seq(vec![EbnfExpr::literal("{"), values, EbnfExpr::literal("}")]);
     let braces = || [EbnfExpr::literal("{{"), EbnfExpr::literal("}}"), value.clone()];
     let of = |class: &[(char, char)]| {
         EbnfExpr::choice(std::iter::once(EbnfExpr::Class(class.to_vec())).chain(braces()).collect())
