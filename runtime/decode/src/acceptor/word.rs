@@ -217,6 +217,8 @@ impl Machine {
         let bytes = |start: u32, len: u32| self.bytes.get(start as usize..(start + len) as usize);
         let begun = bytes(start, len)?;
         let automaton = &self.context.automaton;
+        // The `$` lets a name be one of the words that the text syntax reserves.
+        let is_json = automaton.subset.syntax == Syntax::Json;
         let mut least = None;
         for (_, name) in self.visible(state.scope) {
             let (Some(ty), Some(spelled)) = (automaton.ty(name.ty), bytes(name.start, name.len)) else {
@@ -230,8 +232,8 @@ impl Machine {
             let is_list = matches!(ty, Type::List(_));
             let values: [(bool, &[u8], &[u8]); 3] = [
                 (can_say, b"", b""),
-                (is_list && automaton.counts, b"count(", b")"),
-                (is_list && can_say && automaton.firsts, b"first(", b")"),
+                (is_list && automaton.counts, if is_json { b"count($" } else { b"count(" }, b")"),
+                (is_list && can_say && automaton.firsts, if is_json { b"first($" } else { b"first(" }, b")"),
             ];
             for (_, lead, end) in values.into_iter().filter(|(can, ..)| *can) {
                 let mut value = lead.iter().chain(spelled).chain(end).chain(b"}");

@@ -149,7 +149,8 @@ impl Completer<'_> {
                     }
                     ExprKind::Call(call) if self.is_term(call, "count") || self.is_term(call, "first") => {
                         let list = self.list_name(call)?;
-                        written.push_str(&format!("{{{}({list})}}", call.name.text));
+                        let mark = if self.subset.syntax == Syntax::Json { "$" } else { "" };
+                        written.push_str(&format!("{{{}({mark}{list})}}", call.name.text));
                     }
                     _ => {
                         let why = "a value in a text is a bound name, or `count` or `first` of one, in the \

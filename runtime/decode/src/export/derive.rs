@@ -34,7 +34,7 @@ pub(super) fn ebnf(grammar: &Grammar) -> EbnfGrammar {
         [out.add("name", terminal::name_but(words.iter().map(SmolStr::as_str)), true); 2]
     };
     let terms: Vec<&str> = terminal::TEXT_TERMS.into_iter().filter(|term| grammar.has_term(term)).collect();
-    let text = out.add("text", quoted("\"", terminal::text(&terms)), true);
+    let text = out.add("text", quoted("\"", terminal::text(&terms, grammar.subset.syntax)), true);
     let mut deriver = Deriver {
         grammar,
         is_json,

@@ -23,7 +23,7 @@ pub(super) fn schema(grammar: &Grammar) -> Value {
     // A brace is written twice, or holds a name.
     let name = "[a-zA-Z_][a-zA-Z0-9_]*";
     let terms = TEXT_TERMS.iter().filter(|term| grammar.has_term(term));
-    let terms: String = terms.map(|term| format!(r"|{term}\({name}\)")).collect();
+    let terms: String = terms.map(|term| format!(r"|{term}\(\${name}\)")).collect();
     let braces = format!(r"\{{\{{|\}}\}}|\{{({name}{terms})\}}");
     let (first, rest) = (r"[ !#%-\[\]-z|~]", r"[ !#-\[\]-z|~]");
     let pattern = format!("^({first}|{braces})({rest}|{braces})*$");

@@ -85,7 +85,7 @@ const PIECES: [&str; 94] = [
     "\"get\":\"first\",\"of\":\"$",
     "\"get\":\"count\"",
     "be\":{\"get",
-    "{count(",
+    "{count($",
     ")}",
     "count(",
     "first(",
