@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::event_log::{CallFrame, Event, Flags, Id, Name, State, UNSEEN};
 use super::machine::Machine;
 use crate::automaton::{Op, OpId};
-use crate::grammar::{Action, BlockRole, ConditionUse, NodeKind};
+use crate::grammar::{Action, BlockRole, ConditionUse, Constant, NodeKind, Split};
 
 impl Machine {
     /// Moves to `op` and on to the next operation that takes a byte.
@@ -133,6 +133,12 @@ impl Machine {
                 self.apply(state, Action::Bind(list));
                 return;
             }
+            Action::Split(split) => {
+                let Some(deadline) = self.end_before_deadline(state, split) else { return };
+                state.event = self.record(state.event, Event::Open(NodeKind::Within));
+                state.event = self.record(state.event, deadline);
+                CallFrame { begun: state.scope, ..self.frame(state.frame) }
+            }
             Action::Join(kind) => {
                 state.event = self.record(state.event, Event::Joined(kind));
                 CallFrame { count: frame.count.saturating_add(1), ..frame }
@@ -144,6 +150,21 @@ impl Machine {
             Action::Negate => CallFrame { flags: frame.flags.with(Flags::NEGATED), ..frame },
         };
         state.frame = self.arenas.push_frame(changed);
+    }
+
+    /// Ends a step before the deadline that ends the log, and returns that.
+    pub(super) fn end_before_deadline(&mut self, state: &mut State, split: Split) -> Option<Event> {
+        let deadline = self.arenas.entry(state.event).copied()?;
+        state.event = deadline.below;
+        for _ in 0..split.modifiers {
+            state.event = self.record(state.event, Event::Constant(Constant::Null));
+        }
+        if let Some(ty) = split.bind {
+            self.apply(state, Action::Bind(ty));
+        }
+        state.event = self.record(state.event, Event::Close);
+        self.apply(state, Action::StepDone);
+        Some(deadline.event)
     }
 
     fn enter(&mut self, state: &mut State, slot: BlockRole, frame: CallFrame) -> CallFrame {

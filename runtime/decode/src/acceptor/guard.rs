@@ -49,6 +49,10 @@ impl Machine {
                 let is_plain = !flags.has(Flags::TRIED) && !flags.has(Flags::SHARED);
                 may_fix && (is_plain || self.verify_beside(state.event, &pause))
             }
+            Guard::Split(split) => {
+                let mut ended = *state;
+                self.end_before_deadline(&mut ended, split).is_some() && self.allows(&ended, Guard::Interrupt)
+            }
             Guard::If => may_nest && self.may_branch(state, flags),
             Guard::Cleanup => {
                 let may_nest = usize::from(frame.depth) < self.context.automaton.subset.depth;

@@ -166,6 +166,7 @@ fn is_always_open(guard: Guard) -> bool {
         | Guard::Interrupt
         | Guard::If
         | Guard::Cleanup
+        | Guard::Split(_)
         | Guard::Fluent(_)
         | Guard::And
         | Guard::Or

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::grammar::{
     Action, Alternative, AtomSort, BlockRole, ChoiceStyle, CleanupOf, ConditionUse, Constant, Grammar, Guard,
-    NodeKind, Part, Repeat, WordRole,
+    NodeKind, Part, Repeat, Split, WordRole,
 };
 use crate::subset::{MAX_MEMBERS, MAX_STEPS, Subset};
 
@@ -46,6 +46,10 @@ pub(super) struct Lowering<'g> {
     cleanup: OpId,
     /// The steps of a cleanup are being lowered.
     pub(super) in_cleanup: bool,
+    /// The step or reaction that was begun last.
+    begun: Option<NodeKind>,
+    /// Jumps from the ends of blocks whose deadlines could have been those of the steps before them.
+    splits: Vec<OpId>,
 }
 
 impl Automaton {
@@ -66,6 +70,8 @@ impl Automaton {
             steps: 0,
             cleanup: 0,
             in_cleanup: false,
+            begun: None,
+            splits: Vec::new(),
         };
         lowering.condition = lowering.conditions();
         // The rule of a block's steps is called from within itself: its place comes first.
@@ -153,6 +159,9 @@ impl Lowering<'_> {
                 if let Action::Open(kind @ (NodeKind::Do(_) | NodeKind::Is(_))) = action {
                     self.owner = Some(*kind);
                 }
+                if let Action::Open(kind @ (NodeKind::Do(_) | NodeKind::Wait | NodeKind::Pause)) = action {
+                    self.begun = Some(*kind);
+                }
                 self.act(*action);
             }
             Part::Name(usage) => {
@@ -163,7 +172,9 @@ impl Lowering<'_> {
             }
             Part::Value { ty, range, place } => self.placed_value(ty, *range, *place),
             Part::Number(range) => self.number(*range),
-            Part::OptionalNumber { lead, range } => self.optional_number(lead, *range),
+            Part::OptionalNumber { lead, range } => {
+                self.optional_number(lead, *range, lead.trim() == "within");
+            }
             Part::Manner => self.manner(),
             Part::Relation(ty) => self.relation(ty),
             Part::Failures => self.failures(),
@@ -338,6 +349,32 @@ impl Lowering<'_> {
         call
     }
 
+    /// The block behind a deadline in text, if the deadline is not that of the step before: a brace decides.
+    pub(super) fn split(&mut self) {
+        let split = match self.begun {
+            Some(NodeKind::Do(number)) => {
+                let callable = self.signatures.callables.get(usize::from(number));
+                let result = callable.and_then(|callable| callable.result.as_ref());
+                Split { modifiers: 2, bind: result.map(|ty| self.grammar.type_number(ty)) }
+            }
+            Some(NodeKind::Wait) => Split { modifiers: 1, bind: None },
+            _ => return,
+        };
+        if self.is_json() || self.in_cleanup {
+            return;
+        }
+        let choice = self.later();
+        let some = self.act(Action::Split(split));
+        self.enter(BlockRole::During);
+        self.act(Action::Close);
+        self.optional_cleanup(CleanupOf::Step);
+        self.act(Action::StepDone);
+        let end = self.later();
+        self.splits.push(end);
+        let none = self.asm.here();
+        self.asm.optional(choice, (" { ", some, Guard::Split(split)), (none, Guard::Open));
+    }
+
     /// The cleanup of a step or of the policy, if there is one. A cleanup has none itself.
     fn optional_cleanup(&mut self, of: CleanupOf) {
         if self.in_cleanup || self.grammar.subset.depth == 0 && of == CleanupOf::Step {
@@ -389,6 +426,9 @@ impl Lowering<'_> {
                 ways.push((step.literal.clone(), at, step.guard));
                 self.asm.put(Op::Jump(if step.is_ending { after_ending } else { after }));
             }
+        }
+        for end in std::mem::take(&mut self.splits) {
+            self.land(end, after);
         }
         let ways = self.forked(ways);
         let again = self.asm.put(Op::Jump(start));

@@ -259,8 +259,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// A number or its default.
-    pub(super) fn optional_number(&mut self, lead: &str, range: NumberRange) {
+    /// A number or its default. A deadline may turn out to be that of a block behind it.
+    pub(super) fn optional_number(&mut self, lead: &str, range: NumberRange, is_deadline: bool) {
         let is_json = self.is_json();
         if is_json {
             self.asm.literal(lead);
@@ -268,6 +268,9 @@ impl Lowering<'_> {
         let choice = self.later();
         let number = self.asm.here();
         self.number(range);
+        if is_deadline {
+            self.split();
+        }
         let over = self.later();
         let none = self.asm.here();
         if is_json {
@@ -315,7 +318,7 @@ impl Lowering<'_> {
             let other = self.asm.here();
             self.asm.optional(choice, (&format!("{lead}{word}"), then, Guard::Open), (other, Guard::Open));
         }
-        self.optional_number(&format!("{lead}at "), NumberRange::PART);
+        self.optional_number(&format!("{lead}at "), NumberRange::PART, false);
         jumps.into_iter().for_each(|jump| self.land_here(jump));
     }
 

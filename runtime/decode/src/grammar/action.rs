@@ -36,6 +36,8 @@ pub(crate) enum Action {
     Bind(u16),
     /// The name given before the first element of a list is bound to it.
     BindFirst,
+    /// The deadline that was just written is not that of the step before it, but of the block that follows.
+    Split(Split),
     /// Another condition follows, joined by `and` ([`NodeKind::All`]) or `or` ([`NodeKind::Any`]).
     Join(NodeKind),
 }
@@ -98,6 +100,8 @@ pub(crate) enum Guard {
     Interrupt,
     /// A step may ask for a condition and branch on it.
     If,
+    /// The step before it may end, and a block with a deadline follow.
+    Split(Split),
     /// The step or policy before may have a cleanup.
     Cleanup,
     /// The cleanup, or a block in it, may end.
@@ -116,6 +120,15 @@ pub(crate) enum Guard {
     Several,
     /// Behind a comparison.
     Compared,
+}
+
+/// The rest of a step whose deadline turns out to be that of the block behind it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Split {
+    /// The number of its modifiers from the deadline on, all of which are defaults then.
+    pub(crate) modifiers: u8,
+    /// The number of the type to which the name before it is bound.
+    pub(crate) bind: Option<u16>,
 }
 
 /// A node of the syntax tree. Numbers are those of the declarations in the signatures.

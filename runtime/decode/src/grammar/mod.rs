@@ -21,7 +21,7 @@ use motet_syntax::words::RESERVED;
 use smol_str::SmolStr;
 
 pub(crate) use self::action::{
-    Action, BlockRole, ConditionUse, Constant, Guard, LetValue, NameUse, NodeKind, WordRole,
+    Action, BlockRole, ConditionUse, Constant, Guard, LetValue, NameUse, NodeKind, Split, WordRole,
 };
 pub(crate) use self::part::{
     Alternative, ChoiceStyle, CleanupOf, Part, Relation, Repeat, ValuePlace, ValueSet,

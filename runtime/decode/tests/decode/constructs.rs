@@ -8,7 +8,7 @@ use crate::common::{errors, session};
 use motet_decode::{AcceptorFactory, Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Syntax};
 
-const POLICIES: [&str; 12] = [
+const POLICIES: [&str; 13] = [
     r#"policy clean for hsr { go(kitchen_table) try { pick(mug_1, auto) } catch any { say("no") } finally {
         if holding(mug_1) { go(sink) place(mug_1, sink) } home() } }"#,
     "policy whole for hsr { go(sink) } finally { home() }",
@@ -16,6 +16,8 @@ const POLICIES: [&str; 12] = [
         wait 2 s } } finally { wait until distance(user) > 1 m sequence g { home() } }"#,
     "policy rules for hsr { keep distance(user) >= 1 m, out of stairs { go(sink) } finally { home() } }",
     "policy timed for hsr { within 30 s { go(sink) } try { within 5 s { home() } } catch timeout { done } }",
+    r#"policy split for hsr { let x = detect("mug") within 3 s { say("{x}") within 2 s within 1 s { home() } }
+        go(sink) slowly within 9 s { home() } finally { wait 1 s } wait until distance(user) > 1 m within 5 s { home() } }"#,
     "policy delay for hsr { wait 5 s go(sink) wait 0.25 s }",
     r#"policy lists for hsr { go(kitchen_table) let cups = detect_all("cup") let n = count(cups)
         if count(cups) > 2 or is_empty(cups) { say("I see {n} or {count(cups)} cups") }
