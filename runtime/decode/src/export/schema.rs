@@ -356,10 +356,16 @@ impl Deriver<'_> {
         let mark = if level.in_cleanup { "cleanup_" } else { "" };
         self.once(format!("{mark}step_{}", level.depth), |deriver| {
             let grammar = deriver.grammar;
-            let steps = grammar.steps.iter().filter(|step| level.depth > 0 || !step.is_composite());
-            let steps = steps.filter(|step| step.cleans || !level.in_cleanup);
-            let steps: Vec<Alternative> = steps.cloned().collect();
-            deriver.choice("{\"", &steps, level)
+            let steps = grammar.steps.iter().filter(|step| step.cleans || !level.in_cleanup);
+            let (nested, plain): (Vec<_>, Vec<_>) = steps.cloned().partition(Alternative::is_composite);
+            // Steps without steps are the same at each level.
+            let plain =
+                deriver.once(format!("{mark}plain_step"), |deriver| deriver.choice("{\"", &plain, level));
+            if nested.is_empty() || level.depth == 0 {
+                return one_of(vec![plain]);
+            }
+            let nested = deriver.choice("{\"", &nested, level);
+            one_of(vec![plain, nested])
         })
     }
 
