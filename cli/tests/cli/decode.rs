@@ -3,7 +3,7 @@
 use crate::support::Place;
 
 const WORLD: &str = "decode - --robot hsr --scene kitchen";
-const HEAD: &str = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#;
+const HEAD: &str = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":["#;
 
 /// A drive to the table of the mugs.
 const GO: &str = r#"{"do":"go","to":"kitchen_table"}"#;
@@ -23,7 +23,7 @@ fn what_must_follow_and_what_may() {
     decode("decode_space", "--syntax text", "policy p ").check(0, &["out:accepted: 9 bytes"]);
     decode("decode_break", "--syntax text", "policy p \r\n").check(0, &["out:accepted: 9 bytes"]);
     decode("decode_white", "", "{\"motet\":1, ").check(1, &["out:refused: \" \" at byte 11"]);
-    let whole = format!("{HEAD}{{\"end\":\"done\"}}]}}");
+    let whole = format!("{HEAD}{{\"end\":\"done\"}}],\"finally\":null}}");
     decode("decode_whole", "", &whole).check(0, &["out:the policy is complete: only the end may follow\n"]);
     Place::new("decode_file")
         .file("begun.json", "{")
@@ -42,7 +42,7 @@ fn words_are_explained() {
     let ran = decode("decode_calls", "--explain", &held);
     ran.check(0, &["out:may follow:\n", "out:calls place(object: Object, ", "out:may not:\n", "out:M0501"]);
     let step = decode("decode_steps", "--explain", HEAD);
-    step.check(0, &["out:must follow: \"{\\\"\"", "out:a call\n", "out:an ending: done, fail or replan\n"]);
+    step.check(0, &["out:must follow: \"{\\\"\"", "out:a call\n", "out:an ending: done, fail, cannot or replan\n"]);
     let object =
         decode("decode_entities", "--explain", &format!("{HEAD}{GO},{{\"do\":\"pick\",\"object\":\""));
     object.check(0, &["out:Object of the scene"]);
@@ -60,13 +60,13 @@ fn a_refusal_has_a_place_and_a_reason() {
     let ran = decode("decode_refused", "", &twice);
     ran.check(
         1,
-        &["out:refused: \"i\" at byte 149 (line 1, column 150), after …", "out:why: ", "out:may follow:\n"],
+        &["out:refused: \"i\" at byte 161 (line 1, column 162), after …", "out:why: ", "out:may follow:\n"],
     );
     assert!(ran.stdout.contains("`pick` needs"), "{}", ran.stdout);
     decode(
         "decode_spelling",
         "",
-        "{ \"motet\":1,\"policy\":\"p\",\"robot\":\"hsr\",\"achieves\":null,\"steps\":[{\"end\":\"done\"}]}",
+        r#"{ "motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":[{"end":"done"}]}"#,
     )
     .check(1, &["out:refused: \" \" at byte 1", "out:why: only the spelling"]);
 }
@@ -78,7 +78,7 @@ fn tokens_are_shown() {
     place
         .run_with(&format!("{line} 3"), b"", &[])
         .check(0, &["out:tokens: 2 of 4\n  0 \"{\"\n  1 \"{\\\"\"\n"]);
-    let whole = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"end":"done"}]}"#;
+    let whole = format!(r#"{HEAD}{{"end":"done"}}],"finally":null}}"#);
     place
         .run_with(&format!("{line} 3"), whole.as_bytes(), &[])
         .check(0, &["out:tokens: 1 of 4\n  3 the end\n"]);

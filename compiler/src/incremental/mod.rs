@@ -65,6 +65,12 @@ impl ArgumentValue {
         Self(Term::List(items.into_iter().map(|item| item.0).collect()))
     }
 
+    /// The first element of this list.
+    #[must_use]
+    pub fn first(self) -> Self {
+        Self(Term::First(Box::new(self.0)))
+    }
+
     /// An unknown value.
     #[must_use]
     pub fn unknown() -> Self {
@@ -104,6 +110,8 @@ pub enum LoopTest {
 pub struct IncrementalChecker {
     form: Syntax,
     program: Program,
+    /// The step whose rules hold for the whole body.
+    kept: Option<StepId>,
     scope: Scope,
     proof: SuspendedProof,
     /// Checkpoints before the steps of the body.
@@ -125,20 +133,25 @@ struct Start {
 }
 
 impl IncrementalChecker {
-    /// Starts a policy with a name, a robot and a goal; its steps are ignored. The diagnostics are about goal
-    /// and robot; the checker is usable in any case.
+    /// Starts a policy with a name, a robot, a goal and rules of where the robot may not go; its steps are
+    /// ignored. The diagnostics are about these; the checker is usable in any case.
     #[must_use]
     pub fn new(session: &Session, policy: &Policy, form: Syntax) -> (Self, Vec<Diagnostic>) {
         let (library, environment) = session.parts();
-        let head = Policy { body: ast::Block::default(), ..policy.clone() };
+        let head = Policy { body: ast::Block::default(), cleanup: None, ..policy.clone() };
         let (mut program, mut said) = crate::resolve::resolve(&head, form, library, environment);
         said.extend(crate::limits::check_robot_name(policy, library));
+        let kept = program.body.first().copied();
         program.body.clear();
-        let proof = SuspendedProof::new(&program, library, environment);
+        let mut proof = SuspendedProof::new(&program, library, environment);
+        if let Some(kept) = kept {
+            proof.watch(kept, (&program, library, environment));
+        }
         (
             Self {
                 form,
                 program,
+                kept,
                 scope: Scope::default(),
                 proof,
                 starts: Vec::new(),
@@ -389,10 +402,11 @@ impl IncrementalChecker {
 
     fn prove(&mut self, session: &Session, step: &Step, looks: Looks) -> (Option<StepId>, StepOutcome) {
         let (library, environment) = session.parts();
-        let Self { form, program, scope, proof, scope_at_point, .. } = self;
+        let Self { form, program, kept, scope, proof, scope_at_point, .. } = self;
         let (first, name) = (program.steps.len(), program.name.clone());
         let given = (library, environment);
-        let made = crate::resolve::resolve_step(step, PROGRAM_POINT, (*form, &name), given, program, scope);
+        let place = (*kept, PROGRAM_POINT);
+        let made = crate::resolve::resolve_step(step, place, (*form, &name), given, program, scope);
         if looks == Looks::Inside {
             *scope_at_point = made.scope_at_point;
         }

@@ -80,7 +80,7 @@ impl<'a> Prover<'a> {
     }
 
     /// Fluents, measures and entities in the conditions of a monitor.
-    fn watched_by(&self, by: StepId, whens: &[When]) -> Watched {
+    pub(super) fn watched_by(&self, by: StepId, whens: &[When]) -> Watched {
         let (measures, fluents, near) = (Vec::new(), Vec::new(), Vec::new());
         let mut watched = Watched { by, measures, fluents, near };
         for when in whens {

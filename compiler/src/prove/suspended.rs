@@ -11,7 +11,7 @@ use crate::analysis::Domain;
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
 use crate::facts::{ANY, FactKey, PathPartition};
-use crate::ir::{Condition, Fluent, Program, StepId, Term};
+use crate::ir::{Condition, Fluent, Program, StepId, StepKind, Term};
 
 /// A proof between two steps of a policy's body.
 #[derive(Clone, Debug)]
@@ -90,6 +90,18 @@ impl SuspendedProof {
         let symbols = Symbols::new(program, library, environment);
         let aliased = vec![false; library.fluents.len()];
         Self { state: state.lift(), symbols, fresh, aliased, live: true }
+    }
+
+    /// Lets the conditions of a monitor around all steps be watched. Its reactions need no proof.
+    pub(crate) fn watch(&mut self, monitor: StepId, given: ProofInput<'_>) {
+        let (program, ..) = given;
+        let Some(StepKind::Monitor { whens, .. }) = program.step(monitor).map(|step| &step.kind) else {
+            return;
+        };
+        self.with(given, |prover| {
+            let watched = prover.watched_by(monitor, whens);
+            prover.state.watched.push(watched);
+        });
     }
 
     pub(crate) fn mark(&self, steps: usize) -> Checkpoint {

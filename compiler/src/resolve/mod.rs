@@ -22,7 +22,7 @@ use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::name::Scope;
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::ir::{MotionKind, Program, StepId, Term};
+use crate::ir::{BlockSlot, MotionKind, Program, StepId, StepPosition, Term};
 
 /// Resolves one policy.
 pub(crate) fn resolve(
@@ -48,11 +48,11 @@ pub(crate) struct ResolvedStep {
     pub(crate) scope_at_point: Option<Scope>,
 }
 
-/// Resolves one more step of the body of the policy `name`: appends it to `program`, and adds its bindings to
-/// `scope`. Records the scope before the step in it with the span `point`.
+/// Resolves one more step of the body of the policy `name`, inside of the rules of the step `kept`: appends it to
+/// `program`, and adds its bindings to `scope`. Records the scope before the step in it with the span `point`.
 pub(crate) fn resolve_step(
     step: &motet_syntax::ast::Step,
-    point: Span,
+    (kept, point): (Option<StepId>, Span),
     (form, name): (Syntax, &smol_str::SmolStr),
     (library, environment): (&Library, &Environment),
     program: &mut Program,
@@ -68,7 +68,8 @@ pub(crate) fn resolve_step(
     steps.program = std::mem::take(program);
     steps.calls.push(name.clone());
     let index = u32::try_from(steps.program.body.len()).unwrap_or(u32::MAX);
-    let place = crate::ir::StepPosition { parent: None, slot: crate::ir::BlockSlot::Steps, index };
+    let slot = if kept.is_some() { BlockSlot::Kept } else { BlockSlot::Steps };
+    let place = StepPosition { parent: kept, slot, index };
     let id = steps.step(step, place);
     *program = std::mem::take(&mut steps.program);
     program.bindings = std::mem::take(&mut steps.elaborator.bindings);

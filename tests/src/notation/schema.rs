@@ -104,38 +104,83 @@ impl Deriver<'_> {
     }
 }
 
-/// A random string of an anchored pattern of classes, each perhaps repeated with `*`, and escaped characters.
+/// A random string of an anchored pattern of classes, groups of alternatives, each perhaps repeated with `*`, and
+/// escaped characters.
 fn pattern(pattern: &str, random: &mut SplitMix64) -> String {
     let inner = pattern.strip_prefix('^').and_then(|rest| rest.strip_suffix('$'));
     assert!(inner.is_some(), "not anchored: {pattern}");
-    let mut letters = inner.unwrap_or("").chars().peekable();
     let mut out = String::new();
-    while let Some(letter) = letters.next() {
-        let mut ranges: Vec<(char, char)> = Vec::new();
+    one_of(inner.unwrap_or(""), random, &mut out);
+    out
+}
+
+/// The length of the first item of a pattern: a class, a group, an escape or a character.
+fn item(pattern: &str) -> usize {
+    let (mut depth, mut in_class, mut is_escaped) = (0, false, false);
+    for (at, letter) in pattern.char_indices() {
         match letter {
-            '\\' => ranges.extend(letters.next().map(|letter| (letter, letter))),
-            '[' => {
-                while let Some(letter) = letters.next().filter(|letter| *letter != ']') {
-                    let from = if letter == '\\' { letters.next().unwrap_or('\\') } else { letter };
-                    let mut to = from;
-                    if letters.next_if_eq(&'-').is_some() {
-                        let end = letters.next().unwrap_or(from);
-                        to = if end == '\\' { letters.next().unwrap_or('\\') } else { end };
-                    }
-                    ranges.push((from, to));
-                }
+            _ if is_escaped => is_escaped = false,
+            '\\' => {
+                is_escaped = true;
+                continue;
             }
-            other => ranges.push((other, other)),
+            ']' if in_class => in_class = false,
+            _ if in_class => {}
+            '[' => in_class = true,
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            _ => {}
         }
-        let times = if letters.next_if_eq(&'*').is_some() { random.random_range(0..12) } else { 1 };
+        if depth == 0 && !in_class {
+            return at + letter.len_utf8();
+        }
+    }
+    pattern.len()
+}
+
+/// A string of one of several alternatives.
+fn one_of(pattern: &str, random: &mut SplitMix64, out: &mut String) {
+    let (mut ways, mut begin, mut at) = (Vec::new(), 0, 0);
+    let part = |from: usize, to: usize| pattern.get(from..to).unwrap_or_default();
+    while at < pattern.len() {
+        let rest = part(at, pattern.len());
+        if rest.starts_with('|') {
+            ways.push(part(begin, at));
+            begin = at + 1;
+        }
+        at += item(rest);
+    }
+    ways.push(part(begin, pattern.len()));
+    let mut rest = ways.get(random.random_range(0..ways.len())).copied().unwrap_or_default();
+    while !rest.is_empty() {
+        let (first, behind) = rest.split_at_checked(item(rest)).unwrap_or((rest, ""));
+        let times = if behind.starts_with('*') { random.random_range(0..12) } else { 1 };
+        rest = behind.strip_prefix('*').unwrap_or(behind);
         for _ in 0..times {
-            if let Some((from, to)) = ranges.get(random.random_range(0..ranges.len())) {
-                let width = (u32::from(*to) - u32::from(*from) + 1) as usize;
-                out.extend(char::from_u32(
-                    u32::from(*from) + u32::try_from(random.random_range(0..width)).unwrap_or(0),
-                ));
+            match (first.strip_prefix('('), first.strip_prefix('[')) {
+                (Some(group), _) => one_of(group.strip_suffix(')').unwrap_or(group), random, out),
+                (_, Some(class)) => one_in(class, random, out),
+                _ => out.push_str(first.trim_start_matches('\\')),
             }
         }
     }
-    out
+}
+
+/// A character of a class, behind its bracket.
+fn one_in(class: &str, random: &mut SplitMix64, out: &mut String) {
+    let (mut letters, mut ranges) = (class.chars().peekable(), Vec::new());
+    while let Some(letter) = letters.next().filter(|letter| *letter != ']') {
+        let from = if letter == '\\' { letters.next().unwrap_or('\\') } else { letter };
+        let mut to = from;
+        if letters.next_if_eq(&'-').is_some() {
+            let end = letters.next().unwrap_or(from);
+            to = if end == '\\' { letters.next().unwrap_or('\\') } else { end };
+        }
+        ranges.push((from, to));
+    }
+    if let Some((from, to)) = ranges.get(random.random_range(0..ranges.len())) {
+        let width = (u32::from(*to) - u32::from(*from) + 1) as usize;
+        let step = u32::try_from(random.random_range(0..width)).unwrap_or(0);
+        out.extend(char::from_u32(u32::from(*from) + step));
+    }
 }

@@ -26,7 +26,7 @@ const PROVEN: usize = 64;
 /// a binding stands, or is a second name or a field of one.
 const OF_SCOPE: &[&str] = &["M0202", "M0203", "M0206", "M0211", "M0216", "M0217", "M0301"];
 /// What only state can tell, and what runs at once; that a fluent is not decided yet where a goal is stated.
-const OF_STATE: &[&str] = &["M0501", "M0502", "M0503", "M0506", "M0701", "M0702", "M0804"];
+const OF_STATE: &[&str] = &["M0501", "M0502", "M0503", "M0506", "M0701", "M0702", "M0804", "M0805"];
 
 fn settings() -> Vec<(Session, std::sync::Arc<Signatures>)> {
     let known = [("hsr", Some("kitchen")), ("anymal_z1", Some("lab")), ("panda", Some("lab")), ("hsr", None)];
@@ -65,7 +65,8 @@ fn check(session: &Session, text: &str, is_proven: bool, found: &mut BTreeMap<St
         let own = said.span.file == id;
         let at = if own { &text[said.span.start as usize..said.span.end as usize] } else { "" };
         let name = at.trim_matches('"');
-        let in_braces = own && text[..said.span.start as usize].ends_with('{');
+        let before = if own { &text[..said.span.start as usize] } else { "" };
+        let in_braces = ["{", "{count(", "{first("].iter().any(|open| before.ends_with(open));
         let is_binding =
             name.trim_start_matches('$').bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
                 && (name.starts_with('$')

@@ -162,7 +162,7 @@ impl Machine {
         let pos = state.pos as usize;
         let (free, op) = match automaton.op(state.op) {
             Op::Text { .. } if state.lo != UNSEEN || state.hi != UNSEEN => return None,
-            Op::Text { .. } if pos + longest <= MAX_TEXT_CHARS => (Free::Text { pos }, state.op),
+            Op::Text { .. } if pos + longest < MAX_TEXT_CHARS => (Free::Text { pos }, state.op),
             Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text { pos }, *other),
             Op::Name(_) => (Free::Name { pos, most: MAX_NAME_CHARS.saturating_sub(pos) }, state.op),
             _ => return None,
@@ -175,6 +175,7 @@ impl Machine {
     /// Adds the tokens that continue or end a text.
     fn mask_text(&mut self, tokens: &Tokens, pos: usize, set: &mut SimpleVob) {
         set.or(&tokens.text);
+        set.or(&tokens.doubled);
         tokens.braces.add_bias(&mut Stepper(self), set, &[]);
         if self.text_matters() {
             tokens.text_ends.add_bias(&mut Stepper(self), set, &[]);
@@ -260,8 +261,12 @@ impl Machine {
         match automaton.op(state.op) {
             Op::Number(range) if state.pos == 0 => Some((*range, Digits::default())),
             Op::Number(range) => Some((*range, Digits::unpack((state.pos, state.lo, state.hi)))),
-            Op::Fork { other, .. } => match automaton.op(*other) {
+            Op::Fork { other, .. } => match automaton.behind_actions(*other) {
                 Op::Number(range) => Some((*range, Digits::default())),
+                Op::Fork { other, .. } => match automaton.op(*other) {
+                    Op::Number(range) => Some((*range, Digits::default())),
+                    _ => None,
+                },
                 _ => None,
             },
             _ => None,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::event_log::{CallFrame, Event, Flags, Id, Name, State, UNSEEN};
 use super::machine::Machine;
 use crate::automaton::{Op, OpId};
-use crate::grammar::{Action, BlockRole, ConditionUse, NodeKind};
+use crate::grammar::{Action, BlockRole, ConditionUse, Constant, NodeKind, Split};
 
 impl Machine {
     /// Moves to `op` and on to the next operation that takes a byte.
@@ -53,7 +53,10 @@ impl Machine {
         let changed = match apply {
             Action::Open(kind) => {
                 state.event = self.record(state.event, Event::Open(kind));
-                return;
+                if !kind.has_blocks() {
+                    return;
+                }
+                CallFrame { begun: state.scope, ..frame }
             }
             Action::Close => {
                 state.event = self.record(state.event, Event::Close);
@@ -104,12 +107,12 @@ impl Machine {
                 let flags = flags.without(Flags::GOAL).without(Flags::NEGATED);
                 let flags = match asks {
                     ConditionUse::Goal => flags.with(Flags::GOAL),
-                    ConditionUse::Branch => flags,
-                    ConditionUse::Wait if flags.has(Flags::SHARED) => {
+                    ConditionUse::Branch if !(flags.has(Flags::SHARED) && flags.has(Flags::CLEANUP)) => flags,
+                    ConditionUse::Wait | ConditionUse::Branch if flags.has(Flags::SHARED) => {
                         let flags = flags.with(Flags::STRICT);
                         if self.verify_beside(state.event, &[]) { flags.with(Flags::LOOSE) } else { flags }
                     }
-                    ConditionUse::Wait => flags,
+                    ConditionUse::Wait | ConditionUse::Branch => flags,
                     ConditionUse::Until if self.needs_no_test(state.event) => flags,
                     ConditionUse::Until => flags.with(Flags::STRICT),
                 };
@@ -121,6 +124,20 @@ impl Machine {
                     state.scope = self.arenas.bind(Name { ty, ..name });
                 }
                 return;
+            }
+            Action::BindFirst => {
+                let list = match self.arenas.entry(state.event).map(|said| said.event) {
+                    Some(Event::Bound(list)) => self.element(list),
+                    _ => u16::MAX,
+                };
+                self.apply(state, Action::Bind(list));
+                return;
+            }
+            Action::Split(split) => {
+                let Some(deadline) = self.end_before_deadline(state, split) else { return };
+                state.event = self.record(state.event, Event::Open(NodeKind::Within));
+                state.event = self.record(state.event, deadline);
+                CallFrame { begun: state.scope, ..self.frame(state.frame) }
             }
             Action::Join(kind) => {
                 state.event = self.record(state.event, Event::Joined(kind));
@@ -135,6 +152,21 @@ impl Machine {
         state.frame = self.arenas.push_frame(changed);
     }
 
+    /// Ends a step before the deadline that ends the log, and returns that.
+    pub(super) fn end_before_deadline(&mut self, state: &mut State, split: Split) -> Option<Event> {
+        let deadline = self.arenas.entry(state.event).copied()?;
+        state.event = deadline.below;
+        for _ in 0..split.modifiers {
+            state.event = self.record(state.event, Event::Constant(Constant::Null));
+        }
+        if let Some(ty) = split.bind {
+            self.apply(state, Action::Bind(ty));
+        }
+        state.event = self.record(state.event, Event::Close);
+        self.apply(state, Action::StepDone);
+        Some(deadline.event)
+    }
+
     fn enter(&mut self, state: &mut State, slot: BlockRole, frame: CallFrame) -> CallFrame {
         let flags = frame.flags.without(Flags::STRICT).without(Flags::LOOSE);
         let mut flags = flags.without(Flags::NEGATED).without(Flags::GOAL);
@@ -142,6 +174,11 @@ impl Machine {
             BlockRole::Branch | BlockRole::Reaction => flags = flags.with(Flags::SHARED),
             BlockRole::During if self.reacts_inside(state.event, flags) => flags = flags.with(Flags::SHARED),
             BlockRole::Try => flags = flags.with(Flags::TRIED),
+            // What a cleanup does may refute the goal at a `done` before it.
+            BlockRole::Cleanup if self.goal(state.event) != 0 => {
+                flags = flags.with(Flags::CLEANUP).with(Flags::SHARED);
+            }
+            BlockRole::Cleanup => flags = flags.with(Flags::CLEANUP),
             BlockRole::Body
             | BlockRole::Group
             | BlockRole::Then
@@ -150,11 +187,21 @@ impl Machine {
             | BlockRole::During
             | BlockRole::Loop => {}
         }
-        let is_fixpoint =
-            matches!(slot, BlockRole::Loop | BlockRole::Branch | BlockRole::During | BlockRole::Reaction);
+        let is_fixpoint = match slot {
+            BlockRole::Loop | BlockRole::Branch | BlockRole::During | BlockRole::Reaction => true,
+            BlockRole::Cleanup => true,
+            BlockRole::Body | BlockRole::Group | BlockRole::Then | BlockRole::Else => false,
+            BlockRole::Try | BlockRole::Catch => false,
+        };
         let (depth, fix) = (frame.depth, frame.fix);
-        if slot != BlockRole::Body {
-            state.event = self.record(state.event, Event::Open(NodeKind::Block));
+        let scope = state.scope;
+        match slot {
+            BlockRole::Body => {}
+            BlockRole::Cleanup => {
+                state.event = self.record(state.event, Event::Open(NodeKind::Finally));
+                state.scope = self.scope_of_cleanup(scope, frame.begun);
+            }
+            _ => state.event = self.record(state.event, Event::Open(NodeKind::Block)),
         }
         CallFrame {
             count: 0,
@@ -163,22 +210,28 @@ impl Machine {
             conditions: 0,
             flags,
             slot,
-            scope: state.scope,
+            scope,
             ..frame
         }
     }
 
-    /// The body of the monitor that ends the log may refute one of the monitor's reactions.
+    /// The body of the monitor that ends the log may refute one of the monitor's reactions, or make it fire.
     fn reacts_inside(&self, event: Id, flags: Flags) -> bool {
         let mut nested = 0usize;
         for said in self.arenas.back(event) {
             match said.event {
                 Event::Close => nested += 1,
                 Event::Open(NodeKind::Monitor) if nested == 0 => return false,
+                // Both are as a monitor that pauses.
+                Event::Open(NodeKind::Within | NodeKind::Keep) if nested == 0 => {
+                    return flags.has(Flags::TRIED) || flags.has(Flags::SHARED);
+                }
                 Event::Open(kind) => {
                     nested = nested.saturating_sub(1);
                     let is_inside = match kind {
                         NodeKind::Restart | NodeKind::Resume | NodeKind::Done | NodeKind::Field(_) => true,
+                        // A step of the body may make the monitor fire.
+                        NodeKind::Is(_) => true,
                         NodeKind::Pause => flags.has(Flags::TRIED) || flags.has(Flags::SHARED),
                         _ => false,
                     };

@@ -63,6 +63,8 @@ pub(crate) struct CallFrame {
     pub(crate) slot: BlockRole,
     /// The scope at its beginning.
     pub(crate) scope: Id,
+    /// The scope at the beginning of its present step, if that has blocks.
+    pub(crate) begun: Id,
 }
 
 /// Properties of a rule and of everything that it calls.
@@ -82,6 +84,8 @@ impl Flags {
     pub(crate) const GOAL: Self = Self(16);
     /// A condition that says nothing about facts refutes nothing.
     pub(crate) const LOOSE: Self = Self(32);
+    /// The cleanup of a step or of the policy.
+    pub(crate) const CLEANUP: Self = Self(64);
 
     pub(crate) fn has(self, flag: Self) -> bool {
         self.0 & flag.0 != 0
@@ -107,6 +111,8 @@ pub(crate) enum Event {
     Word(OpId, u32),
     /// A use of a binding.
     Bound(Id),
+    /// The first element of a bound list.
+    First(Id),
     /// A text: the start and length of its bytes.
     Text(u32, u32),
     /// A new name: the start and length of its bytes.
@@ -181,6 +187,7 @@ impl CallFrame {
             flags: Flags::default(),
             slot: BlockRole::Body,
             scope: 0,
+            begun: 0,
         }
     }
 }
@@ -285,6 +292,25 @@ impl Arenas {
         }
         events.reverse();
         events
+    }
+
+    /// The events of the step of the body that `last` belongs to, with `more` behind them, and the last event
+    /// before it. In the cleanup of the policy, the whole body is that step, behind the mark of a cleanup.
+    pub(crate) fn present(&self, last: Id, more: &[Event]) -> (Id, Vec<Event>) {
+        let mut before = self.entry(last).map_or(0, |said| said.before);
+        let mut events = self.between(before, last);
+        if events.first().or(more.first()) == Some(&Event::Open(NodeKind::Finally)) {
+            let earlier =
+                |at: Id| self.entry(at).and_then(|said| self.entry(said.below)).map(|said| said.before);
+            while let Some(step) = earlier(before).filter(|step| *step > 0) {
+                before = step;
+            }
+            events = self.between(before, last);
+            // A mark of the whole policy.
+            events.insert(0, Event::Open(NodeKind::Finally));
+        }
+        events.extend_from_slice(more);
+        (before, events)
     }
 
     /// The names in scope, the latest first, with those that later ones hide.

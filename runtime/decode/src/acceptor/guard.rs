@@ -1,8 +1,9 @@
 //! Evaluation of guards: which alternatives and which words are open in the current state.
 
 use motet_compiler::MAX_FIXPOINTS;
+use motet_compiler::signature::Type;
 
-use super::event_log::{Event, Flags, Id, State};
+use super::event_log::{Event, Flags, Id, Name, State};
 use super::machine::Machine;
 use super::oracle::{Argument, CallSite, MOST_SHARED};
 use super::word::BOUND;
@@ -12,8 +13,9 @@ use crate::subset::{MAX_CONDITION_DEPTH, MAX_STEPS};
 
 impl Machine {
     fn site(&self, state: &State, event: Id) -> CallSite {
-        let shared = self.frame(state.frame).flags.has(Flags::SHARED);
-        CallSite { event, scope: state.scope, shared, tries: MOST_SHARED }
+        let flags = self.frame(state.frame).flags;
+        let (shared, cleans) = (flags.has(Flags::SHARED), flags.has(Flags::CLEANUP));
+        CallSite { event, scope: state.scope, shared, cleans, tries: MOST_SHARED }
     }
 
     /// Evaluates a guard.
@@ -36,7 +38,30 @@ impl Machine {
                 !flags.has(Flags::SHARED) || self.verify_beside(state.event, &block)
             }
             Guard::Call => has_room && self.can_call_something(state, false),
-            Guard::Let => has_room && self.can_call_something(state, true),
+            Guard::Let => has_room && (self.can_name_a_value(state) || self.can_call_something(state, true)),
+            Guard::LetValue => has_room && self.can_name_a_value(state),
+            Guard::Room => has_room,
+            Guard::List => self.has_list(state.scope),
+            Guard::OfList => may_be_loose && self.has_list(state.scope),
+            Guard::First(place, ty) => self.can_be_first(state, place, ty),
+            Guard::Interrupt => {
+                let pause = [Event::Open(NodeKind::Within), Event::Close];
+                let is_plain = !flags.has(Flags::TRIED) && !flags.has(Flags::SHARED);
+                may_fix && (is_plain || self.verify_beside(state.event, &pause))
+            }
+            Guard::Split(split) => {
+                let mut ended = *state;
+                self.end_before_deadline(&mut ended, split).is_some() && self.allows(&ended, Guard::Interrupt)
+            }
+            Guard::If => may_nest && self.may_branch(state, flags),
+            Guard::Cleanup => {
+                let may_nest = usize::from(frame.depth) < self.context.automaton.subset.depth;
+                let cleanup = [Event::Open(NodeKind::Finally), Event::Close];
+                may_nest
+                    && usize::from(frame.fix) < MAX_FIXPOINTS
+                    && (!flags.has(Flags::SHARED) || self.verify(state.event, &cleanup))
+            }
+            Guard::Cleaned => true,
             Guard::Callable(number) => has_room && self.can_be_called(number, self.site(state, state.event)),
             Guard::Nest => may_nest,
             Guard::Fix => may_fix,
@@ -126,8 +151,61 @@ impl Machine {
             | BlockRole::Then
             | BlockRole::Else
             | BlockRole::Try
+            | BlockRole::Cleanup
             | BlockRole::Catch => !flags.has(Flags::SHARED) || self.verify_beside(state.event, &close),
         }
+    }
+
+    /// A step may branch on some condition. In a cleanup a branch may refute the goal.
+    fn may_branch(&mut self, state: &State, flags: Flags) -> bool {
+        let branch = [Event::Open(NodeKind::If)];
+        !(flags.has(Flags::SHARED) && flags.has(Flags::CLEANUP))
+            || (self.context.automaton.measures && self.verify_beside(state.event, &branch))
+            || self.some_condition_holds(state, &branch, false)
+            || self.some_condition_holds(state, &branch, true)
+    }
+
+    /// A `let` may give some value a name.
+    fn can_name_a_value(&self, state: &State) -> bool {
+        self.context.automaton.names_values || self.has_list(state.scope)
+    }
+
+    /// Some list is bound.
+    fn has_list(&self, scope: Id) -> bool {
+        let automaton = &self.context.automaton;
+        let is_list = |name: &Name| matches!(automaton.ty(name.ty), Some(Type::List(_)));
+        (automaton.counts || automaton.firsts) && self.visible(scope).iter().any(|(_, name)| is_list(name))
+    }
+
+    /// The first element of some list may be an argument of the call that is being written.
+    fn can_be_first(&mut self, state: &State, place: u8, ty: u16) -> bool {
+        let Some((callable, mut given, before)) = self.call_so_far(state.event) else { return false };
+        let site = self.site(state, before);
+        let Some(site) = self.site_of(callable, site) else { return false };
+        let context = std::sync::Arc::clone(&self.context);
+        let Some(ty) = context.automaton.ty(ty).filter(|_| given.len() == usize::from(place)) else {
+            return false;
+        };
+        self.firsts(ty, state.scope).into_iter().any(|first| {
+            given.push(Argument::One(first));
+            let can = self.completes_call(callable, &mut given, site);
+            given.pop();
+            can
+        })
+    }
+
+    /// The first elements of lists that fit a type.
+    pub(super) fn firsts(&self, ty: &Type, scope: Id) -> Vec<Event> {
+        let automaton = &self.context.automaton;
+        let fits = |name: &Name| match automaton.ty(name.ty) {
+            Some(Type::List(element)) => automaton.signatures.fits(ty, element),
+            _ => false,
+        };
+        if !automaton.firsts {
+            return Vec::new();
+        }
+        let lists = self.visible(scope).into_iter().filter(|(_, name)| fits(name));
+        lists.map(|(id, _)| Event::First(id)).collect()
     }
 
     /// The open block is the body of a `repeat`.
@@ -171,19 +249,26 @@ impl Machine {
         let own =
             (0..u32::try_from(words.table.entries.len()).unwrap_or(0)).filter(|index| !ruled_out(*index));
         let own = own.map(|index| Event::Word(op, index));
-        own.chain(self.bound_words(words, scope).map(Event::Bound)).collect()
+        let bound = |id| match words.bound {
+            BoundNames::First(_) => Event::First(id),
+            BoundNames::None | BoundNames::Type(_) | BoundNames::Lists | BoundNames::List => Event::Bound(id),
+        };
+        own.chain(self.bound_words(words, scope).map(bound)).collect()
     }
 
     /// The bindings in scope that are among the words of a list.
     fn bound_words<'w>(&'w self, words: &WordList, scope: Id) -> impl Iterator<Item = Id> + use<'w> {
-        use motet_compiler::signature::Type;
         let automaton = &self.context.automaton;
         let bound = words.bound;
         let fits = move |actual: u16| {
             let Some(actual) = automaton.ty(actual) else { return false };
             match bound {
                 BoundNames::None => false,
-                BoundNames::Lists => matches!(actual, Type::List(_)),
+                BoundNames::Lists | BoundNames::List => matches!(actual, Type::List(_)),
+                BoundNames::First(wanted) => match (automaton.ty(wanted), actual) {
+                    (Some(wanted), Type::List(element)) => automaton.signatures.fits(wanted, element),
+                    _ => false,
+                },
                 BoundNames::Type(wanted) => {
                     automaton.ty(wanted).is_some_and(|wanted| automaton.signatures.fits(wanted, actual))
                 }
@@ -228,7 +313,7 @@ impl Machine {
         for event in words_of {
             let (entry, meaning) = match event {
                 Event::Word(_, index) => (index, words.table.get(index).map(|entry| entry.meaning)),
-                Event::Bound(id) => (BOUND | id, None),
+                Event::Bound(id) | Event::First(id) => (BOUND | id, None),
                 _ => continue,
             };
             let number = match meaning {
@@ -250,6 +335,11 @@ impl Machine {
                     (Some(_), None) => false,
                     (None, _) => true,
                 },
+                WordRole::Fluent | WordRole::Head
+                    if words.table.get(entry).is_some_and(|entry| entry.guard == Guard::List) =>
+                {
+                    self.allows(state, Guard::OfList)
+                }
                 WordRole::Fluent if frame.flags.has(Flags::STRICT) => {
                     number.is_some_and(|fluent| self.condition_holds(state, fluent, &mut Vec::new()))
                 }

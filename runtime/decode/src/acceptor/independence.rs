@@ -15,6 +15,8 @@ struct OpenNode {
     /// Of a `parallel`, the fluents of its finished branches; of a monitor, those of its finished
     /// reactions.
     beside: u64,
+    /// Of a monitor, the fluents of its conditions and reactions.
+    watched: u64,
     /// Of a `parallel`, the resources of its finished branches.
     taken: u64,
     /// The resources that it uses.
@@ -37,12 +39,17 @@ impl Machine {
     /// Nothing concurrent to the place behind `event` depends on `more` standing there.
     pub(crate) fn is_independent(&self, event: Id, more: &[Event]) -> bool {
         let open = self.frames(event, more);
+        let cleanup = open.iter().find(|frame| frame.kind == NodeKind::Finally);
+        if cleanup.is_some_and(|cleanup| cleanup.fluents & self.goal(event) != 0) {
+            return false;
+        }
         open.windows(2).all(|pair| match pair {
             [outer, inner] => match (outer.kind, inner.kind) {
                 (NodeKind::Parallel, NodeKind::Block) => inner.fluents & outer.beside == 0,
                 (NodeKind::Monitor, NodeKind::Block) => match outer.reacts {
-                    Reacts::Outside => true,
-                    Reacts::Inside => inner.fluents & outer.beside == 0,
+                    // A condition may not become certain by a step of the body.
+                    Reacts::Outside => inner.fluents & outer.watched == 0,
+                    Reacts::Inside => inner.fluents & (outer.beside | outer.watched) == 0,
                     Reacts::Again => inner.fluents == 0,
                 },
                 // A reaction may run again in the state that it left.
@@ -72,6 +79,7 @@ impl Machine {
                         kind,
                         fluents: 0,
                         beside: 0,
+                        watched: 0,
                         taken: 0,
                         uses: 0,
                         reacts: Reacts::Outside,
@@ -108,6 +116,7 @@ impl Machine {
                         }
                         (NodeKind::When, NodeKind::Monitor) => {
                             outer.reacts = outer.reacts.max(closed.reacts);
+                            outer.watched |= closed.fluents;
                             if closed.reacts != Reacts::Outside {
                                 outer.beside |= closed.fluents;
                             }
@@ -122,7 +131,7 @@ impl Machine {
     }
 
     /// The fluents of the goal, as bits.
-    fn goal(&self, event: Id) -> u64 {
+    pub(super) fn goal(&self, event: Id) -> u64 {
         let automaton = &self.context.automaton;
         let asked = self.arenas.back(event).filter_map(|said| match (said.before, said.event) {
             (0, Event::Open(NodeKind::Is(fluent))) => Some(usize::from(fluent)),

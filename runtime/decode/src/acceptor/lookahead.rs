@@ -81,13 +81,8 @@ impl Machine {
                 maybe.bytes.get(pos).into_iter().for_each(|byte| bytes.add(*byte));
             }
             Op::Number(_) => return ByteSet::OF_NUMBERS,
-            Op::Fork { byte, other, .. } => {
-                match context.automaton.op(*other) {
-                    Op::Literal(literal) => literal.first().into_iter().for_each(|byte| bytes.add(*byte)),
-                    Op::Number(_) => bytes = ByteSet::OF_NUMBERS,
-                    _ => return ByteSet::ALL,
-                }
-                bytes.add(*byte);
+            Op::Fork { .. } => {
+                (0..=u8::MAX).filter(|byte| self.may_begin(state.op, *byte)).for_each(|byte| bytes.add(byte));
             }
             Op::Accept => {}
             Op::Text { .. } | Op::Name(_) | Op::Action(_) | Op::Call(_) | Op::Jump(_) | Op::Return => {

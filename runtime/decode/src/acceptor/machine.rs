@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::context::Context;
 use super::event_log::{ArenaMark, Arenas, CallFrame, Event, Id, State, UNSEEN};
 use super::proof_cursor::Oracle;
-use crate::automaton::{Op, OpId};
+use crate::automaton::{Op, OpId, WordEnd};
 use crate::grammar::Guard;
 use crate::subset::Digits;
 
@@ -73,7 +73,13 @@ impl Machine {
 
     /// The bytes so far are a whole policy.
     pub(crate) fn is_accepting(&self) -> bool {
-        matches!(self.context.automaton.op(self.state().op), Op::Accept)
+        let (automaton, state) = (&self.context.automaton, self.state());
+        match automaton.op(state.op) {
+            Op::Accept => true,
+            // The cleanup of the policy may follow.
+            Op::Optional(maybe) => state.pos == 0 && matches!(automaton.op(maybe.other), Op::Accept),
+            _ => false,
+        }
     }
 
     /// Takes a byte if it may come next.
@@ -170,7 +176,20 @@ impl Machine {
         match self.context.automaton.op(state.op) {
             Op::Literal(bytes) => bytes.get(pos) != Some(&byte),
             Op::Choose(ways) => ways.iter().all(|way| way.bytes.get(pos) != Some(&byte)),
+            Op::Fork { .. } => !self.may_begin(state.op, byte),
             _ => false,
+        }
+    }
+
+    /// A byte may begin what stands at an operation, as far as its spelling tells.
+    pub(super) fn may_begin(&self, op: OpId, byte: u8) -> bool {
+        match self.context.automaton.behind_actions(op) {
+            Op::Literal(bytes) => bytes.first() == Some(&byte),
+            Op::Choose(ways) => ways.iter().any(|way| way.bytes.first() == Some(&byte)),
+            Op::Fork { byte: sign, other, .. } => byte == *sign || self.may_begin(*other, byte),
+            Op::Word(words) if words.ends == WordEnd::Quoted => byte == b'"',
+            Op::Number(_) => byte == b'-' || byte.is_ascii_digit(),
+            _ => true,
         }
     }
 
@@ -220,25 +239,27 @@ impl Machine {
                     WordStep::Behind(next) => (state, origin) = (next, StateRef::Detached),
                 },
                 Op::Optional(maybe) => return self.maybe(state, origin, maybe, byte),
-                Op::Fork { byte: sign, then, other } => {
+                Op::Fork { byte: sign, then, guard, other } => {
                     origin = StateRef::Detached;
                     let mut lookahead = state;
                     (lookahead.op, lookahead.pos, lookahead.lo, lookahead.hi) = (*then, 0, UNSEEN, UNSEEN);
-                    let is_word = byte == *sign
+                    let is_then = byte == *sign
                         && match automaton.op(*then) {
                             Op::Word(words) => {
                                 let (lo, hi) = self.list(&lookahead, words);
                                 (lookahead.lo, lookahead.hi) = (lo, hi);
                                 lo < hi
                             }
-                            _ => true,
+                            _ => {
+                                *guard == Guard::Open
+                                    || self.fits(1, *then, state.frame) && self.allows(&state, *guard)
+                            }
                         };
-                    if is_word {
-                        state = lookahead;
-                    } else {
-                        state.op = *other;
-                        (state.pos, state.lo, state.hi) = (0, UNSEEN, UNSEEN);
-                    }
+                    state = match (is_then, automaton.op(*then)) {
+                        (true, Op::Word(_)) => lookahead,
+                        (true, _) => self.follow_epsilon(state, *then),
+                        (false, _) => self.follow_epsilon(state, *other),
+                    };
                 }
                 Op::Text { arg } => return self.text(state, *arg, byte),
                 Op::Name(naming) => return self.name(state, *naming, byte),

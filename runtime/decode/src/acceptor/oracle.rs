@@ -36,6 +36,8 @@ pub(crate) struct CallSite {
     pub(crate) scope: Id,
     /// The effects of the call may refute steps elsewhere.
     pub(crate) shared: bool,
+    /// The call stands in a cleanup.
+    pub(crate) cleans: bool,
     /// The number of values tried for the next argument, if `shared`.
     pub(crate) tries: usize,
 }
@@ -45,9 +47,7 @@ impl Machine {
     pub(crate) fn verify(&mut self, event: Id, more: &[Event]) -> bool {
         let key = self.key(Question::Verify, event, more.iter().copied());
         self.answer(key, |machine| {
-            let before = machine.arenas.entry(event).map_or(0, |said| said.before);
-            let mut events = machine.arenas.between(before, event);
-            events.extend_from_slice(more);
+            let (before, events) = machine.arenas.present(event, more);
             let transcript =
                 Transcript { context: &machine.context, arenas: &machine.arenas, bytes: &machine.bytes };
             let step = transcript.step(&events);
@@ -68,13 +68,12 @@ impl Machine {
 
     /// The proof at the place of the next step, behind `event`.
     fn place(&mut self, event: Id) -> Option<(&mut IncrementalChecker, &Session)> {
-        let before = self.arenas.entry(event).map_or(0, |said| said.before);
+        let (before, mut events) = self.arenas.present(event, &[]);
         let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
         let hash = transcript.arenas.hash(event);
         if self.oracle.stands != Some(hash) {
             self.oracle.stands = None;
             let draft = self.oracle.place.follow(&transcript, before)?;
-            let mut events = transcript.arenas.between(before, event);
             let step = if events.is_empty() {
                 None
             } else {
@@ -117,7 +116,7 @@ impl Machine {
         };
         let fluent = context.automaton.signatures.fluents.get(usize::from(fluent));
         let (Some(fluent), Some(_)) = (fluent, self.place(event)) else { return None };
-        let site = CallSite { event, scope: 0, shared: false, tries: MOST_SHARED };
+        let site = CallSite { event, scope: 0, shared: false, cleans: false, tries: MOST_SHARED };
         let values = args.iter().map(|arg| match meaning(&context.automaton, *arg) {
             Some(Meaning::Any) => Some(None),
             _ => self.value_of(Argument::One(*arg), site).map(Some),
@@ -138,12 +137,14 @@ impl Machine {
     /// The site of a call; `None` if a concurrent branch holds a resource that the callable needs.
     pub(crate) fn site_of(&self, callable: u16, site: CallSite) -> Option<CallSite> {
         let made = self.context.automaton.callables.get(usize::from(callable))?;
-        if !site.shared {
+        // A step of a policy may be one that no cleanup may have.
+        let is_policy = site.cleans && made.primitive.is_none();
+        if !site.shared && !is_policy {
             return Some(site);
         }
         let is_free = made.uses & self.resources_taken(site.event) == 0;
         let call = [Event::Open(NodeKind::Do(callable)), Event::Close];
-        is_free.then(|| CallSite { shared: !self.is_independent(site.event, &call), ..site })
+        is_free.then(|| CallSite { shared: is_policy || !self.is_independent(site.event, &call), ..site })
     }
 
     /// Some arguments complete a call of the callable.
@@ -313,9 +314,11 @@ impl Machine {
                 let whole = words(word).into_iter().map(Argument::One);
                 whole.chain(words(element).into_iter().take(1).map(Argument::List)).collect()
             }
-            Type::Pose | Type::Entity(_) | Type::Enum(_) => {
-                words(word).into_iter().map(Argument::One).collect()
+            Type::Entity(_) => {
+                let first = self.firsts(ty, site.scope).into_iter();
+                first.chain(words(word)).map(Argument::One).collect()
             }
+            Type::Pose | Type::Enum(_) => words(word).into_iter().map(Argument::One).collect(),
         }
     }
 
@@ -331,11 +334,12 @@ impl Machine {
         };
         Some(match event {
             Event::Word(..) => meaning(&self.context.automaton, event)?.value(),
-            Event::Bound(id) => {
+            Event::Bound(id) | Event::First(id) => {
                 let name = *self.arenas.name(id)?;
                 let name = smol_str::SmolStr::new(text(name.start, name.len)?);
                 let (draft, _) = self.place(site.event)?;
-                draft.binding(&name)?
+                let value = draft.binding(&name)?;
+                if matches!(event, Event::First(_)) { value.first() } else { value }
             }
             Event::Text(start, len) => ArgumentValue::text(text(start, len)?),
             Event::Constant(_) | Event::Number(..) | Event::AnyText => ArgumentValue::unknown(),

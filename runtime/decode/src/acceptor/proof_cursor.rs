@@ -43,7 +43,7 @@ impl Transcript<'_> {
     /// As [`step`](Self::step), with a choice of steps in place of the hole.
     pub(super) fn step_with(&self, events: &[Event], choice: &[Step]) -> Option<Step> {
         let Self { context, arenas, bytes } = self;
-        Builder { automaton: &context.automaton, arenas, bytes, events, choice }.step()
+        Builder { automaton: &context.automaton, arenas, bytes, events, choice, in_cleanup: false }.step()
     }
 
     /// The name, robot and goal of the policy, from the events before its steps.
@@ -59,8 +59,11 @@ impl Transcript<'_> {
         }
         let automaton = &context.automaton;
         let named = |text: smol_str::SmolStr| ast::Name { text, span: Span::default() };
-        let achieves = matches!(rest.first(), Some(Event::Open(_)))
-            .then(|| Builder { automaton, arenas, bytes, events: rest, choice: &[] }.condition());
+        let mut builder = Builder { automaton, arenas, bytes, events: rest, choice: &[], in_cleanup: false };
+        let achieves = matches!(rest.first(), Some(Event::Open(_))).then(|| builder.condition());
+        if achieves.is_none() {
+            builder.next();
+        }
         let robot = Some(&automaton.signatures.robot).filter(|robot| !robot.is_empty());
         Policy {
             doc: ast::Doc::default(),
@@ -69,7 +72,7 @@ impl Transcript<'_> {
             robot: robot.cloned().map(named),
             achieves,
             body: ast::Block::default(),
-            keeps: Vec::new(),
+            keeps: builder.keeps(),
             cleanup: None,
             span: Span::default(),
         }

@@ -39,9 +39,9 @@ impl Machine {
             self.bytes.get(start as usize..(start.saturating_add(len)) as usize).hash(&mut hasher);
         };
         match event {
-            Event::Bound(id) => {
+            Event::Bound(id) | Event::First(id) => {
                 if let Some(name) = self.arenas.name(id) {
-                    spelled(1, name.start, name.len);
+                    spelled(if matches!(event, Event::First(_)) { 4 } else { 1 }, name.start, name.len);
                 }
             }
             Event::Text(start, len) => spelled(2, start, len),
@@ -174,9 +174,7 @@ impl Machine {
     /// Verifies the current step with all continuations at once. If that fails, some of them may still be
     /// right.
     fn permits_any<'c>(&mut self, (from, event): (Id, Id), ways: impl Iterator<Item = &'c [Event]>) -> bool {
-        let before = self.arenas.entry(from).map_or(0, |said| said.before);
-        let mut events = self.arenas.between(before, from);
-        events.push(Event::Hole);
+        let (before, events) = self.arenas.present(from, &[Event::Hole]);
         let begun = self.arenas.between(from, event);
         let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
         let choice = ways.map(|way| transcript.step(&[&begun, way].concat())).collect::<Option<Vec<Step>>>();

@@ -178,7 +178,10 @@ impl Machine {
         }
         Last {
             height,
-            is_comparison: matches!(events.last(), Some(Event::Open(NodeKind::Get(_) | NodeKind::Field(_)))),
+            is_comparison: matches!(
+                events.last(),
+                Some(Event::Open(NodeKind::Get(_) | NodeKind::Field(_) | NodeKind::Count))
+            ),
             is_joined: matches!(before, Some(Event::Joined(_))),
         }
     }
@@ -186,7 +189,8 @@ impl Machine {
     /// The loop test that ends the log with `more` behind it: the event before the end of the loop's body,
     /// the fluent, its negation and its arguments.
     fn test_of_loop(&self, event: Id, more: &[Event]) -> Option<(Id, u16, bool, Vec<Event>)> {
-        if more.contains(&Event::Open(NodeKind::Wait)) {
+        let asks = |event: &Event| matches!(event, Event::Open(NodeKind::Wait | NodeKind::If));
+        if more.iter().any(asks) {
             return None;
         }
         let (mut said, mut log) = (Vec::new(), self.arenas.back(event));

@@ -5,7 +5,7 @@ use motet_compiler::signature::Type;
 
 use super::event_log::{CallFrame, Event, Id, Name, State};
 use super::machine::Machine;
-use crate::grammar::{BlockRole, NodeKind};
+use crate::grammar::{BlockRole, LetValue, NodeKind};
 
 /// Type of a name without a value.
 const NO_VALUE: u16 = u16::MAX;
@@ -68,8 +68,10 @@ impl Machine {
                 (item.map_or(0, |item| item.below), false)
             }
             BlockRole::Reaction => (frame.scope, false),
-            // What follows is one of several ways, or the end.
-            BlockRole::Body
+            // Only the cleanup of the policy may follow.
+            BlockRole::Body => return state.scope,
+            // What follows is one of several ways, or, behind a cleanup, sees what it saw before.
+            BlockRole::Cleanup
             | BlockRole::Then
             | BlockRole::Else
             | BlockRole::Try
@@ -81,6 +83,16 @@ impl Machine {
             let ty = if has_values { name.ty } else { NO_VALUE };
             self.arenas.bind(Name { below, ty, is_free: true, ..name })
         })
+    }
+
+    /// The scope in a cleanup: that before its step, with the names that the step binds as names without a
+    /// value.
+    pub(super) fn scope_of_cleanup(&mut self, scope: Id, before: Id) -> Id {
+        let inside = self.arenas.in_scope(scope).take_while(|(id, _)| *id != before);
+        let names: Vec<Name> = inside.map(|(_, name)| *name).collect();
+        let names = names.into_iter().rev();
+        let without = |name: Name, below| Name { below, ty: NO_VALUE, is_free: true, ..name };
+        names.fold(before, |below, name| self.arenas.bind(without(name, below)))
     }
 
     /// Binds the names that are bound behind the ways through the open node.
@@ -193,12 +205,17 @@ impl FlowReader<'_> {
     fn node(&mut self, kind: NodeKind) -> Flow {
         match kind {
             NodeKind::Do(callable) => self.call(callable),
+            NodeKind::Let(value) => self.named_value(value),
+            NodeKind::Finally => {
+                self.blocks();
+                Flow { names: Vec::new(), goes_on: true }
+            }
             NodeKind::Block => self.block(),
             NodeKind::If | NodeKind::Try | NodeKind::Parallel => {
                 let (ways, _) = self.blocks();
                 self.machine.met(kind, &ways)
             }
-            NodeKind::Sequence | NodeKind::Repeat | NodeKind::Catch => {
+            NodeKind::Sequence | NodeKind::Repeat | NodeKind::Catch | NodeKind::Within | NodeKind::Keep => {
                 let (mut blocks, _) = self.blocks();
                 blocks.pop().unwrap_or(Flow { names: Vec::new(), goes_on: true })
             }
@@ -241,6 +258,32 @@ impl FlowReader<'_> {
             }
         }
         all
+    }
+
+    /// The flow behind a `let`.
+    fn named_value(&mut self, value: LetValue) -> Flow {
+        let automaton = &self.machine.context.automaton;
+        let signatures = &automaton.signatures;
+        let ty = match value {
+            LetValue::Count => Some(&Type::Int),
+            LetValue::First => None,
+            LetValue::Get(index) => {
+                signatures.measures.get(usize::from(index)).map(|measure| &measure.result)
+            }
+            LetValue::Field(index) => signatures.fields.get(usize::from(index)).map(|field| &field.ty),
+        };
+        let ty = ty.and_then(|ty| automaton.types.iter().position(|known| known == ty));
+        let mut ty = ty.and_then(|ty| u16::try_from(ty).ok()).unwrap_or(NO_VALUE);
+        let mut names = Vec::new();
+        for event in self.events.by_ref() {
+            match event {
+                Event::Close => break,
+                Event::Bound(list) if value == LetValue::First => ty = self.machine.element(list),
+                Event::Name(start, len) => names.push(BoundName { start, len, ty }),
+                _ => {}
+            }
+        }
+        Flow { names, goes_on: true }
     }
 
     fn call(&mut self, callable: u16) -> Flow {

@@ -1,20 +1,20 @@
 //! Builds syntax trees from the events of a machine, also of steps that are not whole.
 //!
 //! Open parts are closed in the way that refutes least: every open block ends with `fail`, so no path leads
-//! out of it.
+//! out of it. A cleanup cannot fail: there an open block ends where it is.
 
 use motet_compiler::incremental::{CHOICE, PROGRAM_POINT};
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{
-    Arg, Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Manner, Name, Reaction, Step,
-    StepKind, When,
+    Arg, Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, Manner, Name,
+    Reaction, Step, StepKind, When,
 };
 use smol_str::SmolStr;
 
 use super::event_log::{Arenas, Event};
 use crate::automaton::{Automaton, Meaning, Op};
-use crate::grammar::{Constant, NodeKind, Relation};
+use crate::grammar::{Constant, LetValue, NodeKind, Relation};
 use crate::subset::{Decimal, Modifiers};
 
 /// A reader of events.
@@ -26,10 +26,12 @@ pub(crate) struct Builder<'a> {
     pub(crate) events: &'a [Event],
     /// The steps of which any may stand in the hole; if empty, it stays a hole.
     pub(crate) choice: &'a [Step],
+    /// The steps of a cleanup are being read.
+    pub(crate) in_cleanup: bool,
 }
 
 impl Builder<'_> {
-    fn next(&mut self) -> Option<Event> {
+    pub(crate) fn next(&mut self) -> Option<Event> {
         let (first, rest) = self.events.split_first()?;
         self.events = rest;
         Some(*first)
@@ -57,11 +59,51 @@ impl Builder<'_> {
                 let kind = StepKind::Sequence { name: named(SmolStr::new_static("_")), body };
                 return Some(Step { kind, span: CHOICE });
             }
-            Event::Open(kind) => self.of_kind(kind),
+            Event::Open(NodeKind::Finally) => self.whole(),
+            Event::Open(kind) => {
+                let kind = self.of_kind(kind);
+                self.close();
+                self.cleaned(step(kind))
+            }
             _ => return None,
         };
-        self.close();
-        Some(Step { kind, span: Span::default() })
+        Some(step(kind))
+    }
+
+    /// Reads the cleanup of a step, if one follows.
+    fn cleaned(&mut self, step: Step) -> StepKind {
+        if self.peek() != Some(Event::Open(NodeKind::Finally)) {
+            return step.kind;
+        }
+        self.next();
+        let outside = std::mem::replace(&mut self.in_cleanup, true);
+        let cleanup = self.rest_of_block();
+        self.in_cleanup = outside;
+        StepKind::Finally { step: Box::new(step), cleanup }
+    }
+
+    /// Reads the body of the policy with its cleanup, behind which the policy is done.
+    fn whole(&mut self) -> StepKind {
+        let mut steps = Vec::new();
+        loop {
+            match self.peek() {
+                // The end of a step of the body.
+                Some(Event::Close) => {
+                    self.next();
+                }
+                None | Some(Event::Open(NodeKind::Finally)) => break,
+                Some(_) => match self.step() {
+                    Some(step) => steps.push(step),
+                    None => break,
+                },
+            }
+        }
+        let group = |steps| StepKind::Sequence {
+            name: named(SmolStr::new_static("_")),
+            body: Block::new(steps, Span::default()),
+        };
+        let body = self.cleaned(step(group(steps)));
+        group(vec![step(body), step(StepKind::End(end(EndKind::Done)))])
     }
 
     fn of_kind(&mut self, kind: NodeKind) -> StepKind {
@@ -72,6 +114,16 @@ impl Builder<'_> {
                 let condition = self.condition();
                 let (then, otherwise) = (self.block(), Some(self.block()));
                 StepKind::If { condition, then, otherwise }
+            }
+            NodeKind::Delay => StepKind::Delay { time: self.number().unwrap_or_else(|| number(0.0)) },
+            NodeKind::Within => {
+                let time = self.number().unwrap_or_else(|| number(1.0));
+                StepKind::Within { time, body: self.block() }
+            }
+            NodeKind::Keep => StepKind::Keep { keeps: self.keeps(), body: self.block() },
+            NodeKind::Let(value) => {
+                let value = self.named_value(value);
+                StepKind::Let { name: self.name(), value }
             }
             NodeKind::Wait => {
                 let condition = self.condition();
@@ -95,16 +147,13 @@ impl Builder<'_> {
                     self.close();
                 }
                 if catches.is_empty() {
-                    catches.push(Catch {
-                        on: CatchOn::Any(Span::default()),
-                        body: closed(Vec::new()),
-                        span: Span::default(),
-                    });
+                    let body = self.closed(Vec::new());
+                    catches.push(Catch { on: CatchOn::Any(Span::default()), body, span: Span::default() });
                 }
                 StepKind::Try { body, catches }
             }
             NodeKind::Repeat => {
-                let times = self.number().unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+                let times = self.number().unwrap_or_else(|| number(1.0));
                 let body = self.block();
                 let until = match self.peek() {
                     Some(Event::Open(_)) => Some(self.condition()),
@@ -119,7 +168,7 @@ impl Builder<'_> {
             NodeKind::Each => {
                 let item = self.name();
                 let list = self.value().unwrap_or_else(|| expr(ExprKind::List(Vec::new())));
-                let at_most = self.number().unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+                let at_most = self.number().unwrap_or_else(|| number(1.0));
                 StepKind::Each { item, list, at_most, body: self.block() }
             }
             NodeKind::Parallel => {
@@ -128,7 +177,7 @@ impl Builder<'_> {
                     branches.push(self.block());
                 }
                 while branches.len() < 2 {
-                    branches.push(closed(Vec::new()));
+                    branches.push(self.closed(Vec::new()));
                 }
                 StepKind::Parallel { branches }
             }
@@ -142,7 +191,12 @@ impl Builder<'_> {
             | NodeKind::Restart
             | NodeKind::Resume
             | NodeKind::Catch
+            | NodeKind::OutOf
+            | NodeKind::Distance
+            | NodeKind::Finally
             | NodeKind::Block
+            | NodeKind::Count
+            | NodeKind::IsEmpty
             | NodeKind::Is(_)
             | NodeKind::Not
             | NodeKind::All
@@ -154,12 +208,16 @@ impl Builder<'_> {
         }
     }
 
-    /// Reads a block; one that is open or missing ends with `fail`.
+    /// Reads a block; one that is open or missing is closed.
     fn block(&mut self) -> Block {
         if self.peek() != Some(Event::Open(NodeKind::Block)) {
-            return closed(Vec::new());
+            return self.closed(Vec::new());
         }
         self.next();
+        self.rest_of_block()
+    }
+
+    fn rest_of_block(&mut self) -> Block {
         let mut steps = Vec::new();
         loop {
             match self.peek() {
@@ -167,13 +225,62 @@ impl Builder<'_> {
                     self.next();
                     return Block::new(steps, Span::default());
                 }
-                None => return closed(steps),
+                None => return self.closed(steps),
                 Some(_) => match self.step() {
                     Some(step) => steps.push(step),
-                    None => return closed(steps),
+                    None => return self.closed(steps),
                 },
             }
         }
+    }
+
+    /// A block that no path leaves: it ends with `fail`, unless it is one of a cleanup.
+    fn closed(&self, mut steps: Vec<Step>) -> Block {
+        steps.extend((!self.in_cleanup).then(fail));
+        Block::new(steps, Span::default())
+    }
+
+    /// Reads the rules of a `keep`.
+    pub(crate) fn keeps(&mut self) -> Vec<Keep> {
+        let mut keeps = Vec::new();
+        while let Some(Event::Open(kind @ (NodeKind::OutOf | NodeKind::Distance))) = self.peek() {
+            self.next();
+            let to = self.value().unwrap_or_else(|| expr(ExprKind::Any));
+            let kind = match kind {
+                NodeKind::OutOf => KeepKind::OutOf(to),
+                _ => KeepKind::Distance { to, at_least: self.number().unwrap_or_else(|| number(0.0)) },
+            };
+            self.close();
+            keeps.push(Keep { kind, span: Span::default() });
+        }
+        keeps
+    }
+
+    /// Reads the value of a `let`.
+    fn named_value(&mut self, value: LetValue) -> Expr {
+        match value {
+            LetValue::Count => self.of_list("count"),
+            LetValue::First => self.of_list("first"),
+            LetValue::Get(index) => {
+                let measure = self.automaton.signatures.measures.get(usize::from(index));
+                let measure = measure.map(|measure| (&measure.name, measure.params.as_slice()));
+                expr(ExprKind::Call(self.applied(measure)))
+            }
+            LetValue::Field(index) => expr(self.field(index)),
+        }
+    }
+
+    /// Reads a list and applies a term to it.
+    fn of_list(&mut self, term: &'static str) -> Expr {
+        let list = self.value().unwrap_or_else(|| expr(ExprKind::Any));
+        expr(ExprKind::Call(of_list(term, list)))
+    }
+
+    fn field(&mut self, index: u16) -> ExprKind {
+        let field = self.automaton.signatures.fields.get(usize::from(index));
+        let name = field.map(|field| field.name.clone()).unwrap_or_default();
+        let of = self.value().unwrap_or_else(|| expr(ExprKind::Any));
+        ExprKind::Field(Box::new(of), named(name))
     }
 
     fn call(&mut self, index: u16) -> Do {
@@ -196,6 +303,9 @@ impl Builder<'_> {
         let manner = match self.peek() {
             Some(Event::Constant(Constant::Slowly)) => Some(Manner::Slowly(Span::default())),
             Some(Event::Constant(Constant::Gently)) => Some(Manner::Gently(Span::default())),
+            Some(Event::Number(units, decimals)) if self.automaton.subset.modifiers == Modifiers::Written => {
+                Some(Manner::At(number(Decimal { units, decimals }.value()), Span::default()))
+            }
             _ => None,
         };
         let is_written = self.automaton.subset.modifiers == Modifiers::Written;
@@ -252,6 +362,11 @@ impl Builder<'_> {
             Event::Bound(id) => {
                 let name = self.arenas.name(id)?;
                 ExprKind::Binding(self.text(name.start, name.len))
+            }
+            Event::First(id) => {
+                let name = self.arenas.name(id)?;
+                let list = expr(ExprKind::Binding(self.text(name.start, name.len)));
+                ExprKind::Call(of_list("first", list))
             }
             Event::Text(start, len) => written(self.text(start, len)),
             Event::AnyText => ExprKind::Plain(SmolStr::new_static("~")),
@@ -321,10 +436,17 @@ impl Builder<'_> {
             }
             NodeKind::Field(index) => {
                 self.next();
-                let field = self.automaton.signatures.fields.get(usize::from(index));
-                let name = field.map(|field| field.name.clone()).unwrap_or_default();
-                let of = self.value().unwrap_or_else(|| expr(ExprKind::Any));
-                self.comparison(ExprKind::Field(Box::new(of), named(name)))
+                let field = self.field(index);
+                self.comparison(field)
+            }
+            NodeKind::Count => {
+                self.next();
+                let count = self.of_list("count");
+                self.comparison(count.kind)
+            }
+            NodeKind::IsEmpty => {
+                self.next();
+                self.of_list("is_empty").kind
             }
             NodeKind::Group => {
                 self.next();
@@ -370,7 +492,7 @@ impl Builder<'_> {
         };
         let place = if let Some(Meaning::Named(place)) = relation { usize::from(place) } else { 0 };
         let op = Relation::ALL.get(place).map_or(motet_syntax::ast::CompareOp::Equal, |relation| relation.0);
-        let than = self.value().unwrap_or_else(|| expr(ExprKind::Number(0.0)));
+        let than = self.value().unwrap_or_else(|| number(0.0));
         ExprKind::Compare(op, Box::new(expr(subject)), Box::new(than))
     }
 
@@ -388,7 +510,7 @@ impl Builder<'_> {
             return When { condition, hold, reaction: Reaction::End(end(EndKind::Fail)), span };
         };
         self.next();
-        let count = |number: Option<Expr>| number.unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+        let count = |count: Option<Expr>| count.unwrap_or_else(|| number(1.0));
         let reaction = match kind {
             NodeKind::Pause => Reaction::Pause { within: self.modifier(), span },
             NodeKind::Restart => Reaction::Restart { at_most: count(self.number()), span },
@@ -445,6 +567,20 @@ fn named(text: SmolStr) -> Name {
     Name { text, span: Span::default() }
 }
 
+fn step(kind: StepKind) -> Step {
+    Step { kind, span: Span::default() }
+}
+
+fn number(value: f64) -> Expr {
+    expr(ExprKind::Number(value))
+}
+
+/// A term of the language on a list.
+fn of_list(term: &'static str, list: Expr) -> Call {
+    let name = named(SmolStr::new_static(term));
+    Call { name, args: vec![argument(&SmolStr::new_static("of"), list)], span: Span::default() }
+}
+
 fn expr(kind: ExprKind) -> Expr {
     Expr { kind, span: Span::default() }
 }
@@ -456,10 +592,4 @@ fn end(kind: EndKind) -> End {
 
 fn fail() -> Step {
     Step { kind: StepKind::End(end(EndKind::Fail)), span: Span::default() }
-}
-
-/// A block that no path leaves: it ends with `fail`.
-fn closed(mut steps: Vec<Step>) -> Block {
-    steps.push(fail());
-    Block::new(steps, Span::default())
 }

@@ -67,10 +67,12 @@ impl Machine {
     fn end_of_word(&mut self, mut state: State, words: &WordList, entry: u32) -> State {
         let next = match entry.checked_sub(BOUND) {
             Some(id) => {
-                if words.bound == BoundNames::Lists {
-                    state = self.bind_item(state, id);
-                } else {
-                    state.event = self.record(state.event, Event::Bound(id));
+                match words.bound {
+                    BoundNames::Lists => state = self.bind_item(state, id),
+                    BoundNames::First(_) => state.event = self.record(state.event, Event::First(id)),
+                    BoundNames::None | BoundNames::Type(_) | BoundNames::List => {
+                        state.event = self.record(state.event, Event::Bound(id));
+                    }
                 }
                 words.next
             }
@@ -90,13 +92,7 @@ impl Machine {
 
     /// Binds the item of a loop to the element type of its list.
     fn bind_item(&mut self, mut state: State, list: Id) -> State {
-        let automaton = &self.context.automaton;
-        let element = self.arenas.name(list).and_then(|list| automaton.ty(list.ty)).and_then(|ty| match ty {
-            motet_compiler::signature::Type::List(element) => Some(element),
-            _ => None,
-        });
-        let ty = element.and_then(|element| automaton.types.iter().position(|ty| ty == &**element));
-        let ty = ty.and_then(|ty| u16::try_from(ty).ok()).unwrap_or(u16::MAX);
+        let ty = self.element(list);
         let item = self.arenas.entry(state.event).map(|said| said.event);
         state.event = self.record(state.event, Event::Bound(list));
         if let Some(Event::Name(start, len)) = item {
@@ -104,6 +100,17 @@ impl Machine {
             state.scope = self.arenas.bind(item);
         }
         state
+    }
+
+    /// The number of the type of a bound list's elements; `u16::MAX` for another name.
+    pub(super) fn element(&self, list: Id) -> u16 {
+        let automaton = &self.context.automaton;
+        let element = self.arenas.name(list).and_then(|list| automaton.ty(list.ty)).and_then(|ty| match ty {
+            Type::List(element) => Some(element),
+            _ => None,
+        });
+        let ty = element.and_then(|element| automaton.types.iter().position(|ty| ty == &**element));
+        ty.and_then(|ty| u16::try_from(ty).ok()).unwrap_or(u16::MAX)
     }
 
     /// The name before the list that was just written.
@@ -204,25 +211,39 @@ impl Machine {
         can.then_some(state)
     }
 
-    /// The number of bytes that end a value in a text behind one more byte: the shortest name that goes on
-    /// like that, and the brace.
+    /// The number of bytes that end a value in a text behind one more byte: the shortest value that goes on
+    /// like that, and the brace. A value is a bound name, or the length or the first element of a list.
     fn rest_of_value(&self, state: &State, (start, len): (u32, u32), byte: u8) -> Option<usize> {
         let bytes = |start: u32, len: u32| self.bytes.get(start as usize..(start + len) as usize);
         let begun = bytes(start, len)?;
-        let can_say = |name: &Name| {
-            let mut ty = self.context.automaton.ty(name.ty);
-            while let Some(Type::List(element)) = ty {
-                ty = Some(element);
+        let automaton = &self.context.automaton;
+        // The `$` lets a name be one of the words that the text syntax reserves.
+        let is_json = automaton.subset.syntax == Syntax::Json;
+        let mut least = None;
+        for (_, name) in self.visible(state.scope) {
+            let (Some(ty), Some(spelled)) = (automaton.ty(name.ty), bytes(name.start, name.len)) else {
+                continue;
+            };
+            let mut said = ty;
+            while let Type::List(element) = said {
+                said = element;
             }
-            ty.is_some_and(|ty| *ty != Type::Pose)
-        };
-        let visible = self.visible(state.scope);
-        let names = visible.iter().filter(|(_, name)| can_say(name));
-        let names = names.filter_map(|(_, name)| bytes(name.start, name.len)?.strip_prefix(begun));
-        if byte == b'}' {
-            return (len > 0 && names.into_iter().any(<[u8]>::is_empty)).then_some(0);
+            let can_say = *said != Type::Pose;
+            let is_list = matches!(ty, Type::List(_));
+            let values: [(bool, &[u8], &[u8]); 3] = [
+                (can_say, b"", b""),
+                (is_list && automaton.counts, if is_json { b"count($" } else { b"count(" }, b")"),
+                (is_list && can_say && automaton.firsts, if is_json { b"first($" } else { b"first(" }, b")"),
+            ];
+            for (_, lead, end) in values.into_iter().filter(|(can, ..)| *can) {
+                let mut value = lead.iter().chain(spelled).chain(end).chain(b"}");
+                if begun.iter().all(|byte| value.next() == Some(byte)) && value.next() == Some(&byte) {
+                    let rest = value.count();
+                    least = Some(least.map_or(rest, |least: usize| least.min(rest)));
+                }
+            }
         }
-        names.filter(|rest| rest.first() == Some(&byte)).map(<[u8]>::len).min()
+        least
     }
 
     pub(super) fn name(&mut self, mut state: State, naming: NameUse, byte: u8) -> Option<State> {

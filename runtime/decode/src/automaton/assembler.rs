@@ -128,7 +128,7 @@ impl Assembler {
         });
         let bound = match words.bound {
             BoundNames::None => None,
-            BoundNames::Type(_) | BoundNames::Lists => {
+            BoundNames::Type(_) | BoundNames::Lists | BoundNames::List | BoundNames::First(_) => {
                 Some(u32::try_from(MAX_NAME_CHARS).unwrap_or(0) + 1 + at(words.next))
             }
         };
@@ -141,6 +141,8 @@ fn is_always_open(guard: Guard) -> bool {
     match guard {
         // A rule that is full ends: its last resort is the end.
         Guard::Open | Guard::Below(_) | Guard::Loose | Guard::Is | Guard::Several | Guard::Any => true,
+        // Those of a cleanup, which cannot fail.
+        Guard::Room | Guard::Cleaned => true,
         Guard::Close
         | Guard::Empty
         | Guard::Call
@@ -157,6 +159,14 @@ fn is_always_open(guard: Guard) -> bool {
         | Guard::Never
         | Guard::Callable(_)
         | Guard::Let
+        | Guard::LetValue
+        | Guard::List
+        | Guard::OfList
+        | Guard::First(..)
+        | Guard::Interrupt
+        | Guard::If
+        | Guard::Cleanup
+        | Guard::Split(_)
         | Guard::Fluent(_)
         | Guard::And
         | Guard::Or

@@ -7,7 +7,7 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::lowering::{Lowering, Way};
 use super::{Op, OpId};
-use crate::grammar::{Action, AtomSort, Guard, NodeKind, WordRole};
+use crate::grammar::{Action, Atom, AtomSort, Guard, NodeKind, WordRole};
 use crate::subset::MAX_MEMBERS;
 
 const MEMBERS: u8 = MAX_MEMBERS as u8;
@@ -41,9 +41,14 @@ impl Lowering<'_> {
         self.act(Action::Close);
         self.asm.put(Op::Return);
         let mut ways: Vec<Way> = Vec::new();
+        // Without measures only the length of a list can be compared.
+        let is_measure = |atom: &Atom| {
+            atom.is_decoded && atom.sort == AtomSort::Measure && atom.spelled.guard == Guard::Loose
+        };
+        let get = if self.grammar.atoms.iter().any(is_measure) { Guard::Loose } else { Guard::OfList };
         for (word, sort, role, guard) in [
             ("is\":\"", AtomSort::Fluent, WordRole::Fluent, Guard::Is),
-            ("get\":\"", AtomSort::Measure, WordRole::Head, Guard::Loose),
+            ("get\":\"", AtomSort::Measure, WordRole::Head, get),
             ("field\":\"", AtomSort::Field, WordRole::Head, Guard::Loose),
         ] {
             let atoms = self.atoms(sort);

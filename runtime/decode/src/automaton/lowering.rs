@@ -19,8 +19,8 @@ use super::{
     Assembler, Automaton, BoundNames, Callable, Meaning, Op, OpId, Word, WordEnd, WordList, WordTable,
 };
 use crate::grammar::{
-    Action, Alternative, AtomSort, BlockRole, ChoiceStyle, ConditionUse, Constant, Grammar, Guard, NodeKind,
-    Part, Repeat, WordRole,
+    Action, Alternative, AtomSort, BlockRole, ChoiceStyle, CleanupOf, ConditionUse, Constant, Grammar, Guard,
+    NodeKind, Part, Repeat, Split, WordRole,
 };
 use crate::subset::{MAX_MEMBERS, MAX_STEPS, Subset};
 
@@ -42,6 +42,14 @@ pub(super) struct Lowering<'g> {
     condition: OpId,
     /// The rule of the steps of a block, behind what opens it.
     steps: OpId,
+    /// The same of a cleanup.
+    cleanup: OpId,
+    /// The steps of a cleanup are being lowered.
+    pub(super) in_cleanup: bool,
+    /// The step or reaction that was begun last.
+    begun: Option<NodeKind>,
+    /// Jumps from the ends of blocks whose deadlines could have been those of the steps before them.
+    splits: Vec<OpId>,
 }
 
 impl Automaton {
@@ -60,12 +68,20 @@ impl Automaton {
             owner: None,
             condition: 0,
             steps: 0,
+            cleanup: 0,
+            in_cleanup: false,
+            begun: None,
+            splits: Vec::new(),
         };
         lowering.condition = lowering.conditions();
         // The rule of a block's steps is called from within itself: its place comes first.
-        lowering.steps = lowering.asm.later();
+        (lowering.steps, lowering.cleanup) = (lowering.asm.later(), lowering.asm.later());
         let steps = lowering.block_steps();
         lowering.land(lowering.steps, steps);
+        lowering.in_cleanup = true;
+        let cleanup = lowering.block_steps();
+        lowering.land(lowering.cleanup, cleanup);
+        lowering.in_cleanup = false;
         let start = lowering.asm.here();
         lowering.parts(&grammar.document);
         lowering.asm.put(Op::Accept);
@@ -84,6 +100,9 @@ impl Automaton {
                 .map(|fluent| IncrementalChecker::fluent(session, &fluent.name))
                 .collect(),
             measures: grammar.atoms.iter().any(|atom| atom.is_decoded && is_comparison(atom.sort)),
+            names_values: grammar.names_values(),
+            counts: grammar.has_term("count"),
+            firsts: grammar.has_term("first"),
             subset: grammar.subset,
             taken: taken(signatures, grammar.subset),
             signatures: Arc::clone(signatures),
@@ -140,6 +159,9 @@ impl Lowering<'_> {
                 if let Action::Open(kind @ (NodeKind::Do(_) | NodeKind::Is(_))) = action {
                     self.owner = Some(*kind);
                 }
+                if let Action::Open(kind @ (NodeKind::Do(_) | NodeKind::Wait | NodeKind::Pause)) = action {
+                    self.begun = Some(*kind);
+                }
                 self.act(*action);
             }
             Part::Name(usage) => {
@@ -150,11 +172,15 @@ impl Lowering<'_> {
             }
             Part::Value { ty, range, place } => self.placed_value(ty, *range, *place),
             Part::Number(range) => self.number(*range),
-            Part::OptionalNumber { lead, range } => self.optional_number(lead, *range),
+            Part::OptionalNumber { lead, range } => {
+                self.optional_number(lead, *range, lead.trim() == "within");
+            }
             Part::Manner => self.manner(),
             Part::Relation(ty) => self.relation(ty),
             Part::Failures => self.failures(),
             Part::EntityList => self.entity_list(),
+            Part::ListName => self.list_name(),
+            Part::Cleanup(of) => self.optional_cleanup(*of),
             Part::Condition(asked) => {
                 if self.is_json() {
                     self.asm.literal("{\"");
@@ -215,11 +241,11 @@ impl Lowering<'_> {
 
     /// One of several names of declarations, behind its opening quote.
     pub(super) fn names(&mut self, at: OpId, role: WordRole, ways: impl Iterator<Item = (Way, u16)>) {
-        let words = ways.map(|((literal, to, _), number)| Word {
+        let words = ways.map(|((literal, to, guard), number)| Word {
             name: literal.trim_end_matches('"').into(),
             meaning: Meaning::Named(number),
             to: Some(to),
-            guard: Guard::Open,
+            guard,
         });
         let table = Arc::new(WordTable::new(words));
         self.asm.set(
@@ -316,10 +342,61 @@ impl Lowering<'_> {
     fn enter(&mut self, role: BlockRole) -> OpId {
         let (call, over) = (self.later(), self.later());
         let rule = self.act(Action::Enter(role));
-        self.asm.put(Op::Jump(self.steps));
+        let is_cleanup = self.in_cleanup || role == BlockRole::Cleanup;
+        self.asm.put(Op::Jump(if is_cleanup { self.cleanup } else { self.steps }));
         self.asm.set(call, Op::Call(rule));
         self.land_here(over);
         call
+    }
+
+    /// The block behind a deadline in text, if the deadline is not that of the step before: a brace decides.
+    pub(super) fn split(&mut self) {
+        let split = match self.begun {
+            Some(NodeKind::Do(number)) => {
+                let callable = self.signatures.callables.get(usize::from(number));
+                let result = callable.and_then(|callable| callable.result.as_ref());
+                Split { modifiers: 2, bind: result.map(|ty| self.grammar.type_number(ty)) }
+            }
+            Some(NodeKind::Wait) => Split { modifiers: 1, bind: None },
+            _ => return,
+        };
+        if self.is_json() || self.in_cleanup {
+            return;
+        }
+        let choice = self.later();
+        let some = self.act(Action::Split(split));
+        self.enter(BlockRole::During);
+        self.act(Action::Close);
+        self.optional_cleanup(CleanupOf::Step);
+        self.act(Action::StepDone);
+        let end = self.later();
+        self.splits.push(end);
+        let none = self.asm.here();
+        self.asm.optional(choice, (" { ", some, Guard::Split(split)), (none, Guard::Open));
+    }
+
+    /// The cleanup of a step or of the policy, if there is one. A cleanup has none itself.
+    fn optional_cleanup(&mut self, of: CleanupOf) {
+        if self.in_cleanup || self.grammar.subset.depth == 0 && of == CleanupOf::Step {
+            return;
+        }
+        if of == CleanupOf::Policy && self.is_json() {
+            self.asm.literal(",\"finally\":");
+        }
+        let choice = self.later();
+        let some = self.enter(BlockRole::Cleanup);
+        let none = self.asm.here();
+        match (of, self.is_json()) {
+            (CleanupOf::Policy, true) => self
+                .asm
+                .choose(choice, &[("null".into(), none, Guard::Open), ("[{\"".into(), some, Guard::Cleanup)]),
+            (CleanupOf::Step, true) => {
+                self.asm.optional(choice, (",\"finally\":[{\"", some, Guard::Cleanup), (none, Guard::Open));
+            }
+            (CleanupOf::Step | CleanupOf::Policy, false) => {
+                self.asm.optional(choice, (" finally { ", some, Guard::Cleanup), (none, Guard::Open));
+            }
+        }
     }
 
     /// The steps of a block behind what opens it, with what ends it.
@@ -335,7 +412,8 @@ impl Lowering<'_> {
         let over = self.later();
         let mut ways: Vec<Way> = Vec::new();
         let grammar = self.grammar;
-        for step in &grammar.steps {
+        let in_cleanup = self.in_cleanup;
+        for step in grammar.steps.iter().filter(|step| step.cleans || !in_cleanup) {
             let at = self.asm.here();
             self.parts(&step.parts);
             self.act(Action::StepDone);
@@ -349,11 +427,16 @@ impl Lowering<'_> {
                 self.asm.put(Op::Jump(if step.is_ending { after_ending } else { after }));
             }
         }
+        for end in std::mem::take(&mut self.splits) {
+            self.land(end, after);
+        }
+        let ways = self.forked(ways);
         let again = self.asm.put(Op::Jump(start));
         let leave = self.act(Action::Leave);
         self.asm.put(Op::Return);
         let room = Guard::Below(u8::try_from(MAX_STEPS).unwrap_or(u8::MAX));
-        for (at, guard) in [(more, Guard::Close), (over, Guard::Open)] {
+        let close = if self.in_cleanup { Guard::Cleaned } else { Guard::Close };
+        for (at, guard) in [(more, close), (over, Guard::Open)] {
             if is_json {
                 self.asm.choose(at, &[(",{\"".into(), again, room), ("]".into(), leave, guard)]);
             } else {
@@ -367,6 +450,36 @@ impl Lowering<'_> {
             self.keywords(start, ways);
         }
         start
+    }
+
+    /// Alternatives of which none begins another: where one does, the byte behind it tells them apart.
+    fn forked(&mut self, ways: Vec<Way>) -> Vec<Way> {
+        let mut found: Vec<Way> = Vec::with_capacity(ways.len());
+        let mut longer: Vec<Way> = Vec::new();
+        for (index, way) in ways.iter().enumerate() {
+            let begins = |(other, short): (usize, &Way)| {
+                other != index
+                    && way.0.starts_with(short.0.as_str())
+                    && !short.0.is_empty()
+                    && (short.0 != way.0 || short.2 == Guard::Room)
+            };
+            let is_longer = way.2 != Guard::Room && ways.iter().enumerate().any(begins);
+            if is_longer { &mut longer } else { &mut found }.push(way.clone());
+        }
+        for (literal, at, guard) in longer {
+            let Some(short) = found.iter_mut().find(|way| literal.starts_with(way.0.as_str())) else {
+                continue;
+            };
+            let rest = literal.get(short.0.len()..).unwrap_or_default();
+            // In JSON a condition begins with its brace.
+            let byte = rest.bytes().next().unwrap_or(b'{');
+            let then = if rest.is_empty() { at } else { self.asm.literal(rest) };
+            if !rest.is_empty() {
+                self.asm.put(Op::Jump(at));
+            }
+            short.1 = self.asm.put(Op::Fork { byte, then, guard, other: short.1 });
+        }
+        found
     }
 
     /// `any` alone, or kinds of failure.

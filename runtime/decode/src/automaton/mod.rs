@@ -38,8 +38,9 @@ pub(crate) enum Op {
     Choose(Box<[Branch]>),
     /// Takes one of a list of words that depends on the policy so far.
     Word(WordList),
-    /// Goes to `then` if the next byte is this one and the word there has an alternative, else to `other`.
-    Fork { byte: u8, then: OpId, other: OpId },
+    /// Goes to `then` if the next byte is this one, the guard is open, and a word there has an alternative;
+    /// else to `other`.
+    Fork { byte: u8, then: OpId, guard: Guard, other: OpId },
     /// Takes a literal and goes to `then`, or takes nothing and goes to `other`, whose first bytes may be
     /// the same.
     Optional(OptionalPart),
@@ -111,8 +112,12 @@ pub(crate) enum BoundNames {
     None,
     /// Names of the type with this number, or of one below it.
     Type(u16),
-    /// Names of lists.
+    /// Names of lists of which the item of a loop takes its type.
     Lists,
+    /// Names of lists, for a term on one.
+    List,
+    /// Names of lists of which the first element has the type with this number.
+    First(u16),
 }
 
 /// The automaton of one grammar.
@@ -131,6 +136,11 @@ pub(crate) struct Automaton {
     pub(crate) fluent_bits: Vec<u64>,
     /// A condition can be about a measure.
     pub(crate) measures: bool,
+    /// A value can be named wherever no list is bound.
+    pub(crate) names_values: bool,
+    /// `count` and `first` are terms on lists.
+    pub(crate) counts: bool,
+    pub(crate) firsts: bool,
     pub(crate) subset: Subset,
     /// Names that a policy may not give.
     pub(crate) taken: FxHashSet<SmolStr>,
@@ -149,6 +159,14 @@ impl Automaton {
     pub(crate) fn decimals(&self, range: &NumberRange) -> u8 {
         let is_percent = range.unit == Some(Unit::Percent) && self.subset.syntax == Syntax::Text;
         range.decimals + if is_percent { 2 } else { 0 }
+    }
+
+    /// The next operation that is no action.
+    pub(crate) fn behind_actions(&self, mut id: OpId) -> &Op {
+        while matches!(self.op(id), Op::Action(_)) {
+            id += 1;
+        }
+        self.op(id)
     }
 
     pub(crate) fn ty(&self, id: u16) -> Option<&Type> {

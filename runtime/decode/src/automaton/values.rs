@@ -21,8 +21,13 @@ impl Lowering<'_> {
             ValuePlace::Plain => WordRole::Free,
             ValuePlace::Operand => return self.operand(ty),
         };
-        let (word, element) = self.value(ty, range, role);
+        let (word, element) = match (role, ty) {
+            (WordRole::Argument(place), Type::Entity(_)) => (Some(self.entity_or_first(ty, place)), None),
+            _ => self.value(ty, range, role),
+        };
         match self.owner {
+            // The operations of a cleanup are the same once more.
+            Some(NodeKind::Do(_)) if self.in_cleanup => {}
             Some(NodeKind::Do(number)) if matches!(role, WordRole::Argument(_)) => {
                 if let Some(callable) = self.callables.get_mut(usize::from(number)) {
                     callable.words.push(word);
@@ -107,7 +112,7 @@ impl Lowering<'_> {
     /// Tells a list from a name of one.
     fn list_or_word(&mut self, choice: OpId, open: OpId, word: OpId) {
         if self.is_json() {
-            self.asm.set(choice, Op::Fork { byte: b'"', then: word, other: open });
+            self.asm.set(choice, Op::Fork { byte: b'"', then: word, guard: Guard::Open, other: open });
         } else {
             self.asm.optional(choice, ("[", open, Guard::Open), (word, Guard::Rare));
         }
@@ -129,6 +134,44 @@ impl Lowering<'_> {
         let word = self.asm.put(Op::Word(WordList { table, bound, role, ends, next }));
         self.land_here(over);
         self.list_or_word(choice, open, word);
+    }
+
+    /// The name of a list in a term on it.
+    pub(super) fn list_name(&mut self) {
+        self.bound_word(BoundNames::List, WordRole::Free);
+    }
+
+    fn bound_word(&mut self, bound: BoundNames, role: WordRole) -> OpId {
+        let (next, table, ends) = (self.asm.here() + 1, Arc::new(WordTable::default()), self.word_end());
+        self.asm.put(Op::Word(WordList { table, bound, role, ends, next }))
+    }
+
+    /// An entity that is an argument of a call, or the first element of a list. The operation of its word.
+    fn entity_or_first(&mut self, ty: &Type, place: u8) -> OpId {
+        let role = WordRole::Argument(place);
+        let lists = Type::List(Box::new(ty.clone()));
+        let is_first = self.grammar.has_term("first") && self.grammar.can_bind(&lists);
+        let choice = is_first.then(|| self.later());
+        let table = self.table(ty).0;
+        let word = self.word(table, ty, role);
+        let Some(choice) = choice else { return word };
+        let over = self.later();
+        let number = self.type_number(ty);
+        let [open, end] = if self.is_json() { ["{\"get\":\"first\",\"of\":", "}"] } else { ["first(", ")"] };
+        let guard = Guard::First(place, number);
+        let first = self.asm.here();
+        if self.is_json() {
+            self.asm.literal(open);
+        }
+        self.bound_word(BoundNames::First(number), role);
+        self.asm.literal(end);
+        self.land_here(over);
+        if self.is_json() {
+            self.asm.set(choice, Op::Fork { byte: b'{', then: first, guard, other: word });
+        } else {
+            self.asm.optional(choice, (open, first, guard), (word, Guard::Open));
+        }
+        word
     }
 
     fn word_end(&self) -> WordEnd {
@@ -216,8 +259,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// A number or its default.
-    pub(super) fn optional_number(&mut self, lead: &str, range: NumberRange) {
+    /// A number or its default. A deadline may turn out to be that of a block behind it.
+    pub(super) fn optional_number(&mut self, lead: &str, range: NumberRange, is_deadline: bool) {
         let is_json = self.is_json();
         if is_json {
             self.asm.literal(lead);
@@ -225,6 +268,9 @@ impl Lowering<'_> {
         let choice = self.later();
         let number = self.asm.here();
         self.number(range);
+        if is_deadline {
+            self.split();
+        }
         let over = self.later();
         let none = self.asm.here();
         if is_json {
@@ -233,40 +279,46 @@ impl Lowering<'_> {
         self.constant(Constant::Null);
         self.land_here(over);
         if is_json {
-            self.asm.set(choice, Op::Fork { byte: b'n', then: none, other: number });
+            self.asm.set(choice, Op::Fork { byte: b'n', then: none, guard: Guard::Open, other: number });
         } else {
             self.asm.optional(choice, (lead, number, Guard::Open), (none, Guard::Open));
         }
     }
 
-    /// A word for a manner, or its default.
+    /// A manner, or its default.
     pub(super) fn manner(&mut self) {
+        const WORDS: [(&str, Constant); 2] = [("slowly", Constant::Slowly), ("gently", Constant::Gently)];
         let lead = self.grammar.manner_lead();
+        let mut jumps = Vec::new();
         if self.is_json() {
             self.asm.literal(lead);
-            let choice = self.later();
-            let (mut ways, mut jumps) = (Vec::new(), Vec::new());
-            for (word, constant) in
-                [("null", Constant::Null), ("\"slowly\"", Constant::Slowly), ("\"gently\"", Constant::Gently)]
-            {
-                ways.push((word.into(), self.asm.here(), Guard::Open));
-                self.constant(constant);
+            let [null_or, word_or] = [self.later(), self.later()];
+            let part = self.asm.here();
+            self.number(NumberRange::PART);
+            jumps.push(self.later());
+            let null = self.asm.literal("null");
+            self.constant(Constant::Null);
+            jumps.push(self.later());
+            let (words, mut ways) = (self.later(), Vec::new());
+            for (word, constant) in WORDS {
+                ways.push((format_smolstr!("\"{word}\""), self.constant(constant), Guard::Open));
                 jumps.push(self.later());
             }
             jumps.into_iter().for_each(|jump| self.land_here(jump));
-            self.asm.choose(choice, &ways);
+            self.asm.choose(words, &ways);
+            let guard = Guard::Open;
+            self.asm.set(null_or, Op::Fork { byte: b'n', then: null, guard, other: word_or });
+            self.asm.set(word_or, Op::Fork { byte: b'"', then: words, guard, other: part });
             return;
         }
-        let mut jumps = Vec::new();
-        for (word, constant) in [("slowly", Constant::Slowly), ("gently", Constant::Gently)] {
+        for (word, constant) in WORDS {
             let choice = self.later();
-            let then = self.asm.here();
-            self.constant(constant);
+            let then = self.constant(constant);
             jumps.push(self.later());
             let other = self.asm.here();
             self.asm.optional(choice, (&format!("{lead}{word}"), then, Guard::Open), (other, Guard::Open));
         }
-        self.constant(Constant::Null);
+        self.optional_number(&format!("{lead}at "), NumberRange::PART, false);
         jumps.into_iter().for_each(|jump| self.land_here(jump));
     }
 
@@ -285,7 +337,7 @@ impl Lowering<'_> {
         let word = self.word_with(Arc::new(WordTable::default()), &Type::Text, role, ends);
         self.land_here(over);
         if is_json {
-            self.asm.set(choice, Op::Fork { byte: b'$', then: word, other: text });
+            self.asm.set(choice, Op::Fork { byte: b'$', then: word, guard: Guard::Open, other: text });
         } else {
             self.asm.optional(choice, ("\"", text, Guard::Open), (word, Guard::Rare));
         }

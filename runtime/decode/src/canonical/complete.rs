@@ -1,15 +1,16 @@
 //! Completion: from the syntax tree of a policy to the tree of the canonical subset.
 
 use motet_compiler::signature::{Callable, Type};
-use motet_syntax::Span;
-use motet_syntax::ast::{self, Block, CatchOn, Do, EndKind, Expr, ExprKind, Policy, StepKind};
+use motet_syntax::ast::{self, Block, CatchOn, Do, EndKind, Expr, ExprKind, KeepKind, Policy, StepKind};
+use motet_syntax::unit::Dimension;
+use motet_syntax::{Span, Syntax};
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::OutsideSubset;
-use super::print::{Item, Node};
+use super::print::{Item, Node, Value};
 use super::value::{Completer, argument, numbered, outside};
-use crate::grammar::{Grammar, NodeKind};
+use crate::grammar::{Grammar, LetValue, NodeKind, ValuePlace};
 use crate::subset::{MAX_CONDITION_DEPTH, MAX_COUNT, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS, Modifiers};
 
 /// Completes a policy to a tree of the canonical subset.
@@ -19,31 +20,38 @@ use crate::subset::{MAX_CONDITION_DEPTH, MAX_COUNT, MAX_MEMBERS, MAX_RETRIES, MA
 /// The first part of the policy that is outside of the subset.
 pub(super) fn complete(policy: &Policy, grammar: &Grammar) -> Result<Node, OutsideSubset> {
     let signatures = &*grammar.signatures;
+    let is_json = grammar.subset.syntax == Syntax::Json;
     let mut completer = Completer {
+        grammar,
         signatures,
         subset: grammar.subset,
         bound: Vec::new(),
         lists: FxHashSet::default(),
         names: FxHashSet::default(),
         fresh: 0,
+        in_cleanup: false,
     };
     if !policy.params.is_empty() {
         return Err(outside(policy.name.span, "a policy has no parameters in the canonical subset"));
     }
-    if let Some(cleanup) = &policy.cleanup {
-        return Err(uncleaned(cleanup));
-    }
-    if let Some(keep) = policy.keeps.first() {
-        return Err(outside(keep.span, NO_KEEP));
-    }
     names(&policy.body, &mut completer.names);
+    policy.cleanup.iter().for_each(|cleanup| names(cleanup, &mut completer.names));
     if let Some(written) = policy.robot.as_ref().filter(|written| Some(&written.text) != grammar.robot()) {
         return Err(outside(written.span, format!("the policy is for `{}`", written.text)));
     }
     let name = completer.new_name(&policy.name.text, policy.name.span)?;
     let goal = policy.achieves.as_ref().map(|goal| completer.asked(goal)).transpose()?;
+    let keeps = match policy.keeps.as_slice() {
+        [] => Item::Nothing,
+        keeps => completer.keeps(keeps, policy.name.span)?,
+    };
     let steps = completer.block(&policy.body, grammar.subset.depth, 1)?;
-    let items = vec![goal.unwrap_or(Item::Nothing), steps];
+    let cleanup = completer.cleanup(policy.cleanup.as_ref(), grammar.subset.depth)?;
+    let mut items = vec![goal.unwrap_or(Item::Nothing)];
+    // Without observed distances there is no place for a rule.
+    let has_keeps = grammar.keep_rule(ValuePlace::Operand).is_some();
+    items.extend((has_keeps || is_json || keeps != Item::Nothing).then_some(keeps));
+    items.extend([steps, cleanup]);
     Ok(Node { kind: NodeKind::Block, span: policy.name.span, name: Some(name), items })
 }
 
@@ -76,10 +84,7 @@ impl Completer<'_> {
         let mut given = None;
         let (kind, items) = match &step.kind {
             StepKind::Do(call) => return self.call(call),
-            StepKind::Let { .. } => {
-                let why = "a name is bound by a call or a loop in the canonical subset";
-                return Err(outside(step.span, why));
-            }
+            StepKind::Let { name, value } => return self.bound_value(name, value),
             StepKind::Sequence { name, body } => {
                 given = Some(self.new_name(&name.text, name.span)?);
                 (NodeKind::Sequence, vec![self.inner(body, depth, 1)?])
@@ -96,14 +101,20 @@ impl Completer<'_> {
                 let condition = self.asked(condition)?;
                 (NodeKind::Wait, [condition].into_iter().chain(self.within(within.as_ref())?).collect())
             }
-            StepKind::Delay { time } => {
-                return Err(outside(time.span, "a wait has a condition in the canonical subset"));
+            StepKind::Delay { time } => (NodeKind::Delay, vec![self.seconds(time)?]),
+            StepKind::Finally { step, cleanup } => {
+                let mut node = self.step(step, depth)?;
+                // It stands behind the parts of the step, where no cleanup is nothing.
+                node.items.pop();
+                node.items.push(self.cleanup(Some(cleanup), depth)?);
+                return Ok(node);
             }
-            StepKind::Finally { cleanup, .. } => return Err(uncleaned(cleanup)),
-            StepKind::Within { time, .. } => {
-                return Err(outside(time.span, "the canonical subset has no `within` before a block"));
+            StepKind::Within { time, body } => {
+                (NodeKind::Within, vec![self.seconds(time)?, self.inner(body, depth, 1)?])
             }
-            StepKind::Keep { .. } => return Err(outside(step.span, NO_KEEP)),
+            StepKind::Keep { keeps, body } => {
+                (NodeKind::Keep, vec![self.keeps(keeps, step.span)?, self.inner(body, depth, 1)?])
+            }
             StepKind::Monitor { whens, body } => {
                 count(whens.len(), 1, "a monitor", "conditions", step.span)?;
                 let whens = whens.iter().map(|when| self.when(when, depth)).collect::<Result<_, _>>()?;
@@ -140,12 +151,104 @@ impl Completer<'_> {
             }
             StepKind::End(end) => return self.end(end),
         };
-        Ok(Node { kind, span: step.span, name: given, items })
+        let mut node = Node { kind, span: step.span, name: given, items };
+        node.items.extend(kind.has_blocks().then_some(Item::Nothing));
+        self.cleans(&node)?;
+        Ok(node)
+    }
+
+    /// The cleanup of a step or of the policy.
+    fn cleanup(&mut self, cleanup: Option<&Block>, depth: usize) -> Result<Item, OutsideSubset> {
+        let Some(cleanup) = cleanup else { return Ok(Item::Nothing) };
+        if std::mem::replace(&mut self.in_cleanup, true) {
+            return Err(outside(cleanup.span, "a cleanup has no cleanup in the canonical subset"));
+        }
+        let block = self.inner(cleanup, depth, 1);
+        self.in_cleanup = false;
+        block
+    }
+
+    /// A step may stand where it does: a cleanup has few kinds of them.
+    fn cleans(&self, node: &Node) -> Result<(), OutsideSubset> {
+        let mut ways = self.grammar.steps.iter().filter(|way| way.opens(node.kind));
+        if self.in_cleanup && ways.next().is_some_and(|way| !way.cleans) {
+            let why = "a cleanup has calls, waits, `let`, `if`, `sequence` and `try` in the canonical subset";
+            return Err(outside(node.span, why));
+        }
+        Ok(())
+    }
+
+    fn keeps(&self, keeps: &[ast::Keep], span: Span) -> Result<Item, OutsideSubset> {
+        count(keeps.len(), 1, "a `keep`", "rules", span)?;
+        let rule = |keep: &ast::Keep| {
+            let entity = |to, kind| self.value(to, &Type::Entity(kind), None).map(Item::Value);
+            let (kind, items) = match &keep.kind {
+                KeepKind::OutOf(zone) => {
+                    let kind = self.signatures.kinds.iter().position(|kind| kind.name == "Zone");
+                    (NodeKind::OutOf, vec![entity(zone, kind.unwrap_or(0))?])
+                }
+                KeepKind::Distance { to, at_least } => {
+                    let least = self.value(at_least, &Type::Quantity(Dimension::LENGTH), None)?;
+                    let Value::Number(least, _) = least else {
+                        return Err(outside(at_least.span, "a distance is a number in the canonical subset"));
+                    };
+                    (NodeKind::Distance, vec![entity(to, 0)?, Item::Number(least)])
+                }
+            };
+            Ok(Node { kind, span: keep.span, name: None, items })
+        };
+        keeps.iter().map(rule).collect::<Result<_, _>>().map(Item::Members)
+    }
+
+    /// A name for a value.
+    fn bound_value(&mut self, name: &ast::Name, value: &Expr) -> Result<Node, OutsideSubset> {
+        let (kind, items) = self.named_value(value)?;
+        let given = self.new_name(&name.text, name.span)?;
+        self.bound.push(given.clone());
+        let node = Node { kind, span: value.span, name: Some(given), items };
+        self.cleans(&node)?;
+        Ok(node)
+    }
+
+    /// The value of a `let`.
+    fn named_value(&mut self, value: &Expr) -> Result<(NodeKind, Vec<Item>), OutsideSubset> {
+        let signatures = self.signatures;
+        Ok(match &value.kind {
+            ExprKind::Call(call) if self.is_term(call, "count") || self.is_term(call, "first") => {
+                let list = vec![Item::Value(Value::Binding(self.list_name(call)?))];
+                let is_count = call.name.text == "count";
+                (NodeKind::Let(if is_count { LetValue::Count } else { LetValue::First }), list)
+            }
+            ExprKind::Call(call) => {
+                let (number, measure) = numbered(&signatures.measures, |row| row.name == call.name.text)
+                    .ok_or_else(|| {
+                        outside(value.span, format!("there is no measure `{}`", call.name.text))
+                    })?;
+                (NodeKind::Let(LetValue::Get(number)), self.observed(call, &measure.params, false)?)
+            }
+            ExprKind::Field(of, name) => {
+                let (number, field) = numbered(&signatures.fields, |row| row.name == name.text)
+                    .ok_or_else(|| outside(value.span, format!("there is no field `{}`", name.text)))?;
+                let of = self.value(of, &Type::Entity(field.kind), None)?;
+                (NodeKind::Let(LetValue::Field(number)), vec![Item::Value(of)])
+            }
+            _ => {
+                let why = "a `let` names a result, a measure, a field, or `count` or `first` of a list in the \
+                           canonical subset";
+                return Err(outside(value.span, why));
+            }
+        })
     }
 
     fn call(&mut self, step: &Do) -> Result<Node, OutsideSubset> {
         let call = &step.call;
         let callables = &self.signatures.callables;
+        let is_callable = callables.iter().any(|row| row.name == call.name.text);
+        // A value that is a lone call reads as a step that binds its result.
+        if let Some(name) = step.bind.as_ref().filter(|_| !is_callable) {
+            let value = Expr { kind: ExprKind::Call(call.clone()), span: call.span };
+            return self.bound_value(name, &value);
+        }
         let Some((number, callable)) = numbered(callables, |row| row.name == call.name.text) else {
             return Err(outside(call.name.span, format!("there is no primitive `{}`", call.name.text)));
         };
@@ -194,7 +297,9 @@ impl Completer<'_> {
         if matches!(callable.result, Some(Type::List(_))) {
             self.lists.extend(name.iter().cloned().chain(step.bind.as_ref().map(|name| name.text.clone())));
         }
-        Ok(Node { kind: NodeKind::Do(number), span: call.span, name, items })
+        let node = Node { kind: NodeKind::Do(number), span: call.span, name, items };
+        self.cleans(&node)?;
+        Ok(node)
     }
 
     fn fresh_name(&mut self) -> SmolStr {
@@ -263,7 +368,9 @@ impl Completer<'_> {
                 return Err(outside(end.span, "an ending has a reason in the canonical subset"));
             }
         };
-        Ok(Node { kind, span: end.span, name: None, items })
+        let node = Node { kind, span: end.span, name: None, items };
+        self.cleans(&node)?;
+        Ok(node)
     }
 
     fn manner(
@@ -280,8 +387,12 @@ impl Completer<'_> {
             }
             Some(ast::Manner::Slowly(_)) => Ok(Some(Item::Manner("slowly"))),
             Some(ast::Manner::Gently(_)) => Ok(Some(Item::Manner("gently"))),
-            Some(ast::Manner::At(_, span)) => {
-                Err(outside(*span, "the manners of the canonical subset are `slowly` and `gently`"))
+            Some(ast::Manner::At(part, span)) => {
+                let part = self.value(part, &Type::Quantity(Dimension::NONE), Some(PART))?;
+                match part {
+                    Value::Number(part, _) => Ok(Some(Item::Part(part))),
+                    _ => Err(outside(*span, "a manner is a number in the canonical subset")),
+                }
             }
         }
     }
@@ -307,12 +418,8 @@ impl Completer<'_> {
     }
 }
 
-/// Reason for which a `keep` is outside of the subset.
-const NO_KEEP: &str = "the canonical subset has no `keep`";
-
-fn uncleaned(cleanup: &Block) -> OutsideSubset {
-    outside(cleanup.span, "the canonical subset has no `finally`")
-}
+/// The least and the greatest part of the robot's speed that a manner asks for.
+const PART: (f64, f64) = (0.01, 1.0);
 
 fn count(actual: usize, least: usize, whose: &str, of: &str, span: Span) -> Result<(), OutsideSubset> {
     if (least..=MAX_MEMBERS).contains(&actual) {
@@ -348,8 +455,11 @@ fn names(block: &Block, found: &mut FxHashSet<SmolStr>) {
                 catches.iter().for_each(|catch| names(&catch.body, found));
             }
             StepKind::Parallel { branches } => branches.iter().for_each(|block| names(block, found)),
-            // They are outside of the subset.
-            StepKind::Finally { .. } | StepKind::Within { .. } | StepKind::Keep { .. } => {}
+            StepKind::Finally { step, cleanup } => {
+                names(&Block::new(vec![(**step).clone()], step.span), found);
+                names(cleanup, found);
+            }
+            StepKind::Within { body, .. } | StepKind::Keep { body, .. } => names(body, found),
             StepKind::Let { name, .. } => {
                 found.insert(name.text.clone());
             }

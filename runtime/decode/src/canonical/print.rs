@@ -10,7 +10,7 @@ use motet_syntax::{Span, Syntax};
 use smol_str::SmolStr;
 
 use super::OutsideSubset;
-use crate::grammar::{Alternative, Grammar, NodeKind, Part, Relation};
+use crate::grammar::{Alternative, CleanupOf, Grammar, NodeKind, Part, Relation};
 use crate::subset::Decimal;
 
 /// A step, a condition or another node of a policy; the policy itself is a block with a name.
@@ -32,6 +32,8 @@ pub(super) enum Item {
     Number(Decimal),
     /// A word for a manner.
     Manner(&'static str),
+    /// A part of the robot's speed as its manner.
+    Part(Decimal),
     Relation(Relation),
     /// The kinds of failure of a handler; empty for `any`.
     Failures(Vec<SmolStr>),
@@ -55,6 +57,8 @@ pub(super) enum Value {
     /// `any`, of a fluent.
     Any,
     List(Vec<Value>),
+    /// The first element of the list with this name.
+    First(SmolStr),
 }
 
 /// Prints a policy.
@@ -131,7 +135,7 @@ impl Printer<'_> {
     /// A part that is one item.
     fn item(&mut self, part: &Part, item: &Item, node: &Node) -> Result<(), OutsideSubset> {
         match (part, item) {
-            (Part::Value { .. } | Part::EntityList, Item::Value(value)) => self.value(value),
+            (Part::Value { .. } | Part::EntityList | Part::ListName, Item::Value(value)) => self.value(value),
             (Part::Number(range), Item::Number(number)) => self.number(*number, range.unit),
             (Part::OptionalNumber { lead, range }, Item::Number(number)) => {
                 self.put(lead);
@@ -145,6 +149,11 @@ impl Printer<'_> {
             (Part::Manner, Item::Manner(word)) => {
                 self.put(self.grammar.manner_lead());
                 self.put(&if self.is_json { quoted(word) } else { (*word).to_owned() });
+            }
+            (Part::Manner, Item::Part(part)) => {
+                self.put(self.grammar.manner_lead());
+                self.put(if self.is_json { "" } else { "at " });
+                self.number(*part, Some(Unit::Percent));
             }
             (Part::Manner, Item::Nothing) if self.is_json => {
                 self.put(self.grammar.manner_lead());
@@ -163,6 +172,14 @@ impl Printer<'_> {
             }
             (Part::Condition(_), Item::Node(condition)) => self.condition(condition)?,
             (Part::Block(..), Item::Block(steps)) => self.block(steps)?,
+            (Part::Cleanup(_), Item::Block(steps)) => {
+                self.put(if self.is_json { ",\"finally\":" } else { " finally " });
+                self.block(steps)?;
+            }
+            (Part::Cleanup(CleanupOf::Policy), Item::Nothing) if self.is_json => {
+                self.put(",\"finally\":null");
+            }
+            (Part::Cleanup(_), Item::Nothing) => {}
             (Part::Choice(_, ways), item) => self.choice(ways, item, node)?,
             (Part::Repeat(repeat), Item::Members(members)) => {
                 for (index, member) in members.iter().enumerate() {
@@ -183,6 +200,11 @@ impl Printer<'_> {
                 Some(way) => self.alternative(way, inner, &mut inner.items.iter()),
                 None => self.condition(inner),
             },
+            Item::Members(_) => {
+                let is_list = |way: &&Alternative| matches!(way.parts.as_slice(), [Part::Repeat(_)]);
+                let way = ways.iter().find(is_list).ok_or_else(|| no_production(node))?;
+                self.alternative(way, node, &mut std::slice::from_ref(item).iter())
+            }
             Item::Nothing => {
                 let is_empty =
                     |way: &&Alternative| way.parts.iter().all(|part| matches!(part, Part::Action(_)));
@@ -247,6 +269,10 @@ impl Printer<'_> {
             // The subset has no text that needs an escape.
             Value::Text(text) => self.put(&quoted(text)),
             Value::Bool(value) => self.put(if *value { "true" } else { "false" }),
+            Value::First(list) if self.is_json => {
+                self.put(&format!("{{\"get\":\"first\",\"of\":\"${list}\"}}"));
+            }
+            Value::First(list) => self.put(&format!("first({list})")),
             Value::Any => self.put(self.any()),
             Value::List(items) => {
                 self.put("[");
@@ -291,7 +317,7 @@ impl Printer<'_> {
 /// A condition needs parentheses inside another one of the text syntax.
 fn needs_group(outer: NodeKind, inner: NodeKind) -> bool {
     match outer {
-        NodeKind::Not => !matches!(inner, NodeKind::Is(_) | NodeKind::Not),
+        NodeKind::Not => !matches!(inner, NodeKind::Is(_) | NodeKind::IsEmpty | NodeKind::Not),
         _ => matches!(inner, NodeKind::All | NodeKind::Any),
     }
 }

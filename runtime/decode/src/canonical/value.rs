@@ -9,11 +9,12 @@ use smol_str::SmolStr;
 
 use super::OutsideSubset;
 use super::print::{Item, Node, Value};
-use crate::grammar::{NodeKind, Relation};
+use crate::grammar::{Grammar, NodeKind, Relation};
 use crate::subset::{self, NumberRange, Subset};
 
 /// The state of completing one policy.
 pub(super) struct Completer<'a> {
+    pub(super) grammar: &'a Grammar,
     pub(super) signatures: &'a Signatures,
     pub(super) subset: Subset,
     /// The names bound so far, in order.
@@ -23,10 +24,12 @@ pub(super) struct Completer<'a> {
     /// Every name that is bound anywhere in the policy.
     pub(super) names: FxHashSet<SmolStr>,
     pub(super) fresh: usize,
+    /// The steps of a cleanup are being completed.
+    pub(super) in_cleanup: bool,
 }
 
 impl Completer<'_> {
-    fn is_bound(&self, name: &str) -> bool {
+    pub(super) fn is_bound(&self, name: &str) -> bool {
         self.bound.iter().any(|bound| bound == name)
     }
 
@@ -47,6 +50,9 @@ impl Completer<'_> {
             }
             (ExprKind::Plain(_) | ExprKind::Text(_), Type::List(element)) => {
                 Ok(Value::List(vec![self.value(expr, element, None)?]))
+            }
+            (ExprKind::Call(call), Type::Entity(_)) if self.is_term(call, "first") => {
+                self.list_name(call).map(Value::First)
             }
             (ExprKind::Binding(name), _) => self.binding(name, expr),
             (ExprKind::Name(name), _) => self.named(name, expr, ty),
@@ -111,7 +117,25 @@ impl Completer<'_> {
         })
     }
 
-    /// A text with values, all of them bound names.
+    /// The call is a term of the language on a list.
+    pub(super) fn is_term(&self, call: &Call, term: &str) -> bool {
+        call.name.text == term && self.grammar.has_term(term)
+    }
+
+    /// The name of the list of a term on one.
+    pub(super) fn list_name(&self, call: &Call) -> Result<SmolStr, OutsideSubset> {
+        let name = match call.args.as_slice() {
+            [list] => match &list.value.kind {
+                ExprKind::Name(name) | ExprKind::Binding(name) => Some(name),
+                _ => None,
+            },
+            _ => None,
+        };
+        let why = "a term on a list is about a bound name in the canonical subset";
+        name.ok_or_else(|| outside(call.span, why)).and_then(|name| self.new_name(name, call.span))
+    }
+
+    /// A text with values, each of them a bound name, or the length or the first element of a list.
     fn template(&self, parts: &[TextPart], expr: &Expr) -> Result<Value, OutsideSubset> {
         let mut written = String::new();
         for part in parts {
@@ -123,8 +147,14 @@ impl Completer<'_> {
                         let name = self.new_name(name, value.span)?;
                         written.push_str(&format!("{{{name}}}"));
                     }
+                    ExprKind::Call(call) if self.is_term(call, "count") || self.is_term(call, "first") => {
+                        let list = self.list_name(call)?;
+                        let mark = if self.subset.syntax == Syntax::Json { "$" } else { "" };
+                        written.push_str(&format!("{{{}({mark}{list})}}", call.name.text));
+                    }
                     _ => {
-                        let why = "a value in a text is a bound name in the canonical subset";
+                        let why = "a value in a text is a bound name, or `count` or `first` of one, in the \
+                                   canonical subset";
                         return Err(outside(value.span, why));
                     }
                 },
@@ -200,7 +230,8 @@ impl Completer<'_> {
                 first.is_some() && items.iter().all(|item| kind(item) == first)
             }
             Value::Binding(_) => true,
-            Value::Name(_) | Value::Number(..) | Value::Text(_) | Value::Bool(_) | Value::Any => false,
+            Value::Name(_) | Value::Number(..) | Value::Text(_) | Value::Bool(_) => false,
+            Value::Any | Value::First(_) => false,
         };
         let why = "the list of an `each` is a name, or entities of one kind, in the canonical subset";
         if is_alike { Ok(list) } else { Err(outside(expr.span, why)) }
@@ -238,6 +269,10 @@ impl Completer<'_> {
             })
         };
         match &expr.kind {
+            ExprKind::Call(call) if self.is_term(call, "is_empty") => {
+                let list = Value::Binding(self.list_name(call)?);
+                Ok(node(NodeKind::IsEmpty, vec![Item::Value(list)]))
+            }
             ExprKind::Call(call) => {
                 let (number, fluent) = numbered(&self.signatures.fluents, |row| row.name == call.name.text)
                     .ok_or_else(|| {
@@ -280,6 +315,9 @@ impl Completer<'_> {
 
     fn comparison(&self, of: &Expr, relation: Relation, with: &Expr) -> Result<Node, OutsideSubset> {
         let (kind, mut items, ty) = match &of.kind {
+            ExprKind::Call(call) if self.is_term(call, "count") => {
+                (NodeKind::Count, vec![Item::Value(Value::Binding(self.list_name(call)?))], &Type::Int)
+            }
             ExprKind::Call(call) => {
                 let (number, measure) = numbered(&self.signatures.measures, |row| row.name == call.name.text)
                     .ok_or_else(|| outside(of.span, format!("there is no measure `{}`", call.name.text)))?;
@@ -299,7 +337,9 @@ impl Completer<'_> {
             return Err(outside(of.span, "only numbers can be more or less"));
         }
         match self.value(with, ty, None)? {
-            Value::Binding(_) => Err(outside(with.span, "a comparison is with a value that is written out")),
+            Value::Binding(_) | Value::First(_) => {
+                Err(outside(with.span, "a comparison is with a value that is written out"))
+            }
             value => {
                 items.extend([Item::Relation(relation), Item::Value(value)]);
                 Ok(Node { kind, span: of.span, name: None, items })
@@ -308,7 +348,7 @@ impl Completer<'_> {
     }
 
     /// The arguments of a fluent or a measure.
-    fn observed(
+    pub(super) fn observed(
         &self,
         call: &Call,
         params: &[(SmolStr, Type)],

@@ -14,7 +14,8 @@ use smol_str::SmolStr;
 use super::ebnf::{EbnfExpr as Expr, EbnfGrammar, RuleId};
 use super::terminal;
 use crate::grammar::{
-    Alternative, Atom, AtomSort, BlockRole, ConditionUse, Grammar, NodeKind, Part, Relation, Repeat, ValueSet,
+    Alternative, Atom, AtomSort, BlockRole, CleanupOf, ConditionUse, Grammar, NodeKind, Part, Relation,
+    Repeat, ValueSet,
 };
 use crate::subset::{MAX_CONDITION_DEPTH, MAX_ITEMS, MAX_MEMBERS, MAX_STEPS, NumberRange};
 
@@ -32,7 +33,8 @@ pub(super) fn ebnf(grammar: &Grammar) -> EbnfGrammar {
         let words = grammar.excluded_names();
         [out.add("name", terminal::name_but(words.iter().map(SmolStr::as_str)), true); 2]
     };
-    let text = out.add("text", quoted("\"", terminal::text()), true);
+    let terms: Vec<&str> = terminal::TEXT_TERMS.into_iter().filter(|term| grammar.has_term(term)).collect();
+    let text = out.add("text", quoted("\"", terminal::text(&terms, grammar.subset.syntax)), true);
     let mut deriver = Deriver {
         grammar,
         is_json,
@@ -44,7 +46,7 @@ pub(super) fn ebnf(grammar: &Grammar) -> EbnfGrammar {
         values: Vec::new(),
         rules: FxHashMap::default(),
     };
-    let body = deriver.parts("", &grammar.document, Level { depth: grammar.subset.depth, in_goal: false });
+    let body = deriver.parts("", &grammar.document, Level::of_policy(grammar));
     if let Some(rule) = deriver.out.rules.get_mut(root.0) {
         rule.body = body;
     }
@@ -57,6 +59,13 @@ struct Level {
     /// Number of block levels that may still nest in the steps here.
     depth: usize,
     in_goal: bool,
+    in_cleanup: bool,
+}
+
+impl Level {
+    fn of_policy(grammar: &Grammar) -> Self {
+        Self { depth: grammar.subset.depth, in_goal: false, in_cleanup: false }
+    }
 }
 
 struct Deriver<'g> {
@@ -154,14 +163,17 @@ impl Deriver<'_> {
             Part::Manner => {
                 let words = ["slowly", "gently"];
                 let lead = self.grammar.manner_lead();
+                let part = self.number(NumberRange::PART);
                 if self.is_json {
                     self.literal(lead, found);
                     let words = words.map(|word| Expr::literal(format!("\"{word}\"")));
-                    found.push(Expr::choice(words.into_iter().chain([Expr::literal("null")]).collect()));
+                    found
+                        .push(Expr::choice(words.into_iter().chain([part, Expr::literal("null")]).collect()));
                 } else {
                     let mut some = Vec::new();
                     self.literal(lead, &mut some);
-                    some.push(Expr::choice(words.map(Expr::literal).into()));
+                    let part = Expr::Seq(vec![self.literals("at "), part]);
+                    some.push(Expr::choice(words.map(Expr::literal).into_iter().chain([part]).collect()));
                     found.push(Expr::Seq(some).optional());
                 }
             }
@@ -180,11 +192,13 @@ impl Deriver<'_> {
                 found.extend((!self.is_json).then(|| Expr::literal(" ")));
             }
             Part::EntityList => found.push(self.entity_list()),
+            Part::ListName => found.push(self.binding.clone()),
+            Part::Cleanup(of) => self.cleanup(*of, level, found),
             Part::Condition(asked) => found.push(self.condition(*asked == ConditionUse::Goal)),
             Part::Block(role, least) => {
                 let depth =
                     if *role == BlockRole::Body { level.depth } else { level.depth.saturating_sub(1) };
-                found.push(self.block(depth, *least));
+                found.push(self.block(Level { depth, ..level }, *least));
             }
             Part::Choice(_, alternatives) => {
                 let ways = Alternative::flattened(alternatives, "");
@@ -201,6 +215,29 @@ impl Deriver<'_> {
                 let more = self.parts(separator, item, level);
                 let more = more.repeat(u32::from(*least) - 1, u32::from(*most) - 1);
                 found.push(self.bracketed([open, end], Expr::seq(vec![first, more])));
+            }
+        }
+    }
+
+    /// The cleanup of a step or of the policy, or none.
+    fn cleanup(&mut self, of: CleanupOf, level: Level, found: &mut Vec<Expr>) {
+        let depth = level.depth.checked_sub(1).filter(|_| !level.in_cleanup);
+        let block = depth.map(|depth| self.block(Level { depth, in_cleanup: true, ..level }, 1));
+        match (of, self.is_json) {
+            (CleanupOf::Policy, true) => {
+                self.literal(",\"finally\":", found);
+                let null = Expr::literal("null");
+                found.push(Expr::choice(block.into_iter().chain([null]).collect()));
+            }
+            (CleanupOf::Step, true) => {
+                let lead = Expr::literal(",\"finally\":");
+                found.extend(block.map(|block| Expr::Seq(vec![lead, block]).optional()));
+            }
+            (CleanupOf::Step | CleanupOf::Policy, false) => {
+                let mut some = Vec::new();
+                self.literal(" finally ", &mut some);
+                some.extend(block);
+                found.extend(depth.map(|_| Expr::Seq(some).optional()));
             }
         }
     }
@@ -257,6 +294,11 @@ impl Deriver<'_> {
         }
         values.extend(set.text.then(|| self.text.clone()));
         values.extend(set.binding.then(|| self.binding.clone()));
+        if set.first {
+            let [open, end] =
+                if self.is_json { ["{\"get\":\"first\",\"of\":", "}"] } else { ["first(", ")"] };
+            values.push(self.bracketed([open, end], self.binding.clone()));
+        }
         if let Some(items) = &set.items {
             let item = self.value((**items).clone());
             values.push(self.bracketed(["[", "]"], self.list(item, [1, MAX_ITEMS])));
@@ -300,12 +342,14 @@ impl Deriver<'_> {
     }
 
     /// A block whose steps nest blocks to a depth.
-    fn block(&mut self, depth: usize, least: u32) -> Expr {
-        let name = format!("{}_{depth}", if least == 0 { "block_or_none" } else { "block" });
+    fn block(&mut self, level: Level, least: u32) -> Expr {
+        let mark = if level.in_cleanup { "cleanup_" } else { "" };
+        let of = if least == 0 { "block_or_none" } else { "block" };
+        let name = format!("{mark}{of}_{}", level.depth);
         if let Some(known) = self.rules.get(&name) {
             return known.clone();
         }
-        let step = self.step(depth);
+        let step = self.step(level);
         let steps = if self.is_json {
             let steps = self.list(step, [1, MAX_STEPS]);
             let steps = if least == 0 { steps.optional() } else { steps };
@@ -317,20 +361,25 @@ impl Deriver<'_> {
         self.rule(name, steps)
     }
 
-    fn step(&mut self, depth: usize) -> Expr {
-        let name = format!("step_{depth}");
+    fn step(&mut self, level: Level) -> Expr {
+        let (depth, mark) = (level.depth, if level.in_cleanup { "cleanup_" } else { "" });
+        let name = format!("{mark}step_{depth}");
         if let Some(known) = self.rules.get(&name) {
             return known.clone();
         }
         let grammar = self.grammar;
-        let level = Level { depth, in_goal: false };
+        let steps = grammar.steps.iter().filter(|step| step.cleans || !level.in_cleanup);
+        let steps: Vec<Alternative> = steps.cloned().collect();
         let mut ways = Vec::new();
-        for step in Alternative::flattened(&grammar.steps, if self.is_json { "{\"" } else { "" }) {
+        for step in Alternative::flattened(&steps, if self.is_json { "{\"" } else { "" }) {
             let is_composite = step.is_composite();
             if is_composite && depth == 0 {
                 continue;
             }
-            let name = if is_composite { format!("{}_{depth}", step.name) } else { step.name.to_string() };
+            let name = match is_composite {
+                true => format!("{mark}{}_{depth}", step.name),
+                false => step.name.to_string(),
+            };
             let known = self.rules.get(&name).cloned();
             let way = known.unwrap_or_else(|| {
                 let body = self.parts(&step.literal, &step.parts, level);
@@ -348,7 +397,7 @@ impl Deriver<'_> {
             return known.clone();
         }
         let grammar = self.grammar;
-        let level = Level { depth: 0, in_goal };
+        let level = Level { depth: 0, in_goal, in_cleanup: false };
         let asked: Vec<&Atom> = grammar.asked_atoms(in_goal).collect();
         let (mut fluents, mut comparisons) = (Vec::new(), Vec::new());
         for atom in asked {

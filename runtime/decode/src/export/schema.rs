@@ -8,7 +8,10 @@
 use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
 
-use crate::grammar::{Alternative, BlockRole, ConditionUse, Grammar, NodeKind, Part, Relation, ValueSet};
+use super::terminal::TEXT_TERMS;
+use crate::grammar::{
+    Alternative, BlockRole, CleanupOf, ConditionUse, Grammar, NodeKind, Part, Relation, ValueSet,
+};
 use crate::subset::{Decimal, MAX_CONDITION_DEPTH, MAX_ITEMS, MAX_MEMBERS, MAX_STEPS, NumberRange};
 
 /// Derives the JSON Schema of a grammar of the JSON syntax.
@@ -18,12 +21,14 @@ pub(super) fn schema(grammar: &Grammar) -> Value {
     deriver.define("binding", json!({"type": "string", "pattern": "^\\$[a-zA-Z_][a-zA-Z0-9_]*$"}));
     // Without a bound: one makes engines slow. The class is that of the subset, which needs no escape.
     // A brace is written twice, or holds a name.
-    let braces = r"\{\{|\}\}|\{[a-zA-Z_][a-zA-Z0-9_]*\}";
+    let name = "[a-zA-Z_][a-zA-Z0-9_]*";
+    let terms = TEXT_TERMS.iter().filter(|term| grammar.has_term(term));
+    let terms: String = terms.map(|term| format!(r"|{term}\(\${name}\)")).collect();
+    let braces = format!(r"\{{\{{|\}}\}}|\{{({name}{terms})\}}");
     let (first, rest) = (r"[ !#%-\[\]-z|~]", r"[ !#-\[\]-z|~]");
     let pattern = format!("^({first}|{braces})({rest}|{braces})*$");
     deriver.define("text", json!({"type": "string", "pattern": pattern}));
-    let mut root =
-        deriver.object("", &grammar.document, Level { depth: grammar.subset.depth, in_goal: false });
+    let mut root = deriver.object("", &grammar.document, Level::of_policy(grammar));
     if let Value::Object(root) = &mut root {
         root.insert("$defs".to_owned(), Value::Object(deriver.defs));
     }
@@ -34,6 +39,19 @@ pub(super) fn schema(grammar: &Grammar) -> Value {
 struct Level {
     depth: usize,
     in_goal: bool,
+    in_cleanup: bool,
+}
+
+impl Level {
+    fn of_policy(grammar: &Grammar) -> Self {
+        Self { depth: grammar.subset.depth, in_goal: false, in_cleanup: false }
+    }
+
+    /// The level of a cleanup of what stands at this one.
+    fn of_cleanup(self) -> Option<Self> {
+        let depth = self.depth.checked_sub(1).filter(|_| !self.in_cleanup)?;
+        Some(Self { depth, in_cleanup: true, ..self })
+    }
 }
 
 struct Deriver<'g> {
@@ -77,6 +95,16 @@ fn number(range: &NumberRange) -> Value {
         if value.fract() == 0.0 { json!(value as i64) } else { json!(value) }
     };
     json!({"type": "number", "minimum": bound(range.least), "maximum": bound(range.greatest)})
+}
+
+/// Adds a required key behind the others of an object.
+fn add_key(object: &mut Value, key: &str, shape: Value) {
+    if let Some(Value::Object(properties)) = object.get_mut("properties") {
+        properties.insert(key.to_owned(), shape);
+    }
+    if let Some(Value::Array(required)) = object.get_mut("required") {
+        required.push(json!(key));
+    }
 }
 
 /// The keys of an object so far.
@@ -170,7 +198,15 @@ impl Deriver<'_> {
                 Part::Manner => {
                     keys.text.push_str(self.grammar.manner_lead());
                     let words = words(&["slowly", "gently"]);
-                    self.once("manner".to_owned(), |_| json!({"anyOf": [words, {"type": "null"}]}))
+                    let part = number(&NumberRange::PART);
+                    self.once("manner".to_owned(), |_| json!({"anyOf": [words, part, {"type": "null"}]}))
+                }
+                // That of a step makes two objects of one: see `choice`.
+                Part::Cleanup(CleanupOf::Step) => continue,
+                Part::Cleanup(CleanupOf::Policy) => {
+                    keys.text.push_str(",\"finally\":");
+                    let blocks = level.of_cleanup().map(|level| self.block(level, 1));
+                    one_of(blocks.into_iter().chain([json!({"type": "null"})]).collect())
                 }
                 // Objects whose `{"` was spelled before the choice.
                 Part::Choice(_, alternatives) => {
@@ -190,17 +226,34 @@ impl Deriver<'_> {
     fn choice(&mut self, lead: &str, alternatives: &[Alternative], level: Level) -> Value {
         let mut shapes = Vec::new();
         for way in Alternative::flattened(alternatives, lead) {
-            shapes.push(match way.parts.as_slice() {
+            let shape = match way.parts.as_slice() {
                 [Part::Condition(asked)] => self.condition(*asked == ConditionUse::Goal),
                 _ if way.literal == "null" => json!({"type": "null"}),
+                [list @ Part::Repeat(_)] if way.literal == "[" => self.value(list, level),
                 parts => {
+                    let mark = if level.in_cleanup { "cleanup_" } else { "" };
                     let name = match way.is_composite() {
-                        true => format!("{}_{}", way.name, level.depth),
+                        true => format!("{mark}{}_{}", way.name, level.depth),
                         false => way.name.to_string(),
                     };
+                    // Nothing may be left out in JSON: a step has a cleanup, or it is another object.
+                    let is_cleanup = |part: &&Part| matches!(part, Part::Cleanup(CleanupOf::Step));
+                    if let (true, Some(inner)) =
+                        (parts.iter().any(|part| is_cleanup(&part)), level.of_cleanup())
+                    {
+                        let cleaned = format!("{name}_cleaned");
+                        let cleaned = self.once(cleaned, |deriver| {
+                            let block = deriver.block(inner, 1);
+                            let mut object = deriver.object(&way.literal, parts, level);
+                            add_key(&mut object, "finally", block);
+                            object
+                        });
+                        shapes.push(cleaned);
+                    }
                     self.once(name, |deriver| deriver.object(&way.literal, parts, level))
                 }
-            });
+            };
+            shapes.push(shape);
         }
         // `null` is the last, as engines expect of what may be missing.
         shapes.sort_by_key(|shape| shape.get("type").is_some_and(|ty| ty == "null"));
@@ -227,6 +280,7 @@ impl Deriver<'_> {
                 let any = failures.iter().map(|name| name.as_str()).chain(["any"]);
                 array(words(&any.collect::<Vec<_>>()), 1, MAX_MEMBERS)
             }),
+            Part::ListName => reference("binding"),
             Part::EntityList => self.once("list".to_owned(), |deriver| {
                 let binds = deriver.grammar.binds_lists();
                 let mut lists: Vec<Value> = binds.then(|| reference("binding")).into_iter().collect();
@@ -239,11 +293,7 @@ impl Deriver<'_> {
             Part::Block(role, least) => {
                 let depth =
                     if *role == BlockRole::Body { level.depth } else { level.depth.saturating_sub(1) };
-                let name = if *least == 0 { "maybe_block" } else { "block" };
-                self.once(format!("{name}_{depth}"), |deriver| {
-                    let step = deriver.step(depth);
-                    array(step, *least as usize, MAX_STEPS)
-                })
+                self.block(Level { depth, ..level }, *least)
             }
             Part::Repeat(repeat) => {
                 let item = match repeat.item.as_slice() {
@@ -252,11 +302,21 @@ impl Deriver<'_> {
                 };
                 array(item, usize::from(repeat.least), usize::from(repeat.most))
             }
-            Part::Literal(_) | Part::Action(_) | Part::OptionalNumber { .. } | Part::Manner => Value::Null,
+            Part::Literal(_) | Part::Action(_) | Part::OptionalNumber { .. } => Value::Null,
+            Part::Manner | Part::Cleanup(_) => Value::Null,
             Part::Choice(_, alternatives) => self.choice("", alternatives, level),
             // Nothing may be left out in JSON.
             Part::Optional { .. } => Value::Null,
         }
+    }
+
+    fn block(&mut self, level: Level, least: u32) -> Value {
+        let mark = if level.in_cleanup { "cleanup_" } else { "" };
+        let name = if least == 0 { "maybe_block" } else { "block" };
+        self.once(format!("{mark}{name}_{}", level.depth), |deriver| {
+            let step = deriver.step(level);
+            array(step, least as usize, MAX_STEPS)
+        })
     }
 
     fn value_set(&mut self, set: ValueSet) -> Value {
@@ -273,6 +333,14 @@ impl Deriver<'_> {
         shapes.extend(set.bool.then(|| json!({"type": "boolean"})));
         shapes.extend(set.text.then(|| reference("text")));
         shapes.extend(set.binding.then(|| reference("binding")));
+        if set.first {
+            shapes.push(self.once("first".to_owned(), |_| {
+                let mut keys = Keys::default();
+                keys.properties.insert("get".to_owned(), words(&["first"]));
+                keys.properties.insert("of".to_owned(), reference("binding"));
+                keys.finish()
+            }));
+        }
         if let Some(items) = &set.items {
             shapes.push(array(self.value_set((**items).clone()), 1, MAX_ITEMS));
         }
@@ -284,12 +352,20 @@ impl Deriver<'_> {
         shape
     }
 
-    fn step(&mut self, depth: usize) -> Value {
-        self.once(format!("step_{depth}"), |deriver| {
+    fn step(&mut self, level: Level) -> Value {
+        let mark = if level.in_cleanup { "cleanup_" } else { "" };
+        self.once(format!("{mark}step_{}", level.depth), |deriver| {
             let grammar = deriver.grammar;
-            let steps = grammar.steps.iter().filter(|step| depth > 0 || !step.is_composite());
-            let steps: Vec<Alternative> = steps.cloned().collect();
-            deriver.choice("{\"", &steps, Level { depth, in_goal: false })
+            let steps = grammar.steps.iter().filter(|step| step.cleans || !level.in_cleanup);
+            let (nested, plain): (Vec<_>, Vec<_>) = steps.cloned().partition(Alternative::is_composite);
+            // Steps without steps are the same at each level.
+            let plain =
+                deriver.once(format!("{mark}plain_step"), |deriver| deriver.choice("{\"", &plain, level));
+            if nested.is_empty() || level.depth == 0 {
+                return one_of(vec![plain]);
+            }
+            let nested = deriver.choice("{\"", &nested, level);
+            one_of(vec![plain, nested])
         })
     }
 
@@ -304,7 +380,7 @@ impl Deriver<'_> {
             let mut shapes = Vec::new();
             for atom in grammar.asked_atoms(in_goal) {
                 let lead = format!("{{\"{}{}", atom.sort.lead(), atom.spelled.literal);
-                let level = Level { depth: 0, in_goal };
+                let level = Level { depth: 0, in_goal, in_cleanup: false };
                 let name = format!("{prefix}_{}", atom.spelled.name);
                 shapes.push(deriver.once(name, |deriver| deriver.object(&lead, &atom.spelled.parts, level)));
             }

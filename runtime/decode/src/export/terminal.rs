@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use motet_syntax::Syntax;
+use motet_syntax::words::RESERVED;
+
 use super::ebnf::EbnfExpr;
 use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange};
 
@@ -18,9 +21,20 @@ struct Tree {
     next: BTreeMap<char, Tree>,
 }
 
-/// A text, without its quotes.
-pub(super) fn text() -> EbnfExpr {
-    let value = EbnfExpr::seq(vec![EbnfExpr::literal("{"), name(), EbnfExpr::literal("}")]);
+/// The terms on lists that a text may say.
+pub(super) const TEXT_TERMS: [&str; 2] = ["count", "first"];
+
+/// A text, without its quotes, in which some terms on lists may be said. In JSON their names have a `$`.
+pub(super) fn text(terms: &[&str], syntax: Syntax) -> EbnfExpr {
+    let of = |term: &&str| {
+        let (mark, name) = match syntax {
+            Syntax::Json => ("$", name()),
+            Syntax::Text => ("", name_but(RESERVED.into_iter())),
+        };
+        EbnfExpr::seq(vec![EbnfExpr::literal(format!("{term}({mark}")), name, EbnfExpr::literal(")")])
+    };
+    let values = EbnfExpr::choice(std::iter::once(name()).chain(terms.iter().map(of)).collect());
+    let value = EbnfExpr::seq(vec![EbnfExpr::literal("{"), values, EbnfExpr::literal("}")]);
     let braces = || [EbnfExpr::literal("{{"), EbnfExpr::literal("}}"), value.clone()];
     let of = |class: &[(char, char)]| {
         EbnfExpr::choice(std::iter::once(EbnfExpr::Class(class.to_vec())).chain(braces()).collect())

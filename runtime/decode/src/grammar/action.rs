@@ -32,8 +32,12 @@ pub(crate) enum Action {
     BindItem,
     /// The ways through the open node meet: what all of them have bound is in scope.
     Meet,
-    /// The name given before the call is bound to the call's result, of the type with this number.
+    /// The name given before a call or a value is bound to it; its type has this number.
     Bind(u16),
+    /// The name given before the first element of a list is bound to it.
+    BindFirst,
+    /// The deadline that was just written is not that of the step before it, but of the block that follows.
+    Split(Split),
     /// Another condition follows, joined by `and` ([`NodeKind::All`]) or `or` ([`NodeKind::Any`]).
     Join(NodeKind),
 }
@@ -80,8 +84,28 @@ pub(crate) enum Guard {
     Never,
     /// This callable may be called.
     Callable(u16),
-    /// Some callable with a result may be called.
+    /// Some callable with a result may be called, or some value be named.
     Let,
+    /// Some value may be named.
+    LetValue,
+    /// A step that asks for nothing may follow.
+    Room,
+    /// A list is bound.
+    List,
+    /// A list is bound, and the condition may be one that says nothing about the facts.
+    OfList,
+    /// The first element of a bound list may be the argument with this number, of the type with the other one.
+    First(u8, u16),
+    /// A step with blocks may begin that interrupts its block.
+    Interrupt,
+    /// A step may ask for a condition and branch on it.
+    If,
+    /// The step before it may end, and a block with a deadline follow.
+    Split(Split),
+    /// The step or policy before may have a cleanup.
+    Cleanup,
+    /// The cleanup, or a block in it, may end.
+    Cleaned,
     /// This fluent may be tested.
     Fluent(u16),
     /// `and` may follow the condition.
@@ -96,6 +120,15 @@ pub(crate) enum Guard {
     Several,
     /// Behind a comparison.
     Compared,
+}
+
+/// The rest of a step whose deadline turns out to be that of the block behind it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Split {
+    /// The number of its modifiers from the deadline on, all of which are defaults then.
+    pub(crate) modifiers: u8,
+    /// The number of the type to which the name before it is bound.
+    pub(crate) bind: Option<u16>,
 }
 
 /// A node of the syntax tree. Numbers are those of the declarations in the signatures.
@@ -119,6 +152,15 @@ pub(crate) enum NodeKind {
     Repeat,
     Each,
     Parallel,
+    Delay,
+    /// A block with a deadline.
+    Within,
+    Keep,
+    OutOf,
+    Distance,
+    /// The cleanup of the node before it.
+    Finally,
+    Let(LetValue),
     Block,
     Is(u16),
     Not,
@@ -126,9 +168,36 @@ pub(crate) enum NodeKind {
     Any,
     Get(u16),
     Field(u16),
+    /// A comparison of the length of a list.
+    Count,
+    IsEmpty,
     List,
     /// Conditions in parentheses.
     Group,
+}
+
+impl NodeKind {
+    /// It is a step with blocks.
+    pub(crate) fn has_blocks(self) -> bool {
+        match self {
+            Self::Sequence | Self::If | Self::Monitor | Self::Try | Self::Repeat | Self::Each => true,
+            Self::Parallel | Self::Within | Self::Keep => true,
+            Self::Do(_) | Self::Let(_) | Self::Delay | Self::Wait | Self::When | Self::Catch => false,
+            Self::Pause | Self::Restart | Self::Resume | Self::OutOf | Self::Distance => false,
+            Self::Done | Self::Fail | Self::Cannot | Self::Replan | Self::Finally | Self::Block => false,
+            Self::Is(_) | Self::Not | Self::All | Self::Any | Self::Get(_) | Self::Field(_) => false,
+            Self::Count | Self::IsEmpty | Self::List | Self::Group => false,
+        }
+    }
+}
+
+/// A value that a `let` gives a name. Numbers are those of the declarations in the signatures.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum LetValue {
+    Count,
+    First,
+    Get(u16),
+    Field(u16),
 }
 
 /// The role of a block in its step.
@@ -144,6 +213,7 @@ pub(crate) enum BlockRole {
     Reaction,
     Loop,
     Branch,
+    Cleanup,
 }
 
 /// The use of a name that the policy gives.
@@ -157,7 +227,7 @@ pub(crate) enum NameUse {
     Result(u16),
     /// Of the item of a loop, of the type of the elements of its list.
     Item,
-    /// Of a result whose type is not known yet.
+    /// Of a result or a value whose type is not known yet.
     Let,
 }
 

@@ -5,8 +5,8 @@
 //! around them.
 
 use super::{
-    Action, Alternative, BlockRole, ChoiceStyle, ConditionUse, Constant, Grammar, Guard, NameUse, NodeKind,
-    Part, WordRole,
+    Action, Alternative, BlockRole, ChoiceStyle, CleanupOf, ConditionUse, Constant, Grammar, Guard, NameUse,
+    NodeKind, Part, ValuePlace, WordRole,
 };
 use crate::subset::{MAX_COUNT, MAX_MEMBERS, NumberRange};
 
@@ -37,14 +37,22 @@ pub(super) fn document(grammar: &Grammar) -> Vec<Part> {
     // A string always has a JSON syntax.
     let robot = grammar.robot().map(|robot| serde_json::to_string(robot.as_str()).unwrap_or_default());
     let robot = robot.map(|robot| format!(",\"robot\":{robot}")).unwrap_or_default();
+    let mut keeps = vec![Alternative::new("null", Guard::Open, Vec::new())];
+    if let Some(rule) = grammar.keep_rule(ValuePlace::Operand) {
+        let rules = Part::repeat(["", ",", "]"], [1, MAX_MEMBERS], rule);
+        keeps.push(Alternative::new("[", Guard::Open, vec![rules]));
+    }
     vec![
         literal("{\"motet\":1,\"policy\":"),
         Part::Name(NameUse::Policy),
         Part::literal(format!("{robot},\"achieves\":")),
         condition_or_null(grammar, ConditionUse::Goal, Guard::Open),
+        literal(",\"keep\":"),
+        Part::Choice(ChoiceStyle::Literals, keeps),
         Part::Action(Action::Head),
         literal(",\"steps\":"),
         Part::Block(BlockRole::Body, 1),
+        Part::Cleanup(CleanupOf::Policy),
         literal("}"),
     ]
 }
@@ -52,14 +60,15 @@ pub(super) fn document(grammar: &Grammar) -> Vec<Part> {
 pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
     use BlockRole as Role;
     let calls = grammar.calls().into_iter().map(|(call, _)| call).collect();
-    let mut steps = vec![Alternative::new(
-        "do\":\"",
-        Guard::Call,
-        vec![Part::Choice(ChoiceStyle::Names(WordRole::Callable), calls)],
-    )];
+    let calls = Part::Choice(ChoiceStyle::Names(WordRole::Callable), calls);
+    let mut steps = vec![Alternative::new("do\":\"", Guard::Call, vec![calls]).cleaning()];
+    steps.extend(grammar.let_step());
+    let delay = vec![Part::open(NodeKind::Delay), Part::Number(NumberRange::DURATION)];
+    steps.push(Alternative::new("wait\":", Guard::Room, delay).named("delay").cleaning());
     let mut add = |word: &'static str, guard: Guard, kind: NodeKind, parts: Vec<Part>| {
+        let cleans = super::cleans(kind);
         let parts = std::iter::once(Part::open(kind)).chain(parts).collect();
-        steps.push(Alternative::new(word, guard, parts));
+        steps.push(Alternative { cleans, ..Alternative::new(word, guard, parts) });
     };
     let body = |role| [literal(",\"steps\":"), Part::Block(role, 1)];
     let sequence = [vec![Part::Name(NameUse::Group)], body(Role::Group).into()].concat();
@@ -67,7 +76,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
     if grammar.has_conditions() {
         add(
             "if\":",
-            grammar.when_observed(Guard::Nest),
+            grammar.when_observed(Guard::If),
             NodeKind::If,
             vec![
                 Part::Condition(ConditionUse::Branch),
@@ -119,8 +128,16 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
     }
     let branches = Part::repeat(["[", ",", "]"], [2, MAX_MEMBERS], vec![Part::Block(Role::Branch, 1)]);
     add("parallel\":", Guard::Fix, NodeKind::Parallel, vec![branches, Part::Action(Action::Meet)]);
+    let timed = [vec![Part::Number(NumberRange::DURATION)], body(Role::During).into()].concat();
+    add("within\":", Guard::Interrupt, NodeKind::Within, timed);
+    if let Some(rule) = grammar.keep_rule(ValuePlace::Plain) {
+        let rules = Part::repeat(["[", ",", "]"], [1, MAX_MEMBERS], rule);
+        add("keep\":", Guard::Interrupt, NodeKind::Keep, [vec![rules], body(Role::During).into()].concat());
+    }
     for step in &mut steps {
-        step.parts.extend([literal("}"), close()]);
+        step.parts.push(close());
+        step.parts.extend(step.is_composite().then_some(Part::Cleanup(CleanupOf::Step)));
+        step.parts.push(literal("}"));
     }
     steps.push(ending(Guard::Done));
     steps
@@ -154,11 +171,8 @@ fn when(grammar: &Grammar) -> Vec<Part> {
 
 /// An ending behind its `{"`.
 fn ending(done: Guard) -> Alternative {
-    let reason = Part::Value {
-        ty: motet_compiler::signature::Type::Text,
-        range: None,
-        place: super::ValuePlace::Plain,
-    };
+    let reason =
+        Part::Value { ty: motet_compiler::signature::Type::Text, range: None, place: ValuePlace::Plain };
     let with_reason = |kind| vec![Part::open(kind), literal(",\"why\":"), reason.clone()];
     let ways = vec![
         Alternative::new("done\"", done, vec![Part::open(NodeKind::Done)]),

@@ -9,6 +9,7 @@
 
 mod action;
 mod json;
+mod named;
 mod part;
 mod text;
 
@@ -20,9 +21,11 @@ use motet_syntax::words::RESERVED;
 use smol_str::SmolStr;
 
 pub(crate) use self::action::{
-    Action, BlockRole, ConditionUse, Constant, Guard, NameUse, NodeKind, WordRole,
+    Action, BlockRole, ConditionUse, Constant, Guard, LetValue, NameUse, NodeKind, Split, WordRole,
 };
-pub(crate) use self::part::{Alternative, ChoiceStyle, Part, Relation, Repeat, ValuePlace, ValueSet};
+pub(crate) use self::part::{
+    Alternative, ChoiceStyle, CleanupOf, Part, Relation, Repeat, ValuePlace, ValueSet,
+};
 use crate::subset::{MAX_RETRIES, Modifiers, NumberRange, Subset};
 
 /// Above this number of entities and cases an exported name of the text syntax may be one of theirs: a
@@ -70,8 +73,9 @@ pub(crate) struct Atom {
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum AtomSort {
+    /// A fluent, or a list without elements.
     Fluent,
-    /// A comparison of a measure with a value.
+    /// A comparison of a measure, or of the length of a list, with a value.
     Measure,
     /// A comparison of a field with a value.
     Field,
@@ -88,6 +92,12 @@ impl AtomSort {
     }
 }
 
+/// A step of this kind may stand in a cleanup, beside calls and names for values: one that always ends, and
+/// whose end nothing but the steps in it can refute.
+fn cleans(kind: NodeKind) -> bool {
+    matches!(kind, NodeKind::Sequence | NodeKind::If | NodeKind::Wait | NodeKind::Try)
+}
+
 impl PartialEq for Grammar {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.signatures, &other.signatures) && self.subset == other.subset
@@ -101,7 +111,7 @@ impl Grammar {
         let mut grammar = Self {
             subset,
             signatures: Arc::clone(signatures),
-            bindable: signatures.bindable(),
+            bindable: named::bindable(signatures),
             document: Vec::new(),
             steps: Vec::new(),
             atoms: Vec::new(),
@@ -216,8 +226,7 @@ impl Grammar {
                 parts.extend(self.modifier("retry", NumberRange::whole(0, MAX_RETRIES)));
             }
             if let Some(ty) = &callable.result {
-                let ty = self.bindable.iter().position(|known| known == ty).unwrap_or(usize::MAX);
-                let ty = u16::try_from(ty).unwrap_or(u16::MAX);
+                let ty = self.type_number(ty);
                 if is_json {
                     parts.extend([Part::literal(",\"as\":"), Part::Name(NameUse::Result(ty))]);
                 } else {
@@ -227,7 +236,7 @@ impl Grammar {
             let guard = if is_json { Guard::Open } else { Guard::Callable(number) };
             let call =
                 self.applied(&callable.name, guard, number, parts).named(format!("do_{}", callable.name));
-            calls.push((call, callable.result.is_some()));
+            calls.push((call.cleaning(), callable.result.is_some()));
         }
         calls
     }
@@ -256,7 +265,7 @@ impl Grammar {
             Syntax::Json => format!("{name}\""),
             Syntax::Text => format!("{}(", motet_syntax::print::identifier(name)),
         };
-        Alternative { name: name.into(), literal: literal.into(), guard, number, parts, is_ending: false }
+        Alternative { name: name.into(), number, ..Alternative::new(literal, guard, parts) }
     }
 
     /// The atoms that may be asked for in a goal, or in another condition. In a goal nothing is bound, so an
@@ -345,6 +354,7 @@ impl Grammar {
             let spelled = spelled.named(format!("field_{}", field.name));
             atoms.push(Atom { sort: AtomSort::Field, spelled, is_observable: true, is_decoded });
         }
+        atoms.extend(self.list_atoms());
         atoms
     }
 
@@ -386,6 +396,12 @@ impl Grammar {
             own.map(|row| row.0.clone()).collect::<Vec<_>>()
         };
         (0..self.signatures.kinds.len()).map(own).filter(|names| !names.is_empty()).collect()
+    }
+
+    /// The number of a type among those that a name can have.
+    pub(crate) fn type_number(&self, ty: &Type) -> u16 {
+        let at = self.bindable.iter().position(|known| known == ty);
+        at.and_then(|at| u16::try_from(at).ok()).unwrap_or(u16::MAX)
     }
 
     /// The guard of a condition that may be left out.

@@ -29,8 +29,10 @@ pub(crate) enum Part {
         lead: SmolStr,
         range: NumberRange,
     },
-    /// A word for the manner of a call, or nothing, as an optional number.
+    /// A manner of a call, or nothing, as an optional number.
     Manner,
+    /// The name of a bound list.
+    ListName,
     /// A relation between values of a type; in text with the space behind it.
     Relation(Type),
     /// The kinds of failure of a handler, with brackets in JSON, with the space behind them in text.
@@ -49,8 +51,18 @@ pub(crate) enum Part {
         absent: Vec<Part>,
         absent_guard: Guard,
     },
+    /// The cleanup of the step or of the policy before it, or nothing.
+    Cleanup(CleanupOf),
     /// The same several times.
     Repeat(Box<Repeat>),
+}
+
+/// Owner of a cleanup.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum CleanupOf {
+    Step,
+    /// The policy: in JSON its key is always there.
+    Policy,
 }
 
 /// Position of a value.
@@ -91,6 +103,8 @@ pub(crate) struct Alternative {
     pub(crate) parts: Vec<Part>,
     /// It ends the policy: no step behind it in its block is ever reached.
     pub(crate) is_ending: bool,
+    /// It may stand in a cleanup.
+    pub(crate) cleans: bool,
 }
 
 /// A part that is repeated from `least` to `most` times.
@@ -130,7 +144,7 @@ impl Alternative {
     pub(crate) fn new(literal: impl Into<SmolStr>, guard: Guard, parts: Vec<Part>) -> Self {
         let literal: SmolStr = literal.into();
         let name = literal.chars().take_while(char::is_ascii_alphabetic).collect();
-        Self { name, literal, guard, number: 0, parts, is_ending: false }
+        Self { name, literal, guard, number: 0, parts, is_ending: false, cleans: false }
     }
 
     pub(crate) fn named(self, name: impl Into<SmolStr>) -> Self {
@@ -139,6 +153,10 @@ impl Alternative {
 
     pub(crate) fn ending(self) -> Self {
         Self { is_ending: true, ..self }
+    }
+
+    pub(crate) fn cleaning(self) -> Self {
+        Self { cleans: true, ..self }
     }
 
     /// Alternatives of which none begins with a choice of its own, behind a prefix: the literals of a
@@ -173,7 +191,7 @@ impl Alternative {
 
     /// It has blocks of its own, one level below the step.
     pub(crate) fn is_composite(&self) -> bool {
-        matches!(self.guard, Guard::Nest | Guard::Fix)
+        matches!(self.guard, Guard::Nest | Guard::Fix | Guard::If | Guard::Interrupt)
             || self.parts.iter().any(|part| matches!(part, Part::Block(..)))
     }
 }
@@ -232,6 +250,8 @@ pub(crate) struct ValueSet {
     pub(crate) any: bool,
     /// A name that a step has bound.
     pub(crate) binding: bool,
+    /// The first element of a bound list.
+    pub(crate) first: bool,
     /// The items of a list that is written out.
     pub(crate) items: Option<Box<Self>>,
 }
@@ -266,15 +286,20 @@ impl ValueSet {
             Type::List(element) => Some(Self::of(element, None, place, in_goal, grammar)),
             _ => None,
         };
+        let first = matches!((place, ty), (ValuePlace::Argument(_), Type::Entity(_)))
+            && grammar.has_term("first")
+            && grammar.can_bind(&Type::List(Box::new(ty.clone())));
         let (any_mark, goal_mark) = (if any { "_any" } else { "" }, if binds { "" } else { "_fixed" });
+        let first_mark = if first { "_or_first" } else { "" };
         Self {
-            name: format!("{}{any_mark}{goal_mark}", signatures.type_name(ty)),
+            name: format!("{}{any_mark}{goal_mark}{first_mark}", signatures.type_name(ty)),
             names,
             number: NumberRange::of(ty, range),
             text: *ty == Type::Text,
             bool: *ty == Type::Bool,
             any,
             binding: binds && grammar.can_bind(ty),
+            first,
             items: items.filter(|items| !items.is_empty()).map(Box::new),
         }
     }
@@ -302,7 +327,7 @@ impl ValueSet {
     pub(crate) fn is_empty(&self) -> bool {
         self.names.is_empty()
             && self.number.is_none()
-            && !(self.text || self.bool || self.any || self.binding)
+            && !(self.text || self.bool || self.any || self.binding || self.first)
             && self.items.is_none()
     }
 

@@ -5,8 +5,8 @@ use motet_compiler::signature::Type;
 use motet_syntax::print::identifier;
 
 use super::{
-    Action, Alternative, BlockRole, ChoiceStyle, ConditionUse, Constant, Grammar, Guard, NameUse, NodeKind,
-    Part, ValuePlace,
+    Action, Alternative, BlockRole, ChoiceStyle, CleanupOf, ConditionUse, Constant, Grammar, Guard, NameUse,
+    NodeKind, Part, ValuePlace,
 };
 use crate::subset::{MAX_COUNT, MAX_MEMBERS, MAX_STEPS, NumberRange};
 
@@ -30,7 +30,12 @@ pub(super) fn document(grammar: &Grammar) -> Vec<Part> {
     let goal = vec![Part::Condition(ConditionUse::Goal), literal(" ")];
     let present = Alternative::new("achieves ", grammar.when_asked(ConditionUse::Goal), goal);
     parts.push(optional(present, no_value(), Guard::Open));
-    parts.extend([Part::Action(Action::Head), block(BlockRole::Body)]);
+    if let Some(rule) = grammar.keep_rule(ValuePlace::Operand) {
+        let rules = Part::repeat(["", ", ", " "], [1, MAX_MEMBERS], rule);
+        let present = Alternative::new("keep ", Guard::Open, vec![rules]);
+        parts.push(optional(present, Vec::new(), Guard::Open));
+    }
+    parts.extend([Part::Action(Action::Head), block(BlockRole::Body), Part::Cleanup(CleanupOf::Policy)]);
     parts
 }
 
@@ -42,15 +47,19 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
     let (named, plain): (Vec<_>, Vec<_>) =
         grammar.calls().into_iter().partition(|(_, has_result)| *has_result);
     let mut steps: Vec<Alternative> = plain.into_iter().map(|(call, _)| call).collect();
+    let named: Vec<Alternative> =
+        named.into_iter().map(|(call, _)| call).chain(grammar.let_words()).collect();
     if !named.is_empty() {
-        let named = named.into_iter().map(|(call, _)| call).collect();
-        let calls = Part::Choice(ChoiceStyle::Keywords, named);
-        let parts = vec![Part::Name(NameUse::Let), literal("= "), calls];
-        steps.push(Alternative::new("let ", Guard::Let, parts));
+        let named = Part::Choice(ChoiceStyle::Keywords, named);
+        let parts = vec![Part::Name(NameUse::Let), literal("= "), named];
+        steps.push(Alternative::new("let ", Guard::Let, parts).cleaning());
     }
+    let delay = vec![Part::open(NodeKind::Delay), Part::Number(NumberRange::DURATION)];
+    steps.push(Alternative::new("wait ", Guard::Room, delay).named("delay").cleaning());
     let mut add = |word: &'static str, guard: Guard, kind: NodeKind, parts: Vec<Part>| {
+        let cleans = super::cleans(kind);
         let parts = std::iter::once(Part::open(kind)).chain(parts).collect();
-        steps.push(Alternative::new(word, guard, parts));
+        steps.push(Alternative { cleans, ..Alternative::new(word, guard, parts) });
     };
     let sequence = vec![Part::Name(NameUse::Group), block(BlockRole::Group)];
     add("sequence ", Guard::Nest, NodeKind::Sequence, sequence);
@@ -64,7 +73,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
             optional(otherwise, no_block, Guard::Empty),
             Part::Action(Action::Meet),
         ];
-        add("if ", grammar.when_observed(Guard::Nest), NodeKind::If, parts);
+        add("if ", grammar.when_observed(Guard::If), NodeKind::If, parts);
         let mut wait = vec![Part::Condition(ConditionUse::Wait)];
         wait.extend(grammar.modifier("within", NumberRange::DURATION));
         add("wait until ", grammar.when_observed(Guard::Wait), NodeKind::Wait, wait);
@@ -100,10 +109,17 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
     }
     let branches = Part::repeat([" ", " ", " }"], [2, MAX_MEMBERS], vec![block(BlockRole::Branch)]);
     add("parallel {", Guard::Fix, NodeKind::Parallel, vec![branches, meet]);
+    let timed = vec![Part::Number(NumberRange::DURATION), literal(" "), block(BlockRole::During)];
+    add("within ", Guard::Interrupt, NodeKind::Within, timed);
+    if let Some(rule) = grammar.keep_rule(ValuePlace::Plain) {
+        let rules = Part::repeat(["", ", ", " "], [1, MAX_MEMBERS], rule);
+        add("keep ", Guard::Interrupt, NodeKind::Keep, vec![rules, block(BlockRole::During)]);
+    }
     // The parts behind `let` end with the calls themselves.
     steps.extend(endings(Guard::Done));
     for step in &mut steps {
         step.parts.push(Part::Action(Action::Close));
+        step.parts.extend(step.is_composite().then_some(Part::Cleanup(CleanupOf::Step)));
     }
     steps
 }

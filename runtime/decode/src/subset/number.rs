@@ -24,6 +24,9 @@ impl NumberRange {
     pub(crate) const DURATION: Self =
         Self { least: 0, greatest: 9_999_999, decimals: 3, unit: Some(Unit::Second) };
 
+    /// Parts of the robot's speed and acceleration: 1 % to 100 %.
+    pub(crate) const PART: Self = Self { least: 10, greatest: 1000, decimals: 3, unit: Some(Unit::Percent) };
+
     /// The whole numbers of a range, both ends included.
     #[must_use]
     pub(crate) const fn whole(least: u32, greatest: u32) -> Self {

@@ -42,7 +42,9 @@ pub(crate) struct Tokens {
     pub(crate) text: SimpleVob,
     /// Tokens that end a text, or whose position in it matters.
     pub(crate) text_ends: TokTrie,
-    /// Tokens with a brace in a text.
+    /// Tokens of a text with each of their braces twice, but for one at the end.
+    pub(crate) doubled: SimpleVob,
+    /// Other tokens with a brace in a text: the names in scope tell if they can stand there.
     pub(crate) braces: TokTrie,
     /// Tokens that begin with `$` and can stand inside a text, but not begin it.
     pub(crate) dollars: SimpleVob,
@@ -72,6 +74,21 @@ impl std::fmt::Debug for Vocabulary {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Vocabulary({} tokens)", self.0.trie.vocab_size())
     }
+}
+
+/// The token can stand anywhere inside a text, whatever names are bound: it has braces, each of them twice, but
+/// for one at the end.
+fn is_doubled(bytes: &[u8]) -> bool {
+    let (mut rest, mut has_braces) = (bytes, false);
+    while let Some((first, behind)) = rest.split_first() {
+        rest = match behind.split_first() {
+            Some((second, behind)) if is_brace(*first) && first == second => behind,
+            Some(_) if is_brace(*first) => return false,
+            _ => behind,
+        };
+        has_braces |= is_brace(*first);
+    }
+    has_braces && bytes.first() != Some(&b'$') && bytes.iter().all(|byte| is_text_char(char::from(*byte)))
 }
 
 impl Vocabulary {
@@ -112,10 +129,12 @@ impl Vocabulary {
             bytes.first() == Some(&b'$')
                 || (ends && before_quote(bytes).is_some_and(|before| before.iter().all(is_text_byte)))
         });
+        let doubled = set(&|bytes| is_doubled(bytes));
         let braces = trie.filter(&set(&|bytes| {
             let before = bytes.split(|byte| *byte == b'"').next().unwrap_or_default();
             before.iter().all(|byte| is_text_char(char::from(*byte)))
                 && before.iter().any(|byte| is_brace(*byte))
+                && !is_doubled(bytes)
         }));
         let dollars = set(&|bytes| bytes.iter().all(is_text_byte) && bytes.first() == Some(&b'$'));
         let dollar_ends = trie.filter(&set(&|bytes| bytes.first() == Some(&b'$')));
@@ -161,6 +180,7 @@ impl Vocabulary {
             tree,
             text,
             text_ends,
+            doubled,
             braces,
             dollars,
             dollar_ends,

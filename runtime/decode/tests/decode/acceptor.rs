@@ -70,12 +70,12 @@ fn acceptor_opens_concurrent_calls_that_check() {
     let restart = format!(
         r#"{{"monitor":[{{"when":{near},"for":null,"then":{{"react":"restart","at_most":3}}}}],"during":["#
     );
-    let then = r#"{"react":"resume","at_most":3,"steps":[{"do":"go","to":"sink"}]}"#;
+    let then = r#"{"react":"resume","at_most":3,"steps":[{"do":"go","to":"sink"}],"finally":null}"#;
     let resume = format!(r#"{{"monitor":[{{"when":{near},"for":null,"then":{then}}}],"during":["#);
     let branch = r#"{"parallel":[[{"do":"go","to":"fridge_1"}],["#.to_owned();
     let (mut open, mut closed) = (0, 0);
-    for (begin, end) in [(restart, "]}]}"), (resume, "]}]}"), (branch, "]]}]}")] {
-        let head = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#;
+    for (begin, end) in [(restart, "]}"), (resume, "]}"), (branch, "]]}")] {
+        let head = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":["#;
         let begin = format!(r#"{head}{{"do":"go","to":"fridge_1"}},{begin}"#);
         for callable in &session.signatures().callables {
             let [param] = callable.params.as_slice() else { continue };
@@ -84,7 +84,7 @@ fn acceptor_opens_concurrent_calls_that_check() {
             }
             for (entity, _) in &session.signatures().entities {
                 let call = format!(r#"{{"do":"{}","{}":"{entity}"}}"#, callable.name, param.name);
-                let text = format!(r#"{begin}{call},{{"end":"fail","why":"no"}}{end}"#);
+                let text = format!(r#"{begin}{call},{{"end":"fail","why":"no"}}{end}],"finally":null}}"#);
                 let wrong = errors(&session, &text);
                 let mut acceptor = factory.acceptor(8000).unwrap();
                 let is_open = acceptor.accept(text.as_bytes()) == text.len();
@@ -172,7 +172,7 @@ fn acceptor_takes_walks_of_the_other_syntax() {
             let [from, to] = [from, to].map(|syntax| Subset { syntax, ..subset(Modifiers::Written) });
             let factory = AcceptorFactory::new(&session, to);
             let grammar = Grammar::new(&session.signatures(), to);
-            // The acceptor of the text syntax writes no comparison of a field.
+            // The acceptor of the text syntax knows no fields.
             let fits = |text: &str| (600..3000).contains(&text.len()) && !text.contains("\"field\":");
             for text in written(&session, from, 3, fits) {
                 let parsed = motet_syntax::read(&Source::new("policy", text.as_str()), FileId(7));
@@ -241,7 +241,7 @@ fn acceptor_forces_text_and_explains_refusals() {
     let mut acceptor = factory.acceptor(1000).unwrap();
     assert_eq!(acceptor.forced(), b"{\"motet\":1,\"policy\":\"");
     let start = concat!(
-        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"#,
+        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
         r#""steps":[{"do":"go","to":"kitchen_table"},{"do":"pick","object":"mug_1","from":"auto"}"#,
     )
     .as_bytes();
@@ -257,7 +257,7 @@ fn acceptor_forces_text_and_explains_refusals() {
 fn acceptor_excludes_infeasible_arguments() {
     let session = session("hsr", "kitchen");
     let start = concat!(
-        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"#,
+        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
         r#""steps":[{"do":"go","to":"kitchen_table"},{"do":"pick","object":"mug_1""#,
     )
     .as_bytes();

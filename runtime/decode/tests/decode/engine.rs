@@ -34,9 +34,9 @@ fn acceptor_takes_loop_items_as_arguments() {
         (
             Syntax::Json,
             concat!(
-                r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":["#,
+                r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":["#,
                 r#"{"each":"J","in":["drawer_1"],"at_most":1,"steps":["#,
-                r#"{"do":"go","to":"$J"},{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
+                r#"{"do":"go","to":"$J"},{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}],"finally":null}"#,
             ),
         ),
     ] {

@@ -13,6 +13,7 @@
 
 mod acceptor;
 mod common;
+mod constructs;
 mod engine;
 mod scopes;
 mod vocabulary;

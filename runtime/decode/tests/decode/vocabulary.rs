@@ -165,7 +165,7 @@ fn vocabulary_excludes_special_tokens_and_pairs_twins() {
     let mask = decoder.mask().to_vec();
     assert!(set(&mask, usize::from(b'{')) && set(&mask, 256));
     assert_eq!(mask.iter().map(|word| word.count_ones()).sum::<u32>(), 2);
-    let policy = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"end":"done"}]}"#;
+    let policy = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":[{"end":"done"}],"finally":null}"#;
     for byte in policy {
         assert!(!set(decoder.mask(), 257) && !set(decoder.mask(), 258) && !set(decoder.mask(), 259));
         assert!(
@@ -213,6 +213,6 @@ fn environment_opens_by_name_and_by_text() {
     let state = Some(r#"{"holding(mug_1)": true, "free(hand)": false}"#);
     let world = Environment { robot: Some("hsr"), scene: Some(scene), state, ..Environment::default() };
     let prepared = AcceptorFactory::new(&world.session().unwrap(), Subset::default());
-    let pick = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick""#;
+    let pick = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":[{"do":"pick""#;
     assert!(prepared.acceptor(2000).unwrap().accept(pick) < pick.len());
 }

@@ -15,6 +15,9 @@ use motet_syntax::{FileId, Severity, Source};
 /// The robots and scenes of the tests.
 pub const SETTINGS: [(&str, &str); 3] = [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")];
 
+/// A zone beside the entities of the scenes, which have none.
+const ZONE: &str = "entity stairs: Zone";
+
 /// The session of a built-in robot in a built-in scene, made once for the whole process.
 pub fn session(robot: &str, scene: &str) -> Session {
     static MADE: Mutex<Vec<((String, String), Session)>> = Mutex::new(Vec::new());
@@ -23,7 +26,8 @@ pub fn session(robot: &str, scene: &str) -> Session {
     if let Some((_, session)) = made.iter().find(|(known, _)| *known == key) {
         return session.clone();
     }
-    let texts = Environment { robot: Some(robot), scene: Some(scene), ..Environment::default() };
+    let (robot, scene, domain) = (Some(robot), Some(scene), Some(ZONE));
+    let texts = Environment { robot, scene, domain, ..Environment::default() };
     let session = texts.session().unwrap();
     made.push((key, session.clone()));
     session

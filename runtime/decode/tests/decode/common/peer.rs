@@ -4,7 +4,7 @@ use llguidance::api::TopLevelGrammar;
 use llguidance::toktrie::{ApproximateTokEnv, TokEnv, TokRxInfo, TokTrie};
 use llguidance::{Matcher, ParserFactory};
 use motet_compiler::Session;
-use motet_decode::export::{Format, Header, export};
+use motet_decode::export::{Format, Header, export, json_schema};
 use motet_decode::{Grammar, Subset};
 
 /// The tokens of a model as llguidance takes them; special ones have no bytes.
@@ -25,6 +25,15 @@ impl Peer {
         let matcher = Matcher::new(factory.create_parser(TopLevelGrammar::from_lark(lark)));
         assert!(!matcher.is_error(), "{:?}", matcher.get_error());
         Self(matcher)
+    }
+
+    /// The engine on the JSON Schema; none for the text syntax.
+    pub fn of_schema(environment: &TokEnv, session: &Session, subset: Subset) -> Option<Self> {
+        let schema = json_schema(&Grammar::new(&session.signatures(), subset))?;
+        let factory = ParserFactory::new_simple(environment).unwrap();
+        let matcher = Matcher::new(factory.create_parser(TopLevelGrammar::from_json_schema(schema)));
+        assert!(!matcher.is_error(), "{:?}", matcher.get_error());
+        Some(Self(matcher))
     }
 
     /// A policy that nothing was written of yet.

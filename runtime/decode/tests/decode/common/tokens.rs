@@ -1,7 +1,7 @@
 //! A small vocabulary: every byte, and pieces that cross the borders of words, texts and steps.
 
 /// Pieces of policies.
-const PIECES: [&str; 73] = [
+const PIECES: [&str; 94] = [
     "{\"",
     "\":\"",
     "\",\"",
@@ -75,6 +75,27 @@ const PIECES: [&str; 73] = [
     " r }",
     " a = ",
     " mug_1 ",
+    "}],\"finally\":[{\"",
+    "]}],\"finally\"",
+    "]},{\"wait\":",
+    "within\":3",
+    "keep\":[{\"",
+    "out_of\":\"",
+    "wait\":1",
+    "\"get\":\"first\",\"of\":\"$",
+    "\"get\":\"count\"",
+    "be\":{\"get",
+    "{count($",
+    ")}",
+    "count(",
+    "first(",
+    "is_empty",
+    "} finally {",
+    " finally { ",
+    "wait 1",
+    "within 3 s {",
+    "keep out of ",
+    " at 30 %",
 ];
 
 /// The token that ends a sequence: it has no bytes.

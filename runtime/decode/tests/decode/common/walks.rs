@@ -40,10 +40,11 @@ pub enum Ended {
 pub fn walk(factory: &AcceptorFactory, budget: usize, steps: usize, dice: &mut Dice) -> Option<Ended> {
     let mut acceptor = factory.acceptor(budget)?;
     loop {
-        if acceptor.is_accepting() {
+        let next = acceptor.next_bytes();
+        // The cleanup of the policy may follow.
+        if acceptor.is_accepting() && (next.is_empty() || dice.chance(60)) {
             return Some(Ended::Whole(text(&acceptor)));
         }
-        let next = acceptor.next_bytes();
         let byte = match next.as_slice() {
             [] => return Some(Ended::Stuck(text(&acceptor))),
             [only] => *only,
@@ -95,7 +96,7 @@ pub fn of_kind(policy: &str, kind: &str) -> usize {
             starts.iter().flat_map(|start| policy.split(start).skip(1)).filter(|rest| is_call(rest)).count()
         }
         "wait" => count(&[" wait until "]),
-        "end" => count(&[" done ", " fail ", " replan "]),
+        "end" => count(&[" done ", " fail ", " cannot ", " replan "]),
         kind => count(&[&format!(" {kind} ")]),
     }
 }
@@ -113,15 +114,37 @@ pub fn syntax(policy: &str) -> Syntax {
 }
 
 /// The keys that tell what a step is.
-pub const KINDS: [&str; 10] =
-    ["do", "sequence", "if", "wait", "monitor", "try", "repeat", "each", "parallel", "end"];
+pub const KINDS: [&str; 13] = [
+    "do", "let", "sequence", "if", "wait", "monitor", "try", "repeat", "each", "parallel", "within", "keep",
+    "end",
+];
 
 fn choose(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8 {
     let has = |byte: u8| bytes.contains(&byte);
     let any = |dice: &mut Dice| bytes.get(dice.below(bytes.len())).copied().unwrap_or(b'"');
     if bytes.len() > 40 {
         // A text or a name: short ones will do.
-        return if has(b'"') && dice.chance(30) { b'"' } else { any(dice) };
+        let value = has(b'{') && dice.chance(20);
+        return if value {
+            b'{'
+        } else if has(b'"') && dice.chance(30) {
+            b'"'
+        } else {
+            any(dice)
+        };
+    }
+    if has(b'd') && before.ends_with(b"{\"do\":\"") && dice.chance(40) {
+        return if has(b'g') && dice.chance(40) { b'g' } else { b'd' };
+    }
+    if has(b'{') && before.ends_with(b"\"to\":") && dice.chance(50) {
+        return b'{';
+    }
+    if has(b'_') && before.ends_with(b"\"detect") && dice.chance(80) {
+        return b'_';
+    }
+    // A cleanup behind a step.
+    if has(b',') && has(b'}') && before.ends_with(b"]") {
+        return if dice.chance(25) { b',' } else { b'}' };
     }
     let written = || self::steps(&String::from_utf8_lossy(before));
     if has(b',') && has(b']') && before.ends_with(b"}") {
@@ -136,7 +159,7 @@ fn choose(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8 {
             _ => {
                 // Branches are proved most often: they are rare.
                 let rare = dice.chance(80);
-                let is_likely = |byte: &u8| *byte != b'e' && !(rare && *byte == b'p');
+                let is_likely = |byte: &u8| !(rare && (*byte == b'p' || *byte == b'e'));
                 let others: Vec<u8> = bytes.iter().copied().filter(is_likely).collect();
                 others.get(dice.below(others.len())).copied().unwrap_or(b'd')
             }
@@ -156,7 +179,28 @@ fn choose_text(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8
     if bytes.len() > 40 {
         // A text or a name: short ones will do.
         let end = if in_text { b'"' } else { b' ' };
-        return if has(end) && dice.chance(30) { end } else { any(dice) };
+        let value = in_text && has(b'{') && dice.chance(20);
+        return if value {
+            b'{'
+        } else if has(end) && dice.chance(30) {
+            end
+        } else {
+            any(dice)
+        };
+    }
+    if has(b'e') && before.ends_with(b" = d") && dice.chance(80) {
+        return b'e';
+    }
+    if has(b'_') && before.ends_with(b" detect") && dice.chance(80) {
+        return b'_';
+    }
+    if has(b'f') && (before.ends_with(b" go(") || before.ends_with(b" inspect(")) && dice.chance(60) {
+        return b'f';
+    }
+    if before.ends_with(b" = ") && dice.chance(70) {
+        // What finds lists, and what is about them.
+        let wanted = if has(b'f') && dice.chance(60) { b"cf" } else { b"dd" };
+        return if has(wanted[0]) { wanted[dice.below(2)] } else { any(dice) };
     }
     if in_text || !before.ends_with(b" ") {
         return any(dice);
@@ -174,8 +218,11 @@ fn choose_text(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8
         let from = |wanted: &[u8]| bytes.iter().copied().filter(|byte| wanted.contains(byte)).collect();
         let others: Vec<u8> = match dice.below(100) {
             _ if ends => from(b"df"),
-            0..65 => bytes.iter().copied().filter(|byte| !b"efimrstw".contains(byte)).collect(),
-            _ => from(b"eimrstwp"),
+            0..25 => from(b"l"),
+            25..40 => from(b"g"),
+            40..65 => bytes.iter().copied().filter(|byte| !b"efimrstw".contains(byte)).collect(),
+            _ if dice.chance(80) => from(b"eimrstwp"),
+            _ => from(b"k"),
         };
         let others: Vec<u8> = others.into_iter().filter(|byte| !(rare && *byte == b'p')).collect();
         return others.get(dice.below(others.len().max(1))).copied().unwrap_or_else(|| any(dice));
