@@ -88,7 +88,7 @@ fn carry_out(
     let mut conversation = Conversation::new(setting);
     let mut world = Rc::new(RefCell::new(simulator));
     let (mut sight, eyes) = (Rc::clone(&world), Rc::clone(&world));
-    let mut robot = AskingDriver::new(&mut world, Rc::clone(operator));
+    let mut robot = AskingDriver::new(&mut world, Rc::clone(operator), &setting.scene);
     let mut pointing;
     let driver: &mut dyn Driver = if args.model.camera {
         conversation = conversation.with_eyes(eyes);

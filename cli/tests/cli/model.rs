@@ -44,6 +44,25 @@ fn pointed(name: &str, answer: &str) -> (Option<i32>, String, Vec<Value>, Vec<Va
 }
 
 #[test]
+fn a_choice_of_a_policy_is_the_operators() {
+    let policy = "policy choose_one for hsr {\n    let drink = choose(\"Which one?\", [coke, bottle])\n    \
+                  say(\"You chose {drink}.\")\n}\n";
+    let reply = json!({"choices": [{"message": {"content": policy}}]}).to_string();
+    for (answer, code, words) in [("the water bottle", 0, "You chose"), ("neither", 3, "refused")] {
+        let (url, _) = scripted("200 OK", vec![reply.clone()]);
+        let place = Place::new("model_choice").file("answers.txt", format!("{answer}\n"));
+        let line = DO.replace("--ask never", "--ask script answers.txt");
+        let ran = place.run(&format!("{line} --planner {url} --model m"));
+        assert!(ran.stderr.contains("(coke, bottle)"), "{}", ran.stderr);
+        assert_eq!(ran.code, Some(code), "{answer}: {}{}", ran.stdout, ran.stderr);
+        assert!(format!("{}{}", ran.stdout, ran.stderr).contains(words), "{}{}", ran.stdout, ran.stderr);
+    }
+    let (url, _) = scripted("200 OK", vec![reply]);
+    let ran = Place::new("model_no_choice").run(&format!("{DO} --planner {url} --model m"));
+    assert_eq!(ran.code, Some(3), "nobody chose: {}{}", ran.stdout, ran.stderr);
+}
+
+#[test]
 fn a_model_sees_what_the_camera_sees_and_points_at_it() {
     let (code, stderr, kept, heard) = pointed("model_points", "{\"point\": [320, 240]}");
     assert_eq!((code, heard.len()), (Some(0), 2), "{stderr}");

@@ -55,7 +55,7 @@ impl MotionChecker<'_> {
                 MotionAnswer::Feasible(way) => {
                     is_refused = false;
                     if witness.is_none() {
-                        witness = Some(Box::new(kept(self.geometry.machine(), way)));
+                        witness = Some(Box::new(graph_witness(self.geometry.machine(), way)));
                     }
                     after.join(self.following(id, call, def, &query, &possible, &answer));
                 }
@@ -317,7 +317,7 @@ fn in_words(why: &UnknownReason) -> SmolStr {
 }
 
 /// Witness of a motion for the graph. Holds only the joints that move.
-fn kept(machine: &RobotModel, witness: &MotionWitness) -> graph::Witness {
+pub(super) fn graph_witness(machine: &RobotModel, witness: &MotionWitness) -> graph::Witness {
     let first = witness.path.first();
     let moves = |at: &usize| {
         let value = |joints: &[f64]| joints.get(*at).copied();

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use motet_geometry::planning::{Infeasible, MapPose, MotionAnswer, MotionQuery, UnknownReason};
-use motet_graph::Value;
+use motet_graph::{Value, Witness};
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -14,6 +14,7 @@ use super::geometry::{Fingerprinted, Geometry, SceneChange};
 use super::motion::{
     MotionArg, MotionEffect, failures, makes, may_move, motion_effect, motion_query, moves_blindly, side_of,
 };
+use super::transfer::graph_witness;
 use crate::declare::{Library, PrimitiveDef};
 use crate::ir::{Entity, MotionKind, ROBOT, START, Term};
 
@@ -32,7 +33,10 @@ pub struct WorldTracker {
 #[derive(Clone, PartialEq, Debug)]
 pub enum Forecast {
     /// A motion was found.
-    Feasible,
+    Feasible {
+        /// Its path, from where the robot stands.
+        witness: Box<Witness>,
+    },
     /// Infeasibility is proven.
     Infeasible {
         /// The most specific failure that the primitive lists.
@@ -76,7 +80,9 @@ impl WorldTracker {
         };
         let Some(kind) = MotionKind::from_name(motion) else { return unknown("the motion is not known") };
         match &*self.geometry.answer(at, &motion_query(kind, &args_of, side(args))) {
-            MotionAnswer::Feasible(_) => Forecast::Feasible,
+            MotionAnswer::Feasible(way) => {
+                Forecast::Feasible { witness: Box::new(graph_witness(self.geometry.machine(), way)) }
+            }
             MotionAnswer::Infeasible(why) if why.certified => self.infeasible(def, why),
             MotionAnswer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),
             MotionAnswer::Unknown(UnknownReason::Budget) => unknown("the search was cut short"),

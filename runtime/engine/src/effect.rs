@@ -4,7 +4,7 @@ use crate::ids::{CheckId, GoalId};
 use crate::query::Query;
 use crate::time::Time;
 use crate::trace::TraceEvent;
-use motet_graph::{Manner, NodeId, Value};
+use motet_graph::{Manner, Motion, NodeId, Value, Verdict, Witness};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -103,8 +103,9 @@ mod verification {
     }
 }
 
-/// A primitive with its arguments.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+/// A primitive with its arguments. Two commands are equal if they ask for the same, whatever motions were found
+/// for them.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Command {
     /// The primitive's name.
@@ -118,6 +119,65 @@ pub struct Command {
     pub manner: Option<Manner>,
     /// Seconds after which the engine cancels it.
     pub deadline_secs: f64,
+    /// Motion that carries it out, as far as geometry found one. A driver may follow its witness or plan a
+    /// motion of its own. Absent if the primitive has no motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Arc<PlannedMotion>>,
+}
+
+impl PartialEq for Command {
+    fn eq(&self, other: &Self) -> bool {
+        self.primitive == other.primitive
+            && self.args == other.args
+            && self.uses == other.uses
+            && self.manner == other.manner
+            && self.deadline_secs == other.deadline_secs
+    }
+}
+
+/// Motion of a command, with the answer of geometry.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlannedMotion {
+    /// Name of the motion query, such as `reach`.
+    pub query: SmolStr,
+    pub args: Vec<Value>,
+    pub verdict: MotionVerdict,
+    /// A path that carries the motion out. The compiler's paths begin where it expects the robot, so a driver
+    /// follows one only if the robot stands there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub witness: Option<Box<Witness>>,
+    /// Reason for an open verdict, in words, if one is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<SmolStr>,
+}
+
+/// Verdict on the motion of a command that starts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionVerdict {
+    /// The compiler found it.
+    Proven,
+    /// The run found it just before the start ([`crate::Verifier`]).
+    Verified,
+    /// Nobody has found it, and nobody has excluded it.
+    Open,
+}
+
+impl PlannedMotion {
+    /// A motion of a graph with these arguments, as the compiler answered it.
+    pub(crate) fn compiled(motion: &Motion, args: Vec<Value>) -> Self {
+        Self {
+            query: motion.query.clone(),
+            args,
+            verdict: match motion.verdict {
+                Verdict::Proven => MotionVerdict::Proven,
+                Verdict::Deferred => MotionVerdict::Open,
+            },
+            witness: motion.witness.clone(),
+            why: motion.why.clone(),
+        }
+    }
 }
 
 impl Command {
@@ -228,6 +288,27 @@ pub struct DeferredMotion {
     pub args: Vec<Value>,
     /// The call that it is for.
     pub command: Arc<Command>,
+}
+
+impl DeferredMotion {
+    /// The command with its motion, as it was answered.
+    pub(crate) fn answered(
+        &self,
+        verdict: MotionVerdict,
+        witness: Option<Box<Witness>>,
+        why: Option<SmolStr>,
+    ) -> Arc<Command> {
+        let Self { query, args, command } = self;
+        let motion = PlannedMotion { query: query.clone(), args: args.clone(), verdict, witness, why };
+        with_motion(command, motion)
+    }
+}
+
+/// A command with its motion.
+pub(crate) fn with_motion(command: &Arc<Command>, motion: PlannedMotion) -> Arc<Command> {
+    let mut command = Command::clone(command);
+    command.motion = Some(Arc::new(motion));
+    Arc::new(command)
 }
 
 impl fmt::Display for DeferredMotion {

@@ -2,7 +2,7 @@
 
 use crate::ids::{CheckId, GoalId};
 use crate::query::{Answer, Query};
-use motet_graph::Value;
+use motet_graph::{Value, Witness};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -117,11 +117,15 @@ impl fmt::Display for Outcome {
 }
 
 /// The verdict on a motion.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Verification {
     /// It has a solution.
-    Feasible,
+    Feasible {
+        /// A path that begins where the robot stands now, if one is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        witness: Option<Box<Witness>>,
+    },
     /// It has none: the step ends in this failure, without moving.
     Infeasible {
         /// One of the failures of the call's primitive, such as `unreachable`.
@@ -133,10 +137,20 @@ pub enum Verification {
     Unknown { why: SmolStr },
 }
 
+impl Verification {
+    /// The same verdict without its path, for traces: the path is in the event.
+    pub(crate) fn without_witness(&self) -> Self {
+        match self {
+            Self::Feasible { .. } => Self::Feasible { witness: None },
+            Self::Infeasible { .. } | Self::Unknown { .. } => self.clone(),
+        }
+    }
+}
+
 impl fmt::Display for Verification {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Feasible => f.write_str("feasible"),
+            Self::Feasible { .. } => f.write_str("feasible"),
             Self::Infeasible { failure, why } => write!(f, "{failure}: {why}"),
             Self::Unknown { why } => write!(f, "unknown: {why}"),
         }

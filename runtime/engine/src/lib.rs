@@ -25,7 +25,7 @@ mod turn;
 mod verifier;
 
 pub use driver::{Capabilities, Driver, PrimitiveSet};
-pub use effect::{Command, DeferredMotion, Effect, Fault, RunEnd};
+pub use effect::{Command, DeferredMotion, Effect, Fault, MotionVerdict, PlannedMotion, RunEnd};
 pub use engine::Engine;
 pub use event::{DriverEvent, Event, Outcome, Verification};
 pub use ids::{CheckId, GoalId};

@@ -1,11 +1,11 @@
 //! A graph made ready to be stepped: what can be worked out once is worked out here.
 
-use crate::effect::Command;
+use crate::effect::{Command, PlannedMotion};
 use crate::ids::GoalId;
 use crate::time::Time;
 use motet_graph::{
-    CallNode, Ending, FailureId, Graph, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region, RegionId,
-    Term, Value, Verdict, Watch,
+    CallNode, Ending, FailureId, Graph, Motion, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region,
+    RegionId, Term, Value, Verdict, Watch,
 };
 use smol_str::SmolStr;
 use std::sync::Arc;
@@ -164,14 +164,14 @@ impl PreparedGraph {
             let deferred = |verdict| verdict == Verdict::Deferred;
             let checks = call.needs.iter().any(|need| deferred(need.verdict))
                 || call.motion.as_ref().is_some_and(|motion| deferred(motion.verdict));
-            let literals = call
-                .args
-                .iter()
-                .map(|arg| if let Term::Literal(value) = arg { Some(value.clone()) } else { None });
+            let literals = call.args.iter().map(literal);
             step.is_call = true;
             step.deadline = Time::from_secs(call.deadline_secs);
             step.mask = self.means.get(call.primitive.index()).map(|means| means.mask).unwrap_or_default();
-            step.command = self.command(call, literals).map(Arc::new);
+            step.command = self.command(call, literals).map(|mut command| {
+                command.motion = call.motion.as_ref().and_then(literal_motion).map(Arc::new);
+                Arc::new(command)
+            });
             step.is_ready = !checks && call.unsettles.is_empty();
             step.is_silent = call.effects.is_empty() && call.binds.is_none();
         }
@@ -195,6 +195,7 @@ impl PreparedGraph {
             uses: self.means.get(call.primitive.index())?.uses.clone(),
             manner: call.manner,
             deadline_secs: call.deadline_secs,
+            motion: None,
         })
     }
 
@@ -280,6 +281,17 @@ impl PreparedNode {
             is_silent: false,
         }
     }
+}
+
+/// The value of a term that is a literal.
+fn literal(term: &Term) -> Option<Value> {
+    if let Term::Literal(value) = term { Some(value.clone()) } else { None }
+}
+
+/// The compiler's motion, if all its arguments are literals.
+fn literal_motion(motion: &Motion) -> Option<PlannedMotion> {
+    let args = motion.args.iter().map(literal).collect::<Option<_>>()?;
+    Some(PlannedMotion::compiled(motion, args))
 }
 
 fn means(graph: &Graph, primitive: &Primitive) -> PrimitiveResources {

@@ -188,7 +188,7 @@ impl RunTracker {
     fn motion(&self, motion: &DeferredMotion) -> Verification {
         let Command { primitive, args, .. } = &*motion.command;
         match self.course.motion(primitive, args, &motion.query, &motion.args) {
-            Forecast::Feasible => Verification::Feasible,
+            Forecast::Feasible { witness } => Verification::Feasible { witness: Some(witness) },
             Forecast::Infeasible { failure, why } => Verification::Infeasible { failure, why: why.into() },
             Forecast::Unknown { why } => Verification::Unknown { why: why.into() },
         }

@@ -1,10 +1,11 @@
 //! The simulator as a driver: goals become tasks, and time goes from one thing that happens to the next.
 
+use crate::body::BasePose;
 use crate::command::SimCommand;
 use crate::motion::BaseMotion;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task, TaskContext, TaskStage};
-use motet_graph::Manner;
+use motet_graph::{Manner, Waypoint};
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, PrimitiveSet, Query, Time};
 use rand::RngExt;
 use smol_str::SmolStr;
@@ -32,6 +33,7 @@ impl Driver for Sim {
             uses: command.uses.clone(),
             work_secs: command.deadline_secs * share * jitter,
             command: parsed,
+            path: base_path(command),
             slower: fault.slower,
             stretch: stretch(command),
             fails: fault.fails,
@@ -71,6 +73,7 @@ impl Driver for Sim {
             self.world.motion = None;
         }
         task.command = SimCommand::of(command);
+        task.path = base_path(command);
         task.stretch = stretch(command);
         if hangs {
             self.tasks.push(task);
@@ -83,7 +86,7 @@ impl Driver for Sim {
 
     fn hold(&mut self, now: Time, goal: GoalId) {
         self.pass(now);
-        let motion = self.world.motion;
+        let motion = self.world.motion.clone();
         let Some(task) = self.tasks.iter_mut().find(|task| task.goal == goal) else { return };
         task.stage = match (&task.stage, motion) {
             (TaskStage::Driving(_), Some(motion)) => {
@@ -106,8 +109,9 @@ impl Driver for Sim {
         task.stage = match task.stage.clone() {
             TaskStage::HeldDriving(motion) => {
                 let motion = motion.begun(now);
+                let end = motion.end();
                 self.world.motion = Some(motion);
-                TaskStage::Driving(motion.end())
+                TaskStage::Driving(end)
             }
             TaskStage::HeldWorking(left) => TaskStage::Working(now.after(left)),
             running @ (TaskStage::Driving(_) | TaskStage::Working(_)) => running,
@@ -163,6 +167,16 @@ const fn until_after(until: Time, now: Time) -> Time {
     if until.nanos() == Time::NEVER.nanos() { until } else { until.since(now) }
 }
 
+/// Stances of the base along the witness of a command; none without one.
+fn base_path(command: &Command) -> Vec<BasePose> {
+    let witness = command.motion.as_ref().and_then(|motion| motion.witness.as_ref());
+    let stance = |point: &Waypoint| {
+        let [x, y, heading] = point.base;
+        BasePose { x, y, heading }
+    };
+    witness.map_or_else(Vec::new, |witness| witness.path.iter().map(stance).collect())
+}
+
 /// Factor by which the manner of a command makes its motion longer.
 fn stretch(command: &Command) -> f64 {
     command.manner.map_or(1.0, Manner::stretch)
@@ -175,7 +189,8 @@ impl Sim {
         let mut play = TaskContext { world: &mut self.world, people: &mut self.people, scene: &self.scene };
         let next = play.next(&mut task);
         let motion = match next {
-            NextStage::Drive(to) => BaseMotion::new(&self.world.drive, self.world.base, to, now),
+            NextStage::Drive(to) => BaseMotion::through(&self.world.drive, self.world.base, &[to], now),
+            NextStage::Follow(path) => BaseMotion::through(&self.world.drive, self.world.base, &path, now),
             NextStage::Turn(by) => Some(BaseMotion::turn(&self.world.drive, self.world.base, by, now)),
             NextStage::Work => {
                 task.stage = TaskStage::Working(now.after(Time::from_secs(task.work_secs * task.slower)));
@@ -189,8 +204,8 @@ impl Sim {
         };
         if let Some(motion) = motion {
             let motion = motion.slowed(task.slower * task.stretch);
-            self.world.motion = Some(motion);
             task.stage = TaskStage::Driving(motion.end());
+            self.world.motion = Some(motion);
             self.tasks.push(task);
         } else {
             let failure = SmolStr::new_static("unreachable");

@@ -4,19 +4,28 @@ use crate::body::{BasePose, UprightBody, turned};
 use motet_robots::card::{BaseSpec, Drive};
 use motet_runtime::Time;
 
-/// A motion of the base.
-#[derive(Clone, Copy, PartialEq, Debug)]
+/// A motion of the base: legs one after the other, each along a straight line at constant speed.
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct BaseMotion {
+    /// At least one.
+    legs: Vec<BaseLeg>,
+    start: Time,
+}
+
+/// A leg of a motion. The headings tell how often the base turns round.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct BaseLeg {
     from: BasePose,
     to: BasePose,
-    start: Time,
     span: Time,
 }
 
-impl BaseMotion {
-    /// A motion to a stance, or nothing where the base is bolted down and would have to move.
-    pub(crate) fn new(base: &BaseSpec, from: BasePose, to: BasePose, start: Time) -> Option<Self> {
-        let (distance, angle) = (from.distance_to(to.x, to.y), turned(to.heading - from.heading).abs());
+impl BaseLeg {
+    /// A drive, which takes the shorter way round; none where the base is bolted down and would have to move.
+    fn drive(base: &BaseSpec, from: BasePose, to: BasePose) -> Option<Self> {
+        let turn = turned(to.heading - from.heading);
+        let to = BasePose { heading: from.heading + turn, ..to };
+        let (distance, angle) = (from.distance_to(to.x, to.y), turn.abs());
         let driving = distance / base.speed_m_per_s.max(1e-3);
         let turning = angle / base.turn_rad_per_s.max(1e-3);
         let secs = match base.drive {
@@ -26,56 +35,92 @@ impl BaseMotion {
             // It turns to its way, drives, and turns to its goal: at least as long as the two turns in one.
             Drive::Differential => driving + turning,
         };
-        Some(Self { from, to, start, span: Time::from_secs(secs) })
+        Some(Self { from, to, span: Time::from_secs(secs) })
+    }
+
+    /// Position of the base that long after the start of the leg.
+    fn after(&self, time: Time) -> BasePose {
+        if time >= self.span {
+            return self.to;
+        }
+        let done = time.secs() / self.span.secs();
+        BasePose {
+            x: self.from.x + done * (self.to.x - self.from.x),
+            y: self.from.y + done * (self.to.y - self.from.y),
+            heading: self.from.heading + done * (self.to.heading - self.from.heading),
+        }
+    }
+}
+
+impl BaseMotion {
+    /// A motion through stances one after the other; none where the base cannot move or there is no stance.
+    pub(crate) fn through(
+        base: &BaseSpec,
+        from: BasePose,
+        stances: &[BasePose],
+        start: Time,
+    ) -> Option<Self> {
+        let mut at = from;
+        let legs = stances.iter().map(|to| {
+            let leg = BaseLeg::drive(base, at, *to)?;
+            at = leg.to;
+            Some(leg)
+        });
+        let legs = legs.collect::<Option<Vec<_>>>()?;
+        (!legs.is_empty()).then_some(Self { legs, start })
     }
 
     /// A turn on the spot by any angle.
     pub(crate) fn turn(base: &BaseSpec, from: BasePose, by: f64, start: Time) -> Self {
         let to = BasePose { heading: from.heading + by, ..from };
-        Self { from, to, start, span: Time::from_secs(by.abs() / base.turn_rad_per_s.max(1e-3)) }
+        let span = Time::from_secs(by.abs() / base.turn_rad_per_s.max(1e-3));
+        Self { legs: vec![BaseLeg { from, to, span }], start }
     }
 
     /// Time at which it is over.
     pub(crate) fn end(&self) -> Time {
-        self.start.after(self.span)
+        self.legs.iter().fold(self.start, |end, leg| end.after(leg.span))
     }
 
-    /// The motion with a span that many times as long.
-    pub(crate) fn slowed(self, factor: f64) -> Self {
-        Self { span: Time::from_secs(self.span.secs() * factor), ..self }
+    /// The motion with spans that many times as long.
+    pub(crate) fn slowed(mut self, factor: f64) -> Self {
+        for leg in &mut self.legs {
+            leg.span = Time::from_secs(leg.span.secs() * factor);
+        }
+        self
     }
 
     /// Position where the base is at a time.
     pub(crate) fn at(&self, now: Time) -> BasePose {
-        let stance = self.wound(now);
+        let Some((leg, since, _)) = self.leg_at(now) else { return BasePose::default() };
+        let stance = leg.after(since);
         BasePose { heading: turned(stance.heading), ..stance }
     }
 
-    /// The same, with a heading that tells how often it has turned round.
-    fn wound(&self, now: Time) -> BasePose {
-        if now >= self.end() {
-            return self.to;
+    /// The leg at a time, the time since its start, and the legs behind it; the last leg after the end.
+    fn leg_at(&self, now: Time) -> Option<(&BaseLeg, Time, &[BaseLeg])> {
+        let mut since = now.since(self.start);
+        let mut legs = self.legs.as_slice();
+        while let [leg, rest @ ..] = legs {
+            if since < leg.span || rest.is_empty() {
+                return Some((leg, since, rest));
+            }
+            since = since.since(leg.span);
+            legs = rest;
         }
-        let done = now.since(self.start).secs() / self.span.secs();
-        // A turn may be longer than half a circle; a drive takes the shorter way round.
-        let is_turn = self.from.distance_to(self.to.x, self.to.y) < 1e-9;
-        let turn = self.to.heading - self.from.heading;
-        let turn = if is_turn { turn } else { turned(turn) };
-        BasePose {
-            x: self.from.x + done * (self.to.x - self.from.x),
-            y: self.from.y + done * (self.to.y - self.from.y),
-            heading: self.from.heading + done * turn,
-        }
+        None
     }
 
     /// The same motion from another time on.
-    pub(crate) const fn begun(self, start: Time) -> Self {
+    pub(crate) fn begun(self, start: Time) -> Self {
         Self { start, ..self }
     }
 
     /// Remainder of the motion, beginning at `start`.
     pub(crate) fn rest(&self, now: Time, start: Time) -> Self {
-        Self { from: self.wound(now), to: self.to, start, span: self.end().since(now) }
+        let Some((leg, since, rest)) = self.leg_at(now) else { return self.clone() };
+        let first = BaseLeg { from: leg.after(since), to: leg.to, span: leg.span.since(since) };
+        Self { legs: std::iter::once(first).chain(rest.iter().copied()).collect(), start }
     }
 }
 
@@ -139,12 +184,24 @@ mod tests {
     #[test]
     fn motion_base_keeps_its_speed() {
         let to = BasePose { x: 2.0, y: 0.0, heading: 1.0 };
-        let motion = BaseMotion::new(&BASE, BasePose::default(), to, Time::from_secs(1.0)).unwrap();
+        let motion = BaseMotion::through(&BASE, BasePose::default(), &[to], Time::from_secs(1.0)).unwrap();
         assert_eq!(motion.end(), Time::from_secs(5.0));
         assert_eq!(motion.at(Time::from_secs(3.0)), BasePose { x: 1.0, y: 0.0, heading: 0.5 });
         assert_eq!(motion.rest(Time::from_secs(3.0), Time::from_secs(9.0)).end(), Time::from_secs(11.0));
         let fixed = BaseSpec { drive: Drive::Fixed, ..BASE };
-        assert_eq!(BaseMotion::new(&fixed, BasePose::default(), to, Time::ZERO), None);
+        assert_eq!(BaseMotion::through(&fixed, BasePose::default(), &[to], Time::ZERO), None);
+    }
+
+    #[test]
+    fn motion_base_goes_through_its_stances() {
+        let corner = BasePose { x: 1.0, y: 0.0, heading: 0.0 };
+        let to = BasePose { x: 1.0, y: 1.0, heading: 0.0 };
+        let motion = BaseMotion::through(&BASE, BasePose::default(), &[corner, to], Time::ZERO).unwrap();
+        assert_eq!(motion.end(), Time::from_secs(4.0));
+        assert_eq!(motion.at(Time::from_secs(2.0)), corner);
+        let rest = motion.rest(Time::from_secs(1.0), Time::from_secs(10.0));
+        assert_eq!(rest.at(Time::from_secs(12.0)), BasePose { x: 1.0, y: 0.5, heading: 0.0 });
+        assert_eq!((rest.end(), rest.at(Time::from_secs(99.0))), (Time::from_secs(13.0), to));
     }
 
     #[test]

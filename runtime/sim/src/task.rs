@@ -1,6 +1,6 @@
 //! A running primitive: stages of driving and of work, one after the other, and what each comes to.
 
-use crate::body::BasePose;
+use crate::body::{BasePose, turned};
 use crate::command::SimCommand;
 use crate::motion::BaseMotion;
 use crate::observation::ViewDirection;
@@ -12,11 +12,17 @@ use motet_runtime::{GoalId, Outcome, Time};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
+/// Greatest distance, and greatest angle, from the robot to the start of a path that it follows.
+const PATH_START_M: f64 = 0.02;
+const PATH_START_RAD: f64 = 0.05;
+
 /// A goal that runs.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Task {
     pub(crate) goal: GoalId,
     pub(crate) command: SimCommand,
+    /// Stances along the path that was found for its drive, from its start; empty without one.
+    pub(crate) path: Vec<BasePose>,
     pub(crate) uses: Arc<[SmolStr]>,
     /// Seconds that its work takes, driving aside.
     pub(crate) work_secs: f64,
@@ -60,6 +66,8 @@ impl TaskStage {
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum NextStage {
     Drive(BasePose),
+    /// Drives through stances one after the other.
+    Follow(Vec<BasePose>),
     Turn(f64),
     Work,
     End(Outcome),
@@ -81,8 +89,14 @@ impl TaskContext<'_> {
             return if step == 0 { NextStage::Work } else { NextStage::End(Outcome::Failure(kind.clone())) };
         }
         match &task.command {
-            SimCommand::Go(to) => self.go(to, step),
-            SimCommand::GoToPose(pose) => self.go_to_pose(pose, step),
+            SimCommand::Go(to) => {
+                let path = self.path_from_here(&mut task.path);
+                path.map_or_else(|| self.go(to, step), NextStage::Follow)
+            }
+            SimCommand::GoToPose(pose) => {
+                let path = self.path_from_here(&mut task.path);
+                path.map_or_else(|| self.go_to_pose(pose, step), NextStage::Follow)
+            }
             SimCommand::Search(what, around) => {
                 let (what, around) = (what.clone(), around.clone());
                 self.search(task, &what, &around, step)
@@ -116,6 +130,15 @@ impl TaskContext<'_> {
 
     fn work(&mut self, task: &Task, step: u32) -> NextStage {
         if step == 0 { NextStage::Work } else { self.finish(task) }
+    }
+
+    /// The path of a task, once, if it begins where the robot stands.
+    fn path_from_here(&self, path: &mut Vec<BasePose>) -> Option<Vec<BasePose>> {
+        let (path, base) = (std::mem::take(path), self.world.base);
+        let first = path.first()?;
+        let is_here = base.distance_to(first.x, first.y) < PATH_START_M
+            && turned(base.heading - first.heading).abs() < PATH_START_RAD;
+        is_here.then_some(path)
     }
 
     /// Drives until it stands at the target, which may walk away meanwhile.
@@ -175,6 +198,11 @@ impl TaskContext<'_> {
                 Err("not_found") => {}
                 Err(failure) => return fail(failure),
             }
+        }
+        if step == 0
+            && let Some(path) = self.path_from_here(&mut task.path)
+        {
+            return NextStage::Follow(path);
         }
         match around.get(step as usize / 2) {
             Some(next) => self.world.place_for(next).map_or_else(|| fail("unreachable"), NextStage::Drive),

@@ -68,8 +68,8 @@ impl SimWorld {
     /// Lets time pass.
     pub(crate) fn advance(&mut self, now: Time) {
         self.now = now;
-        if let Some(motion) = self.motion {
-            let before = self.base;
+        if let Some(motion) = &self.motion {
+            let (before, is_over) = (self.base, now >= motion.end());
             self.base = motion.at(now);
             let driven = before.distance_to(self.base.x, self.base.y);
             self.battery = (self.battery - driven * DRAIN_PER_M).max(0.0);
@@ -77,7 +77,7 @@ impl SimWorld {
                 self.unmoved = false;
                 self.served_at_start = None;
             }
-            if now >= motion.end() {
+            if is_over {
                 self.motion = None;
             }
         }

@@ -13,7 +13,10 @@ use std::time::Duration;
 use motet_graph::Value;
 use motet_planner::dialogue::{Kind, Person, Problem};
 use motet_project::files::read_small;
+use motet_requests::RequestContext;
+use motet_robots::scene::Scene;
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
+use smol_str::SmolStr;
 
 use super::planner::printable;
 use crate::error::CliError;
@@ -121,31 +124,72 @@ impl Person for OperatorPrompt {
     }
 }
 
-/// Driver that answers `ask` by the operator, and leaves everything else to the robot's driver.
+/// Driver that answers `ask` and `choose` by the operator, and leaves everything else to the robot's driver.
 pub(super) struct AskingDriver<'a> {
     driver: &'a mut dyn Driver,
     operator: OperatorPrompt,
+    /// Things that a choice may name.
+    scene: &'a Scene,
     /// Events of questions, which are answered at once.
     outbox: VecDeque<(Time, DriverEvent)>,
 }
 
 impl<'a> AskingDriver<'a> {
-    pub(super) fn new(driver: &'a mut dyn Driver, operator: Rc<OperatorInput>) -> Self {
-        Self { driver, operator: OperatorPrompt(operator), outbox: VecDeque::new() }
+    pub(super) fn new(driver: &'a mut dyn Driver, operator: Rc<OperatorInput>, scene: &'a Scene) -> Self {
+        Self { driver, operator: OperatorPrompt(operator), scene, outbox: VecDeque::new() }
     }
+
+    /// Asks for one of several things. Fails with `refused` if the answer names none of them, and with
+    /// `ambiguous` if it names several.
+    fn choose(&mut self, problem: &Problem) -> Outcome {
+        let answer = self.operator.ask(problem);
+        let situation = RequestContext::new(self.scene);
+        let chosen = answer.map(|answer| motet_requests::choose(&answer, &problem.options, &situation));
+        let mut chosen = chosen.unwrap_or_default();
+        chosen.retain(|thing| problem.options.contains(thing));
+        match chosen.as_slice() {
+            [] => Outcome::Failure("refused".into()),
+            [only] => Outcome::Success(Some(Value::Entity(only.clone()))),
+            [_, _, ..] => Outcome::Failure("ambiguous".into()),
+        }
+    }
+
+    fn ask(&mut self, problem: &Problem) -> Outcome {
+        match self.operator.ask(problem) {
+            Some(answer) => Outcome::Success(Some(Value::Text(answer.into()))),
+            None => Outcome::Failure("refused".into()),
+        }
+    }
+}
+
+/// Things among which a command lets a person choose; none for other commands.
+fn options(command: &Command) -> Option<Vec<SmolStr>> {
+    let Some(Value::List(among)) = command.arg("among").filter(|_| command.primitive == "choose") else {
+        return None;
+    };
+    let id = |value: &Value| if let Value::Entity(id) = value { Some(id.clone()) } else { None };
+    among.iter().map(id).collect()
 }
 
 impl Driver for AskingDriver<'_> {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
-        let question = match command.arg("question") {
-            Some(Value::Text(question)) if command.primitive == "ask" => printable(question),
-            _ => return self.driver.start(now, goal, command),
+        let Some(Value::Text(question)) = command.arg("question") else {
+            return self.driver.start(now, goal, command);
         };
-        let problem =
-            Problem { kind: Kind::AmbiguousTask, question, options: Vec::new(), about: None, said: None };
-        let outcome = match self.operator.ask(&problem) {
-            Some(answer) => Outcome::Success(Some(Value::Text(answer.into()))),
-            None => Outcome::Failure("refused".into()),
+        let mut problem = Problem {
+            kind: Kind::AmbiguousTask,
+            question: printable(question),
+            options: Vec::new(),
+            about: None,
+            said: None,
+        };
+        let outcome = if let Some(options) = options(command) {
+            problem.options = options;
+            self.choose(&problem)
+        } else if command.primitive == "ask" {
+            self.ask(&problem)
+        } else {
+            return self.driver.start(now, goal, command);
         };
         self.outbox.push_back((now, DriverEvent::Acknowledged { goal }));
         self.outbox.push_back((now, DriverEvent::Ended { goal, outcome }));

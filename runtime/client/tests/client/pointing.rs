@@ -55,6 +55,7 @@ fn command(primitive: &str, args: Vec<(&str, Value)>, uses: &str) -> Command {
         uses: [uses.into()].into(),
         manner: None,
         deadline_secs: 10.0,
+        motion: None,
     }
 }
 

@@ -4,7 +4,7 @@
 use super::Turn;
 use super::call::{GuardCheck, StartRefusal};
 use crate::belief::Freshness;
-use crate::effect::{Command, DeferredMotion, Effect};
+use crate::effect::{Command, DeferredMotion, Effect, MotionVerdict, PlannedMotion, with_motion};
 use crate::event::Verification;
 use crate::ids::CheckId;
 use crate::query::Truth;
@@ -22,21 +22,28 @@ impl Turn<'_> {
         call: &CallNode,
         command: Arc<Command>,
     ) -> GuardCheck {
-        let deferred = call.motion.as_ref().filter(|motion| self.is_open(motion.verdict));
-        let Some(motion) = deferred.filter(|_| self.settings.verify_within.is_some()) else {
+        let Some(compiled) = &call.motion else { return GuardCheck::Go(command) };
+        let is_checked = self.is_open(compiled.verdict) && self.settings.verify_within.is_some();
+        if !is_checked && command.motion.is_some() {
             return GuardCheck::Go(command);
-        };
+        }
         let now = self.run.now;
-        let Some(args) = self.values(&motion.args, Freshness::Readings(now), false) else {
+        let Some(args) = self.values(&compiled.args, Freshness::Readings(now), false) else {
             return GuardCheck::Go(command);
         };
-        let motion = DeferredMotion { query: motion.query.clone(), args, command };
+        if !is_checked {
+            return GuardCheck::Go(with_motion(&command, PlannedMotion::compiled(compiled, args)));
+        }
+        let motion = DeferredMotion { query: compiled.query.clone(), args, command };
         let known = self.run.checks.iter().find(|check| check.node == node && *check.motion == motion);
         match known.map(|check| (&check.verdict, &check.motion)) {
             None => GuardCheck::Ask(motion),
             Some((None, asked)) => GuardCheck::Wait(asked.clone()),
-            Some((Some(Verification::Feasible | Verification::Unknown { .. }), _)) => {
-                GuardCheck::Go(motion.command)
+            Some((Some(Verification::Feasible { witness }), _)) => {
+                GuardCheck::Go(motion.answered(MotionVerdict::Verified, witness.clone(), None))
+            }
+            Some((Some(Verification::Unknown { why }), _)) => {
+                GuardCheck::Go(motion.answered(MotionVerdict::Open, None, Some(why.clone())))
             }
             Some((Some(Verification::Infeasible { failure, .. }), _)) => {
                 let failure = failure.clone();
@@ -64,7 +71,7 @@ impl Turn<'_> {
         if check.verdict.is_some() {
             return;
         }
-        let (node, told) = (check.node, Box::new(verdict.clone()));
+        let (node, told) = (check.node, Box::new(verdict.without_witness()));
         check.verdict = Some(verdict);
         self.report(move || TraceEventKind::Verified { node, verdict: told });
         self.push_judge(node);

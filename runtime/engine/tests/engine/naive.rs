@@ -262,6 +262,7 @@ impl Naive {
                 uses: primitive.uses.iter().map(|id| self.graph.resources[id.index()].name.clone()).collect(),
                 manner: call.manner,
                 deadline_secs: call.deadline_secs,
+                motion: None,
             };
             let goes_on = |orphan: &Orphan| {
                 orphan.command.args == command.args

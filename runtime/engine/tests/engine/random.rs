@@ -326,7 +326,7 @@ fn verdict(number: u8) -> Verification {
     match number % 4 {
         0 => Verification::Infeasible { failure: "unreachable".into(), why: "too far".into() },
         1 => Verification::Unknown { why: "too hard".into() },
-        _ => Verification::Feasible,
+        _ => Verification::Feasible { witness: None },
     }
 }
 

@@ -103,6 +103,7 @@ proptest! {
             uses: ["hand".into()].into(),
             manner: manner.map(|(speed, acceleration)| Manner { speed, acceleration }),
             deadline_secs: 20.1,
+            motion: None,
         };
         let (goal, node, command) = (GoalId::from_number(goal), NodeId(node), Arc::new(command));
         let deadline = Time::from_nanos(deadline);
@@ -114,13 +115,13 @@ proptest! {
     #[test]
     fn wire_motions(args in vec(value(), 0..3), check: u64, why: String) {
         let (primitive, uses) = ("pick".into(), [].into());
-        let command = Command { primitive, args: Vec::new(), uses, manner: None, deadline_secs: 20.1 };
+        let command = Command { primitive, args: Vec::new(), uses, manner: None, deadline_secs: 20.1, motion: None };
         let motion = Arc::new(DeferredMotion { query: "reach".into(), args, command: Arc::new(command) });
         let check = CheckId::from_number(check);
         there_and_back!(Effect, Effect::Verify { check, node: NodeId(3), motion });
         let why = smol_str::SmolStr::from(why);
         for verdict in [
-            Verification::Feasible,
+            Verification::Feasible { witness: None },
             Verification::Infeasible { failure: "unreachable".into(), why: why.clone() },
             Verification::Unknown { why },
         ] {
@@ -145,7 +146,7 @@ fn wire_form_keeps_its_bytes() {
         TraceEventKind::Started { node, goal, attempt: 2 },
         TraceEventKind::GoalEnded { node, goal, ending: NodeEnding::Interrupted, cause: EndCause::Swap },
         TraceEventKind::Guard { node, need: 1, truth: Truth::Unknown },
-        TraceEventKind::Verified { node, verdict: Box::new(Verification::Feasible) },
+        TraceEventKind::Verified { node, verdict: Box::new(Verification::Feasible { witness: None }) },
         TraceEventKind::Tested { node, truth: Truth::True },
         TraceEventKind::Fired { node, watch: 1, truth: Truth::False },
         TraceEventKind::WentOn { node, watch: 0 },
@@ -185,6 +186,7 @@ fn wire_form_keeps_its_bytes() {
         uses: ["hand".into()].into(),
         manner: Some(Manner { speed: 0.3, acceleration: 0.25 }),
         deadline_secs: 20.1,
+        motion: None,
     });
     let check = CheckId::from_number(4);
     let deadline = Time::from_nanos(30_100_000_000);

@@ -36,6 +36,7 @@ fn remote_driver_example_in_python_keeps_the_laws() {
             uses: ["base".into()].into(),
             manner: None,
             deadline_secs: 10.0,
+            motion: None,
         },
         query: Query::Measure { measure: "distance".into(), args: vec![user()] },
         moment: Time::from_secs(1.0),

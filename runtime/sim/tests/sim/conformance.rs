@@ -21,6 +21,7 @@ fn laws(fresh: &mut dyn FnMut() -> Box<dyn Driver>) -> (BTreeSet<Law>, Vec<Strin
             uses: ["base".into()].into(),
             manner: None,
             deadline_secs: 60.0,
+            motion: None,
         },
         query: Query::Measure { measure: "distance".into(), args: vec![entity("kitchen_table")] },
         moment: Time::from_secs(0.01),

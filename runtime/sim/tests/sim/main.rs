@@ -77,6 +77,7 @@ impl Bench {
             uses: ["hand".into()].into(),
             manner: None,
             deadline_secs: 20.0,
+            motion: None,
         };
         self.sim.start(self.now, goal, &command);
         goal
