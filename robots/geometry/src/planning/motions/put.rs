@@ -153,7 +153,7 @@ impl PutTask<'_, '_> {
             Ok((tip.ok_or(MotionAnswer::Unknown(UnknownReason::Budget))?, path))
         };
         let mut found = search(tips);
-        if order.excludes && spots.len() > AGAIN {
+        if (order.excludes || order.may_lie) && spots.len() > AGAIN {
             // The more poses share the budget, the fewer candidates each has: few places again, spread over
             // all.
             let stride = spots.len().div_ceil(AGAIN);

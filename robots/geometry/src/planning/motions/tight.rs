@@ -80,7 +80,7 @@ fn narrowest(
     let target = |id: &SmolStr| context.entity(id).map(|(index, _)| index);
     let allowed = match query {
         MotionQuery::Reach(id, _) => AllowedCollisions::of_grasp(context, target(id)?),
-        MotionQuery::Put(_, on) => AllowedCollisions { held: target(on), ..AllowedCollisions::default() },
+        MotionQuery::Put(_, on, _) => AllowedCollisions { held: target(on), ..AllowedCollisions::default() },
         _ => AllowedCollisions::default(),
     };
     let checker = context.all_around(&witness.path, 1.0);
