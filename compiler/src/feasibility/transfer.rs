@@ -268,6 +268,7 @@ impl MotionChecker<'_> {
             | Term::Number(_)
             | Term::Text(_)
             | Term::List(_)
+            | Term::Caught(..)
             | Term::Each
             | Term::Field(..)
             | Term::Measure(..)

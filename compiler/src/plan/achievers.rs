@@ -391,6 +391,7 @@ fn spelled(term: &Term, library: &Library, environment: &Environment) -> Option<
         Term::Int(_)
         | Term::Number(_)
         | Term::Binding(_)
+        | Term::Caught(..)
         | Term::Param(_)
         | Term::Result
         | Term::Each

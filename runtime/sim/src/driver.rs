@@ -193,7 +193,7 @@ impl Sim {
             task.stage = TaskStage::Driving(motion.end());
             self.tasks.push(task);
         } else {
-            let failure = SmolStr::new_static("unreachable");
+            let failure = SmolStr::new_static("unreachable").into();
             self.report(DriverEvent::Ended { goal: task.goal, outcome: Outcome::Failure(failure) });
         }
     }

@@ -97,3 +97,13 @@ fn spec_scopes() {
 fn spec_keep() {
     check(include_str!("../../spec/keep.md"), |code| !is_intent(code));
 }
+
+#[test]
+fn spec_failures() {
+    check(include_str!("../../spec/failures.md"), |code| !is_intent(code));
+}
+
+#[test]
+fn spec_results() {
+    check(include_str!("../../spec/results.md"), |code| !is_intent(code));
+}

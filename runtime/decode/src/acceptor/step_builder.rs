@@ -97,6 +97,7 @@ impl Builder<'_> {
                 if catches.is_empty() {
                     catches.push(Catch {
                         on: CatchOn::Any(Span::default()),
+                        bind: None,
                         body: closed(Vec::new()),
                         span: Span::default(),
                     });
@@ -420,11 +421,11 @@ impl Builder<'_> {
         if matches!(&on, CatchOn::Kinds(kinds) if kinds.is_empty()) {
             on = CatchOn::Any(Span::default());
         }
-        Catch { on, body: self.block(), span: Span::default() }
+        Catch { on, bind: None, body: self.block(), span: Span::default() }
     }
 
     fn end(&mut self, kind: EndKind) -> End {
-        End { kind, why: self.value().or(end(kind).why), span: Span::default() }
+        End { why: self.value().or(end(kind).why), ..end(kind) }
     }
 }
 
@@ -451,7 +452,7 @@ fn expr(kind: ExprKind) -> Expr {
 
 fn end(kind: EndKind) -> End {
     let why = (kind != EndKind::Done).then(|| expr(ExprKind::Text(SmolStr::new_static("?"))));
-    End { kind, why, span: Span::default() }
+    End { kind, result: None, why, span: Span::default() }
 }
 
 fn fail() -> Step {
