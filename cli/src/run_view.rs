@@ -99,7 +99,10 @@ fn summary(
     is_colored: bool,
 ) -> String {
     let (status, what, why) = match end {
-        RunEnd::Done { why } => (Status::Done, "done".to_owned(), why.clone()),
+        RunEnd::Done { why, result: None } => (Status::Done, "done".to_owned(), why.clone()),
+        RunEnd::Done { why, result: Some(result) } => {
+            (Status::Done, format!("done, gave {}", escape(&result.to_string())), why.clone())
+        }
         RunEnd::Failed { kind, why, node } => {
             let place = graph.nodes.get(node.index());
             let at = place.map_or_else(String::new, |node| {

@@ -129,6 +129,8 @@ pub(crate) trait Domain<'p> {
     fn assume_at(&mut self, id: StepId, condition: &Condition, truth: bool) -> bool;
     /// Assumes the condition of a wait, which something outside may have changed.
     fn await_at(&mut self, id: StepId, condition: &Condition);
+    /// Walks over a wait for a time.
+    fn pass_time(&mut self, _id: StepId) {}
     /// Loses everything that a step with an error may change.
     fn lose(&mut self, id: StepId);
     /// Walks over a monitor.
@@ -213,7 +215,7 @@ pub(crate) trait Domain<'p> {
                 self.throw(Some(TIMEOUT), usize::MAX);
                 self.await_at(id, condition);
             }
-            StepKind::Delay { .. } => {}
+            StepKind::Delay { .. } => self.pass_time(id),
             StepKind::Finally { body, cleanup } => self.protect(id, body, cleanup),
             StepKind::Monitor { whens, body } => self.monitor(id, whens, body),
             StepKind::Try { body, catches } => self.attempt(body, catches),

@@ -14,7 +14,7 @@ use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
 
 use crate::declare::Library;
-use crate::declare::elaborator::parse_quantity;
+use crate::declare::elaborator::{TEXT, parse_quantity};
 use crate::declare::list_term::{COUNT, FIRST, IS_EMPTY, OF};
 use crate::ir::{Base, Ty};
 
@@ -33,7 +33,8 @@ use crate::ir::{Base, Ty};
 /// assert_eq!(call.call.args[0].name.as_ref().map(|name| name.text.as_str()), Some("text"));
 /// ```
 pub fn make_explicit(policy: &mut Policy, library: &Library, form: Syntax) {
-    let writer = Writer { library, form };
+    let result = policy.result.as_ref().map(|ty| library.written_type(ty));
+    let writer = Writer { library, form, result };
     if let Some(goal) = &mut policy.achieves {
         writer.condition(goal);
     }
@@ -45,6 +46,8 @@ pub fn make_explicit(policy: &mut Policy, library: &Library, form: Syntax) {
 struct Writer<'a> {
     library: &'a Library,
     form: Syntax,
+    /// Type of the policy's result.
+    result: Option<Ty>,
 }
 
 impl Writer<'_> {
@@ -149,6 +152,9 @@ impl Writer<'_> {
     }
 
     fn end(&self, end: &mut End) {
+        if let Some(result) = &mut end.result {
+            self.term(result, self.result);
+        }
         self.optional(end.why.as_mut(), Ty::TEXT);
     }
 
@@ -298,7 +304,7 @@ impl Writer<'_> {
             }
             ExprKind::Template(parts) => {
                 // In braces stands the text syntax, in either syntax.
-                let inner = Writer { library: self.library, form: Syntax::Text };
+                let inner = Writer { form: Syntax::Text, ..*self };
                 for part in parts {
                     if let TextPart::Value(value) = part {
                         inner.term(value, None);
@@ -327,7 +333,8 @@ impl Writer<'_> {
             }
             ExprKind::Field(_, name) => {
                 let own = self.library.kinds.iter().find_map(|def| def.fields.get(&name.text));
-                own.copied().or_else(|| self.library.numbers.get(&name.text).map(|(_, ty)| *ty))
+                let number = || self.library.numbers.get(&name.text).map(|(_, ty)| *ty);
+                own.copied().or_else(number).or((name.text == TEXT).then_some(Ty::TEXT))
             }
             ExprKind::Quantity(_, unit) => Some(Ty::plain(Base::Quantity(unit.dimension()))),
             _ => None,
@@ -340,7 +347,9 @@ fn plain(text: &SmolStr, ty: Option<Ty>) -> ExprKind {
         Some(Base::Entity(_) | Base::Enum(_)) => ExprKind::Name(text.clone()),
         Some(Base::Quantity(_)) => parse_quantity(text)
             .map_or_else(|| ExprKind::Text(text.clone()), |(value, unit)| ExprKind::Quantity(value, unit)),
-        Some(Base::Bool | Base::Int | Base::Number | Base::Text | Base::Pose) => ExprKind::Text(text.clone()),
+        Some(Base::Bool | Base::Int | Base::Number | Base::Text | Base::Pose | Base::Failure) => {
+            ExprKind::Text(text.clone())
+        }
         Some(Base::Unknown) | None => {
             let mut letters = text.chars();
             let head = letters.next().is_some_and(|first| first.is_alphabetic() || first == '_');

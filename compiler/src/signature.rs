@@ -129,11 +129,10 @@ impl Signatures {
                 .map(|def| KindSignature { name: def.name.clone(), parent: def.parent.map(Kind::index) })
                 .collect(),
             enums: library
-                .enums
-                .iter()
+                .named_enums()
                 .map(|def| EnumSignature { name: def.name.clone(), cases: def.cases.clone() })
                 .collect(),
-            failures: library.failures.iter().map(|(name, _)| name.clone()).collect(),
+            failures: library.failures.iter().map(|def| def.name.clone()).collect(),
             entities: environment
                 .entities()
                 .iter()
@@ -250,7 +249,7 @@ fn of_type(ty: Ty) -> Option<Type> {
         Base::Pose => Type::Pose,
         Base::Entity(kind) => Type::Entity(kind.index()),
         Base::Enum(id) => Type::Enum(id.index()),
-        Base::Unknown => return None,
+        Base::Failure | Base::Unknown => return None,
     };
     Some((0..ty.lists).fold(base, |inner, _| Type::List(Box::new(inner))))
 }

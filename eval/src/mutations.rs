@@ -47,7 +47,7 @@ pub enum MutantEnd {
     Warned,
     /// It runs to its end, or to an end that it has chosen.
     Passed,
-    /// It fails by a need or a motion that the check had listed.
+    /// It fails by a need, a motion or a goal that the check had left to the run.
     Listed,
     /// It fails by something that the check had not listed: the step with its failure.
     Unlisted(String),
@@ -218,15 +218,16 @@ impl Setting {
         match run(&mut engine, &mut sim, &mut causes, Time::ZERO) {
             RunEnd::Failed { kind, node, .. } => {
                 let failed = graph.nodes.get(node.index());
-                let is_guard = causes.0.get(&node) == Some(&EndCause::GuardRefuted);
+                let is_guard = causes.ends.get(&node) == Some(&EndCause::GuardRefuted);
                 match failed {
+                    Some(_) if causes.misses_goal => MutantEnd::Listed,
                     Some(failed) if is_guard || is_deferred_motion(failed, &kind) => MutantEnd::Listed,
                     // What the policy itself ends is no need.
                     Some(Node { kind: NodeKind::End { .. }, .. }) => MutantEnd::Passed,
                     Some(failed) => MutantEnd::Unlisted(format!(
                         "{} ends in {kind} ({:?})",
                         failed.path,
-                        causes.0.get(&node)
+                        causes.ends.get(&node)
                     )),
                     None => MutantEnd::Unlisted(format!("a step ends in {kind}")),
                 }
@@ -246,16 +247,26 @@ fn is_deferred_motion(node: &Node, failure: &str) -> bool {
     is_deferred && matches!(failure, "unreachable" | "blocked" | "not_found")
 }
 
-/// Causes for which steps ended in a failure, the latest of each step.
+/// What a run tells about its failures.
 #[derive(Default)]
-struct Causes(std::collections::BTreeMap<motet_graph::NodeId, EndCause>);
+struct Causes {
+    /// Causes for which steps ended in a failure, the latest of each step.
+    ends: std::collections::BTreeMap<motet_graph::NodeId, EndCause>,
+    /// Whether the goal was observed to be false at the end.
+    misses_goal: bool,
+}
 
 impl Observer for Causes {
     fn effect(&mut self, _now: Time, effect: &Effect) {
-        if let Effect::Report(event) = effect
-            && let TraceEventKind::Ended { node, ending: NodeEnding::Failure(_), cause } = &event.what
-        {
-            self.0.insert(*node, *cause);
+        let Effect::Report(event) = effect else { return };
+        match &event.what {
+            TraceEventKind::Ended { node, ending: NodeEnding::Failure(_), cause } => {
+                self.ends.insert(*node, *cause);
+            }
+            TraceEventKind::GoalObserved { truth } => {
+                self.misses_goal = *truth == motet_runtime::Truth::False
+            }
+            _ => {}
         }
     }
 }

@@ -3,6 +3,9 @@
 //! Every other name is data. The compiler looks these up once, and a test of it checks that `motet/*.motet`
 //! declares each of them.
 
+/// Documentation of the failure `timeout`, which has no declaration.
+pub const TIMEOUT_DOC: &str = "It took too long.";
+
 macro_rules! names {
     ($($(#[$doc:meta])* $module:ident { $($constant:ident = $name:literal)* })*) => {$(
         $(#[$doc])*

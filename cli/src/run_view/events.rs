@@ -89,6 +89,9 @@ impl Events {
                     json!({"watch": watch, "when": when, "truth": word(*truth)}),
                 );
             }
+            TraceEventKind::GoalObserved { truth } => {
+                self.write(at, "goal_observed", None, json!({"truth": word(*truth)}));
+            }
             TraceEventKind::CleanupSkipped { node } => {
                 self.write(at, "cleanup_skipped", Some(*node), json!({}));
             }
@@ -154,7 +157,10 @@ impl View for Events {
 
     fn finish(&mut self, now: Time, end: &RunEnd) {
         let (outcome, node, more) = match end {
-            RunEnd::Done { why } => ("done", None, json!({"why": why})),
+            RunEnd::Done { why, result: None } => ("done", None, json!({"why": why})),
+            RunEnd::Done { why, result: Some(result) } => {
+                ("done", None, json!({"why": why, "result": value(result)}))
+            }
             RunEnd::Failed { kind, why, node } => {
                 ("failed", Some(*node), json!({"failure": kind.as_str(), "why": why}))
             }

@@ -165,6 +165,7 @@ impl Lines {
             TraceEventKind::Guard { truth, .. } => *truth != motet_runtime::Truth::True,
             TraceEventKind::Verified { verdict, .. } => matches!(**verdict, Verification::Infeasible { .. }),
             TraceEventKind::Swapped { .. } | TraceEventKind::Bound { .. } => false,
+            TraceEventKind::GoalObserved { .. } => false,
         };
         if let (true, Some(row)) = (is_shown, self.tree.row(node)) {
             let line = self.line(row, record.at);

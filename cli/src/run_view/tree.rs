@@ -141,7 +141,7 @@ impl Tree {
                 (*node, Some(format!("the cleanup failed: {}", self.failures.name(&graph, *failure))))
             }
             TraceEventKind::WentOn { node, .. } => (*node, Some("went on".to_owned())),
-            TraceEventKind::Swapped { .. } => return None,
+            TraceEventKind::Swapped { .. } | TraceEventKind::GoalObserved { .. } => return None,
             TraceEventKind::Kept { node, .. } => (*node, Some("goes on".to_owned())),
             TraceEventKind::Updated { node, .. } => (*node, Some("updated".to_owned())),
             TraceEventKind::Bound { binding, value } => {
@@ -340,9 +340,9 @@ impl FailureNames {
     pub(super) fn event(&mut self, event: &Event) {
         self.last = match event {
             Event::Driver(
-                DriverEvent::Ended { outcome: Outcome::Failure(kind), .. }
-                | DriverEvent::Refused { failure: kind, .. },
-            ) => Some(kind.to_string()),
+                DriverEvent::Ended { outcome: Outcome::Failure(failure), .. }
+                | DriverEvent::Refused { failure, .. },
+            ) => Some(failure.kind.to_string()),
             _ => None,
         };
     }

@@ -8,6 +8,7 @@ fn place(name: &str) -> Place {
         .file("good.motet", GOOD)
         .file("bad.motet", BAD)
         .file("gives_up.motet", "policy gives_up for hsr {\n    go(kitchen_table)\n    fail \"no mug\"\n}\n")
+        .file("gives.motet", "policy gives -> Surface {\n    go(counter)\n    done counter\n}\n")
         .file("replans.motet", "policy replans for hsr {\n    replan \"too hard\"\n}\n")
         .file("no_robot.motet", "policy anyone {\n    go(user)\n}\n")
         .file("stranger.motet", "policy anyone for nobody {\n    go(user)\n}\n")
@@ -45,6 +46,12 @@ fn ends_with_the_right_code() {
             &["out:✓ tidy: done", "out:5 steps done, 0 failed", "out:▶ pick(mug"][..],
         ),
         (format!("run good.motet {max} --seed 7"), 0, &["out:✓ place(mug, counter)"]),
+        (format!("run gives.motet --robot hsr {max}"), 0, &["out:✓ gives: done, gave counter"]),
+        (
+            format!("run gives.motet --robot hsr {max} --format json"),
+            0,
+            &["out:\"outcome\":\"done\"", "out:\"result\":\"counter\""],
+        ),
         (format!("run bad.motet {max}"), 1, &["out:M0201", "err:refused: 1 error"]),
         (
             format!("run gives_up.motet {max}"),

@@ -12,9 +12,9 @@ use std::borrow::Cow;
 use std::fmt;
 use thiserror::Error;
 
-/// Version of the encoding: the one that is written, and the only one that is read. 4 since calls
-/// have a manner.
-pub const VERSION: u32 = 4;
+/// Version of the encoding: the one that is written, and the only one that is read. 5 since handlers name
+/// their failures, and a policy has a result and a goal.
+pub const VERSION: u32 = 5;
 /// Size limit of a document in bytes.
 pub const MAX_BYTES: usize = 64 * 1024 * 1024;
 

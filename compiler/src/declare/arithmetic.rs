@@ -97,6 +97,11 @@ impl Elaborator<'_> {
                 let fitting: Vec<SmolStr> = fitting.map(|(_, name, _)| name.clone()).take(4).collect();
                 (1..=3).contains(&fitting.len()).then(|| one_of(fitting.iter().map(SmolStr::as_str)))
             }
+            (ExprKind::Name(name) | ExprKind::Binding(name), Ty::TEXT)
+                if matches!(term, Term::Caught(..)) =>
+            {
+                Some(format!("`{name}.text`"))
+            }
             _ => None,
         }
     }
@@ -120,6 +125,7 @@ impl Elaborator<'_> {
             | Term::Number(_)
             | Term::Pose { .. }
             | Term::List(_)
+            | Term::Caught(..)
             | Term::Param(_)
             | Term::Result
             | Term::Each

@@ -17,7 +17,7 @@ use smol_str::SmolStr;
 use super::contract;
 use super::elaborator::Elaborator;
 use super::errors::{BadDeclaration, Duplicate, FluentParameter, LimitExceeded, UnknownType};
-use super::library::{EnumDef, FluentDef, KindDef, LangItems, Library, MeasureDef};
+use super::library::{EnumDef, FailureDef, FluentDef, KindDef, LangItems, Library, MeasureDef};
 use super::name::near;
 use crate::ir::{Base, Entities, Entity, EnumId, Failure, Fluent, Kind, MAX_ENTITIES, Measure, Ty};
 
@@ -82,6 +82,7 @@ impl LibraryBuilder {
         super::card::apply(&mut library, robot.as_ref());
         enums(&mut library, &declarations, &mut diagnostics);
         failures(&mut library, &declarations);
+        library.add_failure_kinds();
         fields(&mut library, &declarations, &mut diagnostics);
         fluents(&mut library, &declarations, robot.as_ref(), &mut diagnostics);
         measures(&mut library, &declarations, robot.as_ref(), &mut diagnostics);
@@ -202,13 +203,28 @@ fn enums(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
 fn failures(library: &mut Library, declarations: &Declarations) {
     let always = [lang::builtin_failures::TIMEOUT, lang::failures::FAILED, lang::failures::EXHAUSTED]
         .map(SmolStr::new_static);
-    let declared = declarations.failures.iter().map(|(name, decl)| (name.clone(), decl.item.name.span));
-    for (name, span) in always.into_iter().map(|name| (name, Default::default())).chain(declared) {
+    for name in always.into_iter().chain(declarations.failures.keys().cloned()) {
         if library.names.failures.contains_key(&name) {
             continue;
         }
+        let doc = declarations.failures.get(&name).map_or("", |decl| decl.item.doc.as_str());
+        let doc = if name == lang::builtin_failures::TIMEOUT { lang::TIMEOUT_DOC } else { doc };
         library.names.failures.insert(name.clone(), Failure(index(&library.failures)));
-        library.failures.push((name, span));
+        library.failures.push(FailureDef { text: clause(&name, doc), name });
+    }
+}
+
+/// The first sentence of a documentation as a clause: without its full stop, and in lower case. Without
+/// documentation it is the name in words.
+fn clause(name: &str, doc: &str) -> SmolStr {
+    let line = doc.lines().next().unwrap_or_default();
+    let sentence = line.split_once(". ").map_or(line, |(first, _)| first).trim_end_matches('.').trim();
+    let mut letters = sentence.chars();
+    match (letters.next(), letters.next()) {
+        (None, _) => name.replace('_', " ").into(),
+        // A word in capitals stays one.
+        (Some(_), Some(second)) if second.is_uppercase() => sentence.into(),
+        (Some(first), _) => first.to_lowercase().chain(sentence.chars().skip(1)).collect::<String>().into(),
     }
 }
 

@@ -134,6 +134,7 @@ pub(super) fn check(library: &Library, declarations: &Declarations, robot: &Robo
                 Base::Int | Base::Number => Some(Dimension::NONE),
                 Base::Quantity(dimension) => Some(dimension),
                 Base::Bool | Base::Text | Base::Pose | Base::Entity(_) | Base::Enum(_) => None,
+                Base::Failure => None,
             }
             .filter(|_| ty.lists == 0);
             let fits = wanted.is_some_and(|wanted| bound.dimension.is_none_or(|found| found == wanted));

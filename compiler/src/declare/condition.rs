@@ -47,7 +47,7 @@ impl Elaborator<'_> {
 
     fn compare(&mut self, op: CompareOp, left: &Expr, right: &Expr, whole: &Expr) -> Condition {
         // The side that says its own type is read first, so that it decides how the other is read.
-        let (a, b, left_ty, right_ty) = if needs_context(left) {
+        let (a, b, left_ty, right_ty) = if self.needs_context(left) {
             let (b, right_ty) = self.term(right, None);
             let (a, left_ty) = self.term(left, Some(beside(right_ty)));
             (a, b, left_ty, right_ty)
@@ -71,7 +71,8 @@ impl Elaborator<'_> {
             }
             _ => {
                 let alike = self.library.fits(left_ty, right_ty) || self.library.fits(right_ty, left_ty);
-                alike && matches!(op, CompareOp::Equal | CompareOp::Unequal)
+                let is_failure = left_ty.base == Base::Failure || right_ty.base == Base::Failure;
+                alike && !is_failure && matches!(op, CompareOp::Equal | CompareOp::Unequal)
             }
         };
         if joined && !computed(&a, &b) {
@@ -214,11 +215,15 @@ impl Elaborator<'_> {
         }
         args.into_iter().map(Option::flatten).collect()
     }
-}
 
-/// Returns whether the other side of a comparison decides how an expression is read.
-fn needs_context(expr: &Expr) -> bool {
-    matches!(expr.kind, ExprKind::Number(_) | ExprKind::Plain(_) | ExprKind::List(_) | ExprKind::Name(_))
+    /// Returns whether the other side of a comparison decides how an expression is read.
+    fn needs_context(&self, expr: &Expr) -> bool {
+        match &expr.kind {
+            ExprKind::Name(name) => self.scope.find(name).is_none(),
+            ExprKind::Number(_) | ExprKind::Plain(_) | ExprKind::List(_) => true,
+            _ => false,
+        }
+    }
 }
 
 fn beside(ty: Ty) -> Expected<'static> {

@@ -15,7 +15,7 @@ use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::errors::{
     BadDeclaration, Duplicate, ReservedName, UnknownFailure, UnknownMotion, UnknownResource, UnknownType,
 };
-use super::library::{EffectDef, LastsDef, Library, NeedDef, ParamDef, PrimitiveDef, ResourceSet};
+use super::library::{EffectDef, FAILURE, LastsDef, Library, NeedDef, ParamDef, PrimitiveDef, ResourceSet};
 use super::name::{list, near};
 use crate::ir::{Base, Entities, Kind, MotionKind, Primitive, TIMEOUT, Term, Ty};
 
@@ -244,7 +244,7 @@ fn clause_into(elaborator: &mut Elaborator<'_>, clause: &Clause, def: &mut Primi
                     Some(kind) if def.fails.contains(kind) => {}
                     Some(kind) => def.fails.push(*kind),
                     None => {
-                        let known = || elaborator.library.failures.iter().map(|(name, _)| name);
+                        let known = || elaborator.library.failures.iter().map(|def| &def.name);
                         let near = near(&name.text, known().map(SmolStr::as_str));
                         let known = list(known().cloned());
                         elaborator.report(UnknownFailure {
@@ -357,6 +357,7 @@ pub(super) fn type_of(library: &Library, ty: &TypeExpr) -> (Ty, Option<Diagnosti
         "Number" => Base::Number,
         "Text" => Base::Text,
         "Pose" => Base::Pose,
+        FAILURE if !library.names.kinds.contains_key(FAILURE) => Base::Failure,
         text => {
             match (Dimension::of_type(text), library.names.kinds.get(text), library.names.enums.get(text)) {
                 (Some(dimension), ..) => Base::Quantity(dimension),
@@ -375,8 +376,8 @@ fn unknown_type(library: &Library, span: Span, name: &SmolStr) -> Diagnostic {
     let builtin =
         ["Bool", "Int", "Number", "Text", "Pose", "Length", "Angle", "Duration", "Mass", "Force", "Speed"];
     let kinds = library.kinds.iter().map(|def| def.name.as_str());
-    let enums = library.enums.iter().map(|def| def.name.as_str());
-    let near = near(name, builtin.into_iter().chain(["Ratio", "List"]).chain(kinds).chain(enums));
+    let enums = library.named_enums().map(|def| def.name.as_str());
+    let near = near(name, builtin.into_iter().chain(["Ratio", "List", FAILURE]).chain(kinds).chain(enums));
     UnknownType { span, name: name.clone(), near }.into()
 }
 

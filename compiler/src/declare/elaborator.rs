@@ -234,6 +234,9 @@ impl<'a> Elaborator<'a> {
     fn field(&mut self, of: &Expr, name: &Name) -> (Term, Ty) {
         let (term, ty) = self.term(of, None);
         let library = self.library;
+        if ty == Ty::plain(Base::Failure) {
+            return self.part_of_failure(term, name);
+        }
         if term == Term::Entity(ROBOT) {
             if let Some((value, ty)) = library.numbers.get(&name.text) {
                 return (Term::Number(*value), *ty);
@@ -277,6 +280,30 @@ impl<'a> Elaborator<'a> {
         }
     }
 }
+
+impl Elaborator<'_> {
+    /// The kind or the text of a failure. Only a name that a `catch` gives has the kind.
+    fn part_of_failure(&mut self, failure: Term, name: &Name) -> (Term, Ty) {
+        let known = match (name.text.as_str(), failure) {
+            (KIND, Term::Caught(kind, _)) => {
+                return (Term::Binding(kind), Ty::plain(Base::Enum(self.library.failure_kinds())));
+            }
+            (TEXT, Term::Caught(_, text)) => return (Term::Binding(text), Ty::TEXT),
+            (TEXT, failure) => return (failure, Ty::TEXT),
+            (_, Term::Caught(..)) => [KIND, TEXT].as_slice(),
+            (_, _) => &[TEXT],
+        };
+        let near = near(&name.text, known.iter().copied());
+        let (span, name, of) = (name.span, name.text.clone(), "a failure".to_owned());
+        let known = list(known.iter().copied().map(SmolStr::new_static));
+        self.report(UnknownField { span, name, of, near, known, owners: String::new() });
+        (Term::Unknown, Ty::UNKNOWN)
+    }
+}
+
+/// Fields of a failure.
+pub(crate) const KIND: &str = "kind";
+pub(crate) const TEXT: &str = "text";
 
 /// Converts a ratio to percent, rounded to hide the noise of binary fractions.
 pub(super) fn percent(ratio: f64) -> f64 {

@@ -162,6 +162,7 @@ motet_syntax::mistakes! {
             }
             Unbound::Loop => format!("`{name}` is bound in an `each`, which may have no round"),
             Unbound::Reaction => format!("`{name}` is bound in a reaction, which may never run"),
+            Unbound::Caught => format!("`{name}` is the failure of a `catch`, and known in its steps only"),
             Unbound::Beside => format!("`{name}` is bound in another branch, which runs at the same time"),
             Unbound::TwoBranches { .. } => {
                 format!("`{name}` is bound in two branches, which run at the same time")
@@ -180,6 +181,7 @@ motet_syntax::mistakes! {
             Unbound::Cleanup => format!("bind `{name}` before that step, or by a step of the `finally`"),
             Unbound::Loop => format!("use `{name}` inside the loop"),
             Unbound::Reaction => format!("bind `{name}` before the monitor, or in its body"),
+            Unbound::Caught => format!("use `{name}` in the steps of the `catch`"),
             Unbound::Beside => format!("use `{name}` behind the `parallel`, or bind it before"),
             Unbound::TwoBranches { .. } => format!("give one of them another name than `{name}`"),
         })
@@ -194,6 +196,7 @@ motet_syntax::mistakes! {
             | Unbound::Cleanup
             | Unbound::Loop
             | Unbound::Reaction
+            | Unbound::Caught
             | Unbound::Beside => None,
         };
         std::iter::once(Related::new("bound here", m.bound)).chain(other).collect()

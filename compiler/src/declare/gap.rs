@@ -46,6 +46,8 @@ pub(crate) enum Unbound {
     Reaction,
     /// It is bound in another branch, which runs at the same time.
     Beside,
+    /// It is the failure of a handler, for the steps of the handler alone.
+    Caught,
     /// Two branches that run at the same time bind it.
     TwoBranches { second: Span },
 }

@@ -16,6 +16,11 @@ use crate::ir::{
     Base, Condition, Entity, EnumId, Fact, Failure, Fluent, Kind, Measure, MotionKind, Primitive, Term, Ty,
 };
 
+/// Name of the type of a failure that a handler caught.
+pub(crate) const FAILURE: &str = "Failure";
+/// Name of the enumeration of the kinds of failures, in messages.
+const FAILURE_KIND: SmolStr = SmolStr::new_static("FailureKind");
+
 /// Set of at most 64 resources, as bits.
 pub(crate) type ResourceSet = u64;
 
@@ -28,7 +33,7 @@ pub struct Library {
     pub(crate) enums: Vec<EnumDef>,
     pub(crate) fluents: Vec<FluentDef>,
     pub(crate) measures: Vec<MeasureDef>,
-    pub(crate) failures: Vec<(SmolStr, Span)>,
+    pub(crate) failures: Vec<FailureDef>,
     pub(crate) primitives: Vec<PrimitiveDef>,
     pub(crate) policies: Vec<Arc<ast::Policy>>,
     pub(crate) resources: Vec<ResourceDef>,
@@ -77,6 +82,14 @@ pub(crate) struct KindDef {
 pub(crate) struct EnumDef {
     pub(crate) name: SmolStr,
     pub(crate) cases: Vec<SmolStr>,
+}
+
+/// Definition of a failure.
+#[derive(Clone, Debug)]
+pub(crate) struct FailureDef {
+    pub(crate) name: SmolStr,
+    /// A clause about it without a full stop, from the first sentence of its documentation.
+    pub(crate) text: SmolStr,
 }
 
 /// Definition of a fluent.
@@ -223,6 +236,23 @@ impl Default for Manners {
 }
 
 impl Library {
+    /// Adds the enumeration of the kinds of failures, behind all others. Its cases are in the order of the
+    /// failures, and no declaration can name it.
+    pub(super) fn add_failure_kinds(&mut self) {
+        let cases = self.failures.iter().map(|def| def.name.clone()).collect();
+        self.enums.push(EnumDef { name: FAILURE_KIND, cases });
+    }
+
+    /// Enumeration of the kinds of failures: the last one.
+    pub(crate) fn failure_kinds(&self) -> EnumId {
+        EnumId(u16::try_from(self.enums.len().saturating_sub(1)).unwrap_or(u16::MAX))
+    }
+
+    /// Enumerations that a declaration can name.
+    pub(crate) fn named_enums(&self) -> impl Iterator<Item = &EnumDef> {
+        self.enums.iter().take(self.failure_kinds().index())
+    }
+
     /// Checks if a primitive moves the robot: by a motion of its own other than a look, or by a resource that
     /// such a motion of an action uses. O(primitives × resources).
     #[must_use]
@@ -298,6 +328,7 @@ impl Library {
                 self.kinds.get(kind.index()).map_or(lang::kinds::ENTITY, |def| def.name.as_str())
             }
             Base::Enum(id) => self.enums.get(id.index()).map_or("an enumeration", |def| def.name.as_str()),
+            Base::Failure => FAILURE,
             Base::Unknown => "unknown",
         };
         (0..ty.lists).fold(base.to_owned(), |inner, _| format!("List<{inner}>"))
@@ -345,7 +376,7 @@ impl Library {
     }
 
     pub(crate) fn failure_name(&self, id: Failure) -> &str {
-        self.failures.get(id.index()).map_or(lang::failures::FAILED, |(name, _)| name.as_str())
+        self.failures.get(id.index()).map_or(lang::failures::FAILED, |def| def.name.as_str())
     }
 
     pub(crate) fn case_name(&self, id: EnumId, case: u16) -> &str {

@@ -72,6 +72,7 @@ impl Elaborator<'_> {
                 base: Base::Bool | Base::Int | Base::Number | Base::Pose | Base::Text | Base::Unknown,
                 ..
             }
+            | Ty { base: Base::Failure, .. }
             | Ty { base: Base::Quantity(_), .. } => (Term::Text(text.clone()), Ty::TEXT),
         }
     }
@@ -81,7 +82,7 @@ impl Elaborator<'_> {
         let entry = self.scope.latest(name)?;
         let Some(gap) = &entry.gap else {
             let (term, value, ty) = (entry.term.clone(), entry.value.clone(), entry.ty);
-            if let Term::Binding(id) = term {
+            if let Term::Binding(id) | Term::Caught(_, id) = term {
                 self.count_use(id);
             }
             return Some((value.unwrap_or(term), ty));

@@ -280,6 +280,7 @@ impl MotionChecker<'_> {
             | Term::Text(_)
             | Term::Pose { .. }
             | Term::List(_)
+            | Term::Caught(..)
             | Term::Each
             | Term::Field(..)
             | Term::Measure(..)

@@ -249,7 +249,7 @@ fn named(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<SmolS
         Term::Case(of, case) => Some(library.case_name(*of, *case).into()),
         Term::Param(index) => name(&call.args.get(usize::from(*index))?.1),
         Term::Result => name(call.result?),
-        Term::Binding(_) | Term::Each | Term::Unknown => None,
+        Term::Binding(_) | Term::Caught(..) | Term::Each | Term::Unknown => None,
         Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::List(_) => None,
         Term::Pose { .. } => None,
         Term::Field(..) | Term::Measure(..) | Term::Arith(..) => None,

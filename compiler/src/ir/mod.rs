@@ -12,7 +12,8 @@ mod term;
 pub(crate) use entities::Entities;
 pub use entities::MAX_ENTITIES;
 pub(crate) use program::{
-    Binding, Block, BlockSlot, Call, Catch, Keep, Program, Reaction, Step, StepKind, StepPosition, When,
+    Binding, Block, BlockSlot, Call, Catch, CaughtFailure, Keep, Program, Reaction, Step, StepKind,
+    StepPosition, When,
 };
 pub(crate) use substitution::{Renumbering, Rewrite, Substitution};
 pub(crate) use term::{Base, Condition, Fact, MotionKind, Term, Ty};

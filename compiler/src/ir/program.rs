@@ -21,6 +21,8 @@ pub(crate) struct Program {
     pub(crate) body: Block,
     pub(crate) bindings: Vec<Binding>,
     pub(crate) achieves: Option<(Condition, Span)>,
+    /// Binding of the result, if the policy gives one.
+    pub(crate) result: Option<BindingId>,
 }
 
 impl Program {
@@ -426,5 +428,14 @@ pub(crate) struct Catch {
     pub(crate) on: Option<Vec<(Failure, Span)>>,
     /// Span of the failures, or of the whole handler.
     pub(crate) span: Span,
+    /// Bindings of the failure, if the handler names it.
+    pub(crate) binds: Option<CaughtFailure>,
     pub(crate) body: Block,
+}
+
+/// Bindings of a failure that a handler names.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CaughtFailure {
+    pub(crate) kind: BindingId,
+    pub(crate) text: BindingId,
 }

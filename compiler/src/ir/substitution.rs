@@ -25,6 +25,7 @@ pub(crate) trait Rewrite {
                 self.param(index, term);
             }
             Term::Binding(id) => self.binding(id),
+            Term::Caught(kind, text) => [kind, text].into_iter().for_each(|id| self.binding(id)),
             Term::List(terms) | Term::Measure(_, terms) => self.terms(terms),
             Term::Field(of, _) | Term::Count(of) | Term::First(of) => self.term(of),
             Term::Template(parts) => self.terms(parts.iter_mut().map(|(part, _)| part)),
@@ -82,7 +83,11 @@ pub(crate) trait Rewrite {
             }
             StepKind::Try { body, catches } => {
                 self.block(body);
-                catches.iter_mut().for_each(|catch| self.block(&mut catch.body));
+                for catch in catches {
+                    let ids = catch.binds.iter_mut().flat_map(|caught| [&mut caught.kind, &mut caught.text]);
+                    ids.for_each(|id| self.binding(id));
+                    self.block(&mut catch.body);
+                }
             }
             StepKind::Repeat { body, until, .. } => {
                 self.block(body);

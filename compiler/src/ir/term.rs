@@ -27,6 +27,8 @@ pub(crate) enum Term {
     Entity(Entity),
     List(Vec<Term>),
     Binding(BindingId),
+    /// Failure that a handler caught: the bindings of its kind and its text. As a value it is its text.
+    Caught(BindingId, BindingId),
     /// Parameter of the enclosing contract.
     Param(u16),
     /// Result of the enclosing contract.
@@ -85,6 +87,7 @@ impl Term {
             | Self::Case(..)
             | Self::Entity(_)
             | Self::Binding(_)
+            | Self::Caught(..)
             | Self::Param(_)
             | Self::Result
             | Self::Each
@@ -109,7 +112,7 @@ impl Term {
             | Self::Pose { .. } => false,
             Self::Case(..) | Self::Entity(_) | Self::List(_) | Self::Arith(..) | Self::Count(_) => false,
             Self::Binding(_) | Self::Param(_) | Self::Result | Self::Each | Self::Unknown => true,
-            Self::Field(..) | Self::Measure(..) | Self::First(_) => true,
+            Self::Field(..) | Self::Measure(..) | Self::First(_) | Self::Caught(..) => true,
         };
         !self.any(&is_open)
     }
@@ -143,6 +146,14 @@ impl Term {
 }
 
 impl Condition {
+    /// Parts that hold exactly if the condition does, as many as there are.
+    pub(crate) fn conjuncts(&self) -> Vec<&Self> {
+        match self {
+            Self::All(parts) => parts.iter().flat_map(Self::conjuncts).collect(),
+            whole => vec![whole],
+        }
+    }
+
     pub(crate) fn parts(&self) -> &[Self] {
         match self {
             Self::Not(inner) => std::slice::from_ref(inner),
@@ -206,6 +217,8 @@ pub(crate) enum Base {
     Pose,
     Entity(Kind),
     Enum(EnumId),
+    /// A failure that a handler caught, with its kind and its text.
+    Failure,
     /// Unknown because of an error that was reported; compatible with every type.
     Unknown,
 }

@@ -8,6 +8,7 @@ mod table;
 
 use motet_graph as graph;
 use motet_graph::{NodeId, RegionId};
+use motet_stdlib::lang;
 use motet_syntax::ast::EndKind;
 
 pub(crate) use self::left::left_to_run;
@@ -15,7 +16,7 @@ use self::table::Tables;
 use crate::declare::{EffectDef, Library, NeedDef, PrimitiveDef};
 use crate::environment::Environment;
 use crate::feasibility::{MotionVerdict, MotionVerdicts};
-use crate::ir::{Block, Call, Condition, MotionKind, Program, Reaction, StepId, StepKind};
+use crate::ir::{Block, Call, Condition, MotionKind, Program, Reaction, StepId, StepKind, Term};
 use crate::limits::bounds_of;
 use crate::prove::{NeedVerdict, Proof};
 
@@ -44,6 +45,8 @@ pub(crate) fn lower(
         (!has_any(&fact)).then_some(graph::InitialFact { fact, value: *value })
     });
     let initial = initial.collect();
+    let goal = lowering.goal();
+    let sentences = lowering.sentences();
     let Lowering { nodes, regions, tables, .. } = lowering;
     let (least_secs, greatest_secs) = bounds_of(&program.body, program);
     graph::Graph {
@@ -57,6 +60,9 @@ pub(crate) fn lower(
         resources: tables.resources,
         bindings: tables.bindings,
         names: tables.names.into_iter().map(|(entity, name)| graph::EntityName { entity, name }).collect(),
+        sentences,
+        result: program.result.map(|id| graph::BindingId(id.0)),
+        goal,
         nodes,
         regions,
         initial,
@@ -76,6 +82,21 @@ fn binds(program: &Program, step: StepId) -> bool {
         StepKind::Let { .. } => true,
         kind => kind.blocks().into_iter().flatten().any(|step| binds(program, *step)),
     }
+}
+
+/// Returns whether the robot can observe all that a condition is about.
+fn is_observable(condition: &Condition, library: &Library) -> bool {
+    let is_hidden = |part: &Condition| match part {
+        Condition::Fact(fact) => library.fluent(fact.fluent).is_none_or(|def| def.derived || !def.observable),
+        Condition::Literal(_) | Condition::Compare(..) | Condition::Not(_) => false,
+        Condition::All(_) | Condition::AnyOf(_) => false,
+        Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) | Condition::Unknown => true,
+    };
+    let is_hidden_term = |term: &Term| match term {
+        Term::Measure(id, _) => library.measure(*id).is_none_or(|def| !def.observable),
+        _ => false,
+    };
+    !condition.any(&is_hidden) && !condition.any_term(&is_hidden_term)
 }
 
 fn has_any(fact: &graph::Fact) -> bool {
@@ -124,7 +145,7 @@ impl Lowering<'_> {
         if !steps.iter().any(|step| binds(program, *step)) {
             return None;
         }
-        let why = crate::ir::Term::Text("this step was proven never to be reached".into());
+        let why = Term::Text("this step was proven never to be reached".into());
         let (how, of, why) = self.ending(EndKind::Fail, None, Some(&why));
         let id = NodeId(u32::try_from(self.nodes.len()).ok()?);
         self.nodes.push(graph::Node {
@@ -135,6 +156,36 @@ impl Lowering<'_> {
             kind: graph::NodeKind::End { how, of, why },
         });
         Some(id)
+    }
+
+    /// The parts of the goal that the robot can observe.
+    fn goal(&mut self) -> Vec<graph::Condition> {
+        let Some((goal, _)) = &self.program.achieves else { return Vec::new() };
+        let library = self.library;
+        let parts = goal.conjuncts().into_iter().filter(|part| is_observable(part, library));
+        parts.map(|part| self.tables.condition(part, &[], None)).collect()
+    }
+
+    /// What the failures of the graph mean, if a handler names its failure.
+    fn sentences(&mut self) -> Vec<graph::FailureSentence> {
+        let names = |handler: &graph::Handler| handler.binds.is_some();
+        let is_asked = self.nodes.iter().any(|node| match &node.kind {
+            graph::NodeKind::Try { handlers, .. } => handlers.iter().any(names),
+            _ => false,
+        });
+        if !is_asked {
+            return Vec::new();
+        }
+        // No part of the graph says that its loops can run out, so nothing else has put it in the table.
+        if let Some(exhausted) = self.library.names.failures.get(lang::failures::EXHAUSTED) {
+            self.tables.failure(*exhausted);
+        }
+        let failures = self.tables.failures.iter().zip(0_u32..);
+        let sentences = failures.filter_map(|(name, index)| {
+            let def = self.library.failures.iter().find(|def| def.name == *name)?;
+            Some(graph::FailureSentence { failure: graph::FailureId(index), text: def.text.clone() })
+        });
+        sentences.collect()
     }
 
     fn node(&mut self, step: StepId, region: RegionId) -> Option<NodeId> {
@@ -202,7 +253,11 @@ impl Lowering<'_> {
                     let on = catch.on.as_ref();
                     let on =
                         on.map(|kinds| kinds.iter().map(|(kind, _)| self.tables.failure(*kind)).collect());
-                    handlers.push(graph::Handler { on, body: self.region(&catch.body, owner) });
+                    let binds = catch.binds.map(|caught| graph::CaughtFailure {
+                        kind: graph::BindingId(caught.kind.0),
+                        text: graph::BindingId(caught.text.0),
+                    });
+                    handlers.push(graph::Handler { on, binds, body: self.region(&catch.body, owner) });
                 }
                 graph::NodeKind::Try { body, handlers }
             }
@@ -233,7 +288,7 @@ impl Lowering<'_> {
         &mut self,
         kind: EndKind,
         of: Option<StepId>,
-        why: Option<&crate::ir::Term>,
+        why: Option<&Term>,
     ) -> (graph::Ending, Option<NodeId>, Option<graph::Term>) {
         let how = match kind {
             EndKind::Done => graph::Ending::Done,

@@ -104,7 +104,8 @@ impl<'a> Tables<'a> {
             Base::Quantity(dimension) => {
                 dimension.type_name().map_or(graph::Type::Number, |name| graph::Type::Quantity(name.into()))
             }
-            Base::Text => graph::Type::Text,
+            // Of a failure the text is written.
+            Base::Text | Base::Failure => graph::Type::Text,
             Base::Pose => graph::Type::Pose,
             Base::Entity(kind) => graph::Type::Entity(graph::KindId(u32::from(kind.0))),
             Base::Enum(id) => graph::Type::Case(
@@ -229,7 +230,7 @@ impl Tables<'_> {
             Term::Case(id, case) => literal(Value::Case(self.library.case_name(*id, *case).into())),
             Term::Entity(entity) => literal(Value::Entity(self.environment.name(*entity))),
             Term::List(items) => self.list(items, args, result),
-            Term::Binding(id) => graph::Term::Binding(graph::BindingId(id.0)),
+            Term::Binding(id) | Term::Caught(_, id) => graph::Term::Binding(graph::BindingId(id.0)),
             Term::Param(index) => match args.get(usize::from(*index)) {
                 // An argument is never itself a parameter, so this ends.
                 Some(Term::Param(_)) | None => literal(Value::Bool(false)),

@@ -393,6 +393,7 @@ fn spelled(term: &Term, library: &Library, environment: &Environment) -> Option<
         | Term::Number(_)
         | Term::Pose { .. }
         | Term::Binding(_)
+        | Term::Caught(..)
         | Term::Param(_)
         | Term::Result
         | Term::Each

@@ -39,8 +39,10 @@ impl<'a> Prover<'a> {
             // A guard that refuses changes nothing.
             self.throw_all(&def.fails);
         }
+        let lasting = self.lasting(id);
         self.make_stale(id, def, frame);
         self.unsettle(&unsettles, cause);
+        self.check_lasting(&lasting);
         self.fail(id, call, def, frame, &makes, &mut verdicts);
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
         let armed = self.armed(id);

@@ -129,6 +129,11 @@ impl<'a> Domain<'a> for Prover<'a> {
         self.await_condition(condition, Cause::step(id));
     }
 
+    fn pass_time(&mut self, id: StepId) {
+        let lasting = self.lasting(id);
+        self.check_lasting(&lasting);
+    }
+
     fn lose(&mut self, id: StepId) {
         self.forget_all(Cause::step(id));
     }

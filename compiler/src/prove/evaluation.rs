@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 
 use super::Prover;
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
-use crate::ir::{Base, Condition, Entity, Fact, Fluent, Kind, Term};
+use crate::ir::{Base, Catch, Condition, Entity, Fact, Fluent, Kind, StepKind, Term};
 
 /// Meaning of a contract's parameters, result and quantified variable at one call.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,6 +47,7 @@ impl Prover<'_> {
             | Term::Arith(..)
             | Term::Template(_)
             | Term::Count(_)
+            | Term::Caught(..)
             | Term::Unknown => None,
         }
     }
@@ -187,7 +188,9 @@ impl Prover<'_> {
                 return TruthSet::NOTHING_KNOWN;
             }
         };
+        let caught = self.caught(left, right).or_else(|| self.caught(right, left));
         let same = match (self.argument(left, frame), self.argument(right, frame)) {
+            _ if caught.is_some() => caught,
             (Some(a), Some(b)) if a == b => Some(true),
             (Some(a), Some(b)) => {
                 let may = self.symbols.may_equal(self.library, self.environment, Entity(a), Entity(b));
@@ -200,6 +203,18 @@ impl Prover<'_> {
             },
         };
         same.map_or(TruthSet::NOTHING_KNOWN, |same| TruthSet::of(same == equal, Cause::START))
+    }
+
+    /// Equality of the kind of a failure that a handler caught and a kind, where the handler catches only
+    /// that kind, or not that kind.
+    fn caught(&self, term: &Term, kind: &Term) -> Option<bool> {
+        let (Term::Binding(id), Term::Case(_, kind)) = (term, kind) else { return None };
+        let binder = self.program.bindings.get(id.index())?.binders.first()?;
+        let StepKind::Try { catches, .. } = &self.program.step(*binder)?.kind else { return None };
+        let is_its = |catch: &&Catch| catch.binds.is_some_and(|caught| caught.kind == *id);
+        let mut on = catches.iter().find(is_its)?.on.as_ref()?.iter().map(|(on, _)| on.0 == *kind);
+        let first = on.next()?;
+        on.all(|other| other == first).then_some(first)
     }
 
     fn literal<'t>(&self, term: &'t Term, frame: CallFrame<'t>) -> Option<&'t Term> {
@@ -236,6 +251,7 @@ impl Prover<'_> {
             | Term::Entity(_)
             | Term::List(_)
             | Term::Binding(_)
+            | Term::Caught(..)
             | Term::Result
             | Term::Each
             | Term::Measure(..)

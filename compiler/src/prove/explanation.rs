@@ -365,7 +365,7 @@ impl Prover<'_> {
                 let items: Vec<_> = items.iter().map(|item| self.term_text(item, frame)).collect();
                 format!("[{}]", items.join(", "))
             }
-            Term::Binding(id) => self
+            Term::Binding(id) | Term::Caught(_, id) => self
                 .program
                 .bindings
                 .get(id.index())

@@ -180,6 +180,48 @@ impl<'a> Prover<'a> {
         armed
     }
 
+    /// Conditions with a time, of the monitors around a step, that an earlier step of their bodies has made
+    /// certain, each with that step. The step lasts at least as long as they have to hold.
+    pub(super) fn lasting(&self, id: StepId) -> Vec<(&'a When, StepId)> {
+        let program = self.program;
+        let least_secs = program.step(id).map_or(0.0, |step| step.bounds.0);
+        if least_secs <= 0.0 || self.control.rehearsals > 0 || self.is_in_reaction(id) {
+            return Vec::new();
+        }
+        let mut lasting = Vec::new();
+        for watched in &self.state.watched {
+            let Some(StepKind::Monitor { whens, .. }) = program.step(watched.by).map(|step| &step.kind)
+            else {
+                continue;
+            };
+            let fires = |when: &&When| {
+                let is_exempt =
+                    matches!(when.reaction, Reaction::Timeout | Reaction::End { kind: EndKind::Done, .. });
+                when.hold_secs > 0.0 && when.hold_secs <= least_secs && !is_exempt
+            };
+            let is_in = |step: &StepId| {
+                let is_call = matches!(program.step(*step).map(|step| &step.kind), Some(StepKind::Call(_)));
+                is_call && program.around(*step).any(|(around, _)| around == watched.by)
+            };
+            let made = whens.iter().filter(fires).filter_map(|when| {
+                let value = self.evaluate(&when.condition, CallFrame::default());
+                let step = value.yes.as_step().filter(is_in).filter(|_| value.is_true())?;
+                Some((when, step))
+            });
+            lasting.extend(made.filter(|(_, step)| !self.is_in_reaction(*step)));
+        }
+        lasting
+    }
+
+    /// Reports the monitors whose condition, made certain by an earlier step, stays so while this step runs.
+    pub(super) fn check_lasting(&mut self, lasting: &[(&'a When, StepId)]) {
+        for (when, step) in lasting {
+            if self.evaluate(&when.condition, CallFrame::default()).is_true() {
+                self.body_fires(when, *step);
+            }
+        }
+    }
+
     /// Returns whether a step belongs to the reaction of a monitor.
     pub(super) fn is_in_reaction(&self, id: StepId) -> bool {
         let in_reaction = |step: &Step| matches!(step.position.slot, BlockSlot::Reaction(_));
@@ -190,20 +232,23 @@ impl<'a> Prover<'a> {
     /// Reports the monitors whose condition the effects of a step have made certain.
     pub(super) fn check_fired(&mut self, armed: &[ArmedWhen<'a>], id: StepId) {
         for ArmedWhen { when, held } in armed {
-            if *held || !self.evaluate(&when.condition, CallFrame::default()).is_true() {
-                continue;
+            if !*held && self.evaluate(&when.condition, CallFrame::default()).is_true() {
+                self.body_fires(when, id);
             }
-            if self.mode == Mode::Decide {
-                self.count(BodyFires::CODE);
-                continue;
-            }
-            let step = self.cause_name(Cause::step(id));
-            let holds = self.show(&when.condition, true, CallFrame::default());
-            let fired = self.program.step(id).map(|step| step.span);
-            let mistake = Diagnostic::from(BodyFires { span: when.span, step, holds, fired });
-            if !self.diagnostics.contains(&mistake) {
-                self.diagnostics.push(mistake);
-            }
+        }
+    }
+
+    /// Reports a monitor that a step of its body fires.
+    fn body_fires(&mut self, when: &When, id: StepId) {
+        if self.mode == Mode::Decide {
+            return self.count(BodyFires::CODE);
+        }
+        let step = self.cause_name(Cause::step(id));
+        let holds = self.show(&when.condition, true, CallFrame::default());
+        let fired = self.program.step(id).map(|step| step.span);
+        let mistake = Diagnostic::from(BodyFires { span: when.span, step, holds, fired });
+        if !self.diagnostics.contains(&mistake) {
+            self.diagnostics.push(mistake);
         }
     }
 

@@ -9,6 +9,7 @@ use smol_str::SmolStr;
 
 use super::errors::{NoMotion, NoResult, PoseForEntity, Recursion, UnknownPrimitive};
 use super::meant::step_to_write;
+use super::result::PolicyResult;
 use super::step::StepResolver;
 use crate::declare::PrimitiveDef;
 use crate::declare::elaborator::{Expected, ValueRole};
@@ -217,7 +218,7 @@ impl StepResolver<'_> {
     fn inline(&mut self, call: &Do, policy: &Policy, span: Span, position: StepPosition) -> Option<StepId> {
         let name = policy.name.text.clone();
         let id = self.reserve(span, position)?;
-        if let Some(bind) = &call.bind {
+        if let Some(bind) = call.bind.as_ref().filter(|_| policy.result.is_none()) {
             self.elaborator.report(NoResult {
                 span: bind.span,
                 callee: name.clone(),
@@ -263,7 +264,17 @@ impl StepResolver<'_> {
             };
             terms.push(term);
         }
-        self.body(id, policy, &types, terms)
+        let result = policy.result.as_ref();
+        let result = result.map(|ty| crate::declare::resolve_type(&mut self.elaborator, ty));
+        let bound = call.bind.as_ref().zip(result);
+        let binding = bound.map(|(bind, ty)| self.bind(bind.text.clone(), ty, bind.span, None, None));
+        let outer = std::mem::replace(&mut self.result, PolicyResult::new(result, binding));
+        let id = self.body(id, policy, &types, terms);
+        let result = std::mem::replace(&mut self.result, outer);
+        if let Some((bind, ty)) = bound {
+            self.name_result(bind, ty, result);
+        }
+        id
     }
 
     /// Inlines a call of a policy outside of any step.
@@ -278,7 +289,12 @@ impl StepResolver<'_> {
         let types = policy.params.iter();
         let types: Vec<Ty> =
             types.map(|param| crate::declare::resolve_type(&mut self.elaborator, &param.ty)).collect();
-        self.body(id, policy, &types, args)
+        let result = policy.result.as_ref();
+        let result = result.map(|ty| crate::declare::resolve_type(&mut self.elaborator, ty));
+        let outer = std::mem::replace(&mut self.result, PolicyResult::new(result, None));
+        let id = self.body(id, policy, &types, args);
+        self.result = outer;
+        id
     }
 
     /// Inlines the steps of a policy with arguments.
@@ -292,6 +308,7 @@ impl StepResolver<'_> {
         let (outer, is_done) = (self.inline.replace(id), std::mem::take(&mut self.is_done));
         self.calls.push(name.clone());
         let body = self.in_text(|steps| steps.whole(policy, Some(id)));
+        self.check_given(policy);
         self.calls.pop();
         self.inline = outer;
         self.goes_on |= std::mem::replace(&mut self.is_done, is_done);

@@ -1,10 +1,12 @@
 //! Diagnostics of unknown callees, and of names that a step must not bind (M0201, M0206, M0207, M0212,
-//! M0305, M0315, M0316).
+//! M0305, M0315, M0319), and of results of policies (M0316 to M0318).
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
 use crate::declare::errors::{did_you_mean, replace};
+use crate::declare::gap::Unbound;
+use crate::declare::name::article;
 
 motet_syntax::mistakes! {
     pub(crate) const CODES;
@@ -51,10 +53,48 @@ motet_syntax::mistakes! {
     help(m) { Some(format!("call it without binding `{}`", m.name)) }
 
     /// Pose in the place of an entity, where another primitive takes one.
-    PoseForEntity("M0316", Error) { callee: SmolStr, name: Span, param: SmolStr, twin: SmolStr }
+    PoseForEntity("M0319", Error) { callee: SmolStr, name: Span, param: SmolStr, twin: SmolStr }
     message(m) { format!("`{}` of `{}` is an entity, not a pose", m.param, m.callee) }
     help(m) { Some(format!("`{}` takes a pose", m.twin)) }
     fix(m) { replace(m.name, &m.twin) }
+
+    /// Result of a policy that declares none.
+    UnwantedResult("M0316", Error) { policy: SmolStr }
+    message(m) { format!("`done` gives a result, but `{}` declares none", m.policy) }
+    help(m) {
+        Some(format!("declare its type, as in `policy {}() -> Object`, or write `done` alone", m.policy))
+    }
+
+    /// Way through a policy that ends without the result that the policy declares.
+    MissingResult("M0317", Error) { policy: SmolStr, ty: String, way: Option<Option<Unbound>> }
+    message(m) {
+        let gives = format!("`{}` gives {}", m.policy, article(&m.ty));
+        match &m.way {
+            None => format!("{gives}, but this `done` gives nothing"),
+            Some(Some(Unbound::Way { name, .. })) => format!("{gives}, but not on the way through {name}"),
+            Some(Some(Unbound::NoElse(_))) => {
+                format!("{gives}, but not if the condition of an `if` without `else` does not hold")
+            }
+            Some(Some(Unbound::Loop)) => format!("{gives}, but not if an `each` has no round"),
+            Some(_) => format!("{gives}, but its last step is no `done`"),
+        }
+    }
+    help(_m) {
+        Some("end that way with `done` and a value, or with `fail`, `cannot` or `replan`".to_owned())
+    }
+    related(m) {
+        let related = match &m.way {
+            Some(Some(Unbound::Way { end, .. })) => Some(Related::new("this way goes on without it", *end)),
+            Some(Some(Unbound::NoElse(condition))) => Some(Related::new("this may not hold", *condition)),
+            Some(_) | None => None,
+        };
+        related.into_iter().collect()
+    }
+
+    /// Result of a reaction that only the run determines.
+    ReactionResult("M0318", Error) { }
+    message(_m) { "a reaction gives a result that is known before its monitor".to_owned() }
+    help(_m) { Some("give the value a name with `let` before the monitor, and give that".to_owned()) }
 
     /// Manner of a step that moves nothing.
     NoMotion("M0315", Error) { callee: SmolStr, is_text: bool }

@@ -9,6 +9,7 @@
 mod call;
 pub(crate) mod errors;
 mod meant;
+mod result;
 mod step;
 mod way;
 

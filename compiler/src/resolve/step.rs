@@ -10,6 +10,7 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::ResolvedStep;
 use super::errors::{Shadows, TooManySteps};
+use super::result::{PolicyResult, stands_for_itself};
 use super::way::{Fork, without_value};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::errors::{NotACondition, UnknownFailure};
@@ -35,6 +36,10 @@ pub(super) struct StepResolver<'a> {
     pub(super) goes_on: bool,
     /// True if a `done` leads behind the inlined policy.
     pub(super) is_done: bool,
+    /// Result of the policy whose body is being resolved.
+    pub(super) result: PolicyResult,
+    /// Steps that come before the step that was resolved last.
+    pub(super) before: Vec<StepId>,
     /// Span of a step before which the scope is recorded.
     pub(super) point: Option<Span>,
     /// The scope there.
@@ -51,6 +56,8 @@ impl<'a> StepResolver<'a> {
             calls: Vec::new(),
             goes_on: true,
             is_done: false,
+            result: PolicyResult::default(),
+            before: Vec::new(),
             point: None,
             scope_at_point: None,
             full: false,
@@ -78,14 +85,24 @@ impl<'a> StepResolver<'a> {
         // The parameters of a sub-policy that is checked by itself may be anything of their type.
         for param in &policy.params {
             let ty = crate::declare::resolve_type(&mut self.elaborator, &param.ty);
-            let id = self.bind(param.name.text.clone(), ty, param.name.span, None, None);
-            self.elaborator.scope.push(param.name.text.clone(), Term::Binding(id), ty, param.name.span);
-            if let Some(binding) = self.elaborator.bindings.get_mut(id.index()) {
+            let (first, term) = (self.elaborator.bindings.len(), self.named(&param.name, ty, None));
+            self.elaborator.scope.push(param.name.text.clone(), term, ty, param.name.span);
+            for binding in self.elaborator.bindings.iter_mut().skip(first) {
                 binding.is_param = true;
                 binding.uses = 1;
             }
         }
+        if let Some(declared) = &policy.result {
+            let ty = crate::declare::resolve_type(&mut self.elaborator, declared);
+            let binding = self.bind(SmolStr::new_static("result"), ty, declared.span(), None, None);
+            if let Some(bound) = self.elaborator.bindings.get_mut(binding.index()) {
+                bound.uses = 1;
+            }
+            self.result = PolicyResult::new(Some(ty), Some(binding));
+            self.program.result = Some(binding);
+        }
         self.program.body = self.whole(policy, None);
+        self.check_given(policy);
         let mut program = std::mem::take(&mut self.program);
         program.bindings = std::mem::take(&mut self.elaborator.bindings);
         program
@@ -147,6 +164,7 @@ impl<'a> StepResolver<'a> {
                 Some(step) => self.step(step, position),
                 None => self.gap(block.span, position),
             };
+            steps.append(&mut self.before);
             match id {
                 Some(id) => steps.push(id),
                 None if self.full => break,
@@ -214,8 +232,26 @@ impl<'a> StepResolver<'a> {
         id
     }
 
+    /// Adds the bindings of a name, and returns what it stands for: of a failure, its kind and its text.
+    fn named(&mut self, name: &Name, ty: Ty, binder: Option<StepId>) -> Term {
+        if ty != Ty::plain(ir::Base::Failure) {
+            return Term::Binding(self.bind(name.text.clone(), ty, name.span, binder, None));
+        }
+        let kinds = Ty::plain(ir::Base::Enum(self.elaborator.library.failure_kinds()));
+        let kind = self.bind(format_smolstr!("{}.kind", name.text), kinds, name.span, binder, None);
+        // Whoever uses the kind uses the text's binding too.
+        if let Some(kind) = self.elaborator.bindings.get_mut(kind.index()) {
+            kind.uses = 1;
+        }
+        Term::Caught(kind, self.bind(name.text.clone(), Ty::TEXT, name.span, binder, None))
+    }
+
     /// Makes a binding visible.
     pub(super) fn name(&mut self, name: &SmolStr, id: BindingId, ty: Ty, span: Span) {
+        self.name_term(name, Term::Binding(id), ty, span);
+    }
+
+    fn name_term(&mut self, name: &SmolStr, term: Term, ty: Ty, span: Span) {
         let known = self.elaborator.scope.find(name).filter(|entry| !entry.is_free);
         let first = known.map(|entry| entry.span);
         // What a policy of the library calls its own is read there before any entity, and is for nobody
@@ -224,7 +260,7 @@ impl<'a> StepResolver<'a> {
         if first.is_some() || hides {
             self.elaborator.report(Shadows { span, name: name.clone(), first });
         }
-        self.elaborator.scope.push(name.clone(), Term::Binding(id), ty, span);
+        self.elaborator.scope.push(name.clone(), term, ty, span);
     }
 
     pub(super) fn step(&mut self, step: &Step, position: StepPosition) -> Option<StepId> {
@@ -234,6 +270,7 @@ impl<'a> StepResolver<'a> {
         if self.point == Some(step.span) {
             self.scope_at_point = Some(self.elaborator.scope.clone());
         }
+        let results = self.results(step, position);
         let id = self.reserve(step.span, position)?;
         let kind = match &step.kind {
             StepKind::Do(_) => return None,
@@ -267,7 +304,8 @@ impl<'a> StepResolver<'a> {
             StepKind::Finally { step, cleanup } => {
                 let (scope, goes_on) = (self.elaborator.scope.mark(), self.goes_on);
                 let position = StepPosition { parent: Some(id), slot: BlockSlot::Protected, index: 0 };
-                let body = self.step(step, position).into_iter().collect();
+                let last = self.step(step, position);
+                let body = self.before.drain(..).chain(last).collect();
                 let cleanup = self.cleanup(cleanup, id, (scope, goes_on));
                 ir::StepKind::Finally { body, cleanup }
             }
@@ -314,7 +352,9 @@ impl<'a> StepResolver<'a> {
                 self.name(&item.text, binding, ty, item.span);
                 let outer = self.goes_on;
                 let body = self.block(body, Some(id), BlockSlot::Steps);
-                self.goes_on = outer;
+                if outer && !std::mem::replace(&mut self.goes_on, outer) {
+                    self.result.open_way = Some(Unbound::Loop);
+                }
                 self.leave(mark, &Unbound::Loop);
                 ir::StepKind::Each { item: binding, list: term, at_most, body }
             }
@@ -336,6 +376,7 @@ impl<'a> StepResolver<'a> {
                 ir::StepKind::End { kind: end.kind, of: self.inline, why }
             }
         };
+        self.before = results;
         self.fill(id, kind)
     }
 
@@ -358,7 +399,7 @@ impl<'a> StepResolver<'a> {
             bound.uses = u32::from(value == Term::Unknown);
         }
         self.name(&name.text, binding, ty, name.span);
-        if value.is_constant() || matches!(value, Term::Binding(_)) {
+        if stands_for_itself(&value) {
             self.elaborator.scope.stand_for(value.clone());
         }
         ir::StepKind::Let { binding, value }
@@ -449,7 +490,7 @@ impl<'a> StepResolver<'a> {
                     match library.names.failures.get(&name.text) {
                         Some(kind) => kinds.push((*kind, name.span)),
                         None => {
-                            let known = || library.failures.iter().map(|(name, _)| name);
+                            let known = || library.failures.iter().map(|def| &def.name);
                             let near = near(&name.text, known().map(SmolStr::as_str));
                             let known = list(known().cloned());
                             self.elaborator.report(UnknownFailure {
@@ -471,7 +512,31 @@ impl<'a> StepResolver<'a> {
             CatchOn::Kinds(names) => names.iter().map(|name| name.text.as_str()).collect(),
         };
         let name = format_smolstr!("`catch {}`", kinds.join(", "));
-        ir::Catch { on, span, body: self.way(fork, (&catch.body, slot), &name, &Unbound::OtherWay) }
+        let (binds, body) = self.handler(fork, (catch, slot), &name);
+        ir::Catch { on, span, binds, body }
+    }
+
+    /// Resolves the steps of a handler, which alone see the name of its failure.
+    fn handler(
+        &mut self,
+        fork: &mut Fork,
+        (catch, slot): (&Catch, BlockSlot),
+        name: &str,
+    ) -> (Option<ir::CaughtFailure>, ir::Block) {
+        let Some(bind) = &catch.bind else {
+            return (None, self.way(fork, (&catch.body, slot), name, &Unbound::OtherWay));
+        };
+        let inside = self.elaborator.scope.mark();
+        let ty = Ty::plain(ir::Base::Failure);
+        let term = self.named(bind, ty, Some(fork.step()));
+        self.name_term(&bind.text, term.clone(), ty, bind.span);
+        let caught = self.elaborator.scope.take_since(inside);
+        let body = self.way_with(fork, (&catch.body, slot), name, &Unbound::OtherWay, caught);
+        let binds = match term {
+            Term::Caught(kind, text) => Some(ir::CaughtFailure { kind, text }),
+            _ => None,
+        };
+        (binds, body)
     }
 
     /// Reports a condition in place of a step.

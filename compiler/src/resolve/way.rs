@@ -38,6 +38,13 @@ struct Way {
 /// A name with its entry on each way that has one, in the order of the ways.
 type Found = SmallVec<[(usize, ScopeEntry); 2]>;
 
+impl Fork {
+    /// The step whose ways they are.
+    pub(super) fn step(&self) -> StepId {
+        self.step
+    }
+}
+
 impl StepResolver<'_> {
     /// Begins the ways through a step.
     pub(super) fn fork(&self, step: StepId) -> Fork {
@@ -48,15 +55,30 @@ impl StepResolver<'_> {
     pub(super) fn way(
         &mut self,
         fork: &mut Fork,
-        (block, slot): (&Block, BlockSlot),
+        block: (&Block, BlockSlot),
         name: &str,
         unseen: &Unbound,
     ) -> ir::Block {
+        self.way_with(fork, block, name, unseen, Vec::new())
+    }
+
+    /// The same with names of its own, which no step behind it sees.
+    pub(super) fn way_with(
+        &mut self,
+        fork: &mut Fork,
+        (block, slot): (&Block, BlockSlot),
+        name: &str,
+        unseen: &Unbound,
+        own: Vec<ScopeEntry>,
+    ) -> ir::Block {
         let inside = self.elaborator.scope.mark();
+        let count = own.len();
+        self.elaborator.scope.extend(own);
         let outer = std::mem::replace(&mut self.goes_on, true);
         let body = self.block(block, Some(fork.step), slot);
         let goes_on = std::mem::replace(&mut self.goes_on, outer);
-        let entries = self.elaborator.scope.take_since(inside);
+        let mut entries = self.elaborator.scope.take_since(inside);
+        entries.iter_mut().take(count).for_each(|entry| *entry = without_value(entry, &Unbound::Caught));
         let scope = &mut self.elaborator.scope;
         let unseen: Vec<_> = entries
             .iter()
@@ -93,6 +115,10 @@ impl StepResolver<'_> {
         let Fork { scope, first, mut ways, .. } = fork;
         self.elaborator.scope.back_to(scope);
         let live: Vec<usize> = (0..ways.len()).filter(|way| is_live(&ways, *way)).collect();
+        let open = live.first().and_then(|way| ways.get(*way)).filter(|_| live.len() < ways.len());
+        if let Some(open) = open.filter(|_| self.goes_on) {
+            self.result.open_way = Some(open.lacks.clone());
+        }
         self.goes_on &= !live.is_empty();
         let (mut entries, mut shared) = (Vec::new(), Vec::new());
         for found in by_name(&mut ways) {
@@ -211,6 +237,7 @@ impl StepResolver<'_> {
         for step in self.program.steps.iter_mut().skip(first_step) {
             new.kind(&mut step.kind);
         }
+        self.result.renumber(&new);
         for entry in entries.iter_mut() {
             new.term(&mut entry.term);
             new.terms(&mut entry.value);

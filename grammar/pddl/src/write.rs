@@ -134,6 +134,7 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
         doc: format_smolstr!("A plan for the PDDL problem `{}`.", problem.name),
         name: Name { text: "plan".into(), span },
         params: Vec::new(),
+        result: None,
         robot: None,
         achieves: conjunction(problem.goal.iter().map(|part| literal(part, &[])).collect()),
         body: Block::new(steps.collect(), span),

@@ -4,7 +4,8 @@
 use smol_str::SmolStr;
 
 use crate::ast::{
-    Arg, Block, Call, Expr, ExprKind, Keep, KeepKind, Manner, Policy, Reaction, Step, StepKind, When,
+    Arg, Block, Call, End, Expr, ExprKind, Keep, KeepKind, Manner, Policy, Reaction, Step, StepKind,
+    TypeExpr, When,
 };
 use crate::located::push_token;
 use crate::source::Span;
@@ -29,6 +30,7 @@ pub fn pointer_to(policy: &Policy, span: Span, parameter: &dyn Fn(&str, usize) -
     if let Some(goal) = &policy.achieves {
         walk.expr("achieves", goal);
     }
+    let _ = walk.name("result", policy.result.as_ref().map(TypeExpr::span));
     let _ = walk.keeps(&policy.keeps)
         || walk.block("steps", &policy.body)
         || policy.cleanup.as_ref().is_some_and(|cleanup| walk.block("finally", cleanup));
@@ -109,7 +111,10 @@ impl PointerWalk<'_> {
                 if let Some(index) = catches.iter().position(|catch| catch.span.contains(self.span)) {
                     self.key("catch");
                     self.index(index);
-                    let _ = catches.get(index).is_some_and(|catch| self.block("steps", &catch.body));
+                    let _ = catches.get(index).is_some_and(|catch| {
+                        self.block("steps", &catch.body)
+                            || self.name("as", catch.bind.as_ref().map(|name| name.span))
+                    });
                 }
             }
             StepKind::Repeat { times, body, until } => {
@@ -130,9 +135,7 @@ impl PointerWalk<'_> {
                 let _ =
                     branches.iter().enumerate().any(|(index, branch)| walk.block(&index.to_string(), branch));
             }),
-            StepKind::End(end) => {
-                let _ = self.optional("why", end.why.as_ref());
-            }
+            StepKind::End(end) => self.end(end),
         }
     }
 
@@ -176,10 +179,12 @@ impl PointerWalk<'_> {
             Reaction::Resume { at_most, body, .. } => {
                 let _ = self.expr("at_most", at_most) || self.block("steps", body);
             }
-            Reaction::End(end) => {
-                self.optional("why", end.why.as_ref());
-            }
+            Reaction::End(end) => self.end(end),
         }
+    }
+
+    fn end(&mut self, end: &End) {
+        let _ = self.optional("result", end.result.as_ref()) || self.optional("why", end.why.as_ref());
     }
 
     fn name(&mut self, key: &str, span: Option<Span>) -> bool {

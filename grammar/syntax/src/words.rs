@@ -40,9 +40,9 @@ pub const CALL_KEYS: [&str; 5] = ["do", "as", "manner", "within", "retry"];
 /// Key of a deadline in JSON. It names the form of a step only if no other key does.
 pub const DEADLINE: &str = "within";
 
-/// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
-/// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a
-/// support.
+/// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` and
+/// `result` are not among them: `on` names the failures of a `catch`, and `result` the result of a `done`.
+/// Neither has arguments, and `on` is the natural name for a support.
 pub const FORM_KEYS: [(&str, &str); 29] = [
     ("let", "a step of its own"),
     ("be", "`let`"),

@@ -163,7 +163,7 @@ fn faults(failures: &[Kind]) -> Faults {
     let fails = |nth: u32, kind: &'static str| CallFault {
         primitive: SmolStr::new_static("pick"),
         nth: Some(nth),
-        then: CallFaultKind::Fails(SmolStr::new_static(kind)),
+        then: CallFaultKind::Fails(kind.into()),
     };
     let calls = if failures.contains(&Kind::NotReachable) {
         vec![fails(1, "unreachable")]

@@ -4,7 +4,8 @@ use crate::ids::{CheckId, GoalId};
 use crate::query::Query;
 use crate::time::Time;
 use crate::trace::TraceEvent;
-use motet_graph::{Manner, Motion, NodeId, Value, Verdict, Witness};
+use motet_graph::draw::Names;
+use motet_graph::{Graph, Manner, Motion, NodeId, Value, Verdict, Witness};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -181,6 +182,11 @@ impl PlannedMotion {
 }
 
 impl Command {
+    /// The call as a person would write it: arguments by position.
+    pub(crate) fn brief(&self, graph: &Graph) -> String {
+        Names(graph).command(&self.primitive, self.args.iter().map(|(_, value)| value), self.manner)
+    }
+
     /// The value of a parameter.
     #[must_use]
     pub fn arg(&self, name: &str) -> Option<&Value> {
@@ -192,10 +198,13 @@ impl Command {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RunEnd {
-    /// The policy reached `done`, or its end.
+    /// The policy reached `done`, or its end, and no part of its goal was observed to be false.
     Done {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
+        /// The result, of a policy that gives one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        result: Option<Value>,
     },
     /// The policy failed: by `fail`, or by a failure that nothing caught.
     Failed {
@@ -255,7 +264,11 @@ impl fmt::Display for Command {
 impl fmt::Display for RunEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (what, why) = match self {
-            Self::Done { why } => ("done", why),
+            Self::Done { why, result } => {
+                f.write_str("done")?;
+                result.as_ref().map_or(Ok(()), |result| write!(f, ", gave {result}"))?;
+                ("", why)
+            }
             Self::Failed { kind, why, .. } => {
                 write!(f, "failed with `{kind}`")?;
                 ("", why)

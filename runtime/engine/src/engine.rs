@@ -40,6 +40,7 @@ impl Engine {
         let plan = PreparedGraph::new(Arc::new(graph));
         let beliefs = start::believe(&plan.graph, start);
         let mut run = Run::new(&plan, beliefs);
+        run.left.clone_from(&start.pending);
         for (index, binding) in plan.graph.bindings.iter().enumerate().filter(|(_, binding)| binding.given) {
             let given = start.bindings.iter().find(|(name, _)| *name == binding.name);
             let Some((_, value)) = given.filter(|(_, value)| value.fits(&binding.ty)) else {
@@ -232,6 +233,7 @@ impl Engine {
                 format!("guard {need} of {}: {truth}", path(*node))
             }
             TraceEventKind::Verified { node, verdict } => format!("verified {}: {verdict}", path(*node)),
+            TraceEventKind::GoalObserved { truth } => format!("observed the goal: {truth}"),
             TraceEventKind::Tested { node, truth } => format!("tested {}: {truth}", path(*node)),
             TraceEventKind::Fired { node, watch, truth } => {
                 format!("watch {watch} of {} fired: {truth}", path(*node))

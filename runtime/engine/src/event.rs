@@ -31,11 +31,7 @@ pub enum DriverEvent {
     /// The goal was accepted and runs.
     Acknowledged { goal: GoalId },
     /// The goal was not accepted; nothing has moved. It ends in this failure.
-    Refused {
-        goal: GoalId,
-        /// The failure kind.
-        failure: SmolStr,
-    },
+    Refused { goal: GoalId, failure: FailureReport },
     /// The goal has ended and holds none of its resources any longer. Without an acknowledgement before it,
     /// it counts as one too.
     Ended {
@@ -84,7 +80,7 @@ pub enum Outcome {
     /// It did what it was for; with its result where its primitive has one.
     Success(Option<Value>),
     /// It failed in this way. One of the kinds that its primitive lists, or `timeout`.
-    Failure(SmolStr),
+    Failure(FailureReport),
     /// It was cancelled, or somebody at the robot stopped it.
     Interrupted,
 }
@@ -110,9 +106,73 @@ impl fmt::Display for Outcome {
         match self {
             Self::Success(None) => f.write_str("success"),
             Self::Success(Some(value)) => write!(f, "success {value}"),
-            Self::Failure(kind) => write!(f, "failure {kind}"),
+            Self::Failure(failure) => write!(f, "failure {failure}"),
             Self::Interrupted => f.write_str("interrupted"),
         }
+    }
+}
+
+/// Failure of a goal as its driver reports it. In JSON its kind, or an object where it has a text.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "FailureForm", into = "FailureForm")]
+#[schemars(with = "FailureForm")]
+pub struct FailureReport {
+    /// The failure kind.
+    pub kind: SmolStr,
+    /// Cause in words, for people; a clause such as "the mug is wet".
+    pub text: Option<SmolStr>,
+}
+
+/// JSON form of a [`FailureReport`].
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum FailureForm {
+    Kind(SmolStr),
+    Told(ToldFailure),
+}
+
+/// A failure kind with a cause in words.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ToldFailure {
+    kind: SmolStr,
+    text: SmolStr,
+}
+
+impl From<FailureForm> for FailureReport {
+    fn from(form: FailureForm) -> Self {
+        match form {
+            FailureForm::Kind(kind) => Self { kind, text: None },
+            FailureForm::Told(ToldFailure { kind, text }) => Self { kind, text: Some(text) },
+        }
+    }
+}
+
+impl From<FailureReport> for FailureForm {
+    fn from(FailureReport { kind, text }: FailureReport) -> Self {
+        match text {
+            None => Self::Kind(kind),
+            Some(text) => Self::Told(ToldFailure { kind, text }),
+        }
+    }
+}
+
+impl From<SmolStr> for FailureReport {
+    fn from(kind: SmolStr) -> Self {
+        Self { kind, text: None }
+    }
+}
+
+impl From<&str> for FailureReport {
+    fn from(kind: &str) -> Self {
+        SmolStr::new(kind).into()
+    }
+}
+
+impl fmt::Display for FailureReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.kind)?;
+        self.text.as_ref().map_or(Ok(()), |text| write!(f, ": {text}"))
     }
 }
 

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod belief;
+mod cleanup;
 pub mod conformance;
 mod driver;
 mod effect;
@@ -24,15 +25,16 @@ mod trace;
 mod turn;
 mod verifier;
 
+pub use cleanup::PendingCleanup;
 pub use driver::{Capabilities, Driver, PrimitiveSet};
 pub use effect::{Command, DeferredMotion, Effect, Fault, MotionVerdict, PlannedMotion, RunEnd};
 pub use engine::Engine;
-pub use event::{DriverEvent, Event, Outcome, Verification};
+pub use event::{DriverEvent, Event, FailureReport, Outcome, Verification};
 pub use ids::{CheckId, GoalId};
 pub use perception::{CameraImage, CameraModel, DepthImage, Detection, Perception, RgbdView};
 pub use query::{Answer, Pattern, Query, Reading, Truth};
 pub use run_loop::{Observer, RunControl, resume, run};
-pub use snapshot::{LiveGoal, PendingCleanup, Snapshot};
+pub use snapshot::{LiveGoal, Snapshot};
 pub use start::{EngineSettings, StartState};
 pub use swap::{PreparedSwap, RetiredGraph, RunningGraph, SwapRefusal};
 pub use time::Time;

@@ -244,6 +244,11 @@ impl PreparedGraph {
         self.watches.len() as u32 + id.0
     }
 
+    /// Node that stands for the goal of the policy: it is observed as a test is.
+    pub(crate) fn goal(&self) -> NodeId {
+        NodeId(self.graph.nodes.len() as u32)
+    }
+
     /// Owner of a key.
     pub(crate) fn of_key(&self, key: u32) -> Dependent {
         let watches = self.watches.len() as u32;
@@ -252,7 +257,7 @@ impl PreparedGraph {
 
     /// Number of keys.
     pub(crate) fn keys(&self) -> usize {
-        self.watches.len() + self.graph.nodes.len()
+        self.watches.len() + self.graph.nodes.len() + 1
     }
 }
 

@@ -189,7 +189,7 @@ impl RunLoop<'_> {
         for effect in self.out.drain(..) {
             match (&effect, control) {
                 (Effect::Start { goal, .. }, RunControl::Stop) => {
-                    let failure = SmolStr::new_static("failed");
+                    let failure = SmolStr::new_static("failed").into();
                     let refused = DriverEvent::Refused { goal: *goal, failure };
                     self.first.push_back(Event::Driver(refused));
                     continue;

@@ -1,6 +1,7 @@
 //! The state of a run as plain data: what a compiler proves a new policy from, and what a trace shows.
 
 use crate::belief::{Beliefs, Facts, truth_of};
+use crate::cleanup::PendingCleanup;
 use crate::effect::Command;
 use crate::ids::GoalId;
 use crate::json;
@@ -9,8 +10,7 @@ use crate::query::{Answer, Pattern, Query, Reading, Truth};
 use crate::start::StartState;
 use crate::state::{Phase, Run};
 use crate::time::Time;
-use motet_graph::draw::Names;
-use motet_graph::{Graph, Node, NodeId, NodeKind, RegionId, Value};
+use motet_graph::{Graph, NodeId, NodeKind, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -47,19 +47,10 @@ pub struct Snapshot {
     pub bindings: Vec<(SmolStr, Value)>,
     /// Live goals in the order of their starts.
     pub goals: Vec<LiveGoal>,
-    /// Cleanups that have not run to their end and would still be due, in the order of the document.
+    /// Cleanups that have not run to their end and would still be due: first those of earlier policies, then
+    /// those of the policy that runs, in the order of the document.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pending: Vec<PendingCleanup>,
-}
-
-/// A cleanup that has not run to its end.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PendingCleanup {
-    /// The path of the step that it belongs to.
-    pub path: SmolStr,
-    /// Its calls as a person would write them, in the order of the document.
-    pub steps: Vec<String>,
 }
 
 /// A goal that has not ended.
@@ -81,6 +72,7 @@ impl Snapshot {
             some: self.some.clone(),
             entities: self.entities.clone(),
             bindings: self.bindings.clone(),
+            pending: self.pending.clone(),
         }
     }
 
@@ -138,7 +130,7 @@ impl Snapshot {
                 .filter_map(|(binding, value)| Some((binding.name.clone(), value.clone()?)))
                 .collect(),
             goals,
-            pending: pending(plan, run).filter_map(|node| PendingCleanup::of(graph, node)).collect(),
+            pending: run.left.iter().cloned().chain(due(plan, run)).collect(),
         }
     }
 }
@@ -152,35 +144,19 @@ pub(crate) fn pending(plan: &PreparedGraph, run: &Run) -> impl Iterator<Item = N
     with_cleanup.map(|(node, _)| node).filter(is_due)
 }
 
-impl PendingCleanup {
-    /// The cleanup of a step; `None` if it has none.
-    pub(crate) fn of(graph: &Graph, node: NodeId) -> Option<Self> {
-        let step = graph.nodes.get(node.index())?;
-        let NodeKind::Finally { cleanup, .. } = &step.kind else { return None };
-        let owner = |region: RegionId| graph.regions.get(region.index())?.owner;
-        let is_inside = |step: &Node| {
-            let mut region = step.region;
-            while region != *cleanup {
-                let around = owner(region).filter(|owner| *owner > node);
-                let Some(around) = around.and_then(|owner| graph.nodes.get(owner.index())) else {
-                    return false;
-                };
-                region = around.region;
-            }
-            true
-        };
-        let calls =
-            graph.nodes.iter().skip(node.index()).filter(|step| matches!(step.kind, NodeKind::Call(_)));
-        let calls = calls.filter(|step| is_inside(step));
-        let steps = calls.map(|step| Names(graph).brief(&step.kind)).collect();
-        Some(Self { path: step.path.clone(), steps })
+/// Cleanups of the policy that runs which would still be due, with the values of the names in them.
+pub(crate) fn due(plan: &PreparedGraph, run: &Run) -> Vec<PendingCleanup> {
+    let mut steps = pending(plan, run).peekable();
+    if steps.peek().is_none() {
+        return Vec::new();
     }
-}
-
-impl std::fmt::Display for PendingCleanup {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.steps.join(", "))
+    let mut graph = Graph::clone(&plan.graph);
+    for (binding, value) in graph.bindings.iter_mut().zip(&run.bindings) {
+        if let Some(value) = value {
+            binding.name = value.to_string().into();
+        }
     }
+    steps.filter_map(|node| PendingCleanup::of(&graph, node)).collect()
 }
 
 /// Single facts of which something else is believed than of all that the same patterns cover.

@@ -1,6 +1,7 @@
 //! Knowledge at the beginning of a run: from the graph and from the host.
 
 use crate::belief::Beliefs;
+use crate::cleanup::PendingCleanup;
 use crate::json;
 use crate::query::{Answer, Pattern, Query, Truth};
 use crate::time::Time;
@@ -32,6 +33,9 @@ pub struct StartState {
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "json::bindings")]
     #[schemars(with = "Vec<json::BindingRow>")]
     pub bindings: Vec<(SmolStr, Value)>,
+    /// Cleanups of earlier policies that have not run to their end.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pending: Vec<PendingCleanup>,
 }
 
 /// First what the compiler was told, then what the host knows.
@@ -92,6 +96,7 @@ impl EntityCollector<'_> {
     fn graph(&mut self) {
         let graph = self.graph;
         graph.initial.iter().for_each(|initial| self.fact(&initial.fact));
+        graph.goal.iter().for_each(|part| self.condition(part));
         for node in &graph.nodes {
             match &node.kind {
                 NodeKind::Call(call) => self.call(call),

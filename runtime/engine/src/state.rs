@@ -1,6 +1,7 @@
 //! Everything that changes during a run, in flat tables by node, region, watch and binding.
 
 use crate::belief::{Beliefs, CellId};
+use crate::cleanup::PendingCleanup;
 use crate::effect::{Command, DeferredMotion, RunEnd};
 use crate::event::Verification;
 use crate::ids::{CheckId, GoalId, GoalTable};
@@ -10,6 +11,7 @@ use crate::schedule::{NodeExit, Timers, WorkList};
 use crate::time::Time;
 use crate::trace::EndCause;
 use motet_graph::{Graph, NodeId, RegionId, Value};
+use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -200,8 +202,12 @@ pub(crate) struct Run {
     pub(crate) ending: Option<RunEnd>,
     /// True if a person stopped the run: no cleanup runs any more.
     pub(crate) halted: bool,
+    /// Cleanups of earlier policies that have not run to their end.
+    pub(crate) left: Vec<PendingCleanup>,
     /// Steps whose cleanup did not run, or not to its end.
     pub(crate) uncleaned: Vec<NodeId>,
+    /// Outcome of the run, and the step in which it arose, while the policy's goal is observed.
+    pub(crate) reached: Option<(RunEnd, NodeId)>,
     /// Outcome of the run after the goals of replaced policies have ended.
     pub(crate) closing: Option<RunEnd>,
     /// Goals of replaced policies, by start.
@@ -209,6 +215,8 @@ pub(crate) struct Run {
     /// True if a swap is being made: watches that lose their last watcher are kept until it is.
     pub(crate) swapping: bool,
     pub(crate) idle: Vec<CellId>,
+    /// Causes of failures in words, by the step in which a failure arose.
+    pub(crate) reasons: FxHashMap<NodeId, SmolStr>,
     /// Names of failures, those that drivers made up last.
     pub(crate) failures: Vec<SmolStr>,
     /// Scratch for walks over regions.
@@ -247,7 +255,8 @@ impl Run {
             over: false,
             now: Time::ZERO,
             revision: 0,
-            nodes: Table::new(plan.graph.nodes.len(), node),
+            // One more for the goal.
+            nodes: Table::new(plan.graph.nodes.len() + 1, node),
             composites: Table::new(plan.graph.nodes.len(), composite),
             regions: Table::new(plan.graph.regions.len(), region),
             watches: Table::new(plan.watches.len(), watch),
@@ -270,11 +279,14 @@ impl Run {
             ending: None,
             halted: false,
             is_unproven: false,
+            left: Vec::new(),
             uncleaned: Vec::new(),
+            reached: None,
             closing: None,
             orphans: Vec::new(),
             swapping: false,
             idle: Vec::new(),
+            reasons: FxHashMap::default(),
             failures: plan.failures.clone(),
             walk: Vec::new(),
             missing: Vec::new(),

@@ -271,6 +271,7 @@ impl Run {
         self.goals = std::mem::take(&mut old.goals);
         self.orphans = std::mem::take(&mut old.orphans);
         self.idle = std::mem::take(&mut old.idle);
+        self.left = std::mem::take(&mut old.left);
         self.walk = std::mem::take(&mut old.walk);
         self.missing = std::mem::take(&mut old.missing);
         self.checked = old.checked;

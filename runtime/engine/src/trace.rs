@@ -53,6 +53,11 @@ pub enum TraceEventKind {
         /// Result; unknown counts as false.
         truth: Truth,
     },
+    /// The goal of the policy was observed, before the run ended as done.
+    GoalObserved {
+        /// False if a part of it is false, unknown if a part of it is unknown and none is false.
+        truth: Truth,
+    },
     /// A cleanup failed. What it stands behind ends as it would have otherwise.
     CleanupFailed { node: NodeId, failure: FailureId },
     /// A cleanup does not run, or not to its end: a person stopped the run, or the driver interrupted or lost

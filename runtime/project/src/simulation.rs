@@ -161,6 +161,10 @@ fn collect_names<'t>(tree: &'t Located<'_>, names: &mut Vec<(NameKind, &'t Locat
             _ => None,
         };
         match kind {
+            Some(NameKind::Failure) if value.text().is_none() => {
+                let kinds = value.members().iter().filter(|(key, _)| key.text() == Some("kind"));
+                names.extend(kinds.map(|(_, kind)| (NameKind::Failure, kind)));
+            }
             Some(kind) => names.push((kind, value)),
             None => collect_names(value, names),
         }

@@ -208,7 +208,7 @@ impl Sim {
             self.world.motion = Some(motion);
             self.tasks.push(task);
         } else {
-            let failure = SmolStr::new_static("unreachable");
+            let failure = SmolStr::new_static("unreachable").into();
             self.report(DriverEvent::Ended { goal: task.goal, outcome: Outcome::Failure(failure) });
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::world::{Rest, SimWorld};
 use indexmap::IndexMap;
-use motet_runtime::Time;
+use motet_runtime::{FailureReport, Time};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -45,10 +45,11 @@ pub struct CallFault {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum CallFaultKind {
-    /// It takes its time, changes nothing, and ends in this failure.
-    Fails(#[schemars(with = "String")] SmolStr),
+    /// It takes its time, changes nothing, and ends in this failure: its kind, or an object with its `kind`
+    /// and a `text` for people.
+    Fails(FailureReport),
     /// It is not accepted, for this failure.
-    Refuses(#[schemars(with = "String")] SmolStr),
+    Refuses(FailureReport),
     /// It takes that many times as long.
     Slower(#[schemars(range(min = 0.0))] f64),
     /// It never ends by itself.
@@ -193,8 +194,8 @@ pub(crate) struct FaultSchedule {
 /// A fault of one call.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct ScheduledFault {
-    pub(crate) fails: Option<SmolStr>,
-    pub(crate) refuses: Option<SmolStr>,
+    pub(crate) fails: Option<FailureReport>,
+    pub(crate) refuses: Option<FailureReport>,
     pub(crate) slower: f64,
     pub(crate) hangs: bool,
 }
@@ -216,8 +217,8 @@ impl FaultSchedule {
             |fault: &&CallFault| fault.primitive == *primitive && fault.nth.is_none_or(|nth| nth == *count);
         for fault in self.calls.iter().filter(mine) {
             match &fault.then {
-                CallFaultKind::Fails(kind) => fate.fails = Some(kind.clone()),
-                CallFaultKind::Refuses(kind) => fate.refuses = Some(kind.clone()),
+                CallFaultKind::Fails(failure) => fate.fails = Some(failure.clone()),
+                CallFaultKind::Refuses(failure) => fate.refuses = Some(failure.clone()),
                 CallFaultKind::Slower(factor) => fate.slower *= factor,
                 CallFaultKind::Hangs => fate.hangs = true,
             }

@@ -8,7 +8,7 @@ use crate::people::People;
 use crate::world::SimWorld;
 use motet_graph::{Pose, Value};
 use motet_robots::scene::Scene;
-use motet_runtime::{GoalId, Outcome, Time};
+use motet_runtime::{FailureReport, GoalId, Outcome, Time};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub(crate) struct Task {
     /// Factor of the manner on the time of a drive; the time of the work follows the deadline.
     pub(crate) stretch: f64,
     /// Ends in this failure, whatever else.
-    pub(crate) fails: Option<SmolStr>,
+    pub(crate) fails: Option<FailureReport>,
     pub(crate) stage: TaskStage,
     /// Stages that are over.
     pub(crate) step: u32,
@@ -85,8 +85,12 @@ impl TaskContext<'_> {
     pub(crate) fn next(&mut self, task: &mut Task) -> NextStage {
         let step = task.step;
         task.step += 1;
-        if let Some(kind) = &task.fails {
-            return if step == 0 { NextStage::Work } else { NextStage::End(Outcome::Failure(kind.clone())) };
+        if let Some(failure) = &task.fails {
+            return if step == 0 {
+                NextStage::Work
+            } else {
+                NextStage::End(Outcome::Failure(failure.clone()))
+            };
         }
         match &task.command {
             SimCommand::Go(to) => {
@@ -264,5 +268,5 @@ impl TaskContext<'_> {
 }
 
 fn fail(kind: &'static str) -> NextStage {
-    NextStage::End(Outcome::Failure(SmolStr::new_static(kind)))
+    NextStage::End(Outcome::Failure(SmolStr::new_static(kind).into()))
 }

@@ -108,7 +108,7 @@ fn play(scene: &str, name: &str, faults: &str, swap: Option<(f64, &'static str)>
     let swap = swap.map(|(at, name)| (Time::from_secs(at), name));
     let mut script = Script { stage: &stage, swap, log: Vec::new() };
     let end = motet_runtime::run(&mut engine, &mut sim, &mut script, Time::ZERO);
-    assert_eq!(end, RunEnd::Done { why: None }, "{:#?}", script.log);
+    assert_eq!(end, RunEnd::Done { why: None, result: None }, "{:#?}", script.log);
     (sim, script.log)
 }
 

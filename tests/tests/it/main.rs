@@ -26,6 +26,7 @@ mod hostile;
 mod library;
 mod manners;
 mod oracle;
+mod outcomes;
 mod pddl;
 mod places;
 mod planning;

@@ -100,7 +100,7 @@ fn places_lead_to_the_primitive_that_takes_a_pose() {
         let document = format!(r#"{{"motet": 1, "policy": "p", "steps": [{{"do": "go", "to": {to}}}]}}"#);
         let fixed = fix(&session, &Source::new("policy", document.as_str()), FileId(0), FixLimits::all(100));
         let said = said(&session, &document);
-        assert!(said[0].starts_with("M0316") && said[0].contains("`go_to_pose` takes a pose"), "{said:?}");
+        assert!(said[0].starts_with("M0319") && said[0].contains("`go_to_pose` takes a pose"), "{said:?}");
         assert!(fixed.text.contains(r#"{"do": "go_to_pose", "to": "#), "{}", fixed.text);
         let errors = fixed.diagnostics.iter().filter(|said| said.severity == Severity::Error);
         assert_eq!(errors.count(), 0, "{}", fixed.text);

@@ -102,3 +102,13 @@ fn spec_keep() {
 fn spec_places() {
     check(include_str!("../../spec/places.md"), |code| !is_intent(code));
 }
+
+#[test]
+fn spec_failures() {
+    check(include_str!("../../spec/failures.md"), |code| !is_intent(code));
+}
+
+#[test]
+fn spec_results() {
+    check(include_str!("../../spec/results.md"), |code| !is_intent(code));
+}

@@ -157,7 +157,7 @@ impl Layout {
                 let mut regions = self.ways(id, &ways).into_iter();
                 let body = regions.next().unwrap_or(ROOT);
                 let handlers = handlers.iter().zip(regions);
-                let handlers = handlers.map(|((on, _), body)| Handler { on: on.clone(), body });
+                let handlers = handlers.map(|((on, _), body)| Handler { on: on.clone(), binds: None, body });
                 NodeKind::Try { body, handlers: handlers.collect() }
             }
             StepSketch::Repeat(times, steps, until) => {

@@ -5,10 +5,12 @@
 //! [`graph`] lays such trees out as a graph that always validates; [`graphs`] draws them at random. Tests
 //! that need a certain graph write the tree down themselves.
 
+mod caught;
 mod layout;
 mod strategy;
 pub mod vocabulary;
 
+pub use caught::with_named_failures;
 pub use layout::graph;
 pub use strategy::{conditions, graphs, steps};
 

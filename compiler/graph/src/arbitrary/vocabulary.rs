@@ -1,9 +1,9 @@
 //! The declarations that sketched graphs use.
 
 use crate::model::{
-    Binding, CallEffect, Comparison, Condition, DurationBounds, EntityName, Fact, FactArg, FailureId, Fluent,
-    FluentId, Graph, InitialFact, Kind, KindId, Measure, MeasureId, Need, Param, Primitive, PrimitiveId,
-    Resource, ResourceId, Term, Type, Unsettled, Value, Verdict,
+    Binding, CallEffect, Comparison, Condition, DurationBounds, EntityName, Fact, FactArg, FailureId,
+    FailureSentence, Fluent, FluentId, Graph, InitialFact, Kind, KindId, Measure, MeasureId, Need, Param,
+    Primitive, PrimitiveId, Resource, ResourceId, Term, Type, Unsettled, Value, Verdict,
 };
 use smol_str::SmolStr;
 
@@ -112,6 +112,9 @@ pub fn declarations() -> Graph {
         ],
         bindings: Vec::<Binding>::new(),
         names: vec![EntityName { entity: name("mug"), name: name("red mug") }],
+        sentences: vec![FailureSentence { failure: UNREACHABLE, text: name("no motion leads there") }],
+        result: None,
+        goal: Vec::new(),
         nodes: Vec::new(),
         regions: Vec::new(),
         initial: vec![InitialFact { fact: Fact { fluent: HOLDING, args: vec![FactArg::Any] }, value: false }],

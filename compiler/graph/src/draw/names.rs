@@ -2,7 +2,7 @@
 
 use crate::model::{
     BindingId, CallEffect, CallNode, Condition, Ending, Fact, FactArg, FailureId, Graph, Handler, KindId,
-    Motion, Need, NodeKind, Reaction, Term, TextPart, Type, Unsettled, Value, Watch,
+    Manner, Motion, Need, NodeKind, Reaction, Term, TextPart, Type, Unsettled, Value, Watch,
 };
 use crate::spoken::in_unit;
 
@@ -79,6 +79,24 @@ impl<'a> Names<'a> {
             | NodeKind::Each { .. }
             | NodeKind::Parallel { .. } => self.step(kind),
         }
+    }
+
+    /// A call with the values of its arguments, as [`Self::brief`] writes a step that has them as literals.
+    #[must_use]
+    pub fn command<'v>(
+        &self,
+        primitive: &str,
+        args: impl IntoIterator<Item = &'v Value>,
+        manner: Option<Manner>,
+    ) -> String {
+        let declared = self.0.primitives.iter().find(|known| known.name == primitive);
+        let params = declared.map_or(&[][..], |declared| &declared.params);
+        let args = args.into_iter().enumerate().map(|(index, arg)| {
+            let arg = Term::Literal(arg.clone());
+            literal(&arg, params.get(index).map(|param| &param.ty)).unwrap_or_else(|| self.term(&arg))
+        });
+        let manner = manner.map_or_else(String::new, |manner| format!(" {manner}"));
+        format!("{primitive}({}){manner}", args.collect::<Vec<_>>().join(", "))
     }
 
     /// An argument of a call, a quantity with its unit.
@@ -167,7 +185,8 @@ impl<'a> Names<'a> {
             || "any".to_owned(),
             |on| on.iter().map(|failure| self.failure(*failure)).collect::<Vec<_>>().join(", "),
         );
-        format!("catch {on}")
+        let bound = handler.binds.map(|caught| format!(" as {}", self.binding(caught.text)));
+        format!("catch {on}{}", bound.unwrap_or_default())
     }
 
     /// A failure kind.

@@ -26,6 +26,15 @@ pub struct EntityName {
     pub name: SmolStr,
 }
 
+/// Meaning of a kind of failure, in words.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FailureSentence {
+    pub failure: FailureId,
+    /// A clause such as "the object left the hand".
+    pub text: SmolStr,
+}
+
 /// A fluent: a relation between entities that is true, false or unknown.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -93,6 +93,16 @@ pub struct Graph {
     /// What people call the entities that a text may name; any other is called by its id.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub names: Vec<EntityName>,
+    /// What the kinds of failure mean, where a handler names its failure; any other is called by its kind.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sentences: Vec<FailureSentence>,
+    /// Binding of the result, of a policy that gives one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub result: Option<BindingId>,
+    /// Parts of the goal that the robot can observe. The engine observes them when the policy is done: the
+    /// run fails if one of them is false.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub goal: Vec<Condition>,
     /// Regions; the first is the policy's body.
     pub regions: Vec<Region>,
     /// Nodes in document order: a parent before its children.
@@ -122,6 +132,9 @@ impl Graph {
             resources: Vec::new(),
             bindings: Vec::new(),
             names: Vec::new(),
+            sentences: Vec::new(),
+            result: None,
+            goal: Vec::new(),
             regions: vec![Region { owner: None, entry: None }],
             nodes: Vec::new(),
             initial: Vec::new(),

@@ -40,6 +40,19 @@ pub struct Node {
     pub kind: NodeKind,
 }
 
+impl Node {
+    /// Node that stands for the goal of a policy where a message names a node.
+    pub(crate) fn goal() -> Self {
+        Self {
+            path: SmolStr::new_static("/achieves"),
+            region: super::ROOT,
+            next: None,
+            duration: DurationBounds::default(),
+            kind: NodeKind::End { how: Ending::Done, of: None, why: None },
+        }
+    }
+}
+
 /// Kind of a node, with its parts.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -195,8 +208,21 @@ pub struct Handler {
     /// Failures that the handler catches; absent for all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<Vec<FailureId>>,
+    /// Bindings of the failure, for the region.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub binds: Option<CaughtFailure>,
     /// Region that then runs.
     pub body: RegionId,
+}
+
+/// Bindings of a failure that a handler caught.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CaughtFailure {
+    /// Binding of its kind, a case.
+    pub kind: BindingId,
+    /// Binding of its text: what the driver said of it, or else its sentence in [`super::Graph::sentences`].
+    pub text: BindingId,
 }
 
 /// A call of a primitive.

@@ -14,13 +14,15 @@ use crate::model::{
 enum Todo {
     /// A node, then those after it.
     Node(NodeId),
-    /// A region; with the loop's item, and the loop whose test follows it.
-    Open { region: RegionId, item: Option<BindingId>, until: Option<NodeId> },
+    /// A region; with names that are bound in it, and the loop whose test follows it.
+    Open { region: RegionId, names: [Option<BindingId>; 2], until: Option<NodeId> },
     /// The test of a loop.
     Until(NodeId),
     /// The end of a region that may not run, or whose names are its own: only so many names stay bound, and
-    /// control goes on if it did before, or if the sub-policy is done.
-    Close { keep: usize, goes_on: bool, of: Option<NodeId> },
+    /// control goes on if it did before.
+    Close { keep: usize, goes_on: bool },
+    /// The end of a sub-policy: what its end, if control comes there, and each `done` have bound stays bound.
+    Leave { keep: usize, of: NodeId },
     /// The end of a region with a cleanup, which sees only the first names and whether control came so far.
     Cleanup { region: RegionId, keep: usize, goes_on: bool },
     /// The end of a cleanup: names that the region before it bound, and whether control went on behind that.
@@ -55,16 +57,27 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
         bound,
         log: Vec::new(),
         goes_on: true,
-        done: vec![false; graph.nodes.len()],
+        inlined: vec![Inlined::default(); graph.nodes.len()],
         forks: Vec::new(),
         counts: vec![0; graph.bindings.len()],
         todo: Vec::new(),
         terms: Vec::new(),
     };
-    walk.todo.push(Todo::Open { region: crate::model::ROOT, item: None, until: None });
+    let goal = Node::goal();
+    graph.goal.iter().for_each(|part| walk.condition(&goal, part));
+    walk.todo.push(Todo::Open { region: crate::model::ROOT, names: [None; 2], until: None });
     while let Some(todo) = walk.todo.pop() {
         walk.step(todo);
     }
+}
+
+/// A sub-policy that is being walked, or was.
+#[derive(Clone, Default)]
+struct Inlined {
+    /// Number of names bound before it.
+    keep: usize,
+    /// Names that each `done` so far has bound in it; `None` without one.
+    done: Option<Vec<BindingId>>,
 }
 
 struct Walk<'a> {
@@ -75,8 +88,8 @@ struct Walk<'a> {
     log: Vec<BindingId>,
     /// False behind a node that never goes on.
     goes_on: bool,
-    /// By node, true for a sub-policy that a `done` in it leaves.
-    done: Vec<bool>,
+    /// By node, of sub-policies.
+    inlined: Vec<Inlined>,
     /// The open forks, each with the number of names bound before it and its ways so far.
     forks: Vec<(usize, Vec<Way>)>,
     /// By binding, the number of ways that bind it; zero between two forks.
@@ -89,22 +102,22 @@ struct Walk<'a> {
 impl<'a> Walk<'a> {
     fn step(&mut self, todo: Todo) {
         match todo {
-            Todo::Open { region, item, until } => {
-                item.into_iter().for_each(|item| self.bind(item));
+            Todo::Open { region, names, until } => {
+                names.into_iter().flatten().for_each(|name| self.bind(name));
                 self.todo.extend(until.map(Todo::Until));
                 let entry = self.graph.regions.get(region.index()).and_then(|region| region.entry);
                 self.todo.extend(entry.map(Todo::Node));
             }
-            Todo::Close { keep, goes_on, of } => {
+            Todo::Close { keep, goes_on } => {
                 self.take_back(keep);
-                let is_done = of.and_then(|of| self.done.get(of.index())).copied();
-                self.goes_on = is_done.map_or(goes_on, |is_done| self.goes_on || is_done);
+                self.goes_on = goes_on;
             }
+            Todo::Leave { keep, of } => self.leave(keep, of),
             Todo::Cleanup { region, keep, goes_on } => {
                 let names = self.take_back(keep);
                 let goes_on = std::mem::replace(&mut self.goes_on, goes_on);
                 self.todo.push(Todo::Cleaned { keep, names, goes_on });
-                self.todo.push(Todo::Open { region, item: None, until: None });
+                self.todo.push(Todo::Open { region, names: [None; 2], until: None });
             }
             Todo::Cleaned { keep, names, goes_on } => {
                 self.take_back(keep);
@@ -137,6 +150,27 @@ impl<'a> Walk<'a> {
                 }
             }
         }
+    }
+
+    /// Leads behind a sub-policy.
+    fn leave(&mut self, keep: usize, of: NodeId) {
+        let mut names = self.take_back(keep);
+        if let Some(done) = self.inlined.get_mut(of.index()).and_then(|inlined| inlined.done.take()) {
+            for name in names.iter().filter(|_| self.goes_on) {
+                if let Some(count) = self.counts.get_mut(name.index()) {
+                    *count = 1;
+                }
+            }
+            let is_bound = |name: &BindingId| !self.goes_on || self.counts.get(name.index()) == Some(&1);
+            let done: Vec<BindingId> = done.into_iter().filter(is_bound).collect();
+            for name in names {
+                if let Some(count) = self.counts.get_mut(name.index()) {
+                    *count = 0;
+                }
+            }
+            (names, self.goes_on) = (done, true);
+        }
+        names.into_iter().for_each(|name| self.bind(name));
     }
 
     /// Takes back what was bound since so many names were.
@@ -194,8 +228,8 @@ impl<'a> Walk<'a> {
 
     fn node(&mut self, id: NodeId, node: &'a Node) {
         let (keep, goes_on) = (self.log.len(), self.goes_on);
-        let open = |region: &RegionId| Todo::Open { region: *region, item: None, until: None };
-        let aside = |region: &RegionId| [Todo::Close { keep, goes_on, of: None }, open(region)];
+        let open = |region: &RegionId| Todo::Open { region: *region, names: [None; 2], until: None };
+        let aside = |region: &RegionId| [Todo::Close { keep, goes_on }, open(region)];
         match &node.kind {
             NodeKind::Call(call) => self.call(node, call),
             NodeKind::Let { binding, value } => {
@@ -205,13 +239,19 @@ impl<'a> Walk<'a> {
             NodeKind::If { condition, then, otherwise } => {
                 self.condition(node, condition);
                 let how = if otherwise.is_some() { Meeting::One } else { Meeting::OneOrNone };
-                self.fork(how, std::iter::once(*then).chain(*otherwise).collect());
+                let regions = std::iter::once(*then).chain(*otherwise);
+                self.fork(how, regions.map(|region| (region, [None; 2])).collect());
             }
             NodeKind::Try { body, handlers } => {
-                let handlers = handlers.iter().map(|handler| handler.body);
-                self.fork(Meeting::One, std::iter::once(*body).chain(handlers).collect());
+                let handlers = handlers.iter().map(|handler| {
+                    let binds = handler.binds;
+                    (handler.body, [binds.map(|caught| caught.kind), binds.map(|caught| caught.text)])
+                });
+                self.fork(Meeting::One, std::iter::once((*body, [None; 2])).chain(handlers).collect());
             }
-            NodeKind::Parallel { branches } => self.fork(Meeting::All, branches.clone()),
+            NodeKind::Parallel { branches } => {
+                self.fork(Meeting::All, branches.iter().map(|region| (*region, [None; 2])).collect());
+            }
             NodeKind::Wait { condition, .. } => self.condition(node, condition),
             NodeKind::Delay { .. } => {}
             NodeKind::Finally { body, cleanup } => {
@@ -235,16 +275,19 @@ impl<'a> Walk<'a> {
             NodeKind::Sequence { body, .. } => self.todo.push(open(body)),
             NodeKind::Repeat { body, until, .. } => {
                 let until = until.is_some().then_some(id);
-                self.todo.push(Todo::Open { region: *body, item: None, until });
+                self.todo.push(Todo::Open { region: *body, names: [None; 2], until });
             }
             NodeKind::Each { item, list, body, .. } => {
                 self.term(node, list);
-                let item = Some(*item);
-                self.todo.push(Todo::Close { keep, goes_on, of: None });
-                self.todo.push(Todo::Open { region: *body, item, until: None });
+                let names = [Some(*item), None];
+                self.todo.push(Todo::Close { keep, goes_on });
+                self.todo.push(Todo::Open { region: *body, names, until: None });
             }
             NodeKind::Inline { body, .. } => {
-                self.todo.extend([Todo::Close { keep, goes_on, of: Some(id) }, open(body)]);
+                if let Some(inlined) = self.inlined.get_mut(id.index()) {
+                    inlined.keep = keep;
+                }
+                self.todo.extend([Todo::Leave { keep, of: id }, open(body)]);
             }
             NodeKind::End { how, of, why } => {
                 why.iter().for_each(|why| self.term(node, why));
@@ -255,19 +298,21 @@ impl<'a> Walk<'a> {
     }
 
     /// Walks the regions one by one, each as a way of its own.
-    fn fork(&mut self, how: Meeting, regions: Vec<RegionId>) {
+    fn fork(&mut self, how: Meeting, regions: Vec<(RegionId, [Option<BindingId>; 2])>) {
         self.todo.push(Todo::Meet { how, goes_on: self.goes_on });
-        for region in regions.into_iter().rev() {
-            self.todo.extend([Todo::Way, Todo::Open { region, item: None, until: None }]);
+        for (region, names) in regions.into_iter().rev() {
+            self.todo.extend([Todo::Way, Todo::Open { region, names, until: None }]);
         }
         self.todo.push(Todo::Fork);
     }
 
     /// Notes that an ending leads behind a sub-policy.
     fn end(&mut self, how: Ending, of: Option<NodeId>) {
-        let done = of.and_then(|of| self.done.get_mut(of.index()));
-        if let Some(done) = done.filter(|_| how == Ending::Done && self.goes_on) {
-            *done = true;
+        let inlined = of.and_then(|of| self.inlined.get_mut(of.index()));
+        let Some(inlined) = inlined.filter(|_| how == Ending::Done && self.goes_on) else { return };
+        match &mut inlined.done {
+            Some(names) => names.retain(|name| self.bound.get(name.index()) == Some(&true)),
+            None => inlined.done = Some(self.log.get(inlined.keep..).unwrap_or_default().to_vec()),
         }
     }
 
@@ -300,7 +345,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn fact(&mut self, node: &'a Node, fact: &'a Fact) {
+    fn fact(&mut self, node: &Node, fact: &'a Fact) {
         for arg in &fact.args {
             if let FactArg::Term(term) = arg {
                 self.term(node, term);
@@ -308,7 +353,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn condition(&mut self, node: &'a Node, condition: &'a Condition) {
+    fn condition(&mut self, node: &Node, condition: &'a Condition) {
         // A stack of its own: how deep it goes is checked elsewhere.
         let mut open = vec![condition];
         while let Some(condition) = open.pop() {
@@ -325,7 +370,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn term(&mut self, node: &'a Node, term: &'a Term) {
+    fn term(&mut self, node: &Node, term: &'a Term) {
         self.terms.push(term);
         while let Some(term) = self.terms.pop() {
             match term {

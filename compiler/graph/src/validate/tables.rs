@@ -57,6 +57,12 @@ fn declarations(graph: &Graph, findings: &mut Findings) {
     for (index, binding) in graph.bindings.iter().enumerate() {
         type_known(graph, findings, "binding", index, &binding.ty);
     }
+    for (index, sentence) in graph.sentences.iter().enumerate() {
+        known(findings, "sentence", index, "failure", sentence.failure.0, graph.failures.len());
+    }
+    if let Some(result) = graph.result {
+        known(findings, "result", 0, "binding", result.0, graph.bindings.len());
+    }
 }
 
 fn initial(graph: &Graph, findings: &mut Findings) {

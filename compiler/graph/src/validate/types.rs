@@ -13,6 +13,9 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
         let mut types = Types { graph, node, findings, each: None };
         types.node(&node.kind);
     }
+    let goal = Node::goal();
+    let mut types = Types { graph, node: &goal, findings, each: None };
+    graph.goal.iter().for_each(|part| types.condition(part, 0));
 }
 
 /// Checks one node.
@@ -54,8 +57,12 @@ impl Types<'_> {
                 }
             }
             NodeKind::Try { handlers, .. } => {
-                for failure in handlers.iter().filter_map(|handler| handler.on.as_ref()).flatten() {
-                    self.failure(*failure);
+                for handler in handlers {
+                    handler.on.iter().flatten().for_each(|failure| self.failure(*failure));
+                    if let Some(caught) = handler.binds {
+                        self.bound_to_class(caught.kind, &Class::Case);
+                        self.bound_to_class(caught.text, &Class::Text);
+                    }
                 }
             }
             NodeKind::Let { binding, value } => self.let_value(*binding, value),
@@ -71,6 +78,17 @@ impl Types<'_> {
 
     fn say(&mut self, reason: InvalidReason) {
         self.findings.node(self.node, reason);
+    }
+
+    /// Checks the type of a binding of a failure.
+    fn bound_to_class(&mut self, id: BindingId, expected: &Class) {
+        match self.graph.bindings.get(id.index()) {
+            None => self.say(InvalidReason::NoSuch { what: "binding", id: id.0 }),
+            Some(binding) if class(&binding.ty) != *expected => {
+                self.say(InvalidReason::BindingType(binding.name.clone()));
+            }
+            Some(_) => {}
+        }
     }
 
     fn failure(&mut self, failure: FailureId) {

@@ -21,8 +21,8 @@ fn forms() {
     refuse("", "no graph: EOF while parsing a value at line 1 column 0");
     refuse("[]", "no graph: ");
     refuse("{}", "no graph: missing field `motet_graph`");
-    refuse("{\"motet_graph\": 1}", "the graph has version 1; this program reads version 4");
-    refuse("{\"motet_graph\": 4}", "no graph: missing field `policy`");
+    refuse("{\"motet_graph\": 1}", "the graph has version 1; this program reads version 5");
+    refuse("{\"motet_graph\": 5}", "no graph: missing field `policy`");
     refuse(&document().replacen("\"policy\"", "\"polcy\"", 1), "no graph: unknown field `polcy`");
     refuse(&document().replacen("\"retries\"", "\"x\":1,\"retries\"", 1), "no graph: unknown field `x`");
     refuse(
@@ -44,7 +44,7 @@ fn forms() {
 #[test]
 fn the_hash_stands_in_the_document() {
     let graph = graph(&[StepSketch::go("table")]);
-    assert!(encode(&graph).starts_with(&format!("{{\"motet_graph\":4,\"hash\":\"{}\",", hash(&graph))));
+    assert!(encode(&graph).starts_with(&format!("{{\"motet_graph\":5,\"hash\":\"{}\",", hash(&graph))));
 }
 
 #[test]

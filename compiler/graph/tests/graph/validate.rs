@@ -363,11 +363,20 @@ fn bindings_of_what_may_not_run() {
     let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![Term::Binding(BindingId(0))]));
     let detect = || vec![StepSketch::detect("mug")];
     let near = || v::nearer("user", 0.5);
+    let done = |before: Vec<StepSketch>| {
+        let done = [before, vec![StepSketch::End(Ending::Done)]].concat();
+        StepSketch::If(near(), done, None)
+    };
     let bound = [
         StepSketch::Sequence(detect()),
         StepSketch::Repeat(2, detect(), None),
         StepSketch::Monitor(vec![WatchSketch::new(near(), ReactionSketch::Pause(1.0))], detect()),
         StepSketch::Parallel(vec![detect(), vec![StepSketch::say("oh")]]),
+        // The way that is left with `done`, or the end, has bound it.
+        StepSketch::Inline(detect()),
+        StepSketch::Inline([detect(), vec![StepSketch::End(Ending::Done)]].concat()),
+        StepSketch::Inline([detect(), vec![done(vec![StepSketch::say("oh")])]].concat()),
+        StepSketch::Inline(vec![StepSketch::If(near(), vec![StepSketch::End(Ending::Fail)], Some(detect()))]),
     ];
     for step in bound {
         assert_eq!(validate(&graph(&[step.clone(), pick.clone()])), Ok(()), "{step:?}");
@@ -377,7 +386,9 @@ fn bindings_of_what_may_not_run() {
         StepSketch::If(near(), detect(), None),
         StepSketch::If(near(), detect(), Some(Vec::new())),
         StepSketch::Monitor(vec![resume], vec![StepSketch::say("oh")]),
-        StepSketch::Inline(detect()),
+        // A way that is done before.
+        StepSketch::Inline([vec![done(vec![])], detect()].concat()),
+        StepSketch::Inline([vec![done(vec![StepSketch::say("oh")])], detect()].concat()),
     ];
     for step in unbound {
         let findings = validate(&graph(&[step.clone(), pick.clone()])).unwrap_err();
@@ -417,4 +428,44 @@ fn a_hundred_findings_are_enough() {
         node.duration.least_secs = -1.0;
     }
     assert_eq!(validate(&graph).unwrap_err().len(), 100);
+}
+
+#[test]
+fn failures_results_and_goals() {
+    use motet_graph::arbitrary::with_named_failures;
+    use motet_graph::{FailureId, FailureSentence};
+    let handler = (None, vec![StepSketch::say("oh")]);
+    let tried = StepSketch::Try(vec![StepSketch::go("table")], vec![handler]);
+    let named = || with_named_failures(graph(&[tried.clone(), StepSketch::say("behind")]));
+    assert_eq!(validate(&named()), Ok(()));
+    let refused = |change: &dyn Fn(&mut Graph), expected: &str| {
+        let mut graph = named();
+        change(&mut graph);
+        assert_eq!(validate(&graph).unwrap_err()[0].to_string(), expected);
+    };
+    // What the handler is given is not known behind it.
+    let args = |graph: &Graph, node: usize| match &graph.nodes[node].kind {
+        NodeKind::Call(call) => call.args.clone(),
+        kind => panic!("{kind:?}"),
+    };
+    refused(
+        &|graph| {
+            let said = args(graph, 2);
+            if let NodeKind::Call(call) = &mut graph.nodes[3].kind {
+                call.args = said;
+            }
+        },
+        "/steps/1: `failure'1` is used before it is bound",
+    );
+    refused(&|graph| graph.bindings[0].ty = Type::Text, "/steps/0: `kind'0` cannot hold what is bound to it");
+    refused(
+        &|graph| graph.sentences = vec![FailureSentence { failure: FailureId(9), text: "oh".into() }],
+        "sentence 0: failure 9 does not exist",
+    );
+    refused(&|graph| graph.result = Some(BindingId(9)), "result 0: binding 9 does not exist");
+    let unbound = Condition::Fact(v::fact(v::HOLDING, vec![Term::Binding(BindingId(1))]));
+    refused(
+        &|graph| graph.goal = vec![unbound.clone()],
+        "/achieves: argument 1 of `holding` has the wrong type",
+    );
 }

@@ -132,6 +132,7 @@ impl TreeGenerator<'_> {
             doc: if self.flavor == Flavor::Text { self.doc() } else { smol_str::SmolStr::default() },
             name: self.choice.name(),
             params,
+            result: self.maybe(|it| it.type_expr(2)),
             robot: self.maybe(|it| it.choice.name()),
             achieves: self.maybe(|it| it.condition(2)),
             keeps: self.maybe(Self::keeps).unwrap_or_default(),
@@ -274,16 +275,16 @@ impl TreeGenerator<'_> {
             0 => CatchOn::Any(self.span()),
             _ => CatchOn::Kinds(self.some(1, |it| it.choice.name())),
         };
-        Catch { on, body: self.block(depth), span: self.span() }
+        let bind = self.maybe(|it| it.choice.bound());
+        self.scope.extend(bind.as_ref().map(|bind| bind.text.clone()));
+        Catch { on, bind, body: self.block(depth), span: self.span() }
     }
 
     fn end(&mut self) -> End {
         let kind =
             self.choice.of(&[EndKind::Done, EndKind::Fail, EndKind::Cannot, EndKind::Replan], EndKind::Done);
-        let why = match kind {
-            EndKind::Done => None,
-            EndKind::Fail | EndKind::Cannot | EndKind::Replan => self.maybe(|it| it.term(1)),
-        };
-        End { kind, why, span: self.span() }
+        let said = self.maybe(|it| it.term(1));
+        let (result, why) = if kind == EndKind::Done { (said, None) } else { (None, said) };
+        End { kind, result, why, span: self.span() }
     }
 }

@@ -184,6 +184,8 @@ pub struct Policy {
     pub name: Name,
     /// Its parameters; a policy that is run has none.
     pub params: Vec<Param>,
+    /// Type of its result, if it gives one.
+    pub result: Option<TypeExpr>,
     /// The robot that it is written for.
     pub robot: Option<Name>,
     /// The goal that the prover must not find refuted where it is done.

@@ -118,7 +118,7 @@ pub enum StepKind {
         /// Steps that run once, however the step is left.
         cleanup: Block,
     },
-    /// `done`, `fail "why"`, `cannot "why"`, `replan "why"`
+    /// `done`, `done mug`, `fail "why"`, `cannot "why"`, `replan "why"`
     End(End),
 }
 
@@ -218,15 +218,17 @@ pub enum Reaction {
         #[derive_where(skip)]
         span: Span,
     },
-    /// `done`, `fail "…"`, `cannot "…"`, `replan "…"`
+    /// `done`, `done mug`, `fail "…"`, `cannot "…"`, `replan "…"`
     End(End),
 }
 
-/// A handler of failures: `catch slipped, blocked { … }`.
+/// A handler of failures: `catch slipped, blocked as e { … }`.
 #[derive(Clone, Debug)]
 #[derive_where(PartialEq)]
 pub struct Catch {
     pub on: CatchOn,
+    /// Binding of the failure, which the body alone sees.
+    pub bind: Option<Name>,
     pub body: Block,
     #[derive_where(skip)]
     pub span: Span,
@@ -247,6 +249,8 @@ pub enum CatchOn {
 #[derive_where(PartialEq)]
 pub struct End {
     pub kind: EndKind,
+    /// The result of the policy; only on `done`.
+    pub result: Option<Expr>,
     /// The reason: a text; never on `done`.
     pub why: Option<Expr>,
     #[derive_where(skip)]

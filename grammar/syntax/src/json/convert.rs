@@ -7,7 +7,7 @@ use super::wire::{self, ReactKind};
 use super::{Lenient, Spanned};
 use crate::ast::{
     Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, MAX_NESTING, MAX_STEPS, Name,
-    Policy, Reaction, Step, StepKind, When,
+    Policy, Reaction, Step, StepKind, TypeExpr, When,
 };
 use crate::diagnostic::Diagnostic;
 use crate::errors::{BadName, BadValue, MissingKey, ReservedKey, TooDeep, TooManySteps, UnknownKey};
@@ -27,6 +27,7 @@ pub(super) fn policy(document: Spanned<wire::Document>, file: FileId) -> (Policy
         doc: smol_str::SmolStr::default(),
         name: converter.name(document.policy),
         params: Vec::new(),
+        result: document.result.and_then(|ty| converter.type_expr(ty)),
         robot: document.robot.map(|robot| converter.name(robot)),
         achieves: document.achieves.map(|goal| converter.condition(goal, 1)),
         keeps: document.keep.map(|keeps| converter.keeps(keeps, 0)).unwrap_or_default(),
@@ -269,7 +270,8 @@ impl Converter {
             Some(any) => CatchOn::Any(any.span),
             None => CatchOn::Kinds(on.into_iter().map(|kind| self.name(kind)).collect()),
         };
-        Catch { on, body: self.block(catch.steps, depth + 1), span }
+        let bind = catch.r#as.map(|bind| self.name(bind));
+        Catch { on, bind, body: self.block(catch.steps, depth + 1), span }
     }
 
     fn end(&mut self, end: wire::End, span: Span, depth: usize) -> End {
@@ -279,11 +281,32 @@ impl Converter {
             wire::EndKind::Cannot => EndKind::Cannot,
             wire::EndKind::Replan => EndKind::Replan,
         };
-        if let (EndKind::Done, Some(why)) = (kind, &end.why) {
-            self.bad_value(why.span, "`done` has no reason".into(), &[]);
-            return End { kind, why: None, span };
+        let (mut result, mut why) = (end.result, end.why);
+        let (surplus, what) = match kind {
+            EndKind::Done => (why.take(), "`done` has no reason"),
+            EndKind::Fail | EndKind::Cannot | EndKind::Replan => (result.take(), "only `done` has a result"),
+        };
+        if let Some(surplus) = surplus {
+            self.bad_value(surplus.span, what.into(), &[]);
         }
-        End { kind, why: end.why.map(|why| self.term(why, depth + 1)), span }
+        let result = result.map(|result| self.term(result, depth + 1));
+        End { kind, result, why: why.map(|why| self.term(why, depth + 1)), span }
+    }
+
+    /// The type of a result, which is written as in the text syntax.
+    fn type_expr(&mut self, ty: Spanned<smol_str::SmolStr>) -> Option<TypeExpr> {
+        let Spanned { value: text, span } = ty;
+        let (mut inner, mut lists) = (text.trim(), 0_usize);
+        while let Some(element) = inner.strip_prefix("List<").and_then(|rest| rest.strip_suffix('>')) {
+            (inner, lists) = (element.trim(), lists + 1);
+        }
+        if lists > MAX_NESTING || !words::is_name(inner) {
+            let message = format!("`{text}` is not a type");
+            self.bad_value(span, message, &["Object", "Text", "List<Object>"]);
+            return None;
+        }
+        let named = TypeExpr::Named(Name { text: inner.into(), span });
+        Some((0..lists).fold(named, |inner, _| TypeExpr::List(Box::new(inner), span)))
     }
 
     #[inline]

@@ -27,6 +27,9 @@ pub(crate) struct Document {
     pub(crate) motet: Spanned<u32>,
     /// The policy's name.
     pub(crate) policy: Spanned<SmolStr>,
+    /// Type of the result that `done` gives.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) result: Option<Spanned<SmolStr>>,
     /// The robot that it is written for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) robot: Option<Spanned<SmolStr>>,
@@ -225,6 +228,9 @@ pub(crate) struct Catch {
     /// The kinds of failure, or `["any"]`.
     #[schemars(length(min = 1))]
     pub(crate) on: Spanned<Vec<Spanned<SmolStr>>>,
+    /// A name for the failure, in these steps; it has the fields `kind` and `text`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) r#as: Option<Spanned<SmolStr>>,
     /// Steps that handle the failure.
     pub(crate) steps: Steps,
 }
@@ -339,6 +345,9 @@ pub(crate) struct KeptDistance {
 pub(crate) struct End {
     /// Kind of the ending.
     pub(crate) end: Spanned<EndKind>,
+    /// The result, of `done`, in a policy that gives one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) result: Option<Spanned<Term>>,
     /// The reason, of `fail`, `cannot` and `replan`: a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) why: Option<Spanned<Term>>,

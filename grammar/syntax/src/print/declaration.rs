@@ -91,6 +91,9 @@ impl Writer<'_> {
         if !policy.params.is_empty() {
             self.in_parentheses(&policy.params);
         }
+        if let Some(result) = &policy.result {
+            self.result(result);
+        }
         if let Some(robot) = &policy.robot {
             self.text.push_str(" for ");
             expr::name(&mut self.text, &robot.text);

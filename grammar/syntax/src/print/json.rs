@@ -12,7 +12,7 @@ use smol_str::{SmolStr, format_smolstr};
 use super::expr::{braces, template};
 use crate::ast::{
     Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, Manner, Name,
-    Policy, Reaction, Step, StepKind, When,
+    Policy, Reaction, Step, StepKind, TypeExpr, When,
 };
 use crate::json::term::{self, Args, Awaited, Condition, Count, Duration, Field, Form, Get, Is, Term};
 use crate::json::{Lenient, Spanned, wire};
@@ -41,11 +41,20 @@ fn policy_wire(policy: &Policy) -> wire::Document {
     wire::Document {
         motet: 1.into(),
         policy: name(&policy.name),
+        result: policy.result.as_ref().map(|ty| type_text(ty).into()),
         robot: policy.robot.as_ref().map(name),
         achieves: policy.achieves.as_ref().map(|goal| translation.condition(goal)),
         keep: (!policy.keeps.is_empty()).then(|| translation.keeps(&policy.keeps)),
         steps: translation.block(&policy.body),
         finally: policy.cleanup.as_ref().map(|cleanup| Box::new(translation.block(cleanup))),
+    }
+}
+
+/// A type, with its name as it is.
+fn type_text(ty: &TypeExpr) -> SmolStr {
+    match ty {
+        TypeExpr::Named(name) => name.text.clone(),
+        TypeExpr::List(element, _) => format_smolstr!("List<{}>", type_text(element)),
     }
 }
 
@@ -208,7 +217,9 @@ impl WireTranslation {
             CatchOn::Any(_) => vec![SmolStr::new("any").into()],
             CatchOn::Kinds(kinds) => kinds.iter().map(name).collect(),
         };
-        wire::Catch { on: on.into(), steps: self.block(&catch.body) }
+        let r#as = catch.bind.as_ref().map(name);
+        self.scope.extend(catch.bind.as_ref().map(|bind| bind.text.clone()));
+        wire::Catch { on: on.into(), r#as, steps: self.block(&catch.body) }
     }
 
     fn end(&mut self, end: &End) -> wire::End {
@@ -218,7 +229,11 @@ impl WireTranslation {
             EndKind::Cannot => wire::EndKind::Cannot,
             EndKind::Replan => wire::EndKind::Replan,
         };
-        wire::End { end: kind.into(), why: end.why.as_ref().map(|why| self.term(why).into()) }
+        wire::End {
+            end: kind.into(),
+            result: end.result.as_ref().map(|result| self.term(result).into()),
+            why: end.why.as_ref().map(|why| self.term(why).into()),
+        }
     }
 
     /// A condition. What has no form of its own is written as a string in the text syntax.

@@ -81,6 +81,10 @@ impl Writer<'_> {
                         CatchOn::Any(_) => self.text.push_str("any"),
                         CatchOn::Kinds(kinds) => expr::names(&mut self.text, kinds),
                     }
+                    if let Some(bind) = &catch.bind {
+                        self.text.push_str(" as ");
+                        expr::name(&mut self.text, &bind.text);
+                    }
                     self.text.push(' ');
                     self.block(&catch.body);
                 }
@@ -203,8 +207,8 @@ impl Writer<'_> {
             EndKind::Cannot => "cannot",
             EndKind::Replan => "replan",
         });
-        if let Some(why) = &end.why {
-            let text = super::expression(why);
+        if let Some(said) = end.result.as_ref().or(end.why.as_ref()) {
+            let text = super::expression(said);
             // A call here would be read as the next step.
             let begins_with_call = text.split_once('(').is_some_and(|(name, _)| {
                 !name.is_empty()

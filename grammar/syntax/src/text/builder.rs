@@ -115,6 +115,7 @@ fn is_mark(rule: Rule) -> bool {
             | Rule::kw_most
             | Rule::kw_try
             | Rule::kw_catch
+            | Rule::kw_as
             | Rule::kw_finally
             | Rule::kw_repeat
             | Rule::kw_each
@@ -214,6 +215,10 @@ impl Builder {
     fn policy(&mut self, doc: SmolStr, mut parts: Children<'_>, span: Span) -> Option<Policy> {
         let name = self.name(parts.next()?);
         let params = parts.next_of(Rule::params).map(|params| self.params(params)).unwrap_or_default();
+        let result = match parts.next_of(Rule::result) {
+            Some(result) => self.type_name(Children::of(result).next()?),
+            None => None,
+        };
         let robot = parts
             .next_of(Rule::for_robot)
             .and_then(|pair| Children::of(pair).next())
@@ -222,7 +227,7 @@ impl Builder {
         let keeps = parts.next_of(Rule::keeps).map(|keeps| self.keeps(keeps, 1)).unwrap_or_default();
         let body = self.block(parts.next()?, 1);
         let cleanup = parts.next_of(Rule::finally).and_then(|pair| self.finally(pair, 1));
-        Some(Policy { doc, name, params, robot, achieves, keeps, body, cleanup, span })
+        Some(Policy { doc, name, params, result, robot, achieves, keeps, body, cleanup, span })
     }
 
     /// The parameters or fields between brackets.

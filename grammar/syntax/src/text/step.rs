@@ -243,7 +243,9 @@ impl Builder {
             Rule::kw_any => CatchOn::Any(self.span(&on)),
             _ => CatchOn::Kinds(self.names(on)),
         };
-        Some(Catch { on, body: self.block(parts.next()?, depth + 1), span })
+        let bind = parts.next_of(Rule::caught_as).and_then(|pair| Children::of(pair).next());
+        let bind = bind.map(|name| self.name(name));
+        Some(Catch { on, bind, body: self.block(parts.next()?, depth + 1), span })
     }
 
     fn end(&mut self, mut parts: Children<'_>, span: Span, depth: usize) -> Option<End> {
@@ -253,6 +255,8 @@ impl Builder {
             Rule::kw_cannot => EndKind::Cannot,
             _ => EndKind::Replan,
         };
-        Some(End { kind, why: self.expr_in(parts.next(), depth), span })
+        let said = self.expr_in(parts.next(), depth);
+        let (result, why) = if kind == EndKind::Done { (said, None) } else { (None, said) };
+        Some(End { kind, result, why, span })
     }
 }

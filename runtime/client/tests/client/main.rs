@@ -8,6 +8,7 @@
     reason = "a test fails by panicking"
 )]
 
+mod cleanup;
 mod flood;
 mod kitchen;
 mod planner;

@@ -69,6 +69,7 @@ impl Transcript<'_> {
             doc: ast::Doc::default(),
             name: named(text.into()),
             params: Vec::new(),
+            result: None,
             robot: robot.cloned().map(named),
             achieves,
             body: ast::Block::default(),

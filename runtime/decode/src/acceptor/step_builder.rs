@@ -148,7 +148,8 @@ impl Builder<'_> {
                 }
                 if catches.is_empty() {
                     let body = self.closed(Vec::new());
-                    catches.push(Catch { on: CatchOn::Any(Span::default()), body, span: Span::default() });
+                    let on = CatchOn::Any(Span::default());
+                    catches.push(Catch { on, bind: None, body, span: Span::default() });
                 }
                 StepKind::Try { body, catches }
             }
@@ -542,11 +543,11 @@ impl Builder<'_> {
         if matches!(&on, CatchOn::Kinds(kinds) if kinds.is_empty()) {
             on = CatchOn::Any(Span::default());
         }
-        Catch { on, body: self.block(), span: Span::default() }
+        Catch { on, bind: None, body: self.block(), span: Span::default() }
     }
 
     fn end(&mut self, kind: EndKind) -> End {
-        End { kind, why: self.value().or(end(kind).why), span: Span::default() }
+        End { why: self.value().or(end(kind).why), ..end(kind) }
     }
 }
 
@@ -587,7 +588,7 @@ fn expr(kind: ExprKind) -> Expr {
 
 fn end(kind: EndKind) -> End {
     let why = (kind != EndKind::Done).then(|| expr(ExprKind::Text(SmolStr::new_static("?"))));
-    End { kind, why, span: Span::default() }
+    End { kind, result: None, why, span: Span::default() }
 }
 
 fn fail() -> Step {

@@ -348,6 +348,9 @@ impl Completer<'_> {
                 kinds.iter().map(|kind| kind.text.clone()).collect()
             }
         };
+        if let Some(bind) = &catch.bind {
+            return Err(outside(bind.span, "a handler gives its failure no name in the canonical subset"));
+        }
         let items = vec![Item::Failures(on), self.inner(&catch.body, depth, 0)?];
         Ok(Node { kind: NodeKind::Catch, span: catch.span, name: None, items })
     }
@@ -359,6 +362,9 @@ impl Completer<'_> {
             EndKind::Cannot => NodeKind::Cannot,
             EndKind::Replan => NodeKind::Replan,
         };
+        if let Some(result) = &end.result {
+            return Err(outside(result.span, "`done` gives no result in the canonical subset"));
+        }
         let items = match (end.kind, &end.why) {
             (EndKind::Done, _) => Vec::new(),
             (EndKind::Fail | EndKind::Cannot | EndKind::Replan, Some(why)) => {

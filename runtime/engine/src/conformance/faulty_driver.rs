@@ -104,7 +104,7 @@ impl<D: Driver> FaultyDriver<D> {
 impl<D: Driver> Driver for FaultyDriver<D> {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         if self.happens(self.mischief.refuses) {
-            let failure = SmolStr::new_static("unreachable");
+            let failure = SmolStr::new_static("unreachable").into();
             self.queue.push((now, DriverEvent::Refused { goal, failure }));
         } else if self.reaches() {
             self.inner.start(now, goal, command);

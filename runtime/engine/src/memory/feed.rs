@@ -1,13 +1,13 @@
 //! Feeding a memory with the events that go into an engine and the effects that come out.
 
 use super::store::{Memory, MemoryEvent, OpenStep, StepEnd};
+use crate::cleanup::{PendingCleanup, strike};
 use crate::effect::{Command, Effect, RunEnd};
 use crate::event::{DriverEvent, Event, Outcome};
 use crate::ids::GoalId;
-use crate::snapshot::PendingCleanup;
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
-use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
+use motet_graph::{BindingId, FailureId, Graph, NodeId, NodeKind, Value};
 use std::sync::Arc;
 
 impl Memory {
@@ -19,6 +19,7 @@ impl Memory {
             let entry = self.entry(at, MemoryEvent::Swap { policy: self.cut(&graph.policy) });
             self.push(entry);
         }
+        self.has_cleanup = graph.nodes.iter().any(|node| matches!(node.kind, NodeKind::Finally { .. }));
         self.graph = Some(graph);
     }
 
@@ -31,10 +32,10 @@ impl Memory {
                     open.result.clone_from(value);
                 }
             }
-            DriverEvent::Ended { goal, outcome: Outcome::Failure(kind) }
-            | DriverEvent::Refused { goal, failure: kind } => {
+            DriverEvent::Ended { goal, outcome: Outcome::Failure(failure) }
+            | DriverEvent::Refused { goal, failure } => {
                 if let Some(open) = self.running.get_mut(&goal.number()) {
-                    open.kind = Some(kind.to_string());
+                    open.kind = Some(failure.kind.to_string());
                 }
             }
             DriverEvent::Ended { outcome: Outcome::Interrupted, .. }
@@ -50,10 +51,11 @@ impl Memory {
         match effect {
             Effect::Start { goal, node, command, .. } => self.started(at, *goal, *node, command),
             Effect::Update { goal, node, command, .. } => {
-                let (call, path, revision) =
-                    (self.cut(&command.to_string()), self.path(*node), self.revision);
+                let (call, brief) = (self.cut(&command.to_string()), self.brief(command));
+                let (path, revision) = (self.path(*node), self.revision);
                 if let Some(open) = self.running.get_mut(&goal.number()) {
                     (open.call, open.path, open.node, open.revision) = (call, path, *node, revision);
+                    open.brief = brief;
                 }
             }
             Effect::Report(record) => self.record(record),
@@ -71,6 +73,7 @@ impl Memory {
             revision: self.revision,
             node,
             call: self.cut(&command.to_string()),
+            brief: self.brief(command),
             path: self.path(node),
             since: at,
             question,
@@ -122,10 +125,22 @@ impl Memory {
             TraceEventKind::Started { .. } | TraceEventKind::Guard { .. } => {}
             // The step that failed in it has its own record.
             TraceEventKind::Verified { .. } | TraceEventKind::CleanupFailed { .. } => {}
+            TraceEventKind::GoalObserved { .. } => {}
             TraceEventKind::Tested { .. } | TraceEventKind::Fired { .. } | TraceEventKind::WentOn { .. } => {}
-            TraceEventKind::Swapped { .. }
-            | TraceEventKind::Updated { .. }
-            | TraceEventKind::Bound { .. } => {}
+            TraceEventKind::Bound { binding, value } => self.bound(record.revision, *binding, value),
+            TraceEventKind::Swapped { .. } | TraceEventKind::Updated { .. } => {}
+        }
+    }
+
+    /// A name has a value, which a cleanup that speaks of it is remembered with.
+    fn bound(&mut self, revision: u32, binding: BindingId, value: &Value) {
+        if revision != self.revision || !self.has_cleanup {
+            return;
+        }
+        let text = self.cut(&value.to_string());
+        let bindings = self.graph.as_mut().map(|graph| &mut Arc::make_mut(graph).bindings);
+        if let Some(bound) = bindings.and_then(|bindings| bindings.get_mut(binding.index())) {
+            bound.name = text.into();
         }
     }
 
@@ -141,12 +156,19 @@ impl Memory {
     }
 
     fn uncleaned(&mut self, at: Time, due: PendingCleanup) {
+        self.left.push(due.clone());
+        while self.left.len() > self.limits.running {
+            self.left.remove(0);
+        }
         let PendingCleanup { path, steps } = due;
         let entry = self.entry(at, MemoryEvent::Uncleaned { path: path.to_string(), steps });
         self.push(entry);
     }
 
     fn ended(&mut self, at: Time, open: OpenStep, ending: NodeEnding, cause: EndCause) {
+        if ending == NodeEnding::Success {
+            strike(&mut self.left, &open.brief);
+        }
         if let Some(question) = open.question {
             let answer = open.result.clone().filter(|_| ending == NodeEnding::Success);
             let answer = answer.map(|answer| self.cut(&plain(&answer)));
@@ -228,6 +250,11 @@ impl Memory {
             self.latest_failure = latest;
         }
         self.running.clear();
+    }
+
+    /// A call as a person would write it.
+    fn brief(&self, command: &Command) -> String {
+        self.graph.as_ref().map_or_else(String::new, |graph| self.cut(&command.brief(graph)))
     }
 
     fn path(&self, node: NodeId) -> String {

@@ -1,6 +1,6 @@
 //! The bounded store.
 
-use crate::snapshot::PendingCleanup;
+use crate::cleanup::PendingCleanup;
 use crate::time::Time;
 use crate::trace::EndCause;
 use motet_graph::{Graph, NodeId, Value};
@@ -65,10 +65,14 @@ pub struct Memory {
     pub(super) entries: VecDeque<MemoryEntry>,
     pub(super) dropped: DroppedCounts,
     pub(super) running: BTreeMap<u64, OpenStep>,
+    /// Cleanups of policies that are over, which have not run to their end.
+    pub(super) left: Vec<PendingCleanup>,
     /// Cleanups that are due, by revision and step.
     pub(super) due: BTreeMap<(u32, NodeId), PendingCleanup>,
     pub(super) revision: u32,
+    /// The graph that runs, if it has cleanups with the values of its names in their place.
     pub(super) graph: Option<Arc<Graph>>,
+    pub(super) has_cleanup: bool,
     bytes: usize,
 }
 
@@ -79,6 +83,8 @@ pub(super) struct OpenStep {
     pub(super) revision: u32,
     pub(super) node: NodeId,
     pub(super) call: String,
+    /// The call as a person would write it.
+    pub(super) brief: String,
     pub(super) path: String,
     pub(super) since: Time,
     /// Question to a person, for primitives that ask one.
@@ -109,9 +115,11 @@ impl Memory {
             entries: VecDeque::new(),
             dropped: DroppedCounts::default(),
             running: BTreeMap::new(),
+            left: Vec::new(),
             due: BTreeMap::new(),
             revision: 0,
             graph: None,
+            has_cleanup: false,
             bytes: 0,
         }
     }
@@ -171,9 +179,10 @@ impl Memory {
         })
     }
 
-    /// Cleanups of the steps that run, in the order of the document.
+    /// Cleanups that have not run to their end: first those of policies that are over, until their calls were
+    /// carried out after all, then those of the steps that run, in the order of the document.
     pub fn due(&self) -> impl Iterator<Item = &PendingCleanup> {
-        self.due.values()
+        self.left.iter().chain(self.due.values())
     }
 
     pub(super) fn entry(&self, at: Time, what: MemoryEvent) -> MemoryEntry {

@@ -1,7 +1,8 @@
 //! Views of a memory. Each view is data for a program and, by `Display`, lines for a prompt.
 
 use super::store::{DroppedCounts, Memory, MemoryEntry, MemoryEvent, RunningStep};
-use crate::snapshot::{PendingCleanup, Snapshot};
+use crate::cleanup::PendingCleanup;
+use crate::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;

@@ -207,20 +207,30 @@ impl Turn<'_> {
     }
 
     fn refuse(&mut self, node: NodeId, refusal: StartRefusal) {
+        let why = self.infeasible(node).filter(|_| matches!(refusal, StartRefusal::Motion(_)));
         self.stop_checking(node);
         self.release(self.plan.step(node));
         match refusal {
             StartRefusal::Need(need, failure, truth) => {
                 self.report(move || TraceEventKind::Guard { node, need, truth });
-                self.attempt_failed(node, failure, EndCause::GuardRefuted);
+                self.attempt_failed(node, (failure, None), EndCause::GuardRefuted);
             }
-            StartRefusal::Motion(failure) => self.attempt_failed(node, failure, EndCause::GuardRefuted),
-            StartRefusal::Argument => self.attempt_failed(node, motet_graph::TIMEOUT, EndCause::BadValue),
+            StartRefusal::Motion(failure) => {
+                self.attempt_failed(node, (failure, why), EndCause::GuardRefuted);
+            }
+            StartRefusal::Argument => {
+                self.attempt_failed(node, (motet_graph::TIMEOUT, None), EndCause::BadValue);
+            }
         }
     }
 
-    /// An attempt failed: the next one, if one is left.
-    pub(super) fn attempt_failed(&mut self, node: NodeId, failure: FailureId, cause: EndCause) {
+    /// An attempt failed, perhaps with a cause in words: the next one, if one is left.
+    pub(super) fn attempt_failed(
+        &mut self,
+        node: NodeId,
+        (failure, text): (FailureId, Option<SmolStr>),
+        cause: EndCause,
+    ) {
         let retries = self.plan.call(node).map_or(0, |call| call.retries);
         let state = self.run.nodes.at_mut(node.index());
         if state.count <= retries && self.stopping(self.region_of(node)).is_none() {
@@ -230,6 +240,7 @@ impl Turn<'_> {
             self.push(Transition::Acquire(node));
         } else {
             self.fail(node, failure, cause);
+            self.give_reason(node, text);
         }
     }
 

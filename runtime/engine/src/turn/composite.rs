@@ -10,7 +10,8 @@ use crate::state::{AfterStop, Phase};
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use motet_graph::{
-    BindingId, Condition, Ending, Handler, NodeId, NodeKind, ROOT, RegionId, TIMEOUT, Term, Value,
+    BindingId, CaughtFailure, Condition, Ending, FailureId, Handler, NodeId, NodeKind, ROOT, RegionId,
+    TIMEOUT, Term, Value,
 };
 use smol_str::SmolStr;
 
@@ -53,9 +54,25 @@ impl Turn<'_> {
         };
         let fits = |handler: &&Handler| handler.on.as_ref().is_none_or(|on| on.contains(&failure));
         match handlers.iter().find(fits) {
-            Some(handler) => self.enter_region(handler.body),
+            Some(handler) => {
+                if let Some(caught) = handler.binds {
+                    self.bind_failure(caught, failure, exit.origin);
+                }
+                self.enter_region(handler.body);
+            }
             None => self.exit(node, exit),
         }
+    }
+
+    /// Binds a failure that a handler caught, which arose in a step.
+    fn bind_failure(&mut self, caught: CaughtFailure, failure: FailureId, origin: NodeId) {
+        let kind = self.run.failures.get(failure.index()).cloned().unwrap_or_default();
+        let text = self.run.reasons.get(&origin).cloned().unwrap_or_else(|| {
+            let known = self.plan.graph.sentences.iter().find(|known| known.failure == failure);
+            known.map_or_else(|| kind.replace('_', " ").into(), |known| known.text.clone())
+        });
+        self.bind(caught.kind, Value::Case(kind));
+        self.bind(caught.text, Value::Text(text));
     }
 
     /// The body of a loop once more, if the bound allows it.
@@ -155,12 +172,16 @@ impl Turn<'_> {
             let state = self.run.composites.at_mut(of.index());
             if state.after == AfterStop::Nothing {
                 state.after = AfterStop::Exit(NodeExit { ending, cause: own, origin: node });
+                if how == Ending::Fail {
+                    let why = why.and_then(|why| self.say(why)).map(SmolStr::from);
+                    self.give_reason(node, why);
+                }
                 self.stop(body, cause);
             }
         } else if self.run.ending.is_none() {
             let why = why.and_then(|why| self.say(why));
             self.run.ending = Some(match how {
-                Ending::Done => RunEnd::Done { why },
+                Ending::Done => RunEnd::Done { why, result: None },
                 Ending::Fail => RunEnd::Failed { kind: SmolStr::new_static("failed"), why, node },
                 Ending::Cannot => RunEnd::Declined { why },
                 Ending::Replan => RunEnd::Replan { why },

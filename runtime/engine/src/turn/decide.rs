@@ -4,14 +4,16 @@
 use super::Turn;
 use super::call::{GuardCheck, StartRefusal};
 use crate::belief::Freshness;
-use crate::effect::{Command, DeferredMotion, Effect, MotionVerdict, PlannedMotion, with_motion};
+use crate::effect::{Command, DeferredMotion, Effect, MotionVerdict, PlannedMotion, RunEnd, with_motion};
 use crate::event::Verification;
 use crate::ids::CheckId;
 use crate::query::Truth;
 use crate::state::{MotionCheck, Phase};
 use crate::time::Time;
 use crate::trace::{EndCause, TraceEventKind};
+use motet_graph::draw::Names;
 use motet_graph::{CallNode, Condition, NodeId, NodeKind, TIMEOUT, Value};
+use smol_str::SmolStr;
 use std::sync::Arc;
 
 impl Turn<'_> {
@@ -77,6 +79,15 @@ impl Turn<'_> {
         self.push_judge(node);
     }
 
+    /// Reason for which a verifier found that the motion of a call has no solution.
+    pub(super) fn infeasible(&self, node: NodeId) -> Option<SmolStr> {
+        let verdict = self.run.checks.iter().rfind(|check| check.node == node)?.verdict.as_ref()?;
+        match verdict {
+            Verification::Infeasible { why, .. } => Some(why.clone()),
+            Verification::Feasible | Verification::Unknown { .. } => None,
+        }
+    }
+
     /// True if a call has asked for its motion.
     pub(super) fn is_verifying(&self, node: NodeId) -> bool {
         self.run.checks.iter().any(|check| check.node == node)
@@ -129,6 +140,7 @@ impl Turn<'_> {
 
     fn decided(&mut self, node: NodeId, decision: Decision) {
         match decision {
+            Decision::Truth(truth) if node == self.plan.goal() => self.goal_observed(truth),
             Decision::Truth(truth) => self.tested(node, truth),
             Decision::Value(Some(value)) => self.found(node, Some(value)),
             // Nothing more will be known: a text says so.
@@ -144,6 +156,9 @@ impl Turn<'_> {
         let since = self.run.nodes.at(node.index()).since;
         self.run.missing.clear();
         let plan = self.plan;
+        if node == plan.goal() {
+            return Decision::Truth(self.goal());
+        }
         match &plan.node(node).kind {
             NodeKind::If { condition, .. } | NodeKind::Repeat { until: Some(condition), .. } => {
                 Decision::Truth(self.judge_missing(Freshness::Readings(since)).condition(condition))
@@ -166,6 +181,47 @@ impl Turn<'_> {
                 Decision::Truth(Truth::Unknown)
             }
         }
+    }
+
+    /// The policy is done: its goal is observed before the run ends. What its effects say of the goal does
+    /// not count, but what the robot sees of it afterwards.
+    pub(super) fn reached_goal(&mut self, end: RunEnd, node: NodeId) {
+        if self.plan.graph.goal.is_empty() {
+            self.leave(end);
+            return;
+        }
+        self.run.reached = Some((end, node));
+        let goal = self.plan.goal();
+        self.run.nodes.at_mut(goal.index()).seen = self.run.beliefs.observations;
+        self.decide(goal);
+    }
+
+    /// Truth of the goal by what was observed since the policy was done.
+    fn goal(&mut self) -> Truth {
+        let plan = self.plan;
+        let state = self.run.nodes.at(plan.goal().index());
+        let fresh = Freshness::Facts(state.since, state.seen);
+        let mut judge = self.judge_missing(fresh);
+        plan.graph.goal.iter().fold(Truth::True, |truth, part| truth.and(judge.condition(part)))
+    }
+
+    /// The goal is known as far as it can be observed: a part that is false fails the run.
+    fn goal_observed(&mut self, truth: Truth) {
+        let plan = self.plan;
+        self.forget_asked(plan.goal());
+        self.run.nodes.at_mut(plan.goal().index()).phase = Phase::Idle;
+        self.report(move || TraceEventKind::GoalObserved { truth });
+        let Some((end, node)) = self.run.reached.take() else { return };
+        if truth != Truth::False {
+            self.leave(end);
+            return;
+        }
+        let state = self.run.nodes.at(plan.goal().index());
+        let mut judge = self.judge(Freshness::Facts(state.since, state.seen));
+        let missed = plan.graph.goal.iter().find(|part| judge.condition(part) == Truth::False);
+        let missed = missed.map(|part| Names(&plan.graph).condition(part)).unwrap_or_default();
+        let why = Some(format!("the goal does not hold: `{missed}` was observed to be false"));
+        self.leave(RunEnd::Failed { kind: SmolStr::new_static("failed"), why, node });
     }
 
     /// The value of a `let` is known, or will not be.

@@ -1,14 +1,18 @@
 //! Goals: what drivers report of them, and how they are ended early.
 
 use super::Turn;
+use crate::belief::Freshness;
+use crate::cleanup::strike;
 use crate::effect::{Effect, Fault};
-use crate::event::{DriverEvent, Outcome};
+use crate::event::{DriverEvent, FailureReport, Outcome};
 use crate::ids::GoalId;
 use crate::query::{Answer, Query};
 use crate::schedule::{NodeExit, Transition};
 use crate::state::{GoalIntent, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
+use motet_graph::draw::Names;
 use motet_graph::{FailureId, NodeId, TIMEOUT, Value};
+use smol_str::SmolStr;
 
 impl Turn<'_> {
     /// A driver reports.
@@ -38,8 +42,7 @@ impl Turn<'_> {
             }
             DriverEvent::Refused { goal, failure } => {
                 if let Some((node, _)) = self.close(goal) {
-                    let failure = self.failure_id(&failure);
-                    self.goal_failed(node, goal, failure, EndCause::Refused);
+                    self.goal_failed_as(node, goal, failure, EndCause::Refused);
                     self.check_clearing();
                 }
             }
@@ -160,10 +163,7 @@ impl Turn<'_> {
     fn goal_ended(&mut self, node: NodeId, goal: GoalId, wish: GoalIntent, outcome: Outcome) {
         match (outcome, wish) {
             (Outcome::Success(value), _) => self.goal_succeeded(node, goal, value),
-            (Outcome::Failure(kind), _) => {
-                let failure = self.failure_id(&kind);
-                self.goal_failed(node, goal, failure, EndCause::Failed);
-            }
+            (Outcome::Failure(failure), _) => self.goal_failed_as(node, goal, failure, EndCause::Failed),
             (Outcome::Interrupted, GoalIntent::Expire) => {
                 self.goal_failed(node, goal, TIMEOUT, EndCause::Deadline)
             }
@@ -181,7 +181,8 @@ impl Turn<'_> {
     #[inline(always)]
     fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
         let plan = self.plan;
-        if plan.step(node).is_silent && self.is_quiet() && self.run.clearing.is_empty() {
+        let is_silent = plan.step(node).is_silent && self.run.left.is_empty();
+        if is_silent && self.is_quiet() && self.run.clearing.is_empty() {
             // The common case, without a detour over the work list. What waits for this goal to end has its
             // own place there.
             let exit = NodeExit { ending: NodeEnding::Success, cause: EndCause::Completed, origin: node };
@@ -210,10 +211,42 @@ impl Turn<'_> {
             }
         }
         self.make(node);
+        self.strike(node);
         self.succeed(node);
     }
 
+    /// A goal failed as its driver reports.
+    fn goal_failed_as(&mut self, node: NodeId, goal: GoalId, failure: FailureReport, cause: EndCause) {
+        let FailureReport { kind, text } = failure;
+        let failure = self.failure_id(&kind);
+        self.goal_failed_with(node, goal, (failure, text), cause);
+    }
+
+    /// A call that was carried out is no longer to be cleaned up, if an earlier policy left it.
+    fn strike(&mut self, node: NodeId) {
+        let plan = self.plan;
+        let Some(call) = plan.call(node).filter(|_| !self.run.left.is_empty()) else { return };
+        let now = self.run.now;
+        let args = self.values(&call.args, Freshness::Readings(now), true);
+        self.run.missing.clear();
+        let primitive = plan.graph.primitives.get(call.primitive.index());
+        if let Some((primitive, args)) = primitive.zip(args) {
+            let done = Names(&plan.graph).command(&primitive.name, &args, call.manner);
+            strike(&mut self.run.left, &done);
+        }
+    }
+
     fn goal_failed(&mut self, node: NodeId, goal: GoalId, failure: FailureId, cause: EndCause) {
+        self.goal_failed_with(node, goal, (failure, None), cause);
+    }
+
+    fn goal_failed_with(
+        &mut self,
+        node: NodeId,
+        goal: GoalId,
+        (failure, text): (FailureId, Option<SmolStr>),
+        cause: EndCause,
+    ) {
         self.doubt(node);
         self.report(move || TraceEventKind::GoalEnded {
             node,
@@ -221,7 +254,7 @@ impl Turn<'_> {
             ending: NodeEnding::Failure(failure),
             cause,
         });
-        self.attempt_failed(node, failure, cause);
+        self.attempt_failed(node, (failure, text), cause);
     }
 
     fn goal_interrupted(&mut self, node: NodeId, goal: GoalId, wish: GoalIntent) {

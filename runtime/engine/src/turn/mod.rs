@@ -232,6 +232,11 @@ impl Turn<'_> {
             self.finish(RunEnd::Interrupted);
             return;
         }
+        if self.run.reached.take().is_some() {
+            self.forget_asked(self.plan.goal());
+            self.leave(RunEnd::Interrupted);
+            return;
+        }
         let cleans_up = || crate::snapshot::pending(self.plan, self.run).next().is_some();
         if self.run.halted || self.run.ending.is_some() && !cleans_up() {
             return;
@@ -244,13 +249,26 @@ impl Turn<'_> {
     /// The body of the policy is over.
     fn root_ended(&mut self, exit: NodeExit) {
         let end = self.run.ending.take().unwrap_or_else(|| match exit.ending {
-            NodeEnding::Success => RunEnd::Done { why: None },
+            NodeEnding::Success => RunEnd::Done { why: None, result: None },
             NodeEnding::Failure(failure) => {
                 let kind = self.run.failures.get(failure.index()).cloned().unwrap_or_default();
                 RunEnd::Failed { kind, why: None, node: exit.origin }
             }
             NodeEnding::Interrupted => RunEnd::Interrupted,
         });
+        match end {
+            RunEnd::Done { why, .. } => {
+                let result = self.plan.graph.result.and_then(|id| self.run.bindings.get(id.index()));
+                let end = RunEnd::Done { why, result: result.cloned().flatten() };
+                self.reached_goal(end, exit.origin);
+            }
+            RunEnd::Failed { .. } | RunEnd::Declined { .. } | RunEnd::Replan { .. } => self.leave(end),
+            RunEnd::Interrupted | RunEnd::Fault(_) => self.leave(end),
+        }
+    }
+
+    /// The policy is over: so is the run, once the goals of replaced policies have ended.
+    fn leave(&mut self, end: RunEnd) {
         if self.run.orphans.is_empty() {
             self.finish(end);
         } else {

@@ -251,6 +251,7 @@ impl Turn<'_> {
 
     /// Ends everything in a monitor, and then the monitor in a failure.
     pub(super) fn monitor_fails(&mut self, node: NodeId, failure: motet_graph::FailureId, cause: EndCause) {
+        self.give_reason(node, None);
         let exit = NodeExit { ending: NodeEnding::Failure(failure), cause, origin: node };
         self.stop_within(node, AfterStop::Exit(exit));
     }

@@ -149,11 +149,13 @@ impl Turn<'_> {
                 }
                 None
             }
-            DriverEvent::Refused { failure, .. } => failed(failure, EndCause::Refused),
+            DriverEvent::Refused { failure, .. } => failed(failure.kind, EndCause::Refused),
             DriverEvent::Ended { outcome: Outcome::Success(_), .. } => {
                 Some((NodeEnding::Success, EndCause::Completed))
             }
-            DriverEvent::Ended { outcome: Outcome::Failure(kind), .. } => failed(kind, EndCause::Failed),
+            DriverEvent::Ended { outcome: Outcome::Failure(failure), .. } => {
+                failed(failure.kind, EndCause::Failed)
+            }
             DriverEvent::Ended { outcome: Outcome::Interrupted, .. } | DriverEvent::Stopped { .. } => {
                 Some(match self.run.orphans.get(index).map_or(GoalIntent::None, |orphan| orphan.wish) {
                     GoalIntent::Expire => (NodeEnding::Failure(TIMEOUT), EndCause::Deadline),
@@ -209,7 +211,11 @@ impl Turn<'_> {
         self.run.freed = !self.run.queue.is_empty();
         let mut contracts = self.contracts_of(&orphan);
         match ending {
-            NodeEnding::Success => contracts.make_node(&orphan),
+            NodeEnding::Success => {
+                contracts.make_node(&orphan);
+                let done = orphan.command.brief(&orphan.plan.graph);
+                crate::cleanup::strike(&mut self.run.left, &done);
+            }
             NodeEnding::Failure(_) | NodeEnding::Interrupted => contracts.doubt_node(&orphan),
         }
         let what = TraceEventKind::GoalEnded { node: orphan.node, goal: orphan.goal, ending, cause };
@@ -265,7 +271,12 @@ impl Turn<'_> {
     /// what was watched stays so until the new policy has said what it watches.
     pub(crate) fn retire(&mut self, plan: &Arc<PreparedGraph>) -> Arc<Vec<Option<Value>>> {
         self.run.swapping = true;
+        let due = crate::snapshot::due(plan, self.run);
+        self.run.left.extend(due);
         let bindings = Arc::new(std::mem::take(&mut self.run.bindings));
+        if self.run.reached.is_some() {
+            self.forget_asked(plan.goal());
+        }
         for node in self.open_nodes().into_iter().rev() {
             let phase = self.run.nodes.at(node.index()).phase;
             match phase {

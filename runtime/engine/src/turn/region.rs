@@ -5,6 +5,7 @@ use crate::schedule::{NodeExit, Transition};
 use crate::state::{AfterStop, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use motet_graph::{Ending, NodeId, NodeKind, RegionId};
+use smol_str::SmolStr;
 
 impl Turn<'_> {
     /// Starts a region from its first step.
@@ -111,7 +112,21 @@ impl Turn<'_> {
     }
 
     pub(super) fn fail(&mut self, node: NodeId, failure: motet_graph::FailureId, cause: EndCause) {
+        self.give_reason(node, None);
         self.exit(node, NodeExit { ending: NodeEnding::Failure(failure), cause, origin: node });
+    }
+
+    /// Notes why a step failed, in words, in place of what was noted of it before.
+    pub(super) fn give_reason(&mut self, node: NodeId, reason: Option<SmolStr>) {
+        match reason {
+            Some(reason) => {
+                self.run.reasons.insert(node, reason);
+            }
+            None if self.run.reasons.is_empty() => {}
+            None => {
+                self.run.reasons.remove(&node);
+            }
+        }
     }
 
     /// A step is over: goes on to the next, or ends the region.

@@ -78,12 +78,12 @@ fn check(stop_at: f64, every: f64, expected: RunEnd, ended_at: f64, reached: u32
 
 #[test]
 fn run_ends_by_itself() {
-    check(100.0, f64::INFINITY, RunEnd::Done { why: None }, 4.0, 2);
+    check(100.0, f64::INFINITY, RunEnd::Done { why: None, result: None }, 4.0, 2);
 }
 
 #[test]
 fn run_onlooker_is_called_in_between() {
-    check(100.0, 0.5, RunEnd::Done { why: None }, 4.0, 8);
+    check(100.0, 0.5, RunEnd::Done { why: None, result: None }, 4.0, 8);
 }
 
 #[test]

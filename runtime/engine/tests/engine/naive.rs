@@ -3,17 +3,18 @@
 //! middle of an action; what runs at once (monitors, waits, parallel branches) is made one after the other
 //! before: `rescan.rs` has that.
 
-use motet_graph::arbitrary::{CallSketch, StepSketch, graph, steps};
+use motet_graph::arbitrary::{CallSketch, StepSketch, graph, steps, vocabulary as v, with_named_failures};
 use motet_graph::{
-    Arithmetic, BindingId, CallNode, Comparison, Condition, Ending, Fact, FactArg, Graph, NodeId, NodeKind,
-    ROOT, RegionId, Term, TextPart, Value, Verdict, spoken,
+    Arithmetic, BindingId, CallNode, Comparison, Condition, Ending, Fact, FactArg, FailureSentence, Graph,
+    NodeId, NodeKind, ROOT, RegionId, Term, TextPart, Value, Verdict, spoken,
 };
 use motet_runtime::{
-    Answer, Command, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap, Query,
-    RunEnd, StartState, Time, TraceEventKind, Truth,
+    Answer, Command, DriverEvent, Effect, Engine, Event, FailureReport, GoalId, Outcome, Pattern,
+    PreparedSwap, Query, RunEnd, StartState, Time, TraceEventKind, Truth,
 };
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
+use smol_str::SmolStr;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
@@ -67,7 +68,7 @@ fn ground(steps: &[StepSketch]) -> Graph {
             Condition::All(parts) | Condition::AnyOf(parts) => parts.iter_mut().for_each(condition),
         }
     }
-    let mut graph = graph(&single(steps));
+    let mut graph = with_named_failures(graph(&single(steps)));
     for node in &mut graph.nodes {
         match &mut node.kind {
             NodeKind::Call(call) => call.needs.iter_mut().for_each(|need| condition(&mut need.condition)),
@@ -105,7 +106,10 @@ fn fate(seed: u64, number: usize, command: &Command) -> Outcome {
     };
     match dice / 8 % 12 {
         0 => Outcome::Interrupted,
-        1..4 => Outcome::Failure(["timeout", "unreachable", "not_found"][(dice % 3) as usize].into()),
+        1..4 => Outcome::Failure(FailureReport {
+            kind: ["timeout", "unreachable", "not_found"][(dice % 3) as usize].into(),
+            text: dice.is_multiple_of(2).then(|| format!("because of {number}").into()),
+        }),
         _ => Outcome::Success(value),
     }
 }
@@ -121,7 +125,8 @@ fn fate_of_cancelled(seed: u64, number: usize, command: &Command) -> Outcome {
 /// How a region or a step ended.
 enum Flow {
     Ok,
-    Fail(String, NodeId),
+    /// Its kind, where it arose, and what the driver said of it.
+    Fail(String, NodeId, Option<SmolStr>),
     Interrupted,
     /// `done` or `fail` of a sub-policy, with the step that says so.
     Leave(NodeId, Ending, NodeId),
@@ -172,7 +177,7 @@ impl Naive {
             NodeKind::Call(call) => self.call(id, &call),
             NodeKind::Sequence { body, .. } => self.region(body),
             NodeKind::Inline { body, .. } => match self.region(body) {
-                Flow::Leave(of, Ending::Fail, end) if of == id => Flow::Fail("failed".into(), end),
+                Flow::Leave(of, Ending::Fail, end) if of == id => Flow::Fail("failed".into(), end, None),
                 Flow::Leave(of, ..) if of == id => Flow::Ok,
                 flow => flow,
             },
@@ -184,15 +189,17 @@ impl Naive {
                 }
             }
             NodeKind::Try { body, handlers } => match self.region(body) {
-                Flow::Fail(kind, origin) => {
+                Flow::Fail(kind, origin, text) => {
                     let named = |id: &motet_graph::FailureId| self.graph.failures[id.index()] == kind;
                     let fits = handlers
                         .iter()
                         .find(|handler| handler.on.as_ref().is_none_or(|on| on.iter().any(named)));
-                    match fits.map(|handler| handler.body) {
-                        Some(body) => self.region(body),
-                        None => Flow::Fail(kind, origin),
-                    }
+                    let Some(handler) = fits else { return Flow::Fail(kind, origin, text) };
+                    let caught = handler.binds.expect("every handler names its failure");
+                    let told = text.unwrap_or_else(|| self.sentence(&kind));
+                    self.bindings.insert(caught.kind, Value::Case(kind.into()));
+                    self.bindings.insert(caught.text, Value::Text(told));
+                    self.region(handler.body)
                 }
                 flow => flow,
             },
@@ -217,12 +224,12 @@ impl Naive {
                         return Flow::Ok;
                     }
                 }
-                if until.is_some() { Flow::Fail("exhausted".into(), id) } else { Flow::Ok }
+                if until.is_some() { Flow::Fail("exhausted".into(), id, None) } else { Flow::Ok }
             }
             NodeKind::Each { item, list, at_most, body } => {
                 let Some(Value::List(items)) = self.term(&list, &mut Vec::new()) else { panic!("no list") };
                 if items.len() > at_most as usize {
-                    return Flow::Fail("exhausted".into(), id);
+                    return Flow::Fail("exhausted".into(), id, None);
                 }
                 for value in items {
                     self.bindings.insert(item, value);
@@ -239,7 +246,7 @@ impl Naive {
                 Flow::Ok
             }
             NodeKind::End { how, of: Some(of), .. } => Flow::Leave(of, how, id),
-            NodeKind::End { how: Ending::Done, .. } => Flow::End(RunEnd::Done { why: None }),
+            NodeKind::End { how: Ending::Done, .. } => Flow::End(RunEnd::Done { why: None, result: None }),
             NodeKind::End { how: Ending::Cannot, .. } => Flow::End(RunEnd::Declined { why: None }),
             NodeKind::End { how: Ending::Replan, .. } => Flow::End(RunEnd::Replan { why: None }),
             NodeKind::End { how: Ending::Fail, .. } => {
@@ -278,7 +285,7 @@ impl Naive {
                     self.end_orphan();
                 }
                 if let Some(kind) = self.refuted(call) {
-                    last = Flow::Fail(kind, id);
+                    last = Flow::Fail(kind, id, None);
                     continue;
                 }
                 self.write_unsettled(call);
@@ -301,9 +308,9 @@ impl Naive {
                     self.write_made(call);
                     return Flow::Ok;
                 }
-                Outcome::Failure(kind) => {
+                Outcome::Failure(FailureReport { kind, text }) => {
                     self.doubt(call);
-                    last = Flow::Fail(kind.into(), id);
+                    last = Flow::Fail(kind.into(), id, text);
                 }
                 Outcome::Interrupted => {
                     self.doubt(call);
@@ -312,6 +319,26 @@ impl Naive {
             }
         }
         last
+    }
+
+    /// What a failure means, of which the driver said nothing.
+    fn sentence(&self, kind: &str) -> SmolStr {
+        let is_it = |of: &&FailureSentence| self.graph.failures[of.failure.index()] == kind;
+        let known = self.graph.sentences.iter().find(is_it);
+        known.map_or_else(|| kind.replace('_', " ").into(), |known| known.text.clone())
+    }
+
+    /// The end of a policy that is done: what can be observed of its goal is observed.
+    fn done(&mut self) -> RunEnd {
+        self.facts.retain(|(fluent, ..)| fluent == "trusted");
+        self.readings.clear();
+        let (goal, mut missing) = (self.graph.goal.clone(), Vec::new());
+        goal.iter().for_each(|part| _ = self.condition(part, &mut missing));
+        self.look(&missing);
+        if goal.iter().any(|part| self.condition(part, &mut Vec::new()) == Truth::False) {
+            return RunEnd::Failed { kind: "failed".into(), why: Some(String::new()), node: NodeId(0) };
+        }
+        RunEnd::Done { why: None, result: None }
     }
 
     /// The failure of the first guard that does not hold.
@@ -521,6 +548,36 @@ fn conflict(a: &Command, b: &Command) -> bool {
     a.uses.iter().any(|a| b.uses.iter().any(|b| nested(a, b)))
 }
 
+/// An end without the step and the part of the goal that was seen first to be false.
+fn without_node(end: RunEnd) -> RunEnd {
+    match end {
+        RunEnd::Failed { kind, why: Some(why), .. } => {
+            assert!(why.starts_with("the goal does not hold: `"), "{why}");
+            RunEnd::Failed { kind, why: Some(String::new()), node: NodeId(0) }
+        }
+        end => end,
+    }
+}
+
+/// Parts of a goal, by the bits of a number.
+fn goal(bits: u64) -> Vec<Condition> {
+    let holding = |object: &str| Condition::Fact(v::fact(v::HOLDING, vec![v::entity(object)]));
+    let at = |place: &str| Condition::Fact(v::fact(v::AT, vec![v::entity("robot"), v::entity(place)]));
+    let trusted = Condition::Fact(v::fact(v::TRUSTED, vec![v::entity("mug")]));
+    let all = [
+        holding("mug"),
+        Condition::Not(Box::new(holding("cup"))),
+        Condition::AnyOf(vec![at("table"), at("shelf")]),
+        Condition::All(vec![at("user"), v::nearer("user", 0.5)]),
+        Condition::AnyOf(vec![trusted, holding("cup")]),
+    ];
+    all.into_iter()
+        .enumerate()
+        .filter(|(index, _)| bits >> (2 * index) & 3 == 3)
+        .map(|(_, part)| part)
+        .collect()
+}
+
 /// What starts and goes on, and how it ends, as the naive interpreter has it.
 fn expected(seed: u64, first: &Graph, second: &Graph, swap_at: Option<usize>) -> (Vec<String>, RunEnd) {
     let mut naive = Naive {
@@ -545,8 +602,9 @@ fn expected(seed: u64, first: &Graph, second: &Graph, swap_at: Option<usize>) ->
         flow = naive.region(ROOT);
     }
     let end = match flow {
-        Flow::Ok => RunEnd::Done { why: None },
-        Flow::Fail(kind, node) => RunEnd::Failed { kind: kind.into(), why: None, node },
+        Flow::Ok => naive.done(),
+        Flow::End(RunEnd::Done { .. }) => naive.done(),
+        Flow::Fail(kind, node, _) => RunEnd::Failed { kind: kind.into(), why: None, node },
         Flow::Interrupted => RunEnd::Interrupted,
         Flow::End(end) => end,
         Flow::Leave(..) | Flow::Swapped => panic!("nothing takes it"),
@@ -577,7 +635,7 @@ fn observed(seed: u64, first: &Graph, second: &Graph, swap_at: Option<usize>) ->
                         log.push(format!("kept {}", live[&goal].1));
                     }
                 }
-                Effect::Finished(end) => return (log, *end),
+                Effect::Finished(end) => return (log, without_node(*end)),
                 other => panic!("not expected: {other:?}"),
             }
         }
@@ -615,8 +673,9 @@ fn engine_effects_are_those_of_a_naive_interpreter() {
     let (swapped, kept) = (Cell::new(0_u32), Cell::new(0_u32));
     let result = TestRunner::new(config).run(&cases, |(own, other, seed, same)| {
         let own = own.concat();
-        let first = ground(&own);
+        let mut first = ground(&own);
         let mut second = ground(&if same { own } else { other });
+        (first.goal, second.goal) = (goal(seed), goal(seed >> 10));
         second.initial.clear();
         for round in 0..20_usize {
             let seed = seed.wrapping_add(round as u64);

@@ -354,7 +354,9 @@ fn swap_run_that_is_over_takes_no_swap() {
     let mut engine = Engine::new(graph(&[]), &StartState::default()).unwrap();
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
-    assert!(matches!(out.last(), Some(Effect::Finished(end)) if **end == RunEnd::Done { why: None }));
+    assert!(
+        matches!(out.last(), Some(Effect::Finished(end)) if **end == RunEnd::Done { why: None, result: None })
+    );
     let prepared = PreparedSwap::new(graph(&[]), &engine.running()).unwrap();
     assert_eq!(engine.swap(Time::ZERO, prepared, &mut out).unwrap_err(), SwapRefusal::Over);
 }
@@ -367,4 +369,72 @@ fn swap_prepared_against_an_older_graph_still_fits() {
     engine.swap(Time::from_secs(2.0), first, &mut out).unwrap();
     engine.swap(Time::from_secs(2.1), second, &mut out).unwrap();
     assert_eq!((engine.revision(), engine.snapshot().bindings.len()), (2, 1));
+}
+
+/// The steps of the cleanups that are left.
+fn left(engine: &Engine) -> Vec<String> {
+    engine.snapshot().pending.iter().flat_map(|pending| pending.steps.clone()).collect()
+}
+
+fn ended(engine: &mut Engine, outcome: Outcome) -> Vec<Effect> {
+    let goal = engine.snapshot().goals[0].goal;
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Driver(DriverEvent::Acknowledged { goal }), &mut out);
+    engine.handle(Time::ZERO, Event::Driver(DriverEvent::Ended { goal, outcome }), &mut out);
+    out
+}
+
+#[test]
+fn swap_cleanups_of_the_old_policy_are_left_until_their_calls_were_carried_out() {
+    let finally = |body: StepSketch, cleanup: Vec<StepSketch>| StepSketch::Finally(vec![body], cleanup);
+    let first =
+        graph(&[finally(StepSketch::go("table"), vec![StepSketch::go("shelf"), StepSketch::say("a")])]);
+    let mut engine = Engine::new(first, &StartState::default()).unwrap();
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    assert_eq!(left(&engine), ["go(shelf)", "say(\"a\")"]);
+    let swap = |engine: &mut Engine, steps: &[StepSketch]| {
+        let mut next = graph(steps);
+        next.initial.clear();
+        let prepared = PreparedSwap::new(next, &engine.running()).unwrap();
+        engine.swap(Time::ZERO, prepared, &mut Vec::new()).unwrap();
+    };
+    let next = [finally(StepSketch::say("b"), vec![StepSketch::say("c")]), StepSketch::go("shelf")];
+    swap(&mut engine, &next);
+    // Those of the old policy come first.
+    assert_eq!(left(&engine), ["go(shelf)", "say(\"a\")", "say(\"c\")"]);
+    // Through another swap, through JSON and into another engine.
+    swap(&mut engine, &[StepSketch::go("shelf"), StepSketch::say("d")]);
+    assert_eq!(left(&engine), ["go(shelf)", "say(\"a\")", "say(\"c\")"]);
+    let start = serde_json::to_string(&engine.snapshot().start_state()).unwrap();
+    let start: StartState = serde_json::from_str(&start).unwrap();
+    let other = Engine::new(graph(&[]), &start).unwrap();
+    assert_eq!(left(&other), left(&engine));
+    // The goal of the first policy ends before that of the new one begins.
+    let goal = engine.snapshot().goals[0].goal;
+    engine.handle(Time::ZERO, Event::Driver(DriverEvent::Acknowledged { goal }), &mut out);
+    let interrupted = DriverEvent::Ended { goal, outcome: Outcome::Interrupted };
+    engine.handle(Time::ZERO, Event::Driver(interrupted), &mut out);
+    while engine.snapshot().goals.iter().any(|live| live.command.primitive == "say") {
+        ended(&mut engine, Outcome::Success(None));
+    }
+    ended(&mut engine, Outcome::Success(None));
+    assert_eq!(left(&engine), ["say(\"a\")", "say(\"c\")"]);
+}
+
+#[test]
+fn swap_cleanup_that_a_stop_or_a_lost_driver_kept_from_running_is_left() {
+    let policy = [StepSketch::Finally(vec![StepSketch::go("table")], vec![StepSketch::say("a")])];
+    for event in [Event::Stop, Event::Driver(DriverEvent::DriverLost)] {
+        let mut engine = Engine::new(graph(&policy), &StartState::default()).unwrap();
+        let mut out = Vec::new();
+        engine.handle(Time::ZERO, Event::Begin, &mut out);
+        let goal = engine.snapshot().goals[0].goal;
+        engine.handle(Time::ZERO, Event::Driver(DriverEvent::Acknowledged { goal }), &mut out);
+        engine.handle(Time::ZERO, event, &mut out);
+        engine.handle(Time::ZERO, Event::Driver(DriverEvent::Stopped { goal }), &mut out);
+        assert!(engine.is_over());
+        assert_eq!(left(&engine), ["say(\"a\")"]);
+        assert_eq!(left(&Engine::new(graph(&[]), &engine.snapshot().start_state()).unwrap()), ["say(\"a\")"]);
+    }
 }

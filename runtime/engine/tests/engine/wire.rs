@@ -2,9 +2,9 @@
 
 use motet_graph::{Manner, NodeId, Pose, Value};
 use motet_runtime::{
-    Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, EndCause, Event, Fault, GoalId,
-    NodeEnding, Outcome, Pattern, Query, RunEnd, Time, TraceEvent, TraceEventKind, Truth, Verification,
-    journal,
+    Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, EndCause, Event, FailureReport, Fault,
+    GoalId, NodeEnding, Outcome, Pattern, PendingCleanup, Query, RunEnd, Time, TraceEvent, TraceEventKind,
+    Truth, Verification, journal,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -57,11 +57,16 @@ fn query() -> impl Strategy<Value = Query> {
     ]
 }
 
+fn failure() -> impl Strategy<Value = FailureReport> {
+    (any::<String>(), proptest::option::of(any::<String>()))
+        .prop_map(|(kind, text)| FailureReport { kind: kind.into(), text: text.map(Into::into) })
+}
+
 fn driver_event() -> impl Strategy<Value = DriverEvent> {
     let goal = || any::<u64>().prop_map(GoalId::from_number);
     let outcome = prop_oneof![
         proptest::option::of(value()).prop_map(Outcome::Success),
-        any::<String>().prop_map(|kind| Outcome::Failure(kind.into())),
+        failure().prop_map(Outcome::Failure),
         Just(Outcome::Interrupted),
     ];
     let answer = prop_oneof![
@@ -71,8 +76,7 @@ fn driver_event() -> impl Strategy<Value = DriverEvent> {
     ];
     prop_oneof![
         goal().prop_map(|goal| DriverEvent::Acknowledged { goal }),
-        (goal(), any::<String>())
-            .prop_map(|(goal, kind)| DriverEvent::Refused { goal, failure: kind.into() }),
+        (goal(), failure()).prop_map(|(goal, failure)| DriverEvent::Refused { goal, failure }),
         (goal(), outcome).prop_map(|(goal, outcome)| DriverEvent::Ended { goal, outcome }),
         goal().prop_map(|goal| DriverEvent::NotHeld { goal }),
         (goal(), ".{0,8}").prop_map(|(goal, text)| DriverEvent::Feedback { goal, text: text.into() }),
@@ -148,6 +152,7 @@ fn wire_form_keeps_its_bytes() {
         TraceEventKind::Guard { node, need: 1, truth: Truth::Unknown },
         TraceEventKind::Verified { node, verdict: Box::new(Verification::Feasible { witness: None }) },
         TraceEventKind::Tested { node, truth: Truth::True },
+        TraceEventKind::GoalObserved { truth: Truth::Unknown },
         TraceEventKind::Fired { node, watch: 1, truth: Truth::False },
         TraceEventKind::WentOn { node, watch: 0 },
         TraceEventKind::Swapped { policy: "b".into() },
@@ -163,7 +168,8 @@ fn wire_form_keeps_its_bytes() {
     }
     let why = Some("because".to_owned());
     for end in [
-        RunEnd::Done { why: None },
+        RunEnd::Done { why: None, result: None },
+        RunEnd::Done { why: None, result: Some(Value::Entity("mug".into())) },
         RunEnd::Failed { kind: "slipped".into(), why: why.clone(), node },
         RunEnd::Declined { why: why.clone() },
         RunEnd::Replan { why },
@@ -209,7 +215,8 @@ fn wire_form_keeps_its_bytes() {
     ] {
         lines.push(there_and_back!(Effect, effect));
     }
-    let failure = smol_str::SmolStr::new_static("slipped");
+    let failure = FailureReport::from("slipped");
+    let told = FailureReport { text: Some("the mug is wet".into()), ..failure.clone() };
     let verdict = Verification::Infeasible { failure: "unreachable".into(), why: "0.3 m too far".into() };
     let driver = Event::Driver;
     for event in [
@@ -223,6 +230,7 @@ fn wire_form_keeps_its_bytes() {
         driver(DriverEvent::Ended { goal, outcome: Outcome::Success(None) }),
         driver(DriverEvent::Ended { goal, outcome: Outcome::Success(Some(Value::Text("red".into()))) }),
         driver(DriverEvent::Ended { goal, outcome: Outcome::Failure(failure) }),
+        driver(DriverEvent::Ended { goal, outcome: Outcome::Failure(told) }),
         driver(DriverEvent::Ended { goal, outcome: Outcome::Interrupted }),
         driver(DriverEvent::NotHeld { goal }),
         driver(DriverEvent::Feedback { goal, text: "half way".into() }),
@@ -240,6 +248,7 @@ fn wire_form_keeps_its_bytes() {
         some: vec![fact],
         entities: vec![("mug".into(), "Object".into())],
         bindings: vec![("drink".into(), Value::Int(3))],
+        pending: vec![PendingCleanup { path: "/steps/0".into(), steps: vec!["close(drawer)".into()] }],
     };
     lines.push(serde_json::to_string(&start).unwrap());
     lines.push(serde_json::to_string(&motet_runtime::EngineSettings::default()).unwrap());

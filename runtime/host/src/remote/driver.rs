@@ -269,7 +269,7 @@ impl RemoteDriver {
                     events.push(DriverEvent::Ended { goal, outcome });
                 }
                 Some(GoalStatus::Refused(failure)) => {
-                    events.push(DriverEvent::Refused { goal, failure: self.kind(failure) });
+                    events.push(DriverEvent::Refused { goal, failure: self.failure(failure) });
                 }
                 Some(GoalStatus::Stopped) => events.push(DriverEvent::Stopped { goal }),
                 Some(GoalStatus::Unknown) if is_same && just_started => {

@@ -2,7 +2,7 @@
 //! `motet-runtime`.
 
 use motet_graph::{Graph, Type};
-use motet_runtime::{Answer, Capabilities, Command, GoalId, Outcome, Query};
+use motet_runtime::{Answer, Capabilities, Command, FailureReport, GoalId, Outcome, Query};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -162,7 +162,7 @@ pub enum GoalStatus {
     /// It runs, held or not.
     Running,
     /// It was refused, in this failure.
-    Refused(String),
+    Refused(FailureReport),
     /// It has ended.
     Ended(Outcome),
     /// It was stopped safely.
@@ -197,8 +197,8 @@ pub struct EmptyParams {}
 /// Data of the error of a refused start.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct RefusedData {
-    /// The failure kind in which the goal ends.
-    pub failure: String,
+    /// The failure in which the goal ends.
+    pub failure: FailureReport,
 }
 
 /// A message from a driver.

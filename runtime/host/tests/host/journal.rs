@@ -76,7 +76,7 @@ fn segments(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn journal_segments_are_read_as_one() {
     let folder = folder("segments");
-    assert_eq!(record(&folder, 20, 1_000), RunEnd::Done { why: None });
+    assert_eq!(record(&folder, 20, 1_000), RunEnd::Done { why: None, result: None });
     assert!(segments(&folder).len() > 5);
     let all = entries(&folder).unwrap();
     assert_eq!(all.len(), 22);
@@ -202,7 +202,7 @@ fn journal_policy_that_takes_over_is_written_down_and_replayed() {
     let mut recorder = RunRecorder::new(writer, &mut swapping);
     let end = run(&mut engine, &mut OneSecond::default(), &mut recorder, Time::ZERO);
     recorder.finish().unwrap();
-    assert_eq!(end, RunEnd::Done { why: None });
+    assert_eq!(end, RunEnd::Done { why: None, result: None });
     assert_eq!(swapping.results, [true, false, true]);
     let all = entries(&folder).unwrap();
     let swaps = all.iter().filter(|entry| matches!(entry, JournalEntry::Swap(_))).count();

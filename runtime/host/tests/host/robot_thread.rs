@@ -9,5 +9,5 @@ mod example;
 #[test]
 fn robot_thread_example_reaches_the_end_of_the_policy() {
     let end = example::bring_mug(Duration::from_millis(1)).unwrap();
-    assert_eq!(end, RunEnd::Done { why: None });
+    assert_eq!(end, RunEnd::Done { why: None, result: None });
 }

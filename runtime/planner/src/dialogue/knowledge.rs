@@ -6,7 +6,7 @@ use motet_compiler::{InitialFact, InitialState, Session};
 use motet_graph::{Graph, Value};
 use motet_requests::{ReportedLocation, RequestContext};
 use motet_robots::scene::Scene;
-use motet_runtime::{Engine, Pattern, Query, Snapshot, StartState, Truth};
+use motet_runtime::{Engine, Pattern, PendingCleanup, Query, Snapshot, StartState, Truth};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
@@ -16,6 +16,8 @@ pub struct Knowledge {
     /// Facts in order: a later fact wins, and a fact with `any` is about every entity.
     facts: Vec<(Query, Truth)>,
     some: Vec<Query>,
+    /// Cleanups of policies that are over, which have not run to their end.
+    pending: Vec<PendingCleanup>,
     /// Entities that were mentioned, the latest last.
     pub(super) spoken_of: Vec<SmolStr>,
     /// Earlier locations of moved things, the latest last.
@@ -52,6 +54,7 @@ impl Knowledge {
         self.facts.extend(snapshot.facts);
         self.some.retain(|query| !speaks(query));
         self.some.extend(snapshot.some);
+        self.pending = snapshot.pending;
     }
 }
 
@@ -201,6 +204,7 @@ impl Knowledge {
             facts: given.chain(self.facts.iter().cloned()).collect(),
             some: self.some.clone(),
             entities: entities.collect(),
+            pending: self.pending.clone(),
             ..StartState::default()
         }
     }

@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 use motet_graph::{Pose, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Perception, Query, RgbdView, Time,
+    Capabilities, Command, Driver, DriverEvent, FailureReport, GoalId, Outcome, Perception, Query, RgbdView,
+    Time,
 };
 use smol_str::SmolStr;
 
@@ -161,7 +162,10 @@ impl<'d> GroundingDriver<'d> {
         (self.listener)(GroundedPoint { object: &asked.object, used_for: &asked.used_for, found: &found });
         let outcome = match found {
             Ok(pose) => Outcome::Success(Some(Value::Pose(pose))),
-            Err(why) => Outcome::Failure(SmolStr::new_static(why.failure())),
+            Err(why) => Outcome::Failure(FailureReport {
+                kind: SmolStr::new_static(why.failure()),
+                text: Some(why.to_string().into()),
+            }),
         };
         self.end(at, goal, outcome);
     }
@@ -201,7 +205,7 @@ impl Driver for GroundingDriver<'_> {
         self.own.insert(goal);
         self.outbox.push_back((now, DriverEvent::Acknowledged { goal }));
         if !self.ask(now, goal, command) {
-            self.end(now, goal, Outcome::Failure(SmolStr::new_static("not_found")));
+            self.end(now, goal, Outcome::Failure("not_found".into()));
         }
     }
 
@@ -227,7 +231,7 @@ impl Driver for GroundingDriver<'_> {
         }
         // The old answer is no longer wanted.
         if self.asked.remove(&goal).is_some() && !self.ask(now, goal, command) {
-            self.end(now, goal, Outcome::Failure(SmolStr::new_static("not_found")));
+            self.end(now, goal, Outcome::Failure("not_found".into()));
         }
     }
 
@@ -295,7 +299,7 @@ impl Driver for GroundingDriver<'_> {
                 Err(RecvTimeoutError::Disconnected) => {
                     let goals: Vec<GoalId> = self.asked.keys().copied().collect();
                     for goal in goals {
-                        self.end(self.now, goal, Outcome::Failure(SmolStr::new_static("not_found")));
+                        self.end(self.now, goal, Outcome::Failure("not_found".into()));
                     }
                 }
             }

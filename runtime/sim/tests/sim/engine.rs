@@ -54,6 +54,9 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
     });
     Graph {
         names: Vec::new(),
+        sentences: Vec::new(),
+        result: None,
+        goal: Vec::new(),
         policy: "fetch".into(),
         robot: "hsr".into(),
         kinds: vec![kind("Entity", None), kind("Object", Some(KindId(0)))],
@@ -97,7 +100,7 @@ fn fetch(faults: &str, retries: u32) -> (RunEnd, motet_sim::Sim) {
 #[test]
 fn sim_policy_runs_to_its_goal() {
     let (end, sim) = fetch("{}", 0);
-    assert_eq!(end, RunEnd::Done { why: None });
+    assert_eq!(end, RunEnd::Done { why: None, result: None });
     assert_eq!(sim.holds("at", &["mug_1", "user"]), Some(true));
     assert!((20.0..90.0).contains(&sim.now().secs()), "{}", sim.now());
 }
@@ -106,7 +109,7 @@ fn sim_policy_runs_to_its_goal() {
 fn sim_retry_gets_over_a_fault() {
     let slips = r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#;
     assert!(matches!(fetch(slips, 0).0, RunEnd::Failed { kind, .. } if kind == "slipped"));
-    assert_eq!(fetch(slips, 1).0, RunEnd::Done { why: None });
+    assert_eq!(fetch(slips, 1).0, RunEnd::Done { why: None, result: None });
 }
 
 #[test]

@@ -121,7 +121,7 @@ impl Naive {
             }
         } else if self.ending.is_none() {
             self.ending = Some(match how {
-                Ending::Done => RunEnd::Done { why: None },
+                Ending::Done => RunEnd::Done { why: None, result: None },
                 Ending::Fail => RunEnd::Failed { kind: "failed".into(), why: None, node },
                 Ending::Cannot => RunEnd::Declined { why: None },
                 Ending::Replan => RunEnd::Replan { why: None },
@@ -132,7 +132,7 @@ impl Naive {
 
     pub(super) fn root_ended(&mut self, flow: Flow) {
         let end = self.ending.take().unwrap_or(match flow {
-            Flow::Ok => RunEnd::Done { why: None },
+            Flow::Ok => RunEnd::Done { why: None, result: None },
             Flow::Fail(kind, node) => RunEnd::Failed { kind: kind.into(), why: None, node },
             Flow::Interrupted => RunEnd::Interrupted,
         });

@@ -15,7 +15,7 @@ impl Driver for RemoteDriver {
             self.call(DriverCall::Start(StartParams { goal, command: command.clone().into() }));
         } else {
             // It was never said, so it was never done.
-            self.report(DriverEvent::Refused { goal, failure: failed() });
+            self.report(DriverEvent::Refused { goal, failure: failed().into() });
         }
     }
 

@@ -6,7 +6,7 @@ use super::super::protocol::{
     QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear,
 };
 use super::{RemoteDriver, Waiting, failed, nonsense};
-use motet_runtime::{Answer, DriverEvent, Outcome};
+use motet_runtime::{Answer, DriverEvent, FailureReport, Outcome};
 use serde_json::Value;
 use smol_str::SmolStr;
 use std::time::{Duration, Instant};
@@ -83,10 +83,17 @@ impl RemoteDriver {
         failed()
     }
 
+    /// A failure whose kind is a name, and whose text is not too long.
+    pub(super) fn failure(&mut self, told: &FailureReport) -> FailureReport {
+        let cut = |text: &SmolStr| text.chars().take(MAX_FEEDBACK).collect::<SmolStr>();
+        let text = told.text.as_ref().map(cut).filter(|text| !text.trim().is_empty());
+        FailureReport { kind: self.kind(&told.kind), text }
+    }
+
     /// An outcome whose failure has a name.
     pub(super) fn named(&mut self, outcome: Outcome) -> Outcome {
         match outcome {
-            Outcome::Failure(kind) => Outcome::Failure(self.kind(&kind)),
+            Outcome::Failure(failure) => Outcome::Failure(self.failure(&failure)),
             Outcome::Success(_) | Outcome::Interrupted => outcome,
         }
     }
@@ -101,7 +108,8 @@ impl RemoteDriver {
                 if wrong.code != REFUSED {
                     (self.note)(&format!("the driver does not start a goal: {}", wrong.message));
                 }
-                let failure = data.map_or_else(failed, |data| self.kind(&data.failure));
+                let failure = data.map(|data| self.failure(&data.failure));
+                let failure = failure.unwrap_or_else(|| failed().into());
                 self.report(DriverEvent::Refused { goal: start.goal, failure });
             }
             (DriverCall::Observe(asked) | DriverCall::Watch(asked), Ok(value)) => {
