@@ -216,8 +216,8 @@ impl Elaborator<'_> {
     }
 }
 
-/// Returns whether the other side of a comparison decides how an expression is read.
-fn needs_context(expr: &Expr) -> bool {
+/// Checks if the other side of a comparison decides how an expression is read.
+pub(crate) fn needs_context(expr: &Expr) -> bool {
     matches!(expr.kind, ExprKind::Number(_) | ExprKind::Plain(_) | ExprKind::List(_) | ExprKind::Name(_))
 }
 

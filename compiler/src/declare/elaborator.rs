@@ -276,7 +276,7 @@ impl<'a> Elaborator<'a> {
 }
 
 /// Converts a ratio to percent, rounded to hide the noise of binary fractions.
-pub(super) fn percent(ratio: f64) -> f64 {
+pub(crate) fn percent(ratio: f64) -> f64 {
     (ratio * 1e11).round() / 1e9
 }
 

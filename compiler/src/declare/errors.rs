@@ -15,6 +15,11 @@ pub(crate) fn did_you_mean(near: Option<&SmolStr>) -> Option<String> {
     near.map(|near| format!("did you mean `{near}`?"))
 }
 
+/// A text of the JSON syntax in a place without a type.
+fn literal(name: &str) -> String {
+    format!("{{\"literal\": \"{name}\"}}")
+}
+
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
@@ -23,6 +28,7 @@ motet_syntax::mistakes! {
         name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool,
         about: Option<About>,
         call: Option<String>,
+        is_quoted: bool,
     }
     message(m) {
         if m.wanted.is_empty() {
@@ -39,16 +45,27 @@ motet_syntax::mistakes! {
         if let Some(call) = &m.call {
             return Some(format!("write `{call}`"));
         }
+        let text = format!("write `{}` for a text", literal(&m.name));
+        if m.is_quoted && m.scene && m.near.is_none() {
+            return Some(text);
+        }
         did_you_mean(m.near.as_ref()).or_else(|| {
             if !m.scene {
                 let from = "entities come from `--scene`, or from `entity` in a domain";
-                Some(format!("there is no scene: {from}"))
+                let text = if m.is_quoted { format!("; {text}") } else { String::new() };
+                Some(format!("there is no scene: {from}{text}"))
             } else {
                 (!m.known.is_empty()).then(|| format!("there is {}", m.known))
             }
         })
     }
-    fix(m) { m.near.as_ref().filter(|_| m.call.is_none()).and_then(|near| replace(m.span, near)) }
+    fix(m) {
+        if m.is_quoted && m.scene && m.near.is_none() {
+            let edits = vec![Edit { span: m.span, text: literal(&m.name) }];
+            return Some(Fix { title: "write a text".to_owned(), edits });
+        }
+        m.near.as_ref().filter(|_| m.call.is_none()).and_then(|near| replace(m.span, near))
+    }
     about(m) { m.about.clone() }
 
     /// Use of a name that is not bound.
@@ -94,8 +111,12 @@ motet_syntax::mistakes! {
         name: SmolStr, near: Option<SmolStr>, wanted: &'static str, known: String,
     }
     message(m) { format!("there is no {} `{}`", m.wanted, m.name) }
-    help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known))) }
-    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+    help(m) {
+        did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known)))
+    }
+    fix(m) {
+        m.near.as_ref().and_then(|near| replace(m.span, near))
+    }
 
     /// The name of a type is unknown.
     UnknownType("M0209", Error) { name: SmolStr, near: Option<SmolStr> }
@@ -245,7 +266,14 @@ motet_syntax::mistakes! {
     /// Operands of different dimensions.
     WrongDimension("M0306", Error) { left: String, right: String, operator: &'static str }
     message(m) { format!("`{}` does not apply to {} and {}", m.operator, m.left, m.right) }
-    help(_m) { Some("use the same dimension on both sides".to_owned()) }
+    help(m) {
+        let is_text = m.operator == "+" && (m.left == "Text" || m.right == "Text");
+        Some(if is_text {
+            "write values in the braces of one text: `\"I see {count(cans)} cans\"`".to_owned()
+        } else {
+            "use the same dimension on both sides".to_owned()
+        })
+    }
 
     /// Unknown case of an enumeration.
     UnknownCase("M0307", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String }

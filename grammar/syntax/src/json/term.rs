@@ -20,7 +20,7 @@ pub(crate) enum Term {
     Bool(bool),
     /// `0.5`: a number, in SI units where a quantity is meant.
     Number(f64),
-    /// `"$mug"`, `"mug_1"`, `"20 cm"`, `"red mug"`
+    /// `"$mug"`, `"mug_1"`, `"20 cm"`; where a text is expected, `"red mug"`
     Text(SmolStr),
     /// A list: `["$a", "$b"]`.
     List(Vec<Spanned<Term>>),
@@ -58,6 +58,8 @@ pub(crate) enum Form {
     Multiply(Pair),
     /// The quotient: `/`.
     Divide(Pair),
+    /// A text, where a plain string could be a name or a quantity.
+    Literal(Spanned<SmolStr>),
     /// A fluent that holds.
     #[schemars(untagged)]
     Is(Is),
@@ -270,6 +272,7 @@ impl Serialize for Form {
             Self::Subtract(pair) => one(serializer, "subtract", pair),
             Self::Multiply(pair) => one(serializer, "multiply", pair),
             Self::Divide(pair) => one(serializer, "divide", pair),
+            Self::Literal(text) => one(serializer, "literal", text),
         }
     }
 }
