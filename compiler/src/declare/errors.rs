@@ -6,6 +6,7 @@ use smol_str::SmolStr;
 
 use super::gap::Unbound;
 use super::name::{article, list, near};
+use super::words;
 
 pub(crate) fn replace(span: Span, text: &str) -> Option<Fix> {
     Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span, text: text.to_owned() }] })
@@ -112,10 +113,14 @@ motet_syntax::mistakes! {
     }
     message(m) { format!("there is no {} `{}`", m.wanted, m.name) }
     help(m) {
+        if let Some(fluent) = words::opposite_of(&m.name) {
+            return Some(format!("write `not {fluent}(…)`"));
+        }
         did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known)))
     }
     fix(m) {
-        m.near.as_ref().and_then(|near| replace(m.span, near))
+        let near = m.near.as_ref().filter(|_| words::opposite_of(&m.name).is_none());
+        near.and_then(|near| replace(m.span, near))
     }
 
     /// The name of a type is unknown.
