@@ -35,6 +35,7 @@ pub const PAGES: &[CodePage] = pages! {
     "M0505" "M0506"
     "M0601" "M0602" "M0603" "M0604" "M0605" "M0606" "M0701" "M0702" "M0801" "M0802" "M0803" "M0804" "M0805"
     "M0901" "M0902" "M0903" "M0904" "M0905" "M0906" "M0907" "M0908" "M0909" "M0910" "M0911"
+    "M0912"
 };
 
 /// Page of a code; the case of letters does not matter. O(pages).
