@@ -3,18 +3,21 @@
 //!
 //! A plain string of the JSON syntax becomes a name, a text or a quantity; a bare number becomes a quantity
 //! in the SI unit; arguments get names in JSON and positions in text. Where a name is unknown or a value does
-//! not fit, the policy stays as it is.
+//! not fit, the policy stays as it is. A place without a type is read as in [`crate::declare::elaborator`].
 
 use motet_syntax::Syntax;
 use motet_syntax::ast::{
-    Arg, Block, Call, Do, End, Expr, ExprKind, Keep, KeepKind, Manner, Name, POSE, Policy, Reaction,
+    Arg, ArithOp, Block, Call, Do, End, Expr, ExprKind, Keep, KeepKind, Manner, Name, POSE, Policy, Reaction,
     StepKind, TextPart,
 };
 use motet_syntax::unit::{Dimension, Unit};
+use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
 use crate::declare::Library;
-use crate::declare::elaborator::{TEXT, parse_quantity};
+use crate::declare::arithmetic::dimension;
+use crate::declare::condition::needs_context;
+use crate::declare::elaborator::{TEXT, parse_quantity, percent};
 use crate::declare::list_term::{COUNT, FIRST, IS_EMPTY, OF};
 use crate::ir::{Base, Ty};
 
@@ -33,8 +36,10 @@ use crate::ir::{Base, Ty};
 /// assert_eq!(call.call.args[0].name.as_ref().map(|name| name.text.as_str()), Some("text"));
 /// ```
 pub fn make_explicit(policy: &mut Policy, library: &Library, form: Syntax) {
+    let params = policy.params.iter();
+    let types = params.map(|param| (param.name.text.clone(), library.written_type(&param.ty))).collect();
     let result = policy.result.as_ref().map(|ty| library.written_type(ty));
-    let writer = Writer { library, form, result };
+    let mut writer = Writer { library, form, result, types };
     if let Some(goal) = &mut policy.achieves {
         writer.condition(goal);
     }
@@ -48,16 +53,18 @@ struct Writer<'a> {
     form: Syntax,
     /// Type of the policy's result.
     result: Option<Ty>,
+    /// Types of the names bound so far, where they are known. A name has one type wherever it is visible.
+    types: FxHashMap<SmolStr, Ty>,
 }
 
 impl Writer<'_> {
-    fn block(&self, block: &mut Block) {
+    fn block(&mut self, block: &mut Block) {
         for step in &mut block.steps {
             self.step(&mut step.kind);
         }
     }
 
-    fn step(&self, step: &mut StepKind) {
+    fn step(&mut self, step: &mut StepKind) {
         // Whether a call has a value or is a step only the library knows.
         if let StepKind::Do(Do { call, bind: Some(name), manner: None, within: None, retry: None }) = step
             && self.called(&call.name.text).is_none()
@@ -67,7 +74,11 @@ impl Writer<'_> {
             *step = StepKind::Let { name: name.clone(), value };
         }
         match step {
-            StepKind::Let { value, .. } => self.term(value, None),
+            StepKind::Let { name, value } => {
+                self.term(value, None);
+                let ty = self.type_of(value);
+                self.bind(name, ty);
+            }
             StepKind::Do(call) => {
                 let params = self.called(&call.call.name.text);
                 self.call(&mut call.call, params);
@@ -76,6 +87,11 @@ impl Writer<'_> {
                 }
                 self.optional(call.within.as_mut(), Ty::DURATION);
                 self.optional(call.retry.as_mut(), Ty::INT);
+                if let Some(name) = &call.bind {
+                    let def = self.library.names.primitives.get(&call.call.name.text);
+                    let def = def.and_then(|id| self.library.primitive(*id));
+                    self.bind(name, def.and_then(|def| def.result));
+                }
             }
             StepKind::Sequence { body, .. } => self.block(body),
             StepKind::If { condition, then, otherwise } => {
@@ -113,8 +129,10 @@ impl Writer<'_> {
                 self.block(body);
                 until.iter_mut().for_each(|until| self.condition(until));
             }
-            StepKind::Each { list, at_most, body, .. } => {
+            StepKind::Each { item, list, at_most, body } => {
                 self.term(list, None);
+                let ty = self.type_of(list).and_then(Ty::element);
+                self.bind(item, ty);
                 self.term(at_most, Some(Ty::INT));
                 self.block(body);
             }
@@ -139,7 +157,7 @@ impl Writer<'_> {
         }
     }
 
-    fn reaction(&self, reaction: &mut Reaction) {
+    fn reaction(&mut self, reaction: &mut Reaction) {
         match reaction {
             Reaction::Pause { within, .. } => self.optional(within.as_mut(), Ty::DURATION),
             Reaction::Restart { at_most, .. } => self.term(at_most, Some(Ty::INT)),
@@ -149,6 +167,14 @@ impl Writer<'_> {
             }
             Reaction::End(end) => self.end(end),
         }
+    }
+
+    /// Notes the type of a name.
+    fn bind(&mut self, name: &Name, ty: Option<Ty>) {
+        match ty {
+            Some(ty) => self.types.insert(name.text.clone(), ty),
+            None => self.types.remove(&name.text),
+        };
     }
 
     fn end(&self, end: &mut End) {
@@ -222,7 +248,8 @@ impl Writer<'_> {
                 Some(name) => params.iter().find(|(param, _)| *param == name.text),
                 None => params.get(position),
             };
-            self.term(&mut arg.value, param.map(|(_, ty)| *ty));
+            let ty = param.map(|(_, ty)| *ty).filter(|ty| ty.base != Base::Unknown);
+            self.term(&mut arg.value, ty);
             if let (Syntax::Json, None, Some((param, _))) = (self.form, &arg.name, param) {
                 arg.name = Some(Name { text: param.clone(), span: arg.span });
             }
@@ -245,9 +272,14 @@ impl Writer<'_> {
                 parts.iter_mut().for_each(|part| self.condition(part))
             }
             ExprKind::Compare(_, left, right) => {
-                let (left_ty, right_ty) = (self.type_of(left), self.type_of(right));
-                self.term(left, right_ty);
-                self.term(right, left_ty);
+                // The side that shows its own type is read first.
+                if needs_context(left, |name| self.types.contains_key(name)) {
+                    self.term(right, None);
+                    self.term(left, self.type_of(right));
+                } else {
+                    self.term(left, None);
+                    self.term(right, self.type_of(left));
+                }
             }
             ExprKind::Call(call) if call.name.text == "monitored" => {
                 for arg in &mut call.args {
@@ -298,13 +330,12 @@ impl Writer<'_> {
             ExprKind::Call(call) => self.call(call, self.observed(&call.name.text)),
             ExprKind::Field(of, _) => self.term(of, None),
             ExprKind::Arith(_, left, right) => {
-                let (left_ty, right_ty) = (self.type_of(left), self.type_of(right));
-                self.term(left, right_ty);
-                self.term(right, left_ty);
+                self.term(left, None);
+                self.term(right, None);
             }
             ExprKind::Template(parts) => {
                 // In braces stands the text syntax, in either syntax.
-                let inner = Writer { form: Syntax::Text, ..*self };
+                let inner = Writer { form: Syntax::Text, types: self.types.clone(), ..*self };
                 for part in parts {
                     if let TextPart::Value(value) = part {
                         inner.term(value, None);
@@ -323,13 +354,36 @@ impl Writer<'_> {
         }
     }
 
-    /// Type of an expression that shows its own type: a measure, a field, a quantity.
+    /// Type of an expression in a place without a type; `None` where it is not known.
     fn type_of(&self, expr: &Expr) -> Option<Ty> {
         match &expr.kind {
             ExprKind::Call(call) => {
                 let id = self.library.names.measures.get(&call.name.text);
-                let own = (call.name.text == COUNT).then_some(Ty::INT);
-                id.and_then(|id| self.library.measure(*id)).map(|def| def.result).or(own)
+                if let Some(def) = id.and_then(|id| self.library.measure(*id)) {
+                    return Some(def.result);
+                }
+                if call.name.text == COUNT {
+                    return Some(Ty::INT);
+                }
+                let list = call.args.first().filter(|_| call.name.text == FIRST)?;
+                self.type_of(&list.value)?.element()
+            }
+            ExprKind::Bool(_) => Some(Ty::BOOL),
+            ExprKind::Number(value) if value.fract() == 0.0 => Some(Ty::INT),
+            ExprKind::Number(_) => Some(Ty::plain(Base::Number)),
+            ExprKind::Text(_) | ExprKind::Template(_) => Some(Ty::TEXT),
+            ExprKind::Name(name) | ExprKind::Binding(name) => self.types.get(name).copied(),
+            ExprKind::List(items) => self.type_of(items.first()?).map(Ty::list),
+            ExprKind::Arith(op, left, right) => {
+                let (left_ty, right_ty) = (self.type_of(left)?, self.type_of(right)?);
+                let (left, right) = (dimension(left_ty)?, dimension(right_ty)?);
+                let result = match op {
+                    ArithOp::Add | ArithOp::Subtract => left,
+                    ArithOp::Multiply => left.times(right),
+                    ArithOp::Divide => left.over(right),
+                };
+                let plain = Ty::plain(Base::Number);
+                Some(if result == Dimension::NONE { plain } else { Ty::plain(Base::Quantity(result)) })
             }
             ExprKind::Field(_, name) => {
                 let own = self.library.kinds.iter().find_map(|def| def.fields.get(&name.text));
@@ -337,7 +391,10 @@ impl Writer<'_> {
                 own.copied().or_else(number).or((name.text == TEXT).then_some(Ty::TEXT))
             }
             ExprKind::Quantity(_, unit) => Some(Ty::plain(Base::Quantity(unit.dimension()))),
-            _ => None,
+            ExprKind::Plain(_) | ExprKind::Wrong(_) | ExprKind::Any => None,
+            ExprKind::Not(_) | ExprKind::All(_) | ExprKind::AnyOf(_) | ExprKind::Compare(..) => {
+                Some(Ty::BOOL)
+            }
         }
     }
 }
@@ -350,7 +407,11 @@ fn plain(text: &SmolStr, ty: Option<Ty>) -> ExprKind {
         Some(Base::Bool | Base::Int | Base::Number | Base::Text | Base::Pose | Base::Failure) => {
             ExprKind::Text(text.clone())
         }
-        Some(Base::Unknown) | None => {
+        Some(Base::Unknown) => ExprKind::Text(text.clone()),
+        None => {
+            if let Some((value, unit)) = parse_quantity(text) {
+                return ExprKind::Quantity(value, unit);
+            }
             let mut letters = text.chars();
             let head = letters.next().is_some_and(|first| first.is_alphabetic() || first == '_');
             if head && letters.all(|letter| letter.is_alphanumeric() || letter == '_') {
@@ -364,7 +425,10 @@ fn plain(text: &SmolStr, ty: Option<Ty>) -> ExprKind {
 
 fn quantity(value: f64, dimension: Dimension) -> ExprKind {
     if dimension == Dimension::NONE {
-        return ExprKind::Quantity(value * 100.0, Unit::Percent);
+        // The shorter of two spellings, if it is the same number.
+        let short = percent(value);
+        let is_same = Unit::Percent.to_si(short) == value;
+        return ExprKind::Quantity(if is_same { short } else { value * 100.0 }, Unit::Percent);
     }
     Unit::si(dimension).map_or(ExprKind::Number(value), |unit| ExprKind::Quantity(value, unit))
 }

@@ -77,6 +77,9 @@ impl Elaborator<'_> {
     pub(super) fn instead(&self, term: &Term, expr: &Expr, wanted: Ty) -> Option<String> {
         let is_known = |name: &str| self.scope.find(name).is_some() || self.entities.find(name).is_some();
         match (&expr.kind, wanted) {
+            (ExprKind::List(items), Ty { lists: 0, .. }) if items.len() == 1 => {
+                Some("the value without brackets".to_owned())
+            }
             (ExprKind::Text(text), Ty { base: Base::Entity(_), lists: 0 }) if is_known(text) => {
                 Some(format!("`{text}` without quotes"))
             }

@@ -47,7 +47,7 @@ impl Elaborator<'_> {
 
     fn compare(&mut self, op: CompareOp, left: &Expr, right: &Expr, whole: &Expr) -> Condition {
         // The side that says its own type is read first, so that it decides how the other is read.
-        let (a, b, left_ty, right_ty) = if self.needs_context(left) {
+        let (a, b, left_ty, right_ty) = if needs_context(left, |name| self.scope.find(name).is_some()) {
             let (b, right_ty) = self.term(right, None);
             let (a, left_ty) = self.term(left, Some(beside(right_ty)));
             (a, b, left_ty, right_ty)
@@ -215,14 +215,14 @@ impl Elaborator<'_> {
         }
         args.into_iter().map(Option::flatten).collect()
     }
+}
 
-    /// Returns whether the other side of a comparison decides how an expression is read.
-    fn needs_context(&self, expr: &Expr) -> bool {
-        match &expr.kind {
-            ExprKind::Name(name) => self.scope.find(name).is_none(),
-            ExprKind::Number(_) | ExprKind::Plain(_) | ExprKind::List(_) => true,
-            _ => false,
-        }
+/// Checks if the other side of a comparison decides how an expression is read.
+pub(crate) fn needs_context(expr: &Expr, is_bound: impl Fn(&SmolStr) -> bool) -> bool {
+    match &expr.kind {
+        ExprKind::Name(name) => !is_bound(name),
+        ExprKind::Number(_) | ExprKind::Plain(_) | ExprKind::List(_) => true,
+        _ => false,
     }
 }
 

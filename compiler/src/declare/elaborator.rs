@@ -306,7 +306,7 @@ pub(crate) const KIND: &str = "kind";
 pub(crate) const TEXT: &str = "text";
 
 /// Converts a ratio to percent, rounded to hide the noise of binary fractions.
-pub(super) fn percent(ratio: f64) -> f64 {
+pub(crate) fn percent(ratio: f64) -> f64 {
     (ratio * 1e11).round() / 1e9
 }
 

@@ -6,6 +6,7 @@ use smol_str::SmolStr;
 
 use super::gap::Unbound;
 use super::name::{article, list, near};
+use super::words;
 
 pub(crate) fn replace(span: Span, text: &str) -> Option<Fix> {
     Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span, text: text.to_owned() }] })
@@ -18,6 +19,11 @@ pub(crate) fn did_you_mean(near: Option<&SmolStr>) -> Option<String> {
 /// Place of a number of a pose, in messages.
 pub(crate) const POSE_NUMBER: &str = "a number of a pose";
 
+/// A text of the JSON syntax in a place without a type.
+fn literal(name: &str) -> String {
+    format!("{{\"literal\": \"{name}\"}}")
+}
+
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
@@ -26,6 +32,7 @@ motet_syntax::mistakes! {
         name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool,
         about: Option<About>,
         call: Option<String>,
+        is_quoted: bool,
     }
     message(m) {
         if m.wanted.is_empty() {
@@ -42,16 +49,27 @@ motet_syntax::mistakes! {
         if let Some(call) = &m.call {
             return Some(format!("write `{call}`"));
         }
+        let text = format!("write `{}` for a text", literal(&m.name));
+        if m.is_quoted && m.scene && m.near.is_none() {
+            return Some(text);
+        }
         did_you_mean(m.near.as_ref()).or_else(|| {
             if !m.scene {
                 let from = "entities come from `--scene`, or from `entity` in a domain";
-                Some(format!("there is no scene: {from}"))
+                let text = if m.is_quoted { format!("; {text}") } else { String::new() };
+                Some(format!("there is no scene: {from}{text}"))
             } else {
                 (!m.known.is_empty()).then(|| format!("there is {}", m.known))
             }
         })
     }
-    fix(m) { m.near.as_ref().filter(|_| m.call.is_none()).and_then(|near| replace(m.span, near)) }
+    fix(m) {
+        if m.is_quoted && m.scene && m.near.is_none() {
+            let edits = vec![Edit { span: m.span, text: literal(&m.name) }];
+            return Some(Fix { title: "write a text".to_owned(), edits });
+        }
+        m.near.as_ref().filter(|_| m.call.is_none()).and_then(|near| replace(m.span, near))
+    }
     about(m) { m.about.clone() }
 
     /// Use of a name that is not bound.
@@ -97,8 +115,16 @@ motet_syntax::mistakes! {
         name: SmolStr, near: Option<SmolStr>, wanted: &'static str, known: String,
     }
     message(m) { format!("there is no {} `{}`", m.wanted, m.name) }
-    help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known))) }
-    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+    help(m) {
+        if let Some(fluent) = words::opposite_of(&m.name) {
+            return Some(format!("write `not {fluent}(…)`"));
+        }
+        did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known)))
+    }
+    fix(m) {
+        let near = m.near.as_ref().filter(|_| words::opposite_of(&m.name).is_none());
+        near.and_then(|near| replace(m.span, near))
+    }
 
     /// The name of a type is unknown.
     UnknownType("M0209", Error) { name: SmolStr, near: Option<SmolStr> }
@@ -251,7 +277,14 @@ motet_syntax::mistakes! {
     /// Operands of different dimensions.
     WrongDimension("M0306", Error) { left: String, right: String, operator: &'static str }
     message(m) { format!("`{}` does not apply to {} and {}", m.operator, m.left, m.right) }
-    help(_m) { Some("use the same dimension on both sides".to_owned()) }
+    help(m) {
+        let is_text = m.operator == "+" && (m.left == "Text" || m.right == "Text");
+        Some(if is_text {
+            "write values in the braces of one text: `\"I see {count(cans)} cans\"`".to_owned()
+        } else {
+            "use the same dimension on both sides".to_owned()
+        })
+    }
 
     /// Unknown case of an enumeration.
     UnknownCase("M0307", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String }

@@ -81,18 +81,21 @@ impl Elaborator<'_> {
 
     /// Elaborates a list, and the type of its elements; `None` after an error.
     pub(crate) fn list_of(&mut self, list: &Expr, place: &str) -> Option<(Term, Ty)> {
-        let (term, ty) = self.term(list, None);
+        // In JSON the `$` may be missing.
+        let bound = match &list.kind {
+            ExprKind::Plain(name) => self.scope.find(name).map(|entry| entry.name.clone()),
+            _ => None,
+        };
+        let (term, ty) = match &bound {
+            Some(name) => (Term::Text(name.clone()), Ty::TEXT),
+            None => self.term(list, None),
+        };
         if ty.base == Base::Unknown && ty.lists == 0 {
             return None;
         }
         if let Some(element) = ty.element() {
             return Some((term, element));
         }
-        // In JSON the `$` may be missing.
-        let bound = match &list.kind {
-            ExprKind::Plain(name) => self.scope.find(name).map(|entry| &entry.name),
-            _ => None,
-        };
         let instead = bound.map(|name| format!("`\"${name}\"`"));
         self.report(WrongType {
             span: list.span,

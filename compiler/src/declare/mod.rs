@@ -5,10 +5,10 @@
 //! here, and the resolver of steps needs it again for the arguments of calls. Fed by the syntax front ends,
 //! read by every stage.
 
-mod arithmetic;
+pub(crate) mod arithmetic;
 mod builder;
 mod card;
-mod condition;
+pub(crate) mod condition;
 mod contract;
 pub(crate) mod elaborator;
 pub(crate) mod errors;

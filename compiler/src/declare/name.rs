@@ -1,6 +1,7 @@
 //! Resolution of names to bindings, entities and cases, and the diagnostics of unknown names.
 
 use motet_syntax::Span;
+use motet_syntax::words::is_bare_name;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
@@ -42,6 +43,10 @@ impl Elaborator<'_> {
             return match parse_quantity(text) {
                 Some((value, unit)) => {
                     (Term::Number(unit.to_si(value)), Ty::plain(Base::Quantity(unit.dimension())))
+                }
+                None if is_bare_name(text) => {
+                    self.unknown_name(text, span, wanted, NameNotation::Quoted);
+                    (Term::Unknown, Ty::UNKNOWN)
                 }
                 None => (Term::Text(text.clone()), Ty::TEXT),
             };
@@ -162,7 +167,8 @@ impl Elaborator<'_> {
                 };
                 let wanted = format!("`{}`", library.type_name(Ty::plain(Base::Entity(kind))));
                 let scene = self.has_scene;
-                self.report(UnknownName { span, name, near, wanted, known, scene, about, call });
+                let is_quoted = false;
+                self.report(UnknownName { span, name, near, wanted, known, scene, about, call, is_quoted });
             }
             Some(_) | None => {
                 let names = self.scope.names().map(SmolStr::as_str);
@@ -178,6 +184,7 @@ impl Elaborator<'_> {
                     scene,
                     about,
                     call,
+                    is_quoted: written == NameNotation::Quoted,
                 });
             }
         }

@@ -14,6 +14,8 @@ pub(crate) enum Meaning {
     Calls(Vec<MeantCall>),
     /// An ending of the policy.
     End(&'static str),
+    /// Waiting, for a time or until a condition holds.
+    Wait,
     /// No one step: what to write in the text syntax, and in JSON.
     Help(&'static str, &'static str),
 }
@@ -32,11 +34,26 @@ struct Words {
     calls: FxHashMap<String, Meaning>,
     /// Names of parameters, each with other names for it.
     parameters: Vec<(&'static str, Vec<String>)>,
+    /// Fluents, each with words for its opposite.
+    opposites: Vec<(&'static str, Vec<String>)>,
+    /// Keys beside the arguments of a call in JSON that only explain it.
+    prose: Vec<String>,
 }
 
 /// Meaning of a word in the place of a callee.
 pub(crate) fn meaning(word: &str) -> Option<Meaning> {
     words().calls.get(&folded(word)).cloned()
+}
+
+/// Checks for a key that only explains the call that it stands in.
+pub(crate) fn is_prose(key: &str) -> bool {
+    words().prose.contains(&folded(key))
+}
+
+/// The fluent whose opposite a word means.
+pub(crate) fn opposite_of(word: &str) -> Option<&'static str> {
+    let word = folded(word);
+    words().opposites.iter().find(|(_, others)| others.contains(&word)).map(|(fluent, _)| *fluent)
 }
 
 /// The one of several parameters that another name means; `None` if there is none, or more than one.
@@ -65,8 +82,17 @@ impl Words {
     /// Adds a row of the table. A row of another form is left out; a test of the table finds it.
     fn add(&mut self, line: &'static str) -> Option<()> {
         let (head, list) = line.rsplit_once(": ")?;
-        let (sort, head) = head.split_once(' ')?;
+        let (sort, head) = head.split_once(' ').unwrap_or((head, ""));
         let meaning = match sort {
+            "time" => Meaning::Wait,
+            "prose" => {
+                self.prose.extend(list.split_whitespace().map(folded));
+                return Some(());
+            }
+            "not" => {
+                self.opposites.push((head, list.split_whitespace().map(folded).collect()));
+                return Some(());
+            }
             "call" => {
                 let calls = head.split(", ").map(|call| match call.strip_prefix('~') {
                     Some(callee) => MeantCall { callee, is_unsure: true },
@@ -114,14 +140,17 @@ mod tests {
         };
         for row in &rows {
             let (head, list) = row.rsplit_once(": ").unwrap_or_else(|| panic!("{row}"));
-            let (sort, _) = head.split_once(' ').unwrap();
-            for word in list.split_whitespace().filter(|_| sort != "parameter") {
+            let sort = head.split(' ').next().unwrap();
+            for word in list.split_whitespace().filter(|_| !["parameter", "not", "prose"].contains(&sort)) {
                 assert!(!is_callee(word), "`{word}` is a callee itself");
                 match meaning(word).unwrap() {
                     Meaning::Calls(calls) => {
                         assert!(calls.iter().all(|call| is_callee(call.callee)), "{row}");
                     }
-                    Meaning::End(kind) => assert!(["done", "fail", "replan"].contains(&kind), "{row}"),
+                    Meaning::End(kind) => {
+                        assert!(["done", "fail", "replan", "cannot"].contains(&kind), "{row}");
+                    }
+                    Meaning::Wait => assert_eq!(sort, "time"),
                     Meaning::Help(text, json) => assert!(!text.is_empty() && !json.is_empty(), "{row}"),
                 }
             }
@@ -136,9 +165,12 @@ mod tests {
         for (name, _) in &words().parameters {
             assert!(params(name), "no parameter is named `{name}`");
         }
+        for (fluent, _) in &words().opposites {
+            assert!(library.names.fluents.contains_key(*fluent), "no fluent is named `{fluent}`");
+        }
         let listed = rows
             .iter()
-            .filter(|row| !row.starts_with("parameter"))
+            .filter(|row| !["parameter", "not ", "prose"].iter().any(|sort| row.starts_with(sort)))
             .flat_map(|row| row.rsplit_once(": ").unwrap().1.split_whitespace().map(folded));
         assert_eq!(words().calls.len(), listed.count(), "a word stands in one row only");
     }

@@ -236,7 +236,8 @@ impl Writer<'_> {
         let is_no_name = matches!(code.0, "M0302" | "M0310" | "M0315");
         for edit in fix.edits.iter_mut().filter(|_| !is_no_name) {
             let old = self.parsed.text.get(edit.span.range()).unwrap_or_default();
-            if is_step(old) && is_step(&edit.text) {
+            let is_object = edit.text.starts_with('{');
+            if is_object || is_step(old) && is_step(&edit.text) {
                 continue;
             }
             if old.starts_with(['{', '[']) || old.starts_with('"') && old.contains('\\') {

@@ -7,7 +7,7 @@ use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
-use super::errors::{NoMotion, NoResult, PoseForEntity, Recursion, UnknownPrimitive};
+use super::errors::{IgnoredArgument, NoMotion, NoResult, PoseForEntity, Recursion, UnknownPrimitive};
 use super::meant::step_to_write;
 use super::result::PolicyResult;
 use super::step::StepResolver;
@@ -60,14 +60,14 @@ impl StepResolver<'_> {
         }
         let step = step_to_write(call, library, self.elaborator.form);
         let provided = library.primitives.iter().filter(|def| def.provided).map(|def| def.name.as_str());
-        let near =
-            near(name, provided.chain(library.policies.iter().map(|policy| policy.name.text.as_str())));
-        self.elaborator.report(UnknownPrimitive {
-            span: call.call.name.span,
-            name: name.clone(),
-            step,
-            near,
-        });
+        let policies = library.policies.iter().map(|policy| policy.name.text.as_str());
+        let near = near(name, provided.chain(policies).filter(|known| self.may_mean(call, known)));
+        let cannot = match self.elaborator.form {
+            Syntax::Text => "cannot \"why\"",
+            Syntax::Json => "{\"end\": \"cannot\", \"why\": …}",
+        };
+        let (span, name) = (call.call.name.span, name.clone());
+        self.elaborator.report(UnknownPrimitive { span, name, step, near, cannot });
         // What it binds exists all the same, so that its uses are not reported as well.
         if let Some(bind) = &call.bind {
             let id = self.bind(bind.text.clone(), Ty::UNKNOWN, bind.span, None, None);
@@ -80,6 +80,19 @@ impl StepResolver<'_> {
             self.use_names(&arg.value);
         }
         self.unknown(span, position)
+    }
+
+    /// Checks if a callee may be a misspelt one: it takes the arguments, and is no other phrase with the same
+    /// verb, as `turn` and `turn_on` are.
+    fn may_mean(&self, call: &Do, known: &str) -> bool {
+        let library = self.elaborator.library;
+        let def = library.names.primitives.get(known).and_then(|id| library.primitive(*id));
+        let policy = || library.names.policies.get(known).and_then(|index| library.policies.get(*index));
+        let most = def.map(|def| def.params.len()).or_else(|| policy().map(|policy| policy.params.len()));
+        let is_phrase = |name: &str| name.trim_matches('_').contains(['_', '-']);
+        let name = call.call.name.text.as_str();
+        let is_other = is_phrase(name) && !is_phrase(known) && name.split(['_', '-']).next() == Some(known);
+        !is_other && most.is_none_or(|most| call.call.args.len() <= most)
     }
 
     /// Step with an error that was reported.
@@ -338,6 +351,11 @@ impl StepResolver<'_> {
                 None => position,
                 Some(name) => match formals.iter().position(|formal| *formal.name == name.text) {
                     Some(index) => index,
+                    None if self.is_prose(&name.text, arg, formals, call) => {
+                        let (span, name) = (name.span, name.text.clone());
+                        self.elaborator.report(IgnoredArgument { span, name, callee: callee.clone() });
+                        continue;
+                    }
                     None => {
                         unknown += 1;
                         let near = self.parameter_meant(call, &name.text, formals);
@@ -385,6 +403,19 @@ impl StepResolver<'_> {
             self.elaborator.report(MissingArgument { span: call.call.span, callee, param, ty });
         }
         given
+    }
+
+    /// Checks for a key of JSON that only explains the step, and is no other name of a parameter.
+    fn is_prose(&self, name: &str, arg: &Arg, formals: &[FormalParam<'_>], call: &Do) -> bool {
+        let is_label = matches!(arg.value.kind, ExprKind::Plain(_) | ExprKind::Number(_));
+        let is_given = |known: &str| {
+            call.call.args.iter().any(|arg| arg.name.as_ref().is_some_and(|name| name.text == known))
+        };
+        let free = formals.iter().map(|formal| formal.name.as_str()).filter(|param| !is_given(param));
+        self.elaborator.form == Syntax::Json
+            && is_label
+            && words::is_prose(name)
+            && words::parameter(name, free).is_none()
     }
 
     /// The parameter, or in JSON the key of a step, that an unknown name probably means.

@@ -1,5 +1,5 @@
-//! Diagnostics of unknown callees, and of names that a step must not bind (M0201, M0206, M0207, M0212,
-//! M0305, M0315, M0319), and of results of policies (M0316 to M0318).
+//! Diagnostics of unknown callees, of names that a step must not bind, of endings (M0201, M0206, M0207, M0212,
+//! M0218, M0305, M0315, M0319, M0912), and of results of policies (M0316 to M0318).
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
@@ -12,10 +12,12 @@ motet_syntax::mistakes! {
     pub(crate) const CODES;
 
     /// Call of an unknown primitive or policy.
-    UnknownPrimitive("M0201", Error) { name: SmolStr, step: Option<StepToWrite>, near: Option<SmolStr> }
+    UnknownPrimitive("M0201", Error) {
+        name: SmolStr, step: Option<StepToWrite>, near: Option<SmolStr>, cannot: &'static str,
+    }
     message(m) { format!("there is no primitive or policy `{}`", m.name) }
     help(m) {
-        let lists = || "`motet robots show` lists the primitives of the robot".to_owned();
+        let lists = || format!("write a primitive of the robot, or end with `{}`", m.cannot);
         let step = m.step.as_ref().map(|step| step.help.clone());
         step.or_else(|| did_you_mean(m.near.as_ref())).or_else(|| Some(lists()))
     }
@@ -95,6 +97,22 @@ motet_syntax::mistakes! {
     ReactionResult("M0318", Error) { }
     message(_m) { "a reaction gives a result that is known before its monitor".to_owned() }
     help(_m) { Some("give the value a name with `let` before the monitor, and give that".to_owned()) }
+
+    /// Key beside the arguments that only explains the step.
+    IgnoredArgument("M0218", Warning) { name: SmolStr, callee: SmolStr }
+    message(m) { format!("`{}` is no parameter of `{}`, and is ignored", m.name, m.callee) }
+    help(_m) { Some("write what a step is for in the text of the reply, or as a `say`".to_owned()) }
+
+    /// Ending of which nobody learns the reason.
+    NoReason("M0912", Warning) { kind: &'static str, is_text: bool }
+    message(m) { format!("`{}` without a reason tells the person nothing", m.kind) }
+    help(m) {
+        Some(if m.is_text {
+            format!("write `{} \"…\"` with a sentence", m.kind)
+        } else {
+            format!("write `{{\"end\": \"{}\", \"why\": \"…\"}}` with a sentence", m.kind)
+        })
+    }
 
     /// Manner of a step that moves nothing.
     NoMotion("M0315", Error) { callee: SmolStr, is_text: bool }

@@ -1,6 +1,7 @@
 //! Steps to write in place of a call of an unknown name, for words that models use.
 
-use motet_syntax::ast::{Arg, Do};
+use motet_syntax::ast::{Arg, Do, Expr, ExprKind};
+use motet_syntax::unit::{Dimension, Unit, parse_quantity};
 use motet_syntax::{Edit, Fix, Syntax, print};
 
 use super::errors::StepToWrite;
@@ -28,18 +29,38 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
             (!steps.is_empty()).then(|| StepToWrite { help: format!("write {}", steps.join(" or ")), fix })
         }
         Meaning::End(kind) => {
-            let step = match syntax {
-                Syntax::Text => kind.to_owned(),
-                Syntax::Json => format!("{{\"end\": \"{kind}\"}}"),
+            let why = match call.call.args.as_slice() {
+                [] => Some(None),
+                [arg] if kind != "done" => reason(arg, syntax).map(Some),
+                _ => None,
             };
-            let is_bare = call.call.args.is_empty()
-                && call.bind.is_none()
-                && call.manner.is_none()
-                && call.within.is_none()
-                && call.retry.is_none();
-            let help = format!("write `{step}`");
-            let edits = vec![Edit { span: call.call.span, text: step }];
-            let fix = is_bare.then(|| Fix { title: help.clone(), edits });
+            let step = |why: Option<&str>| match (syntax, why) {
+                (Syntax::Text, None) => kind.to_owned(),
+                (Syntax::Text, Some(why)) => format!("{kind} {why}"),
+                (Syntax::Json, None) => format!("{{\"end\": \"{kind}\"}}"),
+                (Syntax::Json, Some(why)) => format!("{{\"end\": \"{kind}\", \"why\": {why}}}"),
+            };
+            let help = format!("write `{}`", step(None));
+            let fix = why.filter(|_| is_plain(call)).map(|why| {
+                let edits = vec![Edit { span: call.call.span, text: step(why.as_deref()) }];
+                Fix { title: help.clone(), edits }
+            });
+            Some(StepToWrite { help, fix })
+        }
+        Meaning::Wait => {
+            let (time, until) = match syntax {
+                Syntax::Text => ("wait 5 s", "`wait until …`"),
+                Syntax::Json => ("{\"wait\": 5}", "`{\"wait\": …}`"),
+            };
+            let help = format!("write `{time}`, or {until} with a condition");
+            let written = match call.call.args.as_slice() {
+                [arg] => seconds(&arg.value, syntax),
+                _ => None,
+            };
+            let fix = written.filter(|_| is_plain(call)).map(|step| Fix {
+                title: format!("write `{step}`"),
+                edits: vec![Edit { span: call.call.span, text: step }],
+            });
             Some(StepToWrite { help, fix })
         }
         Meaning::Help(text, json) => {
@@ -47,6 +68,45 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
             Some(StepToWrite { help: format!("write {help}"), fix: None })
         }
     }
+}
+
+/// Checks if a call has nothing but arguments.
+fn is_plain(call: &Do) -> bool {
+    call.bind.is_none() && call.manner.is_none() && call.within.is_none() && call.retry.is_none()
+}
+
+/// The reason of an ending that is written as a call: a text.
+fn reason(arg: &Arg, syntax: Syntax) -> Option<String> {
+    let is_reason = arg.name.as_ref().is_none_or(|name| REASONS.contains(&name.text.as_str()));
+    match (&arg.value.kind, syntax) {
+        _ if !is_reason => None,
+        (ExprKind::Text(_) | ExprKind::Template(_), Syntax::Text) => Some(print::expression(&arg.value)),
+        (ExprKind::Plain(text), Syntax::Json) => {
+            Some(format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"")))
+        }
+        _ => None,
+    }
+}
+
+/// Names of the reason of an ending.
+const REASONS: [&str; 5] = ["why", "reason", "because", "message", "text"];
+
+/// The step that waits for a time that is written as the argument of a call.
+fn seconds(time: &Expr, syntax: Syntax) -> Option<String> {
+    let (value, unit) = match &time.kind {
+        ExprKind::Number(value) => (*value, Unit::Second),
+        ExprKind::Quantity(value, unit) => (*value, *unit),
+        ExprKind::Plain(text) => parse_quantity(text)?,
+        _ => return None,
+    };
+    if unit.dimension() != Dimension::DURATION {
+        return None;
+    }
+    Some(match syntax {
+        Syntax::Text => format!("wait {value} {}", unit.symbol()),
+        Syntax::Json if unit == Unit::Second => format!("{{\"wait\": {value}}}"),
+        Syntax::Json => format!("{{\"wait\": \"{value} {}\"}}", unit.symbol()),
+    })
 }
 
 /// Parameter of a callee.

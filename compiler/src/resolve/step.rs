@@ -4,12 +4,12 @@ use motet_syntax::ast::{
     Block, Catch, CatchOn, CompareOp, End, EndKind, Expr, Keep, KeepKind, Name, Policy, Reaction, Step,
     StepKind, When,
 };
-use motet_syntax::{Diagnostic, Span};
+use motet_syntax::{Diagnostic, Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::ResolvedStep;
-use super::errors::{Shadows, TooManySteps};
+use super::errors::{NoReason, Shadows, TooManySteps};
 use super::result::{PolicyResult, stands_for_itself};
 use super::way::{Fork, without_value};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
@@ -411,6 +411,15 @@ impl<'a> StepResolver<'a> {
     }
 
     fn why(&mut self, end: &End) -> Option<Term> {
+        let is_told = match end.kind {
+            EndKind::Done | EndKind::Replan => true,
+            EndKind::Fail | EndKind::Cannot => end.why.is_some() || self.inline.is_some(),
+        };
+        if !is_told {
+            let kind = if end.kind == EndKind::Fail { "fail" } else { "cannot" };
+            let is_text = self.elaborator.form == Syntax::Text;
+            self.elaborator.report(NoReason { span: end.span, kind, is_text });
+        }
         let wanted = Expected { ty: Ty::TEXT, place: ValueRole::Named("the reason of an ending") };
         end.why.as_ref().map(|why| self.elaborator.term_of(why, wanted))
     }

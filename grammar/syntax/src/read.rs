@@ -10,7 +10,7 @@ use crate::errors::{IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
 use crate::located::Located;
 use crate::source::{FileId, Source, Span, Syntax};
 use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
-use crate::words::DECLARATIONS;
+use crate::words::{DECLARATIONS, STEP_WORDS};
 use crate::{json, text};
 
 /// A document after reading, with its diagnostics.
@@ -173,9 +173,11 @@ fn locate(text: &str) -> Reply {
         return part(text, start, end, start, end);
     }
     let is_word = |token: Token<'_>| token.kind == TokenKind::Word;
-    let reads_on =
-        is_word(first) && second.is_some_and(|token| is_word(token) || matches!(token.text, "," | "'" | "."));
-    if reads_on && !text.contains('{') { Reply::Prose } else { Reply::Whole }
+    let goes_on = |token: Token<'_>| is_word(token) || matches!(token.text, "," | "'" | "." | "!" | "?");
+    let is_listed = matches!(first.text, "-" | "*" | "#") || first.kind == TokenKind::Number;
+    let reads_on = (is_word(first) || is_listed) && second.is_some_and(goes_on);
+    let opens_block = text.trim_start().lines().next().is_some_and(|line| line.contains('{'));
+    if reads_on && !opens_block && !STEP_WORDS.contains(&first.text) { Reply::Prose } else { Reply::Whole }
 }
 
 /// `policy fetch`: a word of a declaration and what must follow it.

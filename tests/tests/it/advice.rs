@@ -242,3 +242,64 @@ fn diagnostics_labels_stand_under_their_places() {
     assert!(["parallel", "open(", "close("].iter().all(|place| "─┬".contains(at(place))), "{shown}");
     assert_eq!(at(" { open"), ' ', "{shown}");
 }
+
+/// The document after the safe fixes.
+fn mended(document: &str) -> String {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    let limits = motet_compiler::fix::FixLimits::safe(10);
+    motet_compiler::fix::fix(&session, &Source::new("p", document), Default::default(), limits)
+        .text
+        .to_string()
+}
+
+#[test]
+fn diagnostics_words_lead_to_what_exists() {
+    let unknown =
+        |name: &str, help: &str| [format!("M0201: there is no primitive or policy `{name}`; write {help}")];
+    let call = |call: &str, help: &str| {
+        let name = call.split('(').next().unwrap();
+        let expected = unknown(name, help);
+        text(call, &expected.each_ref().map(String::as_str));
+    };
+    call("sleep(5)", "`wait 5 s`, or `wait until …` with a condition");
+    call("juggle()", "a primitive of the robot, or end with `cannot \"why\"`");
+    call("turn_on(counter)", "`cannot \"…\"`, since the robot has no such step");
+    call("go_home()", "`go(start)` to drive back, or `home()` for the arm");
+    call("insert(mug_1, fridge_1)", "`place(object: …, on: …)`");
+    let expected =
+        unknown("juggle", r#"a primitive of the robot, or end with `{"end": "cannot", "why": …}`"#);
+    json(r#"{"do": "juggle"}"#, &expected.each_ref().map(String::as_str));
+    text("if closed(fridge_1) { home() }", &["M0208: there is no fluent `closed`; write `not open(…)`"]);
+    let said = "M0306: `+` does not apply to Text and Text; write values in the braces of one text: \
+                `\"I see {count(cans)} cans\"`";
+    text("say(\"a\" + \"b\")", &[said]);
+    json(
+        r#"{"do": "go", "to": ["user"]}"#,
+        &["M0301: `to` of `go` takes an `Entity`, not a `List<Person>`; write the value without brackets"],
+    );
+    json(r#"{"do": "say", "text": "x", "comment": "be polite", "step": 1}"#, &[]);
+    let all = r#"{"do": "detect_all", "what": "mug", "as": "xs"}"#;
+    json(&format!(r#"{DETECT}, {all}, {{"do": "inspect", "what": "$xs[0]"}}"#), &[]);
+}
+
+#[test]
+fn diagnostics_waits_and_endings_written_as_calls_are_mended() {
+    for (step, written) in [
+        ("sleep(5)", "wait 5 s"),
+        ("sleep(200 ms)", "wait 200 ms"),
+        ("cannot_do()", "cannot_do()"),
+        ("refuse(\"I have no arm.\")", "cannot \"I have no arm.\""),
+    ] {
+        let text = mended(&format!("policy p for hsr {{\n    {step}\n}}\n"));
+        assert!(text.contains(written), "{step}: {text}");
+    }
+    for (step, written) in [
+        (r#"{"do": "sleep", "seconds": 3}"#, r#"{"wait": 3}"#),
+        (r#"{"do": "wait", "time": "200 ms"}"#, r#"{"wait": "200 ms"}"#),
+        (r#"{"do": "cannot", "why": "a \"b\""}"#, r#"{"end": "cannot", "why": "a \"b\""}"#),
+    ] {
+        let text = mended(&format!(r#"{{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{step}]}}"#));
+        assert!(text.contains(written), "{step}: {text}");
+    }
+}

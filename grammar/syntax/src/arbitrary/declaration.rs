@@ -157,7 +157,7 @@ impl TreeGenerator<'_> {
         match self.choice.below(6) {
             0 => StepKind::End(self.end()),
             2 => {
-                let mut value = self.term(2);
+                let mut value = self.untyped(2);
                 // A lone call is a step that calls.
                 if matches!(value.kind, ExprKind::Call(_)) {
                     value.kind = ExprKind::Bool(true);
@@ -231,7 +231,7 @@ impl TreeGenerator<'_> {
                 until: self.maybe(|it| it.condition(3)),
             },
             5 => {
-                let (list, at_most) = (self.term(2), self.count());
+                let (list, at_most) = (self.untyped(2), self.count());
                 let item = self.choice.bound();
                 self.scope.push(item.text.clone());
                 let body = self.block(depth);

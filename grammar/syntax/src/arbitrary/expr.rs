@@ -12,6 +12,8 @@ pub(super) enum TermPosition {
     Term,
     /// An argument of a fluent or a measure, where `any` is a word of its own.
     FluentArg,
+    /// A place where no type is expected: in JSON a quantity has its unit, and a text is no plain string.
+    Untyped,
 }
 
 impl TreeGenerator<'_> {
@@ -26,7 +28,7 @@ impl TreeGenerator<'_> {
             1 => ExprKind::Bool(self.choice.is_heads()),
             2 => self.bound_or_else(|_| ExprKind::Bool(true)),
             3 => {
-                let of = Box::new(self.term(0));
+                let of = Box::new(self.untyped(0));
                 ExprKind::Field(of, self.choice.word())
             }
             4 => ExprKind::Not(Box::new(self.condition(depth - 1))),
@@ -35,7 +37,9 @@ impl TreeGenerator<'_> {
             _ => {
                 use CompareOp::{AtLeast, AtMost, Equal, Less, More, Unequal};
                 let op = self.choice.of(&[Less, Equal, Unequal, AtMost, More, AtLeast], Less);
-                ExprKind::Compare(op, Box::new(self.term(depth - 1)), Box::new(self.term(depth - 1)))
+                let left = self.term(depth - 1);
+                let right = if left.shows_no_type() { self.untyped(depth - 1) } else { self.term(depth - 1) };
+                ExprKind::Compare(op, Box::new(left), Box::new(right))
             }
         };
         self.expr(kind)
@@ -45,39 +49,46 @@ impl TreeGenerator<'_> {
         self.term_in(TermPosition::Term, depth)
     }
 
+    pub(super) fn untyped(&mut self, depth: usize) -> Expr {
+        self.term_in(TermPosition::Untyped, depth)
+    }
+
     fn term_in(&mut self, place: TermPosition, depth: usize) -> Expr {
         let leaf = depth == 0;
         let kind = match self.choice.below(if leaf { 7 } else { 12 }) {
             0 => self.name_in(place),
             1 => ExprKind::Number(self.choice.number()),
-            2 => self.quantity(),
+            2 => self.quantity(place),
             3 if depth > 0 && self.choice.is_heads() => self.template(depth - 1),
-            3 => self.literal(),
+            3 => self.literal(place),
             4 => ExprKind::Bool(self.choice.is_heads()),
             5 => self.bound_or_else(|it| it.name_in(place)),
             6 if place == TermPosition::FluentArg => ExprKind::Any,
             6 => self.name_in(place),
             7 => ExprKind::Call(self.fluent(depth - 1)),
             8 => {
-                let of = Box::new(self.term(depth - 1));
+                let of = Box::new(self.untyped(depth - 1));
                 ExprKind::Field(of, self.choice.word())
             }
+            9 if place == TermPosition::Untyped => ExprKind::List(self.some(0, |it| it.untyped(depth - 1))),
             9 => ExprKind::List(self.some(0, |it| it.term(depth - 1))),
             10 => ExprKind::Call(self.pose(depth - 1)),
             _ => {
                 use ArithOp::{Add, Divide, Multiply, Subtract};
                 let op = self.choice.of(&[Add, Subtract, Multiply, Divide], Add);
-                ExprKind::Arith(op, Box::new(self.term(depth - 1)), Box::new(self.term(depth - 1)))
+                ExprKind::Arith(op, Box::new(self.untyped(depth - 1)), Box::new(self.untyped(depth - 1)))
             }
         };
         self.expr(kind)
     }
 
     /// A name that nothing binds; in JSON never `any` where that is a word.
-    fn name_in(&mut self, _place: TermPosition) -> ExprKind {
+    fn name_in(&mut self, place: TermPosition) -> ExprKind {
         let name = self.choice.name_text();
         match self.flavor {
             Flavor::Text => ExprKind::Name(name),
+            // In the text syntax a string with blanks is a text.
+            Flavor::Json if place == TermPosition::Untyped && name.contains(' ') => ExprKind::Text(name),
             Flavor::Json => ExprKind::Plain(name),
         }
     }
@@ -91,14 +102,14 @@ impl TreeGenerator<'_> {
         }
     }
 
-    /// A quantity; in JSON a string with a unit that is not the SI one, since that would be a bare number.
-    fn quantity(&mut self) -> ExprKind {
+    /// A quantity; in JSON a bare number in place of the SI unit, where a type is expected.
+    fn quantity(&mut self, place: TermPosition) -> ExprKind {
         let value = self.choice.number();
         let unit = self.choice.of(Unit::ALL, Unit::Metre);
         let is_si = unit.dimension() != Dimension::NONE && Unit::si(unit.dimension()) == Some(unit);
         match self.flavor {
             Flavor::Text => ExprKind::Quantity(value, unit),
-            Flavor::Json if is_si => ExprKind::Number(value),
+            Flavor::Json if is_si && place != TermPosition::Untyped => ExprKind::Number(value),
             Flavor::Json => {
                 let quantity = self.expr(ExprKind::Quantity(value, unit));
                 ExprKind::Plain(crate::print::expression(&quantity).into())
@@ -118,10 +129,11 @@ impl TreeGenerator<'_> {
     }
 
     /// A text; in JSON one that could be nothing else.
-    fn literal(&mut self) -> ExprKind {
+    fn literal(&mut self, place: TermPosition) -> ExprKind {
         let text = self.choice.text();
         match self.flavor {
             Flavor::Text => ExprKind::Text(text),
+            Flavor::Json if place == TermPosition::Untyped => ExprKind::Text(text),
             Flavor::Json if text.starts_with('$') => ExprKind::Text(text),
             Flavor::Json => ExprKind::Plain(format_smolstr!("the {text}")),
         }

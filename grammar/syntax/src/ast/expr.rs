@@ -79,6 +79,19 @@ impl Expr {
             _ => None,
         }
     }
+
+    /// Checks if JSON writes an expression as a bare number, a plain string or a list, of which only the
+    /// place shows the type.
+    pub(crate) fn shows_no_type(&self) -> bool {
+        matches!(
+            self.kind,
+            ExprKind::Number(_)
+                | ExprKind::Quantity(..)
+                | ExprKind::Text(_)
+                | ExprKind::Plain(_)
+                | ExprKind::List(_)
+        )
+    }
 }
 
 /// A name applied to arguments: a primitive, a sub-policy, a fluent, a measure or a motion.

@@ -191,6 +191,7 @@ crate::mistakes! {
     ReadShape("M0122", Note) { written: String, read: String, more: usize, fix: Fix }
     message(m) {
         match m.more {
+            0 if m.written.contains("`, `") => format!("{} are read as {}", m.written, m.read),
             0 => format!("{} is read as {}", m.written, m.read),
             more => format!("{} is read as {}, here and {more} more times", m.written, m.read),
         }

@@ -35,7 +35,9 @@ impl Converter {
         let origin = if is_plain { Origin::At(self.file, span.start + 1) } else { Origin::Within(span) };
         let (expr, found) = text::parse_expr(&text, origin, level.saturating_sub(1));
         // What is no condition that begins with a name may be a name with blanks.
-        if is_lone && !found.is_empty() {
+        let is_written =
+            text.contains(['=', '<', '>', '(', ')', '[', ']', '\'', '"']) || text.contains(" is ");
+        if is_lone && !is_written && !found.is_empty() {
             return self.term(Spanned { value: Term::Text(text), span }, level);
         }
         self.found.extend(found);
@@ -150,8 +152,23 @@ impl Converter {
                 other => other,
             },
             Some(rest) if rest.starts_with('$') => self.template(rest.into(), span, 1, level),
-            Some(rest) => ExprKind::Binding(self.name(Spanned { value: SmolStr::new(rest), span }).text),
+            Some(rest) => match self.of_binding(&text, span, level) {
+                Some(kind) => kind,
+                None => ExprKind::Binding(self.name(Spanned { value: SmolStr::new(rest), span }).text),
+            },
         }
+    }
+
+    /// A term in the text syntax that begins with a binding: `"$xs[0]"`, `"$mug.mass"`, `"$first(xs)"`.
+    fn of_binding(&mut self, text: &str, span: Span, level: usize) -> Option<ExprKind> {
+        if !text.contains(['[', '(', '.']) {
+            return None;
+        }
+        let call = text.strip_prefix('$').filter(|rest| rest.contains('('));
+        let (expr, found) =
+            text::parse_expr(call.unwrap_or(text), Origin::Within(span), level.saturating_sub(1));
+        let kind = expr.filter(|_| found.is_empty())?.kind;
+        matches!(kind, ExprKind::Call(_) | ExprKind::Field(..)).then_some(kind)
     }
 
     /// A text behind so many bytes of its string.
@@ -199,6 +216,7 @@ impl Converter {
                 let args = values.map(|value| Arg { name: None, span: value.span, value }).collect();
                 ExprKind::Call(Call { name: ast::Name { text: ast::POSE.into(), span }, args, span })
             }
+            Form::Literal(text) => self.template(text.value, text.span, 0, level),
         }
     }
 
@@ -265,7 +283,11 @@ impl Converter {
             } else {
                 self.term(value, level + 1)
             };
-            converted.push(Arg { name: Some(self.name(key)), value, span });
+            // A place in the order of the parameters, as the printer writes it.
+            let is_place = key.value.strip_prefix("arg").and_then(|place| place.parse().ok())
+                == Some(converted.len() + 1);
+            let name = (!is_place).then(|| self.name(key));
+            converted.push(Arg { name, value, span });
         }
         Call { name: self.name(name), args: converted, span }
     }

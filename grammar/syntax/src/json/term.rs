@@ -20,7 +20,7 @@ pub(crate) enum Term {
     Bool(bool),
     /// `0.5`: a number, in SI units where a quantity is meant.
     Number(f64),
-    /// `"$mug"`, `"mug_1"`, `"20 cm"`, `"red mug"`
+    /// `"$mug"`, `"mug_1"`, `"20 cm"`; where a text is expected, `"red mug"`
     Text(SmolStr),
     /// A list: `["$a", "$b"]`.
     List(Vec<Spanned<Term>>),
@@ -60,6 +60,8 @@ pub(crate) enum Form {
     Divide(Pair),
     /// A pose in the map: x, y and yaw, or x, y, z and yaw.
     Pose(Vec<Spanned<Term>>),
+    /// A text, where a plain string could be a name or a quantity.
+    Literal(Spanned<SmolStr>),
     /// A fluent that holds.
     #[schemars(untagged)]
     Is(Is),
@@ -273,6 +275,7 @@ impl Serialize for Form {
             Self::Multiply(pair) => one(serializer, "multiply", pair),
             Self::Divide(pair) => one(serializer, "divide", pair),
             Self::Pose(numbers) => one(serializer, "pose", numbers),
+            Self::Literal(text) => one(serializer, "literal", text),
         }
     }
 }

@@ -313,7 +313,7 @@ pub(crate) type Keeps = Spanned<Vec<Lenient<Spanned<Kept>>>>;
 /// Rule of where the robot may not go; its first key names the form.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-#[schemars(rename = "Kept", untagged)]
+#[schemars(rename = "Rule", untagged)]
 pub(crate) enum Kept {
     /// A zone that nothing of the robot enters.
     OutOf(OutOf),

@@ -4,6 +4,8 @@
 //! in an SI unit is written as a number, any other as a string with its unit. The compiler names arguments
 //! before it prints. A condition with an argument that still has no name is written as a string in the text
 //! syntax; in a step such an argument is written under `arg1`, `arg2`, … by its position.
+//!
+//! Where no type is expected, nothing is left to the type: a quantity has its unit, and a text is an object.
 
 use rustc_hash::FxHashSet;
 use serde_json::Value;
@@ -31,6 +33,15 @@ pub fn policy_json(policy: &Policy) -> String {
 pub(super) fn call(step: &Do) -> String {
     let mut translation = WireTranslation { scope: FxHashSet::default() };
     one_line(&serde_json::to_value(translation.call_step(step)).unwrap_or_default())
+}
+
+/// Steps in the JSON syntax, on one line, without brackets around them.
+pub(crate) fn json_steps(block: &Block) -> String {
+    let mut translation = WireTranslation { scope: FxHashSet::default() };
+    let steps =
+        block.steps.iter().map(|step| serde_json::to_value(translation.step(step)).unwrap_or_default());
+    let steps: Vec<String> = steps.map(|step| one_line(&step)).collect();
+    steps.join(", ")
 }
 
 /// A policy as the wire types of the JSON syntax. Spans are left empty.
@@ -79,7 +90,7 @@ impl WireTranslation {
         match &step.kind {
             StepKind::Do(step) => wire::Step::Do(self.call_step(step)),
             StepKind::Let { name: bound, value } => {
-                let be = self.term(value).into();
+                let be = self.untyped(value).into();
                 self.scope.insert(bound.text.clone());
                 wire::Step::Let(Box::new(wire::Let { r#let: name(bound), be }))
             }
@@ -120,7 +131,7 @@ impl WireTranslation {
                 finally: None,
             })),
             StepKind::Each { item, list, at_most, body } => {
-                let (r#in, at_most) = (self.term(list).into(), self.count(at_most));
+                let (r#in, at_most) = (self.untyped(list).into(), self.count(at_most));
                 self.scope.insert(item.text.clone());
                 let steps = self.block(body);
                 let each = name(item);
@@ -272,13 +283,30 @@ impl WireTranslation {
         Count(self.term(expr).into())
     }
 
+    /// A term of a known type, which decides how a bare number or a plain string is read.
     fn term(&mut self, expr: &Expr) -> Term {
+        self.value(expr, Expectation::Type)
+    }
+
+    /// A term that shows its own type.
+    fn untyped(&mut self, expr: &Expr) -> Term {
+        self.value(expr, Expectation::Nothing)
+    }
+
+    fn value(&mut self, expr: &Expr, expected: Expectation) -> Term {
         match &expr.kind {
             ExprKind::Bool(value) => Term::Bool(*value),
             ExprKind::Number(value) => Term::Number(*value),
             ExprKind::Quantity(value, unit) => {
                 let is_si = unit.dimension() != Dimension::NONE && Unit::si(unit.dimension()) == Some(*unit);
-                if is_si { Term::Number(*value) } else { Term::Text(super::expression(expr).into()) }
+                if is_si && expected == Expectation::Type {
+                    Term::Number(*value)
+                } else {
+                    Term::Text(super::expression(expr).into())
+                }
+            }
+            ExprKind::Text(text) if expected == Expectation::Nothing => {
+                Term::Form(Box::new(Form::Literal(SmolStr::new(braces(text)).into())))
             }
             ExprKind::Text(text) | ExprKind::Plain(text) => Term::Text(escaped(&braces(text))),
             ExprKind::Template(parts) => Term::Text(escaped(&template(parts))),
@@ -288,7 +316,7 @@ impl WireTranslation {
             ExprKind::Binding(bound) => binding(bound),
             ExprKind::Any => Term::Text("any".into()),
             ExprKind::List(members) => {
-                Term::List(members.iter().map(|member| self.term(member).into()).collect())
+                Term::List(members.iter().map(|member| self.value(member, expected).into()).collect())
             }
             ExprKind::Call(_)
             | ExprKind::Field(..)
@@ -307,21 +335,26 @@ impl WireTranslation {
                 Form::Pose(call.args.iter().map(|arg| self.term(&arg.value).into()).collect())
             }
             ExprKind::Call(call) => {
-                let (head, args) = (name(&call.name), self.args(call));
+                let is_of_list = matches!(call.name.text.as_str(), "count" | "first" | "is_empty");
+                let expected = if is_of_list { Expectation::Nothing } else { Expectation::Type };
+                let (head, args) = (name(&call.name), self.args_with(call, expected));
                 match kind {
                     ExprPosition::Condition => Form::Is(Is { is: head, args }),
                     ExprPosition::Term => Form::Get(Get { get: head, args, is: None, than: None }),
                 }
             }
             ExprKind::Field(of, field) => {
-                let (field, of) = (name(field), self.term(of).into());
+                let (field, of) = (name(field), self.untyped(of).into());
                 Form::Field(Field { field, of, is: None, than: None })
             }
             ExprKind::Not(inner) => Form::Not(self.condition(inner)),
             ExprKind::All(members) => Form::All(self.conditions(members)),
             ExprKind::AnyOf(members) => Form::Any(self.conditions(members)),
             ExprKind::Compare(op, left, right) => {
-                let pair = [self.term(left).into(), self.term(right).into()];
+                let is_plain = matches!(&left.kind, ExprKind::Name(name) if !self.scope.contains(name));
+                let right =
+                    if left.shows_no_type() || is_plain { self.untyped(right) } else { self.term(right) };
+                let pair = [self.term(left).into(), right.into()];
                 match op {
                     CompareOp::Equal => Form::Equal(pair),
                     CompareOp::Unequal => Form::Unequal(pair),
@@ -332,7 +365,7 @@ impl WireTranslation {
                 }
             }
             ExprKind::Arith(op, left, right) => {
-                let pair = [self.term(left).into(), self.term(right).into()];
+                let pair = [self.untyped(left).into(), self.untyped(right).into()];
                 match op {
                     crate::ast::ArithOp::Add => Form::Add(pair),
                     crate::ast::ArithOp::Subtract => Form::Subtract(pair),
@@ -360,13 +393,25 @@ impl WireTranslation {
     }
 
     fn args(&mut self, call: &Call) -> Args {
+        self.args_with(call, Expectation::Type)
+    }
+
+    fn args_with(&mut self, call: &Call, expected: Expectation) -> Args {
         let args = call.args.iter().enumerate().map(|(index, arg)| {
             let key =
                 arg.name.as_ref().map_or_else(|| format_smolstr!("arg{}", index + 1), |key| key.text.clone());
-            (Spanned::from(key), Spanned::from(self.term(&arg.value)))
+            (Spanned::from(key), Spanned::from(self.value(&arg.value, expected)))
         });
         Args(args.collect())
     }
+}
+
+/// Expectation at the place of a term.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Expectation {
+    /// A type, by the parameter or by the other side of a comparison.
+    Type,
+    Nothing,
 }
 
 /// Checks if a call in an expression has an argument without a name.

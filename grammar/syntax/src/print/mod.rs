@@ -7,6 +7,7 @@ mod json;
 mod step;
 mod writer;
 
+pub(crate) use json::json_steps;
 pub use json::policy_json;
 
 use crate::ast::{Do, Expr, ExprKind, File};

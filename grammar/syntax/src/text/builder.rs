@@ -130,6 +130,22 @@ impl Builder {
         Self { origin: Origin::At(file, 0), found: Vec::new(), steps: 0, gaps: Vec::new() }
     }
 
+    /// Steps without a policy around them, as a policy.
+    pub(super) fn bare_steps(&mut self, pair: Pair<'_>) -> Policy {
+        let span = self.span(&pair);
+        Policy {
+            doc: SmolStr::default(),
+            name: Name { text: SmolStr::new_static(super::UNNAMED), span: Span { end: span.start, ..span } },
+            params: Vec::new(),
+            robot: None,
+            achieves: None,
+            keeps: Vec::new(),
+            body: self.block(pair, 0),
+            cleanup: None,
+            span,
+        }
+    }
+
     /// The declarations of a `file` pair.
     pub(super) fn items(&mut self, file: Pair<'_>) -> File {
         let items = Children::of(file).filter_map(|pair| self.item(pair)).collect();

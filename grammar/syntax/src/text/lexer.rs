@@ -117,17 +117,54 @@ fn delimited(text: &str, mark: char, kind: TokenKind) -> (TokenKind, usize) {
     (TokenKind::Open, text.len())
 }
 
+/// Mistake that makes parsing hopeless or dangerous.
+pub(super) struct LexicalFault {
+    pub(super) diagnostic: Box<Diagnostic>,
+    /// Brackets at fault, if it is about brackets that do not match.
+    pub(super) bracket: Option<BracketFault>,
+}
+
+/// Brackets that do not match, by their offsets.
+#[derive(Clone, Copy)]
+pub(super) enum BracketFault {
+    /// A bracket that closes nothing inside of its block.
+    Surplus { at: usize },
+    /// A brace that closes nothing.
+    ClosesNothing { at: usize },
+    /// A bracket that is open where a brace begins or ends a block.
+    Unclosed { opening: usize, before: usize },
+    /// A bracket that is open where the text ends.
+    Ended { opening: usize },
+}
+
+impl From<Diagnostic> for LexicalFault {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self { diagnostic: Box::new(diagnostic), bracket: None }
+    }
+}
+
 /// Finds the first mistake that makes parsing hopeless or dangerous.
-pub(crate) fn check(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
+pub(super) fn check(text: &str, file: FileId) -> Result<(), LexicalFault> {
     let mut open: Vec<Token<'_>> = Vec::with_capacity(MAX_NESTING);
     let (mut count, mut previous) = (0, "");
+    // First token of the line, and the end of the last one.
+    let (mut line, mut end) = (0, 0);
     for token in tokens(text, 0) {
         count += usize::from(token.kind != TokenKind::Comment);
+        if text.get(end..token.start).is_some_and(|between| between.contains('\n')) {
+            line = token.start;
+        }
+        end = token.end();
         if count > MAX_TOKENS {
-            return Err(Box::new(TooManyTokens { span: token.span(file) }.into()));
+            return Err(Diagnostic::from(TooManyTokens { span: token.span(file) }).into());
         }
         match (token.kind, token.text) {
-            (TokenKind::Open, _) => return Err(Box::new(unended(token, file))),
+            (TokenKind::Open, _) => return Err(unended(token, file).into()),
+            (TokenKind::Mark, "{")
+                if open.last().is_some_and(|last| matches!(last.text, "(" | "[") && last.start >= line) =>
+            {
+                return Err(unclosed(open.last().copied().unwrap_or(token), token, file));
+            }
             (TokenKind::Mark, "{" | "(" | "[") => open.push(token),
             // `List<List<…>>`; elsewhere `<` compares.
             (TokenKind::Mark, "<") if previous == "List" => open.push(token),
@@ -141,13 +178,13 @@ pub(crate) fn check(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
             (_, _) => {}
         }
         if open.len() > MAX_NESTING {
-            return Err(Box::new(TooDeep { span: token.span(file), limit: MAX_NESTING }.into()));
+            return Err(Diagnostic::from(TooDeep { span: token.span(file), limit: MAX_NESTING }).into());
         }
         previous = token.text;
     }
     if count == 0 {
         let span = Span::new(file, 0, 0);
-        return Err(Box::new(Empty { span, wanted: DocumentKind::Policy }.into()));
+        return Err(Diagnostic::from(Empty { span, wanted: DocumentKind::Policy }).into());
     }
     open.retain(|opening| opening.text != "<");
     match open.last() {
@@ -156,15 +193,16 @@ pub(crate) fn check(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
             let end = text.trim_end().len();
             let closing = closing(opening.text);
             let message = format!("the text ends before the `{closing}` for a `{}`", opening.text);
-            Err(boxed(TextSyntax {
+            let mistake = TextSyntax {
                 related: Some(("opened here", opening.span(file))),
                 ..TextSyntax::new(Span::new(file, end, end), message, format!("close it with `{closing}`"))
-            }))
+            };
+            Err(fault(mistake, BracketFault::Ended { opening: opening.start }))
         }
     }
 }
 
-fn closing(opening: &str) -> &'static str {
+pub(super) fn closing(opening: &str) -> &'static str {
     match opening {
         "{" => "}",
         "(" => ")",
@@ -172,29 +210,49 @@ fn closing(opening: &str) -> &'static str {
     }
 }
 
-fn close(open: &mut Vec<Token<'_>>, token: Token<'_>, file: FileId) -> Result<(), Box<Diagnostic>> {
-    let span = token.span(file);
+fn close(open: &mut Vec<Token<'_>>, token: Token<'_>, file: FileId) -> Result<(), LexicalFault> {
+    let at = token.start;
     match open.pop() {
         Some(opening) if closing(opening.text) == token.text => Ok(()),
-        Some(opening) => {
-            let expected = closing(opening.text);
-            let message = format!("expected `{expected}`, found `{}`", token.text);
-            let help = format!("close the `{}` with `{expected}` first", opening.text);
-            Err(boxed(TextSyntax {
-                related: Some(("opened here", opening.span(file))),
-                ..TextSyntax::new(span, message, help)
-            }))
+        Some(opening) if opening.text == "{" => {
+            let message = format!("there is one `{}` too many", token.text);
+            let mistake = TextSyntax {
+                fix: Some(String::new()),
+                ..TextSyntax::new(token.span(file), message, "remove it")
+            };
+            Err(fault(mistake, BracketFault::Surplus { at }))
         }
+        Some(opening) => Err(unclosed(opening, token, file)),
         None => {
             let message = format!("nothing is open that this `{}` could close", token.text);
             let help = "remove it, or look for a bracket that closes too early above";
-            Err(boxed(TextSyntax::new(span, message, help)))
+            let mistake = TextSyntax::new(token.span(file), message, help);
+            let is_brace = token.text == "}";
+            let bracket =
+                if is_brace { BracketFault::ClosesNothing { at } } else { BracketFault::Surplus { at } };
+            Err(fault(mistake, bracket))
         }
     }
 }
 
-fn boxed(mistake: TextSyntax) -> Box<Diagnostic> {
-    Box::new(mistake.into())
+/// A bracket that another one may not follow.
+fn unclosed(opening: Token<'_>, token: Token<'_>, file: FileId) -> LexicalFault {
+    let expected = closing(opening.text);
+    let message = format!("expected `{expected}`, found `{}`", token.text);
+    let help = format!("close the `{}` with `{expected}` first", opening.text);
+    let mistake = TextSyntax {
+        related: Some(("opened here", opening.span(file))),
+        ..TextSyntax::new(token.span(file), message, help)
+    };
+    let bracket = BracketFault::Unclosed { opening: opening.start, before: token.start };
+    LexicalFault {
+        bracket: matches!(token.text, "{" | "}").then_some(bracket),
+        ..Diagnostic::from(mistake).into()
+    }
+}
+
+fn fault(mistake: TextSyntax, bracket: BracketFault) -> LexicalFault {
+    LexicalFault { bracket: Some(bracket), ..Diagnostic::from(mistake).into() }
 }
 
 fn unended(token: Token<'_>, file: FileId) -> Diagnostic {

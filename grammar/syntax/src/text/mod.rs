@@ -1,6 +1,7 @@
 //! The text front end: `motet.pest` parses, the builders in this folder make the AST with exact spans, and
 //! [`syntax_error`] puts what the grammar refuses into words.
 
+mod brackets;
 mod builder;
 mod expr;
 pub(crate) mod lexer;
@@ -12,8 +13,10 @@ pub(crate) mod template;
 use pest::Parser as _;
 
 use crate::ast;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Edit, Fix};
+use crate::errors::ReadShape;
 use crate::source::{FileId, Span};
+use crate::words;
 
 /// Parser that pest generates from the grammar.
 mod grammar {
@@ -31,42 +34,104 @@ use recover::Refusal;
 type Pair<'s> = pest::iterators::Pair<'s, Rule>;
 
 /// Parses a text of declarations and policies, with all of its syntax errors. The tree then holds what could
-/// be read; it is empty where a block lost a brace. O(bytes) without a syntax error.
+/// be read; it is empty where it is not clear which block a brace belongs to. O(bytes) without a mistake.
 pub(crate) fn parse(text: &str, file: FileId) -> (ast::File, Vec<Diagnostic>) {
-    let first = match parse_whole(text, file, Vec::new()) {
+    let parser = WholeParser { file, is_bare: begins_with_step(text) };
+    let first = match parser.parse(text, Vec::new()) {
         Ok(parsed) => return parsed,
         Err(refusal) => refusal,
     };
-    let recover::Recovered { rest, gaps, found } =
-        recover::recover(text, first, |rest| parse_whole(rest, file, Vec::new()).err());
-    let tree = rest.and_then(|rest| parse_whole(&rest, file, gaps).ok());
-    let (tree, more) = tree.unwrap_or_default();
-    let mut found: Vec<Diagnostic> = found.into_iter().chain(more).collect();
+    let Some(balanced) = brackets::balance(text, file) else { return parser.rest_of(text, first) };
+    let brackets::Balanced { text: mended, mut found, is_certain } = balanced;
+    let count = found.len();
+    let (tree, more) = match parser.parse(&mended, Vec::new()) {
+        Ok(parsed) => parsed,
+        Err(refusal) => parser.rest_of(&mended, refusal),
+    };
+    found.extend(more);
+    let mut found: Vec<Diagnostic> = found.into_iter().map(|found| brackets::within(text, found)).collect();
+    brackets::without_followers(text, &mut found, count);
     found.sort_by_key(|diagnostic| diagnostic.span.start);
-    (tree, found)
+    (if is_certain { tree } else { ast::File::default() }, found)
 }
 
-/// Parses a text that lacks what stood at `gaps`, and stops at the first syntax error.
-fn parse_whole(text: &str, file: FileId, gaps: Vec<usize>) -> Result<(ast::File, Vec<Diagnostic>), Refusal> {
-    // What the lexer refuses may stand anywhere.
-    lexer::check(text, file).map_err(|diagnostic| Refusal { diagnostic, is_between: true })?;
-    match MotetParser::parse(Rule::file, text) {
-        Ok(mut pairs) => {
-            let mut builder = builder::Builder::new(file);
-            builder.gaps = gaps;
-            let tree = pairs.next().map(|pair| builder.items(pair)).unwrap_or_default();
-            Ok((tree, builder.found))
-        }
-        Err(error) => Err(syntax_error::refusal(text, &error, file)),
+/// Checks if a text begins with a step where a declaration should be.
+fn begins_with_step(text: &str) -> bool {
+    let mut code = lexer::tokens(text, 0).filter(|token| token.kind != lexer::TokenKind::Comment);
+    let (Some(first), second) = (code.next(), code.next()) else { return false };
+    let is_call = second.is_some_and(|second| second.text == "(" && second.start == first.end());
+    first.kind == lexer::TokenKind::Word
+        && !words::DECLARATIONS.contains(&first.text)
+        && (is_call || words::STEP_WORDS.contains(&first.text))
+}
+
+/// Parser of whole texts: of declarations, or of steps alone.
+#[derive(Clone, Copy)]
+struct WholeParser {
+    file: FileId,
+    /// True for steps without a policy around them.
+    is_bare: bool,
+}
+
+impl WholeParser {
+    /// Parses what is left of a text around its errors.
+    fn rest_of(self, text: &str, first: Refusal) -> (ast::File, Vec<Diagnostic>) {
+        let recover::Recovered { rest, gaps, found } =
+            recover::recover(text, first, self.is_bare, |rest| self.parse(rest, Vec::new()).err());
+        let tree = rest.and_then(|rest| self.parse(&rest, gaps).ok());
+        let (tree, more) = tree.unwrap_or_default();
+        let mut found: Vec<Diagnostic> = found.into_iter().chain(more).collect();
+        found.sort_by_key(|diagnostic| diagnostic.span.start);
+        (tree, found)
     }
+
+    /// Parses a text that lacks what stood at `gaps`, and stops at the first syntax error.
+    fn parse(self, text: &str, gaps: Vec<usize>) -> Result<(ast::File, Vec<Diagnostic>), Refusal> {
+        let file = self.file;
+        // What the lexer refuses may stand anywhere.
+        lexer::check(text, file)
+            .map_err(|fault| Refusal { diagnostic: fault.diagnostic, is_between: true })?;
+        let rule = if self.is_bare { Rule::steps } else { Rule::file };
+        let mut pairs =
+            MotetParser::parse(rule, text).map_err(|error| syntax_error::refusal(text, &error, file))?;
+        let mut builder = builder::Builder::new(file);
+        builder.gaps = gaps;
+        let mut tree = ast::File::default();
+        match pairs.next() {
+            Some(pair) if self.is_bare => {
+                let policy = builder.bare_steps(pair);
+                builder.found.insert(0, bare(text, file));
+                tree.items.push(ast::Item::Policy(policy));
+            }
+            Some(pair) => tree = builder.items(pair),
+            None => {}
+        }
+        Ok((tree, builder.found))
+    }
+}
+
+/// Name of the policy around steps that have none.
+const UNNAMED: &str = "plan";
+
+/// The note that steps are read as a policy.
+fn bare(text: &str, file: FileId) -> Diagnostic {
+    let start = text.len() - text.trim_start().len();
+    let end = text.trim_end().len();
+    let mut code = lexer::tokens(text, 0).filter(|token| token.kind != lexer::TokenKind::Comment);
+    let first = code.next().map_or(Span::new(file, start, start), |token| token.span(file));
+    let edit = |at: usize, text: String| Edit { span: Span::new(file, at, at), text };
+    let edits = vec![edit(start, format!("policy {UNNAMED} {{\n")), edit(end, "\n}".into())];
+    let read = "a policy with these steps".to_owned();
+    let fix = Fix { title: format!("write {read}"), edits };
+    ReadShape { span: first, written: "a list of steps".into(), read, more: 0, fix }.into()
 }
 
 /// Parses one condition or term that stands at `origin` in another document, in `depth` blocks of it.
 pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<ast::Expr>, Vec<Diagnostic>) {
     let file = FileId::default();
     let moved = |diagnostic| (None, vec![origin.moved(diagnostic)]);
-    if let Err(diagnostic) = lexer::check(text, file) {
-        return moved(*diagnostic);
+    if let Err(fault) = lexer::check(text, file) {
+        return moved(*fault.diagnostic);
     }
     match MotetParser::parse(Rule::lone_expr, text) {
         Ok(mut pairs) => {

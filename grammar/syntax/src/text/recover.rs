@@ -29,11 +29,18 @@ pub(super) struct Recovered {
 }
 
 /// Looks for the errors behind the first one. `parse` returns the error of a text. O(errors × text).
-pub(super) fn recover(text: &str, first: Refusal, parse: impl Fn(&str) -> Option<Refusal>) -> Recovered {
+///
+/// Of steps without a policy `is_bare` is true.
+pub(super) fn recover(
+    text: &str,
+    first: Refusal,
+    is_bare: bool,
+    parse: impl Fn(&str) -> Option<Refusal>,
+) -> Recovered {
     let mut recovered = Recovered { rest: None, gaps: Vec::new(), found: Vec::new() };
     let mut rest = text.as_bytes().to_vec();
     let mut next = Some(first);
-    let (mut has_braces, mut blanked): (bool, Vec<Range<usize>>) = (false, Vec::new());
+    let mut blanked: Vec<Range<usize>> = Vec::new();
     while let Some(refusal) = next.take() {
         let at = refusal.diagnostic.span.start as usize;
         let is_told = recovered.found.iter().any(|told| told.span == refusal.diagnostic.span);
@@ -46,22 +53,40 @@ pub(super) fn recover(text: &str, first: Refusal, parse: impl Fn(&str) -> Option
             return recovered;
         }
         let Ok(before) = std::str::from_utf8(&rest) else { return recovered };
-        let Some(place) = blamed(before, &refusal).filter(|place| is_inside(before, place.start)) else {
+        let Some(place) = blamed(before, &refusal).filter(|place| is_bare || is_inside(before, place.start))
+        else {
             return recovered;
         };
-        let Some(place) = balanced(before, place) else { return recovered };
-        has_braces |= before.get(place.clone()).is_some_and(|part| part.contains(['{', '}']));
+        let head = head(before, place.clone());
+        let Some(place) = head.clone().or_else(|| balanced(before, place)) else { return recovered };
         for byte in rest.get_mut(place.clone()).into_iter().flatten().filter(|byte| **byte != b'\n') {
             *byte = b' ';
+        }
+        if head.is_some() {
+            // The block stays, under a condition that nobody knows. Its place is behind that of the gap.
+            let written = rest.get_mut(place.start + 1..).unwrap_or_default();
+            written.iter_mut().zip(UNKNOWN_HEAD).for_each(|(byte, letter)| *byte = *letter);
         }
         recovered.gaps.push(place.start);
         blanked.push(place);
         next = std::str::from_utf8(&rest).ok().and_then(&parse);
     }
     recovered.gaps.sort_unstable();
-    // A block that lost a brace is another block.
-    recovered.rest = String::from_utf8(rest).ok().filter(|_| !has_braces);
+    recovered.rest = String::from_utf8(rest).ok();
     recovered
+}
+
+/// Head of a block in place of one that cannot be read.
+const UNKNOWN_HEAD: &[u8] = b"if _ ";
+
+/// The head of a condition on a line that opens a block and has nothing behind its brace; `None` for another
+/// line, and where there is no room for [`UNKNOWN_HEAD`].
+fn head(text: &str, place: Range<usize>) -> Option<Range<usize>> {
+    let line = text.get(place.clone())?;
+    let before = line.strip_suffix('{')?;
+    let is_head = ["if ", "while ", "for "].iter().any(|word| before.starts_with(word));
+    let has_room = before.len() > UNKNOWN_HEAD.len() && !before.contains(['{', '}']);
+    (is_head && has_room).then_some(place.start..place.start + before.len())
 }
 
 /// The line that an error blames: its own, or the one before where that one does not end.

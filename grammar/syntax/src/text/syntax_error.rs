@@ -107,6 +107,10 @@ const HABITS: &[(&str, &str)] = &[
     ("match", "write `if c { … } else if d { … }`"),
     ("do", "write the call itself: `pick(mug)`"),
     ("call", "write the call itself: `pick(mug)`"),
+    ("sleep", "write `wait 5 s`"),
+    ("fast", "leave it out: only slower manners have a word, `slowly` and `gently`"),
+    ("quickly", "leave it out: only slower manners have a word, `slowly` and `gently`"),
+    ("carefully", "write `go(user) gently`"),
     ("slow", "write `go(user) slowly`, or `at 30 %`"),
     ("timeout", "write `within 20 s`"),
     ("deadline", "write `within 20 s`"),
@@ -212,7 +216,12 @@ impl<'t> ErrorContext<'t> {
             (_, "&&") => mend("write `and`", "and"),
             (_, "||") => mend("write `or`", "or"),
             (_, "!") => mend("write `not`", "not "),
+            (_, "=") if self.expects("`:`") => mend("an argument is named with `:`", ":"),
             (_, "=") if self.expects(OPERATOR) => mend("compare with `==`", "=="),
+            (_, ">") if self.expected == [Rule::ge] => mend("a rule has a least distance: write `>=`", ">="),
+            (_, "is") => say("a condition is a fluent such as `is_empty(xs)`, or a comparison with `==`"),
+            (_, "{") if before == "if" => say("a condition follows `if`: `if near(user) { … }`"),
+            (_, "for") if before == "wait" => mend("a time follows `wait`: `wait 5 s`", ""),
             (_, "'" | "‘" | "’" | "“" | "”") => {
                 say("texts stand in straight double quotes: `\"red mug\"`")
             }
@@ -322,6 +331,9 @@ impl<'t> ErrorContext<'t> {
 
 /// Phrase for the rules that could have continued.
 fn words(expected: &[Rule]) -> Option<String> {
+    if expected == [Rule::ge] {
+        return Some("`>=`".into());
+    }
     let mut labels: Vec<(u8, &'static str)> = expected.iter().filter_map(|rule| label(*rule)).collect();
     labels.sort_unstable();
     labels.dedup();

@@ -108,7 +108,7 @@ impl TextScanner {
             return Err("nothing stands in the braces".into());
         }
         let file = FileId::default();
-        lexer::check(text, file).map_err(|found| found.message)?;
+        lexer::check(text, file).map_err(|fault| fault.diagnostic.message)?;
         let mut pairs = MotetParser::parse(Rule::lone_expr, text)
             .map_err(|error| syntax_error::refusal(text, &error, file).diagnostic.message)?;
         let mut builder = Builder::new(file);

@@ -56,6 +56,67 @@ reports! {
     }
     while true { go(y) }
 "##;
+    a_bracket_too_many: r##"policy p {
+    go(user))
+    home
+    if x is None {
+        hom
+    }
+    if near(user) && lit() { go(x) }
+    let x =
+}
+"##;
+    a_missing_brace: r##"policy p {
+    go(user)
+    if near(user) {
+        home
+    say("Hello.")
+}
+"##;
+    a_missing_brace_before_the_outer_one: r##"policy p {
+    go(user)
+    if {
+}
+"##;
+    a_brace_too_many: r##"policy p {
+    if near(user) {
+        go(x)
+    }
+    }
+    home
+}
+"##;
+    a_missing_parenthesis_before_a_brace: r##"policy p {
+    if near(user {
+        home
+    }
+    go(x
+}
+"##;
+    steps_without_a_policy: r##"// The steps.
+go(user)
+inspect(mug_1)
+"##;
+    wrong_steps_without_a_policy: r##"go(user)
+home
+wait for 5 s
+"##;
+    prose_with_numbered_steps: r##"Sure! Here is the plan:
+
+1. Go to the kitchen {now}.
+2. Pick the mug.
+"##;
+    words_of_other_languages: r##"policy p {
+    go(target=user)
+    sleep 5 s
+    go(user) fast
+    keep distance(user) > 1 m { go(x) }
+}
+"##;
+    expression_strings_in_json: r##"{"motet": 1, "policy": "p", "steps": [
+    {"if": "$c3 == 'red'", "then": []}, {"if": "$xs is empty", "then": []},
+    {"keep": [5], "steps": []}
+]}"##;
     while_loop: r##"policy p {
     while true { go(y) }
 }

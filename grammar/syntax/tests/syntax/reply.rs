@@ -120,7 +120,6 @@ fn reply_does_not_take_broken_documents_for_prose() {
         &["M0102 ", "M0116 more"],
     );
     check("polcy p { go(a) }", None, &["M0101 polcy"]);
-    check("go(a)", None, &["M0101 go"]);
     check("I am sorry, I cannot do that.", None, &["M0119 I am sorry, I cannot do that."]);
     check("", None, &["M0115 "]);
     check("// only a comment", None, &["M0115 "]);

@@ -241,7 +241,144 @@ fn shapes_of_documents_are_policies() {
     check(
         r#"{"thought":"Go home.","motet":1,"policy":"plan","steps":[{"do":"home"}],"summary":"x"}"#,
         form,
-        &["`thought`, `summary` is read as prose, which is ignored"],
+        &["`thought`, `summary` are read as prose, which is ignored"],
+    );
+}
+
+#[test]
+fn shapes_of_handlers_hold_a_step() {
+    let handler =
+        r#"{"try": [{"do": "home"}], "catch": [{"on": ["any"], "steps": [{"do": "say", "text": "x"}]}]}"#;
+    let steps = "steps is read as a handler of any failure with these steps";
+    step(r#"{"try":[{"do":"home"}],"catch":[{"do":"say","text":"x"}]}"#, handler, steps);
+    step(r#"{"try":[{"do":"home"}],"catch":{"do":"say","text":"x"}}"#, handler, steps);
+    let whole = |step: &str| format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}]}}"#);
+    check(
+        &whole(r#"{"try":[{"do":"home"}],"except":[{"do":"say","text":"x"}]}"#),
+        &whole(handler),
+        &["the key `except` is read as `catch`", steps],
+    );
+    step(
+        r#"{"try":[{"do":"home"}],"catch":[{"do":"say","on":"any","text":"x"}]}"#,
+        handler,
+        r#"`{"do": …, "on": …, "text": …}` is read as a handler with this step"#,
+    );
+    step(
+        r#"{"try":[{"do":"home"}],"catch":[{"on":["any"],"do":"say","text":"x"}]}"#,
+        handler,
+        r#"`{"on": […], "do": …, "text": …}` is read as a handler with this step"#,
+    );
+}
+
+#[test]
+fn shapes_of_forms_are_known_by_their_word() {
+    let home = r#"[{"do": "home"}]"#;
+    let whole = |step: &str| format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}]}}"#);
+    let form = |shape: &str, form: &str, notes: &[&str]| check(&whole(shape), &whole(form), notes);
+    let choice = format!(r#"{{"if": "open(fridge_1)", "then": {home}}}"#);
+    let condition = "the key `condition` is read as `if`";
+    let (by_do, by_type) =
+        (r#"`{"do": "if"}` is read as `{"if": …}`"#, r#"`{"type": "if"}` is read as `{"if": …}`"#);
+    let shape = format!(r#"{{"do":"if","condition":"open(fridge_1)","then":{home}}}"#);
+    form(&shape, &choice, &[by_do, condition]);
+    let shape = format!(r#"{{"type":"if","condition":"open(fridge_1)","then":{home}}}"#);
+    form(&shape, &choice, &[by_type, condition]);
+    let shape = format!(r#"{{"type":"if","if":"open(fridge_1)","then":{home}}}"#);
+    form(&shape, &choice, &[by_type]);
+    let shape = format!(r#"{{"do":"repeat","times":3,"steps":{home}}}"#);
+    let repeat = format!(r#"{{"repeat": 3, "steps": {home}}}"#);
+    form(
+        &shape,
+        &repeat,
+        &[r#"`{"do": "repeat"}` is read as `{"repeat": …}`"#, "the key `times` is read as `repeat`"],
+    );
+    let shape = format!(r#"{{"for":"x","in":"$xs","at_most":2,"steps":{home}}}"#);
+    let each = format!(r#"{{"each": "x", "in": "$xs", "at_most": 2, "steps": {home}}}"#);
+    form(&shape, &each, &["the key `for` is read as `each`"]);
+    let shape = format!(r#"{{"steps":{home},"finally":{home}}}"#);
+    let group = format!(r#"{{"sequence": "steps", "steps": {home}, "finally": {home}}}"#);
+    form(&shape, &group, &[r#"`{"steps": […], "finally": […]}` is read as `{"sequence": "steps", …}`"#]);
+    let shape = format!(r#"{{"name":"tidy","steps":{home}}}"#);
+    let group = format!(r#"{{"sequence": "tidy", "steps": {home}}}"#);
+    form(&shape, &group, &["the key `name` is read as `sequence`"]);
+}
+
+#[test]
+fn shapes_of_parts_are_those_of_the_language() {
+    step(
+        r#"{"end":"cannot","reason":"no mug"}"#,
+        r#"{"end": "cannot", "why": "no mug"}"#,
+        "the key `reason` is read as `why`",
+    );
+    step(
+        r#"{"wait":"lit()","comment":"until it is light","step":2}"#,
+        r#"{"wait": "lit()"}"#,
+        "`comment`, `step` are read as prose, which is ignored",
+    );
+    let wait = r#"`{"seconds": …}` is read as what is awaited"#;
+    step(r#"{"wait":{"seconds":5}}"#, r#"{"wait": 5}"#, wait);
+    step(
+        r#"{"wait":{"until":"lit()"}}"#,
+        r#"{"wait": "lit()"}"#,
+        r#"`{"until": …}` is read as what is awaited"#,
+    );
+    let keep = r#"{"keep": [{"distance": "user", "at_least": "1 m"}], "steps": []}"#;
+    let whole = |step: &str| format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}]}}"#);
+    let rule = r#"`distance(user) >= 1 m` is read as `{"distance": "user", "at_least": "1 m"}`"#;
+    check(
+        &whole(r#"{"keep":"distance(user) >= 1 m","steps":[]}"#),
+        &whole(keep),
+        &["a single value is read as a list of one", rule],
+    );
+    step(r#"{"keep":["distance(user) >= 1 m"],"steps":[]}"#, keep, rule);
+    step(
+        r#"{"keep":["out of stairs"],"steps":[]}"#,
+        r#"{"keep": [{"out_of": "stairs"}], "steps": []}"#,
+        r#"`out of stairs` is read as `{"out_of": "stairs"}`"#,
+    );
+    step(r#""home""#, r#"{"do": "home"}"#, r#"`home` is read as `{"do": "home"}`"#);
+    step(
+        r#""go(user) slowly""#,
+        r#"{"do": "go", "arg1": "user", "manner": "slowly"}"#,
+        r#"`go(user) slowly` is read as `{"do": "go", "arg1": "user", "manner": "slowly"}`"#,
+    );
+}
+
+#[test]
+fn shapes_of_documents_may_be_in_other_objects() {
+    let form = r#"{"motet": 1, "policy": "plan", "steps": [{"do": "home"}]}"#;
+    check(
+        r#"{"policy":{"name":"plan","steps":[{"do":"home"}]}}"#,
+        form,
+        &[
+            r#"the policy is read as one with `"motet": 1`"#,
+            r#"`{"policy": {…}}` is read as the policy in it"#,
+            "the key `name` is read as `policy`",
+        ],
+    );
+    check(
+        r#"{"thought":"x","plan":{"steps":[{"do":"home"}]}}"#,
+        form,
+        &[
+            r#"the policy is read as one with `"motet": 1, "policy": "plan"`"#,
+            r#"`{"thought": …, "plan": {…}}` is read as the policy in it"#,
+        ],
+    );
+    let goal = r#"{"motet": 1, "policy": "plan", "achieves": "near(user)", "steps": []}"#;
+    check(
+        r#"{"motet":1,"policy":"plan","goal":"near(user)","steps":[]}"#,
+        goal,
+        &["the key `goal` is read as `achieves`"],
+    );
+    check(
+        r#"{"motet":1,"policy":"plan","goal":"Go to the user.","steps":[{"do":"home"}]}"#,
+        form,
+        &["`goal` is read as prose, which is ignored"],
+    );
+    check(
+        r#"["home"]"#,
+        form,
+        &["a list of steps is read as a policy with these steps", r#"`home` is read as `{"do": "home"}`"#],
     );
 }
 
@@ -336,8 +473,31 @@ fn value() -> impl Strategy<Value = serde_json::Value> {
         "react",
         "parallel",
         "repeat",
+        "goal",
+        "reason",
+        "finally",
+        "keep",
+        "wait",
+        "seconds",
+        "condition",
+        "for",
+        "in",
+        "literal",
     ];
-    let word = proptest::sample::select(vec!["pick", "$x", "done", "pause", "", "{\"a\": 1}", "a b", "é"]);
+    let word = proptest::sample::select(vec![
+        "pick",
+        "$x",
+        "done",
+        "pause",
+        "",
+        "{\"a\": 1}",
+        "a b",
+        "é",
+        "if",
+        "go(x) home()",
+        "out of x",
+        "lit()",
+    ]);
     let leaf = prop_oneof![
         word.prop_map(serde_json::Value::from),
         Just(serde_json::Value::Null),

@@ -7,7 +7,9 @@
 
 mod call;
 mod condition;
+mod document;
 mod edits;
+mod step;
 mod table;
 
 use serde_json::Value as Json;
@@ -16,9 +18,11 @@ use crate::diagnostic::{Diagnostic, Edit, Fix};
 use crate::errors::ReadShape;
 use crate::located::{Leaf, Located, LocatedValue, SchemaView, form_key};
 use crate::source::Span;
-use crate::words::{DEADLINE, is_bare_name, is_name};
+use crate::words::{DEADLINE, is_bare_name};
 
 pub(super) use edits::EditedText;
+
+use step::{WordedStep, text_steps};
 
 /// Reads the shapes of a document without syntax errors. Returns the document in the form of the language,
 /// and a note for each sort of shape; `None` if it has no such shape. O(document × forms).
@@ -52,7 +56,8 @@ struct Reading {
 impl Reading {
     fn note(self) -> Diagnostic {
         let Self { written, read, span, count, edits } = self;
-        let fix = Fix { title: format!("write {read}"), edits };
+        let title = if read == table::IGNORED { "remove it".to_owned() } else { format!("write {read}") };
+        let fix = Fix { title, edits };
         ReadShape { span, written, read, more: count.saturating_sub(1), fix }.into()
     }
 }
@@ -90,78 +95,12 @@ impl<'t> ShapeReader<'t> {
         self.read_as(value.span, shown(value), format!("`{read}`"), edits);
     }
 
-    fn document(&mut self, node: &Located<'_>) {
-        let head = format!("{{\"motet\": 1, \"policy\": {}, \"steps\": ", quoted(table::UNNAMED));
-        let read = "a policy with these steps";
-        let steps = self.view.property(self.view.root(), "steps");
-        let Some(step) = steps.and_then(|steps| self.view.list_items(steps)) else { return };
-        match &node.value {
-            LocatedValue::Array(items) if items.iter().any(|item| self.is_step(item)) => {
-                let edits = vec![before(node, head), after(node, "}")];
-                self.read_as(start(node), "a list of steps".to_owned(), read, edits);
-                items.iter().for_each(|item| self.value(item, step));
-            }
-            LocatedValue::Object(_) if member(node, "motet").or(member(node, "policy")).is_some() => {
-                self.policy(node);
-            }
-            LocatedValue::Object(_) if self.is_step(node) => {
-                let edits = vec![before(node, format!("{head}[")), after(node, "]}")];
-                self.read_as(start(node), "a step alone".to_owned(), read, edits);
-                self.value(node, step);
-            }
-            LocatedValue::Object(_) => self.policy(node),
-            _ => {}
-        }
-    }
-
-    /// An object that is a policy, perhaps without its name and with other keys for its parts.
-    fn policy(&mut self, node: &Located<'_>) {
-        let is_plan = |(key, value): &&(Located<'_>, Located<'_>)| {
-            is_any(key, &table::PLANS) && matches!(value.value, LocatedValue::Array(_))
-        };
-        let mut plans = node.members().iter().filter(is_plan);
-        let plan = match (member(node, "steps"), plans.next(), plans.next()) {
-            (Some(_), ..) => None,
-            (None, Some((key, _)), None) => {
-                self.rename(key, "steps");
-                Some(key)
-            }
-            (None, ..) => return,
-        };
-        let mut added = Vec::new();
-        if member(node, "motet").is_none() {
-            added.push("\"motet\": 1".to_owned());
-        }
-        if member(node, "policy").is_none() {
-            match member(node, table::NAME) {
-                Some((key, name)) if name.text().is_some_and(is_name) => self.rename(key, "policy"),
-                Some(_) | None => added.push(format!("\"policy\": {}", quoted(table::UNNAMED))),
-            }
-        }
-        if !added.is_empty() {
-            let edits = vec![insert(node.span.start + 1, node, format!("{}, ", added.join(", ")))];
-            let read = format!("one with `{}`", added.join(", "));
-            self.read_as(start(node), "the policy".to_owned(), read, edits);
-        }
-        let is_prose =
-            |(key, value): &&(Located<'_>, Located<'_>)| is_any(key, &table::PROSE) && value.text().is_some();
-        let (prose, kept): (Vec<_>, Vec<_>) = node.members().iter().partition(is_prose);
-        if let Some((key, _)) = prose.first() {
-            let edits = self.restructure(node.span, kept.iter().map(|member| whole(member)));
-            let keys: Vec<String> = prose.iter().map(|(key, _)| shown(key)).collect();
-            self.read_as(key.span, keys.join(", "), "prose, which is ignored", edits);
-        }
-        let root = self.view.root();
-        for (key, value) in kept {
-            let name = if plan == Some(key) { Some("steps") } else { key.text() };
-            let schema = name.and_then(|name| self.view.property(root, name));
-            schema.into_iter().for_each(|schema| self.value(value, schema));
-        }
-    }
-
     /// Reads the shapes of a value that should fit a schema, and those inside.
     fn value(&mut self, node: &Located<'_>, schema: &'t Json) {
         let leaves = self.view.leaves(schema);
+        if self.handlers(node, &leaves) {
+            return;
+        }
         if let Some(items) = self.items_of_one(node, &leaves) {
             let edits = vec![before(node, "["), after(node, "]")];
             self.read_as(start(node), "a single value".to_owned(), "a list of one", edits);
@@ -172,8 +111,13 @@ impl<'t> ShapeReader<'t> {
                 self.step(node);
                 node
             }
-            Some("Condition" | "Awaited") => {
+            Some("Awaited") => self.awaited(node),
+            Some("Condition") => {
                 self.condition(node);
+                node
+            }
+            Some("Rule") => {
+                self.kept(node);
                 node
             }
             Some("Reaction") => self.reaction(node),
@@ -197,18 +141,25 @@ impl<'t> ShapeReader<'t> {
         let holds_steps = || self.view.leaves(items).first().and_then(|leaf| leaf.name) == Some("Step");
         let is_one = match &node.value {
             LocatedValue::Object(members) => !members.is_empty(),
-            LocatedValue::Text(word) => !holds_steps() || self.ending(word).is_some(),
+            LocatedValue::Text(word) => {
+                !holds_steps() || self.ending(word).is_some() || text_steps(word).is_some()
+            }
             _ => false,
         };
         is_one.then_some(items)
     }
 
-    /// Reads other keys of an object for its own, and the shapes of its values.
+    /// Reads other keys of an object for its own, leaves out prose, and reads the shapes of its values.
     fn object(&mut self, node: &Located<'_>, leaves: &[Leaf<'t>]) {
         let forms: Vec<_> =
             leaves.iter().filter_map(|leaf| Some((form_key(leaf.schema)?, leaf.schema))).collect();
+        let is_step = leaves.first().and_then(|leaf| leaf.name) == Some("Step");
+        let worded = self.worded(node).filter(|_| is_step).unwrap_or_default();
         let form = match forms.as_slice() {
             [only] => Some(*only),
+            several if !worded.head.is_empty() => {
+                several.iter().copied().find(|(head, _)| *head == worded.head)
+            }
             several => node.members().iter().find_map(|(key, value)| {
                 let name = table::condition_key(key.text()?);
                 // A `do` that names nothing is the body of another form.
@@ -218,24 +169,60 @@ impl<'t> ShapeReader<'t> {
             }),
         };
         let Some((head, schema)) = form else { return };
-        let mut renamed: Vec<(&Located<'_>, &str)> = Vec::new();
+        if head == "on" && self.handler_of_step(node) {
+            return;
+        }
+        let WordedStep { kind, mut renamed, is_unnamed, .. } = worded;
+        if is_unnamed {
+            let read = format!("\"{head}\": {}", quoted(table::UNNAMED_GROUP));
+            let edits = vec![insert(node.span.start + 1, node, format!("{read}, "))];
+            self.read_as(start(node), pattern(node), format!("`{{{read}, …}}`"), edits);
+        }
+        renamed.iter().for_each(|(key, name)| self.rename(key, name));
         for (_, aliases, name) in table::KEYS.iter().filter(|row| row.0 == head) {
-            let is_alias =
-                |key: &&Located<'_>| is_any(key, aliases) && !renamed.iter().any(|(known, _)| known == key);
-            let mut found = node.members().iter().map(|(key, _)| key).filter(is_alias);
-            if let (None, Some(alias), None) = (member(node, name), found.next(), found.next()) {
+            let is_free =
+                |key: &Located<'_>| kind != Some(key) && !renamed.iter().any(|(known, _)| *known == key);
+            // A `do` with a word calls something.
+            let is_body = |key: &Located<'_>, value: &Located<'_>| {
+                !is_step || key.text() != Some("do") || value.text().is_none()
+            };
+            let mut found = node
+                .members()
+                .iter()
+                .filter(|(key, value)| is_any(key, aliases) && is_free(key) && is_body(key, value));
+            let mut found = std::iter::from_fn(|| found.next().map(|(key, _)| key));
+            let is_known = member(node, name).is_some() || renamed.iter().any(|(_, known)| known == name);
+            if let (false, Some(alias), None) = (is_known, found.next(), found.next()) {
                 self.rename(alias, name);
                 renamed.push((alias, name));
             }
         }
-        for (key, value) in node.members() {
+        let name_of = |key: &Located<'_>| renamed.iter().find(|(known, _)| *known == key).map(|row| row.1);
+        // A call takes any key.
+        let is_closed = !schema.get("additionalProperties").is_some_and(Json::is_object);
+        let is_idle = |(key, value): &&(Located<'_>, Located<'_>)| {
+            let is_own = name_of(key).is_some()
+                || key.text().is_some_and(|key| self.view.property(schema, key).is_some());
+            kind == Some(key) || is_closed && !is_own && is_idle(key, value)
+        };
+        let (idle, kept): (Vec<_>, Vec<_>) = node.members().iter().partition(is_idle);
+        if let Some((first, _)) = idle.first() {
+            let edits = self.restructure(node.span, kept.iter().map(|member| whole(member)));
+            let written: Vec<String> = idle.iter().map(|(key, value)| said(key, value, kind)).collect();
+            let read = match kind {
+                Some(_) => format!("`{{{}: …}}`", quoted(head)),
+                None => table::IGNORED.to_owned(),
+            };
+            self.read_as(first.span, written.join(", "), read, edits);
+        }
+        for (key, value) in kept {
             if let Some(numbers) = self.pose(value).filter(|_| head == "do") {
                 let edits = vec![replace(value.span, format!("{{\"pose\": [{numbers}]}}"))];
                 self.read_as(start(value), pattern(value), "`{\"pose\": […]}`", edits);
                 continue;
             }
             let own = table::condition_key(key.text().unwrap_or_default());
-            let name = renamed.iter().find(|(alias, _)| *alias == key).map_or(own, |(_, name)| name);
+            let name = name_of(key).unwrap_or(own);
             let bare = value.text().and_then(|text| text.strip_prefix('$')).filter(|bare| is_bare_name(bare));
             if let Some(bare) = bare.filter(|_| table::NAMES.contains(&name)) {
                 self.respell(value, quoted(bare));
@@ -266,6 +253,12 @@ impl<'t> ShapeReader<'t> {
         if let Some(kind) = node.text().and_then(|word| self.ending(word)) {
             return self.respell(node, format!("{{\"end\": {}}}", quoted(kind)));
         }
+        if let Some(steps) = node.text().and_then(text_steps) {
+            return self.respell(node, steps);
+        }
+        if self.worded(node).is_some() {
+            return;
+        }
         match self.step_form(node) {
             Some((key, value)) if key.text() == Some("end") => {
                 let word = value.text().unwrap_or_default();
@@ -289,7 +282,10 @@ impl<'t> ShapeReader<'t> {
 
     /// Checks if a value is a step, in the form of the language or in another shape.
     fn is_step(&self, node: &Located<'_>) -> bool {
-        self.step_form(node).is_some() || self.call_shape(node).is_some()
+        self.step_form(node).is_some()
+            || self.worded(node).is_some()
+            || self.call_shape(node).is_some()
+            || node.text().is_some_and(|text| text_steps(text).is_some())
     }
 
     /// The kind of ending that a word means.
@@ -400,6 +396,21 @@ fn after(node: &Located<'_>, text: impl Into<String>) -> Edit {
 /// A string as JSON writes it.
 fn quoted(text: &str) -> String {
     Json::from(text).to_string()
+}
+
+/// Checks if a member of a closed object only explains it.
+fn is_idle(key: &Located<'_>, value: &Located<'_>) -> bool {
+    let is_label =
+        matches!(value.value, LocatedValue::Text(_) | LocatedValue::Number(_) | LocatedValue::Null);
+    is_label && [&table::PROSE[..], &table::NOISE, &table::LABELS].iter().any(|words| is_any(key, words))
+}
+
+/// A member that is left out, as a note says it: the key, and of the word that names the form its value too.
+fn said(key: &Located<'_>, value: &Located<'_>, kind: Option<&Located<'_>>) -> String {
+    match value.text().filter(|_| kind == Some(key)) {
+        Some(word) => format!("`{{{}: {}}}`", quoted(key.text().unwrap_or_default()), quoted(word)),
+        None => shown(key),
+    }
 }
 
 /// A key or a word in back-quotes.

@@ -67,11 +67,58 @@ pub(super) const ENDINGS: [(&str, &str); 10] = [
     ("give_up", "fail"),
 ];
 
+/// Keys whose value may be the word for the form of a step.
+pub(super) const STEP_KINDS: [&str; 5] = ["do", "type", "kind", "step", "action"];
+
+/// Words for the forms of steps, each with the key of the form.
+pub(super) const STEP_WORDS: [(&str, &str); 15] = [
+    ("if", "if"),
+    ("branch", "if"),
+    ("repeat", "repeat"),
+    ("loop", "repeat"),
+    ("each", "each"),
+    ("for", "each"),
+    ("foreach", "each"),
+    ("for_each", "each"),
+    ("wait", "wait"),
+    ("monitor", "monitor"),
+    ("try", "try"),
+    ("sequence", "sequence"),
+    ("parallel", "parallel"),
+    ("let", "let"),
+    ("keep", "keep"),
+];
+
+/// Keys that stand for the key of a form whose name is a word.
+pub(super) const STEP_HEADS: [(&str, &[&str]); 9] = [
+    ("if", &["condition", "cond", "test", "when"]),
+    ("repeat", &["times", "count", "max_times", "iterations"]),
+    ("each", &["item", "var", "variable", "for", "foreach", "for_each"]),
+    ("wait", &["until", "condition", "seconds", "duration", "time"]),
+    ("monitor", &["whens", "conditions", "watch"]),
+    ("try", &["body", "steps"]),
+    ("sequence", &["name", "label"]),
+    ("parallel", &["branches"]),
+    ("let", &["name", "var", "variable"]),
+];
+
+/// Keys of the kinds of failure in a handler.
+pub(super) const HANDLERS: [&str; 5] = ["on", "error", "errors", "failure", "failures"];
+
+/// Keys of a time around it.
+pub(super) const TIMES: [&str; 4] = ["seconds", "duration", "time", "for"];
+
+/// Keys beside a step that only say something about it.
+pub(super) const LABELS: [&str; 6] = ["reason", "note", "step", "name", "label", "title"];
+
+/// Key of a document that holds its goal: a condition, or prose.
+pub(super) const GOAL: &str = "goal";
+
 /// Keys that name the kind of a reaction or an ending.
 pub(super) const KINDS: [&str; 6] = ["react", "end", "reaction", "action", "do", "type"];
 
 /// Other keys of the object with the first key, each read as the last one where that is missing.
-pub(super) const KEYS: [(&str, &[&str], &str); 8] = [
+pub(super) const KEYS: [(&str, &[&str], &str); 15] = [
     ("on", &["then", "do", "body", "actions", "handler"], "steps"),
     ("on", &["error", "errors", "failure", "failures"], "on"),
     ("when", &["condition", "if"], "when"),
@@ -80,6 +127,13 @@ pub(super) const KEYS: [(&str, &[&str], &str); 8] = [
     ("repeat", &["body", "do", "actions"], "steps"),
     ("each", &["body", "do", "actions"], "steps"),
     ("try", &["except", "on_failure", "on_error"], "catch"),
+    ("if", &["steps", "body", "do", "actions"], "then"),
+    ("if", &["otherwise", "else_steps"], "else"),
+    ("each", &["list", "items", "over"], "in"),
+    ("each", &["max", "limit", "max_items"], "at_most"),
+    ("sequence", &["body", "do", "actions"], "steps"),
+    ("let", &["value", "to"], "be"),
+    ("end", &["reason", "because", "message"], "why"),
 ];
 
 /// Keys whose value is a new name, which has no `$`.
@@ -105,6 +159,12 @@ pub(super) const PROSE: [&str; 11] = [
 
 /// Keys of a point or a pose as an object, for the numbers of a pose in order.
 pub(super) const POSE: [&[&str]; 4] = [&["x"], &["y"], &["z"], &["yaw", "theta", "heading", "angle"]];
+
+/// Reading of a key that says nothing to the robot.
+pub(super) const IGNORED: &str = "prose, which is ignored";
+
+/// Name of a group of steps that has none.
+pub(super) const UNNAMED_GROUP: &str = "steps";
 
 /// Name of a policy that has none.
 pub(super) const UNNAMED: &str = "plan";
