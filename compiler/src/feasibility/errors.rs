@@ -58,6 +58,20 @@ macro_rules! refusals {
                 related(m) { m.told.since.clone() }
                 about(m) { about(&m.told) }
             )*
+
+            /// Block of a `keep` that begins where one of its rules is broken.
+            BrokenAtStart("M0607", Error) {
+                rule: String, place: String, came: Option<String>, related: Option<Related>,
+            }
+            message(m) {
+                let came = match &m.came {
+                    Some(step) => format!(", where `{step}` brought it"),
+                    None => " at the start".to_owned(),
+                };
+                format!("`keep {}` is broken where its block begins: the robot {}{came}", m.rule, m.place)
+            }
+            help(_m) { Some("leave that place in a step before the block".to_owned()) }
+            related(m) { m.related.iter().cloned().collect() }
         }
 
         /// Diagnostic of a reason.
@@ -105,6 +119,7 @@ impl MotionChecker<'_> {
             | InfeasibleReason::TooHeavy { .. }
             | InfeasibleReason::TooWide { .. } => None,
         };
+        let rules = self.only_because_of(possible, query);
         let changed = culprit.and_then(|by| Some((by, possible.changer(by)?)));
         let mut story = Vec::new();
         let mut since: Vec<Related> = Vec::new();
@@ -124,9 +139,14 @@ impl MotionChecker<'_> {
         let told = RefusedMotion {
             callee: callee.clone(),
             motion: query.to_string(),
-            says: why.reason.to_string(),
+            says: match &rules {
+                Some(rules) => {
+                    format!("{rules} leaves no way: {}; without it there is a motion", why.reason)
+                }
+                None => why.reason.to_string(),
+            },
             story,
-            change: why.change.clone(),
+            change: why.change.clone().filter(|_| rules.is_none()),
             is_certified: why.certified,
             since,
         };
@@ -142,7 +162,7 @@ impl MotionChecker<'_> {
     }
 
     /// Call of a step in short: `go(sink)`.
-    fn call_name(&self, step: StepId) -> String {
+    pub(super) fn call_name(&self, step: StepId) -> String {
         let Some(StepKind::Call(call)) = self.program.steps.get(step.index()).map(|step| &step.kind) else {
             return "a step".to_owned();
         };
@@ -152,6 +172,10 @@ impl MotionChecker<'_> {
             Term::Binding(id) => self.program.bindings.get(id.index()).map(|binding| binding.name.clone()),
             _ => None,
         });
-        format!("{name}({})", args.collect::<Vec<_>>().join(", "))
+        let args: Vec<_> = args.collect();
+        if args.is_empty() && !call.args.is_empty() {
+            return name.to_owned();
+        }
+        format!("{name}({})", args.join(", "))
     }
 }

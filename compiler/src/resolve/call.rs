@@ -7,7 +7,7 @@ use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
-use super::errors::{NoMotion, NoResult, Recursion, UnknownPrimitive};
+use super::errors::{EmptyList, NoMotion, NoResult, Recursion, UnknownPrimitive};
 use super::meant::step_to_write;
 use super::step::StepResolver;
 use crate::declare::PrimitiveDef;
@@ -124,6 +124,7 @@ impl StepResolver<'_> {
             if let (Term::Text(text), None, PrimitiveKind::Perception) = (&term, &description, def.form) {
                 description = Some(text.clone());
             }
+            self.check_not_empty(&term, args.len(), def, at);
             args.push(term);
             spans.push(at);
             units.push(arg.and_then(Expr::unit));
@@ -158,6 +159,19 @@ impl StepResolver<'_> {
         let retries = retries.unwrap_or(0);
         let call = ir::Call { primitive, args, spans, units, binds, manner, within_secs, retries, is_faulty };
         self.fill(id, StepKind::Call(call))
+    }
+
+    /// Reports an empty list for a parameter of whose first element the motion needs.
+    fn check_not_empty(&mut self, arg: &Term, index: usize, def: &PrimitiveDef, span: Span) {
+        let is_first = |of: &Term| match of {
+            Term::First(list) => matches!(**list, Term::Param(param) if usize::from(param) == index),
+            _ => false,
+        };
+        let is_needed = def.motion.as_ref().is_some_and(|(_, args)| args.iter().any(is_first));
+        if matches!(arg, Term::List(items) if items.is_empty()) && is_needed {
+            let name = def.params.get(index).map(|param| param.name.clone()).unwrap_or_default();
+            self.elaborator.report(EmptyList { span, name, callee: def.name.clone() });
+        }
     }
 
     /// The manner of a call; an error for a primitive that moves nothing.

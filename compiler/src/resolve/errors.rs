@@ -1,5 +1,5 @@
 //! Diagnostics of unknown callees, and of names that a step must not bind (M0201, M0206, M0207, M0212,
-//! M0305, M0315).
+//! M0305, M0315, M0316).
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
@@ -59,6 +59,13 @@ motet_syntax::mistakes! {
         let edits = vec![Edit { span: m.span, text: text.to_owned() }];
         Some(Fix { title: "remove the manner".to_owned(), edits })
     }
+
+    /// Empty list where a step needs at least one element.
+    EmptyList("M0316", Error) { callee: SmolStr, name: SmolStr }
+    message(m) {
+        format!("`{}` of `{}` is an empty list, and the step begins at its first element", m.name, m.callee)
+    }
+    help(m) { Some(format!("name at least one element for `{}`", m.name)) }
 }
 
 /// The step to write for a word that is no callee.
