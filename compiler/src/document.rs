@@ -263,6 +263,7 @@ impl Session {
             motions = verdicts;
             findings.extend(more.into_iter().map(Finding::from));
         }
+        findings.retain(|found| !is_in_broken_text(&found.diagnostic, parsed));
         for finding in &mut findings {
             locate(&mut finding.diagnostic, policy, parsed, &program, library);
         }
@@ -356,6 +357,20 @@ fn locate(
             related.path = pointer(span);
         }
     }
+}
+
+/// Returns true if a name is called unused (M0901) although a text that could not be read speaks of it.
+fn is_in_broken_text(diagnostic: &Diagnostic, parsed: &Parsed) -> bool {
+    let name = (diagnostic.code.0 == "M0901").then(|| parsed.text.get(diagnostic.span.range())).flatten();
+    let Some(name) = name.map(|name| name.trim_matches(['"', '$', '`'])) else { return false };
+    let mut broken = parsed.diagnostics.iter().filter(|said| said.code.0 == "M0123");
+    broken.any(|said| {
+        let (before, after) = parsed.text.split_at_checked(said.span.start as usize).unwrap_or_default();
+        let line = [before.rsplit('\n').next(), after.lines().next()].into_iter().flatten();
+        let mut words =
+            line.flat_map(|text| text.split(|letter: char| !letter.is_alphanumeric() && letter != '_'));
+        words.any(|word| word == name)
+    })
 }
 
 /// The call in the document through which a step of another file was inlined.

@@ -145,6 +145,17 @@ impl Candidate {
         Some((Self::of(session, text, source, file), done))
     }
 
+    /// Returns true if a declaration of another version is gone or, unless the fix may take steps away, a
+    /// step: then it was not mended but deleted, or the text can no longer be read.
+    fn has_lost(&self, other: &Self, applicability: Applicability) -> bool {
+        let steps = |state: &Self| {
+            let policies = state.parsed.file.policies();
+            policies.map(|policy| policy.body.steps.len()).sum::<usize>()
+        };
+        let items = |state: &Self| state.parsed.file.items.len();
+        items(self) < items(other) || applicability == Applicability::Safe && steps(self) < steps(other)
+    }
+
     fn count(&self, severity: Severity) -> usize {
         self.findings.iter().filter(|found| found.diagnostic.severity == severity).count()
     }
@@ -194,6 +205,9 @@ impl Search<'_> {
                 self.tries = self.tries.checked_sub(1)?;
                 let Some(text) = apply(&at.text, self.file, fix) else { continue };
                 let next = Candidate::of(self.session, text, self.source, self.file);
+                if next.has_lost(at, applicability) {
+                    continue;
+                }
                 let done = record(said.code, fix, applicability);
                 if next.is_better_than(base) && self.keeps_goals(base, &next) {
                     return Some((next, vec![done]));

@@ -7,8 +7,9 @@ use std::path::PathBuf;
 use clap::{Args, value_parser};
 use motet_compiler::Session;
 use motet_geometry::planning::{
-    Configuration, ExactNumber, GraspSide, InfeasibleReason, MIN_CLEARANCE, MapPose, Misfit, MotionAnswer, MotionQuery,
-    MotionWitness, PlaceRules, QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason, components,
+    Configuration, ExactNumber, GraspSide, InfeasibleReason, MIN_CLEARANCE, MapPose, Misfit, MotionAnswer,
+    MotionQuery, MotionWitness, PlaceRules, QueryContext, RobotModel, SceneState, SearchBudget,
+    UnknownReason, components,
 };
 use motet_project::{open_robot, read_scene, require};
 use motet_robots::scene::{self, Scene};

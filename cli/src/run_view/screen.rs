@@ -102,6 +102,9 @@ impl View for Screen {
         if let Effect::Report(record) = effect {
             self.tree.take(record);
         }
+        if let Effect::Start { node, command, .. } = effect {
+            let _ = self.tree.start(*node, command);
+        }
         self.reached(now);
     }
 
@@ -205,6 +208,9 @@ impl View for Lines {
     fn effect(&mut self, _now: Time, effect: &Effect) {
         if let Effect::Report(record) = effect {
             self.record(record);
+        }
+        if let Effect::Start { node, command, .. } = effect {
+            let _ = self.tree.start(*node, command);
         }
     }
 

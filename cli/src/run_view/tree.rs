@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use motet_graph::draw::Names;
-use motet_graph::{FailureId, Graph, NodeId, NodeKind, ROOT, Reaction, RegionId};
+use motet_graph::{FailureId, Graph, NodeId, NodeKind, ROOT, Reaction, RegionId, Term};
 use motet_runtime::{
-    DriverEvent, Event, NodeEnding, Outcome, Time, TraceEvent, TraceEventKind, Verification,
+    Command, DriverEvent, Event, NodeEnding, Outcome, Time, TraceEvent, TraceEventKind, Verification,
 };
 
 use crate::output::escape;
@@ -176,6 +176,27 @@ impl Tree {
     /// Takes an event before the engine handles it.
     pub(super) fn event(&mut self, event: &Event) {
         self.failures.event(event);
+    }
+
+    /// Puts the texts of a command that have values, as they go to the driver, into the label of its step.
+    /// Returns true if there are any.
+    pub(super) fn start(&mut self, node: NodeId, command: &Command) -> bool {
+        let Some(NodeKind::Call(call)) = self.graph.nodes.get(node.index()).map(|node| &node.kind) else {
+            return false;
+        };
+        let mut call = call.clone();
+        let mut is_filled = false;
+        for (arg, (_, value)) in call.args.iter_mut().zip(&command.args) {
+            if matches!(arg, Term::Template(_)) {
+                *arg = Term::Literal(value.clone());
+                is_filled = true;
+            }
+        }
+        let filled = label(&self.graph, &NodeKind::Call(call));
+        if let Some(row) = self.place(node).and_then(|place| self.rows.get_mut(place)).filter(|_| is_filled) {
+            row.label = escape(&filled);
+        }
+        is_filled
     }
 
     fn why(&mut self, ending: NodeEnding) -> Option<String> {

@@ -42,7 +42,10 @@ fn words_are_explained() {
     let ran = decode("decode_calls", "--explain", &held);
     ran.check(0, &["out:may follow:\n", "out:calls place(object: Object, ", "out:may not:\n", "out:M0501"]);
     let step = decode("decode_steps", "--explain", HEAD);
-    step.check(0, &["out:must follow: \"{\\\"\"", "out:a call\n", "out:an ending: done, fail, cannot or replan\n"]);
+    step.check(
+        0,
+        &["out:must follow: \"{\\\"\"", "out:a call\n", "out:an ending: done, fail, cannot or replan\n"],
+    );
     let object =
         decode("decode_entities", "--explain", &format!("{HEAD}{GO},{{\"do\":\"pick\",\"object\":\""));
     object.check(0, &["out:Object of the scene"]);

@@ -17,6 +17,11 @@ fn place(name: &str) -> Place {
             "asks.motet",
             "policy asks for hsr {\n    let answer = ask(\"Which one?\")\n    fail answer\n}\n",
         )
+        .file(
+            "words.motet",
+            "policy words for hsr {\n    let n = distance(user)\n    say(\"It is {n} to go.\")\n    cannot \
+             \"{mug_1.mass} is much\"\n}\n",
+        )
         .file("answers.json", r#"["the red one"]"#)
         .file("faults.json", r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#)
         .file(
@@ -86,6 +91,11 @@ fn ends_with_the_right_code() {
         ),
         (format!("run watch.motet {max}"), 0, &["out:monitor distance(user) < 0.1 m for 0.2 s"]),
         (format!("run asks.motet {max} --answers answers.json"), 3, &["out:why: the red one"]),
+        (
+            format!("run words.motet {max}"),
+            3,
+            &["out:✓ say(\"It is 2.", "out: m to go.\")", "out:why: 0.3 kg is much"],
+        ),
         (format!("run no_robot.motet {max}"), 2, &["err:--robot NAME"]),
         (format!("run no_robot.motet {max} --robot hsr"), 0, &[]),
         (format!("run stranger.motet {max}"), 1, &["out:M0447", "out:there is no robot `nobody`"]),

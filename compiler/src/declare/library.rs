@@ -468,8 +468,34 @@ impl LangItems {
         [self.at, self.on, self.inside, self.holding, self.open, self.lifted].into_iter().flatten()
     }
 
+    /// Failure of a refuted need: from its fluent or field if the primitive lists it, else `failed`.
+    pub(crate) fn need_failure(&self, condition: &Condition, fails: &[Failure]) -> Option<Failure> {
+        let kind = self.specific_failure(condition).filter(|kind| fails.contains(kind));
+        kind.or(self.failed)
+    }
+
+    fn specific_failure(&self, condition: &Condition) -> Option<Failure> {
+        match condition {
+            Condition::Fact(fact) => self.guard_failure(fact.fluent),
+            Condition::Compare(_, Term::Field(_, name), _) => match name.as_str() {
+                lang::fields::MASS => self.too_heavy,
+                lang::fields::WIDTH => self.unreachable,
+                _ => None,
+            },
+            Condition::Not(inner) => self.specific_failure(inner),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                parts.first().and_then(|part| self.specific_failure(part))
+            }
+            Condition::Compare(..)
+            | Condition::Literal(_)
+            | Condition::MonitoredMeasure(_)
+            | Condition::MonitoredFluent(_)
+            | Condition::Unknown => None,
+        }
+    }
+
     /// Failure of a guard on a fluent.
-    pub(crate) fn guard_failure(&self, fluent: Fluent) -> Option<Failure> {
+    fn guard_failure(&self, fluent: Fluent) -> Option<Failure> {
         let is_one_of = |fluents: &[Option<Fluent>]| fluents.contains(&Some(fluent));
         if is_one_of(&[self.reachable, self.at, self.near]) {
             self.unreachable

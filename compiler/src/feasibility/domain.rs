@@ -110,7 +110,7 @@ pub(super) struct MotionChecker<'a> {
     pub(super) environment: &'a Environment,
     pub(super) symbols: Symbols,
     pub(super) geometry: &'a Geometry,
-    proof: &'a Proof,
+    pub(super) proof: &'a Proof,
     /// Possible worlds here.
     pub(super) worlds: Worlds,
     enclosing: Vec<Enclosing<Worlds>>,
@@ -332,7 +332,8 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
     }
 
     /// A reaction that moves something may run at any moment of the body.
-    fn monitor(&mut self, _id: StepId, whens: &'a [When], body: &'a [StepId]) {
+    fn monitor(&mut self, id: StepId, whens: &'a [When], body: &'a [StepId]) {
+        self.check_entry(id, whens, body);
         let why = || SmolStr::new_static("a monitor's reaction may have moved the robot before");
         let (mut entry, moves) = (self.worlds.clone(), self.moves_in(body));
         for when in whens {

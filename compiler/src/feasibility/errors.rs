@@ -73,6 +73,20 @@ macro_rules! refusals {
                 let right = !m.says_visible;
                 Some(format!("write `\"visible\": {right}`, leave it out, or correct the poses"))
             }
+
+            /// Block of a `keep` that begins where one of its rules is broken.
+            BrokenAtStart("M0609", Error) {
+                rule: String, place: String, came: Option<String>, related: Option<Related>,
+            }
+            message(m) {
+                let came = match &m.came {
+                    Some(step) => format!(", where `{step}` brought it"),
+                    None => " at the start".to_owned(),
+                };
+                format!("`keep {}` is broken where its block begins: the robot {}{came}", m.rule, m.place)
+            }
+            help(_m) { Some("leave that place in a step before the block".to_owned()) }
+            related(m) { m.related.iter().cloned().collect() }
         }
 
         /// Diagnostic of a reason.
@@ -124,6 +138,7 @@ impl MotionChecker<'_> {
             | InfeasibleReason::TooHeavy { .. }
             | InfeasibleReason::TooWide { .. } => None,
         };
+        let rules = self.only_because_of(possible, query);
         let changed = culprit.and_then(|by| Some((by, possible.changer(by)?)));
         let mut story = Vec::new();
         let mut since: Vec<Related> = Vec::new();
@@ -143,9 +158,14 @@ impl MotionChecker<'_> {
         let told = RefusedMotion {
             callee: callee.clone(),
             motion: query.to_string(),
-            says: why.says(),
+            says: match &rules {
+                Some(rules) => {
+                    format!("{rules} leaves no way: {}; without it there is a motion", why.reason)
+                }
+                None => why.says(),
+            },
             story,
-            change: why.change.clone(),
+            change: why.change.clone().filter(|_| rules.is_none()),
             is_certified: why.certified,
             since,
         };
@@ -161,7 +181,7 @@ impl MotionChecker<'_> {
     }
 
     /// Call of a step in short: `go(sink)`.
-    fn call_name(&self, step: StepId) -> String {
+    pub(super) fn call_name(&self, step: StepId) -> String {
         let Some(StepKind::Call(call)) = self.program.steps.get(step.index()).map(|step| &step.kind) else {
             return "a step".to_owned();
         };
@@ -172,6 +192,10 @@ impl MotionChecker<'_> {
             Term::Binding(id) => self.program.bindings.get(id.index()).map(|binding| binding.name.clone()),
             _ => None,
         });
-        format!("{name}({})", args.collect::<Vec<_>>().join(", "))
+        let args: Vec<_> = args.collect();
+        if args.is_empty() && !call.args.is_empty() {
+            return name.to_owned();
+        }
+        format!("{name}({})", args.join(", "))
     }
 }

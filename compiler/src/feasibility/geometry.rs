@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use motet_geometry::planning::{
     BaseMapCache, Configuration as Placed, Infeasible, KeptRegion, MotionAnswer, MotionQuery, MotionWitness,
-    QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason,
+    PlanningScene, QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason,
 };
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
@@ -163,6 +163,11 @@ impl Geometry {
             return Arc::clone(at);
         }
         Arc::new(fingerprinted(SceneState { kept, ..at.world.clone() }))
+    }
+
+    /// Distance in m of the robot and of what it holds to a region; 0 within it.
+    pub(super) fn distance(&self, world: &SceneState, region: &KeptRegion) -> f64 {
+        region.distance(&PlanningScene::new(&self.machine, &self.scene, world).robot_at(&world.robot))
     }
 
     /// Explanation of infeasibility in a world, with a proposed change.

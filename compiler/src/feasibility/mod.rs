@@ -11,6 +11,7 @@
 mod domain;
 pub(crate) mod errors;
 mod geometry;
+mod keep;
 mod motion;
 mod sight;
 mod transfer;

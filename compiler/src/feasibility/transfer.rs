@@ -1,7 +1,7 @@
 //! Transfer function of a call: the answers of its motion in all possible worlds, and the worlds after it.
 
 use motet_geometry::planning::{
-    GraspSide, InfeasibleReason, KeptRegion, MapPose, MotionAnswer, MotionQuery, MotionWitness, RobotModel,
+    GraspSide, InfeasibleReason, MapPose, MotionAnswer, MotionQuery, MotionWitness, RobotModel,
     UnknownReason, components,
 };
 use motet_graph as graph;
@@ -17,7 +17,8 @@ use super::motion::{
 use super::verdict::MotionVerdict;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::PrimitiveDef;
-use crate::ir::{Call, Entity, Keep, ROBOT, START, StepId, Term};
+use crate::ir::{Call, Entity, ROBOT, START, StepId, Term};
+use crate::prove::NeedVerdict;
 
 impl MotionChecker<'_> {
     /// Leads to the worlds after a call that succeeds.
@@ -30,6 +31,12 @@ impl MotionChecker<'_> {
             }
             return self.throw_all(&def.fails);
         };
+        if self.proof.needs.get(id.index()).is_some_and(|needs| needs.contains(&NeedVerdict::Caught)) {
+            let why = SmolStr::new_static("a need is false, which a handler catches");
+            self.found(id, Some(MotionVerdict::Caught(why)), None);
+            self.throw_all(&def.fails);
+            return self.stop();
+        }
         let before = std::mem::take(&mut self.worlds);
         let before = self.possible(id, before);
         let moves = kind.moves();
@@ -45,7 +52,7 @@ impl MotionChecker<'_> {
         self.throw_in(if moves { stopped() } else { before.clone() }, &def.fails);
         let mut after = Worlds { known: Vec::new(), lost: before.lost.clone() };
         let (mut witness, mut unknown, mut refused, mut is_refused) = (None, before.lost.clone(), None, true);
-        let mut warned = None;
+        let (mut warned, mut is_all_caught) = (None, before.lost.is_none());
         for mut possible in before.known {
             let (regions, unplaced) = self.kept(id, call, &possible);
             unknown = unknown.or(unplaced);
@@ -53,21 +60,21 @@ impl MotionChecker<'_> {
             let answer = self.geometry.answer(&possible.at, &query);
             match &*answer {
                 MotionAnswer::Feasible(way) => {
-                    is_refused = false;
+                    (is_refused, is_all_caught) = (false, false);
                     if witness.is_none() {
                         witness = Some(Box::new(graph_witness(self.geometry.machine(), way)));
                     }
                     after.join(self.following(id, call, def, &query, &possible, &answer));
                 }
                 MotionAnswer::Unknown(why) => {
-                    is_refused = false;
+                    (is_refused, is_all_caught) = (false, false);
                     unknown = unknown.or(Some(in_words(why)));
                     let why = format_smolstr!("the outcome of `{}` is unknown", def.name);
                     after.join(if moves { Worlds::lost(why) } else { Worlds::only(possible) });
                 }
                 // The search found nothing and proves nothing: the run will see.
                 MotionAnswer::Infeasible(why) if !why.certified => {
-                    is_refused = false;
+                    (is_refused, is_all_caught) = (false, false);
                     warned = warned.or_else(|| self.refusal(id, &def.name, &query, why, &possible));
                     unknown = unknown
                         .or_else(|| Some(format_smolstr!("the search found no motion: {}", why.reason)));
@@ -85,6 +92,7 @@ impl MotionChecker<'_> {
                         });
                         continue;
                     }
+                    is_all_caught = false;
                     // After a failure it is not certain that this world is met at all.
                     match (&refused, possible.is_certain) {
                         (None, certain) => refused = told.map(|told| (told, certain)),
@@ -99,6 +107,7 @@ impl MotionChecker<'_> {
         let is_error = |certain: bool| certain || (is_refused && before.lost.is_none());
         let verdict = match (unknown, witness, &refused) {
             (None, Some(witness), None) => MotionVerdict::Feasible(witness),
+            (Some(why), None, None) if is_all_caught => MotionVerdict::Caught(why),
             (unknown, ..) => MotionVerdict::Deferred(unknown),
         };
         let refused = refused.filter(|(_, certain)| is_error(*certain)).map(|(told, _)| told);
@@ -108,28 +117,6 @@ impl MotionChecker<'_> {
         }
         self.found(id, Some(verdict), refused.or(warned));
         self.worlds = after;
-    }
-
-    /// Regions that the rules around a step forbid in a possible world, and the reason why the region of one
-    /// is left to the run, if there is one.
-    fn kept(&self, id: StepId, call: &Call, at: &PossibleWorld) -> (Vec<KeptRegion>, Option<SmolStr>) {
-        let (mut regions, mut unplaced) = (Vec::new(), None);
-        for keep in self.program.kept(id) {
-            let (Keep::OutOf(to) | Keep::Distance { to, .. }) = keep;
-            let region = self.named(to, call).and_then(|name| {
-                let entity = self.geometry.scene().entities.get(&name);
-                let region = entity.and_then(|entity| match keep {
-                    Keep::OutOf(_) => at.at.world.kept_out_of(entity),
-                    Keep::Distance { at_least, .. } => at.at.world.kept_from(entity, at_least?),
-                });
-                region.ok_or_else(|| format_smolstr!("it is not known where to keep away from `{name}`"))
-            });
-            match region {
-                Ok(region) => regions.push(region),
-                Err(why) => unplaced = unplaced.or(Some(why)),
-            }
-        }
-        (regions, unplaced)
     }
 
     /// Returns true if a handler around this step catches the failure that an infeasible motion leads to.

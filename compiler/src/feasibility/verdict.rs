@@ -10,6 +10,8 @@ pub(crate) enum MotionVerdict {
     Feasible(Box<Witness>),
     /// Left to the run, for this reason if one is known.
     Deferred(Option<SmolStr>),
+    /// Infeasible, for this reason: the step fails, and a handler catches that.
+    Caught(SmolStr),
 }
 
 /// Verdicts by step: `None` for a step without motion, or without geometry.

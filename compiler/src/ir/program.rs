@@ -73,17 +73,7 @@ impl Program {
             matches!(inside, Some(BlockSlot::Kept | BlockSlot::KeptWhole)).then_some(&outer.kind)
         });
         let conditions = around.flat_map(StepKind::conditions);
-        conditions.filter_map(|condition| match condition {
-            Condition::Compare(op, Term::Measure(_, args), limit) => {
-                let to = args.first()?;
-                Some(match (op, limit) {
-                    (CompareOp::AtMost, _) => Keep::OutOf(to),
-                    (_, Term::Number(at_least)) => Keep::Distance { to, at_least: Some(*at_least) },
-                    _ => Keep::Distance { to, at_least: None },
-                })
-            }
-            _ => None,
-        })
+        conditions.filter_map(Keep::new)
     }
 
     /// Ancestors of a step, innermost first.
@@ -109,6 +99,19 @@ pub(crate) enum Keep<'p> {
         /// Least distance in m; `None` if only the run determines it.
         at_least: Option<f64>,
     },
+}
+
+impl<'p> Keep<'p> {
+    /// The rule whose monitor has a condition.
+    pub(crate) fn new(condition: &'p Condition) -> Option<Self> {
+        let Condition::Compare(op, Term::Measure(_, args), limit) = condition else { return None };
+        let to = args.first()?;
+        Some(match (op, limit) {
+            (CompareOp::AtMost, _) => Self::OutOf(to),
+            (_, Term::Number(at_least)) => Self::Distance { to, at_least: Some(*at_least) },
+            _ => Self::Distance { to, at_least: None },
+        })
+    }
 }
 
 /// A name for the result of a step.

@@ -21,9 +21,13 @@ pub(super) fn need_verdict(
     library: &Library,
 ) -> Option<NeedVerdict> {
     let verdict = *proof.needs.get(step.index())?.get(index)?;
-    let is_placed = matches!(placed, Some(MotionVerdict::Feasible(_)));
     let need = def.needs.get(index)?;
-    Some(if is_placed && is_of_motion(need, def, library) { NeedVerdict::Proven } else { verdict })
+    let of_motion = placed.filter(|_| is_of_motion(need, def, library));
+    Some(match of_motion {
+        Some(MotionVerdict::Feasible(_)) => NeedVerdict::Proven,
+        Some(MotionVerdict::Caught(_)) => NeedVerdict::Caught,
+        Some(MotionVerdict::Deferred(_)) | None => verdict,
+    })
 }
 
 /// Notes on the steps of a program that have guards, in the order of the steps. Motions count only if there
@@ -41,6 +45,9 @@ pub(crate) fn left_to_run(
         let (StepKind::Call(call), Ok(id)) = (&step.kind, u32::try_from(index)) else { continue };
         let Some(def) = library.primitive(call.primitive) else { continue };
         let verdict = placed.get(index).and_then(Option::as_ref);
+        if matches!(verdict, Some(MotionVerdict::Caught(_))) {
+            continue;
+        }
         let mut left = needs(&prover, proof, verdict, StepId(id), (call, def));
         if let (Some(MotionVerdict::Deferred(_)), Some((kind, args))) = (verdict, &def.motion) {
             let frame = CallFrame { args: &call.args, ..CallFrame::default() };

@@ -300,7 +300,28 @@ impl Lowering<'_> {
         let of = of
             .filter(|_| matches!(kind, EndKind::Done | EndKind::Fail))
             .and_then(|step| self.ids.get(step.index()).copied().flatten());
-        (how, of, why.map(|why| self.tables.term(why, &[], None)))
+        (how, of, why.map(|why| self.tables.term(&self.with_known_fields(why), &[], None)))
+    }
+
+    /// The reason of an ending with the fields that the scene gives: nothing is observed for a reason.
+    fn with_known_fields(&self, term: &Term) -> Term {
+        match term {
+            Term::Field(of, name) => match **of {
+                Term::Entity(entity) => {
+                    self.tables.environment.number(entity, name).map_or_else(|| term.clone(), Term::Number)
+                }
+                _ => term.clone(),
+            },
+            Term::Arith(op, left, right) => Term::Arith(
+                *op,
+                Box::new(self.with_known_fields(left)),
+                Box::new(self.with_known_fields(right)),
+            ),
+            Term::Template(parts) => {
+                Term::Template(parts.iter().map(|(part, ty)| (self.with_known_fields(part), *ty)).collect())
+            }
+            _ => term.clone(),
+        }
     }
 
     fn reaction(&mut self, reaction: &Reaction, owner: Option<NodeId>) -> graph::Reaction {
@@ -357,6 +378,7 @@ impl Lowering<'_> {
                 let (verdict, witness, why) = match placed {
                     Some(MotionVerdict::Feasible(witness)) => (graph::Verdict::Proven, Some(witness), None),
                     Some(MotionVerdict::Deferred(why)) => (graph::Verdict::Deferred, None, why),
+                    Some(MotionVerdict::Caught(why)) => (graph::Verdict::Deferred, None, Some(why)),
                     None => (graph::Verdict::Deferred, None, None),
                 };
                 let args = args.iter().map(|arg| self.tables.term(arg, &call.args, binds)).collect();
@@ -382,7 +404,9 @@ impl Lowering<'_> {
             verdict: match verdict {
                 NeedVerdict::Proven => graph::Verdict::Proven,
                 // A graph is made of policies without errors only, so nothing here was refuted.
-                NeedVerdict::Deferred | NeedVerdict::Refuted => graph::Verdict::Deferred,
+                NeedVerdict::Deferred | NeedVerdict::Caught | NeedVerdict::Refuted => {
+                    graph::Verdict::Deferred
+                }
             },
             failure: self.tables.guard_failure(&need.condition, fails),
         }

@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 use motet_geometry::kinematics::planar;
 use motet_geometry::planning::components;
 use motet_graph as graph;
-use motet_stdlib::lang;
 use motet_syntax::ast::{ArithOp, CompareOp};
 use rustc_hash::FxHashMap;
 use smol_str::{SmolStr, format_smolstr};
@@ -183,29 +182,8 @@ impl<'a> Tables<'a> {
     /// Failure of a refuted guard: from the fluent or field of the need if the primitive lists it, else
     /// `failed`.
     pub(super) fn guard_failure(&mut self, condition: &Condition, fails: &[Failure]) -> graph::FailureId {
-        let kind = self.specific_failure(condition).filter(|kind| fails.contains(kind));
-        self.failure(kind.or(self.library.lang_items.failed).unwrap_or(crate::ir::TIMEOUT))
-    }
-
-    fn specific_failure(&self, condition: &Condition) -> Option<Failure> {
-        let items = &self.library.lang_items;
-        match condition {
-            Condition::Fact(fact) => items.guard_failure(fact.fluent),
-            Condition::Compare(_, Term::Field(_, name), _) => match name.as_str() {
-                lang::fields::MASS => items.too_heavy,
-                lang::fields::WIDTH => items.unreachable,
-                _ => None,
-            },
-            Condition::Not(inner) => self.specific_failure(inner),
-            Condition::All(parts) | Condition::AnyOf(parts) => {
-                parts.first().and_then(|part| self.specific_failure(part))
-            }
-            Condition::Compare(..)
-            | Condition::Literal(_)
-            | Condition::MonitoredMeasure(_)
-            | Condition::MonitoredFluent(_)
-            | Condition::Unknown => None,
-        }
+        let kind = self.library.lang_items.need_failure(condition, fails);
+        self.failure(kind.unwrap_or(crate::ir::TIMEOUT))
     }
 }
 

@@ -274,6 +274,8 @@ impl<'a> Prover<'a> {
         let Some(param) = def.params.get(index) else { return Vec::new() };
         let Some(kind) = param.ty.kind_within() else { return Vec::new() };
         let mut found = Vec::new();
+        // Only what the hand holds, or may hold, can be put down.
+        let (mut must_be_held, mut may_be_held) = (false, Vec::new());
         let facts = def.needs.iter().flat_map(|need| match &need.condition {
             Condition::AnyOf(parts) => parts.as_slice(),
             only => std::slice::from_ref(only),
@@ -299,16 +301,23 @@ impl<'a> Prover<'a> {
                 Some(key.with(at, value))
             });
             let Some(pattern) = pattern else { continue };
+            let is_held = self.library.lang_items.holding == Some(fact.fluent);
+            must_be_held |= is_held;
             self.state.facts.entries(fact.fluent, pattern, |key, value| {
                 if value.is_true() {
                     found.push(Entity(key.arg(place)));
+                } else if is_held && key.arg(place) != ANY && !value.is_false() {
+                    may_be_held.push(Entity(key.arg(place)));
                 }
             });
+        }
+        if found.is_empty() {
+            found = may_be_held;
         }
         found.sort_unstable();
         found.dedup();
         found.retain(|entity| self.is_of_kind(*entity, kind));
-        if found.is_empty() {
+        if found.is_empty() && !must_be_held {
             let surface = self.library.lang_items.surface.unwrap_or(Kind::ROOT);
             if self.library.is_kind(surface, kind) {
                 found = self.of_kind(surface, MAX_CANDIDATES);

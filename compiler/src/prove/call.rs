@@ -1,17 +1,17 @@
 //! Transfer function of a call: its needs, its effects, and the facts after a failure.
 
-use motet_syntax::{Diagnostic, Mistake, Span};
+use motet_syntax::{Diagnostic, Mistake, Severity, Span};
 use smallvec::SmallVec;
 
 use super::effects::{Certainty, FactChange, PerceptionLifetime};
 use super::errors::{Refuted, Stale};
 use super::evaluation::{CallFrame, MAX_ALIASES};
 use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
-use crate::analysis::Domain;
+use crate::analysis::{Domain, Enclosing};
 use crate::declare::{LastsDef, NeedDef, PrimitiveDef, ResourceSet};
 use crate::environment::standing;
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
-use crate::ir::{Base, BindingId, Call, Entity, Fluent, MotionKind, StepId, StepKind, Term, Ty};
+use crate::ir::{Base, BindingId, Call, Condition, Entity, Fluent, MotionKind, StepId, StepKind, Term, Ty};
 
 impl<'a> Prover<'a> {
     pub(crate) fn call(&mut self, id: StepId, call: &Call, span: Span) {
@@ -35,7 +35,9 @@ impl<'a> Prover<'a> {
             self.check_watched(def, frame, span);
             self.check_redundant(def, &makes, frame, &verdicts, span);
         }
-        if verdicts.contains(&NeedVerdict::Deferred) || def.motion.is_some() {
+        let is_guarded =
+            |verdict: &NeedVerdict| matches!(verdict, NeedVerdict::Deferred | NeedVerdict::Caught);
+        if verdicts.iter().any(is_guarded) || def.motion.is_some() {
             // A guard that refuses changes nothing.
             self.throw_all(&def.fails);
         }
@@ -53,6 +55,8 @@ impl<'a> Prover<'a> {
         self.bind(id, call, def, frame);
         self.erode();
         self.see_states();
+        // It fails for certain, and only its handler goes on.
+        self.control.live &= !verdicts.contains(&NeedVerdict::Caught);
         if let Some(slot) = self.proof.needs.get_mut(id.index()) {
             *slot = verdicts;
         }
@@ -188,11 +192,12 @@ impl<'a> Prover<'a> {
             let (value, culprit) = self.need(need, frame);
             let verdict = if value.no.is_some() {
                 let frame = CallFrame { each: culprit, ..frame };
+                let is_caught = self.is_caught(def, need);
                 if !is_misgiven {
                     self.refuted(id, def, need, frame, span);
                 }
                 is_misgiven |= self.is_misgiven(&need.condition, frame);
-                NeedVerdict::Refuted
+                if is_caught { NeedVerdict::Caught } else { NeedVerdict::Refuted }
             } else if value.open.is_some() {
                 if let Some(entity) = culprit {
                     self.proof.unknown_of.insert((id, verdicts.len()), entity);
@@ -216,10 +221,12 @@ impl<'a> Prover<'a> {
     }
 
     fn refuted(&mut self, id: StepId, def: &PrimitiveDef, need: &NeedDef, frame: CallFrame<'_>, span: Span) {
+        let is_caught = self.is_caught(def, need);
         if self.mode == Mode::Decide {
-            return self.count(Refuted::CODE);
+            return if is_caught { () } else { self.count(Refuted::CODE) };
         }
-        let explanation = self.explain(&need.condition, true, frame);
+        let in_cleanup = self.explain_in_cleanup(id, need, frame);
+        let explanation = in_cleanup.unwrap_or_else(|| self.explain(&need.condition, true, frame));
         let mistake = Refuted {
             span,
             callee: def.name.clone(),
@@ -230,10 +237,27 @@ impl<'a> Prover<'a> {
             remedy: self.remedy(&explanation),
             subject: explanation.subject,
         };
-        let mistake = Diagnostic::from(mistake);
+        let mut mistake = Diagnostic::from(mistake);
+        if is_caught {
+            mistake.severity = Severity::Warning;
+            mistake.help = Some("the step fails, and the `catch` around it runs".to_owned());
+            return self.diagnostics.push(mistake);
+        }
         let frame = CallFrame { each: None, ..frame };
         self.notify(Problem::RefutedNeed { step: id, def, frame }, &mistake);
         self.diagnostics.push(mistake);
+    }
+
+    /// Returns true if a need compares a number of the thing itself, which no step can change, and a handler
+    /// around the step catches the failure of that need.
+    fn is_caught(&self, def: &PrimitiveDef, need: &NeedDef) -> bool {
+        let Condition::Compare(_, Term::Field(..), _) = &need.condition else { return false };
+        let Some(failure) = self.library.lang_items.need_failure(&need.condition, &def.fails) else {
+            return false;
+        };
+        let around = self.control.enclosing.iter().rev();
+        let mut inside = around.take_while(|around| !matches!(around, Enclosing::Cleanup(_)));
+        inside.any(|around| around.handles(failure))
     }
 
     /// Possible values of a need, and the entity for which it can be false, or else is unknown.

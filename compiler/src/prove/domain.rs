@@ -398,7 +398,9 @@ impl Prover<'_> {
             let earlier = found.last().is_some_and(|place: &crate::ir::StepPosition| {
                 place.parent == step.position.parent && place.slot == step.position.slot
             });
-            if parent_reached && !here && !earlier {
+            // What could not be read has a finding of its own, and no span of its own.
+            let is_gap = matches!(step.kind, StepKind::Unknown);
+            if parent_reached && !here && !earlier && !is_gap {
                 found.push(step.position);
                 self.diagnostics.push(Unreached { span: step.span }.into());
             }

@@ -7,6 +7,7 @@ use smol_str::{SmolStr, format_smolstr};
 use super::errors::GoalRefuted;
 use super::evaluation::CallFrame;
 use super::{GoalVerdict, Mode, PolicyEnd, Problem, Prover};
+use crate::declare::NeedDef;
 use crate::facts::{Cause, show};
 use crate::ir::{Base, BlockSlot, Condition, Entity, Fact, Fluent, StepId, StepKind, Term};
 
@@ -28,7 +29,7 @@ pub(crate) struct Explanation {
     /// Path from the cause: " where `open(drawer)` holds".
     way: String,
     /// Advice, if no earlier step could help.
-    advice: Option<&'static str>,
+    advice: Option<SmolStr>,
 }
 
 impl Explanation {
@@ -40,6 +41,7 @@ impl Explanation {
         match (&self.maker, self.cause) {
             (Some(maker), _) => format!("which {maker} false{}", self.way),
             (None, Cause::NONE | Cause::NOTHING) => "which no step makes true".to_owned(),
+            (None, _) if !self.way.is_empty() => format!("which does not hold{}", self.way),
             (None, _) => "which does not hold at the start".to_owned(),
         }
     }
@@ -78,7 +80,7 @@ impl Prover<'_> {
             {
                 let wanted = format!("something other than `{}`", self.term_text(left, frame));
                 let numbers = Some("but it is given exactly that".to_owned());
-                let advice = Some("name another entity, or remove this step");
+                let advice = Some(SmolStr::new_static("name another entity, or remove this step"));
                 return Explanation {
                     wanted,
                     cause: Cause::START,
@@ -173,10 +175,44 @@ impl Prover<'_> {
         String::new()
     }
 
+    /// Explains a need of a step in a cleanup that holds on some of the ways there, and not on the one where
+    /// the first step before the cleanup fails. `None` for any other need.
+    pub(crate) fn explain_in_cleanup(
+        &self,
+        id: StepId,
+        need: &NeedDef,
+        frame: CallFrame<'_>,
+    ) -> Option<Explanation> {
+        let (value, _) = self.need(need, frame);
+        let is_mixed = value.yes.is_some() || value.open.is_some();
+        let mut explanation = self.explain(&need.condition, true, frame);
+        // Where the robot has to stand it can drive, whatever happened.
+        let items = &self.library.lang_items;
+        let is_driven = |(fluent, _): (Fluent, bool)| [items.at, items.near].contains(&Some(fluent));
+        if !is_mixed || explanation.fact.is_none_or(is_driven) || explanation.cause.as_step().is_some() {
+            return None;
+        }
+        let mut slot = self.program.step(id)?.position.slot;
+        let (whole, _) = self
+            .program
+            .around(id)
+            .find(|(_, outer)| std::mem::replace(&mut slot, outer.position.slot) == BlockSlot::Finally)?;
+        let steps = self.program.steps.iter().enumerate().skip(whole.index() + 1);
+        let mut calls = steps.filter(|(_, step)| matches!(step.kind, StepKind::Call(_)));
+        let first = calls.next().and_then(|(index, _)| u32::try_from(index).ok().map(StepId))?;
+        if first >= id {
+            return None;
+        }
+        let test = explanation.wanted.trim_matches('`');
+        explanation.advice = Some(format_smolstr!("test it first: `if {test} {{ … }}`"));
+        explanation.way = format!(" where `{}` fails", self.cause_name(Cause::step(first)));
+        Some(explanation)
+    }
+
     /// Advice: primitives that achieve the missing fact.
     pub(crate) fn remedy(&self, explanation: &Explanation) -> Option<String> {
-        if let Some(advice) = explanation.advice {
-            return Some(advice.to_owned());
+        if let Some(advice) = &explanation.advice {
+            return Some(advice.to_string());
         }
         let (fluent, truth) = explanation.fact?;
         let achievers = self.library.primitives.iter().filter(|def| def.provided);
@@ -240,10 +276,17 @@ impl Prover<'_> {
                 let name = def.map_or("a step", |def| def.name.as_str());
                 let args =
                     def.into_iter().flat_map(|def| def.asked(&call.args)).filter_map(|arg| match arg {
-                        Term::Entity(_) | Term::Binding(_) => Some(self.term_text(arg, CallFrame::default())),
+                        Term::Entity(_) | Term::Binding(_) | Term::First(_) => {
+                            Some(self.term_text(arg, CallFrame::default()))
+                        }
                         _ => None,
                     });
-                format_smolstr!("{name}({})", args.collect::<Vec<_>>().join(", "))
+                let args: Vec<_> = args.collect();
+                // Its arguments are left out where they are texts, numbers, or wrong.
+                if args.is_empty() && !call.args.is_empty() {
+                    return name.into();
+                }
+                format_smolstr!("{name}({})", args.join(", "))
             }
             Some(StepKind::Let { .. }) => "let".into(),
             Some(StepKind::If { .. }) => "if".into(),

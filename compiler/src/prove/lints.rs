@@ -13,7 +13,9 @@ use super::evaluation::CallFrame;
 use super::{Mode, NeedVerdict, PolicyEnd, Problem, Prover};
 use crate::declare::{NeedDef, PrimitiveDef};
 use crate::facts::{Cause, FactKey, TruthSet, show};
-use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, MotionKind, StepId, Term};
+use crate::ir::{
+    Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, MotionKind, StepId, StepKind, Term,
+};
 
 impl Prover<'_> {
     /// Returns whether a step belongs to the document itself, and not to a policy of another file.
@@ -36,6 +38,7 @@ impl Prover<'_> {
             let mut found: Option<(FactKey, Cause)> = None;
             self.state.facts.entries(fluent, FactKey::ALL, |key, value| {
                 let counts = value.yes.is_some() && (!of_a_step || value.yes.as_step().is_some());
+                let counts = counts && !self.is_undone_in_error(fluent, key);
                 if counts && found.is_none_or(|(least, _)| key < least) {
                     found = Some((key, value.yes));
                 }
@@ -56,6 +59,23 @@ impl Prover<'_> {
             self.notify_ending(subgoal, end, &mistake);
             self.warn(mistake);
         }
+    }
+
+    /// Returns true if a step that would make a fact false is refused: then that is all there is to say.
+    fn is_undone_in_error(&self, fluent: Fluent, key: FactKey) -> bool {
+        let mut steps = self.program.steps.iter().zip(&self.proof.needs);
+        steps.any(|(step, verdicts)| {
+            let StepKind::Call(call) = &step.kind else { return false };
+            let Some(def) = self.library.primitive(call.primitive) else { return false };
+            let frame = CallFrame { args: &call.args, ..CallFrame::default() };
+            verdicts.contains(&NeedVerdict::Refuted)
+                && def.makes.iter().any(|effect| {
+                    let thing = effect.fact.args.first().and_then(Option::as_ref);
+                    effect.fact.fluent == fluent
+                        && !effect.value
+                        && thing.and_then(|thing| self.argument(thing, frame)) == Some(key.arg(0))
+                })
+        })
     }
 
     fn notify_ending(&mut self, fact: (Fluent, FactKey, bool), end: Option<PolicyEnd>, mistake: &Diagnostic) {

@@ -47,6 +47,8 @@ pub(crate) enum NeedVerdict {
     Proven,
     /// Left to an observation.
     Deferred,
+    /// False, whatever was done before, and a handler catches that.
+    Caught,
     /// Fails on some path.
     Refuted,
 }

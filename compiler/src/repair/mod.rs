@@ -9,7 +9,7 @@
 mod search;
 mod write;
 
-use motet_syntax::{Code, Diagnostic, Fix, Parsed, Span};
+use motet_syntax::{Code, Diagnostic, Fix, Parsed, Severity, Span};
 
 use crate::declare::{Library, NeedDef, PrimitiveDef};
 use crate::environment::Environment;
@@ -43,12 +43,17 @@ pub(crate) struct RepairCandidates {
 pub(crate) enum Repair {
     /// Inserts calls before a step.
     Before(StepId, Vec<CandidateCall>),
+    /// Inserts calls before a step in front of the refused one, where nothing was tried: whoever applies it
+    /// checks it, and it is no advice.
+    Earlier(StepId, Vec<CandidateCall>),
     /// Inserts calls behind a step.
     After(StepId, Vec<CandidateCall>),
     /// Repeats the step that bound a value before another step, whose argument then is the new value.
     Again { found: StepId, before: StepId, used: Span },
     /// Leaves the step out.
     Drop(StepId),
+    /// Puts a test of conditions around the step.
+    Test(StepId, String),
     /// Puts a monitor of a fluent without parameters around the step.
     Watch(StepId, Fluent),
 }
@@ -116,6 +121,9 @@ impl RepairFinder {
         environment: &Environment,
     ) -> Vec<Finding> {
         let writer = write::Writer { parsed, program, library, environment };
+        let wrong = diagnostics.iter().chain(&parsed.diagnostics);
+        let wrong = wrong.filter(|said| said.severity == Severity::Error).map(|said| said.span);
+        let wrong: Vec<Span> = wrong.collect();
         let mut findings: Vec<_> = diagnostics.into_iter().map(Finding::from).collect();
         for found in &mut findings {
             let diagnostic = &mut found.diagnostic;
@@ -127,11 +135,12 @@ impl RepairFinder {
                     && known.message == diagnostic.message
             });
             let repairs = known.map(|known| known.repairs.as_slice()).unwrap_or_default();
-            let mut fixes = repairs
-                .iter()
-                .filter_map(|repair| Some((writer.fix(repair)?, writer.applicability(repair, code))));
+            let untried = repairs.iter().position(|repair| matches!(repair, Repair::Earlier(..)));
+            let (tried, untried) = repairs.split_at(untried.unwrap_or(repairs.len()));
+            let written = |repair: &Repair| Some((writer.fix(repair)?, writer.applicability(repair, code)));
+            let mut fixes = tried.iter().filter_map(written);
             if diagnostic.fix.is_none() {
-                let unreachable = || Some((writer.leaving_out(diagnostic)?, Applicability::Safe));
+                let unreachable = || Some((writer.leaving_out(diagnostic, &wrong)?, Applicability::Unsafe));
                 let only_one = || Some((writer.only_one(diagnostic)?, Applicability::Shown));
                 let own = fixes.next().or_else(unreachable).or_else(only_one);
                 (diagnostic.fix, found.applicability) = match own {
@@ -139,7 +148,7 @@ impl RepairFinder {
                     None => (None, found.applicability),
                 };
             }
-            found.alternatives = fixes.collect();
+            found.alternatives = fixes.chain(untried.iter().filter_map(written)).collect();
         }
         findings
     }
@@ -155,8 +164,14 @@ impl RepairFinder {
     ) {
         let span = diagnostic.span;
         let is_known = self.candidates.iter().any(|known| known.span == span);
-        if self.is_full() || prover.is_inlined(id) || is_known {
+        // Arguments that are wrong leave open which steps would help.
+        let step = prover.program.step(id).map(|step| &step.kind);
+        let is_faulty = matches!(step, Some(StepKind::Call(call)) if call.is_faulty);
+        if self.is_full() || prover.is_inlined(id) || is_known || is_faulty {
             return;
+        }
+        if let Some(test) = prover.test_of(id, def, frame) {
+            return self.add(diagnostic, vec![Repair::Test(id, test)]);
         }
         let mut repairs = Vec::new();
         if prover.is_done(def, frame) {
@@ -173,7 +188,7 @@ impl RepairFinder {
             let place = prover.program.step(earlier).map_or(span, |step| step.span);
             for achiever in direct.iter().take(MAX_CANDIDATES) {
                 let calls = prover.by_binding(vec![achiever.call.clone()], place);
-                repairs.push(Repair::Before(earlier, calls));
+                repairs.push(Repair::Earlier(earlier, calls));
             }
         }
         self.add(diagnostic, repairs);
@@ -264,6 +279,18 @@ impl Prover<'_> {
         let refuted = def.needs.iter().find(|need| self.need(need, frame).0.no.is_some())?;
         let Condition::MonitoredFluent(fluent) = &refuted.condition else { return None };
         self.library.fluent(*fluent).filter(|def| def.params.is_empty()).map(|_| *fluent)
+    }
+
+    /// The needs of a step in a cleanup that hold only on some of the ways there, as a condition.
+    fn test_of(&self, id: StepId, def: &PrimitiveDef, frame: CallFrame<'_>) -> Option<String> {
+        let refuted = def.needs.iter().filter(|need| self.need(need, frame).0.no.is_some());
+        let tests = refuted.map(|need| {
+            let test = self.explain_in_cleanup(id, need, frame)?.wanted;
+            let test = test.trim_matches('`');
+            Some(if test.contains(" or ") { format!("({test})") } else { test.to_owned() })
+        });
+        let tests = tests.collect::<Option<Vec<String>>>()?;
+        (!tests.is_empty()).then(|| tests.join(" and "))
     }
 
     /// Returns whether a step belongs to a sub-policy, in which the names of its caller have no meaning.

@@ -26,7 +26,7 @@ impl Writer<'_> {
     /// Writes a repair as edits; `None` if a call has no spelling.
     pub(super) fn fix(&self, repair: &Repair) -> Option<Fix> {
         match repair {
-            Repair::Before(id, calls) => {
+            Repair::Before(id, calls) | Repair::Earlier(id, calls) => {
                 let step = self.step(*id)?;
                 let (calls, renamed) = self.calls(calls)?;
                 let texts = self.texts(&calls);
@@ -42,6 +42,7 @@ impl Writer<'_> {
                 Some(Fix { title, edits: vec![self.insert_after(self.step(*id)?.span, &texts)?] })
             }
             Repair::Watch(id, fluent) => self.watched(*id, *fluent),
+            Repair::Test(id, condition) => self.tested(*id, condition),
             Repair::Again { found, before, used } => self.again(*found, *before, *used),
             Repair::Drop(id) => {
                 let edit = self.without(self.step(*id)?.span)?;
@@ -56,15 +57,18 @@ impl Writer<'_> {
     /// Degree to which a repair of a code may be applied without asking.
     pub(super) fn applicability(&self, repair: &Repair, code: Code) -> Applicability {
         match repair {
-            Repair::Before(_, calls) | Repair::After(_, calls) if !self.are_named(calls) => {
+            Repair::Before(_, calls) | Repair::Earlier(_, calls) | Repair::After(_, calls)
+                if !self.are_named(calls) =>
+            {
                 Applicability::Shown
             }
             // A lint of intent: what the policy ends with may be what it is for.
-            Repair::Before(..) | Repair::After(..) if code.0.starts_with("M09") => Applicability::Unsafe,
-            Repair::Before(..) | Repair::After(..) | Repair::Again { .. } | Repair::Watch(..) => {
-                Applicability::Safe
+            Repair::Before(..) | Repair::Earlier(..) | Repair::After(..) if code.0.starts_with("M09") => {
+                Applicability::Unsafe
             }
-            Repair::Drop(_) => Applicability::Unsafe,
+            Repair::Before(..) | Repair::Earlier(..) | Repair::After(..) => Applicability::Safe,
+            Repair::Again { .. } | Repair::Watch(..) => Applicability::Safe,
+            Repair::Drop(_) | Repair::Test(..) => Applicability::Unsafe,
         }
     }
 
@@ -89,7 +93,6 @@ impl Writer<'_> {
             return None;
         }
         let name = &self.library.fluent(fluent)?.name;
-        let place = step.span;
         let (before, after) = match self.parsed.syntax {
             Syntax::Text => {
                 (format!("monitor when {}() then pause during {{ ", print::identifier(name)), " }")
@@ -102,11 +105,37 @@ impl Writer<'_> {
                 "]}",
             ),
         };
-        let edits = vec![
-            Edit { span: Span { end: place.start, ..place }, text: before },
-            Edit { span: Span { start: place.end, ..place }, text: after.to_owned() },
-        ];
+        let edits = around(step.span, before, after);
         Some(Fix { title: format!("watch `{name}` meanwhile, and pause"), edits })
+    }
+
+    /// Puts a test around a step that binds no value.
+    fn tested(&self, id: StepId, condition: &str) -> Option<Fix> {
+        let step = self.step(id)?;
+        if !matches!(&step.kind, StepKind::Call(call) if call.binds.is_none()) {
+            return None;
+        }
+        let (before, after) = match self.parsed.syntax {
+            Syntax::Text => (format!("if {condition} {{ "), " }"),
+            Syntax::Json => (format!("{{\"if\": \"{}\", \"then\": [", self.with_sigils(condition)), "]}"),
+        };
+        let edits = around(step.span, before, after);
+        Some(Fix { title: format!("test it first: `if {condition} {{ … }}`"), edits })
+    }
+
+    /// A condition with a `$` before every name that is bound, as JSON needs it.
+    fn with_sigils(&self, condition: &str) -> String {
+        let is_part = |letter: char| letter.is_alphanumeric() || letter == '_';
+        let mut text = String::new();
+        for piece in condition.split_inclusive(|letter| !is_part(letter)) {
+            let name = piece.trim_end_matches(|end| !is_part(end));
+            let is_bound = self.program.bindings.iter().any(|bound| bound.name == name);
+            if is_bound && !piece.ends_with('(') {
+                text.push('$');
+            }
+            text.push_str(piece);
+        }
+        text
     }
 
     /// Replaces bindings by their new names in the arguments of a step.
@@ -180,26 +209,31 @@ impl Writer<'_> {
     }
 
     /// Fix for an unreachable step: removes it and the rest of its block. The first step of a block stays,
-    /// since a block must not be empty.
-    pub(super) fn leaving_out(&self, said: &Diagnostic) -> Option<Fix> {
+    /// since a block must not be empty, and so does all that has a mistake: to remove it would not mend it.
+    pub(super) fn leaving_out(&self, said: &Diagnostic, wrong: &[Span]) -> Option<Fix> {
         if said.code.0 != "M0902" {
             return None;
         }
         let step = self.program.steps.iter().find(|step| step.span == said.span)?;
         let place = step.position;
-        let block = self
-            .program
-            .steps
-            .iter()
-            .filter(|other| other.position.parent == place.parent && other.position.slot == place.slot);
-        let last = block.filter(|other| other.span.file == step.span.file).map(|other| other.span).max()?;
-        if place.index == 0 {
+        let rest = self.program.steps.iter().filter(|other| {
+            let position = other.position;
+            position.parent == place.parent && position.slot == place.slot && position.index >= place.index
+        });
+        let mut removed = step.span;
+        for other in rest {
+            // What could not be read has the span of its whole block.
+            if matches!(other.kind, StepKind::Unknown) {
+                return None;
+            }
+            if other.span.file == step.span.file {
+                removed = removed.to(other.span);
+            }
+        }
+        if place.index == 0 || wrong.iter().any(|span| removed.contains(*span)) {
             return None;
         }
-        Some(Fix {
-            title: "remove the unreachable steps".to_owned(),
-            edits: vec![self.without(step.span.to(last))?],
-        })
+        Some(Fix { title: "remove the unreachable steps".to_owned(), edits: vec![self.without(removed)?] })
     }
 
     /// Repeats a perception: moves it if its value has no other use, else copies it under a new name.
@@ -339,6 +373,14 @@ impl Writer<'_> {
         }
         Some(Edit { span, text: String::new() })
     }
+}
+
+/// Edits that put text around a step.
+fn around(place: Span, before: String, after: &str) -> Vec<Edit> {
+    vec![
+        Edit { span: Span { end: place.start, ..place }, text: before },
+        Edit { span: Span { start: place.end, ..place }, text: after.to_owned() },
+    ]
 }
 
 /// Checks if a text has a name as a whole word.

@@ -7,7 +7,9 @@ use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
-use super::errors::{IgnoredArgument, NoMotion, NoResult, PoseForEntity, Recursion, UnknownPrimitive};
+use super::errors::{
+    EmptyList, IgnoredArgument, NoMotion, NoResult, PoseForEntity, Recursion, UnknownPrimitive,
+};
 use super::meant::step_to_write;
 use super::result::PolicyResult;
 use super::step::StepResolver;
@@ -148,6 +150,7 @@ impl StepResolver<'_> {
             if let (Term::Text(text), None, PrimitiveKind::Perception) = (&term, &description, def.form) {
                 description = Some(text.clone());
             }
+            self.check_not_empty(&term, args.len(), def, at);
             args.push(term);
             spans.push(at);
             units.push(arg.and_then(Expr::unit));
@@ -208,6 +211,19 @@ impl StepResolver<'_> {
         let mut twins = self.elaborator.library.primitives.iter().filter(fits);
         let twin = twins.next()?.name.clone();
         twins.next().is_none().then_some(twin)
+    }
+
+    /// Reports an empty list for a parameter of whose first element the motion needs.
+    fn check_not_empty(&mut self, arg: &Term, index: usize, def: &PrimitiveDef, span: Span) {
+        let is_first = |of: &Term| match of {
+            Term::First(list) => matches!(**list, Term::Param(param) if usize::from(param) == index),
+            _ => false,
+        };
+        let is_needed = def.motion.as_ref().is_some_and(|(_, args)| args.iter().any(is_first));
+        if matches!(arg, Term::List(items) if items.is_empty()) && is_needed {
+            let name = def.params.get(index).map(|param| param.name.clone()).unwrap_or_default();
+            self.elaborator.report(EmptyList { span, name, callee: def.name.clone() });
+        }
     }
 
     /// The manner of a call; an error for a primitive that moves nothing.

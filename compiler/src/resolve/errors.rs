@@ -1,5 +1,5 @@
 //! Diagnostics of unknown callees, of names that a step must not bind, of endings (M0201, M0206, M0207, M0212,
-//! M0218, M0305, M0315, M0319, M0912), and of results of policies (M0316 to M0318).
+//! M0218, M0305, M0315, M0319, M0320, M0912), and of results of policies (M0316 to M0318).
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
@@ -123,6 +123,13 @@ motet_syntax::mistakes! {
         let edits = vec![Edit { span: m.span, text: text.to_owned() }];
         Some(Fix { title: "remove the manner".to_owned(), edits })
     }
+
+    /// Empty list where a step needs at least one element.
+    EmptyList("M0320", Error) { callee: SmolStr, name: SmolStr }
+    message(m) {
+        format!("`{}` of `{}` is an empty list, and the step begins at its first element", m.name, m.callee)
+    }
+    help(m) { Some(format!("name at least one element for `{}`", m.name)) }
 }
 
 /// The step to write for a word that is no callee.

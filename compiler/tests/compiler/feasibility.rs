@@ -358,3 +358,57 @@ fn poses_of_the_base_that_are_taken_are_refused() {
         "policy p for hsr keep distance(kitchen_table) >= 1 m { go_to_pose(pose(1.4 m, 0.5 m, 0 deg)) }";
     assert!(ask(kept).contains("what `keep distance(kitchen_table) >= 1 m` forbids"), "{}", ask(kept));
 }
+
+#[test]
+fn block_of_a_keep_that_begins_where_its_rule_is_broken_is_refused() {
+    let home = "policy come for hsr { go(user) keep distance(user) >= 1 m { home() say(\"a\") } }";
+    let (said, since) = refusal(&KITCHEN, home);
+    assert!(said.starts_with("M0609 `keep distance(user) >= 1 m` is broken"), "{said}");
+    assert!(said.contains(" m from `user`, where `go(user)` brought it"), "{said}");
+    assert_eq!(since, ["the robot came here"]);
+    // A step before the block leaves the place.
+    let away = "policy come for hsr { go(user) go(start) keep distance(user) >= 1 m { home() } }";
+    assert!(compile(&KITCHEN, away).0.is_some());
+    // The user may have gone away by then.
+    let waits = "policy come for hsr { go(user) wait until distance(user) > 1 m \
+        keep distance(user) >= 1 m { home() } }";
+    assert!(compile(&KITCHEN, waits).0.is_some());
+    let in_zone = session(&with_zone([0.0, 0.0], [1.0, 1.0]));
+    let said = refusal(&in_zone, "policy p for hsr keep out of stairs { go(user) }").0;
+    assert!(said.contains("the robot is in `stairs` at the start"), "{said}");
+}
+
+#[test]
+fn motion_that_only_a_rule_makes_infeasible_names_the_rule() {
+    let near = "policy p for hsr { go(kitchen_table) inspect(mug_1) pick(mug_1) }";
+    assert!(compile(&KITCHEN, near).0.is_some());
+    let kept = "policy p for hsr { keep distance(mug_1) >= 1 m \
+        { go(kitchen_table) inspect(mug_1) pick(mug_1) } }";
+    let said = refusal(&KITCHEN, kept).0;
+    assert!(said.contains("`keep distance(mug_1) >= 1 m` leaves no way"), "{said}");
+    assert!(said.contains("without it there is a motion"), "{said}");
+    let said = refusal(&KITCHEN, "policy p for hsr keep distance(user) >= 1.5 m { go(user) }").0;
+    assert!(said.contains("`keep distance(user) >= 1.5 m` leaves no way"), "{said}");
+}
+
+#[test]
+fn need_that_no_step_can_change_is_a_warning_where_its_failure_is_caught() {
+    let lab = in_scene(&builtin::robot("hsr").unwrap(), &builtin::scene("lab").unwrap());
+    let lift = "go(workbench) inspect(vise)";
+    let bare = compile(&lab, &format!("policy p for hsr {{ {lift} pick(vise) }}"));
+    assert_eq!(errors(&bare.1).len(), 2, "{:?}", bare.1);
+    let (graph, said) = compile(
+        &lab,
+        &format!(
+            "policy p for hsr {{ {lift} try {{ pick(vise) }} catch too_heavy, unreachable \
+             {{ cannot \"no\" }} }}"
+        ),
+    );
+    assert!(graph.is_some(), "{said:#?}");
+    let warned = said.iter().filter(|said| said.code.0 == "M0501");
+    let help: Vec<_> = warned.filter_map(|said| said.help.as_deref()).collect();
+    assert_eq!(help, ["the step fails, and the `catch` around it runs"; 2]);
+    let half =
+        format!("policy p for hsr {{ {lift} try {{ pick(vise) }} catch slipped {{ cannot \"no\" }} }}");
+    assert!(compile(&lab, &half).0.is_none());
+}

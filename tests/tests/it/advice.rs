@@ -303,3 +303,55 @@ fn diagnostics_waits_and_endings_written_as_calls_are_mended() {
         assert!(text.contains(written), "{step}: {text}");
     }
 }
+
+/// The warnings and notes for the HSR in the kitchen are not about a code.
+fn is_silent(document: &str, code: &str) {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let mut sources = Sources::default();
+    let source = Source::new("p", document);
+    let file = sources.add(source.clone());
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut sources);
+    let said = session.check(&motet_syntax::read(&source, file));
+    assert!(said.iter().all(|said| said.code.0 != code), "{said:#?}");
+}
+
+#[test]
+fn diagnostics_names_in_a_text_that_cannot_be_read_are_not_unused() {
+    let body = "let n = battery() let f = distance(user) say(\"{n} and {f\")";
+    is_silent(&format!("policy p for hsr {{\n    {body}\n}}\n"), "M0901");
+}
+
+#[test]
+fn diagnostics_repair_puts_down_what_the_hand_may_hold() {
+    let held = "go(kitchen_table)\n    inspect(plate)\n    \
+                try { pick(plate) } catch unreachable { say(\"x\") }\n    \
+                go(fridge_1)\n    open(fridge_1)";
+    let found = errors(&format!("policy p for hsr {{\n    {held}\n}}\n"));
+    assert!(found[0].starts_with("M0501: `open` needs `free(hand)`"), "{found:#?}");
+    assert!(found.iter().all(|said| !said.contains("mug_1")), "{found:#?}");
+    let first = r#"{"do": "go", "to": "kitchen_table"}, {"do": "detect_all", "what": "mug", "as": "xs"},
+        {"do": "inspect", "what": {"get": "first", "of": "$xs"}},
+        {"do": "pick", "object": {"get": "first", "of": "$xs"}}, {"do": "pick", "object": "$ys"}"#;
+    let found = errors(&format!(r#"{{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{first}]}}"#));
+    assert!(found.iter().any(|said| said.contains("`pick(first(xs))` made false")), "{found:#?}");
+    assert!(found.iter().all(|said| !said.contains("nsert") && !said.contains("`pick()`")), "{found:#?}");
+}
+
+#[test]
+fn diagnostics_need_of_a_cleanup_names_the_way_that_breaks_it() {
+    let body = "sequence a {\n        go(kitchen_table)\n        inspect(mug_1)\n \
+                       pick(mug_1)\n    } finally \
+                {\n        place(mug_1, kitchen_table)\n    }";
+    let found = errors(&format!("policy p for hsr {{\n    {body}\n}}\n"));
+    let way = "`place` needs `holding(mug_1)`, which does not hold where `go(kitchen_table)` fails";
+    assert!(found.iter().any(|said| said.contains(way)), "{found:#?}");
+    let test = "test it first: `if holding(mug_1) { … }`";
+    assert!(found.iter().any(|said| said.contains(test)), "{found:#?}");
+}
+
+#[test]
+fn diagnostics_container_that_a_refused_step_would_close_is_not_told_as_left_open() {
+    let steps = r#"{"do": "go", "to": "fridge_1"}, {"do": "open", "what": "fridge_1"},
+        {"do": "go", "to": "user"}], "finally": [{"do": "close", "what": "fridge_1"}"#;
+    is_silent(&format!(r#"{{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{steps}]}}"#), "M0907");
+}

@@ -1,13 +1,15 @@
 //! The loop around the planner: questions and their answers, tries after a failure, and requests that come
 //! in between.
 use motet_compiler::CheckOptions;
+use motet_graph::{NodeId, NodeKind};
 use motet_planner::Builtin;
 use motet_planner::dialogue::{
     Conversation, DialogueObserver, DialogueSetup, Kind, NoOperator, Outcome, Person, Problem,
 };
 use motet_runtime::memory::Memory;
-use motet_runtime::{Effect, Time};
+use motet_runtime::{Effect, RunEnd, Time};
 use motet_sim::{Faults, Sim, SimOptions};
+use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
 
 fn setting(robot: &str) -> DialogueSetup {
@@ -355,4 +357,17 @@ fn conversation_what_was_asked_for_before_is_not_forgotten() {
     assert_eq!(outcome, Outcome::Done, "{asked:?}");
     assert!(asked[0].question.ends_with("Shall I go on with \"bring me the coke\"?"), "{asked:?}");
     assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+}
+
+#[test]
+fn conversation_question_that_nobody_answers_is_quoted() {
+    let setting = setting("hsr");
+    let session = setup::session(Some(&setting.robot), Some(&setting.scene), &mut Sources::default()).0;
+    let source = Source::new("p.motet", "policy p for hsr { let a = ask(\"Shall I bring it?\") say(a) }");
+    let graph = session.compile(&motet_syntax::read(&source, FileId(9)), None).graph.unwrap();
+    let node = graph.nodes.iter().position(|node| matches!(node.kind, NodeKind::Call(_))).unwrap();
+    let end =
+        RunEnd::Failed { kind: "refused".into(), why: None, node: NodeId(u32::try_from(node).unwrap()) };
+    let problem = Problem::of_run(&end, (&graph, &[]), &setting.scene).unwrap();
+    assert_eq!(problem.question, "Nobody answered \"Shall I bring it?\". Shall I ask again?");
 }

@@ -110,6 +110,45 @@ fn fix_what_is_stale_is_perceived_again_and_what_is_dead_left_out() {
     );
 }
 
+/// Safe fixes leave a body as it is; all fixes make of it the other one.
+fn check_unsafe(session: &Session, body: &str, expected: &str) {
+    let whole = |body: &str| format!("policy p for hsr {{\n{body}}}\n");
+    let source = Source::new("policy", whole(body));
+    let safe = fix(session, &source, FILE, FixLimits::safe(100));
+    assert_eq!(safe.text, whole(body), "{:#?}", safe.applied);
+    assert_eq!(mend(session, &whole(body)).text, whole(expected));
+}
+
+#[test]
+fn fix_steps_are_taken_away_on_request_and_only_if_they_are_right() {
+    let session = session();
+    let dead = "    go(user)\n    done\n    say(\"x\")\n";
+    check_unsafe(&session, dead, "    go(user)\n    done\n");
+    // What cannot be read has no place of its own, and an error is not mended by its removal.
+    let unread = "    done\n    fast\n";
+    check_unsafe(&session, unread, unread);
+    let wrong = "    done\n    say(\"{foo}\")\n    say(\"b\")\n";
+    check_unsafe(&session, wrong, wrong);
+}
+
+#[test]
+fn fix_cleanup_tests_what_holds_on_some_ways_only() {
+    let session = session();
+    let body = |put: &str| {
+        format!(
+            "    sequence a {{\n        go(kitchen_table)\n        inspect(mug_1)\n \
+                    pick(mug_1)\n        \
+             cannot \"no\"\n    }} finally {{\n        {put}\n    }}\n"
+        )
+    };
+    let put = "place(mug_1, kitchen_table)";
+    let fixed = mend(&session, &format!("policy p for hsr {{\n{}}}\n", body(put)));
+    let titles: Vec<_> = fixed.applied.iter().map(|fix| fix.title.as_str()).collect();
+    assert_eq!(errors(&fixed.diagnostics), 0, "{}\n{:#?}", fixed.text, fixed.diagnostics);
+    assert!(titles[0].starts_with("test it first: `if holding(mug_1)"), "{titles:?}");
+    assert!(fixed.text.contains("if holding(mug_1)"), "{}", fixed.text);
+}
+
 /// What comes of a body has no errors, and these words in it.
 fn check_has(session: &Session, body: &str, words: &str) {
     let policy = if body.starts_with('[') {

@@ -20,15 +20,16 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
     let mut order: Vec<&Diagnostic> = diagnostics.iter().collect();
     order.sort_by_key(|said| (std::cmp::Reverse(said.severity), rank(said), said.span));
     let mut text = String::new();
-    let mut told: IndexMap<(Severity, &str, Option<&str>), Vec<Place>> = IndexMap::new();
+    let mut told: IndexMap<(Severity, &str, Option<&str>, Option<&str>), Vec<Place>> = IndexMap::new();
     for said in order {
         let advice = said.fix.as_ref().map(|fix| &fix.title).or(said.help.as_ref());
-        let place = step_label(&said.path).map(Place::Step).or_else(|| line_of(said, sources));
-        let key = (said.severity, said.message.as_str(), advice.map(String::as_str));
+        let place = place_of(&said.path).or_else(|| line_of(said, sources));
+        let kind = place.as_ref().map(Place::kind);
+        let key = (said.severity, said.message.as_str(), advice.map(String::as_str), kind);
         let places = told.entry(key).or_default();
         places.extend(place.filter(|place| !places.contains(place)));
     }
-    for ((severity, message, advice), places) in told {
+    for ((severity, message, advice, _), places) in told {
         line(&mut text, severity, message, advice, &places);
     }
     text
@@ -37,8 +38,10 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
 /// Place of a finding in a document.
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum Place {
-    /// A step, such as `2.then.1`.
+    /// A step, such as `2.then.1`, or `finally.1` in the cleanup of the policy.
     Step(String),
+    /// A rule of the policy, such as `keep.1`.
+    Rule(String),
     /// A line, from 1.
     Line(usize),
 }
@@ -47,6 +50,7 @@ impl Place {
     fn kind(&self) -> &'static str {
         match self {
             Self::Step(_) => "Step",
+            Self::Rule(_) => "Rule",
             Self::Line(_) => "Line",
         }
     }
@@ -55,10 +59,16 @@ impl Place {
 impl std::fmt::Display for Place {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Step(label) => f.write_str(label),
+            Self::Step(label) | Self::Rule(label) => f.write_str(label),
             Self::Line(number) => write!(f, "{number}"),
         }
     }
+}
+
+/// Step or rule that a path leads to.
+fn place_of(path: &str) -> Option<Place> {
+    let label = step_label(path)?;
+    Some(if label.starts_with(KEEP) { Place::Rule(label) } else { Place::Step(label) })
 }
 
 /// Line of a mistake in the syntax, which belongs to no step.
@@ -176,8 +186,13 @@ fn step_label(path: &str) -> Option<String> {
 
 /// Checks if the key of a document is another one for its steps.
 fn is_list(key: &str) -> bool {
-    key != "achieves" && key.parse::<usize>().is_err()
+    !["achieves", FINALLY, KEEP].contains(&key) && key.parse::<usize>().is_err()
 }
+
+/// Key of the cleanup of a policy.
+const FINALLY: &str = "finally";
+/// Key of the rules of a policy.
+const KEEP: &str = "keep";
 
 #[cfg(test)]
 mod tests {
@@ -191,6 +206,9 @@ mod tests {
             ("/steps/2", Some("3")),
             ("/2", Some("3")),
             ("/plan/2/args/object", Some("3")),
+            ("/finally/1/object", Some("finally.2")),
+            ("/keep/1/out_of", Some("keep.2")),
+            ("/steps/0/finally/1", Some("1.finally.2")),
             ("/steps/1/then/0/object", Some("2.then.1")),
             ("/steps/0/catch/1/steps/0", Some("1.catch.2.1")),
             ("/steps/0/monitor/0/when/less/1", Some("1.monitor.1.when.less.2")),

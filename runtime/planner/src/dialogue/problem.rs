@@ -145,6 +145,9 @@ impl Problem {
     }
 }
 
+/// Primitives that ask a person.
+const ASKING: &[&str] = &["ask", "choose"];
+
 fn failed(
     (kind, why): (&str, Option<&str>),
     node: motet_graph::NodeId,
@@ -166,6 +169,10 @@ fn failed(
         (_, Some(Term::Literal(Value::Text(text)))) => Some(SmolStr::from(text.as_str())),
         (_, _) => args().find_map(entity),
     };
+    let words = args().find_map(|arg| match arg {
+        Term::Literal(Value::Text(text)) => Some(text.as_str()),
+        _ => None,
+    });
     let thing =
         about.as_ref().map_or_else(|| "what I need".to_owned(), |id| format!("the {}", called(scene, id)));
     let doing =
@@ -199,6 +206,14 @@ fn failed(
             Kind::NotReachable,
             format!("I cannot lift {thing}, it is too heavy. What shall I do?"),
             vec!["leave it".into()],
+        ),
+        "refused" if primitive.is_some_and(|primitive| ASKING.contains(&primitive.name.as_str())) => (
+            Kind::ActionFailed,
+            match words {
+                Some(words) => format!("Nobody answered \"{words}\". Shall I ask again?"),
+                None => "Nobody answered my question. Shall I ask again?".to_owned(),
+            },
+            vec!["yes".into(), "no".into()],
         ),
         _ => (
             Kind::ActionFailed,

@@ -151,8 +151,12 @@ impl RequestGoal {
         // Only what the goal adds is of interest: the policy alone has no error.
         let missed = errors(session.compile(&parsed, None).diagnostics).into_iter().next()?;
         // The request may want something else, so no steps are proposed.
-        let help = "if that is what the request wants, plan it; if it cannot be done, `say` why".to_owned();
-        Some(Diagnostic { fix: None, help: Some(help), path: String::new(), ..missed })
+        let help = "if that is what the request wants, plan it; if it cannot be done, end with \
+                    `cannot`"
+            .to_owned();
+        let goal = print::expression(&self.condition);
+        let message = format!("the request reads as `{goal}`, which the policy does not bring about");
+        Some(Diagnostic { message, fix: None, help: Some(help), path: String::new(), ..missed })
     }
 
     /// Returns true if a policy changes something that the goal is about, or else says nothing at all.

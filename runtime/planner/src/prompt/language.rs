@@ -19,9 +19,15 @@ const STEPS: &str = include_str!("../../prompt/language.txt");
 /// Advice on planning.
 const ADVICE: &str = include_str!("../../prompt/advice.txt");
 
-/// Policies that search for a thing, for robots of different kinds.
-const EXAMPLES: [&str; 2] =
-    [include_str!("../../prompt/example.json"), include_str!("../../prompt/example_with_postures.json")];
+/// Requests for a thing that the room does not list, each with a policy, for rooms and robots of different
+/// kinds, the most instructive first.
+const EXAMPLES: [(&str, &str); 5] = [
+    ("put the WHAT in the CONTAINER", include_str!("../../prompt/example.json")),
+    ("put the WHAT in the CONTAINER", include_str!("../../prompt/example_with_postures.json")),
+    ("bring me the WHAT", include_str!("../../prompt/example_to_person.json")),
+    ("bring me the WHAT", include_str!("../../prompt/example_to_person_with_postures.json")),
+    ("put the WHAT on the FIRST", include_str!("../../prompt/example_in_place.json")),
+];
 
 /// Descriptions for the example of a thing that the room does not list.
 const UNLISTED: [&str; 3] = ["blue cup", "tennis ball", "pink umbrella"];
@@ -44,7 +50,7 @@ impl StaticPrompt {
     #[must_use]
     pub fn new(session: &Session, robot: &Robot, scene: &Scene) -> Self {
         let bare = session.with_scene(Some(scene), None);
-        let (steps, conditions) = (steps(&bare, robot), conditions(&session.signatures()));
+        let (steps, conditions) = (steps(&bare, robot, scene), conditions(&session.signatures()));
         Self {
             rules: format!("{}\n{steps}\n{conditions}\n{ADVICE}", form(robot)),
             contracts: primitives(session, Detail::Contracts),
@@ -65,13 +71,18 @@ fn form(robot: &Robot) -> String {
     )
 }
 
-/// The kinds of steps, without the examples that this robot cannot carry out.
-fn steps(session: &Session, robot: &Robot) -> String {
+/// The kinds of steps, without the examples that this robot cannot carry out. Only where the room has a zone
+/// is there something to keep out of.
+fn steps(session: &Session, robot: &Robot, scene: &Scene) -> String {
+    let zone = scene.entities.values().find(|entity| entity.kind == "Zone");
     let mut text = String::new();
     for line in STEPS.lines() {
         let example = line.split_once("  ").map_or(line, |(example, _)| example);
         if !example.starts_with('{') || is_step(session, robot, example) {
             text.push_str(line);
+            if let Some(zone) = zone.filter(|_| example.starts_with("{\"keep\"")) {
+                let _ = write!(text, "; or {{\"out_of\": \"{}\"}}", zone.id);
+            }
             text.push('\n');
         }
     }
@@ -273,8 +284,8 @@ fn take_conditions(steps: &mut Block, from: Block) {
     }
 }
 
-/// A request for a thing that the room does not list: search at two places, catch, guard, and put the room
-/// back in order.
+/// A request for a thing that the room does not list: look for it on the surfaces, catch, guard, and put the
+/// room back in order.
 fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<String> {
     let what = UNLISTED.into_iter().find(|what| !session.describes(what))?;
     let mut surfaces = scene.entities.values().filter(|entity| entity.kind == "Surface");
@@ -282,21 +293,24 @@ fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<
     let is_shut = |entity: &&Entity| {
         entity.kind == "Container" && entity.open == Some(false) && entity.locked != Some(true)
     };
-    let container = scene.entities.values().find(is_shut)?;
+    let container = scene.entities.values().find(is_shut);
     let [a, b] = [first, second].map(motet_requests::called);
+    let inside = container.map(motet_requests::called).unwrap_or_default();
+    let container = container.map(|container| container.id.as_str()).unwrap_or_default();
     let filled = |template: &str| {
-        let policy = template
+        let text = template
             .replace("WHAT", what)
             .replace("ROBOT", &robot.name)
             .replace("FIRST_ID", &first.id)
             .replace("SECOND_ID", &second.id)
-            .replace("CONTAINER_ID", &container.id)
+            .replace("CONTAINER_ID", container)
+            .replace("CONTAINER", &inside)
             .replace("FIRST", &a)
             .replace("SECOND", &b);
-        one_line(&policy)
+        one_line(&text)
     };
-    let policy = EXAMPLES.into_iter().map(filled).find(|policy| passes(session, policy, &["M"]))?;
-    let request = format!("put the {what} in the {}", motet_requests::called(container));
+    let examples = EXAMPLES.into_iter().map(|(request, policy)| (filled(request), filled(policy)));
+    let (request, policy) = examples.into_iter().find(|(_, policy)| passes(session, policy, &["M"]))?;
     Some(format!("# Example: {request}\n{policy}\n"))
 }
 

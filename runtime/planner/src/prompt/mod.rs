@@ -79,7 +79,7 @@ impl Prompt<'_> {
         let fixed = [
             self.lasting.rules.clone(),
             room(&|id| named.contains(id)),
-            room::now(self.situation, self.session, self.memory),
+            room::now(self.situation, (self.session, self.robot), self.memory),
             told(&seen(self.session, self.robot, self.scene, &named, self.time)),
             format!("# Request\n{}\n", request.trim()),
         ];

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use indexmap::IndexMap;
 use motet_compiler::{Access, Session};
 use motet_graph::Value;
 use motet_requests::RequestContext;
@@ -71,8 +72,14 @@ fn extent(entity: &Entity) -> Option<String> {
 }
 
 /// Position of the robot, the thing in its hand, what is known of the robot, and the steps that run.
-pub(super) fn now(situation: &RequestContext<'_>, session: &Session, memory: &Memory) -> String {
+pub(super) fn now(
+    situation: &RequestContext<'_>,
+    (session, card): (&Session, &Robot),
+    memory: &Memory,
+) -> String {
     let robot = situation.supports.iter().rev().find(|(id, _)| id == ROBOT);
+    // Once it has moved, its joints are not where the scene says.
+    let posture = robot.is_none().then(|| posture(card, situation.scene)).flatten();
     let place = match robot {
         Some((_, place)) => place.clone(),
         None => situation.scene.robot.at.clone(),
@@ -82,12 +89,6 @@ pub(super) fn now(situation: &RequestContext<'_>, session: &Session, memory: &Me
         (None, Some(_)) => "is between places".to_owned(),
         (None, None) => "stands at start".to_owned(),
     };
-    let holds = match (&situation.holding, &situation.scene.robot.holding) {
-        (Some(held), _) => format!("holds {held}"),
-        (None, Some(_)) => "holds nothing".to_owned(),
-        (None, None) => "may hold something".to_owned(),
-    };
-    let mut text = format!("# Now\nThe robot {stands} and {holds}.");
     let mut known: Vec<(String, bool)> = Vec::new();
     for fact in session.initial_facts().filter(|fact| fact.args.iter().all(is_robot)) {
         let args: Vec<&str> = fact.args.iter().filter_map(name).collect();
@@ -95,6 +96,15 @@ pub(super) fn now(situation: &RequestContext<'_>, session: &Session, memory: &Me
         known.retain(|(other, _)| *other != atom);
         known.push((atom, fact.holds));
     }
+    let is_free = known.iter().any(|(atom, holds)| *holds && atom.starts_with(FREE));
+    let holds = match (&situation.holding, &situation.scene.robot.holding) {
+        (Some(held), _) => format!("holds {held}"),
+        (None, Some(_)) => "holds nothing".to_owned(),
+        (None, None) if is_free => "holds nothing".to_owned(),
+        (None, None) => "may hold something".to_owned(),
+    };
+    let posture = posture.map_or_else(String::new, |posture| format!(", its arm {posture}"));
+    let mut text = format!("# Now\nThe robot {stands} and {holds}{posture}.");
     if !known.is_empty() {
         let known =
             known.iter().map(|(atom, holds)| if *holds { atom.clone() } else { format!("not {atom}") });
@@ -106,6 +116,25 @@ pub(super) fn now(situation: &RequestContext<'_>, session: &Session, memory: &Me
     }
     text
 }
+
+/// Posture of the arm in a scene: one of the card, or that of all joints at rest.
+fn posture(card: &Robot, scene: &Scene) -> Option<String> {
+    let at = |joint: &SmolStr| scene.robot.joints.get(joint).copied().unwrap_or(0.0);
+    let is_there = |joints: &IndexMap<SmolStr, f64>| {
+        joints.iter().all(|(joint, value)| (at(joint) - value).abs() < SAME_JOINT)
+    };
+    let named = card.postures.iter().find(|(_, joints)| is_there(joints));
+    match named {
+        Some((name, _)) => Some(format!("in the posture `{name}`")),
+        None if scene.robot.joints.is_empty() && !card.postures.is_empty() => Some("at rest".to_owned()),
+        None => None,
+    }
+}
+
+/// Greatest difference of a joint from its value in a posture, in rad or m.
+const SAME_JOINT: f64 = 1e-3;
+/// Beginning of the fact that a hand is free.
+const FREE: &str = "free(";
 
 /// Returns true if an argument of a fact is the robot or a part of it.
 fn is_robot(arg: &Option<Value>) -> bool {

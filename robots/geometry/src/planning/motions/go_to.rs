@@ -90,7 +90,13 @@ pub(crate) fn stand_at(context: &QueryContext<'_>, pose: &MapPose) -> MotionAnsw
     let far = |at_x: f64, at_y: f64| libm::hypot(at_x - x, at_y - y);
     let infeasible = |reason: InfeasibleReason| {
         let certified = context.is_shut_off([x, y], 0.0, far);
-        MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None, tight: None })
+        MotionAnswer::Infeasible(Infeasible {
+            reason,
+            change: None,
+            certified,
+            configuration: None,
+            tight: None,
+        })
     };
     let mut met = ContactTally::default();
     if let Some(contact) = context.contact(&goal, none) {

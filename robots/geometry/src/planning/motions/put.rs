@@ -105,7 +105,13 @@ impl PutTask<'_, '_> {
         // One pose was checked as it is; the cover knows upright objects only.
         let certified = order.at.is_some()
             || (!order.may_lie && self.context.is_full(self.held, self.support, self.index, excluded));
-        MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None, tight: None })
+        MotionAnswer::Infeasible(Infeasible {
+            reason,
+            change: None,
+            certified,
+            configuration: None,
+            tight: None,
+        })
     }
 
     /// Path to one of some places.
@@ -217,7 +223,10 @@ fn support_of(context: &QueryContext<'_>, entity: &Entity) -> Result<SupportSurf
 /// Checks whether an object that stands there touches nothing but its support.
 fn is_free(context: &QueryContext<'_>, stands: &Solid, support: usize, met: &mut ContactTally) -> bool {
     let place = [stands.centre.x, stands.centre.y];
-    let others = context.obstacles.near(place, stands.reach() + Padding::new(context.clearance).arm).map(|(_, obstacle)| obstacle);
+    let others = context
+        .obstacles
+        .near(place, stands.reach() + Padding::new(context.clearance).arm)
+        .map(|(_, obstacle)| obstacle);
     let mut others = others.filter(|obstacle| obstacle.entity != support);
     let other = others.find(|obstacle| !stands.is_farther(&obstacle.solid, obstacle.padding.arm));
     other.inspect(|other| met.add_entity(context.name(other.entity))).is_none()

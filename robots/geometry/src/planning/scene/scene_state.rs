@@ -43,6 +43,22 @@ pub struct KeptRegion {
     pub(crate) is_distance: bool,
 }
 
+impl KeptRegion {
+    /// The rule that forbids it, as it is written: `distance(user) >= 1.5 m`.
+    #[must_use]
+    pub fn rule(&self) -> &str {
+        let rule = self.name.strip_prefix(KEPT).unwrap_or(&self.name);
+        rule.split_once('`').map_or(rule, |(rule, _)| rule)
+    }
+
+    /// Least distance in m of solids to it; 0 where one is in it, infinite without solids.
+    #[must_use]
+    pub fn distance(&self, solids: &[Solid]) -> f64 {
+        let pairs = solids.iter().flat_map(|solid| self.columns.iter().map(|column| column.distance(solid)));
+        pairs.fold(f64::INFINITY, f64::min).max(0.0)
+    }
+}
+
 /// Held object with its hand.
 #[derive(Clone, Debug)]
 pub(crate) struct HeldObject<'a> {
