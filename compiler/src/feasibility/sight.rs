@@ -64,6 +64,7 @@ impl Geometry {
             InfeasibleReason::OutOfReach { .. }
             | InfeasibleReason::NotInView { .. }
             | InfeasibleReason::NoFreePose { .. }
+            | InfeasibleReason::NoPlace(_)
             | InfeasibleReason::BlockedPath { .. }
             | InfeasibleReason::TooHeavy { .. }
             | InfeasibleReason::TooWide { .. } => false,

@@ -12,7 +12,7 @@ const MAX_TEXT: usize = 64 * 1024;
 /// The most brackets that are mended in one text.
 const MAX_MENDED: usize = 16;
 
-/// A text whose brackets match.
+/// A text after mending.
 pub(super) struct Balanced {
     pub(super) text: String,
     /// Mistakes that were mended, in the order found.
@@ -21,36 +21,34 @@ pub(super) struct Balanced {
     pub(super) is_certain: bool,
 }
 
-/// Mends the brackets of a text. `None` if they are not at fault, or cannot be mended. O(faults × text).
+/// Mends the brackets of a text, up to the first that cannot be mended. `None` if none is. O(faults × text).
 pub(super) fn balance(text: &str, file: FileId) -> Option<Balanced> {
     let mut balanced = Balanced { text: text.to_owned(), found: Vec::new(), is_certain: true };
     if text.len() > MAX_TEXT {
         return None;
     }
     for _ in 0..MAX_MENDED {
-        let Err(fault) = lexer::check(&balanced.text, file) else {
-            return (!balanced.found.is_empty()).then_some(balanced);
-        };
+        let Err(fault) = lexer::check(&balanced.text, file) else { break };
         let mut found = *fault.diagnostic;
-        let mended = match fault.bracket? {
+        let Some(bracket) = fault.bracket else { break };
+        let mended = match bracket {
             BracketFault::Surplus { at } => blanked(&balanced.text, at),
-            BracketFault::Unclosed { opening, before } => {
-                let line_end = end_of_line(&balanced.text, opening);
-                let is_head = balanced.text.get(before..).is_some_and(|rest| rest.starts_with('{'));
-                let behind = if is_head { end_before(&balanced.text, before) } else { line_end };
+            BracketFault::Unclosed { opening, before } if text.get(before..)?.starts_with('{') => {
                 let closing = lexer::closing(balanced.text.get(opening..=opening)?);
-                written(&balanced.text, behind, closing)
+                written(&balanced.text, end_before(&balanced.text, before), closing)
             }
+            // The rest of the line may be missing too: recovery leaves it out.
+            BracketFault::Unclosed { .. } => break,
             BracketFault::Ended { opening } => match unclosed_block(&balanced.text) {
                 Some((opening, before)) => {
                     found = missing_brace(opening, before, file);
                     written(&balanced.text, end_before(&balanced.text, before.start), "}")
                 }
-                None => {
-                    let closing = lexer::closing(balanced.text.get(opening..=opening)?);
+                None if balanced.text.get(opening..)?.starts_with('{') => {
                     balanced.is_certain = false;
-                    Some(format!("{}{closing}", balanced.text.trim_end()))
+                    Some(format!("{}}}", balanced.text.trim_end()))
                 }
+                None => break,
             },
             BracketFault::ClosesNothing { at } => match surplus_brace(&balanced.text) {
                 Some(token) => {
@@ -64,10 +62,11 @@ pub(super) fn balance(text: &str, file: FileId) -> Option<Balanced> {
                 None => blanked(&balanced.text, at),
             },
         };
-        balanced.text = mended?;
+        let Some(mended) = mended else { break };
+        balanced.text = mended;
         balanced.found.push(found);
     }
-    None
+    (!balanced.found.is_empty()).then_some(balanced)
 }
 
 fn missing_brace(opening: Token<'_>, before: Token<'_>, file: FileId) -> Diagnostic {
@@ -106,12 +105,6 @@ fn end_before(text: &str, at: usize) -> usize {
     let is_before = |token: &Token<'_>| token.start < at;
     let last = tokens(text, 0).take_while(is_before).filter(is_code).last();
     last.map_or(0, |token| token.end())
-}
-
-/// End of the last token on the line of an offset that is no comment.
-fn end_of_line(text: &str, at: usize) -> usize {
-    let end = text.get(at..).and_then(|rest| rest.find('\n')).map_or(text.len(), |length| at + length);
-    end_before(text, end)
 }
 
 fn is_code(token: &Token<'_>) -> bool {

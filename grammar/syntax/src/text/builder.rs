@@ -134,6 +134,7 @@ impl Builder {
     pub(super) fn bare_steps(&mut self, pair: Pair<'_>) -> Policy {
         let span = self.span(&pair);
         Policy {
+            result: None,
             doc: SmolStr::default(),
             name: Name { text: SmolStr::new_static(super::UNNAMED), span: Span { end: span.start, ..span } },
             params: Vec::new(),

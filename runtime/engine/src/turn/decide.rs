@@ -84,7 +84,7 @@ impl Turn<'_> {
         let verdict = self.run.checks.iter().rfind(|check| check.node == node)?.verdict.as_ref()?;
         match verdict {
             Verification::Infeasible { why, .. } => Some(why.clone()),
-            Verification::Feasible | Verification::Unknown { .. } => None,
+            Verification::Feasible { .. } | Verification::Unknown { .. } => None,
         }
     }
 

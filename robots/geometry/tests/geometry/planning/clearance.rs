@@ -2,8 +2,8 @@
 //! told. And the grasp of an object of which a scene only says that it is held.
 
 use motet_geometry::planning::{
-    Gap, InfeasibleReason, MotionAnswer, MotionQuery, MotionWitness, QueryContext, RobotModel, SceneState,
-    SearchBudget, TightGroup,
+    Gap, InfeasibleReason, MotionAnswer, MotionQuery, MotionWitness, PlaceRules, QueryContext, RobotModel,
+    SceneState, SearchBudget, TightGroup,
 };
 use motet_robots::builtin::{ROBOTS, SCENES};
 use motet_robots::clearance::{Clearance, ClearanceOverride};
@@ -188,13 +188,12 @@ fn held_object_of_a_scene_stands_upright_where_it_is_put() {
             let of_reach = reached.grasp.unwrap().tip_from_object;
             let context = QueryContext::new(&model, &holding, &state);
             let surfaces = holding.entities.values().filter(|it| it.kind == "Surface");
-            let put =
-                surfaces.map(|on| MotionQuery::Put(id.clone(), on.id.clone())).find_map(
-                    |query| match context.answer(&query, SearchBudget::default()) {
-                        MotionAnswer::Feasible(witness) => witness.grasp,
-                        _ => None,
-                    },
-                );
+            let put = surfaces
+                .map(|on| MotionQuery::Put(id.clone(), on.id.clone(), PlaceRules::default()))
+                .find_map(|query| match context.answer(&query, SearchBudget::default()) {
+                    MotionAnswer::Feasible(witness) => witness.grasp,
+                    _ => None,
+                });
             let Some(put) = put else { continue };
             let up = (put.map_from_tip * grip).rotation * nalgebra::Vector3::z();
             assert!(up.z > 0.999, "{robot}, {room}, {id}: {up:?}");
