@@ -266,7 +266,12 @@ impl std::fmt::Display for TightSpot {
             TightGroup::Arm => "the arm",
             TightGroup::Both => "the robot",
         };
-        write!(f, "{who} needs a clearance of {needs}, and there is room for {}", Centimetres(*most))?;
+        write!(f, "{who} needs a clearance of {needs}, and there is ")?;
+        if *most < 0.001 {
+            f.write_str("no room for one")?;
+        } else {
+            write!(f, "room for {}", Centimetres(*most))?;
+        }
         by.as_ref().map_or(Ok(()), |by| write!(f, " beside {}", named(by)))
     }
 }

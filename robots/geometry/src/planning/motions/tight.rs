@@ -24,7 +24,7 @@ pub(crate) fn tight_spot(
     context: &QueryContext<'_>,
     query: &MotionQuery,
     reason: &InfeasibleReason,
-    [full_budget, budget]: [SearchBudget; 2],
+    budget: SearchBudget,
 ) -> Option<TightSpot> {
     let full = context.clearance;
     let is_about_room =
@@ -32,7 +32,7 @@ pub(crate) fn tight_spot(
     if !is_about_room || full.base_m.max(full.arm_m) <= MIN_CLEARANCE {
         return None;
     }
-    let found = |group: TightGroup, share: f64, budget: SearchBudget| {
+    let witness = |group: TightGroup, share: f64| {
         let part = |is_scaled: bool, metres: f64| if is_scaled { metres * share } else { metres };
         let clearance = Clearance {
             base_m: part(group != TightGroup::Arm, full.base_m),
@@ -44,8 +44,7 @@ pub(crate) fn tight_spot(
         }
     };
     // Most motions that are infeasible are so without a clearance too.
-    let mut best = found(TightGroup::Both, 0.0, full_budget)?;
-    let witness = |group: TightGroup, share: f64| found(group, share, budget);
+    let mut best = witness(TightGroup::Both, 0.0)?;
     let alone = [TightGroup::Base, TightGroup::Arm].into_iter();
     let alone = alone.filter_map(|group| Some((group, witness(group, 0.0)?))).next();
     let group = alone.map_or(TightGroup::Both, |(group, found)| {
