@@ -94,7 +94,7 @@ fn ends_with_the_right_code() {
         (
             format!("run words.motet {max}"),
             3,
-            &["out:✓ say(\"It is 2.", "out: m to go.\")", "out:why: 0.3 kg is much"],
+            &["out:✓ say(\"It is 1.9", "out: m to go.\")", "out:why: 0.3 kg is much"],
         ),
         (format!("run no_robot.motet {max}"), 2, &["err:--robot NAME"]),
         (format!("run no_robot.motet {max} --robot hsr"), 0, &[]),

@@ -161,10 +161,10 @@ impl<'a> Tables<'a> {
         let new = graph::PrimitiveId(next(&self.primitives));
         self.primitive_ids.insert(id, new);
         if let Some(def) = self.library.primitive(id) {
-            let params = def
-                .params
-                .iter()
-                .map(|param| graph::Param { name: param.name.clone(), ty: self.ty(param.ty) });
+            let params = def.params.iter().map(|param| {
+                let default = param.default.as_ref().and_then(|default| self.default(default));
+                graph::Param { name: param.name.clone(), ty: self.ty(param.ty), default }
+            });
             let params = params.collect();
             let fails = def.fails.iter().map(|kind| self.failure(*kind)).collect();
             self.primitives.push(graph::Primitive {
@@ -188,6 +188,17 @@ impl<'a> Tables<'a> {
 }
 
 impl Tables<'_> {
+    /// Default argument of a parameter: a constant, or an earlier parameter.
+    fn default(&mut self, default: &Term) -> Option<graph::ParamDefault> {
+        if let Term::Param(earlier) = default {
+            return Some(graph::ParamDefault::Param(u32::from(*earlier)));
+        }
+        match self.term(default, &[], None) {
+            graph::Term::Literal(value) => Some(graph::ParamDefault::Value(value)),
+            _ => None,
+        }
+    }
+
     pub(super) fn term(
         &mut self,
         term: &Term,

@@ -397,7 +397,10 @@ fn has_word(text: &str, name: &str) -> bool {
 
 /// Checks if a text is a step or an ending and no name.
 fn is_step(text: &str) -> bool {
-    text.starts_with('{') || text.ends_with(')') || matches!(text, "done" | "fail" | "replan")
+    let first = text.split(' ').next().unwrap_or_default();
+    text.starts_with('{')
+        || text.ends_with(')')
+        || matches!(first, "done" | "fail" | "cannot" | "replan" | "wait")
 }
 
 /// Title of a fix: "insert `go(table)` before".

@@ -316,7 +316,7 @@ fn places_by_rules_and_poses_are_feasible_one_after_the_other() {
             pick(mug_1)
             place(mug_1, kitchen_table, beside: apple)
             pick(mug_1)
-            place(mug_1, kitchen_table, near: plate, away_from_edge: 5 cm)
+            place(mug_1, kitchen_table, near: plate)
             pick(mug_1)
             place_at(mug_1, kitchen_table, pose(1.95 m, 0.4 m, 0.77 m, 0 deg))
         }",

@@ -25,6 +25,6 @@ pub use errors::CODES;
 pub use model::{normal, *};
 pub use outline::{Outline, PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, PlacedOutline};
 pub use read::read;
-pub use serving::{NEAR_M, ServedKind, ServingReach, serving_gap};
+pub use serving::{NEAR_M, ServedKind, ServingReach, person_gap, serving_gap};
 pub use wire::schema;
 pub use write::write;

@@ -118,7 +118,7 @@ impl PlacedOutline {
     ///     centre: [x, 0.0],
     ///     axis: [1.0, 0.0],
     /// };
-    /// assert_eq!(plate(0.0).gap(&plate(0.5)), 0.3);
+    /// assert!((plate(0.0).gap(&plate(0.5)) - 0.3).abs() < 1e-9);
     /// assert_eq!(plate(0.0).gap(&plate(0.1)), 0.0);
     /// ```
     #[must_use]

@@ -12,6 +12,9 @@ use crate::card::Robot;
 
 /// Distance for the fluent `near`, in m, from the rim of the base to an outline.
 pub const NEAR_M: f64 = 1.5;
+/// Distance that a robot keeps from a person to whom it drives, in m, from the rim of its base: people do not
+/// like a robot closer.
+const PERSON_MARGIN_M: f64 = 0.6;
 /// Distance that a person reaches out for what they are handed, in m.
 const PERSON_REACH_M: f64 = 0.5;
 /// Distance from a `Place` within which the base certainly stands at it, in m.
@@ -47,6 +50,12 @@ pub fn serving_gap(kind: ServedKind, reach_m: f64) -> f64 {
         ServedKind::Person => reach_m + PERSON_REACH_M,
         ServedKind::Object | ServedKind::Furniture => reach_m,
     }
+}
+
+/// Distance in m from the axis of the base to the outline of a person at which a robot comes to stand.
+#[must_use]
+pub fn person_gap(base_radius_m: f64, reach_m: f64) -> f64 {
+    (base_radius_m + PERSON_MARGIN_M).min(serving_gap(ServedKind::Person, reach_m))
 }
 
 /// Reach of a robot, from its card.

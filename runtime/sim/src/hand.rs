@@ -5,7 +5,9 @@ use crate::command::Placing;
 use crate::motion::standing_place;
 use crate::world::{Rest, Role, SimWorld};
 use motet_graph::Pose;
-use motet_robots::scene::{PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, ServedKind, serving_gap};
+use motet_robots::scene::{
+    PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, ServedKind, person_gap, serving_gap,
+};
 use smol_str::SmolStr;
 
 /// A failure kind of the standard library.
@@ -17,8 +19,6 @@ const SHUFFLE_M: f64 = 1.5;
 const PUSH_M: f64 = 0.1;
 /// Between the base's rim and what it stands at, in m.
 const MARGIN_M: f64 = 0.03;
-/// Between the base's rim and a person, in m: people do not like a robot closer.
-const PERSON_MARGIN_M: f64 = 0.6;
 /// Share of the reach that the base's own extent takes. A robot with a long body stands sideways.
 const BASE_SHARE: f64 = 0.4;
 
@@ -44,7 +44,7 @@ impl SimWorld {
         }
         let radius = self.drive.radius_m;
         let clearance = match target.role {
-            Role::Person => (radius + PERSON_MARGIN_M).min(self.serving_gap(Role::Person)),
+            Role::Person => person_gap(radius, self.reach()),
             Role::Surface | Role::Container | Role::Object | Role::Place => {
                 radius.min(BASE_SHARE * self.reach()) + MARGIN_M
             }

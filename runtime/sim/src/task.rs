@@ -114,15 +114,12 @@ impl TaskContext<'_> {
             | SimCommand::WakeUp
             | SimCommand::Lift
             | SimCommand::Unknown => self.work(task, step),
-            SimCommand::Place(id, on, rules) if !rules.is_any() && step < 2 => match step {
+            SimCommand::Place(id, on, rules) if step < 2 => match step {
                 0 => NextStage::Drive(self.world.stance_for_place(id, on, rules)),
                 _ => NextStage::Work,
             },
-            SimCommand::Place(_, _, rules) if !rules.is_any() => self.finish(task),
-            SimCommand::Place(..)
-            | SimCommand::Handover(_, _)
-            | SimCommand::Open(_)
-            | SimCommand::Close(_) => self.work(task, step),
+            SimCommand::Place(..) => self.finish(task),
+            SimCommand::Handover(_, _) | SimCommand::Open(_) | SimCommand::Close(_) => self.work(task, step),
             SimCommand::Push(_)
             | SimCommand::Detect(_)
             | SimCommand::DetectAll(_)

@@ -78,7 +78,7 @@ fn places_are_proven_and_carried_out() {
     let away = "policy p for hsr { go_to_pose(pose(0 m, 1.5 m, 0 deg)) open(drawer_1) }";
     let away = said(&session, away);
     assert!(
-        away[0].starts_with("M0501 `open` needs `at(robot, drawer_1)`, which `go_to_pose()` made"),
+        away[0].starts_with("M0501 `open` needs `at(robot, drawer_1)`, which `go_to_pose` made"),
         "{away:?}"
     );
     let parsed = read(&Source::new("p", TEXT), FileId(0));

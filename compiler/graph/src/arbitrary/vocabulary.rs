@@ -62,7 +62,10 @@ pub fn declarations() -> Graph {
                      fails: &[u32]| {
         Primitive {
             name: name(text),
-            params: params.into_iter().map(|(param, ty)| Param { name: name(param), ty }).collect(),
+            params: params
+                .into_iter()
+                .map(|(param, ty)| Param { name: name(param), ty, default: None })
+                .collect(),
             result,
             perceives,
             uses: uses.iter().map(|id| ResourceId(*id)).collect(),

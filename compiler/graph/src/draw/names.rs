@@ -2,7 +2,8 @@
 
 use crate::model::{
     BindingId, CallEffect, CallNode, Condition, Ending, Fact, FactArg, FailureId, Graph, Handler, KindId,
-    Manner, Motion, Need, NodeKind, Reaction, Term, TextPart, Type, Unsettled, Value, Watch,
+    Manner, Motion, Need, NodeKind, Param, ParamDefault, Reaction, Term, TextPart, Type, Unsettled, Value,
+    Watch,
 };
 use crate::spoken::in_unit;
 
@@ -53,13 +54,12 @@ impl<'a> Names<'a> {
     pub fn brief(&self, kind: &NodeKind) -> String {
         match kind {
             NodeKind::Call(call) => {
-                let name =
-                    self.0.primitives.get(call.primitive.index()).map_or(NOBODY, |primitive| &primitive.name);
+                let primitive = self.0.primitives.get(call.primitive.index());
+                let name = primitive.map_or(NOBODY, |primitive| &primitive.name);
                 let binds = call.binds.map(|id| self.binding(id)).filter(|name| *name != "_");
                 let binds = binds.map_or_else(String::new, |name| format!("let {name} = "));
-                let args = call.args.iter().enumerate().map(|(index, arg)| self.argument(call, index, arg));
-                let manner = manner(call);
-                format!("{binds}{name}({}){manner}", args.collect::<Vec<_>>().join(", "))
+                let params = primitive.map_or(&[][..], |primitive| &primitive.params);
+                format!("{binds}{name}({}){}", self.arguments(params, &call.args), manner(call))
             }
             NodeKind::Monitor { .. } if kind.deadline_secs().is_some() => self.step(kind),
             NodeKind::Monitor { watches, .. } => {
@@ -91,12 +91,30 @@ impl<'a> Names<'a> {
     ) -> String {
         let declared = self.0.primitives.iter().find(|known| known.name == primitive);
         let params = declared.map_or(&[][..], |declared| &declared.params);
-        let args = args.into_iter().enumerate().map(|(index, arg)| {
-            let arg = Term::Literal(arg.clone());
-            literal(&arg, params.get(index).map(|param| &param.ty)).unwrap_or_else(|| self.term(&arg))
-        });
+        let args: Vec<Term> = args.into_iter().cloned().map(Term::Literal).collect();
         let manner = manner.map_or_else(String::new, |manner| format!(" {manner}"));
-        format!("{primitive}({}){manner}", args.collect::<Vec<_>>().join(", "))
+        format!("{primitive}({}){manner}", self.arguments(params, &args))
+    }
+
+    /// Arguments as a person would write them: by position, without defaults, and by name after one that was
+    /// left out.
+    fn arguments(&self, params: &[Param], args: &[Term]) -> String {
+        let mut is_by_name = false;
+        let mut written = Vec::with_capacity(args.len());
+        for (index, arg) in args.iter().enumerate() {
+            let param = params.get(index);
+            if param
+                .and_then(|param| param.default.as_ref())
+                .is_some_and(|default| is_default(default, arg, args))
+            {
+                is_by_name = true;
+                continue;
+            }
+            let value = literal(arg, param.map(|param| &param.ty)).unwrap_or_else(|| self.term(arg));
+            let name = param.filter(|_| is_by_name).map(|param| format!("{}: ", param.name));
+            written.push(format!("{}{value}", name.unwrap_or_default()));
+        }
+        written.join(", ")
     }
 
     /// An argument of a call, a quantity with its unit.
@@ -293,6 +311,14 @@ fn with_unit(value: f64, quantity: &str) -> String {
 }
 
 /// A number as a literal of a type; none where it is no number, or its type no quantity.
+/// Returns true if an argument is the default of its parameter.
+fn is_default(default: &ParamDefault, arg: &Term, args: &[Term]) -> bool {
+    match default {
+        ParamDefault::Value(value) => matches!(arg, Term::Literal(given) if given == value),
+        ParamDefault::Param(earlier) => args.get(*earlier as usize) == Some(arg),
+    }
+}
+
 pub(super) fn literal(term: &Term, ty: Option<&Type>) -> Option<String> {
     match (term, ty) {
         #[expect(clippy::cast_precision_loss, reason = "for the eye")]

@@ -82,6 +82,19 @@ pub struct Param {
     pub name: SmolStr,
     #[serde(rename = "type")]
     pub ty: Type,
+    /// Default argument, which labels leave out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub default: Option<ParamDefault>,
+}
+
+/// Default argument of a parameter.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum ParamDefault {
+    /// A constant.
+    Value(Value),
+    /// The argument of an earlier parameter, by its index.
+    Param(u32),
 }
 
 /// An exclusive resource. Two resources conflict if they are the same or one contains the other.

@@ -24,7 +24,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
         name: (*name).into(),
         params: args
             .iter()
-            .map(|(name, value)| motet_graph::Param { name: (*name).into(), ty: ty(value) })
+            .map(|(name, value)| motet_graph::Param { name: (*name).into(), ty: ty(value), default: None })
             .collect(),
         result: (*name == "detect").then(|| object.clone()),
         perceives: *name == "detect",

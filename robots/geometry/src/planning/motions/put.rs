@@ -159,7 +159,14 @@ impl PutTask<'_, '_> {
             Ok((tip.ok_or(MotionAnswer::Unknown(UnknownReason::Budget))?, path))
         };
         let mut found = search(tips);
-        if (order.excludes || order.may_lie) && spots.len() > AGAIN {
+        if found.is_err() && order.may_lie {
+            // The poses in which it lies took most of the budget.
+            let is_upright = |turns: &&Vec<Isometry3<f64>>| {
+                turns.first().is_some_and(|place| (place.rotation * Vector3::z()).z > 0.999)
+            };
+            found = search(tips_of(&mut spots.iter().filter(is_upright))).or(found);
+        }
+        if order.excludes && spots.len() > AGAIN {
             // The more poses share the budget, the fewer candidates each has: few places again, spread over
             // all.
             let stride = spots.len().div_ceil(AGAIN);

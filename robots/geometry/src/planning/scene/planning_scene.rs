@@ -4,7 +4,7 @@
 
 use motet_robots::card::Drive;
 use motet_robots::clearance::Clearance;
-use motet_robots::scene::{Entity, EntityShape, Scene};
+use motet_robots::scene::{Entity, EntityShape, Scene, person_gap};
 use motet_stdlib::lang::kinds;
 use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
@@ -296,6 +296,7 @@ impl<'w> PlanningScene<'w> {
     pub(crate) fn served_within(&self, entity: &Entity) -> f64 {
         match (entity.kind.as_str(), self.model.hand()) {
             (kinds::PLACE | kinds::ZONE, _) | (_, None) => AT_PLACE,
+            (kinds::PERSON, Some(hand)) => person_gap(self.model.card().base.radius_m, hand.card.reach_m),
             (_, Some(hand)) => hand.card.reach_m,
         }
     }

@@ -161,7 +161,7 @@ fn put_keeps_to_its_rules() {
         Put { scene: &scene, on, rules: rules(|it| it.near = Some(id.into())) }.feasible();
         Put { scene: &scene, on, rules: rules(|it| it.beside = Some(id.into())) }.feasible();
     }
-    for far in [0.05, 0.2] {
+    for far in [0.05, 0.1] {
         Put { scene: &scene, on, rules: rules(|it| it.from_edge = ExactNumber::new(far)) }.feasible();
     }
     let both = rules(|it| {
@@ -172,7 +172,7 @@ fn put_keeps_to_its_rules() {
     Put { scene: &scene, on, rules: both }.feasible();
     let tall = holding(|scene| {
         let mug = scene.entities.get_mut("mug_1").unwrap();
-        mug.shape = Some(EntityShape::Cylinder { radius: 0.03, height: 0.2 });
+        mug.shape = Some(EntityShape::Cylinder { radius: 0.03, height: 0.14 });
     });
     for scene in [&scene, &tall] {
         Put { scene, on, rules: rules(|it| it.may_lie = true) }.feasible();

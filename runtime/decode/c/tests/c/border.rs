@@ -124,7 +124,7 @@ fn a_policy_is_written() {
         assert_eq!(motet_decoder_accept(decoder, u32::from(b'x')), MotetStatus::Refused);
         assert_eq!(motet_decoder_accept(decoder, u32::from(b',')), MotetStatus::Ok);
         assert_eq!(motet_decoder_rollback(decoder, 1), MotetStatus::Ok);
-        for byte in b",{\"end\":\"done\"}]}" {
+        for byte in b",{\"end\":\"done\"}],\"finally\":null}" {
             assert_eq!(motet_decoder_is_accepting(decoder), MotetStatus::Refused);
             assert_eq!(motet_decoder_accept(decoder, u32::from(*byte)), MotetStatus::Ok);
         }
