@@ -177,11 +177,11 @@ impl From<SyntaxArg> for Syntax {
 pub(crate) enum ServerDialect {
     /// vLLM 0.12 and later
     Vllm,
-    /// llama.cpp (llama-server)
+    /// The `llama-server` of llama.cpp
     Llamacpp,
     /// Ollama, through its native chat endpoint
     Ollama,
-    /// SGLang
+    /// SGLang, through its OpenAI endpoint
     Sglang,
     /// OpenAI and compatible servers
     Openai,

@@ -13,5 +13,5 @@ fuzz_target!(|bytes: &[u8]| {
     for policy in parsed.file.policies() {
         let _ = print::policy_json(policy);
     }
-    let _ = print::format(&source);
+    let _ = motet_syntax::format(&source);
 });

@@ -14,7 +14,7 @@ fuzz_target!(|text: &str| {
     for item in &parsed.file.items {
         let Item::Policy(policy) = item else { continue };
         let printed = print::policy_json(policy);
-        let formatted = print::format(&Source::new("printed", printed.as_str())).unwrap_or_default();
+        let formatted = motet_syntax::format(&Source::new("printed", printed.as_str())).unwrap_or_default();
         assert_eq!(printed, formatted);
     }
 });

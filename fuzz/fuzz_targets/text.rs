@@ -15,6 +15,6 @@ fuzz_target!(|text: &str| {
     let again = read(&Source::new("printed", printed.as_str()), FileId(0));
     assert!(again.diagnostics.is_empty(), "{printed}");
     assert!(parsed.file == again.file, "{printed}");
-    let formatted = print::format(&Source::new("fuzz", text)).unwrap_or_default();
-    assert_eq!(print::format(&Source::new("fuzz", formatted.as_str())).as_ref(), Ok(&formatted));
+    let formatted = motet_syntax::format(&Source::new("fuzz", text)).unwrap_or_default();
+    assert_eq!(motet_syntax::format(&Source::new("fuzz", formatted.as_str())).as_ref(), Ok(&formatted));
 });

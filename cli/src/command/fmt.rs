@@ -151,7 +151,7 @@ impl Tally {
             }
             return Ok(());
         }
-        let text = print::format(&source).unwrap_or_else(|_| source.text.to_string());
+        let text = motet_syntax::format(&source).unwrap_or_else(|_| source.text.to_string());
         let is_same = found.is(&text);
         if is_same {
             self.unchanged += 1

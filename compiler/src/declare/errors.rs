@@ -307,7 +307,8 @@ motet_syntax::mistakes! {
     message(m) { format!("{} must be a constant", m.place) }
     help(m) {
         let of_pose = m.place == POSE_NUMBER;
-        let why = if of_pose { "with its unit" } else { "so that the longest duration of the policy is known" };
+        let bounds = "so that the longest duration of the policy is known";
+        let why = if of_pose { "with its unit" } else { bounds };
         Some(format!("write a number, {why}"))
     }
 

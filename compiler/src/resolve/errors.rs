@@ -1,5 +1,5 @@
-//! Diagnostics of unknown callees, of names that a step must not bind, of endings (M0201, M0206, M0207, M0212,
-//! M0218, M0305, M0315, M0319, M0320, M0912), and of results of policies (M0316 to M0318).
+//! Diagnostics of unknown callees, of names that a step must not bind, of endings (M0201, M0206, M0207,
+//! M0212, M0218, M0305, M0315, M0319, M0320, M0912), and of results of policies (M0316 to M0318).
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;

@@ -49,8 +49,9 @@ pub(crate) struct ResolvedStep {
     pub(crate) scope_at_point: Option<Scope>,
 }
 
-/// Resolves one more step of the body of the policy `name`, inside of the rules of the step `kept`: appends it to
-/// `program`, and adds its bindings to `scope`. Records the scope before the step in it with the span `point`.
+/// Resolves one more step of the body of the policy `name`, inside of the rules of the step `kept`: appends
+/// it to `program`, and adds its bindings to `scope`. Records the scope before the step in it with the span
+/// `point`.
 pub(crate) fn resolve_step(
     step: &motet_syntax::ast::Step,
     (kept, point): (Option<StepId>, Span),

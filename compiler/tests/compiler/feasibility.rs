@@ -339,10 +339,9 @@ fn places_that_do_not_exist_are_refused() {
     assert_eq!(placed("near: plate"), [""; 0]);
     assert_eq!(
         placed("near: bottle"),
-        [
-            "M0607 `place` cannot perform `put(mug_1, kitchen_table, near: bottle)`: nothing of `kitchen_table` \
-          within 0.30 m of `bottle` is free; the robot stands where `go(mug_1)` brought it, the hand holds `mug_1`"
-        ]
+        ["M0607 `place` cannot perform `put(mug_1, kitchen_table, near: bottle)`: nothing of \
+             `kitchen_table` within 0.30 m of `bottle` is free; the robot stands where `go(mug_1)` brought \
+             it, the hand holds `mug_1`"]
     );
     assert!(placed("away_from_edge: 60 cm")[0].contains("needs 0.60 m to the rim of `kitchen_table`"));
     assert!(placed("beside: coke")[0].contains("`coke` is not on `kitchen_table`"));

@@ -11,7 +11,7 @@ use crate::located::Located;
 use crate::source::{FileId, Source, Span, Syntax};
 use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
 use crate::words::{DECLARATIONS, STEP_WORDS};
-use crate::{json, text};
+use crate::{json, shapes, text};
 
 /// A document after reading, with its diagnostics.
 #[derive(Clone, Debug)]
@@ -108,7 +108,8 @@ fn whole(document: &str, file: FileId) -> Parsed {
             (file, diagnostics, None)
         }
         Syntax::Json => {
-            let json::PolicyDocument { file, found, written } = json::read_policy(document, file);
+            let json::PolicyDocument { file, found, written } =
+                json::read_policy(document, file, shapes::plain_form);
             (file, found, written.map(Arc::new))
         }
     };

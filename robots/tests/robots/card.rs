@@ -175,8 +175,8 @@ fn card_reader_reports_all_wrong_keys_at_once() {
         "colour = 3",
         &[
             "M0413 [] the card has no `title` / add `title = …` at the top of the card",
-            "M0412 [colour] unknown key `colour` / possible here: `title`, `manners`, `clearance`, `errors`, `initially`, \
-                `model` or `postures`",
+            "M0412 [colour] unknown key `colour` / possible here: `title`, `manners`, `clearance`, `errors`, \
+             `initially`, `model` or `postures`",
         ],
     );
 }

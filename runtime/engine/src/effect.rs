@@ -104,8 +104,8 @@ mod verification {
     }
 }
 
-/// A primitive with its arguments. Two commands are equal if they ask for the same, whatever motions were found
-/// for them.
+/// A primitive with its arguments. Two commands are equal if they ask for the same, whatever motions were
+/// found for them.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Command {

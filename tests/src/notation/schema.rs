@@ -104,8 +104,8 @@ impl Deriver<'_> {
     }
 }
 
-/// A random string of an anchored pattern of classes, groups of alternatives, each perhaps repeated with `*`, and
-/// escaped characters.
+/// A random string of an anchored pattern of classes, groups of alternatives, each perhaps repeated with `*`,
+/// and escaped characters.
 fn pattern(pattern: &str, random: &mut SplitMix64) -> String {
     let inner = pattern.strip_prefix('^').and_then(|rest| rest.strip_suffix('$'));
     assert!(inner.is_some(), "not anchored: {pattern}");

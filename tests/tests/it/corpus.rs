@@ -28,7 +28,7 @@ fn reader_every_seed_is_survived() {
         for policy in parsed.file.policies() {
             let _ = print::policy_json(policy);
         }
-        let _ = print::format(&source);
+        let _ = motet_syntax::format(&source);
         let _ = motet_robots::scene::read(&source, FileId(0));
         let _ = motet_robots::card::read(&source, FileId(0), None);
     }

@@ -92,6 +92,6 @@ fn manners_of_what_moves_nothing_are_removed() {
         }
         let mended = Source::new("p", text);
         assert_eq!(session.check(&read(&mended, FileId(0))), []);
-        assert!(!print::format(&mended).unwrap().contains("manner"));
+        assert!(!motet_syntax::format(&mended).unwrap().contains("manner"));
     }
 }

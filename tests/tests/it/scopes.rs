@@ -231,7 +231,7 @@ fn conditions_read_bindings_with_and_without_their_sign() {
             assert_eq!(motet_graph::encode(&graph(&session, &document)), expected, "{document}");
         }
         // One spelling is written in each syntax.
-        assert_eq!(print::format(&Source::new("p", text(signed))).unwrap(), text(plain));
+        assert_eq!(motet_syntax::format(&Source::new("p", text(signed))).unwrap(), text(plain));
         assert_eq!(turned(&session, &json(signed), Syntax::Text), text(plain));
         assert_eq!(
             turned(&session, &text(signed), Syntax::Json),

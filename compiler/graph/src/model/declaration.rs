@@ -91,7 +91,7 @@ pub struct Param {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ParamDefault {
-    /// A constant.
+    /// The same value for every call.
     Value(Value),
     /// The argument of an earlier parameter, by its index.
     Param(u32),

@@ -24,13 +24,15 @@
 
 mod convert;
 mod convert_term;
-mod shapes;
+mod edits;
 pub(crate) mod term;
 pub(crate) mod wire;
 
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use smol_str::{SmolStr, format_smolstr};
+
+pub(crate) use edits::EditedText;
 
 pub use crate::located::{Lenient, MAX_BRACKETS, Spanned};
 
@@ -67,6 +69,10 @@ pub fn policy_schema() -> Schema {
     schema_for!(wire::Document)
 }
 
+/// Reading of the shapes of a document: of its tree and text, by the schema of a policy.
+pub(crate) type ShapeReading =
+    fn(&Located<'_>, &str, &serde_json::Value) -> Option<(EditedText, Vec<Diagnostic>)>;
+
 /// Result of reading a policy.
 #[derive(Default)]
 pub(crate) struct PolicyDocument {
@@ -77,8 +83,9 @@ pub(crate) struct PolicyDocument {
     pub(crate) written: Option<Located<'static>>,
 }
 
-/// Reads a policy. If the plain reading has errors, shapes that models write are read too (see [`shapes`]).
-pub(crate) fn read_policy(text: &str, file: FileId) -> PolicyDocument {
+/// Reads a policy. If the plain reading has errors, `plain_form` reads shapes that models write: it returns
+/// the document in the form of the language with a note for each shape, or `None` where it has no shape.
+pub(crate) fn read_policy(text: &str, file: FileId, plain_form: ShapeReading) -> PolicyDocument {
     let (tree, found) = match parse(text, file) {
         Ok(parsed) => parsed,
         Err(found) => return PolicyDocument { found, ..PolicyDocument::default() },
@@ -90,7 +97,7 @@ pub(crate) fn read_policy(text: &str, file: FileId) -> PolicyDocument {
         return plain;
     }
     let schema = policy_schema().to_value();
-    let Some((edited, notes)) = shapes::plain_form(&tree, text, &schema) else { return plain };
+    let Some((edited, notes)) = plain_form(&tree, text, &schema) else { return plain };
     let moved = |mut found: Vec<Diagnostic>| {
         found.iter_mut().for_each(|found| edited.move_diagnostic(found));
         found

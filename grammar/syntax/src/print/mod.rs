@@ -11,41 +11,16 @@ pub(crate) use json::json_steps;
 pub use json::policy_json;
 
 use crate::ast::{Do, Expr, ExprKind, File};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::read::read;
-use crate::source::{FileId, Source, Syntax};
+use crate::source::Syntax;
 
-/// The document as the canonical printer writes it. In the text syntax comments stay where they are, on lines
-/// of their own or behind what they follow, and so do single blank lines. Formatting twice is formatting
-/// once.
-///
-/// ```
-/// use motet_syntax::{Source, print};
-///
-/// let source = Source::new("p.motet", "policy p{go(sink)}");
-/// assert_eq!(print::format(&source).unwrap(), "policy p {\n    go(sink)\n}\n");
-/// ```
-///
-/// # Errors
-/// All diagnostics, where one of them is an error: what cannot be read is not formatted.
-pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
-    let parsed = read(source, FileId(0));
-    if parsed.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
-        return Err(parsed.diagnostics);
-    }
-    Ok(match parsed.syntax {
-        Syntax::Text => {
-            // A reply is prose with a document in it: what is ignored there has no comments to keep.
-            let text: &str = if parsed.diagnostics.is_empty() { &source.text } else { "" };
-            let mut writer = writer::Writer::new(writer::Comments::of(text));
-            writer.file(&parsed.file);
-            writer.finish()
-        }
-        Syntax::Json => parsed.file.policies().map(policy_json).collect(),
-    })
+/// A file in the text syntax, with the comments of the text that it was read from.
+pub(crate) fn commented(file: &File, text: &str) -> String {
+    let mut writer = writer::Writer::new(writer::Comments::of(text));
+    writer.file(file);
+    writer.finish()
 }
 
-/// A file in the text syntax. Documentation is kept; comments are not part of a tree (see [`format()`]).
+/// A file in the text syntax. Documentation is kept; comments are not part of a tree (see [`crate::format`]).
 #[must_use]
 pub fn text(file: &File) -> String {
     let mut writer = writer::Writer::new(writer::Comments::none());

@@ -20,7 +20,7 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
     let mut order: Vec<&Diagnostic> = diagnostics.iter().collect();
     order.sort_by_key(|said| (std::cmp::Reverse(said.severity), rank(said), said.span));
     let mut text = String::new();
-    let mut told: IndexMap<(Severity, &str, Option<&str>, Option<&str>), Vec<Place>> = IndexMap::new();
+    let mut told: IndexMap<Said<'_>, Vec<Place>> = IndexMap::new();
     for said in order {
         let advice = said.fix.as_ref().map(|fix| &fix.title).or(said.help.as_ref());
         let place = place_of(&said.path).or_else(|| line_of(said, sources));
@@ -34,6 +34,9 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
     }
     text
 }
+
+/// Severity, message and advice of a finding, and the kind of its place.
+type Said<'d> = (Severity, &'d str, Option<&'d str>, Option<&'d str>);
 
 /// Place of a finding in a document.
 #[derive(Clone, PartialEq, Eq, Debug)]

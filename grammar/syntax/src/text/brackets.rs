@@ -181,7 +181,8 @@ pub(super) fn without_followers(text: &str, found: &mut Vec<Diagnostic>, bracket
 pub(super) fn within(text: &str, mut found: Diagnostic) -> Diagnostic {
     let end = u32::try_from(text.len()).unwrap_or(u32::MAX);
     let place = |span: Span| Span { start: span.start.min(end), end: span.end.min(end), ..span };
-    found.span = place(found.span);
+    let Span { start, end: last, .. } = found.span;
+    found.span = Span { start: start.min(end), end: last.min(end), ..found.span };
     for related in &mut found.related {
         related.span = related.span.map(place);
     }

@@ -59,8 +59,8 @@ proptest! {
     fn format_is_idempotent(bytes in bytes(), marks in proptest::collection::vec(any::<u16>(), 0..12)) {
         let text = with_comments(&print::text(&arbitrary::file(&bytes)), &marks);
         let before = parse(&text);
-        let once = print::format(&Source::new("test", text.as_str())).unwrap();
-        let twice = print::format(&Source::new("test", once.as_str())).unwrap();
+        let once = motet_syntax::format(&Source::new("test", text.as_str())).unwrap();
+        let twice = motet_syntax::format(&Source::new("test", once.as_str())).unwrap();
         prop_assert_eq!(&once, &twice, "{}", text);
         prop_assert!(before == parse(&once), "{text}\n{once}");
         for index in 0..marks.len() {
@@ -69,7 +69,7 @@ proptest! {
             prop_assert_eq!(counts[0], counts[1], "{}\n{}", text, once);
         }
         let json = print::policy_json(&arbitrary::json_policy(&bytes));
-        prop_assert_eq!(print::format(&Source::new("test", json.as_str())).unwrap(), json);
+        prop_assert_eq!(motet_syntax::format(&Source::new("test", json.as_str())).unwrap(), json);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Shapes of JSON that models write in place of those of the language.
 
 use motet_syntax::ast::{Item, Policy};
-use motet_syntax::{FileId, Parsed, Severity, Source, print, read};
+use motet_syntax::{FileId, Parsed, Severity, Source, read};
 use proptest::prelude::*;
 
 fn parse(document: &str) -> Parsed {
@@ -42,7 +42,7 @@ fn check(shape: &str, form: &str, notes: &[&str]) {
     let after = parse(&fixed);
     assert_eq!(after.diagnostics, [], "{fixed}");
     assert!(policy(&after) == policy(&read_form), "{fixed}");
-    let formatted = print::format(&Source::new("test", shape)).unwrap();
+    let formatted = motet_syntax::format(&Source::new("test", shape)).unwrap();
     assert_eq!(parse(&formatted).diagnostics, [], "{formatted}");
 }
 

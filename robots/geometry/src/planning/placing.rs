@@ -123,7 +123,7 @@ pub enum Misfit {
     /// Every place that the rules leave is taken.
     Taken {
         on: SmolStr,
-        rules: PlaceRules,
+        rules: Box<PlaceRules>,
         /// Entity that takes most of them.
         by: Option<SmolStr>,
     },
@@ -140,7 +140,7 @@ pub enum Misfit {
 impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Taken { on, rules: PlaceRules { at: Some(_), .. }, by } => {
+            Self::Taken { on, rules, by } if rules.at.is_some() => {
                 write!(f, "the pose on `{on}` is not free")?;
                 by.iter().try_for_each(|by| write!(f, ": `{by}` is there"))
             }

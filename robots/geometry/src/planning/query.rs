@@ -211,7 +211,7 @@ pub struct Infeasible {
     pub configuration: Option<Box<Configuration>>,
     /// Place that is too tight for the clearance, where a smaller clearance leaves a motion; known after
     /// [`QueryContext::explain`](crate::planning::QueryContext::explain).
-    pub tight: Option<TightSpot>,
+    pub tight: Option<Box<TightSpot>>,
 }
 
 /// Place that is too tight for the clearance.

@@ -233,8 +233,8 @@ impl Completer<'_> {
                 (NodeKind::Let(LetValue::Field(number)), vec![Item::Value(of)])
             }
             _ => {
-                let why = "a `let` names a result, a measure, a field, or `count` or `first` of a list in the \
-                           canonical subset";
+                let why = "a `let` names a result, a measure, a field, or `count` or `first` of a list in \
+                           the canonical subset";
                 return Err(outside(value.span, why));
             }
         })

@@ -45,7 +45,10 @@ impl std::error::Error for OutsideSubset {}
 /// let policy = file.policies().next().expect("the document has a policy");
 /// assert_eq!(
 ///     canonical(policy, &grammar).as_deref(),
-///     Ok(r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":[{"do":"go","to":"sink"}],"finally":null}"#),
+///     Ok(concat!(
+///         r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
+///         r#""steps":[{"do":"go","to":"sink"}],"finally":null}"#,
+///     )),
 /// );
 /// # Ok::<(), motet_decode::EnvironmentError>(())
 /// ```

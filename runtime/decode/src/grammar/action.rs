@@ -94,7 +94,8 @@ pub(crate) enum Guard {
     List,
     /// A list is bound, and the condition may be one that says nothing about the facts.
     OfList,
-    /// The first element of a bound list may be the argument with this number, of the type with the other one.
+    /// The first element of a bound list may be the argument with this number, of the type with the other
+    /// number.
     First(u8, u16),
     /// A step with blocks may begin that interrupts its block.
     Interrupt,

@@ -76,8 +76,8 @@ impl std::fmt::Debug for Vocabulary {
     }
 }
 
-/// The token can stand anywhere inside a text, whatever names are bound: it has braces, each of them twice, but
-/// for one at the end.
+/// The token can stand anywhere inside a text, whatever names are bound: it has braces, each of them twice,
+/// but for one at the end.
 fn is_doubled(bytes: &[u8]) -> bool {
     let (mut rest, mut has_braces) = (bytes, false);
     while let Some((first, behind)) = rest.split_first() {

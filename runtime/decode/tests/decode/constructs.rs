@@ -1,5 +1,5 @@
-//! Every construct of the canonical subset: policies written by hand keep their meaning in both spellings, are
-//! accepted byte by byte and allowed by the exported grammars; and random walks write each construct.
+//! Every construct of the canonical subset: policies written by hand keep their meaning in both spellings,
+//! are accepted byte by byte and allowed by the exported grammars; and random walks write each construct.
 
 use crate::common::peer::{Peer, environment};
 use crate::common::tokens::{END, tokens};
@@ -12,19 +12,21 @@ const POLICIES: [&str; 13] = [
     r#"policy clean for hsr { go(kitchen_table) try { pick(mug_1, auto) } catch any { say("no") } finally {
         if holding(mug_1) { go(sink) place(mug_1, sink) } home() } }"#,
     "policy whole for hsr { go(sink) } finally { home() }",
-    r#"policy kept for hsr keep out of stairs, distance(user) >= 0.5 m { go(sink) sequence g { go(trash) } finally {
-        wait 2 s } } finally { wait until distance(user) > 1 m sequence g { home() } }"#,
+    r#"policy kept for hsr keep out of stairs, distance(user) >= 0.5 m { go(sink) sequence g { go(trash) }
+        finally { wait 2 s } } finally { wait until distance(user) > 1 m sequence g { home() } }"#,
     "policy rules for hsr { keep distance(user) >= 1 m, out of stairs { go(sink) } finally { home() } }",
     "policy timed for hsr { within 30 s { go(sink) } try { within 5 s { home() } } catch timeout { done } }",
     r#"policy split for hsr { let x = detect("mug") within 3 s { say("{x}") within 2 s within 1 s { home() } }
-        go(sink) slowly within 9 s { home() } finally { wait 1 s } wait until distance(user) > 1 m within 5 s { home() } }"#,
+        go(sink) slowly within 9 s { home() } finally { wait 1 s }
+        wait until distance(user) > 1 m within 5 s { home() } }"#,
     "policy delay for hsr { wait 5 s go(sink) wait 0.25 s }",
     r#"policy lists for hsr { go(kitchen_table) let cups = detect_all("cup") let n = count(cups)
         if count(cups) > 2 or is_empty(cups) { say("I see {n} or {count(cups)} cups") }
         if not is_empty(cups) { say("such as {first(cups)}") pick(first(cups), auto) } }"#,
     r#"policy names for hsr { let d = distance(user) let w = mug_1.mass say("{d}, {w}")
         go(kitchen_table) let cups = detect_all("cup") let cup = first(cups) pick(cup, auto) }"#,
-    r#"policy values for hsr { let cups = detect_all("cup") if count(cups) == 0 { cannot "only {count(cups)}" }
+    r#"policy values for hsr { let cups = detect_all("cup")
+        if count(cups) == 0 { cannot "only {count(cups)}" }
         if not (count(cups) < 9) { replan "{first(cups)}" } fail "{cups}" }"#,
     "policy manners for hsr { go(sink) at 30 % go(trash) slowly within 40 s go(sink) at 2.5 % retry 1 }",
     r#"policy again for hsr { sequence a { let x = detect("mug") } finally { let y = detect("cup") }
@@ -94,8 +96,8 @@ fn acceptor_lets_no_monitor_fire_by_itself() {
     }
 }
 
-/// The constructs with what each of them is found by, in JSON and in text; nothing where the acceptor does not
-/// write it. A `#` is a digit.
+/// The constructs with what each of them is found by, in JSON and in text; nothing where the acceptor does
+/// not write it. A `#` is a digit.
 const FOUND_BY: [(&str, &str, &str); 19] = [
     ("cleanup", "],\"finally\":[{", "} finally {"),
     ("keep", "{\"keep\":[", " keep "),

@@ -36,7 +36,8 @@ fn acceptor_takes_loop_items_as_arguments() {
             concat!(
                 r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":["#,
                 r#"{"each":"J","in":["drawer_1"],"at_most":1,"steps":["#,
-                r#"{"do":"go","to":"$J"},{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}],"finally":null}"#,
+                r#"{"do":"go","to":"$J"},{"do":"open","what":"$J"},{"end":"done"}]},"#,
+                r#"{"end":"done"}],"finally":null}"#,
             ),
         ),
     ] {

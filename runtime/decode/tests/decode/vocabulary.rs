@@ -165,7 +165,11 @@ fn vocabulary_excludes_special_tokens_and_pairs_twins() {
     let mask = decoder.mask().to_vec();
     assert!(set(&mask, usize::from(b'{')) && set(&mask, 256));
     assert_eq!(mask.iter().map(|word| word.count_ones()).sum::<u32>(), 2);
-    let policy = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":[{"end":"done"}],"finally":null}"#;
+    let policy = concat!(
+        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
+        r#""steps":[{"end":"done"}],"finally":null}"#,
+    )
+    .as_bytes();
     for byte in policy {
         assert!(!set(decoder.mask(), 257) && !set(decoder.mask(), 258) && !set(decoder.mask(), 259));
         assert!(

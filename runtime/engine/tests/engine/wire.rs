@@ -119,7 +119,9 @@ proptest! {
     #[test]
     fn wire_motions(args in vec(value(), 0..3), check: u64, why: String) {
         let (primitive, uses) = ("pick".into(), [].into());
-        let command = Command { primitive, args: Vec::new(), uses, manner: None, deadline_secs: 20.1, motion: None };
+        let (manner, motion) = (None, None);
+        let command =
+            Command { primitive, args: Vec::new(), uses, manner, deadline_secs: 20.1, motion };
         let motion = Arc::new(DeferredMotion { query: "reach".into(), args, command: Arc::new(command) });
         let check = CheckId::from_number(check);
         there_and_back!(Effect, Effect::Verify { check, node: NodeId(3), motion });

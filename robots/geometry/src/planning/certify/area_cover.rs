@@ -112,8 +112,8 @@ impl PlanningScene<'_> {
     }
 
     /// Checks whether no place on a surface is free for the held object, upright in any direction, and not
-    /// excluded by rules. Where there are rules it covers every place at which the object is on the surface in
-    /// some direction; without any, those at which it is on it in every direction.
+    /// excluded by rules. Where there are rules it covers every place at which the object is on the surface
+    /// in some direction; without any, those at which it is on it in every direction.
     pub(crate) fn is_full(
         &self,
         held: &HeldObject<'_>,

@@ -476,7 +476,7 @@ impl CheckedPart {
 
     /// Checks whether the clearance of the part from an entity counts.
     pub(crate) fn is_kept_from(&self, entity: usize, allowed: AllowedCollisions) -> bool {
-        !self.may_touch(entity, allowed) && !(self.in_hand && allowed.is_near(entity))
+        !(self.may_touch(entity, allowed) || self.in_hand && allowed.is_near(entity))
     }
 }
 

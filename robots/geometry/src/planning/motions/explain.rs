@@ -68,7 +68,7 @@ impl QueryContext<'_> {
         least.candidates = least.candidates.min(EFFORT[0]);
         least.paths = least.paths.min(EFFORT[1]);
         least.cells = least.cells.min(CELLS);
-        explained.tight = tight_spot(self, query, &why.reason, budget);
+        explained.tight = tight_spot(self, query, &why.reason, budget).map(Box::new);
         if explained.change.is_some() {
             return explained;
         }

@@ -95,7 +95,7 @@ impl PutTask<'_, '_> {
     fn none(&self, rules: &PlaceRules, met: &ContactTally) -> MotionAnswer {
         let order = self.order;
         let reason = if order.excludes {
-            let (on, rules, by) = (self.on.into(), rules.clone(), met.most());
+            let (on, rules, by) = (self.on.into(), Box::new(rules.clone()), met.most());
             InfeasibleReason::NoPlace(Misfit::Taken { on, rules, by })
         } else {
             met.none_free()

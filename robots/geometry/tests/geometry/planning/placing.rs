@@ -323,7 +323,8 @@ proptest! {
             let others: Vec<_> = context.obstacles().filter(|(id, _)| id != "kitchen_table").collect();
             let shape = motet_geometry::collision::Shape::Cylinder { radius: 0.04, half: 0.05 };
             for (u, v) in (0..41).flat_map(|u| (0..41).map(move |v| (u, v))) {
-                let half = |size: f64, step: i32| (size / 2.0 - 0.04).max(0.0) * (f64::from(step) / 20.0 - 1.0);
+                let share = |step: i32| f64::from(step) / 20.0 - 1.0;
+                let half = |size: f64, step: i32| (size / 2.0 - 0.04).max(0.0) * share(step);
                 let (u, v) = (half(size[0], u), half(size[1], v));
                 let (sin, cos) = yaw.sin_cos();
                 let place = Isometry3::translation(2.0 + cos * u - sin * v, 0.4 + sin * u + cos * v, 0.774);

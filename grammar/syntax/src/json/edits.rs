@@ -5,8 +5,8 @@ use crate::located::{Located, LocatedValue};
 use crate::source::Span;
 
 /// A text after edits, which remembers where each of its parts comes from.
-pub(in crate::json) struct EditedText {
-    pub(in crate::json) text: String,
+pub(crate) struct EditedText {
+    pub(crate) text: String,
     segments: Vec<Segment>,
 }
 
@@ -20,7 +20,7 @@ struct Segment {
 
 impl EditedText {
     /// Applies edits that do not overlap. `None` if two do, or one lies outside of the text.
-    pub(super) fn new(original: &str, edits: &mut [Edit]) -> Option<Self> {
+    pub(crate) fn new(original: &str, edits: &mut [Edit]) -> Option<Self> {
         edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
         let file = edits.first()?.span.file;
         let mut edited = Self { text: String::with_capacity(original.len()), segments: Vec::new() };
@@ -66,7 +66,7 @@ impl EditedText {
     }
 
     /// Moves all ranges of a tree of the edited text to the original.
-    pub(in crate::json) fn move_tree(&self, tree: &mut Located<'_>) {
+    pub(crate) fn move_tree(&self, tree: &mut Located<'_>) {
         tree.span = self.original(tree.span);
         match &mut tree.value {
             LocatedValue::Array(items) => items.iter_mut().for_each(|item| self.move_tree(item)),
@@ -86,7 +86,7 @@ impl EditedText {
 
     /// Moves a diagnostic about the edited text to the original. Its pointer and its fix are about another
     /// text.
-    pub(in crate::json) fn move_diagnostic(&self, found: &mut Diagnostic) {
+    pub(crate) fn move_diagnostic(&self, found: &mut Diagnostic) {
         found.span = self.original(found.span);
         for related in &mut found.related {
             related.span = related.span.map(|span| self.original(span));

@@ -8,9 +8,9 @@
 mod call;
 mod condition;
 mod document;
-mod edits;
 mod step;
 mod table;
+mod worded;
 
 use serde_json::Value as Json;
 
@@ -20,13 +20,12 @@ use crate::located::{Leaf, Located, LocatedValue, SchemaView, form_key};
 use crate::source::Span;
 use crate::words::{DEADLINE, is_bare_name};
 
-pub(super) use edits::EditedText;
-
-use step::{WordedStep, text_steps};
+use crate::json::EditedText;
+use worded::{WordedStep, text_steps};
 
 /// Reads the shapes of a document without syntax errors. Returns the document in the form of the language,
 /// and a note for each sort of shape; `None` if it has no such shape. O(document × forms).
-pub(super) fn plain_form(
+pub(crate) fn plain_form(
     tree: &Located<'_>,
     text: &str,
     schema: &Json,
