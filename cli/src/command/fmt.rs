@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use motet_project::Project;
 use motet_project::files::Bytes;
-use motet_syntax::{Parsed, Severity, print};
+use motet_syntax::{Parsed, Severity};
 
 use crate::documents::{self, Document, Flow, Input, is_reply};
 use crate::error::{CliError, Exit};

@@ -223,7 +223,10 @@ impl<'a> Prover<'a> {
     fn refuted(&mut self, id: StepId, def: &PrimitiveDef, need: &NeedDef, frame: CallFrame<'_>, span: Span) {
         let is_caught = self.is_caught(def, need);
         if self.mode == Mode::Decide {
-            return if is_caught { () } else { self.count(Refuted::CODE) };
+            if !is_caught {
+                self.count(Refuted::CODE);
+            }
+            return;
         }
         let in_cleanup = self.explain_in_cleanup(id, need, frame);
         let explanation = in_cleanup.unwrap_or_else(|| self.explain(&need.condition, true, frame));

@@ -267,8 +267,11 @@ fn stand_at_a_pose() {
     assert!(matches!(fixed, MotionAnswer::Unknown(_)), "{fixed:?}");
 }
 
+/// Size and turn of a table, the things on it, the rules that apply, and a distance from the rim.
+type RandomTable = ([f64; 2], f64, Vec<(f64, f64, f64, bool)>, [bool; 2], f64);
+
 /// A table with things on it and rules about one of them.
-fn tables() -> impl Strategy<Value = ([f64; 2], f64, Vec<(f64, f64, f64, bool)>, [bool; 2], f64)> {
+fn tables() -> impl Strategy<Value = RandomTable> {
     let thing = (-0.5..0.5_f64, -0.5..0.5_f64, 0.02..0.16_f64, any::<bool>());
     (
         [0.25..0.8_f64, 0.25..1.2_f64],
