@@ -247,12 +247,12 @@ fn is_deferred_motion(node: &Node, failure: &str) -> bool {
     is_deferred && matches!(failure, "unreachable" | "blocked" | "not_found")
 }
 
-/// What a run tells about its failures.
+/// Causes of the failures of a run, as its trace reports them.
 #[derive(Default)]
 struct Causes {
     /// Causes for which steps ended in a failure, the latest of each step.
     ends: std::collections::BTreeMap<motet_graph::NodeId, EndCause>,
-    /// Whether the goal was observed to be false at the end.
+    /// Set if the goal was observed to be false at the end.
     misses_goal: bool,
 }
 

@@ -65,6 +65,7 @@ pub(super) fn derive(library: &Library, environment: &mut Environment) {
     let (Some(fluents), Some(reach)) = (PlaceFluents::of(library), library.serving_reach) else { return };
     let Some(scene) = environment.scene.clone().filter(|_| !library.closed_world) else { return };
     let held = scene.robot.holding.as_ref().and_then(Option::as_ref);
+    let [x, y, _] = scene.robot.base;
     let mut found: Vec<(Fact, bool)> = Vec::new();
     let mut open: Vec<Fact> = Vec::new();
     for (entity, name, kind) in environment.entities.iter() {
@@ -80,14 +81,15 @@ pub(super) fn derive(library: &Library, environment: &mut Environment) {
         }
         let kind = served_kind(library, kind);
         let is_held = held == Some(name);
-        match if is_held { Some(false) } else { reach.serves(&scene, thing, kind) } {
+        match if is_held { Some(false) } else { reach.serves([x, y], &scene, thing, kind) } {
             Some(serves) => found.push((fluents.served(entity), serves)),
             None => open.push(fluents.served(entity)),
         }
         // People walk; whether one is near is for the run.
         if kind != ServedKind::Person
             && !is_held
-            && let (Some(near), Some(fact)) = (reach.is_near(&scene, thing, kind), fluents.nearby(entity))
+            && let (Some(near), Some(fact)) =
+                (reach.is_near([x, y], &scene, thing, kind), fluents.nearby(entity))
         {
             found.push((fact, near));
         }
@@ -134,8 +136,8 @@ pub(crate) fn from_base(
         if kind == ServedKind::Person {
             continue;
         }
-        let serves = reach.serves_from(base, scene, thing, kind);
-        let near = reach.is_near_from(base, scene, thing, kind);
+        let serves = reach.serves(base, scene, thing, kind);
+        let near = reach.is_near(base, scene, thing, kind);
         let near = near.and_then(|near| Some((fluents.nearby(entity)?, near)));
         let facts = serves.map(|serves| (fluents.served(entity), serves)).into_iter().chain(near);
         found.extend(facts.map(|(fact, holds)| (fact.fluent, key(&fact), holds)));

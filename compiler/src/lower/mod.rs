@@ -166,7 +166,7 @@ impl Lowering<'_> {
         parts.map(|part| self.tables.condition(part, &[], None)).collect()
     }
 
-    /// What the failures of the graph mean, if a handler names its failure.
+    /// Sentences for the failures of the graph, if a handler names its failure.
     fn sentences(&mut self) -> Vec<graph::FailureSentence> {
         let names = |handler: &graph::Handler| handler.binds.is_some();
         let is_asked = self.nodes.iter().any(|node| match &node.kind {

@@ -86,23 +86,10 @@ impl ServingReach {
         Some(Self { hands_m: [least, greatest], radius_m: robot.base.radius_m })
     }
 
-    /// Decides whether the robot serves an entity from the pose of its base in the scene; `None` where the
-    /// pose does not decide it. O(supports of the entity).
+    /// Decides whether the robot serves an entity with its base at a point of the floor; `None` where the
+    /// point does not decide it. O(supports of the entity).
     #[must_use]
-    pub fn serves(&self, scene: &Scene, entity: &Entity, kind: ServedKind) -> Option<bool> {
-        let [x, y, _] = scene.robot.base;
-        self.serves_from([x, y], scene, entity, kind)
-    }
-
-    /// Decides whether the robot serves an entity with its base at a point of the floor, as [`Self::serves`].
-    #[must_use]
-    pub fn serves_from(
-        &self,
-        base: [f64; 2],
-        scene: &Scene,
-        entity: &Entity,
-        kind: ServedKind,
-    ) -> Option<bool> {
+    pub fn serves(&self, base: [f64; 2], scene: &Scene, entity: &Entity, kind: ServedKind) -> Option<bool> {
         let [least, greatest] = self.hands_m;
         let (within, beyond) = match kind {
             ServedKind::Place => (AT_PLACE_M, OFF_PLACE_M),
@@ -116,20 +103,7 @@ impl ServingReach {
 
     /// Decides whether the robot is near an entity, as [`Self::serves`].
     #[must_use]
-    pub fn is_near(&self, scene: &Scene, entity: &Entity, kind: ServedKind) -> Option<bool> {
-        let [x, y, _] = scene.robot.base;
-        self.is_near_from([x, y], scene, entity, kind)
-    }
-
-    /// Decides whether the robot is near an entity with its base at a point of the floor.
-    #[must_use]
-    pub fn is_near_from(
-        &self,
-        base: [f64; 2],
-        scene: &Scene,
-        entity: &Entity,
-        kind: ServedKind,
-    ) -> Option<bool> {
+    pub fn is_near(&self, base: [f64; 2], scene: &Scene, entity: &Entity, kind: ServedKind) -> Option<bool> {
         let bounds = distance(base, scene, entity, kind);
         let within = NEAR_M + self.radius_m;
         decide(bounds.least, bounds.outline.or(bounds.greatest), within, within)
@@ -217,8 +191,9 @@ mod tests {
     fn check(scene: &Scene, id: &str, kind: ServedKind, serves: Option<bool>, near: Option<bool>) {
         let reach = ServingReach::of(&builtin::robot("hsr").unwrap().robot).unwrap();
         let entity = &scene.entities[id];
-        assert_eq!(reach.serves(scene, entity, kind), serves, "{id}");
-        assert_eq!(reach.is_near(scene, entity, kind), near, "{id}");
+        let [x, y, _] = scene.robot.base;
+        assert_eq!(reach.serves([x, y], scene, entity, kind), serves, "{id}");
+        assert_eq!(reach.is_near([x, y], scene, entity, kind), near, "{id}");
     }
 
     #[test]

@@ -100,6 +100,11 @@ impl SimCommand {
         })
     }
 
+    /// True if it drives to a place, where it may look around.
+    pub(crate) const fn is_drive(&self) -> bool {
+        matches!(self, Self::Go(_) | Self::GoToPose(_) | Self::Search(_, _))
+    }
+
     /// Share of the deadline that the work takes, driving aside.
     pub(crate) const fn share(&self) -> f64 {
         match self {

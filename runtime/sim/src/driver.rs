@@ -32,8 +32,8 @@ impl Driver for Sim {
             goal,
             uses: command.uses.clone(),
             work_secs: command.deadline_secs * share * jitter,
+            path: base_path(&parsed, command),
             command: parsed,
-            path: base_path(command),
             slower: fault.slower,
             stretch: stretch(command),
             fails: fault.fails,
@@ -73,7 +73,7 @@ impl Driver for Sim {
             self.world.motion = None;
         }
         task.command = SimCommand::of(command);
-        task.path = base_path(command);
+        task.path = base_path(&task.command, command);
         task.stretch = stretch(command);
         if hangs {
             self.tasks.push(task);
@@ -167,9 +167,10 @@ const fn until_after(until: Time, now: Time) -> Time {
     if until.nanos() == Time::NEVER.nanos() { until } else { until.since(now) }
 }
 
-/// Stances of the base along the witness of a command; none without one.
-fn base_path(command: &Command) -> Vec<BasePose> {
-    let witness = command.motion.as_ref().and_then(|motion| motion.witness.as_ref());
+/// Stances of the base along the witness of a drive; none without one, or of another command.
+fn base_path(parsed: &SimCommand, command: &Command) -> Vec<BasePose> {
+    let motion = command.motion.as_ref().filter(|_| parsed.is_drive());
+    let witness = motion.and_then(|motion| motion.witness.as_ref());
     let stance = |point: &Waypoint| {
         let [x, y, heading] = point.base;
         BasePose { x, y, heading }

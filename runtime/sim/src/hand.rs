@@ -45,9 +45,7 @@ impl SimWorld {
         let radius = self.drive.radius_m;
         let clearance = match target.role {
             Role::Person => person_gap(radius, self.reach()),
-            Role::Surface | Role::Container | Role::Object | Role::Place => {
-                radius.min(BASE_SHARE * self.reach()) + MARGIN_M
-            }
+            Role::Surface | Role::Container | Role::Object | Role::Place => self.base_extent() + MARGIN_M,
         };
         let wanted: Vec<[f64; 2]> = if root == id {
             self.resting(id).map(|(_, thing)| [thing.body.x(), thing.body.y()]).collect()
@@ -233,8 +231,8 @@ impl SimWorld {
         let elsewhere = || {
             let (spot, target) = (self.spot(id, on, rules, None)?, self.thing(on)?);
             let others = self.obstacles(on);
-            let (reach, radius) = (self.reach(), self.drive.radius_m);
-            let clearance = radius.min(BASE_SHARE * reach) + MARGIN_M;
+            let (reach, radius, clearance) =
+                (self.reach(), self.drive.radius_m, self.base_extent() + MARGIN_M);
             let stance = standing_place(&target.body, clearance, reach, self.base, &[spot], &others, radius)?;
             let is_close = stance.distance_to(self.base.x, self.base.y) <= SHUFFLE_M;
             (is_close && serves(stance, spot)).then_some(stance)
@@ -275,8 +273,12 @@ impl SimWorld {
 
     /// Checks if the base has room at a point.
     pub(crate) fn has_room_at(&self, x: f64, y: f64) -> bool {
-        let clearance = self.drive.radius_m.min(BASE_SHARE * self.reach());
-        self.obstacles("").iter().all(|other| other.gap(x, y) >= clearance)
+        self.obstacles("").iter().all(|other| other.gap(x, y) >= self.base_extent())
+    }
+
+    /// Distance in m from the base's axis that the base takes towards what it stands at.
+    fn base_extent(&self) -> f64 {
+        self.drive.radius_m.min(BASE_SHARE * self.reach())
     }
 
     /// Hands a held thing to a person.

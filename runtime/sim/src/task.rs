@@ -92,15 +92,12 @@ impl TaskContext<'_> {
                 NextStage::End(Outcome::Failure(failure.clone()))
             };
         }
+        if let Some(path) = self.path_from_here(&mut task.path) {
+            return NextStage::Follow(path);
+        }
         match &task.command {
-            SimCommand::Go(to) => {
-                let path = self.path_from_here(&mut task.path);
-                path.map_or_else(|| self.go(to, step), NextStage::Follow)
-            }
-            SimCommand::GoToPose(pose) => {
-                let path = self.path_from_here(&mut task.path);
-                path.map_or_else(|| self.go_to_pose(pose, step), NextStage::Follow)
-            }
+            SimCommand::Go(to) => self.go(to, step),
+            SimCommand::GoToPose(pose) => self.go_to_pose(pose, step),
             SimCommand::Search(what, around) => {
                 let (what, around) = (what.clone(), around.clone());
                 self.search(task, &what, &around, step)
@@ -199,11 +196,6 @@ impl TaskContext<'_> {
                 Err("not_found") => {}
                 Err(failure) => return fail(failure),
             }
-        }
-        if step == 0
-            && let Some(path) = self.path_from_here(&mut task.path)
-        {
-            return NextStage::Follow(path);
         }
         match around.get(step as usize / 2) {
             Some(next) => self.world.place_for(next).map_or_else(|| fail("unreachable"), NextStage::Drive),

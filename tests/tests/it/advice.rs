@@ -2,17 +2,22 @@
 //! are in `grammar/syntax/tests/syntax/messages.rs`.
 
 use motet_compiler::Session;
-use motet_syntax::{Severity, Source, Sources, render};
+use motet_syntax::{Diagnostic, Severity, Source, Sources, render};
 use motet_tests::setup;
 
-/// The errors of a document for the HSR in the kitchen, each as `code: message; help`.
-fn errors(document: &str) -> Vec<String> {
+/// The findings of a document for the HSR in the kitchen.
+fn findings(document: &str) -> Vec<Diagnostic> {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
     let mut sources = Sources::default();
     let source = Source::new("p", document);
     let file = sources.add(source.clone());
     let (session, _) = setup::session(Some(&robot), Some(&scene), &mut sources);
-    let said = session.check(&motet_syntax::read(&source, file));
+    session.check(&motet_syntax::read(&source, file))
+}
+
+/// The errors of a document for the HSR in the kitchen, each as `code: message; help`.
+fn errors(document: &str) -> Vec<String> {
+    let said = findings(document);
     let errors = said.iter().filter(|said| said.severity == Severity::Error);
     errors
         .map(|said| format!("{}: {}; {}", said.code, said.message, said.help.as_deref().unwrap_or("")))
@@ -307,12 +312,7 @@ fn diagnostics_waits_and_endings_written_as_calls_are_mended() {
 
 /// The warnings and notes for the HSR in the kitchen are not about a code.
 fn is_silent(document: &str, code: &str) {
-    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
-    let mut sources = Sources::default();
-    let source = Source::new("p", document);
-    let file = sources.add(source.clone());
-    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut sources);
-    let said = session.check(&motet_syntax::read(&source, file));
+    let said = findings(document);
     assert!(said.iter().all(|said| said.code.0 != code), "{said:#?}");
 }
 

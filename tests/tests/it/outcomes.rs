@@ -3,28 +3,16 @@
 
 use motet_compiler::{Session, make_explicit};
 use motet_graph::Value;
-use motet_runtime::{Effect, Engine, Observer, RunEnd, StartState, Time, run};
+use motet_runtime::{Engine, RunEnd, StartState, Time, run};
 use motet_sim::{Faults, Sim, SimOptions};
 use motet_syntax::{FileId, Source, Sources, Syntax, print, read};
 use motet_tests::setup;
 
+use crate::values::Said;
+
 fn session() -> Session {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
     setup::session(Some(&robot), Some(&scene), &mut Sources::default()).0
-}
-
-/// What the robot says.
-#[derive(Default)]
-struct Said(Vec<String>);
-
-impl Observer for Said {
-    fn effect(&mut self, _now: Time, effect: &Effect) {
-        if let Effect::Start { command, .. } = effect
-            && let ("say", Some(Value::Text(text))) = (&*command.primitive, command.arg("text"))
-        {
-            self.0.push(text.to_string());
-        }
-    }
 }
 
 /// The end of the last policy of a document in the kitchen, and what the robot says on the way.

@@ -27,9 +27,9 @@ const JSON: &str = r#"{
 }
 "#;
 
-/// What the robot says.
+/// Listener to a run: the words that the robot says, in order.
 #[derive(Default)]
-struct Said(Vec<String>);
+pub(crate) struct Said(pub(crate) Vec<String>);
 
 impl Observer for Said {
     fn effect(&mut self, _now: Time, effect: &Effect) {

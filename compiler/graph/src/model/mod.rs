@@ -93,7 +93,7 @@ pub struct Graph {
     /// What people call the entities that a text may name; any other is called by its id.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub names: Vec<EntityName>,
-    /// What the kinds of failure mean, where a handler names its failure; any other is called by its kind.
+    /// Sentences for kinds of failure, where a handler names its failure; any other is called by its kind.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sentences: Vec<FailureSentence>,
     /// Binding of the result, of a policy that gives one.

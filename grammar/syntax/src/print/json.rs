@@ -5,7 +5,8 @@
 //! before it prints. A condition with an argument that still has no name is written as a string in the text
 //! syntax; in a step such an argument is written under `arg1`, `arg2`, … by its position.
 //!
-//! Where no type is expected, nothing is left to the type: a quantity has its unit, and a text is an object.
+//! A value in a place without an expected type tells its own: a quantity has its unit, and a text is an
+//! object.
 
 use rustc_hash::FxHashSet;
 use serde_json::Value;

@@ -321,7 +321,7 @@ impl Naive {
         last
     }
 
-    /// What a failure means, of which the driver said nothing.
+    /// Sentence for a failure of which the driver said nothing.
     fn sentence(&self, kind: &str) -> SmolStr {
         let is_it = |of: &&FailureSentence| self.graph.failures[of.failure.index()] == kind;
         let known = self.graph.sentences.iter().find(is_it);

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use indexmap::IndexMap;
 use motet_compiler::signature::{Callable, Signatures, Type};
 use motet_compiler::{Session, make_explicit};
 use motet_requests::RequestContext;
@@ -182,23 +183,21 @@ fn primitives(session: &Session, detail: Detail) -> String {
     let signatures = session.signatures();
     let mut text = String::from("# Primitives\n");
     let decls = session.library().signatures();
-    let known: Vec<_> =
-        decls.filter_map(|decl| Some((signatures.callable(&decl.name.text)?, decl))).collect();
-    let usual: Vec<String> = match detail {
-        Detail::Contracts => usual_needs(known.iter().map(|(_, decl)| *decl)),
-        Detail::Signatures => Vec::new(),
-    };
+    let known =
+        decls.filter_map(|decl| Some((signatures.callable(&decl.name.text)?, decl, needs(decl, detail))));
+    let known: Vec<_> = known.collect();
+    let usual = usual_needs(known.iter().map(|(.., needs)| needs.as_slice()));
     for need in &usual {
-        let others = known.iter().filter(|(_, decl)| !needs(decl).contains(need));
-        let others: Vec<&str> = others.map(|(_, decl)| decl.name.text.as_str()).collect();
+        let others = known.iter().filter(|(.., needs)| !needs.contains(need));
+        let others: Vec<&str> = others.map(|(_, decl, _)| decl.name.text.as_str()).collect();
         let _ = writeln!(text, "All but {} need {need}.", others.join(", "));
     }
-    for (callable, decl) in known {
+    for (callable, decl, needs) in known {
         text.push_str(&signature(callable, &signatures));
         let doc = decl.doc.split_inclusive(". ").next().unwrap_or_default().replace('\n', " ");
         let _ = write!(text, "  {}", doc.trim());
         if detail == Detail::Contracts {
-            text.push_str(&contract(decl, &usual));
+            text.push_str(&contract(decl, needs, &usual));
         }
         text.push('\n');
     }
@@ -206,22 +205,20 @@ fn primitives(session: &Session, detail: Detail) -> String {
 }
 
 /// Needs that more than half of some primitives have.
-fn usual_needs<'d>(decls: impl Iterator<Item = &'d PrimitiveDecl> + Clone) -> Vec<String> {
-    let mut counts: Vec<(String, usize)> = Vec::new();
-    for need in decls.clone().flat_map(needs) {
-        match counts.iter_mut().find(|(known, _)| *known == need) {
-            Some((_, count)) => *count += 1,
-            None => counts.push((need, 1)),
-        }
+fn usual_needs<'n>(primitives: impl ExactSizeIterator<Item = &'n [String]>) -> Vec<String> {
+    let total = primitives.len();
+    let mut counts: IndexMap<&String, usize> = IndexMap::new();
+    for need in primitives.flatten() {
+        *counts.entry(need).or_default() += 1;
     }
-    let total = decls.count();
-    counts.into_iter().filter(|(_, count)| 2 * count > total).map(|(need, _)| need).collect()
+    counts.into_iter().filter(|(_, count)| 2 * count > total).map(|(need, _)| need.clone()).collect()
 }
 
-/// Needs of a primitive. Those that only keep odd arguments out are left to the findings.
-fn needs(decl: &PrimitiveDecl) -> Vec<String> {
+/// Needs of a primitive, where they are shown. Those that only keep odd arguments out are left to the
+/// findings.
+fn needs(decl: &PrimitiveDecl, detail: Detail) -> Vec<String> {
     let clauses = decl.clauses.iter().filter_map(|clause| match clause {
-        Clause::Needs(needs) => Some(needs),
+        Clause::Needs(needs) if detail == Detail::Contracts => Some(needs),
         _ => None,
     });
     clauses.flatten().filter(|need| !is_about_arguments(need)).map(quantified).collect()
@@ -240,9 +237,9 @@ fn signature(callable: &Callable, signatures: &Signatures) -> String {
 }
 
 /// Needs and failures of a primitive, without the needs that are usual.
-fn contract(decl: &PrimitiveDecl, usual: &[String]) -> String {
+fn contract(decl: &PrimitiveDecl, mut needs: Vec<String>, usual: &[String]) -> String {
     let mut text = String::new();
-    let needs: Vec<String> = needs(decl).into_iter().filter(|need| !usual.contains(need)).collect();
+    needs.retain(|need| !usual.contains(need));
     if !needs.is_empty() {
         let _ = write!(text, " Needs {}.", needs.join(", "));
     }

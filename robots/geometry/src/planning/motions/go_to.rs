@@ -75,7 +75,7 @@ pub(crate) fn go_to(context: &QueryContext<'_>, id: &str, _budget: SearchBudget)
     }
     let reason = if is_free_somewhere { InfeasibleReason::BlockedPath { by: None } } else { met.none_free() };
     let certified = context.is_shut_off([centre.x, centre.y], reach, far);
-    MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None, tight: None })
+    MotionAnswer::Infeasible(Infeasible { certified, ..Infeasible::exhausted(reason) })
 }
 
 /// Answers `stand_at`: a route to a pose of the base.
@@ -90,13 +90,7 @@ pub(crate) fn stand_at(context: &QueryContext<'_>, pose: &MapPose) -> MotionAnsw
     let far = |at_x: f64, at_y: f64| libm::hypot(at_x - x, at_y - y);
     let infeasible = |reason: InfeasibleReason| {
         let certified = context.is_shut_off([x, y], 0.0, far);
-        MotionAnswer::Infeasible(Infeasible {
-            reason,
-            change: None,
-            certified,
-            configuration: None,
-            tight: None,
-        })
+        MotionAnswer::Infeasible(Infeasible { certified, ..Infeasible::exhausted(reason) })
     };
     let mut met = ContactTally::default();
     if let Some(contact) = context.contact(&goal, none) {

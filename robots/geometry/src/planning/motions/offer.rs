@@ -54,13 +54,7 @@ pub(crate) fn offer(context: &QueryContext<'_>, id: &str, to: &str, budget: Sear
             reach: tip_reach,
         };
         let change = Some(format!("go to `{to}` first"));
-        return MotionAnswer::Infeasible(Infeasible {
-            reason,
-            change,
-            certified: false,
-            configuration: None,
-            tight: None,
-        });
+        return MotionAnswer::Infeasible(Infeasible { change, ..Infeasible::exhausted(reason) });
     }
     let (mut poses, mut ways, mut tried) = (ContactTally::default(), ContactTally::default(), 0);
     for at in 0..budget.candidates.saturating_mul(8) {

@@ -105,13 +105,7 @@ impl PutTask<'_, '_> {
         // One pose was checked as it is; the cover knows upright objects only.
         let certified = order.at.is_some()
             || (!order.may_lie && self.context.is_full(self.held, self.support, self.index, excluded));
-        MotionAnswer::Infeasible(Infeasible {
-            reason,
-            change: None,
-            certified,
-            configuration: None,
-            tight: None,
-        })
+        MotionAnswer::Infeasible(Infeasible { certified, ..Infeasible::exhausted(reason) })
     }
 
     /// Path to one of some places.
@@ -139,7 +133,7 @@ impl PutTask<'_, '_> {
             envelope.beyond_all(&face.vector, &format!("the top of `{on}`"), &tips)
         {
             let certified = matches!(envelope, ReachEnvelope::Heights(..)) && !order.may_lie;
-            let none = Infeasible { reason, change, certified, configuration: None, tight: None };
+            let none = Infeasible { change, certified, ..Infeasible::exhausted(reason) };
             return Err(MotionAnswer::Infeasible(none));
         }
         let search = |tips: Vec<Isometry3<f64>>| {

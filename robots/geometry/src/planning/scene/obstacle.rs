@@ -72,7 +72,7 @@ impl AllowedCollisions {
         Self { near: Some(entity), ..Self::default() }
     }
 
-    /// What remains allowed before the last approach.
+    /// The collisions that remain allowed before the last approach.
     #[must_use]
     pub(crate) fn before(self) -> Self {
         Self { is_before: true, ..self }
