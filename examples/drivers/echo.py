@@ -48,7 +48,8 @@ class Robot:
         """What the robot sees: that every fact holds, that all is 1 m away, and that any other measure is 0.05."""
         if "fact" in query:
             return {"truth": True}
-        return {"value": {"number": 1.0 if query.get("measure") == "distance" else 0.05}}
+        measure = query.get("measure", {}).get("measure")
+        return {"value": {"number": 1.0 if measure == "distance" else 0.05}}
 
 
 def example(kind):
