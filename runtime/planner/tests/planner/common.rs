@@ -1,5 +1,4 @@
-//! The HSR in the kitchen, with and without walls about its table.
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
+//! The HSR in the kitchen, with and without walls around the table.
 
 use motet_compiler::{Geometry, Session};
 use motet_geometry::planning::SearchBudget;
@@ -9,16 +8,16 @@ use motet_robots::scene::{EntityShape, Placement, Scene};
 use motet_syntax::Sources;
 use std::sync::Arc;
 
-pub(crate) fn hsr() -> Robot {
+pub(super) fn hsr() -> Robot {
     builtin::robot("hsr").unwrap().robot
 }
 
-pub(crate) fn kitchen() -> Scene {
+pub(super) fn kitchen() -> Scene {
     builtin::scene("kitchen").unwrap()
 }
 
 /// The kitchen with walls around the table, higher than the robot.
-pub(crate) fn walled() -> Scene {
+pub(super) fn walled() -> Scene {
     let mut scene = kitchen();
     let walls = [(2.2, -0.8, 2.7, 0.1), (2.2, 1.8, 2.7, 0.1), (0.9, 0.5, 0.1, 2.7), (3.5, 0.5, 0.1, 2.7)];
     for ((x, y, along, across), at) in walls.into_iter().zip(0..) {
@@ -31,7 +30,7 @@ pub(crate) fn walled() -> Scene {
     scene
 }
 
-pub(crate) fn session(scene: &Scene) -> Session {
+pub(super) fn session(scene: &Scene) -> Session {
     let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
     let session = Session::builder().robot(&robot).scene(scene).build(&mut Sources::default());
     let said = session.input_diagnostics().to_vec();

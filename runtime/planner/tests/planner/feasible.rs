@@ -1,10 +1,6 @@
-//! What a prompt says of whether the robot can get at a thing: by its numbers, and by motions where they
-//! are looked for.
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic, reason = "a test fails by panicking")]
+//! Reachability in prompts: by numbers alone, and by motion searches.
 
-mod common;
-
-use common::{hsr, kitchen, session, walled};
+use super::common::{hsr, kitchen, session, walled};
 use motet_compiler::Session;
 use motet_planner::prompt::{self, Reachability};
 use motet_robots::scene::{EntityShape, Scene};
@@ -26,7 +22,7 @@ fn with_mug(change: impl Fn(&mut motet_robots::scene::Entity)) -> Scene {
 }
 
 #[test]
-fn what_there_is_a_way_and_a_motion_to_is_feasible() {
+fn reachability_is_yes_with_a_path_and_a_motion() {
     let scene = kitchen();
     let session = session(&scene);
     for id in ["mug_1", "coke", "kitchen_table", "drawer_1", "user"] {
@@ -35,7 +31,7 @@ fn what_there_is_a_way_and_a_motion_to_is_feasible() {
 }
 
 #[test]
-fn what_is_walled_in_out_of_reach_or_cannot_be_held_is_not_and_the_reason_is_told() {
+fn reachability_is_no_with_the_reason() {
     let reason = |scene: &Scene| match feasible(&session(scene), scene, "mug_1", LONG) {
         Reachability::No(why) => why,
         other => panic!("{other:?}"),
@@ -49,14 +45,14 @@ fn what_is_walled_in_out_of_reach_or_cannot_be_held_is_not_and_the_reason_is_tol
 }
 
 #[test]
-fn what_is_shut_in_is_not_known() {
+fn reachability_in_a_closed_container_is_unknown() {
     let scene = with_mug(|mug| (mug.on, mug.inside, mug.pose) = (None, Some("fridge_1".into()), None));
     let found = feasible(&session(&scene), &scene, "mug_1", LONG);
     assert!(matches!(&found, Reachability::Unknown(why) if why.contains("fridge_1")), "{found:?}");
 }
 
 #[test]
-fn without_motions_or_time_for_them_only_the_numbers_tell() {
+fn reachability_without_motions_or_time_rests_on_numbers() {
     let scene = walled();
     assert_eq!(feasible(&session(&scene), &scene, "mug_1", Duration::ZERO), Reachability::AsFarAsNumbersTell);
     let plain = Session::builder().robot(&hsr()).scene(&scene).build(&mut Sources::default());

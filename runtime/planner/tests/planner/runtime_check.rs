@@ -1,12 +1,7 @@
-//! A motion that only the run can tell of is checked in the run, just before its step; its verdict stands
-//! in the journal, so
-//! that a replay needs no geometry.
+//! Checks of deferred motions just before their steps. The verdicts stand in the journal, so that a replay
+//! needs no geometry.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic, reason = "a test fails by panicking")]
-
-mod common;
-
-use common::{hsr, kitchen, session, walled};
+use super::common::{hsr, kitchen, session, walled};
 use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_planner::runtime_check::{CheckMode, Guard, WITHIN};
@@ -138,7 +133,7 @@ const CHOSEN: &str = r#"policy chosen for hsr {
 }"#;
 
 #[test]
-fn what_the_run_finds_out_of_reach_is_a_failure_that_can_be_caught() {
+fn runtime_check_of_an_unreachable_thing_raises_a_failure() {
     let (end, told) = play(&walled(), CHOSEN);
     assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
     assert_eq!(told[2], "verify go_to(mug_1)", "{told:#?}");
@@ -147,7 +142,7 @@ fn what_the_run_finds_out_of_reach_is_a_failure_that_can_be_caught() {
 }
 
 #[test]
-fn what_can_be_done_is_done() {
+fn runtime_check_of_a_feasible_motion_lets_the_step_run() {
     let (end, told) = play(&kitchen(), CHOSEN);
     assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
     assert_eq!(told[2..4], ["verify go_to(mug_1)", "feasible"], "{told:#?}");
@@ -155,7 +150,7 @@ fn what_can_be_done_is_done() {
 }
 
 #[test]
-fn on_a_thread_of_its_own_a_guard_comes_to_the_same() {
+fn runtime_check_beside_the_run_gives_the_same_verdicts() {
     for scene in [walled(), kitchen()] {
         let (end, told) = play_with(&scene, CHOSEN, CheckMode::Beside);
         assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
@@ -212,7 +207,7 @@ impl Verifier for Patient {
 }
 
 #[test]
-fn the_loop_goes_on_while_a_verdict_is_awaited() {
+fn runtime_check_beside_the_run_does_not_block_the_loop() {
     let session = session(&kitchen());
     let mut sim = Sim::new(&hsr(), &kitchen(), SimOptions::default());
     let settings = EngineSettings { verify_within: Some(WITHIN), ..EngineSettings::default() };
