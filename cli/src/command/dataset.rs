@@ -9,8 +9,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
 use clap::{Args, Subcommand, ValueEnum, value_parser};
-use motet_dataset::form::{self, Form};
-use motet_dataset::generate::{self, Dataset, Order, Part};
+use motet_dataset::format;
+use motet_dataset::generate::{self, Dataset, Order, RoomRows};
 use motet_dataset::lint::family;
 use motet_dataset::picture::{FOLDER, Pictures};
 use motet_dataset::{Body, Row, scenery, wordings};
@@ -161,7 +161,7 @@ fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
     let dataset = generate::gather(&order, parts(&order));
     fs::create_dir_all(folder).map_err(|source| CliError::Write { path: folder.clone(), source })?;
     for (name, rows) in [("train", &dataset.train), ("test", &dataset.test)] {
-        let lines = rows.iter().map(|row| form::write(row, order.form));
+        let lines = rows.iter().map(|row| format::write(row, order.form));
         write(&folder.join(format!("{name}.jsonl")), lines)?;
         let rooms: std::collections::BTreeSet<&str> =
             rows.iter().map(|row| family(&row.about.scene)).collect();
@@ -173,8 +173,8 @@ fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
         ));
     }
     write(&folder.join("scenes.jsonl"), scenes(&dataset))?;
-    if order.form == Form::LlamaFactory {
-        let info = form::dataset_info(&["train", "test"], order.pictures);
+    if order.form == format::RowFormat::LlamaFactory {
+        let info = format::dataset_info(&["train", "test"], order.pictures);
         write(&folder.join("dataset_info.json"), [info].into_iter())?;
     }
     if order.pictures == Pictures::EachRow {
@@ -222,17 +222,17 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, CliError> {
         test: args.test,
         effort: effort(&args.motions),
         form: match args.form {
-            RowFormat::Trl => Form::Trl,
-            RowFormat::Llamafactory => Form::LlamaFactory,
-            RowFormat::QwenVl => Form::QwenVl,
-            RowFormat::Inteliplan => Form::InteLiPlan,
+            RowFormat::Trl => format::RowFormat::Trl,
+            RowFormat::Llamafactory => format::RowFormat::LlamaFactory,
+            RowFormat::QwenVl => format::RowFormat::QwenVl,
+            RowFormat::Inteliplan => format::RowFormat::InteLiPlan,
         },
         pictures: if args.images { Pictures::EachRow } else { Pictures::None },
     })
 }
 
 /// Parts of a dataset in order, generated on all cores.
-fn parts(order: &Order) -> Vec<Part> {
+fn parts(order: &Order) -> Vec<RoomRows> {
     let workers = std::thread::available_parallelism().map_or(1, usize::from).min(order.scenes);
     let next = AtomicUsize::new(0);
     let (send, receive) = mpsc::channel();
@@ -250,7 +250,7 @@ fn parts(order: &Order) -> Vec<Part> {
         }
     });
     drop(send);
-    let mut parts: Vec<(usize, Part)> = receive.into_iter().collect();
+    let mut parts: Vec<(usize, RoomRows)> = receive.into_iter().collect();
     parts.sort_by_key(|(number, _)| *number);
     parts.into_iter().map(|(_, part)| part).collect()
 }

@@ -10,7 +10,7 @@ use motet_robots::scene::Scene;
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
-use crate::form::{self, About, Form, Row};
+use crate::format::{self, About, Row, RowFormat};
 use crate::picture::{Picture, Pictures};
 use crate::play::play;
 use crate::random::{self, Draw as _};
@@ -39,14 +39,14 @@ pub struct Order {
     /// Budget of a motion search; without one, no motion is searched.
     pub effort: Option<SearchBudget>,
     /// In which form the rows will be written: what that cannot say is left out.
-    pub form: Form,
+    pub form: RowFormat,
     /// Images of the rows. The form of InteLiPlan has none.
     pub pictures: Pictures,
 }
 
 /// Rows of one varied room.
 #[derive(Clone, Debug, Default)]
-pub struct Part {
+pub struct RoomRows {
     rows: Vec<Row>,
     scenes: IndexMap<SmolStr, Scene>,
     pictures: BTreeMap<SmolStr, Picture>,
@@ -72,8 +72,8 @@ impl Order {
     /// Images that the form allows.
     const fn shown(&self) -> Pictures {
         match self.form {
-            Form::InteLiPlan => Pictures::None,
-            Form::Trl | Form::LlamaFactory | Form::QwenVl => self.pictures,
+            RowFormat::InteLiPlan => Pictures::None,
+            RowFormat::Trl | RowFormat::LlamaFactory | RowFormat::QwenVl => self.pictures,
         }
     }
 }
@@ -84,8 +84,8 @@ const DRAWS: usize = 8;
 /// Makes the rows of one varied room, by its number below [`Order::scenes`]. Each number by itself gives the
 /// same, so they can be made in any order.
 #[must_use]
-pub fn part(order: &Order, number: usize) -> Part {
-    let mut part = Part::default();
+pub fn part(order: &Order, number: usize) -> RoomRows {
+    let mut part = RoomRows::default();
     let Some((name, room)) = order.rooms.get(number % order.rooms.len().max(1)) else { return part };
     let seed = u64::try_from(number).unwrap_or(u64::MAX);
     let mut draw = random::part(order.seed, seed);
@@ -118,7 +118,7 @@ pub fn part(order: &Order, number: usize) -> Part {
     part
 }
 
-impl Part {
+impl RoomRows {
     fn leave_out(&mut self, why: &'static str) {
         *self.dropped.entry(why).or_default() += 1;
     }
@@ -159,7 +159,7 @@ impl Part {
             feasibility: played.feasibility,
             actions: played.actions,
         };
-        let Ok(read) = form::read(&form::write(&row, order.form)) else {
+        let Ok(read) = format::read(&format::write(&row, order.form)) else {
             self.leave_out("the form cannot say it");
             return;
         };
@@ -188,7 +188,7 @@ impl Part {
 /// Puts parts together, in the order of their numbers: a row whose input is there already is left out, and
 /// each varied room is either for learning or for testing.
 #[must_use]
-pub fn gather(order: &Order, parts: Vec<Part>) -> Dataset {
+pub fn gather(order: &Order, parts: Vec<RoomRows>) -> Dataset {
     let mut dataset = Dataset::default();
     let is_test = tested(order);
     let mut inputs: FxHashSet<String> = FxHashSet::default();
@@ -198,7 +198,7 @@ pub fn gather(order: &Order, parts: Vec<Part>) -> Dataset {
         }
         let rows = if is_test { &mut dataset.test } else { &mut dataset.train };
         for row in part.rows {
-            let input = form::read(&form::write(&row, order.form)).map(|read| lint::normal(&read.input));
+            let input = format::read(&format::write(&row, order.form)).map(|read| lint::normal(&read.input));
             if !inputs.insert(input.unwrap_or_default()) {
                 *dataset.dropped.entry("the same input is there already").or_default() += 1;
                 continue;

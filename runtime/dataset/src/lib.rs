@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod case;
-pub mod form;
+pub mod format;
 pub mod generate;
 pub mod lint;
 pub mod picture;
@@ -11,5 +11,5 @@ pub mod scenery;
 mod stage;
 pub mod wordings;
 
-pub use form::{About, Row};
+pub use format::{About, Row};
 pub use stage::{Body, Stage};

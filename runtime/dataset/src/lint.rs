@@ -9,12 +9,12 @@ use motet_robots::scene::Scene;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
-use crate::form::{self, Read, Target};
+use crate::format::{self, Read, Target};
 use crate::stage::{Body, Stage};
 
-/// Fault of a row.
+/// RowFault of a row.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum Fault {
+pub enum RowFault {
     /// It is no row in any of the forms.
     Unreadable,
     /// Neither the row nor anybody else says on which robot and in which room its plan is to run.
@@ -31,7 +31,7 @@ pub enum Fault {
     Image,
 }
 
-impl Fault {
+impl RowFault {
     /// As it is written in reports.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -60,7 +60,7 @@ pub struct Place {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Finding {
     pub at: Place,
-    pub fault: Fault,
+    pub fault: RowFault,
     /// The same in words.
     pub message: String,
     /// The other row, where two are compared.
@@ -131,21 +131,25 @@ impl<'w> Linter<'w> {
         let mut find = |fault, message: String, other: Option<Place>| {
             found.push(Finding { at: at.clone(), fault, message, other });
         };
-        let row = match form::read(line) {
+        let row = match format::read(line) {
             Ok(row) => row,
             Err(why) => {
-                find(Fault::Unreadable, why, None);
+                find(RowFault::Unreadable, why, None);
                 return found;
             }
         };
         let (input, target) = (normal(&row.input), squeezed(row.target.text()));
         match self.inputs.get(&input) {
             Some((known, other)) if *known == target => {
-                find(Fault::Duplicate, "the same input with the same answer".to_owned(), Some(other.clone()));
+                find(
+                    RowFault::Duplicate,
+                    "the same input with the same answer".to_owned(),
+                    Some(other.clone()),
+                );
             }
             Some((_, other)) => {
                 let message = "the same input has another answer".to_owned();
-                find(Fault::Contradiction, message, Some(other.clone()));
+                find(RowFault::Contradiction, message, Some(other.clone()));
             }
             None => {
                 self.inputs.insert(input, (target, at.clone()));
@@ -153,21 +157,21 @@ impl<'w> Linter<'w> {
         }
         if let Some(other) = self.leak(&row, &at) {
             let message = format!("its room `{}` is in another file too", family(&other.1));
-            find(Fault::Leak, message, Some(other.0));
+            find(RowFault::Leak, message, Some(other.0));
         }
         if let Some(places) = row.places.filter(|places| *places != row.images.len()) {
             let message = format!("it has {} images and {places} places for them", row.images.len());
-            find(Fault::Image, message, None);
+            find(RowFault::Image, message, None);
         }
         if let Some(shelf) = &mut self.shelf {
             for why in row.images.iter().filter_map(|image| shelf.fault(file, image)) {
-                find(Fault::Image, why, None);
+                find(RowFault::Image, why, None);
             }
         }
         match self.fault(&row) {
             Ok(None) => {}
-            Ok(Some(why)) => find(Fault::CannotRun, why, None),
-            Err(why) => find(Fault::NoWorld, why, None),
+            Ok(Some(why)) => find(RowFault::CannotRun, why, None),
+            Err(why) => find(RowFault::NoWorld, why, None),
         }
         found
     }

@@ -9,9 +9,9 @@
 
 use std::collections::BTreeSet;
 
-use motet_dataset::form::{self, Form};
+use motet_dataset::format::{self, RowFormat};
 use motet_dataset::generate::{self, Dataset, Order};
-use motet_dataset::lint::{Fault, Finding, Linter, Shelf, Worlds, family};
+use motet_dataset::lint::{Finding, Linter, RowFault, Shelf, Worlds, family};
 use motet_dataset::picture::{self, Pictures};
 use motet_dataset::{Body, Row, scenery, wordings};
 use motet_geometry::planning::SearchBudget;
@@ -19,7 +19,8 @@ use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::scene;
 use serde_json::{Value, json};
 
-const FORMS: [Form; 4] = [Form::Trl, Form::LlamaFactory, Form::QwenVl, Form::InteLiPlan];
+const FORMS: [RowFormat; 4] =
+    [RowFormat::Trl, RowFormat::LlamaFactory, RowFormat::QwenVl, RowFormat::InteLiPlan];
 
 fn body(name: &str) -> Body {
     let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
@@ -30,7 +31,7 @@ fn room(name: &str) -> scene::Scene {
     builtin::scene(name).unwrap()
 }
 
-fn order(form: Form) -> Order {
+fn order(form: RowFormat) -> Order {
     Order {
         seed: 5,
         bodies: vec![body("hsr"), body("anymal_z1")],
@@ -70,16 +71,16 @@ fn linted(worlds: &Worlds, files: &[(&str, Vec<String>)]) -> Vec<Finding> {
     found
 }
 
-fn lines(rows: &[Row], form: Form) -> Vec<String> {
-    rows.iter().map(|row| form::write(row, form)).collect()
+fn lines(rows: &[Row], form: RowFormat) -> Vec<String> {
+    rows.iter().map(|row| format::write(row, form)).collect()
 }
 
 #[test]
 fn dataset_rows_pass_lint_in_every_form() {
     for form in FORMS {
         let order = match form {
-            Form::Trl | Form::InteLiPlan => order(form),
-            Form::LlamaFactory | Form::QwenVl => Order { bodies: vec![body("hsr")], ..order(form) },
+            RowFormat::Trl | RowFormat::InteLiPlan => order(form),
+            RowFormat::LlamaFactory | RowFormat::QwenVl => Order { bodies: vec![body("hsr")], ..order(form) },
         };
         let dataset = made(&order);
         let rows = dataset.train.len() + dataset.test.len();
@@ -96,17 +97,18 @@ fn dataset_motions_are_verified_too() {
         scenes: 2,
         cases: 3,
         effort: Some(SearchBudget::default()),
-        ..order(Form::Trl)
+        ..order(RowFormat::Trl)
     };
     let dataset = made(&order);
     assert!(dataset.train.len() >= 2, "{:?}", dataset.dropped);
-    let files = [("train", lines(&dataset.train, Form::Trl)), ("test", lines(&dataset.test, Form::Trl))];
+    let files =
+        [("train", lines(&dataset.train, RowFormat::Trl)), ("test", lines(&dataset.test, RowFormat::Trl))];
     assert_eq!(linted(&worlds(&dataset, order.effort), &files), []);
 }
 
 #[test]
 fn dataset_seed_gives_the_same_rows_and_another_seed_others() {
-    let one = Order { bodies: vec![body("hsr")], scenes: 2, cases: 2, ..order(Form::Trl) };
+    let one = Order { bodies: vec![body("hsr")], scenes: 2, cases: 2, ..order(RowFormat::Trl) };
     let (first, second) = (made(&one), made(&one));
     assert_eq!((&first.train, &first.test), (&second.train, &second.test));
     let other = made(&Order { seed: 6, ..one });
@@ -115,7 +117,7 @@ fn dataset_seed_gives_the_same_rows_and_another_seed_others() {
 
 #[test]
 fn dataset_rooms_are_on_one_side_and_what_happens_varies() {
-    let dataset = made(&Order { scenes: 6, cases: 8, ..order(Form::Trl) });
+    let dataset = made(&Order { scenes: 6, cases: 8, ..order(RowFormat::Trl) });
     let rooms = |rows: &[Row]| -> BTreeSet<String> {
         rows.iter().map(|row| family(&row.about.scene).to_owned()).collect()
     };
@@ -134,26 +136,26 @@ fn dataset_rooms_are_on_one_side_and_what_happens_varies() {
 
 #[test]
 fn dataset_rows_have_the_shapes_that_trainers_read() {
-    let dataset = made(&Order { scenes: 2, cases: 3, ..order(Form::Trl) });
+    let dataset = made(&Order { scenes: 2, cases: 3, ..order(RowFormat::Trl) });
     let row = &dataset.train[0];
-    let of = |form| -> Value { serde_json::from_str(&form::write(row, form)).unwrap() };
-    let trl = of(Form::Trl);
+    let of = |form| -> Value { serde_json::from_str(&format::write(row, form)).unwrap() };
+    let trl = of(RowFormat::Trl);
     let roles: Vec<&str> =
         trl["messages"].as_array().unwrap().iter().map(|one| one["role"].as_str().unwrap()).collect();
     assert_eq!(roles, ["system", "user", "assistant"]);
-    let llama = of(Form::LlamaFactory);
+    let llama = of(RowFormat::LlamaFactory);
     assert_eq!(llama["conversations"][0]["from"], "human");
     assert_eq!(llama["conversations"][1]["from"], "gpt");
     assert_eq!(llama["system"], trl["messages"][0]["content"]);
-    let qwen = of(Form::QwenVl);
+    let qwen = of(RowFormat::QwenVl);
     assert_eq!(qwen["conversations"].as_array().unwrap().len(), 2);
     assert!(qwen["conversations"][0]["value"].as_str().unwrap().starts_with(&row.system));
-    let text = of(Form::InteLiPlan)["text"].as_str().unwrap().to_owned();
+    let text = of(RowFormat::InteLiPlan)["text"].as_str().unwrap().to_owned();
     assert!(text.contains("<user> ") && text.contains("<robot> "), "{text}");
-    let info: Value = serde_json::from_str(&form::dataset_info(&["train"], Pictures::None)).unwrap();
+    let info: Value = serde_json::from_str(&format::dataset_info(&["train"], Pictures::None)).unwrap();
     assert_eq!(info["motet_train"]["formatting"], "sharegpt");
     for form in FORMS {
-        let read = form::read(&form::write(row, form)).unwrap();
+        let read = format::read(&format::write(row, form)).unwrap();
         assert_eq!(read.robot.as_deref(), Some(row.about.robot.as_str()));
         assert_eq!(read.scene.as_deref(), Some(row.about.scene.as_str()));
     }
@@ -175,83 +177,83 @@ fn dataset_rows_that_are_wrong_are_found_each_in_its_way() {
     let fetch = "policy p for hsr { go(counter) pick(coke) }";
     let say = "policy p for hsr { say(\"hello\") }";
     for (name, rows, fault, row, words) in [
-        ("not JSON", vec!["{".to_owned()], Fault::Unreadable, 1, "it is not JSON"),
-        ("no row", vec!["{\"a\": 1}".to_owned()], Fault::Unreadable, 1, "none of `messages`"),
+        ("not JSON", vec!["{".to_owned()], RowFault::Unreadable, 1, "it is not JSON"),
+        ("no row", vec!["{\"a\": 1}".to_owned()], RowFault::Unreadable, 1, "none of `messages`"),
         (
             "the wrong turn",
             vec![json!({"messages": [{"role": "assistant", "content": "x"}]}).to_string()],
-            Fault::Unreadable,
+            RowFault::Unreadable,
             1,
             "`user`'s turn",
         ),
         (
             "no answer",
             vec![json!({"conversations": [{"from": "human", "value": "x"}]}).to_string()],
-            Fault::Unreadable,
+            RowFault::Unreadable,
             1,
             "last message is not of `gpt`",
         ),
         (
             "no world",
             vec![json!({"prompt": "Say hello.", "completion": say}).to_string()],
-            Fault::NoWorld,
+            RowFault::NoWorld,
             1,
             "give --robot",
         ),
         (
             "an unknown room",
             vec![wrong_row("a", say).replace("kitchen", "cellar")],
-            Fault::NoWorld,
+            RowFault::NoWorld,
             1,
             "no room `cellar`",
         ),
         (
             "a misspelt step",
             vec![wrong_row("a", "policy p for hsr { goo(counter) }")],
-            Fault::CannotRun,
+            RowFault::CannotRun,
             1,
             "goo",
         ),
         (
             "a refuted step",
             vec![wrong_row("a", "policy p for hsr { pick(coke) pick(apple) }")],
-            Fault::CannotRun,
+            RowFault::CannotRun,
             1,
             "needs",
         ),
         (
             "a step that fails",
             vec![wrong_row("a", "policy p for hsr { let x = detect(\"teddy\") }")],
-            Fault::CannotRun,
+            RowFault::CannotRun,
             1,
             "not_found",
         ),
         (
             "a new plan",
             vec![wrong_row("a", "policy p for hsr { replan \"no\" }")],
-            Fault::CannotRun,
+            RowFault::CannotRun,
             1,
             "another plan",
         ),
-        ("prose", vec![wrong_row("a", "I cannot do that.")], Fault::CannotRun, 1, ""),
+        ("prose", vec![wrong_row("a", "I cannot do that.")], RowFault::CannotRun, 1, ""),
         (
             "a contract of its own",
             vec![wrong_row("a", "action fly() policy p for hsr { fly() }")],
-            Fault::CannotRun,
+            RowFault::CannotRun,
             1,
             "beside its policy",
         ),
         (
             "the same twice",
             vec![wrong_row("Fetch the coke.", fetch), wrong_row("fetch  the coke", fetch)],
-            Fault::Duplicate,
+            RowFault::Duplicate,
             2,
             "the same answer",
         ),
         (
             "two answers",
             vec![wrong_row("Fetch the coke.", fetch), wrong_row("Fetch the coke.", say)],
-            Fault::Contradiction,
+            RowFault::Contradiction,
             2,
             "another answer",
         ),
@@ -264,7 +266,7 @@ fn dataset_rows_that_are_wrong_are_found_each_in_its_way() {
                 })
                 .to_string(),
             ],
-            Fault::CannotRun,
+            RowFault::CannotRun,
             1,
             "action 2",
         ),
@@ -291,7 +293,7 @@ fn dataset_room_in_two_files_is_found_once() {
     let test = vec![row("b", "kitchen-2"), row("c", "kitchen-1.2"), row("d", "kitchen-1")];
     let found = linted(&worlds, &[("train", train), ("test", test)]);
     assert_eq!(found.len(), 1, "{found:?}");
-    assert_eq!((found[0].fault, found[0].at.row), (Fault::Leak, 2));
+    assert_eq!((found[0].fault, found[0].at.row), (RowFault::Leak, 2));
     assert_eq!(found[0].other.as_ref().map(|other| other.file.as_str()), Some("train"));
 }
 
@@ -306,14 +308,16 @@ impl Shelf for Kept<'_> {
 
 #[test]
 fn dataset_pictures_go_with_rows_in_every_form_that_has_them() {
-    for (form, column) in [(Form::Trl, "images"), (Form::LlamaFactory, "images"), (Form::QwenVl, "image")] {
+    for (form, column) in
+        [(RowFormat::Trl, "images"), (RowFormat::LlamaFactory, "images"), (RowFormat::QwenVl, "image")]
+    {
         let order = Order { pictures: Pictures::EachRow, bodies: vec![body("hsr")], ..order(form) };
         let dataset = made(&order);
         let rows: Vec<&Row> = dataset.train.iter().chain(&dataset.test).collect();
         let shown: BTreeSet<_> = rows.iter().filter_map(|row| row.image.clone()).collect();
         assert!(rows.iter().all(|row| row.image.is_some()), "{form:?}");
         assert!(shown.iter().eq(dataset.pictures.keys()), "{form:?}: each is kept, and no other");
-        let line: Value = serde_json::from_str(&form::write(rows[0], form)).unwrap();
+        let line: Value = serde_json::from_str(&format::write(rows[0], form)).unwrap();
         assert_eq!(line[column], json!([rows[0].image.as_deref().unwrap()]));
         let worlds = worlds(&dataset, None);
         let mut shelf = Kept(&dataset);
@@ -322,11 +326,11 @@ fn dataset_pictures_go_with_rows_in_every_form_that_has_them() {
             assert_eq!(linter.line("train", number + 1, line), [], "{form:?}");
         }
         // The form has no part in what the camera sees.
-        if form == Form::Trl {
+        if form == RowFormat::Trl {
             assert_eq!(dataset.pictures, made(&order).pictures);
         }
     }
-    let info: Value = serde_json::from_str(&form::dataset_info(&["train"], Pictures::EachRow)).unwrap();
+    let info: Value = serde_json::from_str(&format::dataset_info(&["train"], Pictures::EachRow)).unwrap();
     assert_eq!(info["motet_train"]["columns"]["images"], "images");
 }
 
@@ -363,7 +367,7 @@ fn dataset_pictures_that_are_wrong_are_found() {
         let expected = usize::from(!words.is_empty());
         assert_eq!(found.len(), expected, "{content}: {found:?}");
         assert!(
-            found.iter().all(|one| one.fault == Fault::Image && one.message.contains(words)),
+            found.iter().all(|one| one.fault == RowFault::Image && one.message.contains(words)),
             "{found:?}"
         );
     }

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motet_dataset::lint::{Fault, Finding, Linter, Place, Shelf, Worlds};
-use motet_dataset::{form, picture};
+use motet_dataset::lint::{Finding, Linter, Place, RowFault, Shelf, Worlds};
+use motet_dataset::{format, picture};
 use motet_project::files::Bytes;
 use motet_project::{read_scene, robot_names};
 use motet_robots::builtin::{self, BuiltinScene};
@@ -172,7 +172,7 @@ impl Images {
         let pictures = folders_with_images.iter().flat_map(|place| listed(place, EXTENSIONS));
         let unused = pictures.filter(|path| !self.0.contains_key(path)).map(|path| Finding {
             at: Place { file: path.display().to_string(), row: 0 },
-            fault: Fault::Image,
+            fault: RowFault::Image,
             message: "no row refers to it".to_owned(),
             other: None,
         });
@@ -182,7 +182,7 @@ impl Images {
     /// Adds the images of the rows in another file.
     fn refer(&mut self, file: &Path) -> Result<(), CliError> {
         lines(file, &mut |_, line| {
-            let images = form::read(line).map(|row| row.images).unwrap_or_default();
+            let images = format::read(line).map(|row| row.images).unwrap_or_default();
             self.0.extend(images.into_iter().map(|image| (folder(file).join(image), None)));
             Ok(Flow::Continue)
         })

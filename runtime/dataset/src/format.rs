@@ -1,11 +1,11 @@
-//! Rows as trainers read them: a JSON object a line.
+//! Formats of rows: a JSON object per line, as trainers read it.
 //!
-//! | form | a row | reader |
+//! | format | a row | reader |
 //! |---|---|---|
-//! | [`Form::Trl`] | `messages` with `role` and `content` | TRL's `SFTTrainer`, as a conversation |
-//! | [`Form::LlamaFactory`] | `conversations` with `from`, `value`; `system` | LLaMA-Factory, `sharegpt` |
-//! | [`Form::QwenVl`] | `conversations` alone: no system part | the trainer of Qwen2.5-VL |
-//! | [`Form::InteLiPlan`] | `text` with tags and a list of actions | TRL's `SFTTrainer`, as plain text |
+//! | [`RowFormat::Trl`] | `messages` with `role` and `content` | TRL's `SFTTrainer`, as a conversation |
+//! | [`RowFormat::LlamaFactory`] | `conversations` with `from`, `value`; `system` | LLaMA-Factory, `sharegpt` |
+//! | [`RowFormat::QwenVl`] | `conversations` alone: no system part | the trainer of Qwen2.5-VL |
+//! | [`RowFormat::InteLiPlan`] | `text` with tags and a list of actions | TRL's `SFTTrainer`, as plain text |
 //!
 //! Beside that each row has `motet`, an object of texts, which trainers pass over and [`crate::lint`] needs:
 //! the robot, the room, the task, what goes wrong, and the turn.
@@ -18,9 +18,9 @@ use smol_str::SmolStr;
 use crate::picture::Pictures;
 use crate::wordings::Task;
 
-/// A form of rows.
+/// Format of rows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Form {
+pub enum RowFormat {
     /// As TRL reads them.
     Trl,
     /// As LLaMA-Factory reads them.
@@ -33,30 +33,30 @@ pub enum Form {
 
 /// A row as a line of JSON, without a line break.
 #[must_use]
-pub fn write(row: &Row, form: Form) -> String {
+pub fn write(row: &Row, form: RowFormat) -> String {
     let tag = if row.image.is_some() { "<image>" } else { "" };
     let mut value = match form {
-        Form::Trl => json!({
+        RowFormat::Trl => json!({
             "messages": [
                 {"role": "system", "content": content(row, &row.system, Shown::Text)},
                 {"role": "user", "content": content(row, &row.user, Shown::Picture)},
                 {"role": "assistant", "content": content(row, &row.policy, Shown::Text)},
             ],
         }),
-        Form::LlamaFactory => json!({
+        RowFormat::LlamaFactory => json!({
             "conversations": [
                 {"from": "human", "value": format!("{tag}{}", row.user)},
                 {"from": "gpt", "value": row.policy},
             ],
             "system": row.system,
         }),
-        Form::QwenVl => json!({
+        RowFormat::QwenVl => json!({
             "conversations": [
                 {"from": "human", "value": format!("{tag}{}\n{}", row.system, row.user)},
                 {"from": "gpt", "value": row.policy},
             ],
         }),
-        Form::InteLiPlan => json!({"text": in_dialect(row).write()}),
+        RowFormat::InteLiPlan => json!({"text": in_dialect(row).write()}),
     };
     if let Some(fields) = value.as_object_mut() {
         if let (Some(image), Some(column)) = (&row.image, column(form)) {
@@ -68,11 +68,11 @@ pub fn write(row: &Row, form: Form) -> String {
 }
 
 /// The column of the pictures of a row; none of a form that has none.
-const fn column(form: Form) -> Option<&'static str> {
+const fn column(form: RowFormat) -> Option<&'static str> {
     match form {
-        Form::Trl | Form::LlamaFactory => Some("images"),
-        Form::QwenVl => Some("image"),
-        Form::InteLiPlan => None,
+        RowFormat::Trl | RowFormat::LlamaFactory => Some("images"),
+        RowFormat::QwenVl => Some("image"),
+        RowFormat::InteLiPlan => None,
     }
 }
 
