@@ -6,6 +6,12 @@
 /// Documentation of the failure `timeout`, which has no declaration.
 pub const TIMEOUT_DOC: &str = "It took too long.";
 
+/// Fluents that say where a thing is.
+pub const PLACING: [&str; 3] = [fluents::ON, fluents::IN, fluents::AT];
+
+/// Primitives that wait for an answer of a person.
+pub const ASKING: [&str; 2] = [primitives::ASK, primitives::CHOOSE];
+
 macro_rules! names {
     ($($(#[$doc:meta])* $module:ident { $($constant:ident = $name:literal)* })*) => {$(
         $(#[$doc])*
@@ -75,17 +81,42 @@ names! {
         VISIBLE = "visible"
         VISITED = "visited"
     }
+    /// Primitives with a meaning for dialogue, prompts and the list form of plans.
+    primitives {
+        ASK = "ask"
+        CHOOSE = "choose"
+        CLOSE = "close"
+        DETECT = "detect"
+        DETECT_ALL = "detect_all"
+        GO = "go"
+        GROUND = "ground"
+        HANDOVER = "handover"
+        HOME = "home"
+        INSPECT = "inspect"
+        LIFT = "lift"
+        OPEN = "open"
+        PICK = "pick"
+        PLACE = "place"
+        PUSH = "push"
+        SAY = "say"
+        SEARCH = "search"
+        START_POSE = "start_pose"
+        WAKE_UP = "wake_up"
+    }
     /// Measures with a meaning for lints.
     measures {
         DISTANCE = "distance"
     }
-    /// Failures that the compiler derives from guards, geometry and control flow.
+    /// Failures that the compiler derives from guards, geometry and control flow, and those that a dialogue
+    /// asks about.
     failures {
         AMBIGUOUS = "ambiguous"
         BLOCKED = "blocked"
         EXHAUSTED = "exhausted"
         FAILED = "failed"
         NOT_FOUND = "not_found"
+        REFUSED = "refused"
+        SLIPPED = "slipped"
         TOO_HEAVY = "too_heavy"
         UNREACHABLE = "unreachable"
         UNSAFE = "unsafe"

@@ -529,6 +529,7 @@ mod tests {
         assert_eq!(missing(lang::approaches::ALL, &|name| names.cases.contains_key(name)), [""; 0]);
         assert_eq!(missing(lang::entities::ALL, &|name| names.entities.contains_key(name)), [""; 0]);
         assert_eq!(missing(lang::fluents::ALL, &|name| names.fluents.contains_key(name)), [""; 0]);
+        assert_eq!(missing(lang::primitives::ALL, &|name| names.primitives.contains_key(name)), [""; 0]);
         assert_eq!(missing(lang::measures::ALL, &|name| names.measures.contains_key(name)), [""; 0]);
         assert_eq!(missing(lang::failures::ALL, &|name| names.failures.contains_key(name)), [""; 0]);
         assert_eq!(missing(lang::builtin_failures::ALL, &|name| names.failures.contains_key(name)), [""; 0]);

@@ -2,7 +2,7 @@
 //! every entity named by `on`, `in` or `holding` exists, and supports have no cycle.
 
 use indexmap::IndexMap;
-use motet_stdlib::lang::kinds;
+use motet_stdlib::lang::{fluents, kinds};
 use motet_syntax::Span;
 use smol_str::SmolStr;
 
@@ -136,6 +136,12 @@ impl Entity {
             fields: IndexMap::new(),
             spans: EntitySpans::default(),
         }
+    }
+
+    /// Fluent between a thing and this entity as its support: `in` for a container, `on` for anything else.
+    #[must_use]
+    pub fn relation(&self) -> &'static str {
+        if self.kind == kinds::CONTAINER { fluents::IN } else { fluents::ON }
     }
 }
 

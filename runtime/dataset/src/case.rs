@@ -4,6 +4,7 @@ use motet_planner::dialogue::Kind;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
 use motet_sim::{CallFault, CallFaultKind, Faults};
+use motet_stdlib::lang::{entities, failures, fluents, kinds, primitives};
 use rand_xoshiro::SplitMix64;
 use smol_str::SmolStr;
 
@@ -65,13 +66,13 @@ fn plain(room: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Opti
     let fits = |entity: &&Entity| match task {
         Task::Open => is_closet(entity) && entity.open == Some(false),
         Task::Close => is_closet(entity) && entity.open == Some(true),
-        _ => matches!(entity.kind.as_str(), "Surface" | "Place"),
+        _ => matches!(entity.kind.as_str(), kinds::SURFACE | kinds::PLACE),
     };
     let places: Vec<&Entity> = room.entities.values().filter(fits).collect();
     let place = draw.pick(&places)?;
     let goal = match task {
-        Task::Go => ("at", vec![SmolStr::new_static("robot"), place.id.clone()], true),
-        other => ("open", vec![place.id.clone()], other == Task::Open),
+        Task::Go => (fluents::AT, vec![SmolStr::new_static(entities::ROBOT), place.id.clone()], true),
+        other => (fluents::OPEN, vec![place.id.clone()], other == Task::Open),
     };
     Some(Case {
         task,
@@ -95,7 +96,7 @@ fn carried(
 ) -> Option<Case> {
     let mut failures = drawn_failures(draw).to_vec();
     let objects: Vec<&Entity> =
-        room.entities.values().filter(|entity| entity.kind == "Object" && !entity.fixed).collect();
+        room.entities.values().filter(|entity| entity.kind == kinds::OBJECT && !entity.fixed).collect();
     let is_twin = |one: &&&Entity| objects.iter().any(|other| other.id != one.id && other.class == one.class);
     let asks_which = failures.contains(&Kind::AmbiguousReference);
     let among: Vec<&Entity> = objects.iter().filter(|one| !asks_which || is_twin(one)).copied().collect();
@@ -108,21 +109,21 @@ fn carried(
     let own = the(room, thing, draw)?;
     let called = if asks_which && !is_given_up { format!("the {}", thing.class) } else { own.clone() };
     let holder = match task {
-        Task::Put => Some(other_place(room, "Surface", thing, draw)?),
-        Task::Stow => Some(other_place(room, "Container", thing, draw)?),
+        Task::Put => Some(other_place(room, kinds::SURFACE, thing, draw)?),
+        Task::Stow => Some(other_place(room, kinds::CONTAINER, thing, draw)?),
         _ => None,
     };
     let place = holder.map(|holder| the(room, holder, draw)).unwrap_or(Some(String::new()))?;
     let mut request = fill(&fill(wording, "{thing}", &called), "{place}", &place);
     let id = thing.id.clone();
     let goal = match (task, holder) {
-        (Task::Put, Some(holder)) => ("on", vec![id, holder.id.clone()], true),
-        (Task::Stow, Some(holder)) => ("in", vec![id, holder.id.clone()], true),
+        (Task::Put, Some(holder)) => (fluents::ON, vec![id, holder.id.clone()], true),
+        (Task::Stow, Some(holder)) => (fluents::IN, vec![id, holder.id.clone()], true),
         (Task::Throw, _) => {
-            ("in", vec![id, room.entities.values().find(|entity| is_bin(entity))?.id.clone()], true)
+            (fluents::IN, vec![id, room.entities.values().find(|entity| is_bin(entity))?.id.clone()], true)
         }
-        (Task::Pick, _) => ("holding", vec![id], true),
-        _ => ("at", vec![id, SmolStr::new_static("user")], true),
+        (Task::Pick, _) => (fluents::HOLDING, vec![id], true),
+        _ => (fluents::AT, vec![id, SmolStr::new_static(entities::USER)], true),
     };
     let mut answers = Vec::new();
     let mut real = room.clone();
@@ -161,14 +162,14 @@ fn drawn_failures(draw: &mut SplitMix64) -> &'static [Kind] {
 /// Faults of the steps that pick up.
 fn faults(failures: &[Kind]) -> Faults {
     let fails = |nth: u32, kind: &'static str| CallFault {
-        primitive: SmolStr::new_static("pick"),
+        primitive: SmolStr::new_static(primitives::PICK),
         nth: Some(nth),
         then: CallFaultKind::Fails(kind.into()),
     };
     let calls = if failures.contains(&Kind::NotReachable) {
-        vec![fails(1, "unreachable")]
+        vec![fails(1, failures::UNREACHABLE)]
     } else if failures.contains(&Kind::ActionFailed) {
-        (1..=SLIPS).map(|nth| fails(nth, "slipped")).collect()
+        (1..=SLIPS).map(|nth| fails(nth, failures::SLIPPED)).collect()
     } else {
         Vec::new()
     };
@@ -182,14 +183,14 @@ fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Spli
         let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
         !is_goal && !is_there
     };
-    let fits = |place: &&Entity| (place.kind == "Surface" || is_closet(place)) && is_other(place);
+    let fits = |place: &&Entity| (place.kind == kinds::SURFACE || is_closet(place)) && is_other(place);
     let places: Vec<&Entity> = real.entities.values().filter(fits).collect();
     let place = (*draw.pick(&places)?).clone();
     let called = the(real, &place, draw)?;
     let hidden = real.entities.get_mut(&thing.id)?;
     (hidden.on, hidden.inside, hidden.pose) = (None, None, None);
     hidden.visible = Some(false);
-    if place.kind == "Container" {
+    if place.kind == kinds::CONTAINER {
         hidden.inside = Some(place.id);
         Some(format!("in {called}"))
     } else {
@@ -202,15 +203,15 @@ fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Spli
 fn other_place<'r>(room: &'r Scene, kind: &str, thing: &Entity, draw: &mut SplitMix64) -> Option<&'r Entity> {
     let fits = |place: &&Entity| {
         let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
-        place.kind == kind && !is_there && (kind == "Surface" || is_closet(place))
+        place.kind == kind && !is_there && (kind == kinds::SURFACE || is_closet(place))
     };
     let places: Vec<&Entity> = room.entities.values().filter(fits).collect();
     draw.pick(&places).copied()
 }
 
-/// Returns `true` for a container that the robot can open and close.
+/// True for a container that the robot can open and close.
 fn is_closet(entity: &Entity) -> bool {
-    entity.kind == "Container" && entity.travel.is_some() && entity.locked != Some(true)
+    entity.kind == kinds::CONTAINER && entity.travel.is_some() && entity.locked != Some(true)
 }
 
 fn can_carry(robot: &Robot, thing: &Entity) -> bool {

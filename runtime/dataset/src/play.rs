@@ -14,6 +14,7 @@ use motet_planner::{Builtin, PlanRequest, Planner, model, prompt};
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Perception as _, Time};
 use motet_sim::{Sim, SimOptions};
+use motet_stdlib::lang::{entities, fluents, kinds};
 use motet_syntax::{FileId, Source, print};
 use smol_str::SmolStr;
 
@@ -164,15 +165,15 @@ impl Mind {
         }
         scene.robot.joints.clear();
         scene.robot.holding = Some(ask.situation.holding.clone());
-        let serves = |id: &str| sim.holds("at", &["robot", id]) == Some(true);
+        let serves = |id: &str| sim.holds(fluents::AT, &[entities::ROBOT, id]) == Some(true);
         scene.robot.at = scene.entities.keys().find(|id| serves(id)).cloned();
         let kinds: Vec<_> =
             scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
         for (id, entity) in &mut scene.entities {
             if entity.travel.is_some() {
-                entity.open = sim.holds("open", &[id.as_str()]);
+                entity.open = sim.holds(fluents::OPEN, &[id.as_str()]);
             }
-            if entity.kind != "Object" || entity.fixed {
+            if entity.kind != kinds::OBJECT || entity.fixed {
                 continue;
             }
             // What was in view was so from where the robot stood.
@@ -186,7 +187,7 @@ impl Mind {
             }
             (entity.on, entity.inside, entity.pose) = (None, None, None);
             let Some(support) = support.as_ref().filter(|_| !is_held) else { continue };
-            let is_container = kinds.iter().any(|(known, kind)| known == support && kind == "Container");
+            let is_container = kinds.iter().any(|(known, kind)| known == support && kind == kinds::CONTAINER);
             if is_container {
                 entity.inside = Some(support.clone());
             } else {
@@ -226,7 +227,7 @@ fn sight(now: &Scene, id: &str) -> Option<String> {
         let holder = now.entities.get(holder.as_ref()?)?;
         Some(format!(", {preposition} {}{}", holder.id, state(holder)))
     };
-    let place = at("on", &entity.on).or_else(|| at("in", &entity.inside)).unwrap_or_default();
+    let place = at(fluents::ON, &entity.on).or_else(|| at(fluents::IN, &entity.inside)).unwrap_or_default();
     Some(format!("{id}: {word}{}{place}", state(entity)))
 }
 

@@ -5,6 +5,7 @@
 //! open, which furniture there is, and where the robot begins.
 
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
+use motet_stdlib::lang::kinds;
 use motet_syntax::{FileId, Source};
 use rand_xoshiro::SplitMix64;
 use smol_str::{SmolStr, ToSmolStr};
@@ -45,7 +46,7 @@ pub fn vary(room: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
     let mut scene = Scene { entities: furniture(room, draw), views: Vec::new(), ..room.clone() };
     scene.robot.holding = Some(None);
     scene.robot.at = None;
-    let places: Vec<_> = scene.entities.values().filter(|entity| entity.kind == "Place").collect();
+    let places: Vec<_> = scene.entities.values().filter(|entity| entity.kind == kinds::PLACE).collect();
     let moved = draw.chance(ELSEWHERE).then(|| draw.pick(&places).and_then(|place| place.pose)).flatten();
     if let Some(pose) = moved {
         let ([x, y, _], [_, _, yaw]) = (pose.xyz, pose.rpy);
@@ -70,7 +71,7 @@ pub fn vary(room: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
 
 /// Entities of a room that nobody carries about, without a random few.
 fn furniture(room: &Scene, draw: &mut SplitMix64) -> indexmap::IndexMap<SmolStr, Entity> {
-    let stays = |entity: &&Entity| entity.kind != "Object";
+    let stays = |entity: &&Entity| entity.kind != kinds::OBJECT;
     let mut kept: Vec<&Entity> = room.entities.values().filter(stays).collect();
     let holds = |id: &SmolStr, kept: &[&Entity]| {
         kept.iter().any(|other| other.on.as_ref() == Some(id) || other.inside.as_ref() == Some(id))
@@ -78,7 +79,7 @@ fn furniture(room: &Scene, draw: &mut SplitMix64) -> indexmap::IndexMap<SmolStr,
     let mut pieces: Vec<&Entity> = kept
         .iter()
         .copied()
-        .filter(|entity| matches!(entity.kind.as_str(), "Surface" | "Container"))
+        .filter(|entity| matches!(entity.kind.as_str(), kinds::SURFACE | kinds::CONTAINER))
         .collect();
     draw.shuffle(&mut pieces);
     for piece in pieces.iter().skip(KEPT) {
@@ -89,9 +90,9 @@ fn furniture(room: &Scene, draw: &mut SplitMix64) -> indexmap::IndexMap<SmolStr,
     kept.into_iter().map(|entity| (entity.id.clone(), entity.clone())).collect()
 }
 
-/// Returns `true` for a bin.
+/// True for a bin.
 pub(crate) fn is_bin(entity: &Entity) -> bool {
-    entity.kind == "Container" && entity.categories.iter().any(|category| category == "bin")
+    entity.kind == kinds::CONTAINER && entity.categories.iter().any(|category| category == "bin")
 }
 
 /// Surfaces in view of the camera where the robot begins.
@@ -102,7 +103,7 @@ fn in_view(room: &Scene) -> Vec<SmolStr> {
 
 /// Draws the things of a room, some with a second one of their class.
 fn chosen(room: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Vec<Entity> {
-    let own = room.entities.values().filter(|entity| entity.kind == "Object" && !entity.fixed);
+    let own = room.entities.values().filter(|entity| entity.kind == kinds::OBJECT && !entity.fixed);
     let mut pool: Vec<&Entity> = own.chain(catalogue.entities.values()).collect();
     draw.shuffle(&mut pool);
     let count = LEAST + draw.below(MOST - LEAST + 1);
@@ -148,12 +149,12 @@ const BETWEEN: f64 = 0.12;
 pub(crate) fn stand(scene: &mut Scene, thing: &mut Entity, inside: f64, draw: &mut SplitMix64) -> bool {
     let Some([wide, deep, high]) = thing.shape.as_ref().and_then(extents) else { return false };
     let is_empty_space = |entity: &&Entity| match entity.kind.as_str() {
-        "Container" => !is_bin(entity) && entity.locked != Some(true),
-        "Surface" => true,
+        kinds::CONTAINER => !is_bin(entity) && entity.locked != Some(true),
+        kinds::SURFACE => true,
         _ => false,
     };
     let (closets, tops): (Vec<&Entity>, Vec<&Entity>) =
-        scene.entities.values().filter(is_empty_space).partition(|entity| entity.kind == "Container");
+        scene.entities.values().filter(is_empty_space).partition(|entity| entity.kind == kinds::CONTAINER);
     (thing.on, thing.inside, thing.pose) = (None, None, None);
     for _ in 0..TRIES {
         let goes_in = !closets.is_empty() && draw.chance(inside);
@@ -203,7 +204,7 @@ fn near_edge(free_x: f64, free_y: f64, draw: &mut SplitMix64) -> (f64, f64) {
     }
 }
 
-/// Returns `true` if an entity is too close to a spot for a thing of this radius.
+/// True if an entity is too close to a spot for a thing of this radius.
 fn near(other: &Entity, [x, y, _]: [f64; 3], radius: f64) -> bool {
     let (Some(pose), Some([wide, deep, _])) = (other.pose, other.shape.as_ref().and_then(extents)) else {
         return false;

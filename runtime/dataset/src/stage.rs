@@ -11,6 +11,7 @@ use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
 use motet_runtime::{Driver, Engine, RunEnd, StartState, Time};
 use motet_sim::{Sim, SimOptions};
+use motet_stdlib::lang::ASKING;
 use motet_syntax::ast::{File, Item};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, render};
 
@@ -71,7 +72,7 @@ impl Stage {
         let asks = graph.nodes.iter().any(|node| {
             let NodeKind::Call(call) = &node.kind else { return false };
             let primitive = graph.primitives.get(call.primitive.index());
-            primitive.is_some_and(|primitive| matches!(primitive.name.as_str(), "ask" | "choose"))
+            primitive.is_some_and(|primitive| ASKING.contains(&primitive.name.as_str()))
         });
         let mut sim = Sim::new(&self.robot, &self.scene, SimOptions::default());
         let entities = self.scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));

@@ -46,7 +46,7 @@ impl Task {
         }
     }
 
-    /// Returns `true` if the task moves a thing.
+    /// True if the task moves a thing.
     #[must_use]
     pub const fn carries(self) -> bool {
         match self {

@@ -5,6 +5,7 @@ use motet_compiler::plan::{Goal, NoPlan, PLAN_BUDGET, Persistence, Plan, Planned
 use motet_compiler::{Compiled, Session};
 use motet_requests::{Aim, Intent, RequestContext, RequestError};
 use motet_robots::card::Robot;
+use motet_stdlib::lang::{fluents, measures};
 use motet_syntax::ast::Expr;
 use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Syntax, print};
 use thiserror::Error;
@@ -185,11 +186,11 @@ fn watched(step: &PlannedStep, robot: Option<&Robot>) -> String {
     let call = print::call(&step.call, Syntax::Text);
     let observes = |name: &str| robot.is_some_and(|robot| robot.observes.iter().any(|known| known == name));
     let mut whens = Vec::new();
-    if let Some(person) = step.approaches.as_ref().filter(|_| observes("distance")) {
+    if let Some(person) = step.approaches.as_ref().filter(|_| observes(measures::DISTANCE)) {
         let person = print::identifier(person);
         whens.push(format!("when distance({person}) < {CLEARANCE_M} m for 200 ms then pause"));
     }
-    if let Some(held) = step.carries.as_ref().filter(|_| observes("holding")) {
+    if let Some(held) = step.carries.as_ref().filter(|_| observes(fluents::HOLDING)) {
         let name = print::identifier(held);
         whens.push(format!("when not holding({name}) then replan \"lost {}\"", held.replace('"', "'")));
     }

@@ -18,7 +18,7 @@ pub trait Planner {
     /// The reason why there is no policy.
     fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError>;
 
-    /// Returns `true` if the planner can use any answer. Otherwise the dialogue repeats a question whose
+    /// True if the planner can use any answer. Otherwise the dialogue repeats a question whose
     /// answer it could not read.
     fn reads_answers(&self) -> bool {
         false

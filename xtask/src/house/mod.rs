@@ -7,6 +7,7 @@ mod docs;
 mod files;
 mod imports;
 mod layers;
+mod library;
 mod names;
 mod repeats;
 
@@ -78,6 +79,7 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<bool, String> {
     let mut whole = vec![names::shared(&files, &house.stages)];
     whole.extend(imports::circles(&files));
     whole.push(Measure::count("equal-places", repeats::equal(&files)));
+    whole.push(library::spelled(&files, &library::declared(root)?));
     if let Some(under) = under {
         files.retain(|file| file.path.starts_with(under));
         upward.retain(|place| place.starts_with(under));

@@ -218,7 +218,7 @@ pub trait DialogueObserver {
     fn request(&mut self, _now: Time) -> Option<String> {
         None
     }
-    /// Returns `true` once a person wants everything to stop, also during a question.
+    /// True once a person wants everything to stop, also during a question.
     fn is_stopped(&self) -> bool {
         false
     }

@@ -5,8 +5,9 @@ use indexmap::IndexMap;
 use motet_compiler::{InitialFact, InitialState, Session};
 use motet_graph::{Graph, Value};
 use motet_requests::{ReportedLocation, RequestContext};
-use motet_robots::scene::Scene;
+use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Engine, Pattern, PendingCleanup, Query, Snapshot, StartState, Truth};
+use motet_stdlib::lang::{PLACING, entities, fluents, kinds};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
@@ -25,7 +26,7 @@ pub struct Knowledge {
 }
 
 impl Knowledge {
-    /// Returns `true` if nothing is known beyond the scene.
+    /// True if nothing is known beyond the scene.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.facts.is_empty()
@@ -68,16 +69,12 @@ impl Knowledge {
     #[must_use]
     pub fn places(&self, scene: &Scene) -> Vec<ReportedLocation> {
         let told = self.situation(scene).supports;
-        let objects = scene.entities.values().filter(|entity| entity.kind == "Object");
+        let objects = scene.entities.values().filter(|entity| entity.kind == kinds::OBJECT);
         let places = objects.filter_map(|entity| {
             let told = told.iter().find(|(id, _)| *id == entity.id).map(|(_, place)| place.clone());
             let place = told.unwrap_or_else(|| entity.on.clone().or_else(|| entity.inside.clone()))?;
-            let is_container = scene.entities.get(&place).is_some_and(|place| place.kind == "Container");
-            Some(ReportedLocation {
-                thing: entity.id.clone(),
-                relation: if is_container { "in" } else { "on" },
-                place,
-            })
+            let relation = scene.entities.get(&place).map_or(fluents::ON, Entity::relation);
+            Some(ReportedLocation { thing: entity.id.clone(), relation, place })
         });
         places.collect()
     }
@@ -89,26 +86,26 @@ impl Knowledge {
         for (query, _) in &self.facts {
             let Query::Fact { fluent, args } = query else { continue };
             let Some(Pattern::Is(Value::Entity(id))) = args.first() else {
-                if fluent == "visible" {
+                if fluent == fluents::VISIBLE {
                     scene.entities.values_mut().for_each(|entity| entity.visible = None);
                 }
-                if fluent == "holding" {
+                if fluent == fluents::HOLDING {
                     scene.robot.holding = None;
                 }
                 continue;
             };
-            if id == "robot" && fluent == "at" {
+            if id == entities::ROBOT && fluent == fluents::AT {
                 scene.robot.at = None;
             }
-            if fluent == "holding" {
+            if fluent == fluents::HOLDING {
                 scene.robot.holding = None;
             }
             let Some(entity) = scene.entities.get_mut(id) else { continue };
             match fluent.as_str() {
-                "on" | "in" | "at" if entity.on.is_some() || entity.inside.is_some() => {
+                fluents::ON | fluents::IN | fluents::AT if entity.on.is_some() || entity.inside.is_some() => {
                     (entity.on, entity.inside) = (None, None);
                 }
-                "visible" => entity.visible = None,
+                fluents::VISIBLE => entity.visible = None,
                 _ => {}
             }
         }
@@ -131,7 +128,8 @@ impl Knowledge {
         placed.robot.joints = IndexMap::new();
         placed.robot.holding = Some(situation.holding.clone());
         for (id, support) in &situation.supports {
-            let Some(entity) = placed.entities.get_mut(id).filter(|entity| entity.kind == "Object") else {
+            let Some(entity) = placed.entities.get_mut(id).filter(|entity| entity.kind == kinds::OBJECT)
+            else {
                 continue;
             };
             let before = entity.on.as_ref().or(entity.inside.as_ref());
@@ -141,7 +139,7 @@ impl Knowledge {
         }
         for (query, truth) in &self.facts {
             let Query::Fact { fluent, args } = query else { continue };
-            if fluent != "open" {
+            if fluent != fluents::OPEN {
                 continue;
             }
             let [Pattern::Is(Value::Entity(id))] = args.as_slice() else { return None };
@@ -158,11 +156,12 @@ impl Knowledge {
 
     /// Objects that are known to be elsewhere than in the scene, or not known to be there.
     fn moved(&self, stripped: &Scene) -> Vec<SmolStr> {
-        let fixed = |id: &SmolStr| stripped.entities.get(id).is_none_or(|entity| entity.kind != "Object");
+        let fixed =
+            |id: &SmolStr| stripped.entities.get(id).is_none_or(|entity| entity.kind != kinds::OBJECT);
         let mut moved: Vec<SmolStr> = Vec::new();
         for (query, truth) in &self.facts {
             if let Query::Fact { fluent, args } = query
-                && fluent == "holding"
+                && fluent == fluents::HOLDING
                 && *truth == Truth::True
                 && let Some(Pattern::Is(Value::Entity(id))) = args.first()
                 && !fixed(id)
@@ -215,7 +214,7 @@ impl Knowledge {
         let mut held = scene.robot.holding.clone().flatten();
         for (query, truth) in &self.facts {
             let Query::Fact { fluent, args } = query else { continue };
-            if fluent != "holding" {
+            if fluent != fluents::HOLDING {
                 continue;
             }
             match (args.first(), truth) {
@@ -234,7 +233,7 @@ impl Knowledge {
         let mut supports: IndexMap<SmolStr, Option<SmolStr>> = IndexMap::new();
         for (query, truth) in &self.facts {
             let Query::Fact { fluent, args } = query else { continue };
-            if !matches!(fluent.as_str(), "on" | "in" | "at") {
+            if !PLACING.contains(&fluent.as_str()) {
                 continue;
             }
             let [Pattern::Is(Value::Entity(thing)), place] = args.as_slice() else { continue };
@@ -281,7 +280,7 @@ impl Knowledge {
         for known in before {
             let thing = Pattern::Is(Value::Entity(known.thing.clone()));
             let mut about = self.facts.iter().rev().filter_map(|(query, truth)| match query {
-                Query::Fact { fluent, args } if fluent == "at" && args.first() == Some(&thing) => {
+                Query::Fact { fluent, args } if fluent == fluents::AT && args.first() == Some(&thing) => {
                     Some(*truth)
                 }
                 _ => None,
@@ -290,11 +289,11 @@ impl Knowledge {
                 continue;
             }
             let place = Pattern::Is(Value::Entity(known.place.clone()));
-            for fluent in ["on", "in", "at"] {
+            for fluent in PLACING {
                 let args = vec![thing.clone(), Pattern::Any];
                 self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::False));
             }
-            for fluent in [known.relation, "at"] {
+            for fluent in [known.relation, fluents::AT] {
                 let args = vec![thing.clone(), place.clone()];
                 self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::True));
             }
@@ -304,14 +303,14 @@ impl Knowledge {
     /// Takes in the robot's answers about itself: a held object is nowhere else, and the robot is at one
     /// place.
     pub fn notice(&mut self, felt: &[(Query, Truth)]) {
-        let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
+        let robot = Pattern::Is(Value::Entity(SmolStr::new_static(entities::ROBOT)));
         let stands = |query: &Query| match query {
-            Query::Fact { fluent, args } => fluent == "at" && args.first() == Some(&robot),
+            Query::Fact { fluent, args } => fluent == fluents::AT && args.first() == Some(&robot),
             Query::Measure { .. } | Query::Field { .. } => false,
         };
         if felt.iter().any(|(query, _)| stands(query)) {
             let args = vec![robot.clone(), Pattern::Any];
-            self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::False));
+            self.facts.push((Query::Fact { fluent: fluents::AT.into(), args }, Truth::False));
         }
         for (query, truth) in felt {
             let Query::Fact { fluent, args } = query else { continue };
@@ -319,8 +318,8 @@ impl Knowledge {
             if stands(query) && *truth != Truth::True {
                 continue;
             }
-            if let ("holding", Truth::True, Some(thing)) = (fluent.as_str(), truth, args.first()) {
-                for place in ["on", "in", "at"] {
+            if let (fluents::HOLDING, Truth::True, Some(thing)) = (fluent.as_str(), truth, args.first()) {
+                for place in PLACING {
                     let args = vec![thing.clone(), Pattern::Any];
                     self.facts.push((Query::Fact { fluent: place.into(), args }, Truth::False));
                 }
@@ -331,9 +330,9 @@ impl Knowledge {
 
     /// Forgets the robot's place at an entity, since something could not be reached from there.
     pub fn doubt_standing(&mut self) {
-        let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
+        let robot = Pattern::Is(Value::Entity(SmolStr::new_static(entities::ROBOT)));
         let args = vec![robot, Pattern::Any];
-        self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::Unknown));
+        self.facts.push((Query::Fact { fluent: fluents::AT.into(), args }, Truth::Unknown));
     }
 
     /// Keeps the former places of moved objects, so that they can be put back.
@@ -357,14 +356,14 @@ impl Knowledge {
         let mut tell = |fluent: &str, args: Vec<Pattern>, truth| {
             self.facts.push((Query::Fact { fluent: fluent.into(), args }, truth));
         };
-        for fluent in ["on", "in", "at"] {
+        for fluent in PLACING {
             tell(fluent, vec![thing.clone(), Pattern::Any], Truth::False);
         }
         let place = Pattern::Is(Value::Entity(said.place.clone()));
-        for fluent in [said.relation, "at"] {
+        for fluent in [said.relation, fluents::AT] {
             tell(fluent, vec![thing.clone(), place.clone()], Truth::True);
         }
-        for fluent in ["visible", "located", "clear"] {
+        for fluent in [fluents::VISIBLE, fluents::LOCATED, fluents::CLEAR] {
             tell(fluent, vec![thing.clone()], Truth::Unknown);
         }
         self.spoken_of.push(said.thing.clone());

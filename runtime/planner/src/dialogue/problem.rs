@@ -4,6 +4,7 @@
 use motet_graph::{Graph, NodeKind, Term, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::RunEnd;
+use motet_stdlib::lang::{ASKING, failures, kinds, primitives};
 use motet_syntax::render::capital;
 use smol_str::SmolStr;
 
@@ -145,9 +146,6 @@ impl Problem {
     }
 }
 
-/// Primitives that ask a person.
-const ASKING: &[&str] = &["ask", "choose"];
-
 fn failed(
     (kind, why): (&str, Option<&str>),
     node: motet_graph::NodeId,
@@ -164,7 +162,7 @@ fn failed(
     // What cannot be got at is where the step leads last: of what is put somewhere the place, since the
     // thing is in the hand.
     let about = match (kind, args().next()) {
-        ("unreachable" | "blocked", _) => args().filter_map(entity).next_back(),
+        (failures::UNREACHABLE | failures::BLOCKED, _) => args().filter_map(entity).next_back(),
         // Who looks for a thing by words names it first.
         (_, Some(Term::Literal(Value::Text(text)))) => Some(SmolStr::from(text.as_str())),
         (_, _) => args().find_map(entity),
@@ -178,17 +176,17 @@ fn failed(
     let doing =
         primitive.map_or_else(|| "a step".to_owned(), |primitive| format!("{}({thing})", primitive.name));
     let (kind, question, options): (Kind, String, Vec<SmolStr>) = match kind {
-        "not_found" => (
+        failures::NOT_FOUND => (
             Kind::NotFound,
             format!("I cannot find {thing}{}. Where is it?", believed(scene, about.as_ref())),
             holders(scene),
         ),
-        "ambiguous" => (
+        failures::AMBIGUOUS => (
             Kind::AmbiguousReference,
             format!("More than one thing could be {thing}. Which one?"),
             Vec::new(),
         ),
-        "blocked" if primitive.is_some_and(|primitive| primitive.name == "place") => {
+        failures::BLOCKED if primitive.is_some_and(|primitive| primitive.name == primitives::PLACE) => {
             let held = args().find_map(entity).filter(|held| Some(held) != about.as_ref());
             let held = held.map_or_else(|| "it".to_owned(), |id| format!("the {}", called(scene, &id)));
             let others = holders(scene).into_iter().filter(|id| Some(id) != about.as_ref()).collect();
@@ -197,24 +195,26 @@ fn failed(
             );
             (Kind::NotReachable, question, others)
         }
-        "unreachable" | "blocked" => (
+        failures::UNREACHABLE | failures::BLOCKED => (
             Kind::NotReachable,
             format!("I cannot reach {thing}: {doing} is {kind}. What shall I do?"),
             vec!["try again".into(), "leave it".into()],
         ),
-        "too_heavy" => (
+        failures::TOO_HEAVY => (
             Kind::NotReachable,
             format!("I cannot lift {thing}, it is too heavy. What shall I do?"),
             vec!["leave it".into()],
         ),
-        "refused" if primitive.is_some_and(|primitive| ASKING.contains(&primitive.name.as_str())) => (
-            Kind::ActionFailed,
-            match words {
-                Some(words) => format!("Nobody answered \"{words}\". Shall I ask again?"),
-                None => "Nobody answered my question. Shall I ask again?".to_owned(),
-            },
-            vec!["yes".into(), "no".into()],
-        ),
+        failures::REFUSED if primitive.is_some_and(|primitive| ASKING.contains(&primitive.name.as_str())) => {
+            (
+                Kind::ActionFailed,
+                match words {
+                    Some(words) => format!("Nobody answered \"{words}\". Shall I ask again?"),
+                    None => "Nobody answered my question. Shall I ask again?".to_owned(),
+                },
+                vec!["yes".into(), "no".into()],
+            )
+        }
         _ => (
             Kind::ActionFailed,
             format!(
@@ -229,8 +229,10 @@ fn failed(
 
 /// Surfaces and containers that can hold a thing.
 fn holders(scene: &Scene) -> Vec<SmolStr> {
-    let holds =
-        scene.entities.values().filter(|entity| matches!(entity.kind.as_str(), "Surface" | "Container"));
+    let holds = scene
+        .entities
+        .values()
+        .filter(|entity| matches!(entity.kind.as_str(), kinds::SURFACE | kinds::CONTAINER));
     holds.map(|entity| entity.id.clone()).collect()
 }
 

@@ -4,6 +4,7 @@ use motet_compiler::Session;
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
+use motet_stdlib::lang::{entities, kinds, primitives};
 use motet_syntax::ast::{Block, Do, ExprKind, Policy, Step, StepKind};
 use motet_syntax::print;
 use smol_str::SmolStr;
@@ -51,46 +52,23 @@ pub enum NoPolicy {
     },
 }
 
-/// Words and their primitives. Of two matches the longer one counts; the writer uses the first word of each
-/// primitive.
-const WORDS: &[(&str, &str)] = &[
-    ("go to", "go"),
-    ("go", "go"),
-    ("navigate to", "go"),
-    ("move to", "go"),
-    ("drive to", "go"),
-    ("walk to", "go"),
-    ("pick", "pick"),
-    ("pick up", "pick"),
-    ("grasp", "pick"),
-    ("grab", "pick"),
-    ("take", "pick"),
-    ("place", "place"),
-    ("put", "place"),
-    ("put down", "place"),
-    ("drop", "place"),
-    ("release", "place"),
-    ("hand over", "handover"),
-    ("handover", "handover"),
-    ("give", "handover"),
-    ("hand", "handover"),
-    ("open", "open"),
-    ("close", "close"),
-    ("shut", "close"),
-    ("detect", "detect"),
-    ("find", "detect"),
-    ("look for", "detect"),
-    ("inspect", "inspect"),
-    ("look at", "inspect"),
-    ("push", "push"),
-    ("lift", "lift"),
-    ("home", "home"),
-    ("fold arm", "home"),
-    ("start pose", "start_pose"),
-    ("wake up", "wake_up"),
-    ("stand up", "wake_up"),
-    ("say", "say"),
-    ("ask", "ask"),
+/// Words for each primitive; the writer uses the first. Of two matches the longer one counts.
+const WORDS: &[(&str, &[&str])] = &[
+    (primitives::GO, &["go to", "go", "navigate to", "move to", "drive to", "walk to"]),
+    (primitives::PICK, &["pick", "pick up", "grasp", "grab", "take"]),
+    (primitives::PLACE, &["place", "put", "put down", "drop", "release"]),
+    (primitives::HANDOVER, &["hand over", "handover", "give", "hand"]),
+    (primitives::OPEN, &["open"]),
+    (primitives::CLOSE, &["close", "shut"]),
+    (primitives::DETECT, &["detect", "find", "look for"]),
+    (primitives::INSPECT, &["inspect", "look at"]),
+    (primitives::PUSH, &["push"]),
+    (primitives::LIFT, &["lift"]),
+    (primitives::HOME, &["home", "fold arm"]),
+    (primitives::START_POSE, &["start pose"]),
+    (primitives::WAKE_UP, &["wake up", "stand up"]),
+    (primitives::SAY, &["say"]),
+    (primitives::ASK, &["ask"]),
 ];
 /// Prepositions between an object and its destination.
 const BETWEEN: &[&str] =
@@ -156,9 +134,10 @@ impl Reader<'_> {
         // `pick(coke)` is `pick coke`.
         let plain = item.replace(['(', ')', '_'], " ");
         let plain = plain.split_whitespace().collect::<Vec<_>>().join(" ").replace(" ,", ",");
-        let fits = WORDS.iter().filter_map(|(words, primitive)| {
+        let all = WORDS.iter().flat_map(|(primitive, words)| words.iter().map(|words| (*words, *primitive)));
+        let fits = all.filter_map(|(words, primitive)| {
             let rest = plain.strip_prefix(words)?;
-            (rest.is_empty() || rest.starts_with(' ')).then_some((*words, *primitive, rest.trim()))
+            (rest.is_empty() || rest.starts_with(' ')).then_some((words, primitive, rest.trim()))
         });
         let found = fits.max_by_key(|(words, _, _)| words.len());
         let action = || item.to_owned();
@@ -183,43 +162,50 @@ impl Reader<'_> {
     fn call(&mut self, number: usize, primitive: &str, rest: &str) -> Result<String, String> {
         let id = print::identifier;
         Ok(match primitive {
-            "go" => {
-                let place =
-                    self.thing(number, rest, &["Surface", "Container", "Place", "Person", "Object"])?;
+            primitives::GO => {
+                let place = self.thing(
+                    number,
+                    rest,
+                    &[kinds::SURFACE, kinds::CONTAINER, kinds::PLACE, kinds::PERSON, kinds::OBJECT],
+                )?;
                 self.at = Some(place.clone());
                 format!("go({})", id(&place))
             }
-            "pick" => {
+            primitives::PICK => {
                 let (what, _) = halves(rest).unwrap_or((rest, ""));
-                let what = self.thing(number, what, &["Object"])?;
+                let what = self.thing(number, what, &[kinds::OBJECT])?;
                 self.held = Some(what.clone());
                 format!("pick({})", id(&what))
             }
-            "place" => {
+            primitives::PLACE => {
                 let (what, to) = self.placed(number, rest)?;
                 self.held = None;
                 format!("place({}, {})", id(&what), id(&to))
             }
-            "handover" => {
+            primitives::HANDOVER => {
                 let (what, to) = halves(rest).unwrap_or((rest, ""));
                 let what = self.held_or(number, what)?;
                 let to = match to {
-                    "" | "me" | "you" | "person" | "the person" => SmolStr::new_static("user"),
-                    to => self.thing(number, to, &["Person"])?,
+                    "" | "me" | "you" | "person" | "the person" => SmolStr::new_static(entities::USER),
+                    to => self.thing(number, to, &[kinds::PERSON])?,
                 };
                 self.held = None;
                 format!("handover({}, {})", id(&what), id(&to))
             }
-            "open" | "close" => {
-                let what = self.thing(number, rest, &["Container"])?;
+            primitives::OPEN | primitives::CLOSE => {
+                let what = self.thing(number, rest, &[kinds::CONTAINER])?;
                 format!("{primitive}({})", id(&what))
             }
-            "inspect" | "push" => {
-                let what = self.thing(number, rest, &["Object", "Container", "Surface"])?;
+            primitives::INSPECT | primitives::PUSH => {
+                let what = self.thing(number, rest, &[kinds::OBJECT, kinds::CONTAINER, kinds::SURFACE])?;
                 format!("{primitive}({})", id(&what))
             }
-            "detect" | "say" | "ask" if rest.is_empty() => return Err("of what is not said".to_owned()),
-            "detect" | "say" | "ask" => format!("{primitive}({})", quoted(rest)),
+            primitives::DETECT | primitives::SAY | primitives::ASK if rest.is_empty() => {
+                return Err("of what is not said".to_owned());
+            }
+            primitives::DETECT | primitives::SAY | primitives::ASK => {
+                format!("{primitive}({})", quoted(rest))
+            }
             _ if !rest.is_empty() => return Err(format!("`{rest}` is more than it takes")),
             _ => format!("{primitive}()"),
         })
@@ -227,7 +213,7 @@ impl Reader<'_> {
 
     /// Object and destination of a `place`: `coke on table`, `on table`, `coke`, `table`.
     fn placed(&mut self, number: usize, rest: &str) -> Result<(SmolStr, SmolStr), String> {
-        const HOLDERS: &[&str] = &["Surface", "Container", "Object"];
+        const HOLDERS: &[&str] = &[kinds::SURFACE, kinds::CONTAINER, kinds::OBJECT];
         let padded = format!(" {rest}");
         let (what, to) = halves(&padded).unwrap_or((rest, ""));
         let (what, to) = (what.trim(), to.trim());
@@ -236,7 +222,7 @@ impl Reader<'_> {
             return Ok((self.held_or(number, what)?, to));
         }
         // One name: where to, unless it is what the hand holds.
-        let is_place = self.thing(number, what, &["Surface", "Container"]);
+        let is_place = self.thing(number, what, &[kinds::SURFACE, kinds::CONTAINER]);
         match (is_place, &self.at) {
             (Ok(to), _) if !what.is_empty() => Ok((self.held_or(number, "")?, to)),
             (_, Some(at)) => {
@@ -252,7 +238,7 @@ impl Reader<'_> {
         match (what, &self.held) {
             ("" | "it" | "object" | "the object", Some(held)) => Ok(held.clone()),
             ("" | "it" | "object" | "the object", None) => Err("the hand holds nothing".to_owned()),
-            (what, _) => self.thing(number, what, &["Object"]),
+            (what, _) => self.thing(number, what, &[kinds::OBJECT]),
         }
     }
 
@@ -262,8 +248,8 @@ impl Reader<'_> {
         if let Some(entity) = scene.entities.get(words.replace(' ', "_").as_str()) {
             return Ok(entity.id.clone());
         }
-        if matches!(words, "user" | "me" | "the user") {
-            return Ok(SmolStr::new_static("user"));
+        if matches!(words, entities::USER | "me" | "the user") {
+            return Ok(SmolStr::new_static(entities::USER));
         }
         let of_kind =
             |id: &SmolStr| scene.entities.get(id).is_some_and(|entity| kinds.contains(&entity.kind.as_str()));
@@ -301,7 +287,8 @@ fn halves(text: &str) -> Option<(&str, &str)> {
 
 /// The first words of a primitive.
 fn written(primitive: &str) -> &str {
-    WORDS.iter().find(|(_, known)| *known == primitive).map_or(primitive, |(words, _)| words)
+    let words = WORDS.iter().find(|(known, _)| *known == primitive);
+    words.and_then(|(_, words)| words.first().copied()).unwrap_or(primitive)
 }
 
 fn quoted(text: &str) -> String {
@@ -368,8 +355,8 @@ impl Writer<'_> {
         let args: Vec<String> = call.call.args.iter().map(|arg| self.arg(&arg.value.kind)).collect();
         let name = call.call.name.text.as_str();
         // The dialect has no word for it: who goes there sees what is there.
-        let looks_there = name == "search" && args.len() == 2;
-        let words = written(if looks_there { "go" } else { name }).replace('_', " ");
+        let looks_there = name == primitives::SEARCH && args.len() == 2;
+        let words = written(if looks_there { primitives::GO } else { name }).replace('_', " ");
         if let (true, Some(ExprKind::List(places))) =
             (looks_there, call.call.args.get(1).map(|arg| &arg.value.kind))
         {
@@ -379,12 +366,12 @@ impl Writer<'_> {
             return;
         }
         let joined = match (name, args.as_slice()) {
-            ("search", [_, around]) => around.clone(),
-            ("place", [what, to]) => {
+            (primitives::SEARCH, [_, around]) => around.clone(),
+            (primitives::PLACE, [what, to]) => {
                 let inside = call.call.args.get(1).is_some_and(|arg| self.is_container(&arg.value.kind));
                 format!("{what} {} {to}", if inside { "in" } else { "on" })
             }
-            ("handover", [what, to]) => format!("{what} to {to}"),
+            (primitives::HANDOVER, [what, to]) => format!("{what} to {to}"),
             _ => args.join(" "),
         };
         self.actions.push(format!("{words} {joined}").trim().to_owned());
@@ -400,7 +387,7 @@ impl Writer<'_> {
 
     fn is_container(&self, value: &ExprKind) -> bool {
         let (ExprKind::Name(id) | ExprKind::Plain(id)) = value else { return false };
-        self.scene.entities.get(id).is_some_and(|entity| entity.kind == "Container")
+        self.scene.entities.get(id).is_some_and(|entity| entity.kind == kinds::CONTAINER)
     }
 }
 

@@ -166,7 +166,7 @@ impl Exchange {
             .nth(tag)
     }
 
-    /// Returns `true` if the robot asks a question instead of planning.
+    /// True if the robot asks a question instead of planning.
     #[must_use]
     pub fn asks(&self) -> bool {
         self.robot.ends_with('?')

@@ -73,7 +73,7 @@ pub(super) fn first_step(session: &Session, policy: &str) -> Option<Box<Planned>
     }
 }
 
-/// Returns `true` if the graph acts, and no guard or motion is deferred.
+/// True if the graph acts, and no guard or motion is deferred.
 fn is_certain(graph: &Graph) -> bool {
     let mut calls = 0;
     let certain = graph.nodes.iter().all(|node| match &node.kind {
@@ -121,7 +121,7 @@ pub fn without_first_step(
     Ok(Some(Json::Object(policy).to_string()))
 }
 
-/// Returns whether a step, or a step in it, binds a name.
+/// True if a step, or a step in it, binds a name.
 fn binds(json: &Json, name: &str) -> bool {
     match json {
         Json::Array(items) => items.iter().any(|item| binds(item, name)),

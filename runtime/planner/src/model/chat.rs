@@ -125,7 +125,7 @@ pub enum ModelError {
 }
 
 impl ModelError {
-    /// Returns `true` if another attempt cannot succeed, or took all the time that it may.
+    /// True if another attempt cannot succeed, or took all the time that it may.
     #[must_use]
     pub const fn is_lasting(&self) -> bool {
         match self {
@@ -190,7 +190,7 @@ pub enum ModelEvent<'a> {
 pub trait ModelObserver {
     /// Receives each event of the exchange.
     fn hear(&mut self, _happening: &ModelEvent<'_>) {}
-    /// Returns `true` once a person wants the exchange to stop. The planner calls it often.
+    /// True once a person wants the exchange to stop. The planner calls it often.
     fn is_stopped(&self) -> bool {
         false
     }

@@ -5,6 +5,7 @@ use motet_compiler::plan::Persistence;
 use motet_compiler::{Session, fix, make_explicit};
 use motet_graph::NodeKind;
 use motet_requests::{Certainty, RequestContext};
+use motet_stdlib::lang::{entities, primitives};
 use motet_syntax::ast::{Clause, Expr, ExprKind, File, Item};
 use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
 use smol_str::SmolStr;
@@ -72,7 +73,7 @@ pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
     }
 }
 
-/// Returns `true` if a fix keeps the steps: fixes of syntax, names and types.
+/// True if a fix keeps the steps: fixes of syntax, names and types.
 fn is_spelling(fix: &AppliedFix) -> bool {
     ["M01", "M02", "M03"].iter().any(|stage| fix.code.0.starts_with(stage))
 }
@@ -159,7 +160,7 @@ impl RequestGoal {
         Some(Diagnostic { message, fix: None, help: Some(help), path: String::new(), ..missed })
     }
 
-    /// Returns true if a policy changes something that the goal is about, or else says nothing at all.
+    /// True if a policy changes something that the goal is about, or else says nothing at all.
     fn is_acted_on(&self, session: &Session, planned: &Planned) -> bool {
         let mut speaks = false;
         let graph = planned.compiled.graph.as_ref();
@@ -184,7 +185,7 @@ impl RequestGoal {
         !speaks
     }
 
-    /// Returns true if a goal has this fluent, and both or neither are about the robot.
+    /// True if a goal has this fluent, and both or neither are about the robot.
     fn is_about(&self, (fluent, subject): &Fact) -> bool {
         facts(&self.condition).iter().any(|(wanted, of)| {
             wanted == fluent && (of.as_deref() == Some(ROBOT)) == (subject.as_deref() == Some(ROBOT))
@@ -193,9 +194,9 @@ impl RequestGoal {
 }
 
 /// Primitives that speak with people.
-const SPEAKING: &[&str] = &["say", "ask", "choose"];
+const SPEAKING: &[&str] = &[primitives::SAY, primitives::ASK, primitives::CHOOSE];
 /// Name of the robot in conditions.
-const ROBOT: &str = "robot";
+const ROBOT: &str = entities::ROBOT;
 
 /// A fluent, with its first argument if that is a name.
 type Fact = (SmolStr, Option<SmolStr>);

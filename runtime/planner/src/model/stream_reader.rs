@@ -122,7 +122,7 @@ impl<'s> StreamReader<'s> {
         &self.scan.text
     }
 
-    /// Returns true if the policy is complete; any further text is ignored.
+    /// True if the policy is complete; any further text is ignored.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.scan.is_over

@@ -9,6 +9,7 @@ use motet_compiler::{Session, make_explicit};
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
+use motet_stdlib::lang::{kinds, primitives};
 use motet_syntax::ast::{Block, Clause, ExprKind, PrimitiveDecl, Quantified, StepKind};
 use motet_syntax::{FileId, Severity, Source, Syntax, print};
 use smol_str::SmolStr;
@@ -75,7 +76,7 @@ fn form(robot: &Robot) -> String {
 /// The kinds of steps, without the examples that this robot cannot carry out. Only where the room has a zone
 /// is there something to keep out of.
 fn steps(session: &Session, robot: &Robot, scene: &Scene) -> String {
-    let zone = scene.entities.values().find(|entity| entity.kind == "Zone");
+    let zone = scene.entities.values().find(|entity| entity.kind == kinds::ZONE);
     let mut text = String::new();
     for line in STEPS.lines() {
         let example = line.split_once("  ").map_or(line, |(example, _)| example);
@@ -92,7 +93,7 @@ fn steps(session: &Session, robot: &Robot, scene: &Scene) -> String {
 
 /// Checks the syntax, names and types of a step behind two that bind `m` and `things`.
 fn is_step(session: &Session, robot: &Robot, step: &str) -> bool {
-    let bound = [("detect", "m"), ("detect_all", "things")]
+    let bound = [(primitives::DETECT, "m"), (primitives::DETECT_ALL, "things")]
         .map(|(call, name)| format!(r#"{{"do": "{call}", "what": "thing", "as": "{name}"}}"#))
         .join(", ");
     let is_bound = step.contains("\"as\": \"m\"");
@@ -151,7 +152,7 @@ fn conditions(signatures: &Signatures) -> String {
     if !measures.is_empty() {
         let _ = writeln!(text, "Measures: {}", measures.join(", "));
     }
-    let kind = |index: usize| signatures.kinds.get(index).map_or("Entity", |kind| kind.name.as_str());
+    let kind = |index: usize| signatures.kinds.get(index).map_or(kinds::ENTITY, |kind| kind.name.as_str());
     let fields: Vec<String> =
         signatures.fields.iter().map(|field| format!("{}.{}", kind(field.kind), field.name)).collect();
     if let Some(first) = signatures.fields.first() {
@@ -277,7 +278,7 @@ fn quantified(need: &Quantified) -> String {
 
 /// A request for a listed thing, as the built-in planner plans it.
 fn planned_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<String> {
-    let object = scene.entities.values().find(|entity| entity.kind == "Object")?;
+    let object = scene.entities.values().find(|entity| entity.kind == kinds::OBJECT)?;
     let request = format!("bring me the {}", motet_requests::called(object));
     let answered = builtin::answer(session, Some(robot), &request, &RequestContext::new(scene)).ok()?;
     let mut policy = answered.planned.parsed.file.policies().next()?.clone();
@@ -307,10 +308,10 @@ fn take_conditions(steps: &mut Block, from: Block) {
 /// room back in order.
 fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<String> {
     let what = UNLISTED.into_iter().find(|what| !session.describes(what))?;
-    let mut surfaces = scene.entities.values().filter(|entity| entity.kind == "Surface");
+    let mut surfaces = scene.entities.values().filter(|entity| entity.kind == kinds::SURFACE);
     let (first, second) = (surfaces.next()?, surfaces.next()?);
     let is_shut = |entity: &&Entity| {
-        entity.kind == "Container" && entity.open == Some(false) && entity.locked != Some(true)
+        entity.kind == kinds::CONTAINER && entity.open == Some(false) && entity.locked != Some(true)
     };
     let container = scene.entities.values().find(is_shut);
     let [a, b] = [first, second].map(motet_requests::called);

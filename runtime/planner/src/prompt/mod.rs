@@ -61,7 +61,7 @@ pub struct Written {
 }
 
 /// Section that may be left out, the least important first.
-type Part = (&'static str, String);
+type Section = (&'static str, String);
 
 impl Prompt<'_> {
     /// Writes the prompt for a request.
@@ -69,7 +69,7 @@ impl Prompt<'_> {
     pub fn write(&self, request: &str) -> Written {
         let named = motet_requests::named(request, self.situation);
         let room = |entities: &dyn Fn(&SmolStr) -> bool| room::entities(self.situation, entities);
-        let mut parts: Vec<Part> = vec![
+        let mut parts: Vec<Section> = vec![
             ("what the primitives need and how they fail", self.lasting.contracts.clone()),
             ("things that the request does not name", room(&|id| !named.contains(id))),
             ("what was done", self.done()),
@@ -85,7 +85,7 @@ impl Prompt<'_> {
         ];
         let fixed_bytes: usize = fixed.iter().map(String::len).sum();
         let budget = self.tokens.saturating_mul(BYTES_PER_TOKEN);
-        let bytes = |parts: &[Part]| fixed_bytes + parts.iter().map(|(_, text)| text.len()).sum::<usize>();
+        let bytes = |parts: &[Section]| fixed_bytes + parts.iter().map(|(_, text)| text.len()).sum::<usize>();
         let mut next = 0;
         while bytes(&parts) > budget && next < parts.len() {
             if let Some((name, text)) = parts.get_mut(next) {

@@ -9,6 +9,7 @@ use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, EntityShape, Scene};
 use motet_runtime::memory::Memory;
+use motet_stdlib::lang::{entities, fluents, kinds};
 use smol_str::SmolStr;
 
 /// Chosen entities of the scene, one per line.
@@ -26,14 +27,14 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
             Some((_, Some(support))) => {
                 let holder = situation.scene.entities.get(support).map(|holder| holder.kind.as_str());
                 let relation = match holder {
-                    Some("Container") => "in",
-                    Some("Surface") => "on",
-                    Some(_) | None => "at",
+                    Some(kinds::CONTAINER) => fluents::IN,
+                    Some(kinds::SURFACE) => fluents::ON,
+                    Some(_) | None => fluents::AT,
                 };
                 text.push_str(&format!("; {relation} {support}"));
             }
             // Only what can be carried is ever nowhere.
-            Some((_, None)) if entity.kind == "Object" => text.push_str("; it is not known where"),
+            Some((_, None)) if entity.kind == kinds::OBJECT => text.push_str("; it is not known where"),
             Some((_, None)) | None => {
                 if let Some(support) = &entity.on {
                     text.push_str(&format!("; on {support}"));
@@ -42,7 +43,7 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
                 }
             }
         }
-        if entity.kind == "Container" && entity.travel.is_none() {
+        if entity.kind == kinds::CONTAINER && entity.travel.is_none() {
             text.push_str("; always open");
         }
         for (is, word) in [
@@ -64,7 +65,7 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
 
 /// Extent of a zone on the floor.
 fn extent(entity: &Entity) -> Option<String> {
-    match entity.shape.as_ref().filter(|_| entity.kind == "Zone")? {
+    match entity.shape.as_ref().filter(|_| entity.kind == kinds::ZONE)? {
         EntityShape::Box([x, y, _]) => Some(format!("{x} m x {y} m of the floor")),
         EntityShape::Cylinder { radius, .. } => Some(format!("{} m across", 2.0 * radius)),
         EntityShape::Sphere { .. } | EntityShape::Capsule { .. } | EntityShape::Mesh { .. } => None,
@@ -136,7 +137,7 @@ const SAME_JOINT: f64 = 1e-3;
 /// Beginning of the fact that a hand is free.
 const FREE: &str = "free(";
 
-/// Returns true if an argument of a fact is the robot or a part of it.
+/// True if an argument of a fact is the robot or a part of it.
 fn is_robot(arg: &Option<Value>) -> bool {
     name(arg).is_some_and(|name| name == ROBOT || matches!(arg, Some(Value::Case(_))))
 }
@@ -155,7 +156,7 @@ fn name(arg: &Option<Value>) -> Option<&str> {
 }
 
 /// Name of the robot in facts.
-const ROBOT: &str = "robot";
+const ROBOT: &str = entities::ROBOT;
 
 /// Visibility and reachability of one thing.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -207,7 +208,7 @@ pub fn seen(
 
 fn feasible(session: &Session, robot: &Robot, entity: &Entity, left: Duration) -> Reachability {
     if let Some(hand) = robot.hands.values().next()
-        && entity.kind == "Object"
+        && entity.kind == kinds::OBJECT
     {
         if let Some(mass) = entity.mass_kg.filter(|mass| *mass > hand.payload_kg) {
             return Reachability::No(format!("too heavy: {mass} kg, payload is {} kg", hand.payload_kg));

@@ -3,6 +3,7 @@
 
 use motet_graph::Pose;
 use motet_runtime::{CameraImage, CameraModel, DepthImage, RgbdView};
+use motet_stdlib::lang::failures;
 use thiserror::Error;
 
 /// Maximum length of an answer, in bytes: a point takes twenty.
@@ -53,9 +54,9 @@ impl NoPoint {
     #[must_use]
     pub const fn failure(&self) -> &'static str {
         match self {
-            Self::Several => "ambiguous",
-            Self::Unseen | Self::Silent(_) | Self::Unreadable(_) => "not_found",
-            Self::Outside { .. } | Self::NoDepth { .. } | Self::Camera(_) => "not_found",
+            Self::Several => failures::AMBIGUOUS,
+            Self::Unseen | Self::Silent(_) | Self::Unreadable(_) => failures::NOT_FOUND,
+            Self::Outside { .. } | Self::NoDepth { .. } | Self::Camera(_) => failures::NOT_FOUND,
         }
     }
 }

@@ -13,13 +13,14 @@ use motet_runtime::{
     Capabilities, Command, Driver, DriverEvent, FailureReport, GoalId, Outcome, Perception, Query, RgbdView,
     Time,
 };
+use motet_stdlib::lang::{failures, primitives};
 use smol_str::SmolStr;
 
 use super::ground::{NoPoint, Pointer, ground};
 use crate::dialogue::called;
 
 /// Primitive that this driver answers itself.
-const GROUND: &str = "ground";
+const GROUND: &str = primitives::GROUND;
 /// Waiting time for an answer before the simulation advances.
 const SLICE: Duration = Duration::from_millis(5);
 
@@ -205,7 +206,7 @@ impl Driver for GroundingDriver<'_> {
         self.own.insert(goal);
         self.outbox.push_back((now, DriverEvent::Acknowledged { goal }));
         if !self.ask(now, goal, command) {
-            self.end(now, goal, Outcome::Failure("not_found".into()));
+            self.end(now, goal, Outcome::Failure(failures::NOT_FOUND.into()));
         }
     }
 
@@ -231,7 +232,7 @@ impl Driver for GroundingDriver<'_> {
         }
         // The old answer is no longer wanted.
         if self.asked.remove(&goal).is_some() && !self.ask(now, goal, command) {
-            self.end(now, goal, Outcome::Failure("not_found".into()));
+            self.end(now, goal, Outcome::Failure(failures::NOT_FOUND.into()));
         }
     }
 
@@ -299,7 +300,7 @@ impl Driver for GroundingDriver<'_> {
                 Err(RecvTimeoutError::Disconnected) => {
                     let goals: Vec<GoalId> = self.asked.keys().copied().collect();
                     for goal in goals {
-                        self.end(self.now, goal, Outcome::Failure("not_found".into()));
+                        self.end(self.now, goal, Outcome::Failure(failures::NOT_FOUND.into()));
                     }
                 }
             }

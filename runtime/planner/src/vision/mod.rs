@@ -5,6 +5,7 @@ mod grounding_driver;
 
 use motet_robots::scene::{Placement, Scene};
 use motet_runtime::Detection;
+use motet_stdlib::lang::kinds;
 
 pub use ground::{NoPoint, Pointer, ground, lift, point};
 pub use grounding_driver::{GroundedPoint, GroundingDriver};
@@ -27,13 +28,13 @@ const SURE: f64 = 0.5;
 #[must_use]
 pub fn with_detections(scene: &Scene, detections: &[Detection]) -> Scene {
     let mut scene = scene.clone();
-    for entity in scene.entities.values_mut().filter(|entity| entity.kind == "Object") {
+    for entity in scene.entities.values_mut().filter(|entity| entity.kind == kinds::OBJECT) {
         entity.visible = Some(false);
     }
     for seen in detections.iter().filter(|seen| seen.confidence >= SURE) {
         let id = seen.entity.clone().or_else(|| {
             let mut like = scene.entities.values().filter(|entity| {
-                !seen.class.is_empty() && entity.class == seen.class && entity.kind == "Object"
+                !seen.class.is_empty() && entity.class == seen.class && entity.kind == kinds::OBJECT
             });
             let only = like.next()?;
             like.next().is_none().then(|| only.id.clone())
