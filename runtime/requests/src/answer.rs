@@ -1,6 +1,7 @@
 //! Answers: which of some options one means, whether it agrees to another try; and what a request names.
 
 use motet_robots::scene::{Entity, Scene};
+use motet_stdlib::lang::entities;
 use smol_str::SmolStr;
 
 use crate::RequestContext;
@@ -12,7 +13,7 @@ use crate::english::{
 };
 use crate::noun::{Noun, Spot, noun, spot};
 use crate::token::{Token, singular, stands, tokens};
-use crate::verb::{Act, Form, base, verb};
+use crate::verb::{Act, Inflection, base, verb};
 use crate::vocabulary::{Role, Vocabulary};
 
 const ALL: &[Role] = &[Role::Object, Role::Surface, Role::Container, Role::Place, Role::Person];
@@ -251,7 +252,7 @@ pub(super) fn farthest(side: Side, options: &[SmolStr], scene: &Scene) -> Option
     let places: Option<Vec<[f64; 2]>> = options.iter().map(|id| place(id)).collect();
     let places = places.filter(|places| places.len() > 1)?;
     let [x, y, _] = scene.robot.base;
-    let person = seen(side, place("user")?, &places)?;
+    let person = seen(side, place(entities::USER)?, &places)?;
     let robot = seen(side, [x, y], &places)?;
     if person == robot { options.get(person).cloned() } else { None }
 }
@@ -273,8 +274,8 @@ fn seen(side: Side, from: [f64; 2], places: &[[f64; 2]]) -> Option<usize> {
     }
 }
 
-/// Checks whether an answer agrees to another try, and says nothing else that would have to be done or
-/// heeded: what it says beside that, in words; none where it does not agree.
+/// Words beside the agreement in an answer that agrees to another try. `None` for an answer that does not
+/// agree, or that asks for something else.
 #[must_use]
 pub fn encourages(answer: &str) -> Option<String> {
     let mut said = tokens(answer);
@@ -332,7 +333,7 @@ fn is_tag(clause: &[Token]) -> bool {
     matches!(clause, [ask, _] if IS_TAG_ASKS.has(ask.word()))
 }
 
-/// Checks whether it takes back or bounds something, in words that are no part of what only sounds so.
+/// True if it takes back or bounds something, in words that are no part of what only sounds so.
 fn negates(clause: &[Token]) -> bool {
     let mut at = 0;
     while let Some(token) = clause.get(at) {
@@ -347,8 +348,8 @@ fn negates(clause: &[Token]) -> bool {
     false
 }
 
-/// Checks whether a clause that asks for another try says nothing else that would have to be heeded: words
-/// that deny or bound it, or another thing to do. What it says beside that, in words.
+/// Words beside the request for another try in a clause. `None` for a clause that does not ask for one, or
+/// that denies it, bounds it or asks for another thing.
 fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
     // Who asks something, or tells what somebody did, asks for nothing.
     let (mut at, mut tries, mut left) = (0, false, Vec::new());
@@ -369,7 +370,7 @@ fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
             }
             None if REPORT_WORDS.has(token.word()) => return None,
             // `try opening it again`
-            None if matches!(base(token.word()), Some((_, Form::Gerund))) => return None,
+            None if matches!(base(token.word()), Some((_, Inflection::Gerund))) => return None,
             None => {
                 left.push(token.word());
                 at += 1;
@@ -379,7 +380,7 @@ fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
     tries.then_some(left)
 }
 
-/// Checks whether a clause has no other words than those that agree.
+/// True if a clause has no other words than those that agree.
 fn is_plain(clause: &[Token]) -> bool {
     let mut at = 0;
     while let Some(token) = clause.get(at) {

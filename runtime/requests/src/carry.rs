@@ -1,6 +1,7 @@
 //! Commands that take a thing into the hand, as goals: which thing, and where to.
 
 use motet_compiler::plan::{Persistence, fact};
+use motet_stdlib::lang::{entities, fluents};
 use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
@@ -58,7 +59,7 @@ impl Reader<'_> {
                 if let (Some(place), [thing], Persistence::Once) =
                     (&out_of, choice.as_slice(), hold_on(later))
                 {
-                    let goal = not(fact("in", &[thing, place]));
+                    let goal = not(fact(fluents::IN, &[thing, place]));
                     self.aim(format!("take_out_{thing}"), goal, Persistence::ToTheEnd);
                 }
                 if let Some(aim) =
@@ -83,8 +84,8 @@ impl Reader<'_> {
         self.said.aims.iter().any(|aim| aim.name == opened).then(|| place.clone())
     }
 
-    /// Checks whether a place behind a thing says where it shall go or where it is: `throw the can in the
-    /// bin`, `throw away the can on the table`. Where both could be meant it is asked.
+    /// Target that a place behind a thing names, or the place where the thing is: `throw the can in the bin`,
+    /// `throw away the can on the table`. An error asks if both could be meant.
     fn target(&mut self, command: &Command, act: Act) -> Result<Target, RequestError> {
         if let Some(whom) = self.thrown_to(command, act) {
             return Err(self.bring_instead(command, &whom)?);
@@ -190,7 +191,7 @@ impl Reader<'_> {
         Ok(said.join(" and "))
     }
 
-    /// Checks whether something that is meant is at a place.
+    /// True if something that is meant is at a place.
     fn are_there(&mut self, command: &Command, place: &SmolStr) -> bool {
         let items = command.items.clone();
         items.iter().any(|item| {
@@ -214,7 +215,7 @@ impl Reader<'_> {
             || self.are_there(command, place)
     }
 
-    /// Checks whether it was said before where a thing shall be.
+    /// True if it was said before where a thing shall be.
     fn has_its_place(&self, choice: &[SmolStr]) -> bool {
         let [thing] = choice else { return false };
         self.said.aims.iter().any(|aim| aim.name == format!("keep_{thing}"))
@@ -272,7 +273,7 @@ impl Reader<'_> {
     ) -> Result<(), RequestError> {
         let name = choice.first().cloned().unwrap_or_default();
         let any = |goal: &dyn Fn(&str) -> Expr| any_of(choice.iter().map(|id| goal(id)).collect());
-        let user = SmolStr::new_static("user");
+        let user = SmolStr::new_static(entities::USER);
         // Who wants a thing where it is taken to be already may know better: it is looked at.
         if let (
             Act::Fetch | Act::Put | Act::Take | Act::Stow | Act::Store | Act::Throw | Act::Discard,
@@ -303,10 +304,11 @@ impl Reader<'_> {
                 return Err(self.ask(&question, &[Role::Surface, Role::Container]));
             }
             (Act::Lift, _) => {
-                let both = |id: &str| all_of(vec![fact("holding", &[id]), fact("lifted", &[id])]);
+                let both =
+                    |id: &str| all_of(vec![fact(fluents::HOLDING, &[id]), fact(fluents::LIFTED, &[id])]);
                 ("lift", any(&both), hold_on(later))
             }
-            _ => ("pick", any(&|id| fact("holding", &[id])), hold_on(later)),
+            _ => ("pick", any(&|id| fact(fluents::HOLDING, &[id])), hold_on(later)),
         };
         if let Target::To(place) = target {
             self.said.spoken_of.push(place.clone());
@@ -316,7 +318,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Checks whether a thing is believed to be somewhere already, and no part of the request takes it there.
+    /// True if a thing is believed to be somewhere already, and no part of the request takes it there.
     fn is_taken_to_be(&self, thing: &SmolStr, place: &SmolStr) -> bool {
         let support = self.vocabulary.thing(thing).and_then(|thing| thing.support.as_ref());
         support == Some(place) && self.situation.holding.as_ref() != Some(thing) && self.said.aims.is_empty()
@@ -330,9 +332,9 @@ impl Reader<'_> {
     /// States that something is where it was put.
     fn put(&self, id: &str, to: &str) -> Expr {
         let name = match self.vocabulary.thing(to).map(|thing| thing.role) {
-            Some(Role::Container) => "in",
-            Some(Role::Surface | Role::Object) => "on",
-            Some(Role::Place | Role::Person) | None => "at",
+            Some(Role::Container) => fluents::IN,
+            Some(Role::Surface | Role::Object) => fluents::ON,
+            Some(Role::Place | Role::Person) | None => fluents::AT,
         };
         fact(name, &[id, to])
     }
@@ -354,7 +356,7 @@ impl Reader<'_> {
     }
 }
 
-/// Checks whether a noun is of several things.
+/// True if a noun is of several things.
 fn is_several(noun: &Noun) -> bool {
     matches!(noun, Noun::Phrase(phrase) if phrase.is_plural || phrase.which == Which::All)
 }

@@ -3,7 +3,7 @@
 use crate::english::{
     GOES_ON_AT_HITHER, GOES_ON_DO_NOT, ONTO, PART_FOLLOWS_OVER, PREDICATES, WHERE_IT_BELONGS,
 };
-use crate::noun::{Noun, Relation, Spot, Which, is_way, located, noun, spot, way};
+use crate::noun::{Noun, Relation, Spot, Which, is_direction, located, noun, place, spot};
 use crate::part::part;
 use crate::remark::is_boundary;
 use crate::rule::Rules;
@@ -120,10 +120,9 @@ fn left_out(now: &mut Command, commands: &[Command]) {
     }
 }
 
-/// Checks whether another place follows for a thing that has one already.
+/// True if another place follows for a thing that has one already.
 fn is_another_place(now: &Command, tokens: &[Token], at: usize) -> bool {
-    let place = spot(tokens, at).or_else(|| way(tokens, at));
-    let Some((place, end)) = place else { return false };
+    let Some((place, end)) = place(tokens, at) else { return false };
     let is_placed = now.to.is_some() && !now.items.is_empty();
     let is_named = matches!(place.noun, Noun::Phrase(_) | Noun::Speaker);
     is_placed && is_named && place.relation != Relation::Beside && is_boundary(tokens, end)
@@ -182,12 +181,12 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
     true
 }
 
-/// Checks whether what follows a thing says where it goes or for whom.
+/// True if what follows a thing says where it goes or for whom.
 fn part_follows(tokens: &[Token], at: usize) -> bool {
-    spot(tokens, at).is_some() || is_way(tokens, at) || PART_FOLLOWS_OVER.longest(tokens, at).is_some()
+    spot(tokens, at).is_some() || is_direction(tokens, at) || PART_FOLLOWS_OVER.longest(tokens, at).is_some()
 }
 
-/// Checks whether a place follows for what is taken, hidden or put, of which it was not said before where to.
+/// True if a place follows for what is taken, hidden or put, of which it was not said before where to.
 fn is_place_for_it(now: &Command, tokens: &[Token], at: usize) -> bool {
     let takes = matches!(
         now.act,
@@ -201,10 +200,9 @@ fn is_place_for_it(now: &Command, tokens: &[Token], at: usize) -> bool {
             | Act::Lift
             | Act::Fetch
     );
-    let place = spot(tokens, at).or_else(|| way(tokens, at));
     takes
         && !now.items.is_empty()
-        && place.is_some_and(|(place, end)| {
+        && place(tokens, at).is_some_and(|(place, end)| {
             place.relation != Relation::Beside
                 && is_boundary(tokens, end)
                 && (now.act != Act::Fetch || now.to_whom.is_none())
@@ -228,7 +226,7 @@ impl Command {
             self.to_whom.get_or_insert(Noun::Speaker);
             return Some(end);
         }
-        let (place, end) = spot(tokens, at).or_else(|| way(tokens, at))?;
+        let (place, end) = place(tokens, at)?;
         let is_named = matches!(place.noun, Noun::Phrase(_)) && place.relation != Relation::Beside;
         // Who brings something in a place is told where it is.
         if !is_named || !is_end(end) || (self.act == Act::Fetch && !self.has(WANTED) && !place.moves()) {

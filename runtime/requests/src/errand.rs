@@ -1,6 +1,7 @@
 //! Commands as goals: what shall be true when somebody goes, opens, closes, lets go, takes and puts.
 
 use motet_compiler::plan::{Persistence, fact};
+use motet_stdlib::lang::{entities, fluents};
 use motet_syntax::Span;
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
@@ -35,7 +36,7 @@ impl Reader<'_> {
     fn go(&mut self, command: &Command, is_last: bool) -> Result<(), RequestError> {
         let mut targets = Vec::new();
         if command.act == Act::Come && command.to.is_none() {
-            targets.push(SmolStr::new_static("user"));
+            targets.push(SmolStr::new_static(entities::USER));
         }
         let to = command.to.as_ref().map(|to| &to.noun);
         for place in command.items.iter().chain(to).chain(&command.to_whom) {
@@ -51,7 +52,7 @@ impl Reader<'_> {
         let last = targets.len() - 1;
         for (index, target) in targets.into_iter().enumerate() {
             let lasts = if is_last && index == last { Persistence::ToTheEnd } else { Persistence::Once };
-            self.aim(format!("go_to_{target}"), fact("at", &["robot", &target]), lasts);
+            self.aim(format!("go_to_{target}"), fact(fluents::AT, &[entities::ROBOT, &target]), lasts);
             self.said.spoken_of.push(target);
         }
         Ok(())
@@ -67,7 +68,8 @@ impl Reader<'_> {
             )
         {
             let known = self.vocabulary.things.iter().filter(|thing| {
-                matches!(thing.role, Role::Surface | Role::Container | Role::Place) && thing.id != "start"
+                matches!(thing.role, Role::Surface | Role::Container | Role::Place)
+                    && thing.id != entities::START
             });
             let known = known.map(|thing| thing.id.clone()).collect();
             return Ok(if self.places.is_empty() { known } else { self.places.clone() });
@@ -97,7 +99,7 @@ impl Reader<'_> {
                 found.retain(|id| scene.entities.get(id).is_some_and(|entity| entity.open.is_some()));
             }
             for what in found {
-                let is_open = fact("open", &[&what]);
+                let is_open = fact(fluents::OPEN, &[&what]);
                 let closed_later = later.iter().any(|later| later.act == Act::Close);
                 let (name, goal, lasts) = match act {
                     Act::Open if closed_later => (format!("open_{what}"), is_open, Persistence::Once),
@@ -106,10 +108,14 @@ impl Reader<'_> {
                 };
                 if command.has(ONLY_IF) {
                     // How it is has to be seen when it is its turn: somebody may have been there before.
-                    self.aim(format!("look_at_{what}"), fact("at", &["robot", &what]), Persistence::Once);
-                    self.aim(format!("look_at_{what}"), fact("visible", &[&what]), Persistence::Once);
+                    self.aim(
+                        format!("look_at_{what}"),
+                        fact(fluents::AT, &[entities::ROBOT, &what]),
+                        Persistence::Once,
+                    );
+                    self.aim(format!("look_at_{what}"), fact(fluents::VISIBLE, &[&what]), Persistence::Once);
                 }
-                let is_open = fact("open", &[&what]);
+                let is_open = fact(fluents::OPEN, &[&what]);
                 let only_if = if act == Act::Open { not(is_open) } else { is_open };
                 self.places.push(what.clone());
                 self.said.spoken_of.push(what);
@@ -153,7 +159,7 @@ impl Reader<'_> {
     /// A thing is looked for where it is taken to be, until it is seen.
     pub(super) fn look_at(&mut self, thing: &SmolStr) {
         self.go_and_look(thing);
-        self.aim(format!("find_{thing}"), fact("visible", &[thing]), Persistence::Once);
+        self.aim(format!("find_{thing}"), fact(fluents::VISIBLE, &[thing]), Persistence::Once);
     }
 
     /// To find a thing is to go to where it is taken to be, and to open what it is shut in.
@@ -163,11 +169,11 @@ impl Reader<'_> {
         let (place, role) = (place.id.clone(), place.role);
         let name = format!("find_{thing}");
         if matches!(role, Role::Surface | Role::Container) {
-            self.aim(name.clone(), fact("at", &["robot", &place]), Persistence::Once);
+            self.aim(name.clone(), fact(fluents::AT, &[entities::ROBOT, &place]), Persistence::Once);
         }
         let has_door = self.situation.scene.entities.get(&place).is_some_and(|entity| entity.open.is_some());
         if role == Role::Container && has_door {
-            self.aim(name, fact("open", &[&place]), Persistence::Once);
+            self.aim(name, fact(fluents::OPEN, &[&place]), Persistence::Once);
         }
     }
 
@@ -185,13 +191,17 @@ impl Reader<'_> {
             },
         };
         for item in items {
-            self.aim(format!("put_down_{item}"), not(fact("holding", &[&item])), Persistence::ToTheEnd);
+            self.aim(
+                format!("put_down_{item}"),
+                not(fact(fluents::HOLDING, &[&item])),
+                Persistence::ToTheEnd,
+            );
         }
         Ok(())
     }
 }
 
-/// Checks whether something has to stay in the hand: not where it is put somewhere later.
+/// Persistence of holding something: to the end, unless it is put somewhere later.
 pub(super) fn hold_on(later: &[Command]) -> Persistence {
     let goes = |later: &Command| matches!(later.act, Act::Go | Act::Come | Act::Pick | Act::Lift);
     if later.iter().all(goes) { Persistence::ToTheEnd } else { Persistence::Once }

@@ -10,7 +10,7 @@ use crate::asking::skip_leads;
 use crate::english::{NEED_NOT, PLAIN_AND};
 use crate::rule::Rules;
 use crate::token::Token;
-use crate::verb::{Form, base, of_past};
+use crate::verb::{Inflection, base, of_past};
 
 /// Rules for what is said before an imperative or in the place of one: what each writes is read again. In
 /// those of a series the verbs that follow stand in the same form.
@@ -89,7 +89,8 @@ fn in_series(tokens: &mut [Token], begin: usize) {
         if tokens.get(at - 1).is_some_and(|joint| joint.word() == "and")
             && let Some(token) = tokens.get_mut(at)
         {
-            let doing = || base(token.word()).filter(|(_, form)| *form == Form::Gerund).map(|(verb, _)| verb);
+            let doing =
+                || base(token.word()).filter(|(_, form)| *form == Inflection::Gerund).map(|(verb, _)| verb);
             if let Some(verb) = of_past(token.word()).or_else(doing) {
                 *token = Token::Word(verb);
             }

@@ -13,13 +13,14 @@ mod noun;
 mod parse;
 mod part;
 mod phrases;
+mod polarity;
 mod reader;
 mod reference;
 mod remark;
 mod rule;
 mod statement;
 mod template;
-pub mod token;
+mod token;
 mod verb;
 mod vocabulary;
 
@@ -29,6 +30,7 @@ use smol_str::SmolStr;
 pub use answer::{called, choose, encourages, named, pick};
 pub use error::RequestError;
 pub use meaning::{Aim, Certainty, Intent};
+pub use polarity::{Polarity, added, is_wordless, polarity, refuses, stops};
 
 /// The context of a request: the scene, and what changed or was said since. Plain data; `Send` and `Sync`.
 #[derive(Clone, Debug)]
@@ -82,13 +84,13 @@ pub fn told(answer: &str, situation: &RequestContext<'_>) -> Vec<ReportedLocatio
     meaning::told(&frame::without_courtesy(&token::tokens(answer)), situation)
 }
 
-/// Checks whether an answer is a bare noun or place, such as completes a request: "the cupboard", "on the
+/// True if an answer is a bare noun or place, such as completes a request: "the cupboard", "on the
 /// table, please".
 #[must_use]
 pub fn is_bare(answer: &str) -> bool {
     let mut tokens = token::tokens(answer);
     tokens.retain(|token| !matches!(token.word(), "please" | ""));
-    let place = noun::spot(&tokens, 0).or_else(|| noun::way(&tokens, 0)).map(|(_, end)| end);
+    let place = noun::place(&tokens, 0).map(|(_, end)| end);
     noun::noun(&tokens, 0).map(|(_, end)| end).or(place) == Some(tokens.len())
 }
 

@@ -2,6 +2,7 @@
 //! together.
 
 use motet_compiler::plan::{Goal, Persistence};
+use motet_stdlib::lang::{entities, fluents};
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
@@ -109,7 +110,7 @@ pub(super) fn told(tokens: &[Token], situation: &RequestContext<'_>) -> Vec<Repo
 }
 
 impl Command {
-    /// Checks whether it says what becomes of a thing that was spoken of just before.
+    /// True if it says what becomes of a thing that was spoken of just before.
     fn takes_it(&self) -> bool {
         let carries = matches!(
             self.act(),
@@ -138,7 +139,7 @@ impl Command {
         }
     }
 
-    /// Checks whether it says nothing of what it is about, though its verb asks for it.
+    /// True if it says nothing of what it is about, though its verb asks for it.
     fn needs_items(&self) -> bool {
         self.items.is_empty() && matches!(self.act, Act::Pick | Act::Lift | Act::Take | Act::Fetch)
     }
@@ -191,7 +192,10 @@ impl Reader<'_> {
             let is_answered = self.situation.meant.iter().any(|(_, meant)| meant == id);
             // Only things of the room have names; the robot and its person need none.
             is_answered
-                || self.vocabulary.thing(id).is_none_or(|thing| thing.is_named_in(&words) || id == "user")
+                || self
+                    .vocabulary
+                    .thing(id)
+                    .is_none_or(|thing| thing.is_named_in(&words) || id == entities::USER)
         };
         let mut things = self.said.aims.iter().flat_map(|aim| entities(&aim.goal.condition));
         if self.said.notes.is_empty() && things.all(|id| is_named(&id)) {
@@ -222,7 +226,7 @@ impl Reader<'_> {
     }
 }
 
-/// Checks whether two conditions read the same: `the coke belongs in the fridge, please put it there` asks
+/// True if two conditions read the same: `the coke belongs in the fridge, please put it there` asks
 /// once.
 fn same(one: &Expr, other: &Expr) -> bool {
     motet_syntax::print::expression(one) == motet_syntax::print::expression(other)
@@ -291,10 +295,14 @@ impl Reader<'_> {
 
     /// A place or a person in a sentence.
     fn whom(&self, id: &SmolStr) -> String {
-        if id == "user" { "you".to_owned() } else { format!("the {}", self.called(id)) }
+        if id == entities::USER { "you".to_owned() } else { format!("the {}", self.called(id)) }
     }
 
-    /// Checks whether the first cannot hold any more when the second does, and can be undone for it.
+    /// True if the first cannot hold any more when the second does, and can be undone for it.
+    ///
+    /// # Errors
+    ///
+    /// The first cannot be undone for the second.
     fn clash(&self, first: &Simple, second: &Simple) -> Result<bool, RequestError> {
         let unfit = |why: String| Err(RequestError::Unfit { why });
         match (first, second) {
@@ -354,12 +362,12 @@ fn simple(condition: &Expr) -> Option<Simple> {
         })
         .collect();
     match (call.name.text.as_str(), names?.as_slice(), is_not) {
-        ("in" | "on" | "at", [thing, place], false) if thing != "robot" => {
+        (fluents::IN | fluents::ON | fluents::AT, [thing, place], false) if thing != entities::ROBOT => {
             Some(Simple::Placed(thing.clone(), place.clone()))
         }
-        ("holding", [thing], false) => Some(Simple::Held(thing.clone())),
-        ("open", [what], false) => Some(Simple::Open(what.clone())),
-        ("open", [what], true) => Some(Simple::Closed(what.clone())),
+        (fluents::HOLDING, [thing], false) => Some(Simple::Held(thing.clone())),
+        (fluents::OPEN, [what], false) => Some(Simple::Open(what.clone())),
+        (fluents::OPEN, [what], true) => Some(Simple::Closed(what.clone())),
         _ => None,
     }
 }

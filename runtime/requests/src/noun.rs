@@ -2,8 +2,8 @@
 //! preposition.
 
 use crate::english::{
-    DETERMINERS, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, PHRASE_SOMETHING, PREPOSITIONS_OF_PLACE,
-    PREPOSITIONS_OF_WAY, PRONOUNS, SPEAKERS,
+    DETERMINERS, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, PHRASE_SOMETHING, PREPOSITIONS_OF_DIRECTION,
+    PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS,
 };
 use crate::phrases::Phrases;
 use crate::token::{Token, singular, stands};
@@ -71,7 +71,7 @@ fn ends(tokens: &[Token], at: usize) -> bool {
     match tokens.get(at) {
         None | Some(Token::Comma | Token::Stop) => true,
         Some(Token::Word(word)) if word == "can" => stands(tokens, at, "can you").is_some(),
-        Some(Token::Word(word)) => NOUN_ENDS.has(word.as_str()) || is_way(tokens, at),
+        Some(Token::Word(word)) => NOUN_ENDS.has(word.as_str()) || is_direction(tokens, at),
     }
 }
 
@@ -251,7 +251,7 @@ pub(super) struct Spot {
 }
 
 impl Spot {
-    /// Checks whether it can only say where to: `onto`, `into`, `to`.
+    /// True if it can only say where to: `onto`, `into`, `to`.
     pub(super) fn moves(&self) -> bool {
         !PREPOSITIONS_OF_PLACE.has(&self.preposition)
     }
@@ -282,7 +282,7 @@ impl Relation {
         })
     }
 
-    /// Checks whether something can be so to a thing of this role: on a shelf, in a drawer. A sink and a
+    /// True if something can be so to a thing of this role: on a shelf, in a drawer. A sink and a
     /// shelf have things in them as well as on them; what lies in a mug is not known.
     pub(super) const fn fits(self, role: Role) -> bool {
         match self {
@@ -301,18 +301,23 @@ pub(super) fn located(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
 
 /// The same with its preposition.
 pub(super) fn spot(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
-    let is_static = PREPOSITIONS_OF_WAY.longest(tokens, at) < PREPOSITIONS_OF_PLACE.longest(tokens, at);
+    let is_static = PREPOSITIONS_OF_DIRECTION.longest(tokens, at) < PREPOSITIONS_OF_PLACE.longest(tokens, at);
     is_static.then(|| placed(tokens, at, &PREPOSITIONS_OF_PLACE)).flatten()
 }
 
-/// `to the table`, `into the drawer`, `next to the sink`: where to, or near what.
-pub(super) fn way(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
-    placed(tokens, at, &PREPOSITIONS_OF_WAY)
+/// A place with a preposition of place or of direction.
+pub(super) fn place(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
+    spot(tokens, at).or_else(|| direction(tokens, at))
 }
 
-/// Checks whether a preposition of where to, or of near by, stands here.
-pub(super) fn is_way(tokens: &[Token], at: usize) -> bool {
-    PREPOSITIONS_OF_WAY.longest(tokens, at) > PREPOSITIONS_OF_PLACE.longest(tokens, at)
+/// `to the table`, `into the drawer`, `next to the sink`: where to, or near what.
+pub(super) fn direction(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
+    placed(tokens, at, &PREPOSITIONS_OF_DIRECTION)
+}
+
+/// True if a preposition of direction, or of near by, stands here.
+pub(super) fn is_direction(tokens: &[Token], at: usize) -> bool {
+    PREPOSITIONS_OF_DIRECTION.longest(tokens, at) > PREPOSITIONS_OF_PLACE.longest(tokens, at)
 }
 
 fn placed(tokens: &[Token], at: usize, prepositions: &Phrases) -> Option<(Spot, usize)> {
@@ -325,7 +330,7 @@ fn placed(tokens: &[Token], at: usize, prepositions: &Phrases) -> Option<(Spot, 
 
 #[cfg(test)]
 mod tests {
-    use super::{Noun, Phrase, Relation, Which, noun, spot, way};
+    use super::{Noun, Phrase, Relation, Which, direction, noun, spot};
     use crate::token::tokens;
 
     fn phrase(text: &str) -> (Phrase, usize) {
@@ -362,10 +367,13 @@ mod tests {
     }
 
     #[test]
-    fn spot_tells_where_and_way_where_to() {
+    fn spot_has_a_static_preposition_and_direction_a_dynamic_one() {
         assert_eq!(spot(&tokens("on the table"), 0).map(|(spot, _)| spot.relation), Some(Relation::On));
         assert_eq!(spot(&tokens("onto the table"), 0), None);
-        assert!(way(&tokens("into the drawer"), 0).is_some_and(|(way, _)| way.moves()));
-        assert_eq!(way(&tokens("next to the sink"), 0).map(|(way, _)| way.relation), Some(Relation::Beside));
+        assert!(direction(&tokens("into the drawer"), 0).is_some_and(|(place, _)| place.moves()));
+        assert_eq!(
+            direction(&tokens("next to the sink"), 0).map(|(place, _)| place.relation),
+            Some(Relation::Beside)
+        );
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::command::{Command, words};
 use crate::english::{CARRYING, HANDS, PART_GO};
-use crate::noun::{Noun, Relation, Spot, noun, spot, way};
+use crate::noun::{self, Noun, Relation, Spot, noun};
 use crate::rule::Rules;
 use crate::token::Token;
 use crate::verb::Act;
@@ -57,7 +57,7 @@ pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command)
 /// A place, or who gets it: where the next part begins.
 fn place(tokens: &[Token], at: usize, now: &mut Command) -> Option<usize> {
     let goes = matches!(now.act, Act::Go | Act::Come) || (now.act == Act::Move && now.items.is_empty());
-    let (place, after) = spot(tokens, at).or_else(|| way(tokens, at))?;
+    let (place, after) = noun::place(tokens, at)?;
     if is_hand(&place.noun) {
         now.with.push("hand".to_owned());
     } else if matches!(place.noun, Noun::Speaker) && place.relation != Relation::Beside && !goes {
@@ -92,7 +92,7 @@ fn there(preposition: &str, relation: Relation, noun: Noun) -> Spot {
     Spot { relation, preposition: preposition.to_owned(), noun, is_behind_thing: false }
 }
 
-/// Checks whether it is the robot's own hand.
+/// True if it is the robot's own hand.
 fn is_hand(noun: &Noun) -> bool {
     matches!(noun, Noun::Phrase(phrase) if phrase.words.last().is_some_and(|last| HANDS.has(last)))
 }

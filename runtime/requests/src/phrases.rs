@@ -35,7 +35,7 @@ pub(crate) fn list(name: &str) -> Option<&'static List> {
     LISTS.get(name)
 }
 
-/// Checks whether a part is more than words.
+/// True if a part is more than words.
 fn is_rule(part: &Part) -> bool {
     match part {
         Part::Word(word) => matches!(*word, "," | "."),
@@ -91,7 +91,7 @@ impl Phrases {
         self.automaton().end(state).map(Option::unwrap_or_default)
     }
 
-    /// Checks whether a phrase, such as a single word, is one of the list.
+    /// True if a phrase, such as a single word, is one of the list.
     pub(crate) fn has(&self, phrase: &str) -> bool {
         self.value(phrase).is_some()
     }
@@ -102,7 +102,7 @@ impl Phrases {
         std::iter::successors(Some(at), next).last().unwrap_or(at) - at
     }
 
-    /// Checks whether a phrase begins with this word.
+    /// True if a phrase begins with this word.
     pub(crate) fn begins_with(&self, word: &str) -> bool {
         self.automaton().step(0, word).is_some()
     }
@@ -157,7 +157,7 @@ impl Automaton {
     }
 }
 
-/// Checks whether a word stands in a template of any list.
+/// True if a word stands in a template of any list.
 pub(crate) fn is_word_of_lists(word: &str) -> bool {
     static WORDS: LazyLock<HashSet<&'static str>> = LazyLock::new(|| {
         let mut words = HashSet::new();

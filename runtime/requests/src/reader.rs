@@ -4,12 +4,12 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use crate::asking::{overtures, skip_leads, wish};
-use crate::noun::{Noun, Relation, Spot, is_way, noun, spot, way};
+use crate::noun::{Noun, Relation, Spot, direction, is_direction, noun, place, spot};
 use crate::phrases::{List, list};
 use crate::remark::remark_end;
 use crate::statement::spots;
 use crate::token::{Token, words};
-use crate::verb::{Act, Form, apart, base, begins, of_past, verb};
+use crate::verb::{Act, Inflection, apart, base, begins, of_past, verb};
 
 /// Tokens of a request, with what a rule knows of the place where it began.
 pub(crate) struct Clause<'a> {
@@ -80,20 +80,19 @@ const READERS: &[(&str, Reader)] = &[
         })
     }),
     ("to", |clause, _, at| {
-        let to = way(clause.tokens, at)
-            .filter(|(way, _)| way.relation == Relation::To && matches!(way.noun, Noun::Phrase(_)));
+        let to = direction(clause.tokens, at)
+            .filter(|(place, _)| place.relation == Relation::To && matches!(place.noun, Noun::Phrase(_)));
         one(to.map(|(_, end)| end))
     }),
-    ("toward", |clause, _, at| clause.check(is_way(clause.tokens, at), at)),
+    ("toward", |clause, _, at| clause.check(is_direction(clause.tokens, at), at)),
     ("somewhere", |clause, _, at| {
-        let is_way = way(clause.tokens, at).is_some_and(|(way, _)| way.relation != Relation::To);
-        clause
-            .check(is_way || spot(clause.tokens, at).is_some() || clause.stands("whereto", at).is_some(), at)
+        let leads = direction(clause.tokens, at).is_some_and(|(place, _)| place.relation != Relation::To);
+        clause.check(leads || spot(clause.tokens, at).is_some() || clause.stands("whereto", at).is_some(), at)
     }),
     // Verbs, each read as its base.
-    ("base", |clause, _, at| clause.form(at, Form::Base)),
-    ("gerund", |clause, _, at| clause.form(at, Form::Gerund)),
-    ("participle", |clause, _, at| clause.form(at, Form::Participle)),
+    ("base", |clause, _, at| clause.form(at, Inflection::Base)),
+    ("gerund", |clause, _, at| clause.form(at, Inflection::Gerund)),
+    ("participle", |clause, _, at| clause.form(at, Inflection::Participle)),
     ("past", |clause, _, at| clause.verb(at, of_past(clause.word(at)))),
     ("verb", |clause, argument, at| {
         let is_it = |act: &Act| argument.is_empty() || Act::named(argument) == Some(*act);
@@ -204,7 +203,7 @@ pub(crate) fn read(clause: &Clause<'_>, number: usize, argument: &'static str, a
     READERS.get(number).map(|(_, reader)| reader(clause, argument, at)).unwrap_or_default()
 }
 
-/// Checks whether a phrase of a list, or a word, stands among some tokens.
+/// True if a phrase of a list, or a word, stands among some tokens.
 fn has(tokens: &[Token], what: &str) -> bool {
     match list(what) {
         Some(List::Phrases(phrases)) => (0..tokens.len()).any(|at| phrases.longest(tokens, at).is_some()),
@@ -273,11 +272,10 @@ impl<'a> Clause<'a> {
     }
 
     fn place(&self, at: usize, fits: fn(&Spot) -> bool) -> Vec<Read> {
-        let place = spot(self.tokens, at).or_else(|| way(self.tokens, at));
-        one(place.filter(|(place, _)| fits(place)).map(|(_, end)| end))
+        one(place(self.tokens, at).filter(|(place, _)| fits(place)).map(|(_, end)| end))
     }
 
-    fn form(&self, at: usize, form: Form) -> Vec<Read> {
+    fn form(&self, at: usize, form: Inflection) -> Vec<Read> {
         self.verb(at, base(self.word(at)).filter(|(_, found)| *found == form).map(|(verb, _)| verb))
     }
 

@@ -1,5 +1,6 @@
 //! Reference resolution: the things of the scene that noun phrases, pronouns and places mean.
 
+use motet_stdlib::lang::entities;
 use smol_str::SmolStr;
 
 use crate::RequestError;
@@ -31,7 +32,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Checks whether it was asked and said what these words mean.
+    /// True if it was asked and said what these words mean.
     fn is_settled(&self, phrase: &Phrase) -> bool {
         self.situation.meant.iter().any(|(said, _)| *said == phrase.said)
     }
@@ -71,7 +72,7 @@ impl Reader<'_> {
         from: Option<&[SmolStr]>,
     ) -> Result<Vec<SmolStr>, RequestError> {
         match noun {
-            Noun::Speaker | Noun::Here => Ok(vec![SmolStr::new_static("user")]),
+            Noun::Speaker | Noun::Here => Ok(vec![SmolStr::new_static(entities::USER)]),
             Noun::There => match self.places.last() {
                 Some(place) => Ok(vec![place.clone()]),
                 None => Err(RequestError::NotUnderstood { part: "there".to_owned() }),

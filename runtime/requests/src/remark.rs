@@ -24,7 +24,7 @@ pub(super) fn remark_end(tokens: &[Token], begin: usize) -> usize {
     at
 }
 
-/// Checks whether words are a remark. Anything else that is no command is not understood.
+/// True if words are a remark. Anything else that is no command is not understood.
 pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
     let is = |rules: &'static str| Rules(rules).end(tokens, begin).is_some();
     end >= begin + 2 && !is("no_remarks") && is("remarks")
@@ -40,7 +40,7 @@ pub(super) fn beside(tokens: &[Token], at: usize, act: Act) -> Option<usize> {
     Some(Rules("beside").behind(tokens, at, Some(act))?.end)
 }
 
-/// Checks whether a phrase ends at a place.
+/// True if a phrase ends at a place.
 pub(super) fn is_boundary(tokens: &[Token], at: usize) -> bool {
     Rules("boundary").end(tokens, at).is_some()
 }
@@ -95,7 +95,7 @@ fn one(tokens: &[Token], at: usize) -> Option<(Command, usize)> {
     }
 }
 
-/// Checks whether what is forbidden is no part of what is asked for.
+/// True if what is forbidden is no part of what is asked for.
 fn is_other(forbidden: &Command, asked: &Command) -> bool {
     let puts = |act: Act| matches!(act, Act::Put | Act::Stow | Act::Store | Act::Release | Act::Move);
     let clears = |act: Act| matches!(act, Act::Discard | Act::Throw);

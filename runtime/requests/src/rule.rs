@@ -115,7 +115,7 @@ impl Clause<'_> {
         Some(State { slots: state.slots, ..end })
     }
 
-    /// All ways in which a part fits, in order.
+    /// All ends at which a part fits, in order.
     fn part(&self, part: &'static Part, state: State) -> Vec<State> {
         match part {
             Part::Word(word) => {

@@ -3,6 +3,7 @@
 //!
 //! A clause is such a fact as a whole or not at all: who sits at a table says nothing of what is on it.
 
+use motet_stdlib::lang::fluents;
 use smol_str::SmolStr;
 
 use crate::ReportedLocation;
@@ -11,7 +12,7 @@ use crate::english::{
     SPOTS_GOES_ON, TOLD_THERE,
 };
 use crate::meaning::{ANYWHERE, OBJECTS, Reader};
-use crate::noun::{Noun, Phrase, Relation, Spot, Which, noun, spot, way};
+use crate::noun::{Noun, Phrase, Relation, Spot, Which, noun, place, spot};
 use crate::parse::{Spoken, Statement};
 use crate::phrases::Phrases;
 use crate::rule::Rules;
@@ -218,7 +219,7 @@ impl Reader<'_> {
         let role = self.vocabulary.thing(place)?.role;
         // What is at a drawer may be in it or beside it.
         let is_clear = spot.relation != Relation::At || role != Role::Container;
-        let relation = if role == Role::Container { "in" } else { "on" };
+        let relation = if role == Role::Container { fluents::IN } else { fluents::ON };
         (spot.relation.fits(role) && is_clear).then(|| ReportedLocation {
             thing: thing.clone(),
             relation,
@@ -227,7 +228,7 @@ impl Reader<'_> {
     }
 }
 
-/// Checks whether a clause tells what is so as a rule.
+/// True if a clause tells what is so as a rule.
 pub(super) fn is_habit(tokens: &[Token]) -> bool {
     tokens.iter().any(|token| IS_HABIT_ALWAYS.has(token.word()))
 }
@@ -260,7 +261,7 @@ pub(super) fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Optio
                 Spot { relation: Relation::To, preposition: String::new(), noun, is_behind_thing: false };
             (is_named && (may_be_bare || !spots.is_empty())).then_some((spot, after))
         };
-        let (spot, after) = spot(tokens, at).or_else(|| way(tokens, at)).or_else(bare)?;
+        let (spot, after) = place(tokens, at).or_else(bare)?;
         spots.push(spot);
         at = skip(whole, after, &BEHIND_REPORT);
         if at >= whole.len() || (at > 0 && SPOTS_GOES_ON.longest(whole, at).is_some()) {

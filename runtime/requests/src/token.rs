@@ -4,7 +4,7 @@ use crate::english::{CONTRACTIONS, PLURALS};
 
 /// A word or a mark.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Token {
+pub(crate) enum Token {
     /// A word in lower case.
     Word(String),
     Comma,
@@ -14,7 +14,7 @@ pub enum Token {
 
 impl Token {
     /// The word; empty for a mark.
-    pub fn word(&self) -> &str {
+    pub(crate) fn word(&self) -> &str {
         match self {
             Self::Word(word) => word,
             Self::Comma | Self::Stop => "",
@@ -44,7 +44,7 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
 }
 
 /// The same, each with the offset in bytes behind it; what is written together ends together.
-pub fn pieces(text: &str) -> Vec<(Token, usize)> {
+pub(crate) fn pieces(text: &str) -> Vec<(Token, usize)> {
     let mut pieces = Vec::new();
     let mut word = String::new();
     let mut was_blank = true;

@@ -106,19 +106,19 @@ fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
     (!is_later && NO_THING.longest(tokens, after).is_none()).then_some(after)
 }
 
-/// Checks whether it is a wish that stands here, and no verb.
+/// True if it is a wish that stands here, and no verb.
 pub(super) fn is_want(tokens: &[Token], at: usize) -> bool {
     wanted(tokens, at).is_some()
 }
 
-/// Checks whether a request begins here, after what politeness puts before it.
+/// True if a request begins here, after what politeness puts before it.
 pub(super) fn begins(tokens: &[Token], at: usize) -> bool {
     verb(tokens, skip_leads(tokens, at)).is_some()
 }
 
 /// An inflection of a verb.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Form {
+pub(super) enum Inflection {
     Base,
     Gerund,
     Participle,
@@ -129,24 +129,24 @@ pub(super) fn of_past(word: &str) -> Option<String> {
     if let Some(verb) = PASTS.value(word) {
         return Some(verb.to_owned());
     }
-    base(word).filter(|(_, form)| *form == Form::Participle).map(|(verb, _)| verb)
+    base(word).filter(|(_, form)| *form == Inflection::Participle).map(|(verb, _)| verb)
 }
 
 /// A verb of a request by one of its forms: `fetching`, `placing`, `putting`, `carried`.
-pub(super) fn base(word: &str) -> Option<(String, Form)> {
+pub(super) fn base(word: &str) -> Option<(String, Inflection)> {
     if let Some(verb) = PARTICIPLES.value(word) {
-        return Some((verb.to_owned(), Form::Participle));
+        return Some((verb.to_owned(), Inflection::Participle));
     }
     if VERB.begins_with(word) {
-        return Some((word.to_owned(), Form::Base));
+        return Some((word.to_owned(), Inflection::Base));
     }
     let stem_of = |ending: &str| word.strip_suffix(ending).and_then(stem);
-    let gerund = stem_of("ing").map(|verb| (verb, Form::Gerund));
+    let gerund = stem_of("ing").map(|verb| (verb, Inflection::Gerund));
     let participle = || {
         let with_y = word.strip_suffix("ied").map(|stem| format!("{stem}y"));
         stem_of("ed").or_else(|| with_y.filter(|verb| VERB.begins_with(verb)))
     };
-    gerund.or_else(|| participle().map(|verb| (verb, Form::Participle)))
+    gerund.or_else(|| participle().map(|verb| (verb, Inflection::Participle)))
 }
 
 /// The verb of which a word without its ending is the stem: itself, with an `e`, or with its last letter
@@ -167,17 +167,17 @@ fn stem(stem: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Form, base, of_past};
+    use super::{Inflection, base, of_past};
 
     #[test]
     fn base_of_regular_and_irregular_forms() {
         for (word, verb, form) in [
-            ("fetching", "fetch", Form::Gerund),
-            ("placing", "place", Form::Gerund),
-            ("putting", "put", Form::Gerund),
-            ("carried", "carry", Form::Participle),
-            ("brought", "bring", Form::Participle),
-            ("put", "put", Form::Base),
+            ("fetching", "fetch", Inflection::Gerund),
+            ("placing", "place", Inflection::Gerund),
+            ("putting", "put", Inflection::Gerund),
+            ("carried", "carry", Inflection::Participle),
+            ("brought", "bring", Inflection::Participle),
+            ("put", "put", Inflection::Base),
         ] {
             assert_eq!(base(word), Some((verb.to_owned(), form)), "{word}");
         }

@@ -3,6 +3,7 @@
 //! room. A scene's own categories count beside it.
 
 use motet_robots::scene::Scene;
+use motet_stdlib::lang::{entities, kinds};
 use smol_str::SmolStr;
 
 use crate::english::{HOLDS_CAN, ORDINARY_WORDS, PACKAGES, SAME, THINGS, USES};
@@ -71,9 +72,9 @@ impl Vocabulary {
             Thing { id: entity.id.clone(), role: role(&entity.kind, entity.fixed), support, names, tags }
         });
         let mut things: Vec<Thing> = things.collect();
-        if !things.iter().any(|thing| thing.id == "user") {
-            let names = vec![vec!["user".to_owned()]];
-            let id = SmolStr::new_static("user");
+        if !things.iter().any(|thing| thing.id == entities::USER) {
+            let names = vec![vec![entities::USER.to_owned()]];
+            let id = SmolStr::new_static(entities::USER);
             things.push(Thing { id, role: Role::Person, support: None, names, tags: Vec::new() });
         }
         Self { things }
@@ -90,7 +91,7 @@ impl Vocabulary {
         }
     }
 
-    /// The things of some roles that words mean, by the closest way in which any is meant: by a whole name,
+    /// The things of some roles that words mean, by the closest of three matches: by a whole name,
     /// by what it is, or by words of its name and of what it is together. Words are in the singular.
     pub(super) fn meant(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
         let all = || self.things.iter().filter(|thing| roles.contains(&thing.role));
@@ -170,24 +171,24 @@ impl Thing {
             .map_or_else(|| self.id.to_string(), |name| name.join(" "))
     }
 
-    /// Checks whether some words hold all those of one of its names.
+    /// True if some words hold all those of one of its names.
     pub(super) fn is_named_in(&self, words: &[String]) -> bool {
         self.names.iter().any(|name| name.iter().all(|word| words.contains(word)))
     }
 
-    /// Checks whether it is something, by category.
+    /// True if it is something, by category.
     pub(super) fn is(&self, what: &str) -> bool {
         self.tags.iter().any(|tag| tag == what)
     }
 
-    /// Checks whether every word is one of its names' or says what it is; that it is packed says nothing by
+    /// True if every word is one of its names' or says what it is; that it is packed says nothing by
     /// itself. A word that only tells it apart, the `red` of a `red mug`, does not name it: there is a `can`
     /// of what is in it, but no `red can`.
     fn is_told_by(&self, words: &[String]) -> bool {
         self.are_its(words) && words.iter().any(|word| self.is_content(word))
     }
 
-    /// Checks whether every word is one of its names' or says what it is, adjectives alone too.
+    /// True if every word is one of its names' or says what it is, adjectives alone too.
     fn are_its(&self, words: &[String]) -> bool {
         let is_named = words.iter().any(|word| self.is_content(word));
         let is_its = |word: &String| self.is_one_of_its(word) || (is_named && is_package(word));
@@ -198,7 +199,7 @@ impl Thing {
         self.names.iter().flatten().any(|known| known == word) || self.is_content(word)
     }
 
-    /// Checks whether a word says what it is or what is in it: the noun of one of its names, or a category.
+    /// True if a word says what it is or what is in it: the noun of one of its names, or a category.
     pub(super) fn is_content(&self, word: &str) -> bool {
         self.names.iter().any(|name| name.last().is_some_and(|last| last == word))
             || self.is(usual(word).unwrap_or(word))
@@ -222,10 +223,10 @@ fn words(name: &str) -> Vec<String> {
 
 fn role(kind: &str, fixed: bool) -> Role {
     match kind {
-        "Surface" => Role::Surface,
-        "Container" => Role::Container,
-        "Place" => Role::Place,
-        "Person" => Role::Person,
+        kinds::SURFACE => Role::Surface,
+        kinds::CONTAINER => Role::Container,
+        kinds::PLACE => Role::Place,
+        kinds::PERSON => Role::Person,
         _ if fixed => Role::Surface,
         _ => Role::Object,
     }
@@ -252,18 +253,18 @@ pub(super) fn good_for(verb: &str) -> Option<&'static str> {
     USES.value(verb)
 }
 
-/// Checks whether a word says how a thing is packed.
+/// True if a word says how a thing is packed.
 pub(super) fn is_package(word: &str) -> bool {
     PACKAGES.has(word)
 }
 
-/// Checks whether something that is called so has in it what the words before say: a `water bottle`, but not
+/// True if something that is called so has in it what the words before say: a `water bottle`, but not
 /// a `water glass`.
 fn holds(word: &str) -> bool {
     HOLDS_CAN.has(word)
 }
 
-/// Checks whether a word is an ordinary one, and so no slip for the name of a thing: `look` is no misspelt
+/// True if a word is an ordinary one, and so no slip for the name of a thing: `look` is no misspelt
 /// `book`.
 fn is_ordinary(word: &str) -> bool {
     ORDINARY_WORDS.has(word) || is_word_of_lists(word)

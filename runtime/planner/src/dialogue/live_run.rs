@@ -4,16 +4,16 @@
 use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, NodeKind, Value};
-use motet_requests::{Intent, ReportedLocation, RequestContext};
+use motet_requests::{Intent, ReportedLocation, RequestContext, added, stops};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Answer, Driver, DriverEvent, Effect, Engine, Event, Observer, Pattern, PreparedSwap, Query, RetiredGraph,
     RunControl, RunEnd, SwapRefusal, Time, Truth, Verifier,
 };
+use motet_stdlib::lang::{entities, failures, fluents, kinds, primitives};
 use smol_str::SmolStr;
 
-use super::answer::{added, stops};
 use super::problem::named_entity;
 use super::{Conversation, DialogueObserver, Problem};
 use crate::builtin::PlannedRequest;
@@ -104,14 +104,14 @@ impl<'r, 'a> LiveRun<'r, 'a> {
         let is_first = self.started.is_empty() || self.started.as_slice() == [*node];
         match kind.as_str() {
             // What is picked up was driven to with the rest of what is there in view.
-            "unreachable" if is_call(graph, *node, "pick") => is_first,
+            failures::UNREACHABLE if is_call(graph, *node, primitives::PICK) => is_first,
             // From where it stands by chance there may be no room or no way: who drove there knows.
-            "unreachable" | "blocked" => {
+            failures::UNREACHABLE | failures::BLOCKED => {
                 let target = leads_to(graph, *node, bound);
                 let drove = |started: &NodeId| {
                     started != node
                         && leads_to(graph, *started, bound) == target
-                        && is_call(graph, *started, "go")
+                        && is_call(graph, *started, primitives::GO)
                 };
                 is_first || (target.is_some() && !self.started.iter().any(drove))
             }
@@ -160,7 +160,7 @@ impl<'r, 'a> LiveRun<'r, 'a> {
         known.learn(&engine, self.talk.base());
         self.talk.known = known;
         // What was not found is not where it was thought to be.
-        if !matches!(&end, RunEnd::Failed { kind, .. } if kind == "not_found") {
+        if !matches!(&end, RunEnd::Failed { kind, .. } if kind == failures::NOT_FOUND) {
             self.talk.known.presume(&before);
         }
         let after = self.talk.known.places(&self.talk.setting.scene);
@@ -440,13 +440,13 @@ pub(super) fn sense(
         }
     };
     for hand in robot.hands.keys() {
-        ask("free", vec![is(Value::Case(hand.clone()))]);
+        ask(fluents::FREE, vec![is(Value::Case(hand.clone()))]);
     }
     for one in scene.entities.values() {
-        if one.kind == "Object" {
-            ask("holding", vec![entity(&one.id)]);
+        if one.kind == kinds::OBJECT {
+            ask(fluents::HOLDING, vec![entity(&one.id)]);
         } else {
-            ask("at", vec![is(Value::Entity(SmolStr::new_static("robot"))), entity(&one.id)]);
+            ask(fluents::AT, vec![is(Value::Entity(SmolStr::new_static(entities::ROBOT))), entity(&one.id)]);
         }
     }
     for query in &queries {

@@ -1,12 +1,12 @@
 //! The dialogue manager: plans a request, runs the policy, retries, asks about problems, and plans anew with
 //! the answers.
 
-use motet_requests::{Intent, ReportedLocation, RequestError};
+use motet_requests::{Intent, Polarity, ReportedLocation, RequestError, polarity};
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, RunEnd, Time};
 use smol_str::SmolStr;
 
-use super::answer::{self, Answer, Polarity, polarity};
+use super::answer::{self, Answer};
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::live_run::{Continuation, LiveRun, RunResult, StopReason};
 use super::problem::{Kind, Problem};

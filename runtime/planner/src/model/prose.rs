@@ -3,31 +3,6 @@
 /// Maximum number of characters of such a reply.
 const MAX_CHARS: usize = 1_000;
 
-/// Words with which people and models refuse, between blanks.
-const REFUSALS: &[&str] = &[
-    " cannot ",
-    " can't ",
-    " can not ",
-    " couldn't ",
-    " unable ",
-    " not able ",
-    " won't ",
-    " will not ",
-    " refuse ",
-    " decline ",
-    " sorry ",
-    " impossible ",
-    " not possible ",
-    " unsafe ",
-    " not safe ",
-    " must not ",
-    " should not ",
-    " shouldn't ",
-    " do not know ",
-    " don't know ",
-    " no way to ",
-];
-
 /// The words of a reply that asks something or refuses, without thoughts. `None` for a reply that has a
 /// policy, or that says neither.
 pub(super) fn for_person(reply: &str) -> Option<String> {
@@ -36,15 +11,8 @@ pub(super) fn for_person(reply: &str) -> Option<String> {
     if words.contains(['{', '}']) || words.lines().any(opens) || words.chars().count() > MAX_CHARS {
         return None;
     }
-    let plain: String = words.to_lowercase().replace(['\u{2019}', '\u{2018}'], "'");
-    let plain: String = plain
-        .chars()
-        .map(|letter| if letter.is_alphanumeric() || letter == '\'' { letter } else { ' ' })
-        .collect();
-    let plain = format!(" {} ", plain.split_whitespace().collect::<Vec<_>>().join(" "));
-    let refuses = REFUSALS.iter().any(|refusal| plain.contains(refusal));
-    let asks = words.contains('?') && plain.contains(char::is_alphabetic);
-    (asks || refuses).then(|| words.split_whitespace().collect::<Vec<_>>().join(" "))
+    let asks = words.contains('?') && words.contains(char::is_alphabetic);
+    (asks || motet_requests::refuses(words)).then(|| words.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 #[cfg(test)]
