@@ -11,6 +11,7 @@
 //! ```
 
 mod check;
+mod colour;
 mod errors;
 pub mod model;
 mod outline;
@@ -21,6 +22,7 @@ mod wire;
 mod write;
 
 pub use check::fit;
+pub use colour::{Colour, PERSON_COLOUR, Palette, colour};
 pub use errors::CODES;
 pub use model::{normal, *};
 pub use outline::{Outline, PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, PlacedOutline};

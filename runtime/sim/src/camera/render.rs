@@ -2,8 +2,9 @@
 //! as PNG.
 
 use super::lens::{CameraLens, SIZE, dot};
-use super::scenery::{Colour, Painted, scenery};
+use super::scenery::{Painted, scenery};
 use crate::world::SimWorld;
+use motet_robots::scene::Colour;
 use motet_robots::scene::Scene;
 use motet_runtime::DepthImage;
 

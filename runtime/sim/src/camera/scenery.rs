@@ -3,10 +3,8 @@
 
 use super::solid::{Form, Solid};
 use crate::world::{Role, SimWorld, Thing};
-use fnv::FnvHasher;
-use motet_robots::scene::{Entity, Outline, Scene, Travel};
+use motet_robots::scene::{Colour, Outline, PERSON_COLOUR, Palette, Scene, Travel, colour};
 use std::f64::consts::FRAC_PI_2;
-use std::hash::Hasher as _;
 
 /// Thickness of the walls of open containers in m.
 const WALL_M: f64 = 0.02;
@@ -25,9 +23,9 @@ pub(super) fn scenery(world: &SimWorld, scene: &Scene) -> Vec<Painted> {
         let colour = match thing.role {
             // A place is nothing that one sees.
             Role::Place => continue,
-            Role::Person => PERSON,
-            Role::Surface | Role::Container => colour_of(id, entity, Palette::Furniture),
-            Role::Object => colour_of(id, entity, Palette::Things),
+            Role::Person => PERSON_COLOUR,
+            Role::Surface | Role::Container => colour(id, entity, Palette::Furniture),
+            Role::Object => colour(id, entity, Palette::Things),
         };
         if world.shut_in(id).is_some() {
             continue;
@@ -134,71 +132,4 @@ impl Door {
 fn placed(whole: &Solid, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let ((sin, cos), [cx, cy, cz]) = (whole.yaw.sin_cos(), whole.centre);
     [cx + cos * x - sin * y, cy + sin * x + cos * y, cz + z]
-}
-
-/// Red, green, blue.
-pub(super) type Colour = [u8; 3];
-
-/// Colours by the words for them.
-const WORDS: &[(&str, Colour)] = &[
-    ("red", [200, 38, 38]),
-    ("green", [64, 150, 60]),
-    ("blue", [40, 84, 190]),
-    ("yellow", [232, 200, 48]),
-    ("orange", [236, 134, 32]),
-    ("purple", [128, 62, 160]),
-    ("violet", [128, 62, 160]),
-    ("pink", [232, 130, 170]),
-    ("brown", [122, 82, 48]),
-    ("wooden", [168, 124, 76]),
-    ("black", [36, 36, 40]),
-    ("white", [240, 240, 238]),
-    ("grey", [130, 132, 136]),
-    ("gray", [130, 132, 136]),
-    ("silver", [188, 192, 198]),
-];
-/// For things in whose names there is none.
-const OTHERS: &[Colour] = &[
-    [176, 58, 46],
-    [46, 120, 130],
-    [196, 152, 60],
-    [92, 70, 140],
-    [70, 130, 84],
-    [204, 110, 76],
-    [60, 96, 150],
-    [150, 84, 110],
-];
-/// Colours of furniture.
-const WOODS: &[Colour] =
-    &[[176, 138, 96], [150, 112, 74], [194, 166, 128], [134, 120, 108], [206, 194, 172], [122, 96, 72]];
-const PERSON: Colour = [86, 104, 142];
-
-/// The colour of a thing by its names, else one of a palette by its id.
-fn colour_of(id: &str, entity: Option<&Entity>, palette: Palette) -> Colour {
-    let names = entity.into_iter().flat_map(|entity| &entity.names).map(|name| name.as_str());
-    let said = names.chain([id]).find_map(|name| {
-        let mut words = name.split(|letter: char| !letter.is_alphanumeric());
-        words.find_map(|word| WORDS.iter().find(|(known, _)| word.eq_ignore_ascii_case(known)))
-    });
-    if let Some((_, colour)) = said {
-        return *colour;
-    }
-    let colours = match palette {
-        Palette::Things => OTHERS,
-        Palette::Furniture => WOODS,
-    };
-    // FNV-1a is the same everywhere.
-    let mut hasher = FnvHasher::default();
-    hasher.write(id.as_bytes());
-    let hash = hasher.finish();
-    let count = u64::try_from(colours.len()).unwrap_or(1).max(1);
-    let at = usize::try_from(hash % count).unwrap_or_default();
-    colours.get(at).copied().unwrap_or(PERSON)
-}
-
-/// From which colours one is taken where the names say none.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Palette {
-    Things,
-    Furniture,
 }
