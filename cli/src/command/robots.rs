@@ -1,5 +1,7 @@
 //! `motet robots`: lists and shows robots, checks their files, and writes the card of a new one.
 
+mod mjcf;
+
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
@@ -48,6 +50,8 @@ enum RobotsCommand {
         #[arg(value_name = "NAME|FOLDER")]
         name: String,
     },
+    /// Write a MuJoCo model of a robot in a scene
+    Mjcf(mjcf::MjcfArgs),
     /// Write a first card for a robot from its URDF
     Add {
         /// URDF of the robot
@@ -68,6 +72,7 @@ pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, CliError> {
         None | Some(RobotsCommand::List) => list(report),
         Some(RobotsCommand::Show { name }) => show(name, report),
         Some(RobotsCommand::Check { name }) => check(name, report),
+        Some(RobotsCommand::Mjcf(args)) => mjcf::run(args, report),
         Some(RobotsCommand::Add { urdf, to, srdf }) => add(urdf, to.as_deref(), srdf.as_deref(), report),
     })
 }

@@ -3,6 +3,7 @@
 pub mod collision;
 pub mod inverse;
 pub mod kinematics;
+pub mod mjcf;
 pub mod planning;
 mod simd;
 mod trigonometry;

@@ -28,6 +28,7 @@ mod manners;
 mod oracle;
 mod outcomes;
 mod pddl;
+mod physics;
 mod places;
 mod planning;
 mod promises;

@@ -26,3 +26,4 @@ pub use scene::{
     AllowedCollisions, Articulation, Configuration, Contact, HandModel, IkSolver, KeptRegion, MIN_CLEARANCE,
     PlanningScene, RobotModel, SceneState, components,
 };
+pub(crate) use scene::{STANDS_OUT, THICK, WALL, solid_shape, walls};

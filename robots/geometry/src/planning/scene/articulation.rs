@@ -14,7 +14,7 @@ use crate::trigonometry::turn;
 /// Assumed wall thickness of an open container, in m.
 pub(crate) const WALL: f64 = 0.01;
 /// Distance from the face to the middle of its handle, in m: room for fingers behind it.
-const STANDS_OUT: f64 = 0.04;
+pub(crate) const STANDS_OUT: f64 = 0.04;
 /// Distance of a door's handle from the edge away from the hinge, in m.
 const INSET: f64 = 0.05;
 /// Thickness of a handle, in m.
@@ -228,7 +228,7 @@ fn across_mask(one: &Vector3<f64>, other: &Vector3<f64>) -> Vector3<f64> {
 }
 
 /// Five walls of a box without the face in one direction, in the frame of its pose.
-fn walls(pose: &Isometry3<f64>, half: &Vector3<f64>, missing: &Vector3<f64>) -> Vec<Solid> {
+pub(crate) fn walls(pose: &Isometry3<f64>, half: &Vector3<f64>, missing: &Vector3<f64>) -> Vec<Solid> {
     faces().filter(|face| face != missing).map(|face| wall(half, &face).moved(pose)).collect()
 }
 

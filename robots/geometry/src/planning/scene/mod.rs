@@ -8,7 +8,7 @@ mod robot_model;
 mod scene_state;
 
 pub use articulation::Articulation;
-pub(crate) use articulation::{THICK, WALL};
+pub(crate) use articulation::{STANDS_OUT, THICK, WALL, walls};
 pub use configuration::Configuration;
 pub(crate) use configuration::plane;
 pub use obstacle::{AllowedCollisions, Contact, MIN_CLEARANCE};

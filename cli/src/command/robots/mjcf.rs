@@ -1,0 +1,51 @@
+//! `motet robots mjcf`: writes the MuJoCo model of a robot in a scene.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use motet_geometry::mjcf;
+use motet_geometry::planning::RobotModel;
+use motet_project::{open_robot, read_scene, require};
+use motet_robots::scene;
+use motet_syntax::Sources;
+
+use crate::error::{CliError, Exit};
+use crate::report::Report;
+
+/// Flags of `motet robots mjcf`.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  \
+    motet robots mjcf --robot hsr --scene kitchen -o kitchen.xml\n\n\
+    The model has the shapes of the collision checks and refers to no other file. Bodies are\n\
+    named by the ids of the scene, links `robot/LINK`, and drawers and doors `ID/door`.")]
+pub(crate) struct MjcfArgs {
+    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml
+    #[arg(long, value_name = "NAME|FOLDER")]
+    robot: String,
+    /// Scene: a built-in name, or a JSON file
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// File for the model [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &MjcfArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let mut sources = Sources::default();
+    let (robot, urdf) = open_robot(&args.robot, &mut sources, report)?;
+    let Some(urdf) = urdf else {
+        return Err(CliError::Message(format!("the card of `{}` names no URDF under [model]", robot.name)));
+    };
+    let room = read_scene(&args.scene, &mut sources, report)?;
+    require("scene", &scene::fit(&room, &urdf), &sources, report)?;
+    let model = mjcf::write(&RobotModel::new(&robot, &urdf), &urdf, &room)
+        .map_err(|error| CliError::Message(error.to_string()))?;
+    match &args.output {
+        Some(path) => {
+            std::fs::write(path, model).map_err(|source| CliError::Write { path: path.clone(), source })?
+        }
+        None => report.out.text(&model),
+    }
+    Ok(Exit::Success)
+}
