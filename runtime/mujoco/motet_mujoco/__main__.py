@@ -1,0 +1,49 @@
+"""`python -m motet_mujoco`: a driver on standard input and output, whose robot is simulated by MuJoCo."""
+
+import argparse
+import sys
+
+from .driver import Driver, Options, stdio
+from .model import ModelError, find_motet, load
+
+
+def walk(text):
+    """A walk of a person: ID:X,Y[@SECONDS[,SPEED]]."""
+    person, _, rest = text.rpartition(":")
+    place, _, when = rest.partition("@")
+    x, y = (float(part) for part in place.split(","))
+    start, _, speed = (when or "0").partition(",")
+    return person, (x, y), float(start), float(speed or 0.8)
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="motet_mujoco", description=__doc__)
+    parser.add_argument("--robot", required=True, help="a built-in name, or a folder with a robot.toml")
+    parser.add_argument("--scene", required=True, help="a built-in name, or a JSON file")
+    parser.add_argument("--motet", help="the command `motet` [default: from PATH]")
+    parser.add_argument("--seed", type=int, default=0, help="seed of all that is drawn at random")
+    parser.add_argument("--profile", choices=sorted(Options.RATES), default="ideal",
+                        help="how poses, friction and people vary [default: ideal]")
+    parser.add_argument("--answers", action="append", default=[], metavar="TEXT",
+                        help="what people answer, in order; then `yes`")
+    parser.add_argument("--walk", action="append", default=[], type=walk, metavar="ID:X,Y[@SECONDS[,SPEED]]",
+                        help="a person walks to a place, at a time and with a speed in m/s")
+    parser.add_argument("--speed", type=float, default=1.0, help="for hosts with a wall clock: times real time")
+    parser.add_argument("--oracle", action="store_true", help="perceive by the truth of the simulator, not by pixels")
+    args = parser.parse_args(arguments)
+    try:
+        command = find_motet(args.motet)
+        model = load(args.robot, args.scene, command)
+    except ModelError as error:
+        print("error: %s" % error, file=sys.stderr)
+        return 2
+    driver = Driver(model, command, Options(args.profile, args.seed, args.answers), args.oracle, args.walk)
+    stdio(driver, args.speed)
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (KeyboardInterrupt, BrokenPipeError):
+        sys.exit(1)

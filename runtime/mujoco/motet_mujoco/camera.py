@@ -1,0 +1,101 @@
+"""Cameras: colour and depth pictures of the world, rendered without a window."""
+
+import base64
+import struct
+import zlib
+
+import mujoco
+import numpy as np
+
+WIDTH, HEIGHT = 640, 480
+# Nothing farther than this in m is in a depth picture.
+FARTHEST = 12.0
+
+
+class Picture:
+    """What a camera saw: colour, depth in m (0 where nothing is), and where the camera was."""
+
+    def __init__(self, name, colour, depth, position, rotation, focal):
+        self.name, self.colour, self.depth = name, colour, depth
+        self.position, self.rotation, self.focal = position, rotation, focal
+
+    @property
+    def centre(self):
+        """Principal point in pixels."""
+        return (self.colour.shape[1] - 1) / 2.0, (self.colour.shape[0] - 1) / 2.0
+
+    def points(self):
+        """Points in the map of all pixels, as an array of rows and columns."""
+        cx, cy = self.centre
+        rows, columns = np.indices(self.depth.shape)
+        ahead = self.depth
+        local = np.stack([(columns - cx) / self.focal * ahead, (rows - cy) / self.focal * ahead, ahead], axis=-1)
+        return local @ self.rotation.T + self.position
+
+    def message(self):
+        """The answer to `look` of the driver protocol."""
+        height, width = self.depth.shape
+        w, x, y, z = quaternion(self.rotation)
+        cx, cy = self.centre
+        mm = np.clip(np.round(self.depth * 1000.0), 0, 65535).astype("<u2")
+        return {
+            "image": {"width": width, "height": height, "png": base64.b64encode(png(self.colour)).decode()},
+            "depth": {"width": width, "height": height, "mm": base64.b64encode(mm.tobytes()).decode()},
+            "camera": {"name": self.name, "fx": self.focal, "fy": self.focal, "cx": cx, "cy": cy,
+                       "pose": {"xyz": [float(part) for part in self.position], "quaternion": [x, y, z, w]}},
+        }
+
+
+class NoGraphics(Exception):
+    """There is no graphics library that renders without a window."""
+
+
+class Camera:
+    """Renders pictures of a world. Made when the first picture is asked for: it needs a graphics library."""
+
+    def __init__(self, world):
+        self.world = world
+        self.renderer = None
+
+    def look(self, name):
+        """A picture of a camera."""
+        world, mj = self.world, self.world.model.mj
+        if self.renderer is None:
+            try:
+                self.renderer = mujoco.Renderer(mj, HEIGHT, WIDTH)
+            except Exception as error:  # each library has exceptions of its own
+                raise NoGraphics("no picture can be rendered (%s); install EGL, or run with --oracle" % error) from None
+        at = world.model.cameras.index(name)
+        mujoco.mj_camlight(mj, world.data)
+        self.renderer.update_scene(world.data, at)
+        colour = self.renderer.render().copy()
+        self.renderer.enable_depth_rendering()
+        self.renderer.update_scene(world.data, at)
+        depth = self.renderer.render().copy()
+        self.renderer.disable_depth_rendering()
+        depth[depth > FARTHEST] = 0.0
+        focal = HEIGHT / 2.0 / np.tan(np.radians(mj.cam_fovy[at]) / 2.0)
+        # The axes of images: x to the right, y down, z ahead.
+        rotation = world.data.cam_xmat[at].reshape(3, 3) @ np.diag([1.0, -1.0, -1.0])
+        return Picture(name, colour, depth, world.data.cam_xpos[at].copy(), rotation, float(focal))
+
+
+def quaternion(rotation):
+    """Quaternion w, x, y, z of a rotation."""
+    found = np.zeros(4)
+    mujoco.mju_mat2Quat(found, np.ascontiguousarray(rotation).ravel())
+    return [float(part) for part in found]
+
+
+def png(colour):
+    """A colour picture as a PNG file."""
+    height, width, _ = colour.shape
+    rows = np.concatenate([np.zeros((height, 1), dtype=np.uint8), colour.reshape(height, -1)], axis=1)
+
+    def chunk(kind, data):
+        check = zlib.crc32(kind + data)
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", check)
+
+    head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    body = zlib.compress(rows.tobytes(), 3)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")

@@ -1,0 +1,238 @@
+"""A detector of things by colour, size and shape, from one picture with depth.
+
+It knows the furniture, as a robot that has a map does, and takes for a thing what stands out from it. It never asks
+the simulator: all that it gets is pixels, the pose of the camera and the scene's fixed solids.
+
+    python -m motet_mujoco.detector     reads pictures as JSON lines (`look` of the driver protocol, with "solids"),
+                                        and answers each with a line of detections
+"""
+
+import base64
+import json
+import sys
+import zlib
+
+import numpy as np
+
+# Colours by their names, as the model paints them.
+COLOURS = {"red": (200, 38, 38), "green": (64, 150, 60), "blue": (40, 84, 190), "yellow": (232, 200, 48),
+           "orange": (236, 134, 32), "purple": (128, 62, 160), "pink": (232, 130, 170), "brown": (122, 82, 48),
+           "black": (36, 36, 40), "white": (240, 240, 238), "grey": (130, 132, 136)}
+# Distance in m within which a point belongs to known furniture, and to the floor.
+NEAR_FURNITURE, NEAR_FLOOR = 0.008, 0.02
+# Jump in depth in m between pixels of two things, difference of hue between them, and pixels of the smallest thing.
+JUMP, HUE, SMALLEST = 0.03, 0.09, 40
+# Extent in m of the largest thing.
+LARGEST = 0.6
+
+
+class Detection:
+    """A thing in a picture: where it is, how large, and what it looks like."""
+
+    def __init__(self, label, position, extent, confidence, colour):
+        self.label, self.position, self.extent = label, position, extent
+        self.confidence, self.colour = confidence, colour
+
+
+def detect(picture, solids):
+    """Things in a picture, the largest in pixels first. `solids` are those of known furniture: dictionaries with
+    `xyz`, `rotation` (3 × 3) and `box` (half sides) or `cylinder` (radius, half height)."""
+    points = picture.points()
+    known = (picture.depth <= 0.0) | (points[..., 2] < NEAR_FLOOR)
+    for solid in solids:
+        known |= belongs(points, solid)
+    labels = components(~known, picture.depth, picture.colour)
+    counts = np.bincount(labels.ravel())
+    found = []
+    for label in np.argsort(-counts, kind="stable"):
+        if label == 0 or counts[label] < SMALLEST:
+            continue
+        mask = labels == label
+        one = describe(points[mask], picture.colour[mask], mask)
+        if one is not None:
+            found.append(one)
+    return found
+
+
+def belongs(points, solid):
+    """Mask of the points that belong to a solid."""
+    local = (points - np.array(solid["xyz"])) @ np.array(solid["rotation"])
+    if "box" in solid:
+        return np.all(np.abs(local) <= np.array(solid["box"]) + NEAR_FURNITURE, axis=-1)
+    radius, half = solid["cylinder"]
+    around = np.hypot(local[..., 0], local[..., 1]) <= radius + NEAR_FURNITURE
+    return around & (np.abs(local[..., 2]) <= half + NEAR_FURNITURE)
+
+
+def components(mask, depth, colour):
+    """Connected parts of a mask, cut where depth jumps or the hue changes: an array of labels, 0 outside."""
+    hue, grey = hues(colour)
+    parent = np.arange(mask.size)
+
+    def root(at):
+        while parent[at] != at:
+            parent[at] = parent[parent[at]]
+            at = parent[at]
+        return at
+
+    height, width = mask.shape
+    index = np.arange(mask.size).reshape(mask.shape)
+    for rows, columns in ((0, 1), (1, 0)):
+        one = (slice(0, height - rows), slice(0, width - columns))
+        two = (slice(rows, height), slice(columns, width))
+        turn = np.abs(hue[one] - hue[two])
+        alike = np.minimum(turn, 1.0 - turn) < HUE
+        alike = np.where(grey[one] | grey[two], grey[one] & grey[two], alike)
+        joined = mask[one] & mask[two] & (np.abs(depth[one] - depth[two]) < JUMP) & alike
+        for a, b in zip(index[one][joined].tolist(), index[two][joined].tolist()):
+            first, second = root(a), root(b)
+            if first != second:
+                parent[max(first, second)] = min(first, second)
+    flat = mask.ravel()
+    roots = np.zeros(mask.size, dtype=np.int64)
+    for at in np.flatnonzero(flat).tolist():
+        roots[at] = root(at) + 1
+    _, labels = np.unique(roots, return_inverse=True)
+    if not (~flat).any():
+        labels = labels + 1
+    return labels.reshape(mask.shape)
+
+
+def hues(colour):
+    """Hue of each pixel in 0..1, and a mask of the pixels without one."""
+    rgb = colour.astype(np.float64) / 255.0
+    most, least = rgb.max(axis=-1), rgb.min(axis=-1)
+    span = np.maximum(most - least, 1e-9)
+    red, green, blue = rgb[..., 0], rgb[..., 1], rgb[..., 2]
+    hue = np.where(most == red, (green - blue) / span % 6.0,
+                   np.where(most == green, (blue - red) / span + 2.0, (red - green) / span + 4.0)) / 6.0
+    return hue, (most - least < 0.12 * np.maximum(most, 0.2))
+
+
+def describe(points, colours, mask):
+    """The detection of one part of a picture; None for something that is no thing."""
+    low, high = np.percentile(points, [1, 99], axis=0)
+    extent = high - low
+    if extent.max() > LARGEST or extent.max() < 0.008:
+        return None
+    # Of a thing one sees the near half: its middle lies behind what one sees, its height is seen.
+    horizontal = max(extent[0], extent[1])
+    height = extent[2]
+    centre = (low + high) / 2.0
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    is_cut = rows[0] == 0 or columns[0] == 0 or rows[-1] == mask.shape[0] - 1 or columns[-1] == mask.shape[1] - 1
+    fill = mask.sum() / float((rows[-1] - rows[0] + 1) * (columns[-1] - columns[0] + 1))
+    shape = shape_of(points, extent, fill)
+    colour = np.median(colours, axis=0)
+    label = "%s %s" % (colour_name(colour), shape)
+    seen = min(1.0, mask.sum() / 400.0)
+    confidence = (0.5 if is_cut else 0.9) * (0.5 + 0.5 * seen)
+    if shape == "sphere":
+        wide = max(horizontal, height)
+        size = np.array([wide] * 3)
+    elif shape == "cylinder":
+        size = np.array([horizontal, horizontal, height])
+    else:
+        size = np.array([max(extent[0], 0.01), max(extent[1], 0.01), max(height, 0.01)])
+    return Detection(label, centre, size, confidence, colour)
+
+
+def shape_of(points, extent, fill):
+    """`sphere`, `cylinder` or `box`, by how the points curve."""
+    height = extent[2]
+    horizontal = max(extent[0], extent[1])
+    # Width at a quarter of the height from above and below, as a share of that in the middle.
+    low, high = points[:, 2].min(), points[:, 2].max()
+    widths = []
+    for share in (0.1, 0.5, 0.9):
+        band = np.abs(points[:, 2] - (low + (high - low) * share)) < 0.08 * max(high - low, 1e-3)
+        if band.sum() < 5:
+            widths.append(0.0)
+            continue
+        widths.append(float(np.ptp(points[band][:, :2], axis=0).max()))
+    if widths[1] > 0 and max(widths[0], widths[2]) < 0.8 * widths[1] and 0.7 < height / max(horizontal, 1e-6) < 1.3:
+        return "sphere"
+    # A flat face keeps one depth, a round one does not.
+    middle = np.abs(points[:, 2] - (low + high) / 2.0) < 0.25 * max(high - low, 1e-3)
+    if middle.sum() >= 12:
+        flat = points[middle][:, :2]
+        centred = flat - flat.mean(axis=0)
+        _, spread, _ = np.linalg.svd(centred, full_matrices=False)
+        bend = spread[-1] / max(spread[0], 1e-9)
+        if 0.12 < bend < 0.6 and fill > 0.7:
+            return "cylinder"
+    return "box"
+
+
+def colour_name(colour):
+    """The name of the nearest colour, whatever the light on it."""
+    colour = np.asarray(colour, dtype=float)
+    bright = colour.sum() / 3.0
+    span = colour.max() - colour.min()
+    if span < 0.15 * max(colour.max(), 50.0):
+        return "black" if bright < 60 else "white" if bright > 190 else "grey"
+    unit = colour / np.linalg.norm(colour)
+    chromatic = {name: np.array(value, dtype=float) for name, value in COLOURS.items()
+                 if name not in ("black", "white", "grey")}
+    return max(chromatic, key=lambda name: unit @ (chromatic[name] / np.linalg.norm(chromatic[name])))
+
+
+# As a process of its own.
+
+
+def unpack(message):
+    """A picture of a `look` message."""
+    from .camera import Picture
+
+    image, depth, camera = message["image"], message["depth"], message["camera"]
+    colour = read_png(base64.b64decode(image["png"]))
+    mm = np.frombuffer(base64.b64decode(depth["mm"]), dtype="<u2").reshape(depth["height"], depth["width"])
+    x, y, z, w = camera["pose"]["quaternion"]
+    rotation = matrix(w, x, y, z)
+    return Picture(camera["name"], colour, mm / 1000.0, np.array(camera["pose"]["xyz"]), rotation, camera["fx"])
+
+
+def matrix(w, x, y, z):
+    """Rotation of a quaternion."""
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def read_png(data):
+    """Colours of a PNG as `look` writes it: 8 bits, red, green and blue, without filters; others with OpenCV."""
+    at, width, height, body = 8, 0, 0, b""
+    while at + 8 <= len(data):
+        size, kind = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
+        part = data[at + 8 : at + 8 + size]
+        if kind == b"IHDR":
+            width, height = int.from_bytes(part[:4], "big"), int.from_bytes(part[4:8], "big")
+        elif kind == b"IDAT":
+            body += part
+        at += 12 + size
+    rows = np.frombuffer(zlib.decompress(body), dtype=np.uint8)
+    if rows.size == height * (width * 3 + 1):
+        rows = rows.reshape(height, width * 3 + 1)
+        if not rows[:, 0].any():
+            return rows[:, 1:].reshape(height, width, 3)
+    import cv2
+
+    return cv2.imdecode(np.frombuffer(data, dtype=np.uint8), cv2.IMREAD_COLOR)[:, :, ::-1]
+
+
+def wire(found):
+    """Detections as the driver protocol writes them, without ids."""
+    return [{"label": one.label, "id": None, "extent": [round(float(part), 4) for part in one.extent],
+             "pose": {"xyz": [round(float(part), 4) for part in one.position], "quaternion": [0.0, 0.0, 0.0, 1.0]},
+             "confidence": round(float(one.confidence), 3)} for one in found]
+
+
+def main():
+    for line in sys.stdin:
+        message = json.loads(line)
+        found = detect(unpack(message), message.get("solids", []))
+        print(json.dumps({"detections": wire(found)}), flush=True)
+
+
+if __name__ == "__main__":
+    main()

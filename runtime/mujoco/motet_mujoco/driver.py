@@ -1,0 +1,417 @@
+"""The driver protocol, version 2 (docs/drivers.md), over the world."""
+
+import json
+import os
+import selectors
+import sys
+import time
+
+import numpy as np
+
+from .beliefs import Beliefs
+from .camera import NoGraphics
+from .eyes import Eyes
+from .observation import Observer
+from .planner import Planner
+from .tasks import Failed, Tasks
+from .world import World
+
+REFUSED, METHOD_NOT_FOUND, INVALID_PARAMS, INTERNAL = 1, -32601, -32602, -32603
+# After so many seconds without a word a host on a wall clock has vanished.
+SILENCE = 5.0
+# Ticks between two reports `moved`.
+MOVED_EVERY = 0.05
+
+
+class Options:
+    """What is drawn at random: noise of poses, how long people take, whether they refuse."""
+
+    RATES = {"ideal": (0.0, 0.0, 0.0, 0.0), "typical": (0.003, 0.05, 0.5, 0.0), "harsh": (0.012, 0.3, 3.0, 0.15)}
+
+    def __init__(self, profile="ideal", seed=0, answers=()):
+        self.pose_m, self.friction, self.late_secs, self.refusal = self.RATES[profile]
+        self.random = np.random.default_rng(seed)
+        self.answers = answers
+
+    def noise(self):
+        """Error of a seen position in m."""
+        return self.random.normal(0.0, self.pose_m, 3) if self.pose_m else np.zeros(3)
+
+    def reaction(self):
+        """Seconds that a person takes."""
+        return 0.8 + (float(self.random.exponential(self.late_secs)) if self.late_secs else 0.0)
+
+    def refuses(self):
+        """True where a person does not do what they are asked."""
+        return bool(self.refusal and self.random.random() < self.refusal)
+
+    def grip_share(self):
+        """Friction of a run, as a share of the model's."""
+        return 1.0 + (float(self.random.uniform(-self.friction, self.friction / 2.0)) if self.friction else 0.0)
+
+
+class Error(Exception):
+    """An answer that is an error."""
+
+    def __init__(self, code, message, data=None):
+        super().__init__(message)
+        self.code, self.data = code, data
+
+
+class Goal:
+    """A goal with its task."""
+
+    def __init__(self, command, task):
+        self.command, self.task = command, task
+        self.state, self.is_held = "running", False
+
+
+class Driver:
+    """Keeps goals, answers calls, and lets the world go on."""
+
+    def __init__(self, model, command, options, oracle=False, walks=()):
+        self.model, self.command, self.options = model, command, options
+        self.oracle, self.walks = oracle, list(walks)
+        self.instance = "%d-%d" % (os.getpid(), time.time_ns())
+        self.say = lambda message: None
+        self.run, self.protocol, self.has_clock = None, 2, False
+        self.declared, self.offset = {}, 0.0
+        self.make()
+
+    def make(self):
+        """Makes the world as it is at the start."""
+        self.world = World(self.model)
+        share = self.options.grip_share()
+        self.model.mj.geom_friction[:, 0] = share
+        self.observer = Observer(self.world)
+        self.beliefs = Beliefs(self.world)
+        noise = self.options.noise
+        self.eyes = Eyes(self.world, self.observer, self.beliefs, self.oracle, noise)
+        planner = Planner(self.command, self.model.source) if self.command else None
+        self.tasks = Tasks(self.world, self.observer, self.beliefs, planner, self.eyes, self.options)
+        self.goals, self.watched, self.moved_at, self.detected = {}, [], -1.0, None
+        self.hold_what_is_held()
+
+    def hold_what_is_held(self):
+        """Closes the fingers around what the scene puts between them."""
+        holding = self.model.scene["robot"].get("holding")
+        if holding in self.model.free:
+            self.world.settle_in_hand(holding)
+            self.tasks.goal[:] = self.world.target
+            self.world.data.time = 0.0
+
+    # Calls.
+
+    def hello(self, params):
+        version = params["protocol"]
+        if version not in (1, 2):
+            raise Error(INVALID_PARAMS, "this driver speaks versions 1 and 2 of the protocol")
+        run = params.get("run")
+        if self.run is not None and run != self.run or run is None:
+            self.stop_all()
+            self.goals, self.watched = {}, []
+        self.run, self.protocol = run, version
+        # The time of a run begins at 0, or goes on where the host says.
+        self.offset = self.world.now - float(params.get("at", 0.0))
+        self.has_clock = version >= 2
+        capabilities = {"hold": "all", "update": {"only": []}}
+        if version >= 2:
+            capabilities.update({"clock": "driver", "moved": True, "look": True, "detections": True})
+        return {"protocol": version, "driver": "motet_mujoco 0.1.0", "instance": self.instance,
+                "capabilities": capabilities}
+
+    def start(self, params):
+        number, command = params["goal"], params["command"]
+        if number not in self.goals:
+            task = self.tasks.task(command)
+            self.goals[number] = Goal(command, task)
+            if task is None:
+                kinds = self.kinds(command["primitive"])
+                self.goals[number].state = {"refused": {"kind": kinds[0] if kinds else "refused",
+                                                        "text": "this robot cannot do that in physics"}}
+        state = self.goals[number].state
+        if isinstance(state, dict) and "refused" in state:
+            raise Error(REFUSED, "the goal is refused", {"failure": state["refused"]})
+        return {}
+
+    def update(self, _params):
+        return {}
+
+    def cancel(self, params):
+        if self.running(params["goal"]):
+            self.end(params["goal"], "interrupted")
+        return {}
+
+    def hold(self, params):
+        goal = self.running(params["goal"])
+        if goal:
+            goal.is_held = True
+            self.freeze()
+        return {}
+
+    def proceed(self, params):
+        goal = self.running(params["goal"])
+        if goal:
+            goal.is_held = False
+        return {}
+
+    def safe_stop(self, params):
+        number = params["goal"]
+        if self.running(number):
+            self.goals[number].task.close()
+            self.freeze()
+        if number not in self.goals or self.goals[number].state == "running":
+            self.goals[number] = Goal(None, None)
+            self.goals[number].state = "stopped"
+        self.report("stopped", {"goal": number})
+        return {}
+
+    def observe(self, params):
+        return {"answer": self.observer.answer(params["query"])}
+
+    def watch(self, params):
+        query = params["query"]
+        answer = self.observer.answer(query)
+        self.watched = [(known, value) for known, value in self.watched if known != query] + [(query, answer)]
+        return {"answer": answer}
+
+    def unwatch(self, params):
+        self.watched = [(known, value) for known, value in self.watched if known != params["query"]]
+        return {}
+
+    def status(self, params):
+        def state(number):
+            return self.goals[number].state if number in self.goals else "unknown"
+
+        return {"goals": [{"goal": number, "state": state(number)} for number in params["goals"]]}
+
+    def ping(self, _params):
+        return {}
+
+    def look(self, params):
+        try:
+            picture = self.eyes.look(params.get("camera"))
+        except NoGraphics as error:
+            raise Error(INTERNAL, str(error)) from None
+        if picture is None:
+            raise Error(INVALID_PARAMS, "the robot has no camera `%s`" % params.get("camera"))
+        return picture.message()
+
+    def detections(self, _params):
+        try:
+            return {"detections": self.eyes.detections()}
+        except NoGraphics as error:
+            raise Error(INTERNAL, str(error)) from None
+
+    def advance(self, params):
+        """Lets the world go on until the first report, or until a time."""
+        until, reports = float(params["until"]) + self.offset, []
+        say, self.say = self.say, reports.append
+        try:
+            while not any(one["method"] != "moved" for one in reports) and self.world.now + self.world.tick <= until + 1e-9:
+                self.tick()
+        finally:
+            self.say = say
+        for report in reports:
+            self.say(report)
+        is_over = any(one["method"] != "moved" for one in reports)
+        return {"now": round((self.world.now if is_over else max(self.world.now, until)) - self.offset, 6)}
+
+    METHODS = ("hello start update cancel hold proceed safe_stop observe watch unwatch status ping look detections "
+               "advance").split()
+
+    # The world.
+
+    def tick(self):
+        """Goes on by a tick: tasks aim, people walk, the world moves, and what changed is told."""
+        self.tasks.rate[:] = 0.0
+        for number in sorted(self.goals):
+            goal = self.goals[number]
+            if goal.state != "running" or goal.is_held:
+                continue
+            try:
+                next(goal.task)
+            except StopIteration as done:
+                self.end(number, {"success": done.value})
+            except Failed as failure:
+                self.end(number, {"failure": self.failure(goal.command["primitive"], failure)})
+        self.walk()
+        self.world.step(self.tasks.goal, self.tasks.rate)
+        self.observer.tick()
+        self.tell()
+
+    def walk(self):
+        """Moves people along their walks: (person, from, to, start and speed)."""
+        for person, target, start, speed in self.walks:
+            at = self.model.people.get(person)
+            if at is None or self.world.now < start:
+                continue
+            off = np.array(target) - self.world.data.mocap_pos[at, :2]
+            far = float(np.linalg.norm(off))
+            if far > 1e-6:
+                self.world.data.mocap_pos[at, :2] += off * min(1.0, speed * self.world.tick / far)
+
+    def tell(self):
+        """Reports answers that changed, and where everything is."""
+        for at, (query, before) in enumerate(self.watched):
+            now = self.observer.answer(query)
+            if now != before and not alike(now, before):
+                self.watched[at] = (query, now)
+                self.report("observed", {"query": query, "answer": now})
+        if self.protocol >= 2 and self.world.now - self.moved_at >= MOVED_EVERY:
+            self.moved_at = self.world.now
+            self.report("moved", self.where())
+
+    def where(self):
+        """Where everything is, as the report `moved` says it."""
+        world, model = self.world, self.model
+        values = world.data.qpos[model.control_qpos]
+        base = ("base/x", "base/y", "base/yaw")
+        joints = {joint: round(float(values[at]), 5) for joint, at in model.controls.items() if joint not in base}
+        things = []
+        for thing in model.free:
+            position, (w, x, y, z) = world.pose(thing)
+            things.append({"id": thing, "xyz": [round(float(part), 4) for part in position],
+                           "quaternion": [round(float(part), 5) for part in (x, y, z, w)]})
+        base = [round(float(part), 5) for part in world.base()]
+        return {"at": round(world.now - self.offset, 4), "base": base, "joints": joints, "things": things}
+
+    def freeze(self):
+        """Keeps every joint where it is."""
+        at = list(range(len(self.tasks.goal)))
+        arm = [one for one in at if one not in self.model.grips]
+        self.tasks.goal[arm] = self.world.data.qpos[self.model.control_qpos][arm]
+
+    # Goals.
+
+    def failure(self, primitive, failure):
+        """A failure as its primitive declares it."""
+        kinds = self.kinds(primitive)
+        kind = failure.kind if failure.kind in kinds or not kinds else kinds[-1]
+        return {"kind": kind, "text": str(failure)[:1000]}
+
+    def kinds(self, primitive):
+        """Failure kinds that a primitive declares."""
+        if not self.declared and self.command:
+            self.declared = declared(self.command, self.model.source)
+        return self.declared.get(primitive, [])
+
+    def running(self, number):
+        goal = self.goals.get(number)
+        return goal if goal is not None and goal.state == "running" else None
+
+    def end(self, number, outcome):
+        self.goals[number].task.close()
+        self.goals[number].state = {"ended": outcome}
+        if outcome == "interrupted":
+            self.freeze()
+        self.report("ended", {"goal": number, "outcome": outcome})
+
+    def stop_all(self):
+        """Stops everything that moves."""
+        for number in list(self.goals):
+            goal = self.running(number)
+            if goal:
+                goal.task.close()
+                goal.state = "stopped"
+        self.freeze()
+
+    # Messages.
+
+    def report(self, method, params):
+        self.say({"jsonrpc": "2.0", "method": method, "params": params})
+
+    def take(self, line):
+        """Takes a line in. False where the host goes."""
+        message = json.loads(line)
+        method = message.get("method")
+        if method == "bye":
+            self.stop_all()
+            return False
+        answer = {"jsonrpc": "2.0", "id": message.get("id")}
+        later = []
+        say, self.say = self.say, later.append
+        try:
+            if method not in self.METHODS:
+                raise Error(METHOD_NOT_FOUND, "there is no method `%s`" % method)
+            answer["result"] = getattr(self, method)(message.get("params", {}))
+        except Error as error:
+            answer["error"] = {"code": error.code, "message": str(error), "data": error.data}
+        except (KeyError, TypeError, ValueError) as error:
+            answer["error"] = {"code": INVALID_PARAMS, "message": "bad parameters: %r" % error, "data": None}
+        finally:
+            self.say = say
+        # What an `advance` reports comes before its answer, and what any other call reports after it.
+        messages = [*later, answer] if method == "advance" else [answer, *later]
+        for one in messages:
+            self.say(one)
+        return True
+
+
+def alike(now, before):
+    """True for readings that differ by less than a host could use."""
+    try:
+        one, other = now["value"]["number"], before["value"]["number"]
+    except (KeyError, TypeError):
+        return False
+    return abs(one - other) < 0.005
+
+
+def declared(command, robot):
+    """Failure kinds by primitive, as `motet robots show` prints them."""
+    from .model import motet
+
+    kinds, current = {}, None
+    for line in motet(command, "robots", "show", robot).splitlines():
+        words = line.strip().split(None, 1)
+        if line.startswith(("action ", "perception ")):
+            current = words[1].partition("(")[0]
+            kinds[current] = []
+        elif current and words and words[0] == "fails":
+            kinds[current] = [one.strip() for one in words[1].split(",")]
+    return kinds
+
+
+def serve(driver, read_fd, write, speed=1.0):
+    """Serves a host until it goes. Without a clock of the driver, the world follows the wall clock."""
+    driver.say = lambda message: write((json.dumps(message) + "\n").encode())
+    selector = selectors.DefaultSelector()
+    selector.register(read_fd, selectors.EVENT_READ)
+    rest, heard, began = b"", time.monotonic(), time.monotonic()
+    offset = driver.world.now
+    while True:
+        if driver.has_clock:
+            wait = None
+        else:
+            behind = offset + (time.monotonic() - began) * speed - driver.world.now
+            wait = 0.0 if behind >= driver.world.tick else driver.world.tick / speed
+        ready = selector.select(wait)
+        if not driver.has_clock:
+            ticks = 0
+            while offset + (time.monotonic() - began) * speed - driver.world.now >= driver.world.tick and ticks < 50:
+                driver.tick()
+                ticks += 1
+            if time.monotonic() - heard > SILENCE:
+                return
+        if not ready:
+            continue
+        data = os.read(read_fd, 65536)
+        heard = time.monotonic()
+        if not data:
+            return
+        *lines, rest = (rest + data).split(b"\n")
+        for line in lines:
+            if line.strip() and not driver.take(line):
+                return
+
+
+def stdio(driver, speed):
+    """Serves the host at standard input and output."""
+
+    def write(data):
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+
+    serve(driver, sys.stdin.fileno(), write, speed)
+    driver.stop_all()
+    driver.eyes.close()

@@ -1,0 +1,275 @@
+"""The world: a simulated robot in its scene, moved step by step, and what holds in it.
+
+Facts follow from contacts and poses. Nothing here knows what a command was for.
+"""
+
+import mujoco
+import numpy as np
+
+from .motion import Reacher, near_turn
+
+# Steps of the simulation for each target of the actuators.
+STEPS = 2
+# Force in N from which a part presses.
+PRESSES = 0.2
+# Share of the travel from which a drawer or a door is open.
+OPENED = 0.6
+# Distance in m up to which a thing at rest may sink into what bears it.
+SINKS = 0.02
+
+
+class World:
+    """A robot in a scene over time."""
+
+    def __init__(self, model):
+        self.model = model
+        self.data = mujoco.MjData(model.mj)
+        self.reacher = Reacher(model)
+        self.integral = np.zeros(model.mj.nu)
+        self.carried_by = {}
+        # Contacts of what sleeps too, found when asked for.
+        self.scratch, self.near_at, self.nearby = mujoco.MjData(model.mj), -1.0, []
+        self.error = np.zeros(2)  # greatest error of the tip since `measure`, in m and rad
+        self.reset()
+
+    def reset(self):
+        """Back to the start of the scene."""
+        mujoco.mj_resetDataKeyframe(self.model.mj, self.data, self.model.mj.key("start").id)
+        self.target = np.array(self.data.ctrl)
+        self.integral[:] = 0.0
+        mujoco.mj_forward(self.model.mj, self.data)
+
+    @property
+    def now(self):
+        """Time in s since the start."""
+        return self.data.time
+
+    @property
+    def tick(self):
+        """Time in s between two targets."""
+        return STEPS * self.model.mj.opt.timestep
+
+    def step(self, target=None, rate=None):
+        """Goes on by a tick, with the actuators at a target that moves at a rate."""
+        model, data = self.model, self.data
+        if target is not None:
+            self.target = np.array(target, dtype=float)
+        # A position servo brakes: led by as much as that, it follows a moving target without a lag. A slow
+        # integral holds against weight.
+        off = self.target - data.qpos[model.control_qpos]
+        self.integral = np.clip(self.integral + 4.0 * self.tick * off, -0.02, 0.02)
+        for at in model.grips:
+            self.integral[at] = 0.0
+        data.ctrl[:] = self.target + self.integral
+        if rate is not None:
+            data.ctrl[:] += model.lead * rate
+        for thing, (person, offset) in self.carried_by.items():
+            self.place(thing, data.mocap_pos[model.people[person]] + offset)
+        mujoco.mj_step(model.mj, data, STEPS)
+
+    def run(self, path, until=lambda: False):
+        """Follows a path; ends early where `until` says so. Answers whether it came to the end."""
+        start = self.now
+        while self.now - start < path.end:
+            self.step(*path.at(self.now - start + self.tick / 2.0))
+            if until():
+                return False
+        self.step(path.points[-1])
+        return True
+
+    def wait(self, seconds):
+        """Holds still for a time."""
+        start = self.now
+        while self.now - start < seconds:
+            self.step()
+
+    # Poses.
+
+    def base(self):
+        """Pose of the base: x, y, yaw."""
+        if self.model.drives:
+            return self.data.qpos[self.model.control_qpos[:3]].copy()
+        return np.array(self.model.scene["robot"]["base"], dtype=float)
+
+    def tip(self):
+        """Position and rotation of the hand: z along the fingers, y along their closing."""
+        at = self.model.tip
+        return self.data.site_xpos[at].copy(), self.data.site_xmat[at].reshape(3, 3).copy()
+
+    def tip_frame(self):
+        """Position and rotation of the link of the tip, in which grips are given."""
+        at = self.model.mj.site_bodyid[self.model.tip]
+        return self.data.xpos[at].copy(), self.data.xmat[at].reshape(3, 3).copy()
+
+    def pose(self, entity):
+        """Position and rotation (w, x, y, z) of an entity; None without a body."""
+        at = self.model.body_of.get(entity)
+        if at is None:
+            return None
+        return self.data.xpos[at].copy(), self.data.xquat[at].copy()
+
+    def in_hand(self, thing):
+        """Position of a thing in the frame of the hand."""
+        place, rotation = self.tip()
+        return rotation.T @ (self.pose(thing)[0] - place)
+
+    def settle_in_hand(self, thing):
+        """Closes the fingers around a thing that stays where it is meanwhile."""
+        position, quaternion = self.pose(thing)
+        ticks, target = int(1.0 / self.tick), self.target.copy()
+        start = {at: target[at] for at in self.model.grips}
+        for tick in range(ticks):
+            for at, (_, closed) in self.model.grips.items():
+                target[at] = start[at] + (closed - start[at]) * min(2.0 * (tick + 1) / ticks, 1.0)
+            self.place(thing, position, quaternion)
+            self.step(target)
+        self.wait(0.3)
+
+    def place(self, thing, position, quaternion=None):
+        """Puts a thing somewhere, at rest."""
+        at, dof = self.model.free[thing]
+        self.data.qpos[at : at + 3] = position
+        if quaternion is not None:
+            self.data.qpos[at + 3 : at + 7] = quaternion
+        self.data.qvel[dof : dof + 6] = 0.0
+
+    def opening(self, container):
+        """Share of the travel of a drawer or a door: 0 closed, 1 open; None without one."""
+        door = self.model.doors.get(container)
+        return None if door is None else float(self.data.qpos[door[0]] / door[1])
+
+    def targets(self, path):
+        """Targets of the actuators for waypoints: bases, and joints by name. Others stay as they are."""
+        points = []
+        for waypoint in path:
+            target = self.target.copy()
+            if self.model.drives:
+                # Along a path the yaw goes on beyond half a turn.
+                x, y, yaw = waypoint["base"]
+                first = path[0]["base"][2]
+                target[:3] = [x, y, near_turn(first, self.target[2]) + yaw - first]
+            for joint, value in waypoint["joints"].items():
+                at = self.model.controls.get(joint)
+                if at is not None:
+                    target[at] = value
+            points.append(target)
+        return points
+
+    # Contacts.
+
+    def contacts(self):
+        """Contacts as (geom, geom, normal from the first to the second, force in N)."""
+        data, mj = self.data, self.model.mj
+        force = np.zeros(6)
+        for at in range(data.ncon):
+            contact = data.contact[at]
+            mujoco.mj_contactForce(mj, data, at, force)
+            yield contact.geom[0], contact.geom[1], contact.frame[:3].copy(), float(force[0])
+
+    def touching(self, entity):
+        """Contacts of an entity: (other geom, normal towards the entity, force)."""
+        owner = self.model.geom_owner
+        for one, other, normal, force in self.contacts():
+            if owner[other] == entity:
+                yield one, normal, force
+            elif owner[one] == entity:
+                yield other, -normal, force
+
+    def held(self):
+        """Things that two parts of the hand press from two sides, in the order of the scene."""
+        model = self.model
+        sides = {}
+        for one, other, normal, force in self.contacts():
+            if force < PRESSES:
+                continue
+            for part, thing, way in ((one, other, normal), (other, one, -normal)):
+                owner = model.geom_owner[thing]
+                if part in model.hand_geoms and owner in model.free:
+                    sides.setdefault(owner, []).append(way)
+        found = [thing for thing, ways in sides.items() if opposed(ways)]
+        return [thing for thing in model.entities if thing in found]
+
+    def holds(self, thing):
+        """True if the hand holds a thing."""
+        return thing in self.held()
+
+    def bearers(self, thing):
+        """What a thing rests on, apart from the hand: ids, or `floor`."""
+        model, found = self.model, []
+        for one, other, normal in self.near():
+            for geom, borne, up in ((one, other, normal[2]), (other, one, -normal[2])):
+                if model.geom_owner[borne] == thing and up > 0.5 and geom not in model.hand_geoms:
+                    name = "floor" if geom == model.floor else model.geom_owner[geom]
+                    if name not in found:
+                        found.append(name)
+        return found
+
+    def near(self):
+        """Pairs of geoms that touch, with the normal from the first to the second: of things asleep too."""
+        if self.near_at != self.now:
+            mj, data = self.model.mj, self.scratch
+            data.qpos[:], data.mocap_pos[:] = self.data.qpos, self.data.mocap_pos
+            data.mocap_quat[:] = self.data.mocap_quat
+            flags = mj.opt.enableflags
+            mj.opt.enableflags = 0
+            mujoco.mj_fwdPosition(mj, data)
+            mj.opt.enableflags = flags
+            contacts = [data.contact[at] for at in range(data.ncon)]
+            self.nearby = [(one.geom[0], one.geom[1], one.frame[:3].copy()) for one in contacts if one.dist < 1e-3]
+            self.near_at = self.now
+        return self.nearby
+
+    def is_lifted(self, thing):
+        """True if the hand bears a thing alone."""
+        others = [geom for geom, _, force in self.touching(thing)
+                  if geom not in self.model.hand_geoms and force > 0.0]
+        return self.holds(thing) and not others
+
+    def is_in(self, thing, container):
+        """True if the middle of a thing is within a container, as its drawer now is."""
+        pose, entity = self.pose(thing), self.model.entities.get(container)
+        if pose is None or entity is None or entity.get("kind") != "Container" or "shape" not in entity:
+            return False
+        at = self.model.body_of.get(container + "/door")
+        if at is None or "slide" not in entity.get("travel", {}):
+            at = self.model.body_of[container]
+        rotation = self.data.xmat[at].reshape(3, 3)
+        local = rotation.T @ (pose[0] - self.data.xpos[at])
+        return inside(entity["shape"], local)
+
+    def is_on(self, thing, support):
+        """True if a thing stands on another one, and not in it."""
+        return support in self.bearers(thing) and not self.is_in(thing, support)
+
+    def is_open(self, container):
+        """True if a drawer or a door is open; None without one."""
+        share = self.opening(container)
+        return None if share is None else share > OPENED
+
+    def bumped(self, allowed=()):
+        """What a part of the robot other than the hand touches, apart from those allowed; None if nothing."""
+        owner = self.model.geom_owner
+        for one, other, _, force in self.contacts():
+            for part, thing in ((one, other), (other, one)):
+                is_robot = owner[part] == "robot" and part not in self.model.hand_geoms
+                if is_robot and force > PRESSES and owner[thing] not in allowed:
+                    return "floor" if thing == self.model.floor else owner[thing]
+        return None
+
+
+def opposed(ways):
+    """True if two of the directions point against each other."""
+    ways = np.array(ways)
+    return bool(np.min(ways @ ways.T) < -0.25)
+
+
+def inside(shape, local):
+    """True if a point is within a shape in its own frame, or as much below as things sink."""
+    x, y, z = local
+    if "box" in shape:
+        a, b, c = (side / 2.0 for side in shape["box"])
+        return abs(x) <= a and abs(y) <= b and -c - SINKS <= z <= c
+    if "cylinder" in shape:
+        radius, half = shape["cylinder"]["radius"], shape["cylinder"]["height"] / 2.0
+        return np.hypot(x, y) <= radius and -half - SINKS <= z <= half
+    return False

@@ -1,0 +1,97 @@
+"""What pixels tell: things by colour, size and shape, with the ids of what is known."""
+
+import numpy as np
+import pytest
+from motet_mujoco import detector
+from motet_mujoco.beliefs import Beliefs
+from motet_mujoco.camera import Camera, NoGraphics
+from motet_mujoco.eyes import Eyes
+from motet_mujoco.model import load
+from motet_mujoco.observation import Observer
+from motet_mujoco.world import World
+
+
+@pytest.fixture(scope="module")
+def kitchen(motet):
+    """The robot before the table, the head bent."""
+    world = World(load("hsr", "kitchen", motet))
+    target = world.target.copy()
+    target[:2] = [0.9, 0.4]
+    target[world.model.controls["head_tilt_joint"]] = -0.5
+    world.data.qpos[world.model.control_qpos] = target
+    world.step(target)
+    observer, beliefs = Observer(world), Beliefs(world)
+    eyes = Eyes(world, observer, beliefs, False, lambda: np.zeros(3))
+    try:
+        eyes.look()
+    except NoGraphics as error:
+        pytest.skip(str(error))
+    yield eyes
+    eyes.close()
+
+
+def test_things_on_the_table_are_found_by_pixels(kitchen):
+    found = {one["id"]: one for one in kitchen.detections()}
+    assert {"mug_1", "apple", "glass_1"} <= set(found)
+    for thing in ("mug_1", "apple", "glass_1"):
+        off = np.array(found[thing]["pose"]["xyz"]) - kitchen.world.pose(thing)[0]
+        assert np.linalg.norm(off) < 0.05, (thing, off)
+    assert "bottle" not in found, "it stands behind the robot"
+
+
+def test_a_thing_that_was_moved_is_seen_where_it_is(kitchen):
+    world = kitchen.world
+    place = world.pose("mug_1")[0] + [0.0, -0.15, 0.0]
+    world.place("mug_1", place)
+    world.wait(0.5)
+    kitchen.detections()
+    believed = np.array(kitchen.beliefs.entities["mug_1"]["pose"]["xyz"])
+    assert np.linalg.norm(believed - place) < 0.05
+
+
+def test_an_unknown_thing_has_no_id(kitchen):
+    kitchen.beliefs.entities["apple"]["pose"]["xyz"] = [5.0, 5.0, 0.7]
+    kitchen.world.wait(0.1)
+    new = [one for one in kitchen.detections() if one["id"] is None]
+    assert any("green" in one["label"] for one in new), new
+
+
+def test_pictures_survive_the_wire(kitchen):
+    picture = kitchen.look()
+    again = detector.unpack(picture.message())
+    assert np.array_equal(again.colour, picture.colour)
+    assert np.abs(again.depth - picture.depth).max() < 0.001
+    assert np.allclose(again.rotation, picture.rotation, atol=1e-6)
+
+
+@pytest.mark.parametrize("colour, name", [((190, 30, 35), "red"), ((70, 10, 12), "red"), ((230, 210, 60), "yellow"),
+                                          ((128, 130, 131), "grey"), ((20, 20, 22), "black"), ((250, 250, 249), "white")])
+def test_colours_have_names(colour, name):
+    assert detector.colour_name(colour) == name
+
+
+def test_open_vocabulary_with_random_weights(kitchen):
+    """The loading path and the geometry of boxes; random weights find nothing of meaning."""
+    transformers = pytest.importorskip("transformers")
+    pytest.importorskip("torch")
+    from motet_mujoco.open_vocabulary import OpenVocabulary, place
+
+    small = {"hidden_size": 32, "intermediate_size": 64, "num_hidden_layers": 1, "num_attention_heads": 2}
+    config = transformers.Owlv2Config(text_config=dict(small, vocab_size=99), projection_dim=32,
+                                      vision_config=dict(small, image_size=64, patch_size=16))
+    model = transformers.Owlv2ForObjectDetection(config).eval()
+
+    def processor(text, images, return_tensors):
+        import torch
+
+        ids = torch.randint(1, 98, (len(text[0]), 16))
+        return {"input_ids": ids, "attention_mask": torch.ones_like(ids), "pixel_values": torch.rand(1, 3, 64, 64)}
+
+    picture = kitchen.look()
+    found = OpenVocabulary(model, processor, ["red mug", "apple"], threshold=0.0).detect(picture)
+    assert all(one["label"] in ("red mug", "apple") and len(one["extent"]) == 3 for one in found)
+    assert place(picture, (0, 0, 1, 1)) is None
+
+
+def test_the_camera_has_no_window(kitchen):
+    assert isinstance(kitchen.camera, Camera)

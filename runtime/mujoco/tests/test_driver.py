@@ -1,0 +1,118 @@
+"""The driver over its protocol: what it does, holds, stops and reports, and the same twice."""
+
+import json
+
+import pytest
+from host import Host, entity, text
+
+
+@pytest.fixture
+def drive(motet):
+    """Starts drivers, and ends them."""
+    hosts = []
+
+    def start(robot, scene, *flags):
+        hosts.append(Host(robot, scene, "--motet", motet, "--oracle", *flags))
+        return hosts[-1]
+
+    yield start
+    for host in hosts:
+        host.process.kill()
+
+
+def test_fetching_a_mug(drive):
+    host = drive("hsr", "kitchen")
+    assert host.welcome["capabilities"]["clock"] == "driver"
+    assert host.carry_out("go", to=entity("kitchen_table")) == {"success": None}
+    assert host.holds("at", "robot", "kitchen_table") and not host.holds("at", "robot", "counter")
+    assert host.carry_out("detect", what=text("the red mug")) == {"success": {"entity": "mug_1"}}
+    assert host.carry_out("detect", what=text("purple elephant"))["failure"]["kind"] == "not_found"
+    assert host.carry_out("pick", object=entity("mug_1")) == {"success": None}
+    assert host.holds("holding", "mug_1") and host.holds("lifted", "mug_1")
+    assert not host.holds("on", "mug_1", "kitchen_table") and not host.holds("free", "hand")
+    assert host.carry_out("go", to=entity("user")) == {"success": None}
+    assert host.carry_out("handover", object=entity("mug_1"), to=entity("user")) == {"success": None}
+    assert host.holds("at", "mug_1", "user") and host.holds("free", "hand")
+    moved = [report["params"] for report in host.reports if report["method"] == "moved"]
+    times = [one["at"] for one in moved]
+    assert times == sorted(times) and all(b - a > 0.019 for a, b in zip(times, times[1:]))
+    assert {thing["id"] for thing in moved[0]["things"]} >= {"mug_1", "apple"}
+    assert host.close() == 0
+
+
+def test_a_drawer_opens_and_closes_by_contact(drive):
+    host = drive("hsr", "kitchen")
+    assert host.carry_out("go", to=entity("drawer_1")) == {"success": None}
+    assert host.carry_out("open", what=entity("drawer_1")) == {"success": None}
+    assert host.holds("open", "drawer_1")
+    assert host.carry_out("close", what=entity("drawer_1")) == {"success": None}
+    assert not host.holds("open", "drawer_1")
+
+
+def test_holding_stopping_and_cancelling(drive):
+    host = drive("hsr", "kitchen")
+    goal, answer = host.start("go", to=entity("counter"))
+    assert answer == {}
+    assert host.call("start", goal=goal, command={"primitive": "go", "args": [], "uses": [], "deadline_secs": 1}) == {}
+
+    def base():
+        return next(one["params"]["base"] for one in reversed(host.reports) if one["method"] == "moved")
+
+    host.advance(2.0)
+    driving = base()
+    assert abs(driving[0]) + abs(driving[1]) > 0.1
+    host.call("hold", goal=goal)
+    host.advance(0.5)
+    still = base()
+    host.advance(1.0)
+    assert max(abs(a - b) for a, b in zip(base(), still)) < 0.002, "it keeps still"
+    host.call("proceed", goal=goal)
+    host.advance(1.0)
+    assert max(abs(a - b) for a, b in zip(base(), still)) > 0.05, "it goes on"
+    assert host.call("cancel", goal=goal) == {}
+    assert host.call("status", goals=[goal])["goals"][0]["state"] == {"ended": "interrupted"}
+    host.call("safe_stop", goal=77)
+    host.call("ping")
+    assert any(one["method"] == "stopped" and one["params"]["goal"] == 77 for one in host.reports)
+    assert host.call("status", goals=[5, 77])["goals"] == [{"goal": 5, "state": "unknown"},
+                                                          {"goal": 77, "state": "stopped"}]
+    assert host.call("dance")["error"]["code"] == -32601
+    assert host.call("start", goal=9)["error"]["code"] == -32602
+    assert "error" in host.start("dance")[1]
+
+
+def test_a_thing_that_is_lost_is_told(drive):
+    host = drive("hsr", "kitchen")
+    query = {"fact": {"fluent": "holding", "args": [{"is": {"entity": "mug_1"}}]}}
+    assert host.call("watch", query=query)["answer"] == {"truth": False}
+    host.carry_out("go", to=entity("kitchen_table"))
+    assert host.carry_out("pick", object=entity("mug_1")) == {"success": None}
+    told = [one["params"]["answer"] for one in host.reports if one["method"] == "observed"]
+    assert told and told[-1] == {"truth": True}
+
+
+def test_a_person_in_the_way(drive):
+    host = drive("hsr", "kitchen", "--walk", "user:1.0,0.3@1,2.0")
+    failure = host.carry_out("go", to=entity("kitchen_table"))["failure"]
+    assert failure["kind"] == "blocked" and "user" in failure["text"]
+
+
+def test_the_same_calls_give_the_same_reports(drive):
+    def run(seed):
+        host = drive("hsr", "kitchen", "--profile", "typical", "--seed", seed)
+        host.carry_out("go", to=entity("kitchen_table"))
+        host.carry_out("pick", object=entity("mug_1"))
+        return [json.dumps(report) for report in host.reports]
+
+    first = run("3")
+    assert first == run("3")
+    assert first != run("4")
+
+
+def test_looking(drive):
+    host = drive("panda", "kitchen")
+    seen = host.call("look")
+    if "error" in seen:
+        pytest.skip(seen["error"]["message"])
+    assert seen["image"]["width"] == seen["depth"]["width"] == 640
+    assert "error" in host.call("look", camera="nose")

@@ -1,0 +1,42 @@
+"""Verdicts of each robot borne out by physics: one grasp each, a drawer, a place."""
+
+import pytest
+from motet_mujoco import judge
+from motet_mujoco.model import load
+from motet_mujoco.world import World
+
+TABLE = judge.SCENES["panda"][0]
+
+
+@pytest.mark.parametrize("robot, scene, motion", [
+    ("hsr", "kitchen", "reach(mug_1)"),
+    ("anymal_z1", "lab", "reach(sample)"),
+    ("panda", TABLE, "reach(book)"),
+    ("hsr", "kitchen", "pull(drawer_1)"),
+    ("hsr", "kitchen", "go_to(counter)"),
+])
+def test_a_verdict_holds(motet, robot, scene, motion):
+    [(query, witness)] = judge.verdicts(motet, robot, scene, motion)
+    holds, why, error = judge.carry_out(World(load(robot, scene, motet)), query, witness)
+    assert holds, why
+    # A witness is followed within 3 mm and 2 mrad.
+    assert error[0] < 0.003 and error[1] < 0.002, error
+
+
+def test_a_grip_beside_the_thing_is_refuted(motet):
+    """The judge can say no: with the thing elsewhere, there is nothing to hold."""
+    [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "reach(mug_1)")
+    world = World(load("hsr", "kitchen", motet))
+    world.place("mug_1", world.pose("mug_1")[0] + [0.2, 0.0, 0.0])
+    holds, why, _ = judge.carry_out(world, query, witness)
+    assert not holds, why
+
+
+def test_a_blocked_way_is_refuted(motet):
+    """A person who stands in the way is touched."""
+    [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "go_to(counter)")
+    world = World(load("hsr", "kitchen", motet))
+    middle = witness["path"][-1]["base"]
+    world.data.mocap_pos[world.model.people["user"], :2] = middle[:2]
+    holds, why, _ = judge.carry_out(world, query, witness)
+    assert not holds and "user" in why
