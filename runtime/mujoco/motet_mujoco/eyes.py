@@ -5,12 +5,13 @@ robot believes to be about there. With `--oracle`, by the truth of the simulator
 """
 
 import json
+import os
 import subprocess
 import sys
 
 import numpy as np
 
-from .camera import Camera
+from .camera import Camera, NoGraphics
 
 # Distance in m within which a detection may be a known thing, and the part of its size by which it may differ.
 ABOUT, UNLIKE = 0.3, 0.75
@@ -115,12 +116,17 @@ class Eyes:
     def ask(self, message):
         """The answer of the detector."""
         if self.process is None or self.process.poll() is not None:
-            self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            # The package need not be installed.
+            here = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+            paths = [here, os.environ.get("PYTHONPATH", "")]
+            environment = dict(os.environ, PYTHONPATH=os.pathsep.join(path for path in paths if path))
+            self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                                            env=environment)
         self.process.stdin.write(json.dumps(message) + "\n")
         self.process.stdin.flush()
         line = self.process.stdout.readline()
         if not line:
-            raise RuntimeError("the detector ended")
+            raise NoGraphics("the detector ended")
         return json.loads(line)["detections"]
 
     def solids(self):
