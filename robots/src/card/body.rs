@@ -24,8 +24,18 @@ impl CardReader {
                 self.numbers.of("model.height", height, Dimension::LENGTH, Sign::NotNegative)
             }),
             rest: self.positions("model.rest", &model.rest),
+            accelerations: self.accelerations(&model.accelerations),
             packages: model.packages.iter().map(|folder| folder.get().clone()).collect(),
         }
+    }
+
+    /// Reads accelerations of joints, in rad/s² or m/s².
+    fn accelerations(&mut self, joints: &IndexMap<String, TomlSpanned<f64>>) -> IndexMap<SmolStr, f64> {
+        let read = joints.iter().map(|(name, value)| {
+            let key = format!("model.accelerations.{name}");
+            (name.into(), self.numbers.plain(&key, value, Sign::Positive))
+        });
+        read.collect()
     }
 
     /// Reads joint positions, in rad or m.
@@ -88,6 +98,10 @@ pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
     if let Some(model) = &card.model {
         fit.link(model.base.as_ref());
         fit.positions(&model.rest);
+        for (name, acceleration) in &model.accelerations {
+            let span = fit.numbers.span(acceleration);
+            fit.numbers.found.extend(found(name, span, urdf).err().map(Diagnostic::from));
+        }
     }
     for (name, hand) in &card.hands {
         fit.place("hand", name, hand, hand.get().tip.as_ref(), "tip");

@@ -90,6 +90,10 @@ pub struct BaseSpec {
     pub speed_m_per_s: f64,
     /// Nominal turning speed in rad/s.
     pub turn_rad_per_s: f64,
+    /// Greatest acceleration in m/s².
+    pub acceleration_m_per_s2: f64,
+    /// Greatest angular acceleration in rad/s².
+    pub turn_acceleration_rad_per_s2: f64,
     /// Radius of the disc that encloses the footprint, in m.
     pub radius_m: f64,
 }
@@ -120,6 +124,8 @@ pub struct ModelSpec {
     pub height_m: f64,
     /// Positions of joints where no posture says otherwise, in rad or m.
     pub rest: IndexMap<SmolStr, f64>,
+    /// Greatest accelerations of joints for which the card gives one, in rad/s² or m/s².
+    pub accelerations: IndexMap<SmolStr, f64>,
     /// Folders that hold ROS packages, as seen from the card's.
     pub packages: Vec<String>,
 }

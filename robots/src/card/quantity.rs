@@ -124,6 +124,11 @@ impl QuantityReader {
         parsed.map(|(value, unit)| (unit.to_si(value), Some(unit)))
     }
 
+    /// Reads a number without a unit; 0 if it is impossible.
+    pub(super) fn plain(&mut self, key: &str, at: &TomlSpanned<f64>, sign: Sign) -> f64 {
+        self.checked(key, self.span(at), *at.get(), sign)
+    }
+
     /// Checks a number; 0 if it is impossible.
     pub(super) fn checked(&mut self, key: &str, span: Span, value: f64, sign: Sign) -> f64 {
         let (fits, wanted) = match sign {

@@ -18,6 +18,9 @@ use super::wire::{TomlSpanned, WrittenQuantity};
 use super::{model, shape, wire};
 use crate::clearance::{Clearance, ClearanceOverride};
 
+/// Seconds within which a base reaches its speed, where its card gives no acceleration.
+const BASE_RAMP: f64 = 1.0;
+
 /// Reads the card of a robot. `declarations` is the text of its `primitives.motet`, which is kept for the
 /// compiler. `None` for the robot if there is an error. O(bytes).
 ///
@@ -150,11 +153,22 @@ impl CardReader {
             wire::DriveWord::Differential => (Drive::Differential, Sign::Positive),
             wire::DriveWord::Legged => (Drive::Legged, Sign::Positive),
         };
-        let turn_span = self.numbers.span(&base.turn);
+        let numbers = &mut self.numbers;
+        let speed_m_per_s = numbers.of("base.speed", &base.speed, Dimension::SPEED, sign);
+        let turn_rad_per_s = numbers.plain("base.turn", &base.turn, sign);
+        let mut within = |key, given: &Option<TomlSpanned<f64>>, speed| {
+            given.as_ref().map_or(speed / BASE_RAMP, |given| numbers.plain(key, given, sign))
+        };
         BaseSpec {
             drive,
-            speed_m_per_s: self.numbers.of("base.speed", &base.speed, Dimension::SPEED, sign),
-            turn_rad_per_s: self.numbers.checked("base.turn", turn_span, *base.turn.get(), sign),
+            speed_m_per_s,
+            turn_rad_per_s,
+            acceleration_m_per_s2: within("base.acceleration", &base.acceleration, speed_m_per_s),
+            turn_acceleration_rad_per_s2: within(
+                "base.turn_acceleration",
+                &base.turn_acceleration,
+                turn_rad_per_s,
+            ),
             radius_m: self.numbers.of("base.radius", &base.radius, Dimension::LENGTH, Sign::Positive),
         }
     }

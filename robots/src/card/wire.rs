@@ -171,6 +171,15 @@ pub struct BaseTable {
     pub speed: TomlSpanned<WrittenQuantity>,
     /// Nominal turning speed in rad/s.
     pub turn: TomlSpanned<f64>,
+    /// Greatest acceleration and deceleration in m/s²; the speed within a second where none is given.
+    #[serde(default)]
+    #[schemars(with = "f64")]
+    pub acceleration: Option<TomlSpanned<f64>>,
+    /// Greatest angular acceleration and deceleration in rad/s²; the turning speed within a second where none
+    /// is given.
+    #[serde(default)]
+    #[schemars(with = "f64")]
+    pub turn_acceleration: Option<TomlSpanned<f64>>,
     /// Radius of the disc that encloses the footprint, in m.
     pub radius: TomlSpanned<WrittenQuantity>,
 }
@@ -208,6 +217,10 @@ pub struct ModelTable {
     /// Positions of joints where no posture says otherwise, in rad or m; 0 for the others.
     #[serde(default)]
     pub rest: IndexMap<String, TomlSpanned<WrittenQuantity>>,
+    /// Greatest accelerations of joints in rad/s² or m/s²; the greatest speed within half a second for the
+    /// others.
+    #[serde(default)]
+    pub accelerations: IndexMap<String, TomlSpanned<f64>>,
     /// The SRDF, a file beside the card: which links may touch.
     #[serde(default)]
     #[schemars(with = "String")]

@@ -178,8 +178,14 @@ pub(crate) fn standing_place(
 mod tests {
     use super::*;
 
-    const BASE: BaseSpec =
-        BaseSpec { drive: Drive::Omnidirectional, speed_m_per_s: 0.5, turn_rad_per_s: 1.0, radius_m: 0.2 };
+    const BASE: BaseSpec = BaseSpec {
+        drive: Drive::Omnidirectional,
+        speed_m_per_s: 0.5,
+        turn_rad_per_s: 1.0,
+        acceleration_m_per_s2: 0.5,
+        turn_acceleration_rad_per_s2: 1.0,
+        radius_m: 0.2,
+    };
 
     #[test]
     fn motion_base_keeps_its_speed() {

@@ -44,6 +44,9 @@ pub struct Dof {
     pub is_continuous: bool,
     /// True for a length in m, false for an angle in rad.
     pub is_prismatic: bool,
+    /// Greatest speed in rad/s or m/s at which neither its joint nor any that follows it is too fast; `None`
+    /// if the URDF gives none.
+    pub speed: Option<f64>,
 }
 
 /// Limits as far from 0 as that on both sides, in rad and in m, are none: "unlimited" is often written
@@ -150,6 +153,13 @@ impl KinematicTree {
         let joints = urdf.joints.iter().zip(is_followed);
         let couplings: Vec<Option<JointCoupling>> =
             joints.map(|(joint, is_followed)| own_dof(joint, is_followed, &mut dofs)).collect();
+        for (joint, at) in urdf.joints.iter().zip(0..) {
+            let Some(coupling) = resolved(urdf, &couplings, at) else { continue };
+            let speed = joint.velocity.map(|speed| speed / coupling.multiplier.abs());
+            if let Some((dof, speed)) = dofs.get_mut(coupling.dof).zip(speed) {
+                dof.speed = Some(dof.speed.map_or(speed, |own| own.min(speed)));
+            }
+        }
         let segments = urdf.joints.iter().zip(0..).map(|(joint, at)| {
             let axis = Unit::new_unchecked(Vector3::from(joint.axis));
             let motion = match (joint.kind, resolved(urdf, &couplings, at)) {
@@ -242,13 +252,19 @@ fn own_dof(joint: &Joint, is_followed: bool, dofs: &mut Vec<Dof>) -> Option<Join
         JointKind::Fixed | JointKind::Floating => return None,
         JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {
             let is_continuous = !is_prismatic && limits.is_none();
-            dofs.push(Dof { name: joint.name.clone(), limits, is_continuous, is_prismatic });
+            dofs.push(Dof { name: joint.name.clone(), limits, is_continuous, is_prismatic, speed: None });
         }
         JointKind::Planar => {
             for part in ["x", "y", "theta"] {
                 let name = format_smolstr!("{}/{part}", joint.name);
                 let is_continuous = part == "theta";
-                dofs.push(Dof { name, limits: None, is_continuous, is_prismatic: !is_continuous });
+                dofs.push(Dof {
+                    name,
+                    limits: None,
+                    is_continuous,
+                    is_prismatic: !is_continuous,
+                    speed: None,
+                });
             }
         }
     }

@@ -15,6 +15,7 @@ mod placing;
 mod query;
 mod scene;
 mod search;
+mod timing;
 
 pub use context::{BaseMapCache, QueryContext};
 pub use placing::{ExactNumber, MapPose, Misfit, PlaceRules};
@@ -27,3 +28,4 @@ pub use scene::{
     PlanningScene, RobotModel, SceneState, components,
 };
 pub(crate) use scene::{STANDS_OUT, THICK, WALL, solid_shape, walls};
+pub use timing::{MotionLimits, PathTime, SpeedShare};

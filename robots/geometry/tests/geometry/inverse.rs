@@ -202,7 +202,7 @@ fn lift_arm_heights_are_independent_of_full_turns() {
 fn dof_sampling_range_is_at_most_one_turn() {
     let limited = |limits: Option<(f64, f64)>, slides: bool| {
         let is_continuous = limits.is_none() && !slides;
-        Dof { name: "it".into(), limits, is_continuous, is_prismatic: slides }.sampling_range()
+        Dof { name: "it".into(), limits, is_continuous, is_prismatic: slides, speed: None }.sampling_range()
     };
     assert_eq!(limited(None, false), (-PI, PI));
     assert_eq!(limited(None, true), (-1.0, 1.0));

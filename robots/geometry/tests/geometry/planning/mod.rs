@@ -5,6 +5,7 @@ mod help;
 mod narrow;
 mod opening;
 mod placing;
+mod timing;
 mod verify;
 
 use std::collections::BTreeMap;
