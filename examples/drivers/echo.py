@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """A driver for Motet that moves nothing: it takes its time over every goal and says that it did it.
 
-It speaks the driver protocol, version 1 (docs/drivers.md), on standard input and output, or with --port on a TCP port of this
+It speaks the driver protocol, version 2 (docs/drivers.md), on standard input and output, or with --port on a TCP port of this
 machine, one connection at a time. Goals outlast a connection for a while, so a host that crashed can ask what became of
-them; who does not come back leaves a robot alone, and it stops. Needs nothing but Python 3.8 and its standard library; to
+them; who does not come back leaves a robot alone, and it stops. With --clock driver its time stands still between calls,
+as that of a simulator does. Needs nothing but Python 3.8 and its standard library; to
 make a driver of it, put your robot's calls into `Robot`.
 """
 
@@ -15,7 +16,7 @@ import socket
 import sys
 import time
 
-PROTOCOL = 1
+PROTOCOL = 2
 REFUSED = 1
 METHOD_NOT_FOUND = -32601
 INVALID_PARAMS = -32602
@@ -79,8 +80,11 @@ class Error(Exception):
 class Driver:
     """The protocol: keeps goals, answers calls, reports ends."""
 
-    def __init__(self, robot):
+    def __init__(self, robot, owns_clock=False):
         self.robot = robot
+        self.owns_clock = owns_clock
+        self.now = 0.0  # time of the run, if it is ours
+        self.run = None  # the run that the goals belong to
         self.instance = "%d-%d" % (os.getpid(), time.time_ns())
         self.goals = {}  # number -> {"state", "command", "left" or "due"}
         self.watched = []
@@ -91,20 +95,39 @@ class Driver:
     def hello(self, params):
         if params["protocol"] != PROTOCOL:
             raise Error(INVALID_PARAMS, "this driver speaks version %d of the protocol" % PROTOCOL)
+        if params["run"] != self.run:
+            self.forget()
+            self.run, self.now = params["run"], params.get("at", 0.0)
         self.robot.meet(params["primitives"])
+        capabilities = {"hold": "all", "update": "all", "moved": self.owns_clock}
+        if self.owns_clock:
+            capabilities["clock"] = "driver"
         return {
             "protocol": PROTOCOL,
-            "driver": "echo 1.0",
+            "driver": "echo 2.0",
             "instance": self.instance,
-            "capabilities": {"hold": "all", "update": "all"},
+            "capabilities": capabilities,
         }
+
+    def forget(self):
+        """Another run begins: its goals have numbers of their own."""
+        self.stop_all()
+        self.goals.clear()
+        self.watched.clear()
+
+    def advance(self, params):
+        """Lets our own time pass until the first goal ends."""
+        self.now = max(self.now, earliest(self.first_due(), params["until"]))
+        self.finish_due()
+        self.report("moved", {"at": self.now, "base": [0.0, 0.0, 0.0]})
+        return {"now": self.now}
 
     def start(self, params):
         number, command = params["goal"], params["command"]
         if number not in self.goals:
             failure = self.robot.accepts(command)
             if failure is None:
-                due = time.monotonic() + self.robot.seconds
+                due = self.time() + self.robot.seconds
                 self.goals[number] = {"state": "running", "command": command, "due": due}
             else:
                 self.goals[number] = {"state": {"refused": failure}}
@@ -127,13 +150,13 @@ class Driver:
     def hold(self, params):
         goal = self.running(params["goal"])
         if goal and "due" in goal:
-            goal["left"] = max(0.0, goal.pop("due") - time.monotonic())
+            goal["left"] = max(0.0, goal.pop("due") - self.time())
         return {}
 
     def proceed(self, params):
         goal = self.running(params["goal"])
         if goal and "left" in goal:
-            goal["due"] = time.monotonic() + goal.pop("left")
+            goal["due"] = self.time() + goal.pop("left")
         return {}
 
     def safe_stop(self, params):
@@ -163,7 +186,7 @@ class Driver:
     def ping(self, _params):
         return {}
 
-    METHODS = "hello start update cancel hold proceed safe_stop observe watch unwatch status ping".split()
+    METHODS = "hello start update cancel hold proceed safe_stop observe watch unwatch status ping advance".split()
 
     # Goals.
 
@@ -175,16 +198,23 @@ class Driver:
         self.goals[number] = {"state": {"ended": outcome}}
         self.report("ended", {"goal": number, "outcome": outcome})
 
+    def time(self):
+        return self.now if self.owns_clock else time.monotonic()
+
     def finish_due(self):
-        now = time.monotonic()
+        now = self.time()
         due = [number for number, goal in self.goals.items() if goal.get("due", now + 1.0) <= now]
         for number in due:
             self.end(number, {"success": self.robot.result(self.goals[number]["command"])})
 
+    def first_due(self):
+        """When the first goal ends, or None."""
+        return min((goal["due"] for goal in self.goals.values() if "due" in goal), default=None)
+
     def next_due(self):
-        """Seconds until a goal ends, or None."""
-        due = [goal["due"] for goal in self.goals.values() if "due" in goal]
-        return max(0.0, min(due) - time.monotonic()) if due else None
+        """Seconds on the wall until a goal ends, or None."""
+        due = None if self.owns_clock else self.first_due()
+        return None if due is None else max(0.0, due - time.monotonic())
 
     def stop_all(self):
         for number in list(self.goals):
@@ -204,8 +234,11 @@ class Driver:
             self.stop_all()
             return False
         answer = {"jsonrpc": "2.0", "id": message["id"]}
+        self.now = max(self.now, message.get("params", {}).get("at", self.now))
         later = []
-        say, self.say = self.say, later.append  # what a call reports comes after its answer
+        say = self.say
+        if method != "advance":
+            self.say = later.append  # what another call reports comes after its answer
         try:
             if method not in self.METHODS:
                 raise Error(METHOD_NOT_FOUND, "there is no method `%s`" % method)
@@ -230,10 +263,12 @@ def serve(driver, read_fd, write):
     rest = b""
     heard = time.monotonic()
     while True:
-        left = heard + SILENCE - time.monotonic()
-        ready = selector.select(max(0.0, earliest(driver.next_due(), left)))
+        # Nothing moves while our own time stands still, however long the host is silent.
+        left = None if driver.owns_clock else heard + SILENCE - time.monotonic()
+        wait = earliest(driver.next_due(), left)
+        ready = selector.select(wait if wait is None else max(0.0, wait))
         driver.finish_due()
-        if not ready and left > 0.0:
+        if not ready and (left is None or left > 0.0):
             continue
         data = os.read(read_fd, 65536) if ready else b""
         heard = time.monotonic()
@@ -284,9 +319,10 @@ def main():
     parser.add_argument("--seconds", type=float, default=0.2, help="how long every goal takes")
     parser.add_argument("--refuse", action="append", default=[], metavar="PRIMITIVE", help="a primitive to refuse")
     parser.add_argument("--port", type=int, help="a TCP port instead of standard input and output; 0 takes a free one")
+    parser.add_argument("--clock", choices=["wall", "driver"], default="wall", help="whose time a run goes by")
     parser.add_argument("--grace", type=float, default=10.0, help="seconds that goals go on for without a host, with --port")
     args = parser.parse_args()
-    driver = Driver(Robot(args.seconds, args.refuse))
+    driver = Driver(Robot(args.seconds, args.refuse), args.clock == "driver")
     if args.port is not None:
         listen(driver, args.port, args.grace)
         return

@@ -13,7 +13,8 @@ use motet_project::SavedDriver;
 use motet_robots::scene::Scene;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{
-    Capabilities, Effect, Engine, EngineSettings, Event, Observer, RunControl, StartState, Time, Verifier,
+    Capabilities, Detection, Effect, Engine, EngineSettings, Event, Heard, Moved, Observer, RunControl,
+    StartState, Time, Verifier,
 };
 
 use crate::Error;
@@ -46,31 +47,38 @@ pub fn engine(
     Ok(engine.with_capabilities(capabilities).with_settings(settings))
 }
 
-/// Creates the journal of a run that begins now, in a folder that is empty or does not exist.
+/// Creates the journal of a run of this id that begins now, in a folder that is empty or does not exist.
 ///
 /// # Errors
 ///
 /// The folder cannot be written to, or holds a journal.
 pub fn create_journal(
     folder: &Path,
-    engine: &Engine,
-    start: &StartState,
+    run: &str,
+    (engine, start): (&Engine, &StartState),
     driver: &SavedDriver,
 ) -> Result<JournalWriter, Error> {
-    let head = JournalHead { driver: driver.to_json()?, ..journal_head(engine, start) };
+    let head = JournalHead { driver: driver.to_json()?, ..journal_head(run, engine, start) };
     Ok(JournalWriter::create(folder, head)?)
 }
 
-/// Head of the journal of a run that begins now, at time 0, without a description of the driver.
+/// Head of the journal of a run of this id that begins now, at time 0, without a description of the driver.
 #[must_use]
-pub fn journal_head(engine: &Engine, start: &StartState) -> JournalHead {
+pub fn journal_head(run: &str, engine: &Engine, start: &StartState) -> JournalHead {
     JournalHead {
+        run: run.to_owned(),
         began_unix_ns: unix_ns(),
         start: start.clone(),
         settings: *engine.settings(),
         capabilities: engine.capabilities().clone(),
         ..JournalHead::new(engine.graph())
     }
+}
+
+/// New id for a run: another one for every run of this machine.
+#[must_use]
+pub fn run_id() -> String {
+    format!("{:x}-{:x}", unix_ns(), std::process::id())
 }
 
 /// Wall clock, in ns since 1970.
@@ -108,6 +116,18 @@ impl Observer for Guarded<'_> {
 
     fn reached(&mut self, now: Time) -> RunControl {
         self.observer.reached(now)
+    }
+
+    fn moved(&mut self, moved: &Moved) {
+        self.observer.moved(moved);
+    }
+
+    fn detected(&mut self, now: Time, seen: &[Detection]) {
+        self.observer.detected(now, seen);
+    }
+
+    fn heard(&mut self, now: Time, heard: &Heard) {
+        self.observer.heard(now, heard);
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {

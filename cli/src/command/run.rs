@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motet::run::{create_journal, engine, start_state, unix_ns};
+use motet::run::{create_journal, engine, run_id, start_state, unix_ns};
 use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
@@ -15,13 +15,13 @@ use motet_robots::scene::Scene;
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
-use motet_runtime::{Driver, EngineSettings, Event, Time, Verifier as _};
+use motet_runtime::{Driver, DriverClock, EngineSettings, Event, Time, Verifier as _};
 use motet_sim::Sim;
 use motet_syntax::{Parsed, Severity};
 
-use crate::documents::one_document;
+use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
-use crate::flags::{OutputFormat, SessionArgs, SimulationArgs};
+use crate::flags::{OutputFormat, SessionArgs, SimulationArgs, Speed};
 use crate::output::{Colors, count, note};
 use crate::report::Report;
 use crate::run_view::{Clock, events, view};
@@ -84,7 +84,8 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
         report,
     )?;
     let policy = args.policy.as_deref();
-    let Some((graph, parsed, opened)) = compile(file, policy, args.format, &mut project, report)? else {
+    let document = one_document(file)?;
+    let Some((graph, parsed, opened)) = compile(&document, policy, args.format, &mut project, report)? else {
         return Ok(Exit::Findings);
     };
     let (Some(robot), Some(files)) = (&opened.robot, &opened.files) else {
@@ -102,7 +103,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
         Some(folder) => {
             let scene_text = opened.scene_text.clone();
             let saved = SavedDriver::simulator(files, scene_text, &options, SavedProject::of(opened));
-            Some(create_journal(folder, &engine, &start, &saved)?)
+            Some(create_journal(folder, &run_id(), (&engine, &start), &saved)?)
         }
         None => None,
     };
@@ -114,13 +115,13 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
 
 /// Reads and compiles a policy, and reports the diagnostics. `None` if the check refuses it.
 pub(super) fn compile<'p>(
-    file: &Path,
+    document: &Document,
     policy: Option<&str>,
     format: OutputFormat,
     project: &'p mut Project,
     report: &mut Report,
 ) -> Result<Option<(Graph, Parsed, &'p ProjectSession)>, CliError> {
-    let (source, parsed) = one_document(file)?.parse();
+    let (source, parsed) = document.parse();
     let opened = project.session_for(&parsed.file, report)?;
     let compiled = opened.session.compile(&parsed, policy);
     let sources = opened.sources(source);
@@ -189,16 +190,17 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         SavedDriver::Simulator(saved) => Some(saved.open()?),
         SavedDriver::Process { .. } => None,
     };
-    let clock = match &saved {
-        SavedDriver::Simulator(_) => Clock::Simulated,
-        SavedDriver::Process { .. } => Clock::Wall,
-    };
+    let clock = clock_of(head, &saved);
     let view = view(args.format, replay.engine().graph(), colors, clock);
-    let mut paced = PacedView::new(view, args.simulation.speed);
+    let speed = match clock {
+        Clock::Simulated => args.simulation.speed,
+        Clock::Wall => Speed::Times(1.0),
+    };
+    let mut paced = PacedView::new(view, speed);
     let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
-    let verifies = match &saved {
-        SavedDriver::Simulator(_) => args.simulation.speed.verifies(),
-        SavedDriver::Process { .. } => CheckMode::Beside,
+    let verifies = match clock {
+        Clock::Simulated => speed.verifies(),
+        Clock::Wall => CheckMode::Beside,
     };
     let checked = saved.project().filter(|_| head.settings.verify_within.is_some());
     let course = checked.and_then(|checked| open_course(checked, report));
@@ -236,7 +238,9 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         });
         return Ok(end.unwrap_or(Exit::Success));
     }
-    let from = now(head, &saved, replay.now());
+    let from = now(head, clock, replay.now());
+    // Older journals have no id; the time of their beginning is as good.
+    let run = if head.run.is_empty() { format!("{:x}", head.began_unix_ns) } else { head.run.clone() };
     let mut events = if begun { Vec::new() } else { vec![Event::Begin] };
     let unix_ns = unix_ns();
     let resumed = JournalEntry::Resumed(ResumeEntry { unix_ns, cut_bytes: tail.torn_bytes });
@@ -250,7 +254,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let paced = paced.with_guard(guard);
     let driver: Box<dyn Driver> = match (saved, simulator) {
         (SavedDriver::Process { address, instance, .. }, _) => {
-            let hello = Hello::of(replay.engine().graph());
+            let hello = Hello { resumed: true, ..Hello::of(replay.engine().graph(), &run) };
             let mut driver = connect(&address.into(), hello, from)?;
             let caught_up = driver.catch_up(&ledger, &instance, from);
             events.extend(caught_up.map_err(|breakage| CliError::Message(breakage.to_string()))?);
@@ -264,12 +268,20 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     Runner { engine, driver: &mut *driver, journal: Some(writer), from, events }.run(paced)
 }
 
+/// Clock of the run of a journal.
+fn clock_of(head: &JournalHead, saved: &SavedDriver) -> Clock {
+    match (saved, head.capabilities.clock) {
+        (SavedDriver::Simulator(_), _) | (_, DriverClock::Driver) => Clock::Simulated,
+        (SavedDriver::Process { .. }, DriverClock::Wall) => Clock::Wall,
+    }
+}
+
 /// Time at which the run continues. Simulated time has stood still since the crash; the time of a robot has
 /// not.
-fn now(head: &JournalHead, saved: &SavedDriver, last: Time) -> Time {
-    match saved {
-        SavedDriver::Simulator(_) => last,
-        SavedDriver::Process { .. } => {
+fn now(head: &JournalHead, clock: Clock, last: Time) -> Time {
+    match clock {
+        Clock::Simulated => last,
+        Clock::Wall => {
             let passed = unix_ns().saturating_sub(head.began_unix_ns);
             head.from.after(Time::from_nanos(passed)).max(last)
         }

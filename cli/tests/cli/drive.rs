@@ -38,7 +38,7 @@ pub(crate) fn odd(then: &str) -> String {
          for line in sys.stdin:\n\
          \x20   m = json.loads(line)\n\
          \x20   if m['method'] == 'hello':\n\
-         \x20       say({{'id': m['id'], 'result': {{'protocol': 1, 'driver': 'odd', 'instance': 'x',\n\
+         \x20       say({{'id': m['id'], 'result': {{'protocol': 2, 'driver': 'odd', 'instance': 'x',\n\
          \x20           'capabilities': {{'hold': 'all', 'update': {{'only': []}}}}}}}})\n\
          \x20       continue\n\
          {then}"
@@ -164,6 +164,61 @@ fn killed_and_resumed_the_driver_in_another_process_does_nothing_twice() {
     assert_eq!(text.matches("{\"ended\":{\"goal\":").count(), 5, "five ends");
 }
 
+#[test]
+fn a_check_tells_the_laws_that_a_driver_breaks() {
+    if !has_python() {
+        return;
+    }
+    let check = |place: &Place, driver: &str, more: &[&str]| {
+        let args = [&["drive", "--check", "--driver", driver], more].concat();
+        place.run_args(&args.iter().map(|arg| (*arg).to_owned()).collect::<Vec<_>>())
+    };
+    let place = Place::new("drive_check").file("away.motet", AWAY);
+    let echo = format!("python3 {ECHO} --clock driver");
+    check(&place, &echo, &[]).check(0, &["out:✓ to the end", "out:echo 2.0 keeps the laws, with say("]);
+    let policy = ["away.motet", "--scene", "kitchen"];
+    check(&place, &echo, &policy).check(0, &["out:✓ held", "out:keeps the laws, with go(to: kitchen_table)"]);
+    check(&place, "no/such/driver", &[]).check(2, &["err:the driver cannot be reached"]);
+    // It says twice, and with its own word, that every goal has failed, and takes no notice of a safe stop.
+    let then = "\x20   say({'id': m['id'], 'result': {'now': 0, 'answer': 'unknown'}})\n\
+                \x20   if m['method'] == 'start':\n\
+                \x20       for _ in 'ab': say({'method': 'ended', 'params': {'goal': m['params']['goal'],\n\
+                \x20           'outcome': {'failure': 'melted'}}})\n";
+    let driver = place.path("double");
+    std::fs::write(&driver, odd(then)).unwrap();
+    let double = format!("python3 '{}'", driver.display());
+    check(&place, &double, &["--patience", "0.3"]).check(
+        1,
+        &[
+            "out:✗ stopped safely: a safe stop is always answered",
+            "out:`say` failed with `melted`, which it does not declare",
+            "out:has ended, it says, but it does not run",
+            "out:    > {\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"start\"",
+            "out:✓ observed",
+        ],
+    );
+    check(&place, &double, &["--patience", "0.3", "--format", "json"])
+        .check(1, &["out:{\"scene\":\"to the end\",\"broken\":[{\"law\":"]);
+    check(&place, &echo, &["--patience", "0"]).check(2, &["err:`--patience` is a number of seconds above 0"]);
+}
+
+#[test]
+fn a_driver_that_owns_the_clock_runs_at_any_speed() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("drive_clock").file("good.motet", GOOD);
+    let with = |driver: String, more: &[&str]| {
+        let more: Vec<String> = more.iter().map(|arg| (*arg).to_owned()).collect();
+        place.run_args(&[driven("good.motet", &driver), more].concat())
+    };
+    let slow = format!("python3 {ECHO} --seconds 1.5 --clock driver");
+    with(slow, &["--speed", "max", "--record", "run"]).check(0, &["out:✓ tidy: done"]);
+    place.run("replay run").check(0, &["out:identical"]);
+    let wall = format!("python3 {ECHO} --seconds 0.05");
+    with(wall, &["--speed", "max"]).check(2, &["err:this driver goes by the clock on the wall"]);
+}
+
 /// A driver on a port outlives its host, but what it does not for long.
 #[test]
 fn a_driver_that_lost_its_host_stops_by_itself() {
@@ -181,8 +236,9 @@ fn a_driver_that_lost_its_host_stops_by_itself() {
         let lines = BufReader::new(stream).lines().take(calls.len());
         lines.map(Result::unwrap).collect::<Vec<String>>()
     };
-    let hello =
-        r#""method": "hello", "params": {"protocol": 1, "robot": "hsr", "policy": "p", "primitives": []}"#;
+    let hello = r#""method": "hello", "params": {"protocol": 2, "run": "r", "resumed": false, "robot": "hsr",
+        "policy": "p", "primitives": []}"#;
+    let hello = &hello.replace('\n', " ");
     let start =
         r#""method": "start", "params": {"goal": 7, "command": {"primitive": "go", "args": [], "uses": []}}"#;
     let status = r#""method": "status", "params": {"goals": [7]}"#;

@@ -1,8 +1,8 @@
 //! Transfer function of a call: the answers of its motion in all possible worlds, and the worlds after it.
 
 use motet_geometry::planning::{
-    GraspSide, InfeasibleReason, MapPose, MotionAnswer, MotionQuery, MotionWitness, RobotModel,
-    UnknownReason, components,
+    Configuration, GraspSide, InfeasibleReason, MapPose, MotionAnswer, MotionLimits, MotionQuery,
+    MotionWitness, RobotModel, SpeedShare, UnknownReason, components,
 };
 use motet_graph as graph;
 use motet_stdlib::lang;
@@ -61,10 +61,15 @@ impl MotionChecker<'_> {
             match &*answer {
                 MotionAnswer::Feasible(way) => {
                     (is_refused, is_all_caught) = (false, false);
+                    let next = self.following(id, call, def, &query, &possible, &answer);
                     if witness.is_none() {
-                        witness = Some(Box::new(graph_witness(self.geometry.machine(), way)));
+                        let machine = self.geometry.machine();
+                        let found = graph_witness(machine, way, call.manner);
+                        let end = next.known.first().filter(|_| next.lost.is_none());
+                        let leaves = end.map(|end| leaves(machine, &found, way, &end.at.world.robot));
+                        witness = Some((Box::new(found), leaves.map(Box::new)));
                     }
-                    after.join(self.following(id, call, def, &query, &possible, &answer));
+                    after.join(next);
                 }
                 MotionAnswer::Unknown(why) => {
                     (is_refused, is_all_caught) = (false, false);
@@ -106,7 +111,7 @@ impl MotionChecker<'_> {
         }
         let is_error = |certain: bool| certain || (is_refused && before.lost.is_none());
         let verdict = match (unknown, witness, &refused) {
-            (None, Some(witness), None) => MotionVerdict::Feasible(witness),
+            (None, Some((witness, leaves)), None) => MotionVerdict::Feasible(witness, leaves),
             (Some(why), None, None) if is_all_caught => MotionVerdict::Caught(why),
             (unknown, ..) => MotionVerdict::Deferred(unknown),
         };
@@ -304,8 +309,12 @@ fn in_words(why: &UnknownReason) -> SmolStr {
     }
 }
 
-/// Witness of a motion for the graph. Holds only the joints that move.
-pub(super) fn graph_witness(machine: &RobotModel, witness: &MotionWitness) -> graph::Witness {
+/// Witness of a motion for the graph, with its times in a manner. Holds only the joints that move.
+pub(super) fn graph_witness(
+    machine: &RobotModel,
+    witness: &MotionWitness,
+    manner: Option<graph::Manner>,
+) -> graph::Witness {
     let first = witness.path.first();
     let moves = |at: &usize| {
         let value = |joints: &[f64]| joints.get(*at).copied();
@@ -314,9 +323,14 @@ pub(super) fn graph_witness(machine: &RobotModel, witness: &MotionWitness) -> gr
     };
     let dofs = machine.tree().dofs();
     let moving: Vec<usize> = (0..dofs.len()).filter(moves).collect();
-    let path = witness.path.iter().map(|state| graph::Waypoint {
+    let share = manner
+        .map_or(SpeedShare::FULL, |graph::Manner { speed, acceleration }| SpeedShare { speed, acceleration });
+    let times = MotionLimits::of(machine).times(&witness.path, share);
+    let path = witness.path.iter().zip(times).map(|(state, time)| graph::Waypoint {
         base: state.base,
         joints: moving.iter().map(|at| state.joints.get(*at).copied().unwrap_or(0.0)).collect(),
+        at: time.at,
+        ramp: time.ramp,
     });
     graph::Witness {
         joints: moving.iter().filter_map(|at| Some(dofs.get(*at)?.name.clone())).collect(),
@@ -333,4 +347,21 @@ pub(super) fn graph_witness(machine: &RobotModel, witness: &MotionWitness) -> gr
         limit: witness.margins.limit,
         payload: witness.margins.payload,
     }
+}
+
+/// Configuration of the robot after a motion, for the graph. Holds the joints that its path moves, and those
+/// that are elsewhere than at its start.
+pub(super) fn leaves(
+    machine: &RobotModel,
+    found: &graph::Witness,
+    way: &MotionWitness,
+    robot: &Configuration,
+) -> graph::Configuration {
+    let start = way.path.first();
+    let joints = machine.tree().dofs().iter().zip(0..).filter_map(|(dof, at)| {
+        let value = *robot.joints.get(at)?;
+        let before = start.and_then(|start| start.joints.get(at)).copied();
+        (found.joints.contains(&dof.name) || before != Some(value)).then(|| (dof.name.clone(), value))
+    });
+    graph::Configuration { base: robot.base, joints: joints.collect() }
 }

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use motet_geometry::planning::{Infeasible, MapPose, MotionAnswer, MotionQuery, UnknownReason};
-use motet_graph::{Value, Witness};
+use motet_graph::{Configuration, Manner, Value, Witness};
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -14,7 +14,7 @@ use super::geometry::{Fingerprinted, Geometry, SceneChange};
 use super::motion::{
     MotionArg, MotionEffect, failures, makes, may_move, motion_effect, motion_query, moves_blindly, side_of,
 };
-use super::transfer::graph_witness;
+use super::transfer::{graph_witness, leaves};
 use crate::declare::{Library, PrimitiveDef};
 use crate::ir::{Entity, MotionKind, ROBOT, START, Term};
 
@@ -36,6 +36,8 @@ pub enum Forecast {
     Feasible {
         /// Its path, from where the robot stands.
         witness: Box<Witness>,
+        /// Configuration in which a success leaves the robot, if it is known.
+        leaves: Option<Box<Configuration>>,
     },
     /// Infeasibility is proven.
     Infeasible {
@@ -63,9 +65,16 @@ impl WorldTracker {
         Self { library, geometry, at, moving: 0 }
     }
 
-    /// Forecasts a motion with the arguments `of` for a call of a primitive in the present world.
+    /// Forecasts a motion with the arguments `of` for a call of a primitive, in its manner, in the present
+    /// world.
     #[must_use]
-    pub fn motion(&self, primitive: &str, args: &[(SmolStr, Value)], motion: &str, of: &[Value]) -> Forecast {
+    pub fn motion(
+        &self,
+        primitive: &str,
+        (args, manner): (&[(SmolStr, Value)], Option<Manner>),
+        motion: &str,
+        of: &[Value],
+    ) -> Forecast {
         let unknown = |why: &str| Forecast::Unknown { why: why.to_owned() };
         let Some(def) = primitive_of(&self.library, primitive) else {
             return unknown("the primitive is not known");
@@ -81,7 +90,11 @@ impl WorldTracker {
         let Some(kind) = MotionKind::from_name(motion) else { return unknown("the motion is not known") };
         match &*self.geometry.answer(at, &motion_query(kind, &args_of, side(args))) {
             MotionAnswer::Feasible(way) => {
-                Forecast::Feasible { witness: Box::new(graph_witness(self.geometry.machine(), way)) }
+                let machine = self.geometry.machine();
+                let witness = Box::new(graph_witness(machine, way, manner));
+                let end = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result: None });
+                let leaves = end.ok().map(|end| Box::new(leaves(machine, &witness, way, &end.world.robot)));
+                Forecast::Feasible { witness, leaves }
             }
             MotionAnswer::Infeasible(why) if why.certified => self.infeasible(def, why),
             MotionAnswer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),

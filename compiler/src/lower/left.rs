@@ -24,7 +24,7 @@ pub(super) fn need_verdict(
     let need = def.needs.get(index)?;
     let of_motion = placed.filter(|_| is_of_motion(need, def, library));
     Some(match of_motion {
-        Some(MotionVerdict::Feasible(_)) => NeedVerdict::Proven,
+        Some(MotionVerdict::Feasible(..)) => NeedVerdict::Proven,
         Some(MotionVerdict::Caught(_)) => NeedVerdict::Caught,
         Some(MotionVerdict::Deferred(_)) | None => verdict,
     })

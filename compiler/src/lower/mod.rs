@@ -375,14 +375,16 @@ impl Lowering<'_> {
             retries: call.retries,
             needs,
             motion: def.motion.as_ref().map(|(query, args)| {
-                let (verdict, witness, why) = match placed {
-                    Some(MotionVerdict::Feasible(witness)) => (graph::Verdict::Proven, Some(witness), None),
-                    Some(MotionVerdict::Deferred(why)) => (graph::Verdict::Deferred, None, why),
-                    Some(MotionVerdict::Caught(why)) => (graph::Verdict::Deferred, None, Some(why)),
-                    None => (graph::Verdict::Deferred, None, None),
+                let (verdict, (witness, leaves), why) = match placed {
+                    Some(MotionVerdict::Feasible(witness, leaves)) => {
+                        (graph::Verdict::Proven, (Some(witness), leaves), None)
+                    }
+                    Some(MotionVerdict::Deferred(why)) => (graph::Verdict::Deferred, (None, None), why),
+                    Some(MotionVerdict::Caught(why)) => (graph::Verdict::Deferred, (None, None), Some(why)),
+                    None => (graph::Verdict::Deferred, (None, None), None),
                 };
                 let args = args.iter().map(|arg| self.tables.term(arg, &call.args, binds)).collect();
-                graph::Motion { query: query.name().into(), args, verdict, witness, why }
+                graph::Motion { query: query.name().into(), args, verdict, witness, leaves, why }
             }),
             effects: def.makes.iter().filter_map(|effect| self.effect(effect, call)).collect(),
             unsettles: def.unsettles.iter().filter_map(|effect| self.unsettled(effect, call)).collect(),

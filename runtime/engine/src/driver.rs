@@ -3,7 +3,9 @@
 use crate::effect::{Command, Effect};
 use crate::event::DriverEvent;
 use crate::ids::GoalId;
+use crate::perception::{Detection, RgbdView};
 use crate::query::Query;
+use crate::telemetry::{Heard, Moved};
 use crate::time::Time;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,7 +41,8 @@ use std::rc::Rc;
 /// 8. What it cannot answer for it reports as [`DriverEvent::Lost`], or [`DriverEvent::DriverLost`] for
 ///    everything: an answer that never comes means unknown, not refused. A safe stop of a lost goal is
 ///    answered like any other.
-/// 9. It never reports from within a call: everything goes out through [`Driver::advance`].
+/// 9. It never reports from within a call: everything goes out through [`Driver::advance`]. Telemetry,
+///    detections and words are fetched after it.
 pub trait Driver {
     /// Starts a primitive.
     fn start(&mut self, now: Time, goal: GoalId, command: &Command);
@@ -93,6 +96,29 @@ pub trait Driver {
     /// }
     /// ```
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)>;
+
+    /// Next telemetry that was not read yet, the oldest first. The run loop reads all of it after each
+    /// [`Driver::advance`]. A driver keeps a bounded number and drops the oldest.
+    fn telemetry(&mut self) -> Option<Moved> {
+        None
+    }
+    /// Next detections that the driver reported by itself, read like [`Driver::telemetry`].
+    fn detected(&mut self) -> Option<Vec<Detection>> {
+        None
+    }
+    /// Next words that a person said without being asked, read like [`Driver::telemetry`].
+    fn heard(&mut self) -> Option<Heard> {
+        None
+    }
+    /// Picture of a camera as it is turned now, with depth; of the first camera if none is named. `None` if
+    /// there is no such camera or no picture. Looking changes nothing.
+    fn look(&mut self, _now: Time, _camera: Option<&str>) -> Option<RgbdView> {
+        None
+    }
+    /// Detections in the current view. Looking changes nothing.
+    fn detections(&mut self, _now: Time) -> Vec<Detection> {
+        Vec::new()
+    }
 
     /// Carries an effect out by the call that is meant by it. Records, verdicts and the end of the run are
     /// none of its affair.
@@ -161,11 +187,31 @@ impl<D: Driver> Driver for Rc<RefCell<D>> {
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
         self.borrow_mut().advance(until)
     }
+
+    fn telemetry(&mut self) -> Option<Moved> {
+        self.borrow_mut().telemetry()
+    }
+
+    fn detected(&mut self) -> Option<Vec<Detection>> {
+        self.borrow_mut().detected()
+    }
+
+    fn heard(&mut self) -> Option<Heard> {
+        self.borrow_mut().heard()
+    }
+
+    fn look(&mut self, now: Time, camera: Option<&str>) -> Option<RgbdView> {
+        self.borrow_mut().look(now, camera)
+    }
+
+    fn detections(&mut self, now: Time) -> Vec<Detection> {
+        self.borrow_mut().detections(now)
+    }
 }
 
-/// Optional abilities of a driver.
+/// Optional abilities of a driver. What it leaves out has the default; what nobody knows is ignored.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(default)]
 pub struct Capabilities {
     /// Primitives whose goals it can hold and let go on. Others are cancelled by a pause and start again
     /// after it.
@@ -173,12 +219,54 @@ pub struct Capabilities {
     /// Primitives whose goals take new arguments while they run. Others are cancelled by a swap that changes
     /// them.
     pub update: PrimitiveSet,
+    /// Owner of the time of the run.
+    #[serde(skip_serializing_if = "DriverClock::is_wall")]
+    pub clock: DriverClock,
+    /// True if it sends telemetry ([`Driver::telemetry`]).
+    #[serde(skip_serializing_if = "is_false")]
+    pub moved: bool,
+    /// True if it answers [`Driver::look`].
+    #[serde(skip_serializing_if = "is_false")]
+    pub look: bool,
+    /// True if it answers [`Driver::detections`].
+    #[serde(skip_serializing_if = "is_false")]
+    pub detections: bool,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_false(value: &bool) -> bool {
+    !*value
+}
+
+/// Owner of the time of a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DriverClock {
+    /// Time passes as on the wall.
+    #[default]
+    Wall,
+    /// Time stands still between calls of [`Driver::advance`].
+    Driver,
+}
+
+impl DriverClock {
+    #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+    fn is_wall(&self) -> bool {
+        *self == Self::Wall
+    }
 }
 
 impl Default for Capabilities {
     /// Everything can be held, or is said not to be by [`DriverEvent::NotHeld`]; nothing can be updated.
     fn default() -> Self {
-        Self { hold: PrimitiveSet::All, update: PrimitiveSet::Only(BTreeSet::new()) }
+        Self {
+            hold: PrimitiveSet::All,
+            update: PrimitiveSet::Only(BTreeSet::new()),
+            clock: DriverClock::Wall,
+            moved: false,
+            look: false,
+            detections: false,
+        }
     }
 }
 

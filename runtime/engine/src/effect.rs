@@ -5,7 +5,7 @@ use crate::query::Query;
 use crate::time::Time;
 use crate::trace::TraceEvent;
 use motet_graph::draw::Names;
-use motet_graph::{Graph, Manner, Motion, NodeId, Value, Verdict, Witness};
+use motet_graph::{Configuration, Graph, Manner, Motion, NodeId, Value, Verdict, Witness};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -120,10 +120,14 @@ pub struct Command {
     pub manner: Option<Manner>,
     /// Seconds after which the engine cancels it.
     pub deadline_secs: f64,
-    /// Motion that carries it out, as far as geometry found one. A driver may follow its witness or plan a
-    /// motion of its own. Absent if the primitive has no motion.
+    /// Motions that carry it out, in order, as far as geometry found them. A driver may follow their
+    /// witnesses or plan motions of its own. Empty if the primitive has no motion.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub motions: Vec<Arc<PlannedMotion>>,
+    /// Configuration in which a success leaves the robot: where the motions after this one begin. Absent
+    /// where it is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub motion: Option<Arc<PlannedMotion>>,
+    pub leaves: Option<Arc<Configuration>>,
 }
 
 impl PartialEq for Command {
@@ -308,20 +312,20 @@ impl DeferredMotion {
     pub(crate) fn answered(
         &self,
         verdict: MotionVerdict,
-        witness: Option<Box<Witness>>,
+        (witness, leaves): (Option<Box<Witness>>, Option<&Configuration>),
         why: Option<SmolStr>,
     ) -> Arc<Command> {
         let Self { query, args, command } = self;
         let motion = PlannedMotion { query: query.clone(), args: args.clone(), verdict, witness, why };
-        with_motion(command, motion)
+        Arc::new(Command::clone(command).with_motion(motion, leaves))
     }
 }
 
-/// A command with its motion.
-pub(crate) fn with_motion(command: &Arc<Command>, motion: PlannedMotion) -> Arc<Command> {
-    let mut command = Command::clone(command);
-    command.motion = Some(Arc::new(motion));
-    Arc::new(command)
+impl Command {
+    /// The same command with its motion, and where it leaves the robot.
+    pub(crate) fn with_motion(self, motion: PlannedMotion, leaves: Option<&Configuration>) -> Self {
+        Self { motions: vec![Arc::new(motion)], leaves: leaves.cloned().map(Arc::new), ..self }
+    }
 }
 
 impl fmt::Display for DeferredMotion {

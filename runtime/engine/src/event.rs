@@ -2,7 +2,7 @@
 
 use crate::ids::{CheckId, GoalId};
 use crate::query::{Answer, Query};
-use motet_graph::{Value, Witness};
+use motet_graph::{Configuration, Value, Witness};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -185,6 +185,9 @@ pub enum Verification {
         /// A path that begins where the robot stands now, if one is known.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         witness: Option<Box<Witness>>,
+        /// Configuration in which a success leaves the robot, if it is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        leaves: Option<Box<Configuration>>,
     },
     /// It has none: the step ends in this failure, without moving.
     Infeasible {
@@ -201,7 +204,7 @@ impl Verification {
     /// The same verdict without its path, for traces: the path is in the event.
     pub(crate) fn without_witness(&self) -> Self {
         match self {
-            Self::Feasible { .. } => Self::Feasible { witness: None },
+            Self::Feasible { .. } => Self::Feasible { witness: None, leaves: None },
             Self::Infeasible { .. } | Self::Unknown { .. } => self.clone(),
         }
     }

@@ -16,6 +16,8 @@ pub struct Detection {
     pub class: SmolStr,
     /// Position where it is, in the frame `map`, in m; nothing where only the image tells.
     pub pose: Option<Pose>,
+    /// Lengths of its sides along the axes of its pose in m, where they are known.
+    pub extent: Option<[f64; 3]>,
     /// Confidence of the detector from 0 to 1.
     pub confidence: f64,
     /// Time at which it was seen.

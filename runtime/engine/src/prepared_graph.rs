@@ -168,9 +168,12 @@ impl PreparedGraph {
             step.is_call = true;
             step.deadline = Time::from_secs(call.deadline_secs);
             step.mask = self.means.get(call.primitive.index()).map(|means| means.mask).unwrap_or_default();
-            step.command = self.command(call, literals).map(|mut command| {
-                command.motion = call.motion.as_ref().and_then(literal_motion).map(Arc::new);
-                Arc::new(command)
+            step.command = self.command(call, literals).map(|command| {
+                let planned = call.motion.as_ref().and_then(|motion| Some((literal_motion(motion)?, motion)));
+                Arc::new(match planned {
+                    Some((planned, motion)) => command.with_motion(planned, motion.leaves.as_deref()),
+                    None => command,
+                })
             });
             step.is_ready = !checks && call.unsettles.is_empty();
             step.is_silent = call.effects.is_empty() && call.binds.is_none();
@@ -195,7 +198,8 @@ impl PreparedGraph {
             uses: self.means.get(call.primitive.index())?.uses.clone(),
             manner: call.manner,
             deadline_secs: call.deadline_secs,
-            motion: None,
+            motions: Vec::new(),
+            leaves: None,
         })
     }
 

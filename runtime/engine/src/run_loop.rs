@@ -1,11 +1,13 @@
 //! The loop around an engine: effects to a driver, its reports back. Time is the driver's.
 
-use crate::driver::Driver;
+use crate::driver::{Capabilities, Driver, DriverClock};
 use crate::effect::{DeferredMotion, Effect, Fault, RunEnd};
 use crate::engine::Engine;
 use crate::event::{DriverEvent, Event, Verification};
 use crate::ids::CheckId;
+use crate::perception::Detection;
 use crate::swap::{PreparedSwap, RetiredGraph, SwapRefusal};
+use crate::telemetry::{Heard, Moved};
 use crate::time::Time;
 use crate::verifier::Verifier;
 use motet_graph::Graph;
@@ -15,6 +17,11 @@ use std::sync::Arc;
 
 /// Number of times it is looked whether a verdict has come that is waited for.
 const VERDICT_EVERY: Time = Time::from_nanos(20_000_000);
+/// Longest span of a run without reading telemetry, where the driver sends it.
+const TELEMETRY_EVERY: Time = Time::from_nanos(100_000_000);
+/// Longest span of a run without a call of [`Observer::reached`], where time is the driver's and may pass at
+/// any speed.
+const REACHED_EVERY: Time = Time::from_nanos(500_000_000);
 
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
 pub trait Observer {
@@ -35,6 +42,15 @@ pub trait Observer {
     fn reached(&mut self, _now: Time) -> RunControl {
         RunControl::Continue
     }
+
+    /// The driver sent telemetry. It may have a time before that of the last event.
+    fn moved(&mut self, _moved: &Moved) {}
+
+    /// The driver saw something new.
+    fn detected(&mut self, _now: Time, _seen: &[Detection]) {}
+
+    /// A person said something that nobody had asked for.
+    fn heard(&mut self, _now: Time, _heard: &Heard) {}
 
     /// A policy to take over from the one that runs. Asked after each event, so at least as often as
     /// [`Observer::at_least_every`] says. Of several the newest should be given: one that was never given was
@@ -87,7 +103,8 @@ pub fn resume(
 ) -> RunEnd {
     let asked = engine.unverified().map(|(check, motion)| (check, Arc::clone(motion))).collect();
     let (first, out) = (events.into(), Vec::new());
-    let mut host = RunLoop { driver, observer, now: from, first, out, asked, stopped: false };
+    let capabilities = driver.capabilities();
+    let mut host = RunLoop { driver, observer, now: from, first, out, asked, capabilities, stopped: false };
     loop {
         host.verify();
         if let Some(event) = host.first.pop_front() {
@@ -101,16 +118,39 @@ pub fn resume(
             }
             continue;
         }
-        if let Some(event) = host.next(engine) {
-            host.first.push_back(event);
-        } else {
-            engine.give_up(&mut host.out);
-            return host.carry_out().unwrap_or(RunEnd::Fault(Fault::Stalled));
+        match host.next(engine) {
+            Next::Event(event) => host.first.push_back(event),
+            Next::Glance => {}
+            Next::Nothing => {
+                engine.give_up(&mut host.out);
+                return host.carry_out().unwrap_or(RunEnd::Fault(Fault::Stalled));
+            }
         }
+        host.read_telemetry();
         if !host.stopped && host.observer.reached(host.now) == RunControl::Stop {
             host.stop();
         }
     }
+}
+
+/// Longest span without a look at what is no event; `tick` is the time of the next tick.
+fn glance(capabilities: &Capabilities, tick: Time) -> Time {
+    match (capabilities.clock, capabilities.moved) {
+        (DriverClock::Driver, false) => REACHED_EVERY,
+        (DriverClock::Driver, true) => TELEMETRY_EVERY,
+        // A simulator in this process can say that nothing will ever happen, if nothing limits its time.
+        (DriverClock::Wall, true) if tick != Time::NEVER => TELEMETRY_EVERY,
+        (DriverClock::Wall, _) => Time::NEVER,
+    }
+}
+
+/// Outcome of letting time pass.
+enum Next {
+    Event(Event),
+    /// Nothing for the engine: the observer looks on.
+    Glance,
+    /// Nothing will ever happen.
+    Nothing,
 }
 
 struct RunLoop<'a> {
@@ -122,26 +162,42 @@ struct RunLoop<'a> {
     out: Vec<Effect>,
     /// Motions that wait for a verdict.
     asked: Vec<(CheckId, Arc<DeferredMotion>)>,
+    /// Abilities of the driver.
+    capabilities: Capabilities,
     stopped: bool,
 }
 
 impl RunLoop<'_> {
-    /// The next event. None where nothing will ever happen.
-    fn next(&mut self, engine: &Engine) -> Option<Event> {
+    /// Lets time pass until the next event or glance.
+    fn next(&mut self, engine: &Engine) -> Next {
         let wake = engine.wake_at().unwrap_or(Time::NEVER);
         let is_awaited = self.observer.verifier().is_some_and(|verifier| verifier.is_busy());
-        let glance = if is_awaited { VERDICT_EVERY } else { Time::NEVER };
-        let until = wake.min(self.now.after(self.observer.at_least_every().min(glance)));
+        let every = if is_awaited { VERDICT_EVERY } else { Time::NEVER };
+        let tick = wake.min(self.now.after(self.observer.at_least_every().min(every)));
+        let until = tick.min(self.now.after(glance(&self.capabilities, tick)));
         match self.driver.advance(until) {
             Some((at, report)) => {
                 self.now = at.max(self.now);
-                Some(Event::Driver(report))
+                Next::Event(Event::Driver(report))
             }
-            None if until == Time::NEVER => None,
+            None if until == Time::NEVER => Next::Nothing,
             None => {
                 self.now = until.max(self.now);
-                Some(Event::Tick)
+                if until < tick { Next::Glance } else { Next::Event(Event::Tick) }
             }
+        }
+    }
+
+    /// Hands to the observer what the driver reports beside the engine's events.
+    fn read_telemetry(&mut self) {
+        while let Some(moved) = self.driver.telemetry() {
+            self.observer.moved(&moved);
+        }
+        while let Some(seen) = self.driver.detected() {
+            self.observer.detected(self.now, &seen);
+        }
+        while let Some(heard) = self.driver.heard() {
+            self.observer.heard(self.now, &heard);
         }
     }
 

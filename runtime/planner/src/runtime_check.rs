@@ -186,9 +186,11 @@ impl RunTracker {
     }
 
     fn motion(&self, motion: &DeferredMotion) -> Verification {
-        let Command { primitive, args, .. } = &*motion.command;
-        match self.course.motion(primitive, args, &motion.query, &motion.args) {
-            Forecast::Feasible { witness } => Verification::Feasible { witness: Some(witness) },
+        let Command { primitive, args, manner, .. } = &*motion.command;
+        match self.course.motion(primitive, (args, *manner), &motion.query, &motion.args) {
+            Forecast::Feasible { witness, leaves } => {
+                Verification::Feasible { witness: Some(witness), leaves }
+            }
             Forecast::Infeasible { failure, why } => Verification::Infeasible { failure, why: why.into() },
             Forecast::Unknown { why } => Verification::Unknown { why: why.into() },
         }

@@ -169,7 +169,7 @@ const fn until_after(until: Time, now: Time) -> Time {
 
 /// Stances of the base along the witness of a drive; none without one, or of another command.
 fn base_path(parsed: &SimCommand, command: &Command) -> Vec<BasePose> {
-    let motion = command.motion.as_ref().filter(|_| parsed.is_drive());
+    let motion = command.motions.first().filter(|_| parsed.is_drive());
     let witness = motion.and_then(|motion| motion.witness.as_ref());
     let stance = |point: &Waypoint| {
         let [x, y, heading] = point.base;

@@ -40,6 +40,7 @@ impl Perception for Sim {
                     .get(id)
                     .map_or_else(SmolStr::default, |entity| entity.class.clone()),
                 pose: Some(Pose { xyz: thing.body.xyz, quaternion: [0.0, 0.0, sin, cos] }),
+                extent: None,
                 confidence: 1.0,
                 at,
             }

@@ -15,7 +15,7 @@ fn vision_simulator_s_eyes_keep_the_laws() {
         check_perception(&mut sim, &[Time::from_secs(1.0), Time::from_secs(2.0)]),
         Vec::<String>::new()
     );
-    let seen = sim.detections(Time::from_secs(2.0));
+    let seen = Perception::detections(&mut sim, Time::from_secs(2.0));
     let mug = seen.iter().find(|seen| seen.entity.as_deref() == Some("mug_1")).unwrap();
     assert_eq!(mug.class, "mug");
     assert!(!seen.iter().any(|seen| seen.entity.as_deref() == Some("coke")), "not in view at the start");
@@ -28,6 +28,7 @@ fn vision_detections_bring_a_scene_up_to_date() {
         entity: entity.map(Into::into),
         class: class.into(),
         pose: None,
+        extent: None,
         confidence,
         at: Time::ZERO,
     };

@@ -7,7 +7,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use motet::run::journal_head;
+use motet::run::{journal_head, run_id};
 use motet_host::journal::{JournalWriter, RunRecorder};
 use motet_planner::dialogue::RunRecorder as DialogueRecorder;
 use motet_runtime::journal::JournalHead;
@@ -108,7 +108,8 @@ impl RunJournal {
         start: &StartState,
         request: &str,
     ) -> Self {
-        let head = JournalHead { instruction: Some(request.to_owned()), ..journal_head(engine, start) };
+        let head =
+            JournalHead { instruction: Some(request.to_owned()), ..journal_head(&run_id(), engine, start) };
         Self { record, head }
     }
 }

@@ -1,5 +1,6 @@
 //! Regions and nodes: the control flow of a policy.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use schemars::JsonSchema;
@@ -325,6 +326,10 @@ pub struct Motion {
     /// them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub witness: Option<Box<Witness>>,
+    /// Configuration in which a success leaves the robot, of a proven motion, in the same world; absent where
+    /// it is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub leaves: Option<Box<Configuration>>,
     /// Reason for a deferral, in words, if one is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub why: Option<SmolStr>,
@@ -337,8 +342,8 @@ pub struct Motion {
 pub struct Witness {
     /// Names of the joints that move; all others keep their positions.
     pub joints: Vec<SmolStr>,
-    /// At least one waypoint, from start to end; between two of them base and joints move along a straight
-    /// line.
+    /// At least one waypoint, from start to end. Between two of them base and joints move together along a
+    /// straight line, from rest to rest.
     pub path: Vec<Waypoint>,
     /// Grasp or placement at the end, for queries that ask for one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -380,6 +385,29 @@ pub struct Waypoint {
     pub base: [f64; 3],
     /// Positions of [`Witness::joints`] in the same order.
     pub joints: Vec<f64>,
+    /// Seconds from the start of the motion, 0 at the first waypoint. They keep the speeds and accelerations
+    /// of the robot, in the manner of the step.
+    #[serde(default)]
+    pub at: f64,
+    /// Seconds of even acceleration after the waypoint before, and of even braking before this one; the speed
+    /// between them is constant.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub ramp: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(secs: &f64) -> bool {
+    *secs == 0.0
+}
+
+/// A configuration of the robot, as far as it is known. Lengths in m, angles in rad.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Configuration {
+    /// Base pose x, y, yaw in the frame `map`.
+    pub base: [f64; 3],
+    /// Positions of joints by name; all others keep their positions.
+    pub joints: BTreeMap<SmolStr, f64>,
 }
 
 /// Pose of the hand at a thing, with the opening of the hand.

@@ -197,17 +197,28 @@ fn bad_bounds(bounds: DurationBounds) -> Option<InvalidReason> {
 fn bad_motion(motion: &Motion) -> Option<&'static str> {
     let witness = match (motion.verdict, &motion.witness) {
         (Verdict::Proven, Some(witness)) => witness,
+        (Verdict::Deferred, None) if motion.leaves.is_some() => {
+            return Some("is deferred and says where it leaves the robot");
+        }
         (Verdict::Deferred, None) => return None,
         (Verdict::Proven, None) => return Some("is proven and has no witness"),
         (Verdict::Deferred, Some(_)) => return Some("is deferred and has a witness"),
     };
+    if let Some(leaves) = &motion.leaves
+        && !leaves.base.iter().chain(leaves.joints.values()).all(|value| value.is_finite())
+    {
+        return Some("leaves the robot at a number that is not finite");
+    }
     if witness.path.is_empty() {
         return Some("has a witness without a path");
     }
     if witness.path.iter().any(|at| at.joints.len() != witness.joints.len()) {
         return Some("has a way-point without a position for each joint");
     }
-    let path = witness.path.iter().flat_map(|at| at.base.iter().chain(&at.joints));
+    if !witness.path.is_sorted_by(|one, next| one.at <= next.at) {
+        return Some("has way-points whose times go back");
+    }
+    let path = witness.path.iter().flat_map(|at| at.base.iter().chain(&at.joints).chain([&at.at, &at.ramp]));
     let grasp = witness
         .grasp
         .iter()

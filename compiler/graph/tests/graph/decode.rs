@@ -2,8 +2,9 @@
 
 use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{
-    Arithmetic, Clearance, Comparison, Condition, Ending, Fact, FactArg, Graph, Grasp, InitialFact, Motion,
-    NodeKind, Pose, Term, Unsettled, Value, Verdict, Waypoint, Witness, decode, draw, encode, hash,
+    Arithmetic, Clearance, Comparison, Condition, Configuration, Ending, Fact, FactArg, Graph, Grasp,
+    InitialFact, Motion, NodeKind, Pose, Term, Unsettled, Value, Verdict, Waypoint, Witness, decode, draw,
+    encode, hash,
 };
 
 #[track_caller]
@@ -21,8 +22,8 @@ fn forms() {
     refuse("", "no graph: EOF while parsing a value at line 1 column 0");
     refuse("[]", "no graph: ");
     refuse("{}", "no graph: missing field `motet_graph`");
-    refuse("{\"motet_graph\": 1}", "the graph has version 1; this program reads version 5");
-    refuse("{\"motet_graph\": 5}", "no graph: missing field `policy`");
+    refuse("{\"motet_graph\": 1}", "the graph has version 1; this program reads version 6");
+    refuse("{\"motet_graph\": 6}", "no graph: missing field `policy`");
     refuse(&document().replacen("\"policy\"", "\"polcy\"", 1), "no graph: unknown field `polcy`");
     refuse(&document().replacen("\"retries\"", "\"x\":1,\"retries\"", 1), "no graph: unknown field `x`");
     refuse(
@@ -44,7 +45,7 @@ fn forms() {
 #[test]
 fn the_hash_stands_in_the_document() {
     let graph = graph(&[StepSketch::go("table")]);
-    assert!(encode(&graph).starts_with(&format!("{{\"motet_graph\":5,\"hash\":\"{}\",", hash(&graph))));
+    assert!(encode(&graph).starts_with(&format!("{{\"motet_graph\":6,\"hash\":\"{}\",", hash(&graph))));
 }
 
 #[test]
@@ -107,13 +108,16 @@ fn sample() -> Graph {
             witness: is_proven.then(|| {
                 Box::new(Witness {
                     joints: vec!["arm_lift".into()],
-                    path: vec![Waypoint { base: [0.0, 1.0, 2.0], joints: vec![0.5] }],
+                    path: vec![Waypoint { base: [0.0, 1.0, 2.0], joints: vec![0.5], at: 0.0, ramp: 0.0 }],
                     grasp: Some(Grasp { xyz: [0.1; 3], quaternion: [0.0, 0.0, 0.0, 1.0], width: 0.08 }),
                     clearance: 0.02,
                     keeps: Clearance { base: 0.04, arm: 0.01 },
                     limit: Some(0.1),
                     payload: None,
                 })
+            }),
+            leaves: is_proven.then(|| {
+                Box::new(Configuration { base: [0.0, 1.0, 2.0], joints: [("arm_lift".into(), 0.1)].into() })
             }),
             why: (!is_proven).then(|| "the pose is not known".into()),
         });

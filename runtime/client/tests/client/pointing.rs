@@ -55,7 +55,8 @@ fn command(primitive: &str, args: Vec<(&str, Value)>, uses: &str) -> Command {
         uses: [uses.into()].into(),
         manner: None,
         deadline_secs: 10.0,
-        motion: None,
+        motions: Vec::new(),
+        leaves: None,
     }
 }
 

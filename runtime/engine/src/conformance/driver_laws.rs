@@ -9,6 +9,7 @@ use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
 
 /// A driver to be checked, and what to check it with.
 pub struct ConformanceSubject<'a> {
@@ -33,34 +34,50 @@ pub struct ConformanceSubject<'a> {
 /// from here.
 #[must_use]
 pub fn check(subject: &mut ConformanceSubject<'_>) -> Vec<LawViolation> {
+    let mut all = BTreeSet::new();
+    check_scenes(subject, &mut |_, broken| {
+        all.extend(broken.iter().cloned());
+        ControlFlow::Continue(())
+    });
+    all.into_iter().collect()
+}
+
+/// Runs a driver through the scenes until `told` breaks off. It hears the name of each scene, once its driver
+/// is gone, and the laws that were broken in it.
+pub fn check_scenes(
+    subject: &mut ConformanceSubject<'_>,
+    told: &mut dyn FnMut(&'static str, &BTreeSet<LawViolation>) -> ControlFlow<()>,
+) {
     type Scene = fn(&mut DriverBench, &ConformanceSubject<'_>);
-    let scenes: [Scene; 10] = [
-        to_the_end,
-        cancelled,
-        stopped,
-        stopped_unheard_of,
-        held,
-        cancelled_while_held,
-        stopped_while_held,
-        updated,
-        observed,
-        watched,
+    let scenes: [(&str, Scene); 10] = [
+        ("to the end", to_the_end),
+        ("cancelled", cancelled),
+        ("stopped safely", stopped),
+        ("an unknown goal stopped safely", stopped_unheard_of),
+        ("held", held),
+        ("cancelled while held", cancelled_while_held),
+        ("stopped safely while held", stopped_while_held),
+        ("updated", updated),
+        ("observed", observed),
+        ("watched", watched),
     ];
-    let mut breaches = BTreeSet::new();
-    for scene in scenes {
+    for (name, scene) in scenes {
         let mut bench = DriverBench::new((subject.fresh)());
         scene(&mut bench, subject);
-        breaches.extend(bench.breaches);
+        let DriverBench { driver, log, mut breaches, .. } = bench;
+        drop(driver);
         if subject.is_virtual {
             let mut again = DriverBench::new((subject.fresh)());
             scene(&mut again, subject);
-            if again.log != bench.log {
-                let told = first_difference(&bench.log, &again.log);
+            if again.log != log {
+                let told = first_difference(&log, &again.log);
                 breaches.insert(LawViolation { law: Law::Repeatable, told });
             }
         }
+        if told(name, &breaches).is_break() {
+            return;
+        }
     }
-    breaches.into_iter().collect()
 }
 
 /// Started, it is answered, ends once, and is never heard of again; a cancel then changes nothing.

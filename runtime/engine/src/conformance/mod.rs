@@ -10,7 +10,7 @@ mod faulty_driver;
 mod guarantees;
 mod law;
 
-pub use driver_laws::{ConformanceSubject, check};
+pub use driver_laws::{ConformanceSubject, check, check_scenes};
 pub use faulty_driver::{FaultRates, FaultyDriver};
 pub use guarantees::EngineGuarantees;
 pub use law::{Law, LawViolation, check_perception};

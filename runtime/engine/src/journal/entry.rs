@@ -38,6 +38,9 @@ pub struct JournalHead {
     pub began_unix_ns: u64,
     /// The engine's time then.
     pub from: Time,
+    /// Id of the run, which its driver hears; absent in older journals.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub run: String,
     /// The operator's request, word for word.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instruction: Option<String>,
@@ -106,6 +109,7 @@ impl JournalHead {
             wire: super::WIRE_VERSION,
             began_unix_ns: 0,
             from: Time::ZERO,
+            run: String::new(),
             instruction: None,
             graph: motet_graph::encode::document(graph),
             start: StartState::default(),

@@ -4,7 +4,7 @@
 use super::Turn;
 use super::call::{GuardCheck, StartRefusal};
 use crate::belief::Freshness;
-use crate::effect::{Command, DeferredMotion, Effect, MotionVerdict, PlannedMotion, RunEnd, with_motion};
+use crate::effect::{Command, DeferredMotion, Effect, MotionVerdict, PlannedMotion, RunEnd};
 use crate::event::Verification;
 use crate::ids::CheckId;
 use crate::query::Truth;
@@ -26,7 +26,7 @@ impl Turn<'_> {
     ) -> GuardCheck {
         let Some(compiled) = &call.motion else { return GuardCheck::Go(command) };
         let is_checked = self.is_open(compiled.verdict) && self.settings.verify_within.is_some();
-        if !is_checked && command.motion.is_some() {
+        if !is_checked && !command.motions.is_empty() {
             return GuardCheck::Go(command);
         }
         let now = self.run.now;
@@ -34,18 +34,21 @@ impl Turn<'_> {
             return GuardCheck::Go(command);
         };
         if !is_checked {
-            return GuardCheck::Go(with_motion(&command, PlannedMotion::compiled(compiled, args)));
+            let motion = PlannedMotion::compiled(compiled, args);
+            let command = Command::clone(&command).with_motion(motion, compiled.leaves.as_deref());
+            return GuardCheck::Go(Arc::new(command));
         }
         let motion = DeferredMotion { query: compiled.query.clone(), args, command };
         let known = self.run.checks.iter().find(|check| check.node == node && *check.motion == motion);
         match known.map(|check| (&check.verdict, &check.motion)) {
             None => GuardCheck::Ask(motion),
             Some((None, asked)) => GuardCheck::Wait(asked.clone()),
-            Some((Some(Verification::Feasible { witness }), _)) => {
-                GuardCheck::Go(motion.answered(MotionVerdict::Verified, witness.clone(), None))
+            Some((Some(Verification::Feasible { witness, leaves }), _)) => {
+                let found = (witness.clone(), leaves.as_deref());
+                GuardCheck::Go(motion.answered(MotionVerdict::Verified, found, None))
             }
             Some((Some(Verification::Unknown { why }), _)) => {
-                GuardCheck::Go(motion.answered(MotionVerdict::Open, None, Some(why.clone())))
+                GuardCheck::Go(motion.answered(MotionVerdict::Open, (None, None), Some(why.clone())))
             }
             Some((Some(Verification::Infeasible { failure, .. }), _)) => {
                 let failure = failure.clone();

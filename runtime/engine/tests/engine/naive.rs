@@ -269,7 +269,8 @@ impl Naive {
                 uses: primitive.uses.iter().map(|id| self.graph.resources[id.index()].name.clone()).collect(),
                 manner: call.manner,
                 deadline_secs: call.deadline_secs,
-                motion: None,
+                motions: Vec::new(),
+                leaves: None,
             };
             let goes_on = |orphan: &Orphan| {
                 orphan.command.args == command.args

@@ -327,7 +327,7 @@ fn verdict(number: u8) -> Verification {
     match number % 4 {
         0 => Verification::Infeasible { failure: "unreachable".into(), why: "too far".into() },
         1 => Verification::Unknown { why: "too hard".into() },
-        _ => Verification::Feasible { witness: None },
+        _ => Verification::Feasible { witness: None, leaves: None },
     }
 }
 
@@ -359,7 +359,7 @@ enum Input {
 fn engine(graph: Graph) -> Result<Engine, Vec<motet_graph::InvalidGraph>> {
     let only = |names: &[&str]| PrimitiveSet::Only(names.iter().map(|name| (*name).into()).collect());
     let hold = only(&["go", "pick", "detect", "detect_all", "say"]);
-    let capabilities = Capabilities { hold, update: only(&["go", "pick"]) };
+    let capabilities = Capabilities { hold, update: only(&["go", "pick"]), ..Capabilities::default() };
     let settings =
         EngineSettings { verify_within: Some(Time::from_nanos(300_000_000)), ..EngineSettings::default() };
     let engine = Engine::new(graph, &StartState::default())?.with_settings(settings);

@@ -18,6 +18,7 @@ pub(crate) fn with_motions(mut graph: Graph, of: &[PrimitiveId]) -> Graph {
                 args: call.args.clone(),
                 verdict: Verdict::Deferred,
                 witness: None,
+                leaves: None,
                 why: None,
             });
         }
@@ -83,7 +84,7 @@ fn verify_where_nobody_is_to_be_asked_the_driver_will_see() {
 
 #[test]
 fn verify_motion_that_is_found_or_not_known_starts() {
-    for verdict in [Verification::Feasible { witness: None }, unknown()] {
+    for verdict in [Verification::Feasible { witness: None, leaves: None }, unknown()] {
         let mut scene = Scene::new(&[StepSketch::go("table")], Some(1.0));
         let (said, checks) = scene.look();
         assert_eq!(said, ["verify reach(table)"]);
@@ -109,7 +110,7 @@ fn verify_second_verdict_and_one_that_nobody_waits_for_are_ignored() {
     let mut scene = Scene::new(&[StepSketch::go("table"), StepSketch::go("sink")], Some(1.0));
     let (_, checks) = scene.look();
     scene.verdict(0.5, CheckId::from_number(77), infeasible());
-    scene.verdict(0.5, checks[0], Verification::Feasible { witness: None });
+    scene.verdict(0.5, checks[0], Verification::Feasible { witness: None, leaves: None });
     scene.verdict(0.5, checks[0], infeasible());
     assert_eq!(scene.look().0, ["go(to: table)"]);
 }
@@ -135,7 +136,7 @@ fn verify_what_is_interrupted_meanwhile_asks_anew() {
         Event::Driver(DriverEvent::Observed { query, answer: Answer::Truth(truth) })
     };
     scene.feed(0.1, holding(true));
-    scene.verdict(0.2, before[0], Verification::Feasible { witness: None });
+    scene.verdict(0.2, before[0], Verification::Feasible { witness: None, leaves: None });
     assert_eq!(scene.look().0, [""; 0], "it is paused");
     scene.feed(0.3, holding(false));
     let (said, after) = scene.look();
@@ -153,9 +154,9 @@ fn verify_after_a_swap_the_verdict_for_the_policy_before_is_ignored() {
     scene.engine.swap(Time::from_secs(0.1), prepared, &mut scene.out).unwrap();
     let (said, after) = scene.look();
     assert_eq!(said, ["verify reach(table)"]);
-    scene.verdict(0.2, before[0], Verification::Feasible { witness: None });
+    scene.verdict(0.2, before[0], Verification::Feasible { witness: None, leaves: None });
     assert_eq!(scene.look().0, [""; 0]);
-    scene.verdict(0.3, after[0], Verification::Feasible { witness: None });
+    scene.verdict(0.3, after[0], Verification::Feasible { witness: None, leaves: None });
     assert_eq!(scene.look().0, ["go(to: table)"]);
 }
 
@@ -167,7 +168,7 @@ fn verify_retry_asks_again() {
     scene.verdict(0.1, checks[0], infeasible());
     let (said, checks) = scene.look();
     assert_eq!(said, ["verify reach(table)"]);
-    scene.verdict(0.2, checks[0], Verification::Feasible { witness: None });
+    scene.verdict(0.2, checks[0], Verification::Feasible { witness: None, leaves: None });
     let started = scene.out.iter().find_map(|effect| match effect {
         Effect::Start { goal, .. } => Some(*goal),
         _ => None,

@@ -107,7 +107,8 @@ proptest! {
             uses: ["hand".into()].into(),
             manner: manner.map(|(speed, acceleration)| Manner { speed, acceleration }),
             deadline_secs: 20.1,
-            motion: None,
+            motions: Vec::new(),
+            leaves: None,
         };
         let (goal, node, command) = (GoalId::from_number(goal), NodeId(node), Arc::new(command));
         let deadline = Time::from_nanos(deadline);
@@ -119,15 +120,15 @@ proptest! {
     #[test]
     fn wire_motions(args in vec(value(), 0..3), check: u64, why: String) {
         let (primitive, uses) = ("pick".into(), [].into());
-        let (manner, motion) = (None, None);
+        let (manner, motions, leaves) = (None, Vec::new(), None);
         let command =
-            Command { primitive, args: Vec::new(), uses, manner, deadline_secs: 20.1, motion };
+            Command { primitive, args: Vec::new(), uses, manner, deadline_secs: 20.1, motions, leaves };
         let motion = Arc::new(DeferredMotion { query: "reach".into(), args, command: Arc::new(command) });
         let check = CheckId::from_number(check);
         there_and_back!(Effect, Effect::Verify { check, node: NodeId(3), motion });
         let why = smol_str::SmolStr::from(why);
         for verdict in [
-            Verification::Feasible { witness: None },
+            Verification::Feasible { witness: None, leaves: None },
             Verification::Infeasible { failure: "unreachable".into(), why: why.clone() },
             Verification::Unknown { why },
         ] {
@@ -152,7 +153,10 @@ fn wire_form_keeps_its_bytes() {
         TraceEventKind::Started { node, goal, attempt: 2 },
         TraceEventKind::GoalEnded { node, goal, ending: NodeEnding::Interrupted, cause: EndCause::Swap },
         TraceEventKind::Guard { node, need: 1, truth: Truth::Unknown },
-        TraceEventKind::Verified { node, verdict: Box::new(Verification::Feasible { witness: None }) },
+        TraceEventKind::Verified {
+            node,
+            verdict: Box::new(Verification::Feasible { witness: None, leaves: None }),
+        },
         TraceEventKind::Tested { node, truth: Truth::True },
         TraceEventKind::GoalObserved { truth: Truth::Unknown },
         TraceEventKind::Fired { node, watch: 1, truth: Truth::False },
@@ -194,7 +198,8 @@ fn wire_form_keeps_its_bytes() {
         uses: ["hand".into()].into(),
         manner: Some(Manner { speed: 0.3, acceleration: 0.25 }),
         deadline_secs: 20.1,
-        motion: None,
+        motions: Vec::new(),
+        leaves: None,
     });
     let check = CheckId::from_number(4);
     let deadline = Time::from_nanos(30_100_000_000);

@@ -4,7 +4,8 @@ use super::{JournalError, JournalWriter};
 use motet_graph::Graph;
 use motet_runtime::journal::must_be_durable;
 use motet_runtime::{
-    Effect, Engine, Event, Observer, PreparedSwap, RetiredGraph, RunControl, SwapRefusal, Time, Verifier,
+    Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, RetiredGraph, RunControl,
+    SwapRefusal, Time, Verifier,
 };
 use std::sync::Arc;
 
@@ -83,6 +84,18 @@ impl Observer for RunRecorder<'_> {
         }
         let inner = self.inner.reached(now);
         if self.error.is_some() { RunControl::Stop } else { inner }
+    }
+
+    fn moved(&mut self, moved: &Moved) {
+        self.inner.moved(moved);
+    }
+
+    fn detected(&mut self, now: Time, seen: &[Detection]) {
+        self.inner.detected(now, seen);
+    }
+
+    fn heard(&mut self, now: Time, heard: &Heard) {
+        self.inner.heard(now, heard);
     }
 
     fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {

@@ -1,21 +1,35 @@
 //! The driver that the engine's host sees.
 
+mod ask;
 mod carry_out;
+mod goals;
 mod hear;
+mod log;
+mod run_time;
+mod telemetry;
 
+pub use self::log::{DriverLog, LineFrom};
+
+use self::goals::GoalLedger;
+use self::run_time::RunTime;
+use self::telemetry::TelemetryQueue;
 use super::connect::DriverAddress;
 use super::link::{Clock, Link, LinkError};
 use super::protocol::{
-    DriverCall, DriverMessage, DriverTimeouts, EmptyParams, GoalParams, GoalStatus, Hello, QueryParams,
-    StatusParams, StatusResult, VERSION, Welcome, hear, say,
+    DriverCall, DriverMessage, DriverTimeouts, EmptyParams, GoalParams, GoalStatus, Hello, MAX_WAITING,
+    QueryParams, VERSION, Welcome, hear, say,
 };
 use motet_runtime::journal::{OpenGoal, OpenGoals};
-use motet_runtime::{Capabilities, Driver, DriverEvent, Effect, Event, GoalId, Query, Time};
+use motet_runtime::{Capabilities, Driver, DriverClock, DriverEvent, Effect, Event, GoalId, Query, Time};
 use smol_str::SmolStr;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, VecDeque};
 use std::time::Instant;
 
-/// A driver in another process. Its time is the wall clock's, from where it was connected.
+/// The most breaches of promises that are told.
+const MOST_BREACHES: u32 = 20;
+
+/// A driver in another process. Its time is the wall clock's from where it was connected, or its own
+/// ([`DriverClock`]): then each call is waited for, and time passes only in [`Driver::advance`].
 ///
 /// A driver that ends, is silent, floods or says what is no message is spoken with no more, and
 /// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few
@@ -24,20 +38,21 @@ pub struct RemoteDriver {
     address: DriverAddress,
     patience: DriverTimeouts,
     hello: Hello,
-    clock: Clock,
+    time: RunTime,
     link: Option<Link>,
     welcome: Welcome,
     next_id: u64,
     waiting: BTreeMap<u64, Waiting>,
     outbox: VecDeque<(Time, DriverEvent)>,
+    telemetry: TelemetryQueue,
     watches: Vec<Query>,
-    /// Goals whose safe stop was asked for and is not acknowledged.
-    stopping: BTreeSet<GoalId>,
+    goals: GoalLedger,
+    breaches: u32,
     heard_at: Instant,
     said_at: Instant,
     restarts: u32,
     last: Time,
-    note: Box<dyn FnMut(&str)>,
+    log: Box<dyn DriverLog>,
 }
 
 /// A call that is not answered.
@@ -48,7 +63,7 @@ struct Waiting {
 }
 
 impl RemoteDriver {
-    /// Starts or calls a driver and greets it. It is `from` then. `note` hears in words what goes wrong, and
+    /// Starts or calls a driver and greets it. It is `from` then. `log` hears in words what goes wrong, and
     /// feedback.
     ///
     /// # Errors
@@ -59,31 +74,38 @@ impl RemoteDriver {
         hello: Hello,
         patience: DriverTimeouts,
         from: Time,
-        note: Box<dyn FnMut(&str)>,
+        log: Box<dyn DriverLog>,
     ) -> Result<Self, LinkError> {
         let hello = Hello { protocol: VERSION, ..hello };
+        let goals = GoalLedger::new(&hello.primitives);
         let capabilities = Capabilities::default();
         let (driver, instance) = (String::new(), String::new());
         let mut this = Self {
             address,
             patience,
             hello,
-            clock: Clock::new(from),
+            time: RunTime::Own { now: from, stalls: 0 },
             link: None,
             welcome: Welcome { protocol: VERSION, driver, instance, capabilities },
             next_id: 0,
             waiting: BTreeMap::new(),
             outbox: VecDeque::new(),
+            telemetry: TelemetryQueue::default(),
             watches: Vec::new(),
-            stopping: BTreeSet::new(),
+            goals,
+            breaches: 0,
             heard_at: Instant::now(),
             said_at: Instant::now(),
             restarts: patience.restarts,
             last: from,
-            note,
+            log,
         };
-        this.greet()?;
-        this.clock = Clock::new(from);
+        let early = this.greet()?;
+        this.time = match this.welcome.capabilities.clock {
+            DriverClock::Wall => RunTime::Wall(Clock::new(from)),
+            DriverClock::Driver => RunTime::Own { now: from, stalls: 0 },
+        };
+        early.iter().for_each(|line| this.hear_line(line));
         Ok(this)
     }
 
@@ -93,48 +115,31 @@ impl RemoteDriver {
         &self.welcome
     }
 
-    /// Asks for the state of some goals and waits for the answer.
-    ///
-    /// # Errors
-    ///
-    /// It does not say.
-    pub fn status(&mut self, goals: Vec<GoalId>) -> Result<StatusResult, LinkError> {
-        let asked = self.next_id;
-        self.call(DriverCall::Status(StatusParams { goals }));
-        let due = Instant::now() + self.patience.answer;
-        while let Some(left) = due.checked_duration_since(Instant::now()) {
-            let Some(line) = self.link.as_ref().ok_or(LinkError::Closed)?.hear(left)? else { break };
-            match hear(&line).map_err(|why| nonsense(&line, why))? {
-                DriverMessage::Answer(id, Ok(told)) if id == asked => {
-                    self.waiting.remove(&asked);
-                    return serde_json::from_value(told).map_err(|why| nonsense(&line, why.to_string()));
-                }
-                DriverMessage::Answer(id, Err(wrong)) if id == asked => {
-                    return Err(LinkError::Greeting(wrong.message));
-                }
-                DriverMessage::Answer(..) | DriverMessage::Report(_) => self.heard(&line),
-            }
-        }
-        Err(LinkError::Silent(self.patience.answer))
-    }
-
-    /// Opens a connection and greets.
-    fn greet(&mut self) -> Result<(), LinkError> {
+    /// Opens a connection and greets. Gives the reports that came before the answer: what a driver went on
+    /// with may end just then.
+    fn greet(&mut self) -> Result<Vec<String>, LinkError> {
         let link = self.address.open(self.patience.greeting)?;
         let id = self.id();
-        link.say(say(id, &DriverCall::Hello(self.hello.clone())))?;
-        let Some(line) = link.hear(self.patience.greeting)? else {
-            let secs = self.patience.greeting.as_secs_f64();
-            return Err(LinkError::Greeting(format!("nothing for {secs:.1} s")));
-        };
-        let answer = hear(&line).map_err(|why| nonsense(&line, why))?;
-        let welcome = match answer {
-            DriverMessage::Answer(answered, Ok(welcome)) if answered == id => welcome,
-            DriverMessage::Answer(_, Err(wrong)) => return Err(LinkError::Greeting(wrong.message)),
-            DriverMessage::Answer(_, Ok(_)) | DriverMessage::Report(_) => {
-                return Err(LinkError::Greeting("it said something else first".to_owned()));
+        let said = say(id, &DriverCall::Hello(self.hello.clone()), Some(self.time.now()));
+        self.log.line(LineFrom::Host, &said);
+        link.say(said)?;
+        let due = Instant::now() + self.patience.greeting;
+        let mut early = Vec::new();
+        let (welcome, line) = loop {
+            let Some(line) = link.hear(due.saturating_duration_since(Instant::now()))? else {
+                let secs = self.patience.greeting.as_secs_f64();
+                return Err(LinkError::Greeting(format!("nothing for {secs:.1} s")));
+            };
+            match hear(&line).map_err(|why| nonsense(&line, why))? {
+                DriverMessage::Answer(answered, Ok(welcome)) if answered == id => break (welcome, line),
+                DriverMessage::Answer(_, Err(wrong)) => return Err(LinkError::Greeting(wrong.message)),
+                DriverMessage::Report(_) if early.len() < MAX_WAITING => early.push(line),
+                DriverMessage::Answer(_, Ok(_)) | DriverMessage::Report(_) => {
+                    return Err(LinkError::Greeting("it said something else first".to_owned()));
+                }
             }
         };
+        self.log.line(LineFrom::Driver, &line);
         let welcome: Welcome =
             serde_json::from_value(welcome).map_err(|why| nonsense(&line, why.to_string()))?;
         if welcome.protocol != VERSION {
@@ -142,10 +147,16 @@ impl RemoteDriver {
             let why = format!("it speaks version {found} of the protocol, this program speaks {VERSION}");
             return Err(LinkError::Greeting(why));
         }
+        let is_first = self.welcome.instance.is_empty();
+        if !is_first && welcome.capabilities.clock != self.welcome.capabilities.clock {
+            return Err(LinkError::Greeting("the clock is no longer owned by whom it was".to_owned()));
+        }
         self.welcome = welcome;
+        // Whoever is called again goes on with the same run.
+        self.hello.resumed = true;
         self.heard_at = Instant::now();
         self.link = Some(link);
-        Ok(())
+        Ok(early)
     }
 
     /// Sees to it that there is somebody to speak with.
@@ -157,15 +168,18 @@ impl RemoteDriver {
             return false;
         }
         self.restarts -= 1;
-        (self.note)(&format!("calling the driver again: {}", self.address));
-        if let Err(breakage) = self.greet() {
-            (self.note)(&breakage.to_string());
-            return false;
+        self.log.note(&format!("calling the driver again: {}", self.address));
+        match self.greet() {
+            Ok(early) => early.iter().for_each(|line| self.hear_line(line)),
+            Err(breakage) => {
+                self.log.note(&breakage.to_string());
+                return false;
+            }
         }
         for query in self.watches.clone() {
             self.call(DriverCall::Watch(QueryParams::from(&query)));
         }
-        for goal in self.stopping.clone() {
+        for goal in self.goals.stopping.clone() {
             self.call(DriverCall::SafeStop(GoalParams { goal }));
         }
         self.link.is_some()
@@ -181,27 +195,46 @@ impl RemoteDriver {
     }
 
     fn call_again(&mut self, call: DriverCall, sayings: u32) {
-        let Some(link) = &self.link else { return };
-        let said = link.say(say(self.next_id, &call));
-        self.said_at = Instant::now();
-        let id = self.id();
-        match said {
-            Ok(()) => {
-                let due = Instant::now() + self.patience.answer;
-                self.waiting.insert(id, Waiting { call, due, sayings });
-            }
-            Err(breakage) => self.broke(&breakage),
+        let Ok(id) = self.say(&call) else { return };
+        let due = Instant::now() + self.patience.answer;
+        self.waiting.insert(id, Waiting { call, due, sayings });
+        if self.time.is_own() {
+            self.wait_for(id);
         }
     }
 
+    /// Says a call and gives its number.
+    fn say(&mut self, call: &DriverCall) -> Result<u64, LinkError> {
+        let link = self.link.as_ref().ok_or(LinkError::Closed)?;
+        let line = say(self.next_id, call, self.time.told());
+        self.log.line(LineFrom::Host, &line);
+        let said = link.say(line);
+        self.said_at = Instant::now();
+        let id = self.id();
+        if let Err(breakage) = &said {
+            self.broke(breakage);
+        }
+        said.map(|()| id)
+    }
+
     fn report(&mut self, event: DriverEvent) {
-        self.outbox.push_back((self.clock.now(), event));
+        self.outbox.push_back((self.time.now(), event));
+    }
+
+    /// Tells a promise that the driver broke, as long as there are few.
+    fn breach(&mut self, text: &str) {
+        self.breaches = self.breaches.saturating_add(1);
+        match self.breaches {
+            ..MOST_BREACHES => self.log.breach(text),
+            MOST_BREACHES => self.log.breach(&format!("{text}; further broken promises are not told")),
+            _ => {}
+        }
     }
 
     /// The connection is of no use any more.
     fn broke(&mut self, breakage: &LinkError) {
         if self.link.take().is_some() {
-            (self.note)(&breakage.to_string());
+            self.log.note(&breakage.to_string());
             self.waiting.clear();
             self.report(DriverEvent::DriverLost);
         }
@@ -211,7 +244,9 @@ impl RemoteDriver {
 impl Drop for RemoteDriver {
     fn drop(&mut self) {
         if let Some(link) = &mut self.link {
-            let _ = link.say(say(self.next_id, &DriverCall::Bye(EmptyParams {})));
+            let bye = say(self.next_id, &DriverCall::Bye(EmptyParams {}), None);
+            self.log.line(LineFrom::Host, &bye);
+            let _ = link.say(bye);
             link.end(self.patience.farewell);
         }
     }
@@ -249,6 +284,9 @@ impl RemoteDriver {
         instance: &str,
         now: Time,
     ) -> Result<Vec<Event>, LinkError> {
+        for (&goal, open) in &ledger.goals {
+            self.goals.started(goal, &open.command.primitive);
+        }
         let told = self.status(ledger.goals.keys().copied().collect())?;
         let states: BTreeMap<GoalId, GoalStatus> =
             told.goals.into_iter().map(|told| (told.goal, told.state)).collect();
@@ -265,13 +303,18 @@ impl RemoteDriver {
                     self.say_again(now, goal, open);
                 }
                 Some(GoalStatus::Ended(outcome)) => {
+                    self.goals.ended(goal);
                     let outcome = self.named(outcome.clone());
                     events.push(DriverEvent::Ended { goal, outcome });
                 }
                 Some(GoalStatus::Refused(failure)) => {
+                    self.goals.ended(goal);
                     events.push(DriverEvent::Refused { goal, failure: self.failure(failure) });
                 }
-                Some(GoalStatus::Stopped) => events.push(DriverEvent::Stopped { goal }),
+                Some(GoalStatus::Stopped) => {
+                    self.goals.ended(goal);
+                    events.push(DriverEvent::Stopped { goal });
+                }
                 Some(GoalStatus::Unknown) if is_same && just_started => {
                     self.start(now, goal, &open.command);
                 }

@@ -1,12 +1,14 @@
 //! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
 //! nobody.
 
-use super::protocol::{MAX_LINE_BYTES, MAX_WAITING};
+use super::protocol::{MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING};
 use motet_runtime::Time;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::{Shutdown, TcpStream};
 use std::process::Child;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -29,6 +31,8 @@ pub enum LinkError {
     Nonsense(String, String),
     /// It did not answer the greeting, or otherwise than it should.
     Greeting(String),
+    /// It answered a call with this error.
+    Refused(String),
 }
 
 impl fmt::Display for LinkError {
@@ -41,9 +45,12 @@ impl fmt::Display for LinkError {
                 write!(f, "the driver gave no sign of life for {:.1} s", span.as_secs_f64())
             }
             Self::Deaf => f.write_str("the driver does not take in what is said to it"),
-            Self::Flood => write!(f, "the driver said a line of more than {MAX_LINE_BYTES} bytes"),
+            Self::Flood => {
+                write!(f, "the driver said a line of more than {MAX_LINE_BYTES} bytes, or a larger picture")
+            }
             Self::Nonsense(line, why) => write!(f, "the driver said `{line}`, which is no message: {why}"),
             Self::Greeting(why) => write!(f, "the driver did not answer the greeting: {why}"),
+            Self::Refused(why) => write!(f, "the driver says: {why}"),
         }
     }
 }
@@ -61,6 +68,8 @@ pub(super) struct Link {
     said: SyncSender<String>,
     speaker: JoinHandle<()>,
     peer: Peer,
+    /// True while a picture is due, whose line may be longer than others.
+    awaits_picture: Arc<AtomicBool>,
 }
 
 impl Link {
@@ -71,9 +80,16 @@ impl Link {
     ) -> Self {
         let (tell, heard) = sync_channel(MAX_WAITING);
         let (said, lines) = sync_channel(MAX_WAITING);
-        thread::spawn(move || listen(reader, &tell));
+        let awaits_picture = Arc::new(AtomicBool::new(false));
+        let picture = Arc::clone(&awaits_picture);
+        thread::spawn(move || listen(reader, &tell, &picture));
         let speaker = thread::spawn(move || speak(writer, &lines));
-        Self { heard, said, speaker, peer }
+        Self { heard, said, speaker, peer, awaits_picture }
+    }
+
+    /// Permits or forbids the long line of a picture.
+    pub(super) fn await_picture(&self, is_due: bool) {
+        self.awaits_picture.store(is_due, Ordering::SeqCst);
     }
 
     pub(super) fn of_child(mut child: Child) -> Result<Self, LinkError> {
@@ -147,9 +163,13 @@ fn wait_for(due: Instant, mut is_true: impl FnMut() -> bool) -> bool {
 }
 
 /// Reads lines until there are no more, or one is wrong.
-fn listen(mut reader: impl BufRead, tell: &SyncSender<Result<String, LinkError>>) {
+fn listen(
+    mut reader: impl BufRead,
+    tell: &SyncSender<Result<String, LinkError>>,
+    awaits_picture: &AtomicBool,
+) {
     loop {
-        let line = line(&mut reader);
+        let line = line(&mut reader, awaits_picture);
         let is_last = line.is_err();
         if tell.send(line).is_err() || is_last {
             return;
@@ -157,21 +177,32 @@ fn listen(mut reader: impl BufRead, tell: &SyncSender<Result<String, LinkError>>
     }
 }
 
-fn line(reader: &mut impl BufRead) -> Result<String, LinkError> {
+fn line(reader: &mut impl BufRead, awaits_picture: &AtomicBool) -> Result<String, LinkError> {
     let mut bytes = Vec::new();
-    let limit = MAX_LINE_BYTES as u64 + 1;
-    let read = reader.by_ref().take(limit).read_until(b'\n', &mut bytes);
-    read.map_err(|error: io::Error| LinkError::Read(error.to_string()))?;
+    let mut most = MAX_LINE_BYTES;
+    read_to(reader, &mut bytes, most)?;
+    // Whether a picture is due is asked late: the reader waits for a line before the call is made.
+    if bytes.len() > most && !bytes.ends_with(b"\n") && awaits_picture.load(Ordering::SeqCst) {
+        most = MAX_LOOK_BYTES;
+        read_to(reader, &mut bytes, most)?;
+    }
     match bytes.pop() {
         None => Err(LinkError::Closed),
         Some(b'\n') => String::from_utf8(bytes).map_err(|error| {
             let line = String::from_utf8_lossy(error.as_bytes()).chars().take(80).collect();
             LinkError::Nonsense(line, "it is not UTF-8".to_owned())
         }),
-        Some(_) if bytes.len() >= MAX_LINE_BYTES => Err(LinkError::Flood),
+        Some(_) if bytes.len() >= most => Err(LinkError::Flood),
         // The end in the middle of a line.
         Some(_) => Err(LinkError::Closed),
     }
+}
+
+/// Reads on to the end of the line, or to one byte more than it may have.
+fn read_to(reader: &mut impl BufRead, bytes: &mut Vec<u8>, most: usize) -> Result<(), LinkError> {
+    let limit = (most + 1).saturating_sub(bytes.len()) as u64;
+    let read = reader.by_ref().take(limit).read_until(b'\n', bytes);
+    read.map(|_| ()).map_err(|error: io::Error| LinkError::Read(error.to_string()))
 }
 
 fn speak(mut writer: Box<dyn Write + Send>, lines: &Receiver<String>) {

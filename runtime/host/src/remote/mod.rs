@@ -11,6 +11,6 @@ mod link;
 pub mod protocol;
 
 pub use connect::{DriverAddress, DriverAddressError};
-pub use driver::RemoteDriver;
+pub use driver::{DriverLog, LineFrom, RemoteDriver};
 pub use link::LinkError;
 pub use protocol::DriverTimeouts;

@@ -1,20 +1,28 @@
 //! Messages of the driver protocol. Values, queries, commands and outcomes have the JSON form of
 //! `motet-runtime`.
 
+mod sight;
+
+pub(crate) use sight::heard;
+pub use sight::{Camera, DepthMap, DetectedThing, Detections, LookParams, LookResult, MovedParams, PngImage};
+
 use motet_graph::{Graph, Type};
-use motet_runtime::{Answer, Capabilities, Command, FailureReport, GoalId, Outcome, Query};
+use motet_runtime::{Answer, Capabilities, Command, FailureReport, GoalId, Heard, Outcome, Query, Time};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
+use smol_str::SmolStr;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// The version of the protocol.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// The error code of a start that is refused; its data names the failure kind.
 pub const REFUSED: i64 = 1;
 
-/// Calls of the host. Each is a JSON-RPC request with its own number and is answered, except `bye`.
+/// Calls of the host. Each is a JSON-RPC request with its own number and is answered, except `bye`. If the
+/// driver owns the clock, the parameters of each call but `bye` also have `at`, the seconds of the run;
+/// `hello` always has it.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "method", content = "params", rename_all = "snake_case")]
 pub enum DriverCall {
@@ -41,6 +49,13 @@ pub enum DriverCall {
     Watch(QueryParams),
     /// No longer watch. Answered by `{}`.
     Unwatch(QueryParams),
+    /// Let time pass until the first report, but not beyond `until`. Only for a driver that owns the clock.
+    /// Answered by [`AdvanceResult`], after the reports.
+    Advance(AdvanceParams),
+    /// Take a picture. Only for a driver that says it can. Answered by [`LookResult`], or by any error.
+    Look(LookParams),
+    /// Say what is in view. Only for a driver that says it can. Answered by [`Detections`].
+    Detections(EmptyParams),
     /// Asks for the state of some goals after a crash. Answered by [`StatusResult`].
     Status(StatusParams),
     /// A sign of life is asked for. Answered by `{}`.
@@ -65,6 +80,12 @@ pub enum DriverReport {
     Observed(ObservedParams),
     /// Progress of a goal for people; without effect on the run.
     Feedback(FeedbackParams),
+    /// Telemetry: where the robot and the things are. No event of the run.
+    Moved(MovedParams),
+    /// The driver saw something new.
+    Detected(Detections),
+    /// A person said something that nobody had asked for.
+    Heard(Heard),
 }
 
 /// Parameters of `hello`, the greeting.
@@ -72,6 +93,11 @@ pub enum DriverReport {
 pub struct Hello {
     /// The version of the protocol that the host speaks.
     pub protocol: u32,
+    /// Id of the run, the same after a resume and on every connection. A driver that hears another one than
+    /// its last stops what moves and forgets the goals and watches of that one.
+    pub run: String,
+    /// True if the host goes on with a run that it began before.
+    pub resumed: bool,
     /// The robot that the policy is for.
     pub robot: String,
     pub policy: String,
@@ -86,6 +112,9 @@ pub struct CalledPrimitive {
     /// The type of its result as the language writes it, such as `Object`, `Text` or `List<Object>`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub result: Option<String>,
+    /// The failures in which it may end, besides `timeout`.
+    #[serde(default)]
+    pub fails: Vec<SmolStr>,
 }
 
 /// The answer to the greeting.
@@ -98,7 +127,23 @@ pub struct Welcome {
     /// A text that is another one after every start of the driver: what it knows of goals, it knows since
     /// then.
     pub instance: String,
+    /// Abilities; each has a default, and unknown ones are ignored.
+    #[serde(default)]
     pub capabilities: Capabilities,
+}
+
+/// Parameters of `advance`.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AdvanceParams {
+    /// Seconds of the run, at most half a second later than now.
+    pub until: f64,
+}
+
+/// The answer to `advance`.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AdvanceResult {
+    /// Seconds of the run: the time of the reports that came before this answer, or `until`.
+    pub now: f64,
 }
 
 /// A goal with what it does.
@@ -220,24 +265,27 @@ pub struct RpcError {
     pub data: Value,
 }
 
-/// The line of a call, without a line feed.
+/// The line of a call, without a line feed. `at` is the time of the run, for a driver that owns the clock.
 ///
 /// ```
 /// use motet_host::remote::protocol::{DriverCall, GoalParams, say};
 /// use motet_runtime::GoalId;
 ///
-/// let line = say(3, &DriverCall::Cancel(GoalParams { goal: GoalId::from_number(7) }));
+/// let line = say(3, &DriverCall::Cancel(GoalParams { goal: GoalId::from_number(7) }), None);
 /// assert_eq!(line, r#"{"jsonrpc":"2.0","id":3,"method":"cancel","params":{"goal":7}}"#);
 /// ```
 #[must_use]
-pub fn say(id: u64, call: &DriverCall) -> String {
+pub fn say(id: u64, call: &DriverCall, at: Option<Time>) -> String {
     let mut message = Map::new();
     message.insert("jsonrpc".to_owned(), json!("2.0"));
     if !matches!(call, DriverCall::Bye(_)) {
         message.insert("id".to_owned(), json!(id));
     }
     // These types are written as maps, and writing them does not fail.
-    if let Ok(Value::Object(call)) = serde_json::to_value(call) {
+    if let Ok(Value::Object(mut call)) = serde_json::to_value(call) {
+        if let Some((at, params)) = at.zip(call.get_mut("params").and_then(Value::as_object_mut)) {
+            params.insert("at".to_owned(), json!(at.secs()));
+        }
         message.extend(call);
     }
     Value::Object(message).to_string()
@@ -295,7 +343,7 @@ fn depth(value: &Value) -> usize {
 
 /// All that is said, for a schema: each kind of message by name.
 #[derive(JsonSchema)]
-#[schemars(title = "Motet driver protocol, version 1")]
+#[schemars(title = "Motet driver protocol, version 2")]
 #[allow(dead_code, reason = "only its schema is used")]
 struct ProtocolSchema {
     /// Calls of the host: with `jsonrpc` and, but for `bye`, `id` beside it.
@@ -308,6 +356,12 @@ struct ProtocolSchema {
     observe_result: QueryResult,
     /// The result of `status`.
     status_result: StatusResult,
+    /// The result of `advance`.
+    advance_result: AdvanceResult,
+    /// The result of `look`.
+    look_result: LookResult,
+    /// The result of `detections`.
+    detections_result: Detections,
     /// The result of every other call.
     other_result: EmptyParams,
     /// The data of error 1, with which `start` is refused.
@@ -321,15 +375,21 @@ pub fn schema() -> schemars::Schema {
 }
 
 impl Hello {
-    /// The greeting before a graph is run.
+    /// The greeting before a graph is run, in a run of this id.
     #[must_use]
-    pub fn of(graph: &Graph) -> Self {
+    pub fn of(graph: &Graph, run: &str) -> Self {
+        let fails = |primitive: &motet_graph::Primitive| {
+            primitive.fails.iter().filter_map(|id| graph.failures.get(id.index()).cloned()).collect()
+        };
         let primitive = |primitive: &motet_graph::Primitive| CalledPrimitive {
             name: primitive.name.to_string(),
             result: primitive.result.as_ref().map(|ty| text(graph, ty)),
+            fails: fails(primitive),
         };
         Self {
             protocol: VERSION,
+            run: run.to_owned(),
+            resumed: false,
             robot: graph.robot.to_string(),
             policy: graph.policy.to_string(),
             primitives: graph.primitives.iter().map(primitive).collect(),
@@ -355,6 +415,10 @@ fn text(graph: &Graph, ty: &Type) -> String {
 
 /// The longest line in bytes that a driver may say.
 pub(crate) const MAX_LINE_BYTES: usize = 1024 * 1024;
+/// The longest line in bytes while an answer to `look` is due.
+pub(crate) const MAX_LOOK_BYTES: usize = 16 * 1024 * 1024;
+/// The longest step of time that a driver with its own clock is asked for.
+pub(crate) const PIECE: Time = Time::from_nanos(500_000_000);
 /// The longest failure kind in bytes that a driver may name. Another one, or one that is no name, counts as
 /// `failed`.
 pub(crate) const MAX_KIND_BYTES: usize = 64;
@@ -382,6 +446,8 @@ pub struct DriverTimeouts {
     pub greeting: Duration,
     /// To answer a command. It is an answer to have heard it; what it does may take as long as it takes.
     pub answer: Duration,
+    /// To answer a call of a driver that owns the clock: time stands still meanwhile.
+    pub step: Duration,
     /// Silence of either side after which the host asks for a sign of life.
     pub heartbeat: Duration,
     /// Silence of the driver after which it counts as lost.
@@ -394,11 +460,12 @@ pub struct DriverTimeouts {
 
 impl Default for DriverTimeouts {
     /// 10 s for the greeting, 2 s for an answer, a sign of life every second and at least every 5 s, 3
-    /// restarts, 5 s to end.
+    /// restarts, 5 s to end. A driver that owns the clock may take 30 s for an answer.
     fn default() -> Self {
         Self {
             greeting: Duration::from_secs(10),
             answer: Duration::from_secs(2),
+            step: Duration::from_secs(30),
             heartbeat: Duration::from_secs(1),
             silence: Duration::from_secs(5),
             restarts: 3,

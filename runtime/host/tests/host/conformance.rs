@@ -1,47 +1,87 @@
 //! The example driver in another process keeps the laws of drivers.
 
 use motet_graph::Value;
-use motet_host::remote::protocol::Hello;
+use motet_host::remote::protocol::{GoalStatus, Hello};
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_runtime::conformance::{ConformanceSubject, check};
-use motet_runtime::{Command, Driver, Query, Time};
+use motet_runtime::{Command, Driver, DriverEvent, GoalId, Query, Time};
+use std::io::{BufRead, BufReader};
 
 const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/drivers/echo.py");
 
+fn has_python() -> bool {
+    let python = std::process::Command::new("python3").arg("--version").output();
+    let is_there = python.is_ok_and(|output| output.status.success());
+    if !is_there {
+        println!("skipped: there is no python3");
+    }
+    is_there
+}
+
+fn connect(address: &str, hello: Hello) -> RemoteDriver {
+    let address: DriverAddress = address.parse().unwrap();
+    let note = |text: &str| panic!("{text}");
+    RemoteDriver::connect(address, hello, DriverTimeouts::default(), Time::ZERO, Box::new(note)).unwrap()
+}
+
+fn go() -> Command {
+    Command {
+        primitive: "go".into(),
+        args: vec![("to".into(), Value::Entity("user".into()))],
+        uses: ["base".into()].into(),
+        manner: None,
+        deadline_secs: 10.0,
+        motions: Vec::new(),
+        leaves: None,
+    }
+}
+
 #[test]
 fn remote_driver_example_in_python_keeps_the_laws() {
-    let python = std::process::Command::new("python3").arg("--version").output();
-    if !python.is_ok_and(|output| output.status.success()) {
-        println!("skipped: there is no python3");
+    if !has_python() {
         return;
     }
-    let mut fresh = || -> Box<dyn Driver> {
-        let address: DriverAddress = format!("python3 {ECHO} --seconds 1").parse().unwrap();
-        let note = |text: &str| panic!("{text}");
-        let driver = RemoteDriver::connect(
-            address,
-            Hello::default(),
-            DriverTimeouts::default(),
-            Time::ZERO,
-            Box::new(note),
-        );
-        Box::new(driver.unwrap())
-    };
-    let user = || Value::Entity("user".into());
-    let breaches = check(&mut ConformanceSubject {
-        fresh: &mut fresh,
-        command: Command {
-            primitive: "go".into(),
-            args: vec![("to".into(), user())],
-            uses: ["base".into()].into(),
-            manner: None,
-            deadline_secs: 10.0,
-            motion: None,
-        },
-        query: Query::Measure { measure: "distance".into(), args: vec![user()] },
-        moment: Time::from_secs(1.0),
-        patience: Time::from_secs(3.0),
-        is_virtual: false,
-    });
-    assert_eq!(breaches, []);
+    for (clock, is_virtual) in [("wall", false), ("driver", true)] {
+        let address = format!("python3 {ECHO} --seconds 1 --clock {clock}");
+        let mut fresh = || -> Box<dyn Driver> { Box::new(connect(&address, Hello::default())) };
+        let breaches = check(&mut ConformanceSubject {
+            fresh: &mut fresh,
+            command: go(),
+            query: Query::Measure { measure: "distance".into(), args: vec![Value::Entity("user".into())] },
+            moment: Time::from_secs(1.0),
+            patience: Time::from_secs(3.0),
+            is_virtual,
+        });
+        assert_eq!(breaches, [], "{clock}");
+    }
+}
+
+/// Goals of two runs have the same numbers, and a driver on a port serves both.
+#[test]
+fn remote_driver_on_a_port_serves_a_second_run() {
+    if !has_python() {
+        return;
+    }
+    let mut child = std::process::Command::new("python3")
+        .args([ECHO, "--port", "0", "--seconds", "0.1"])
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    let address = line.trim().strip_prefix("listening on ").unwrap();
+    let goal = GoalId::from_number(1 << 24);
+    for run in ["one", "two"] {
+        let mut driver = connect(address, Hello { run: run.to_owned(), ..Hello::default() });
+        let status = driver.status(vec![goal]).unwrap();
+        assert_eq!(status.goals[0].state, GoalStatus::Unknown, "run {run}");
+        driver.start(Time::ZERO, goal, &go());
+        let mut events = std::iter::from_fn(|| driver.advance(Time::from_secs(5.0)));
+        assert!(events.any(|(_, event)| matches!(event, DriverEvent::Ended { .. })), "run {run}");
+    }
+    let mut again = connect(address, Hello { run: "two".to_owned(), resumed: true, ..Hello::default() });
+    let status = again.status(vec![goal]).unwrap();
+    assert!(matches!(status.goals[0].state, GoalStatus::Ended(_)), "it goes on with the same run");
+    child.kill().unwrap();
+    child.wait().unwrap();
 }

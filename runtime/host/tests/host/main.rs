@@ -11,4 +11,5 @@
 mod conformance;
 mod journal;
 mod protocol;
+mod remote;
 mod robot_thread;

@@ -11,7 +11,7 @@ use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_runtime::{
-    CameraImage, Capabilities, Driver, Effect, Engine, EngineSettings, Event, Observer, Perception,
+    CameraImage, Capabilities, Driver, Effect, Engine, EngineSettings, Event, Moved, Observer, Perception,
     RunControl, RunEnd, StartState, SwapRefusal, Time,
 };
 use motet_syntax::Sources;
@@ -201,6 +201,8 @@ pub trait DialogueObserver {
     fn event(&mut self, _now: Time, _event: &Event) {}
     /// An effect is about to be carried out.
     fn effect(&mut self, _now: Time, _effect: &Effect) {}
+    /// The driver sent telemetry.
+    fn moved(&mut self, _moved: &Moved) {}
     /// Notes that time has passed, and decides if the run continues. An observer that paces the run waits
     /// here.
     fn reached(&mut self, _now: Time) -> RunControl {

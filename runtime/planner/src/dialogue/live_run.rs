@@ -8,8 +8,8 @@ use motet_requests::{Intent, ReportedLocation, RequestContext, added, stops};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Answer, Driver, DriverEvent, Effect, Engine, Event, Observer, Pattern, PreparedSwap, Query, RetiredGraph,
-    RunControl, RunEnd, SwapRefusal, Time, Truth, Verifier,
+    Answer, Driver, DriverEvent, Effect, Engine, Event, Moved, Observer, Pattern, PreparedSwap, Query,
+    RetiredGraph, RunControl, RunEnd, SwapRefusal, Time, Truth, Verifier,
 };
 use motet_stdlib::lang::{entities, failures, fluents, kinds, primitives};
 use smol_str::SmolStr;
@@ -269,6 +269,10 @@ impl Observer for LiveRun<'_, '_> {
             self.started.push(*node);
         }
         self.watcher.effect(now, effect);
+    }
+
+    fn moved(&mut self, moved: &Moved) {
+        self.watcher.moved(moved);
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {

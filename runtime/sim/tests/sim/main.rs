@@ -77,7 +77,8 @@ impl Bench {
             uses: ["hand".into()].into(),
             manner: None,
             deadline_secs: 20.0,
-            motion: None,
+            motions: Vec::new(),
+            leaves: None,
         };
         self.sim.start(self.now, goal, &command);
         goal

@@ -1,4 +1,4 @@
-//! Times of a path keep the speeds and accelerations of URDF and card, and are no longer than they have to be.
+//! Times of a path keep the speeds and accelerations of URDF and card, and are no longer than needed.
 
 use super::{model, motion_query};
 use motet_geometry::planning::{

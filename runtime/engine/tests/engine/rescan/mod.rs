@@ -221,7 +221,8 @@ fn agree(naive: &mut Naive, beside: &Beside, said: &[String], counts: &Counts) -
 
 fn compare(graphs: &[Graph], acts: &[(u64, Act)], counts: &Counts) -> Result<(), TestCaseError> {
     let only = |names: &[&str]| PrimitiveSet::Only(names.iter().map(|name| (*name).into()).collect());
-    let capabilities = Capabilities { hold: only(&["go", "pick", "say"]), update: only(&["go"]) };
+    let capabilities =
+        Capabilities { hold: only(&["go", "pick", "say"]), update: only(&["go"]), ..Capabilities::default() };
     let engine = Engine::new(graphs[0].clone(), &StartState::default()).unwrap();
     let engine = engine.with_capabilities(capabilities);
     let mut beside = Beside { engine, goals: BTreeMap::new(), out: Vec::new() };

@@ -1,8 +1,12 @@
 //! Commands of the engine as calls of the protocol.
 
 use super::super::protocol::{DriverCall, GoalParams, QueryParams, StartParams};
+use super::run_time::RunTime;
 use super::{RemoteDriver, failed};
-use motet_runtime::{Answer, Capabilities, Command, Driver, DriverEvent, GoalId, Query, Time};
+use motet_runtime::{
+    Answer, Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Heard, Moved, Query, RgbdView,
+    Time,
+};
 use std::thread;
 use std::time::Duration;
 
@@ -12,6 +16,7 @@ const SLICE: Duration = Duration::from_millis(50);
 impl Driver for RemoteDriver {
     fn start(&mut self, _now: Time, goal: GoalId, command: &Command) {
         if self.reach() {
+            self.goals.started(goal, &command.primitive);
             self.call(DriverCall::Start(StartParams { goal, command: command.clone().into() }));
         } else {
             // It was never said, so it was never done.
@@ -41,7 +46,7 @@ impl Driver for RemoteDriver {
 
     fn safe_stop(&mut self, _now: Time, goal: GoalId) {
         let was_reached = self.link.is_some();
-        self.stopping.insert(goal);
+        self.goals.stopping.insert(goal);
         // Who is called again is told all that is to stop.
         if self.reach() && was_reached {
             self.call(DriverCall::SafeStop(GoalParams { goal }));
@@ -74,6 +79,7 @@ impl Driver for RemoteDriver {
     }
 
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        let RunTime::Wall(clock) = self.time else { return self.advance_own(until) };
         let mut wait = Duration::ZERO;
         loop {
             self.listen(wait);
@@ -82,7 +88,7 @@ impl Driver for RemoteDriver {
                 self.last = at.min(until).max(self.last);
                 return Some((self.last, event));
             }
-            let left = self.clock.left(until);
+            let left = clock.left(until);
             match (left, &self.link) {
                 (Some(Duration::ZERO), _) | (None, None) => return None,
                 (Some(left), None) => {
@@ -92,5 +98,25 @@ impl Driver for RemoteDriver {
                 (left, Some(_)) => wait = left.map_or(SLICE, |left| left.min(SLICE)),
             }
         }
+    }
+
+    fn telemetry(&mut self) -> Option<Moved> {
+        self.telemetry.moved()
+    }
+
+    fn detected(&mut self) -> Option<Vec<Detection>> {
+        self.telemetry.detected()
+    }
+
+    fn heard(&mut self) -> Option<Heard> {
+        self.telemetry.heard()
+    }
+
+    fn look(&mut self, _now: Time, camera: Option<&str>) -> Option<RgbdView> {
+        if self.welcome.capabilities.look { self.ask_for_picture(camera) } else { None }
+    }
+
+    fn detections(&mut self, _now: Time) -> Vec<Detection> {
+        if self.welcome.capabilities.detections { self.ask_for_detections() } else { Vec::new() }
     }
 }

@@ -3,14 +3,16 @@
 use super::super::link::LinkError;
 use super::super::protocol::{
     DriverCall, DriverMessage, DriverReport, EmptyParams, GoalParams, MAX_FEEDBACK, MAX_KIND_BYTES,
-    QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear,
+    MAX_WAITING, QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear, heard,
 };
-use super::{RemoteDriver, Waiting, failed, nonsense};
-use motet_runtime::{Answer, DriverEvent, FailureReport, Outcome};
+use super::{LineFrom, RemoteDriver, Waiting, failed, nonsense};
+use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, Outcome};
 use serde_json::Value;
 use smol_str::SmolStr;
 use std::time::{Duration, Instant};
 
+/// The most reports that wait to be handed on before feedback is dropped.
+const MOST_WORDS: usize = 256;
 /// The most lines that are heard before what they say is handed on.
 const BATCH: usize = 64;
 
@@ -19,9 +21,13 @@ impl RemoteDriver {
     pub(super) fn listen(&mut self, within: Duration) {
         let mut within = within;
         for _ in 0..BATCH {
+            // What is not handed on fast enough waits in the pipe, and then in the driver.
+            if self.outbox.len() >= MAX_WAITING {
+                return;
+            }
             let Some(link) = &self.link else { return };
             match link.hear(within) {
-                Ok(Some(line)) => self.heard(&line),
+                Ok(Some(line)) => self.hear_line(&line),
                 Ok(None) => return,
                 Err(breakage) => self.broke(&breakage),
             }
@@ -29,7 +35,8 @@ impl RemoteDriver {
         }
     }
 
-    pub(super) fn heard(&mut self, line: &str) {
+    pub(super) fn hear_line(&mut self, line: &str) {
+        self.log.line(LineFrom::Driver, line);
         self.heard_at = Instant::now();
         match hear(line) {
             Ok(DriverMessage::Answer(id, answer)) => {
@@ -48,25 +55,69 @@ impl RemoteDriver {
     fn told(&mut self, report: DriverReport) {
         match report {
             DriverReport::Ended(ended) => {
-                let outcome = self.named(ended.outcome);
-                self.report(DriverEvent::Ended { goal: ended.goal, outcome });
+                let (goal, outcome) = (ended.goal, self.named(ended.outcome));
+                let Some(primitive) = self.goals.ended(goal) else {
+                    return self.breach(&format!("goal {goal} has ended, it says, but it does not run"));
+                };
+                if let Outcome::Failure(failure) = &outcome
+                    && let Some(told) = self.goals.undeclared(&primitive, failure)
+                {
+                    self.breach(&told);
+                }
+                self.report(DriverEvent::Ended { goal, outcome });
             }
-            DriverReport::NotHeld(GoalParams { goal }) => self.report(DriverEvent::NotHeld { goal }),
+            DriverReport::NotHeld(GoalParams { goal }) => {
+                if self.runs(goal, "is not held") {
+                    self.report(DriverEvent::NotHeld { goal });
+                }
+            }
             DriverReport::Stopped(GoalParams { goal }) => {
-                self.stopping.remove(&goal);
-                self.report(DriverEvent::Stopped { goal });
+                if self.goals.stopped(goal) {
+                    self.report(DriverEvent::Stopped { goal });
+                } else {
+                    self.breach(&format!("goal {goal} is stopped, it says, but nobody asked for it"));
+                }
             }
-            DriverReport::Lost(GoalParams { goal }) => self.report(DriverEvent::Lost { goal }),
+            DriverReport::Lost(GoalParams { goal }) => {
+                if self.runs(goal, "is lost") {
+                    self.report(DriverEvent::Lost { goal });
+                }
+            }
             DriverReport::Observed(observed) => {
                 let (query, answer) = (observed.query, observed.answer);
                 self.report(DriverEvent::Observed { query, answer });
             }
+            DriverReport::Feedback(feedback) if self.outbox.len() >= MOST_WORDS => {
+                let goal = feedback.goal;
+                self.breach(&format!("feedback of goal {goal} is dropped: there is too much of it"));
+            }
+            DriverReport::Feedback(feedback) if !self.runs(feedback.goal, "has feedback") => {}
             DriverReport::Feedback(feedback) => {
                 let text: SmolStr = feedback.text.chars().take(MAX_FEEDBACK).collect();
-                (self.note)(&format!("goal {}: {text}", feedback.goal));
+                self.log.note(&format!("goal {}: {text}", feedback.goal));
                 self.report(DriverEvent::Feedback { goal: feedback.goal, text });
             }
+            DriverReport::Moved(moved) => {
+                let moved = moved.moved(self.time.now(), self.time.is_own());
+                moved.into_iter().for_each(|moved| self.telemetry.push_moved(moved));
+            }
+            DriverReport::Detected(seen) => {
+                let seen = seen.seen(self.time.now());
+                self.telemetry.push_detected(seen);
+            }
+            DriverReport::Heard(words) => {
+                heard(&words).into_iter().for_each(|words| self.telemetry.push_heard(words));
+            }
         }
+    }
+
+    /// True if a goal runs; else what is said of it is a broken promise.
+    fn runs(&mut self, goal: GoalId, says: &str) -> bool {
+        let is_live = self.goals.is_live(goal);
+        if !is_live {
+            self.breach(&format!("goal {goal} {says}, it says, but it does not run"));
+        }
+        is_live
     }
 
     /// The failure kind that a driver names: a name of at most [`MAX_KIND_BYTES`]. Anything else is `failed`,
@@ -79,7 +130,7 @@ impl RemoteDriver {
             return named.into();
         }
         let beginning: String = named.chars().take(MAX_KIND_BYTES).collect();
-        (self.note)(&format!("what the driver calls a failure is no name, so it is `failed`: {beginning}"));
+        self.log.note(&format!("what the driver calls a failure is no name, so it is `failed`: {beginning}"));
         failed()
     }
 
@@ -106,10 +157,11 @@ impl RemoteDriver {
             (DriverCall::Start(start), Err(wrong)) => {
                 let data: Option<RefusedData> = serde_json::from_value(wrong.data.clone()).ok();
                 if wrong.code != REFUSED {
-                    (self.note)(&format!("the driver does not start a goal: {}", wrong.message));
+                    self.log.note(&format!("the driver does not start a goal: {}", wrong.message));
                 }
                 let failure = data.map(|data| self.failure(&data.failure));
                 let failure = failure.unwrap_or_else(|| failed().into());
+                self.goals.ended(start.goal);
                 self.report(DriverEvent::Refused { goal: start.goal, failure });
             }
             (DriverCall::Observe(asked) | DriverCall::Watch(asked), Ok(value)) => {
@@ -125,20 +177,23 @@ impl RemoteDriver {
                 self.report(DriverEvent::NotHeld { goal });
             }
             (DriverCall::Update(start), Err(wrong)) => {
-                (self.note)(&format!("the driver does not update a goal: {}", wrong.message));
+                self.log.note(&format!("the driver does not update a goal: {}", wrong.message));
                 self.report(DriverEvent::Lost { goal: start.goal });
             }
+            (DriverCall::Advance(asked), answer) => self.advanced(asked, answer, line),
             (
                 DriverCall::Cancel(_)
                 | DriverCall::Proceed(_)
                 | DriverCall::SafeStop(_)
                 | DriverCall::Unwatch(_)
                 | DriverCall::Ping(_)
+                | DriverCall::Look(_)
+                | DriverCall::Detections(_)
                 | DriverCall::Status(_)
                 | DriverCall::Hello(_)
                 | DriverCall::Bye(_),
                 Err(wrong),
-            ) => (self.note)(&format!("the driver says: {}", wrong.message)),
+            ) => self.log.note(&format!("the driver says: {}", wrong.message)),
             (_, Ok(_)) => {}
         }
     }
@@ -151,7 +206,7 @@ impl RemoteDriver {
     pub(super) fn tend(&mut self) {
         if self.link.is_none() {
             // What may still move is to be stopped, whoever has to be called for it.
-            if !self.stopping.is_empty() {
+            if !self.goals.stopping.is_empty() {
                 self.reach();
             }
             return;
@@ -184,7 +239,7 @@ impl RemoteDriver {
             }
             DriverCall::Start(start) | DriverCall::Update(start) => {
                 let goal = start.goal;
-                (self.note)(&format!("the driver does not say whether goal {goal} runs"));
+                self.log.note(&format!("the driver does not say whether goal {goal} runs"));
                 self.report(DriverEvent::Lost { goal });
             }
             DriverCall::Observe(asked) | DriverCall::Watch(asked) => self.observed(asked, Answer::Unknown),
@@ -195,6 +250,8 @@ impl RemoteDriver {
             | DriverCall::SafeStop(_)
             | DriverCall::Unwatch(_) => {}
             DriverCall::Status(_) | DriverCall::Ping(_) | DriverCall::Hello(_) | DriverCall::Bye(_) => {}
+            // These are waited for elsewhere.
+            DriverCall::Advance(_) | DriverCall::Look(_) | DriverCall::Detections(_) => {}
         }
     }
 }

@@ -1,0 +1,41 @@
+//! Reports of a driver that are no events of the engine: where everything is while it moves, and words that
+//! nobody asked for. They go to the observer of a run and are kept in no journal.
+
+use crate::time::Time;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
+use std::collections::BTreeMap;
+
+/// Telemetry: configuration of the robot and poses of things at a time. Lengths in m, angles in rad, poses in
+/// the frame `map`.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Moved {
+    /// Time of the run.
+    pub at: Time,
+    /// Base pose x, y, yaw.
+    pub base: [f64; 3],
+    /// Positions of joints by name; those that have not changed may be left out.
+    pub joints: BTreeMap<SmolStr, f64>,
+    /// Poses of things; those that have not moved may be left out.
+    pub things: Vec<MovedThing>,
+}
+
+/// Pose of a thing.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct MovedThing {
+    /// Entity of the scene, or an id of the driver.
+    pub id: SmolStr,
+    pub xyz: [f64; 3],
+    /// Unit quaternion in the order x, y, z, w.
+    pub quaternion: [f64; 4],
+}
+
+/// Words that a person said without being asked.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Heard {
+    pub text: SmolStr,
+    /// The person, as an entity of the scene, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<SmolStr>,
+}

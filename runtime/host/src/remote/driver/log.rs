@@ -1,0 +1,28 @@
+//! Listener to what passes between the host and a driver, for people and for tests of drivers.
+
+/// Listener to a connection with a driver. A closure that takes a text is one that hears the notes.
+pub trait DriverLog {
+    /// Something for people: feedback, and what goes wrong with the connection.
+    fn note(&mut self, text: &str);
+
+    /// A promise that the driver broke, without effect on the run.
+    fn breach(&mut self, text: &str) {
+        self.note(text);
+    }
+
+    /// A line is said or was heard.
+    fn line(&mut self, _from: LineFrom, _line: &str) {}
+}
+
+impl<F: FnMut(&str)> DriverLog for F {
+    fn note(&mut self, text: &str) {
+        self(text);
+    }
+}
+
+/// Side of a connection.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LineFrom {
+    Host,
+    Driver,
+}

@@ -1,0 +1,31 @@
+//! Time of a run with a driver in another process: the wall clock's, or the driver's own.
+
+use super::super::link::Clock;
+use motet_runtime::Time;
+
+/// Time of a run with a driver in another process.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum RunTime {
+    /// The wall clock's.
+    Wall(Clock),
+    /// The driver's, which stands still between calls.
+    Own { now: Time, stalls: u32 },
+}
+
+impl RunTime {
+    pub(super) fn now(&self) -> Time {
+        match self {
+            Self::Wall(clock) => clock.now(),
+            Self::Own { now, .. } => *now,
+        }
+    }
+
+    pub(super) const fn is_own(&self) -> bool {
+        matches!(self, Self::Own { .. })
+    }
+
+    /// Time that the driver is told with each call, if it owns the clock.
+    pub(super) fn told(&self) -> Option<Time> {
+        self.is_own().then(|| self.now())
+    }
+}
