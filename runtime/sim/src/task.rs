@@ -2,19 +2,23 @@
 
 use crate::body::{BasePose, turned};
 use crate::command::SimCommand;
+use crate::failure::Failure;
 use crate::motion::BaseMotion;
-use crate::observation::ViewDirection;
-use crate::people::People;
-use crate::world::SimWorld;
+use crate::sight::{ViewDirection, the_one};
+use crate::sim::Sim;
+use crate::world::Role;
 use motet_graph::{Pose, Value};
-use motet_robots::scene::Scene;
 use motet_runtime::{FailureReport, GoalId, Outcome, Time};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
-/// Greatest distance, and greatest angle, from the robot to the start of a path that it follows.
-const PATH_START_M: f64 = 0.02;
-const PATH_START_RAD: f64 = 0.05;
+/// Greatest distance, and greatest angle, from the robot to the start of a path that it follows: some times
+/// the error of a drive.
+const PATH_START_M: f64 = 0.08;
+const PATH_START_RAD: f64 = 0.1;
+
+/// Least distance in m to a stance for which the base drives again.
+const AGAIN_M: f64 = 0.05;
 
 /// A goal that runs.
 #[derive(Clone, PartialEq, Debug)]
@@ -23,6 +27,8 @@ pub(crate) struct Task {
     pub(crate) command: SimCommand,
     /// Stances along the path that was found for its drive, from its start; empty without one.
     pub(crate) path: Vec<BasePose>,
+    /// Number of its call in the run.
+    pub(crate) occasion: u64,
     pub(crate) uses: Arc<[SmolStr]>,
     /// Seconds that its work takes, driving aside.
     pub(crate) work_secs: f64,
@@ -73,18 +79,12 @@ pub(crate) enum NextStage {
     End(Outcome),
 }
 
-/// World, people and scene, as a task sees them.
-pub(crate) struct TaskContext<'s> {
-    pub(crate) world: &'s mut SimWorld,
-    pub(crate) people: &'s mut People,
-    pub(crate) scene: &'s Scene,
-}
-
-impl TaskContext<'_> {
+impl Sim {
     /// Next stage of a task. Called at its start and at the end of each stage.
-    pub(crate) fn next(&mut self, task: &mut Task) -> NextStage {
+    pub(crate) fn next_stage(&mut self, task: &mut Task) -> NextStage {
         let step = task.step;
         task.step += 1;
+        self.occasion = task.occasion;
         if let Some(failure) = &task.fails {
             return if step == 0 {
                 NextStage::Work
@@ -103,20 +103,25 @@ impl TaskContext<'_> {
                 self.search(task, &what, &around, step)
             }
             SimCommand::Turn(by) if step == 0 => NextStage::Turn(*by),
-            SimCommand::Pick(id) | SimCommand::Grasp(id) if step == 0 => self.shuffle(id),
-            SimCommand::Pick(_) | SimCommand::Grasp(_) if step == 1 => NextStage::Work,
-            SimCommand::Turn(_) | SimCommand::Pick(_) | SimCommand::Grasp(_) => self.finish(task),
+            SimCommand::Pick(id) | SimCommand::Grasp(id, _) if step == 0 => self.shuffle(id),
+            SimCommand::Pick(_) | SimCommand::Grasp(..) if step == 1 => NextStage::Work,
+            SimCommand::Turn(_) | SimCommand::Pick(_) | SimCommand::Grasp(..) => self.finish(task),
             SimCommand::Home
             | SimCommand::StartPose
             | SimCommand::WakeUp
             | SimCommand::Lift
             | SimCommand::Unknown => self.work(task, step),
             SimCommand::Place(id, on, rules) if step < 2 => match step {
-                0 => NextStage::Drive(self.world.stance_for_place(id, on, rules)),
+                0 => NextStage::Drive(self.belief.stance_for_place(id, on, rules)),
                 _ => NextStage::Work,
             },
             SimCommand::Place(..) => self.finish(task),
-            SimCommand::Handover(_, _) | SimCommand::Open(_) | SimCommand::Close(_) => self.work(task, step),
+            SimCommand::Open(id) | SimCommand::Close(id) if step < 2 => match step {
+                0 => NextStage::Drive(self.belief.stance_for_door(id)),
+                _ => NextStage::Work,
+            },
+            SimCommand::Open(_) | SimCommand::Close(_) => self.finish(task),
+            SimCommand::Handover(_, _) => self.work(task, step),
             SimCommand::Push(_)
             | SimCommand::Detect(_)
             | SimCommand::DetectAll(_)
@@ -141,16 +146,26 @@ impl TaskContext<'_> {
 
     /// Drives until it stands at the target, which may walk away meanwhile.
     fn go(&mut self, to: &str, step: u32) -> NextStage {
-        let arrived = step > 0 && self.world.stands_at(self.world.root(to));
+        let root = self.belief.root(to).to_owned();
+        if step > 0 {
+            self.refresh(&root);
+        }
+        let (name, base) = (self.belief.name(to), self.world.base);
+        let is_gone = |thing: &crate::world::Thing| thing.lost && thing.role == Role::Person;
+        if self.belief.thing(&root).is_some_and(is_gone) {
+            return fail("unreachable", format!("{name} is not where they were believed to be"));
+        }
+        let arrived = step > 0 && self.belief.stands_at(&root);
         if arrived || self.world.holder(to).is_some() {
             self.world.visit(to);
+            self.belief.visit(to);
             return NextStage::End(Outcome::Success(None));
         }
-        let base = self.world.base;
         // Where the best place does not serve it, no other will.
-        let is_further = |place: &BasePose| step == 0 || base.distance_to(place.x, place.y) > 0.01;
-        let place = self.world.place_for(to).filter(is_further);
-        place.map_or_else(|| fail("unreachable"), NextStage::Drive)
+        let is_further = |place: &BasePose| step == 0 || base.distance_to(place.x, place.y) > AGAIN_M;
+        let place = self.belief.place_for(to).filter(is_further);
+        place
+            .map_or_else(|| fail("unreachable", format!("{name} has no place to stand at")), NextStage::Drive)
     }
 
     /// Drives to a pose of the base, where there is room for it.
@@ -159,26 +174,27 @@ impl TaskContext<'_> {
             return NextStage::End(Outcome::Success(None));
         }
         let [x, y, _] = pose.xyz;
-        if !self.world.has_room_at(x, y) {
-            return fail("blocked");
+        if !self.belief.has_room_at(x, y) {
+            return fail("blocked", format!("the base has no room at {x:.2} m, {y:.2} m"));
         }
         NextStage::Drive(BasePose { x, y, heading: pose.yaw() })
     }
 
     /// A step along what it stands at, so that the hand reaches.
     fn shuffle(&self, id: &str) -> NextStage {
-        self.world.stance_for_hand(id).map_or(NextStage::Drive(self.world.base), NextStage::Drive)
+        NextStage::Drive(self.belief.stance_for_hand(id).unwrap_or(self.world.base))
     }
 
     /// Drives to each place, looks around there, and drives to what it found.
     fn search(&mut self, task: &mut Task, what: &str, around: &[SmolStr], step: u32) -> NextStage {
         if let Some(id) = &task.found {
-            if self.world.look_at(id).is_err() {
-                return fail("not_found");
-            }
             let id = id.clone();
+            if let Err(failure) = self.look_at(&id) {
+                return NextStage::End(failure.outcome());
+            }
             self.world.visit(&id);
-            task.command.leave_arm(self.world);
+            self.belief.visit(&id);
+            task.command.leave_arm(&mut self.world);
             return NextStage::End(Outcome::Success(Some(Value::Entity(id))));
         }
         // Even stages drive to the next place, odd ones look around there.
@@ -186,76 +202,30 @@ impl TaskContext<'_> {
             return NextStage::Work;
         }
         if step > 0 {
-            match SimWorld::the_one(self.world.found(self.scene, what, ViewDirection::Around)) {
+            self.occasion = task.occasion.wrapping_add(u64::from(step) << 32);
+            match the_one(self.found(what, ViewDirection::Around), what) {
                 Ok(id) => {
-                    self.world.saw(&id);
-                    let place = self.world.place_for(&id);
+                    let place = self.belief.place_for(&id);
+                    let nowhere =
+                        || fail("unreachable", format!("{} has no place to stand at", self.belief.name(&id)));
+                    let next = place.map_or_else(nowhere, NextStage::Drive);
                     task.found = Some(id);
-                    return place.map_or_else(|| fail("unreachable"), NextStage::Drive);
+                    return next;
                 }
-                Err("not_found") => {}
-                Err(failure) => return fail(failure),
+                Err(Failure { kind: "not_found", .. }) => {}
+                Err(failure) => return NextStage::End(failure.outcome()),
             }
         }
         match around.get(step as usize / 2) {
-            Some(next) => self.world.place_for(next).map_or_else(|| fail("unreachable"), NextStage::Drive),
-            None => fail("not_found"),
-        }
-    }
-
-    /// The work is done: what came of it.
-    fn finish(&mut self, task: &Task) -> NextStage {
-        let world = &mut *self.world;
-        let nothing = |()| None;
-        let result = match &task.command {
-            SimCommand::Pick(id) => world.grasp(id, &task.uses).and_then(|()| world.lift()).map(nothing),
-            SimCommand::Grasp(id) => world.grasp(id, &task.uses).map(nothing),
-            SimCommand::Lift => world.lift().map(nothing),
-            SimCommand::Place(id, on, rules) => world.place(id, on, rules).map(nothing),
-            SimCommand::Handover(id, to) => world.hand_over(id, to).map(nothing),
-            SimCommand::Open(id) => world.work_door(id, true).map(nothing),
-            SimCommand::Close(id) => world.work_door(id, false).map(nothing),
-            SimCommand::Push(id) => world.push(id).map(nothing),
-            SimCommand::WakeUp => {
-                world.standing = true;
-                Ok(None)
+            Some(next) => {
+                let nowhere = || fail("unreachable", format!("there is no {}", self.belief.name(next)));
+                self.belief.place_for(next).map_or_else(nowhere, NextStage::Drive)
             }
-            SimCommand::Detect(what) => {
-                SimWorld::the_one(world.found(self.scene, what, ViewDirection::Ahead)).map(|id| {
-                    world.saw(&id);
-                    Some(Value::Entity(id))
-                })
-            }
-            SimCommand::DetectAll(what) => {
-                let found = world.found(self.scene, what, ViewDirection::Ahead);
-                found.iter().for_each(|id| world.saw(id));
-                Ok(Some(Value::List(found.into_iter().map(Value::Entity).collect())))
-            }
-            SimCommand::Locate(id) | SimCommand::Ground(id) => {
-                world.look_at(id).map(|thing| Some(Value::Pose(thing.body.pose())))
-            }
-            SimCommand::Inspect(id) => world.look_at(id).map(|_| None),
-            SimCommand::Say(text) => {
-                self.people.heard.push((world.now, text.clone()));
-                Ok(None)
-            }
-            SimCommand::Ask(_) => self.people.answer().map(|answer| Some(Value::Text(answer))),
-            SimCommand::Choose(among) => {
-                self.people.choice(self.scene, among).map(|chosen| Some(Value::Entity(chosen)))
-            }
-            SimCommand::Home | SimCommand::StartPose | SimCommand::Turn(_) | SimCommand::Unknown => Ok(None),
-            SimCommand::Go(_) | SimCommand::GoToPose(_) | SimCommand::Search(_, _) => Ok(None),
-        };
-        match result {
-            Ok(value) => {
-                task.command.leave_arm(world);
-                NextStage::End(Outcome::Success(value))
-            }
-            Err(failure) => fail(failure),
+            None => fail("not_found", format!("\"{what}\" is at none of the places")),
         }
     }
 }
 
-fn fail(kind: &'static str) -> NextStage {
-    NextStage::End(Outcome::Failure(SmolStr::new_static(kind).into()))
+fn fail(kind: &'static str, text: String) -> NextStage {
+    NextStage::End(Failure::new(kind, text).outcome())
 }
