@@ -56,8 +56,8 @@ pub(crate) struct RunArgs {
         long,
         value_name = "FOLDER",
         conflicts_with_all = [
-            "file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain", "profile",
-            "world",
+            "file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain",
+            "profile", "world",
         ]
     )]
     resume: Option<PathBuf>,

@@ -8,6 +8,7 @@ use crate::task::{NextStage, Task};
 use crate::world::Rest;
 use motet_graph::{Pose, Value};
 use motet_runtime::Outcome;
+use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 
 /// Distance in m from where a thing is believed to be at which the hand closes on nothing.
@@ -92,7 +93,7 @@ impl Sim {
                 self.see_before_grasp(id);
                 if self.belief.thing(id).is_some_and(|thing| thing.lost) {
                     let text = format!("{name} is not where it was believed to be");
-                    return Err(Failure::new("not_found", text));
+                    return Err(Failure::new(failures::NOT_FOUND, text));
                 }
                 self.belief.cannot_take(id).map_or(Ok(()), Err)?;
                 self.belief.thing(id).map(|thing| thing.body.xyz)
@@ -104,24 +105,24 @@ impl Sim {
             let off = (aim[0] + dx - truth[0]).hypot(aim[1] + dy - truth[1]).max((aim[2] - truth[2]).abs());
             if off > GRASP_MISS_M {
                 let text = format!("the hand closes on nothing where {name} was believed to be");
-                return Err(Failure::new("not_found", text));
+                return Err(Failure::new(failures::NOT_FOUND, text));
             }
             if off > self.world.grasp_margin(id) + 1e-9 && self.world.cannot_take(id).is_none() {
                 let text = format!("the fingers close {off:.3} m beside the middle of {name}");
-                return Err(Failure::new("slipped", text));
+                return Err(Failure::new(failures::SLIPPED, text));
             }
         }
         self.world.cannot_take(id).map_or(Ok(()), Err)?;
         if chance.comes(self.profile.hand.slip, "slip", id) {
-            return Err(Failure::new("slipped", format!("{name} slips out of the fingers")));
+            return Err(Failure::new(failures::SLIPPED, format!("{name} slips out of the fingers")));
         }
         self.world.grasp(id, uses)?;
         self.notice(id);
         Ok(())
     }
 
-    /// Looks at a thing before the hand goes there. A thing that is seen is known better; one that is seen not
-    /// to be there is lost; of one that is hidden nothing new is known.
+    /// Looks at a thing before the hand goes there. A thing that is seen is known better; one that is seen
+    /// not to be there is lost; of one that is hidden nothing new is known.
     fn see_before_grasp(&mut self, id: &str) {
         let [miss, _] = self.world.miss(id, self.profile.camera.miss);
         if !self.chance().comes(miss, "see", id) {
@@ -141,7 +142,7 @@ impl Sim {
             self.feel();
             self.notice(id);
             let text = format!("{name} falls to the floor beside {}", self.belief.name(on));
-            return Err(Failure::new("slipped", text));
+            return Err(Failure::new(failures::SLIPPED, text));
         }
         let error = chance.error(self.profile.hand.error_m, "place", id);
         self.world.nudge(id, error);
@@ -153,7 +154,7 @@ impl Sim {
     fn hand_to(&mut self, id: &str, to: &str) -> Result<(), Failure> {
         if self.refuses(to) {
             let text = format!("{} does not take {}", self.belief.name(to), self.belief.name(id));
-            return Err(Failure::new("refused", text));
+            return Err(Failure::new(failures::REFUSED, text));
         }
         self.world.hand_over(id, to)?;
         self.feel();
@@ -168,7 +169,7 @@ impl Sim {
     fn work_door(&mut self, id: &str, open: bool) -> Result<(), Failure> {
         let is_so = self.world.thing(id).is_some_and(|thing| thing.is_open() == open);
         if !is_so && self.chance().comes(self.profile.hand.stick, "stick", id) {
-            return Err(Failure::new("blocked", format!("{} sticks", self.belief.name(id))));
+            return Err(Failure::new(failures::BLOCKED, format!("{} sticks", self.belief.name(id))));
         }
         self.world.work_door(id, open)?;
         self.notice(id);

@@ -1,16 +1,16 @@
 //! The simulator as a driver: goals become tasks, and time goes from one thing that happens to the next.
 
-use crate::body::BasePose;
+use crate::body::{BasePose, distance};
 use crate::chance::Chance;
 use crate::command::SimCommand;
 use crate::failure::Failure;
 use crate::faults::WorldEvent;
 use crate::motion::BaseMotion;
-use crate::sight::distance;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task, TaskStage};
 use motet_graph::{Manner, Waypoint};
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, PrimitiveSet, Query, Time};
+use motet_stdlib::lang::failures;
 use rand::RngExt;
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
@@ -211,7 +211,8 @@ impl Sim {
             NextStage::Drive(to) => match self.belief.route(to) {
                 Ok(way) => self.motion_through(way),
                 Err(id) => {
-                    let failure = Failure::new("blocked", format!("{} is in the way", self.belief.name(&id)));
+                    let failure =
+                        Failure::new(failures::BLOCKED, format!("{} is in the way", self.belief.name(&id)));
                     self.report(DriverEvent::Ended { goal: task.goal, outcome: failure.outcome() });
                     return;
                 }
@@ -237,7 +238,7 @@ impl Sim {
             self.expect_contact();
             self.tasks.push(task);
         } else {
-            let failure = Failure::new("unreachable", "the base cannot move");
+            let failure = Failure::new(failures::UNREACHABLE, "the base cannot move");
             self.report(DriverEvent::Ended { goal: task.goal, outcome: failure.outcome() });
         }
     }
@@ -296,8 +297,10 @@ impl Sim {
                 self.go_on(task);
                 return;
             }
-            let failure =
-                Failure::new("blocked", format!("the base meets {} on its way", self.world.name(with)));
+            let failure = Failure::new(
+                failures::BLOCKED,
+                format!("the base meets {} on its way", self.world.name(with)),
+            );
             self.report(DriverEvent::Ended { goal: task.goal, outcome: failure.outcome() });
         }
     }

@@ -10,6 +10,7 @@ use motet_graph::Pose;
 use motet_robots::scene::{
     PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, ServedKind, person_gap, serving_gap,
 };
+use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 
 /// Distance that the base may shuffle along what it stands at, in m, while the hand is used.
@@ -112,24 +113,24 @@ impl SimWorld {
     pub(crate) fn cannot_take(&self, id: &str) -> Option<Failure> {
         let name = self.name(id);
         let Some(thing) = self.thing(id) else {
-            return Some(Failure::new("not_found", format!("there is no {name}")));
+            return Some(Failure::new(failures::NOT_FOUND, format!("there is no {name}")));
         };
         let any = |fits: fn(&crate::world::HandState, &Thing) -> bool| {
             self.hands.values().any(|grip| fits(grip, thing))
         };
         if let Some(container) = self.shut_in(id) {
             let text = format!("{name} is in {}, which is closed", self.name(container));
-            Some(Failure::new("blocked", text))
+            Some(Failure::new(failures::BLOCKED, text))
         } else if self.stance_for_hand(id).is_none() {
             let far = self.base.distance_to(thing.body.x(), thing.body.y());
             let text = format!("{name} is {far:.2} m away, and the hand reaches {:.2} m", self.reach());
-            Some(Failure::new("unreachable", text))
+            Some(Failure::new(failures::UNREACHABLE, text))
         } else if thing.fixed {
-            Some(Failure::new("too_heavy", format!("{name} is fixed")))
+            Some(Failure::new(failures::TOO_HEAVY, format!("{name} is fixed")))
         } else if !any(|grip, thing| thing.mass_kg <= grip.hand.payload_kg) {
-            Some(Failure::new("too_heavy", format!("{name} weighs {} kg", thing.mass_kg)))
+            Some(Failure::new(failures::TOO_HEAVY, format!("{name} weighs {} kg", thing.mass_kg)))
         } else if !any(|grip, thing| thing.width_m <= grip.hand.opening_m) {
-            Some(Failure::new("unreachable", format!("{name} is {} m wide", thing.width_m)))
+            Some(Failure::new(failures::UNREACHABLE, format!("{name} is {} m wide", thing.width_m)))
         } else {
             None
         }
@@ -146,7 +147,7 @@ impl SimWorld {
     pub(crate) fn grasp_at(&self, id: &str, at: &Pose) -> Result<(), Failure> {
         let ([x, y, z], name) = (at.xyz, self.name(id));
         let Some(thing) = self.thing(id) else {
-            return Err(Failure::new("not_found", format!("there is no {name}")));
+            return Err(Failure::new(failures::NOT_FOUND, format!("there is no {name}")));
         };
         if !self.serves(self.base, at.xyz) {
             let far = self.base.distance_to(x, y);
@@ -154,14 +155,14 @@ impl SimWorld {
             let text = format!(
                 "the point is {far:.2} m away at a height of {z:.2} m, the hand reaches {reach:.2} m"
             );
-            return Err(Failure::new("unreachable", text));
+            return Err(Failure::new(failures::UNREACHABLE, text));
         }
         let body = &thing.body;
         let beyond = (z - body.top()).max(body.bottom() - z).max(0.0);
         let off = body.gap(x, y).hypot(beyond);
         if off > NEAR_GRASP_M {
             let text = format!("the hand closes {off:.2} m beside {name}");
-            return Err(Failure::new("not_found", text));
+            return Err(Failure::new(failures::NOT_FOUND, text));
         }
         Ok(())
     }
@@ -176,11 +177,11 @@ impl SimWorld {
         let used =
             |name: &SmolStr| !uses.iter().any(|used| self.hands.contains_key(used)) || uses.contains(name);
         if self.holder(id).is_some() {
-            return Err(Failure::new("failed", format!("the hand holds {} already", self.name(id))));
+            return Err(Failure::new(failures::FAILED, format!("the hand holds {} already", self.name(id))));
         }
         let free = self.hands.iter().find(|(name, grip)| grip.holds.is_none() && used(name));
         let Some(hand) = free.map(|(name, _)| name.clone()) else {
-            return Err(Failure::new("failed", "no hand is free"));
+            return Err(Failure::new(failures::FAILED, "no hand is free"));
         };
         self.cannot_take(id).map_or(Ok(()), Err)?;
         if let Some(grip) = self.hands.get_mut(&hand) {
@@ -194,7 +195,7 @@ impl SimWorld {
     pub(crate) fn lift(&mut self) -> Result<(), Failure> {
         let held: Vec<_> = self.hands.values().filter_map(|grip| grip.holds.clone()).collect();
         if held.is_empty() {
-            return Err(Failure::new("slipped", "the hand holds nothing"));
+            return Err(Failure::new(failures::SLIPPED, "the hand holds nothing"));
         }
         for id in held {
             if let Some(thing) = self.things.get_mut(&id) {
@@ -222,26 +223,27 @@ impl SimWorld {
     pub(crate) fn place(&mut self, id: &str, on: &str, rules: &Placing) -> Result<(), Failure> {
         self.must_hold(id)?;
         let name = self.name(on);
-        let target =
-            self.thing(on).ok_or_else(|| Failure::new("unreachable", format!("there is no {name}")))?;
+        let target = self
+            .thing(on)
+            .ok_or_else(|| Failure::new(failures::UNREACHABLE, format!("there is no {name}")))?;
         if on == id {
-            return Err("blocked".into());
+            return Err(failures::BLOCKED.into());
         }
         self.must_stand_at(on)?;
         let (body, role) = (target.body, target.role);
         let (rest, bottom) = match role {
             Role::Container if !target.is_open() || self.shut_in(on).is_some() => {
-                return Err(Failure::new("blocked", format!("{name} is closed")));
+                return Err(Failure::new(failures::BLOCKED, format!("{name} is closed")));
             }
             Role::Container => (Rest::In(on.into()), body.bottom() + 0.01),
             Role::Surface | Role::Object => (Rest::On(on.into()), body.top()),
             Role::Place => (Rest::Free, 0.0),
-            Role::Person => return Err(Failure::new("blocked", "things are handed to people")),
+            Role::Person => return Err(Failure::new(failures::BLOCKED, "things are handed to people")),
         };
-        let no_spot = || Failure::new("blocked", format!("there is no free spot on {name}"));
+        let no_spot = || Failure::new(failures::BLOCKED, format!("there is no free spot on {name}"));
         let spot = self.spot(id, on, rules, Some(self.base)).ok_or_else(no_spot)?;
         if rules.at.is_some() && !self.serves(self.base, [spot[0], spot[1], bottom]) {
-            return Err(Failure::new("unreachable", format!("the spot on {name} is out of reach")));
+            return Err(Failure::new(failures::UNREACHABLE, format!("the spot on {name} is out of reach")));
         }
         self.release(id);
         if let (Some(pose), Some(thing)) = (&rules.at, self.things.get_mut(id)) {
@@ -255,7 +257,7 @@ impl SimWorld {
         if self.holder(id).is_some() {
             return Ok(());
         }
-        Err(Failure::new("slipped", format!("the hand does not hold {}", self.name(id))))
+        Err(Failure::new(failures::SLIPPED, format!("the hand does not hold {}", self.name(id))))
     }
 
     fn must_stand_at(&self, id: &str) -> Result<(), Failure> {
@@ -265,7 +267,7 @@ impl SimWorld {
         let (name, reach) = (self.name(id), self.reach());
         let far = self.thing(id).map(|thing| thing.body.gap(self.base.x, self.base.y));
         Err(Failure::new(
-            "unreachable",
+            failures::UNREACHABLE,
             match far {
                 Some(far) => format!("{name} is {far:.2} m away, and the hand reaches {reach:.2} m"),
                 None => format!("there is no {name}"),
@@ -371,7 +373,7 @@ impl SimWorld {
     pub(crate) fn hand_over(&mut self, id: &str, to: &str) -> Result<(), Failure> {
         self.must_hold(id)?;
         self.must_stand_at(to)?;
-        let person = self.thing(to).ok_or("unreachable")?.body;
+        let person = self.thing(to).ok_or(failures::UNREACHABLE)?.body;
         self.release(id);
         self.put(id, [person.x(), person.y()], person.bottom() + 1.0, Rest::With(to.into()));
         Ok(())
@@ -393,12 +395,12 @@ impl SimWorld {
     pub(crate) fn work_door(&mut self, id: &str, open: bool) -> Result<(), Failure> {
         self.must_stand_at(id)?;
         self.must_have_a_hand()?;
-        let thing = self.thing(id).ok_or("unreachable")?;
+        let thing = self.thing(id).ok_or(failures::UNREACHABLE)?;
         match thing.door {
             None if open => return Ok(()),
-            None => return Err(Failure::new("blocked", format!("{} has no door", thing.name))),
+            None => return Err(Failure::new(failures::BLOCKED, format!("{} has no door", thing.name))),
             Some(door) if open && door.locked && !door.open => {
-                return Err(Failure::new("refused", format!("{} is locked", thing.name)));
+                return Err(Failure::new(failures::REFUSED, format!("{} is locked", thing.name)));
             }
             Some(_) => {}
         }
@@ -408,7 +410,7 @@ impl SimWorld {
 
     fn must_have_a_hand(&self) -> Result<(), Failure> {
         if self.hands.values().all(|grip| grip.holds.is_some()) {
-            return Err(Failure::new("blocked", "no hand is free"));
+            return Err(Failure::new(failures::BLOCKED, "no hand is free"));
         }
         Ok(())
     }
@@ -428,9 +430,9 @@ impl SimWorld {
             self.must_stand_at(id)?;
         }
         self.must_have_a_hand()?;
-        let thing = self.thing(id).ok_or("unreachable")?;
+        let thing = self.thing(id).ok_or(failures::UNREACHABLE)?;
         if thing.fixed {
-            return Err(Failure::new("blocked", format!("{} is fixed", thing.name)));
+            return Err(Failure::new(failures::BLOCKED, format!("{} is fixed", thing.name)));
         }
         let (dx, dy) = (thing.body.x() - self.base.x, thing.body.y() - self.base.y);
         let length = dx.hypot(dy).max(1e-6);

@@ -17,6 +17,8 @@ mod profile;
 mod route;
 mod sight;
 mod sim;
+mod stage;
+mod stroll;
 mod task;
 mod world;
 mod world_setup;

@@ -3,10 +3,10 @@
 use crate::chance::Chance;
 use crate::failure::Failure;
 use crate::profile::PeopleRates;
-use crate::sim::Sim;
 use crate::world::{Role, SimWorld};
 use motet_robots::scene::Scene;
 use motet_runtime::Time;
+use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
 
@@ -27,8 +27,8 @@ impl People {
     pub(crate) fn answer(&mut self, refuses: bool) -> Result<SmolStr, Failure> {
         match self.answers.pop_front() {
             Some(Some(answer)) => Ok(answer.into()),
-            Some(None) => Err("refused".into()),
-            None if refuses => Err(Failure::new("refused", "the person does not answer")),
+            Some(None) => Err(failures::REFUSED.into()),
+            None if refuses => Err(Failure::new(failures::REFUSED, "the person does not answer")),
             None => Ok(SmolStr::new_static("yes")),
         }
     }
@@ -43,29 +43,24 @@ impl People {
     ) -> Result<SmolStr, Failure> {
         let Some(answer) = self.answers.pop_front() else {
             if refuses {
-                return Err(Failure::new("refused", "the person does not choose"));
+                return Err(Failure::new(failures::REFUSED, "the person does not choose"));
             }
-            return among.first().cloned().ok_or_else(|| "refused".into());
+            return among.first().cloned().ok_or_else(|| failures::REFUSED.into());
         };
-        let Some(answer) = answer else { return Err("refused".into()) };
+        let Some(answer) = answer else { return Err(failures::REFUSED.into()) };
         let fitting = scene.matches(&answer);
         let fits = |id: &SmolStr| *id == answer || fitting.iter().any(|entity| entity.id == *id);
         let mut chosen = among.iter().filter(|id| fits(id));
         match (chosen.next(), chosen.next()) {
-            (None, _) => Err("refused".into()),
+            (None, _) => Err(failures::REFUSED.into()),
             (Some(only), None) => Ok(only.clone()),
-            (Some(_), Some(_)) => Err("ambiguous".into()),
+            (Some(_), Some(_)) => Err(failures::AMBIGUOUS.into()),
         }
     }
 }
 
 /// Time in s up to which people walk by themselves.
 const STROLL_SECS: f64 = 1800.0;
-/// Greatest distance in m of a walk, and the distance that it keeps from everything.
-const STROLL_M: f64 = 1.0;
-const KEEPS_M: f64 = 0.15;
-/// Speed of a walk in m/s.
-const STROLL_SPEED: f64 = 0.6;
 
 /// Walks that people take by themselves, in order of time.
 #[derive(Clone, PartialEq, Debug)]
@@ -100,29 +95,6 @@ impl Strolls {
     /// The next person who walks off.
     pub(crate) fn take(&mut self, now: Time) -> Option<SmolStr> {
         self.walks.pop_front_if(|(at, _)| *at <= now).map(|(_, person)| person)
-    }
-}
-
-impl Sim {
-    /// A person walks off in some direction, unless something stands there. Returns whether they do.
-    pub(crate) fn stroll(&mut self, person: &SmolStr) -> bool {
-        let Some(thing) = self.world.thing(person).filter(|thing| thing.walk.is_none()) else { return false };
-        let body = thing.body;
-        let [dx, dy] = Chance::new(self.seed, self.world.now.nanos()).error(STROLL_M / 2.0, "stroll", person);
-        let clear = |x: f64, y: f64| {
-            let keeps = body.radius() + KEEPS_M;
-            let robot = self.world.base.distance_to(x, y) - self.world.base_extent();
-            let mut others = self.world.floor_things().filter(|(id, _)| *id != person);
-            robot >= keeps && others.all(|(_, other)| other.body.gap(x, y) >= keeps)
-        };
-        let is_free = (1..=10).all(|step| {
-            let done = f64::from(step) / 10.0;
-            clear(body.x() + done * dx, body.y() + done * dy)
-        });
-        if is_free {
-            self.world.start_walk(person, None, [body.x() + dx, body.y() + dy], STROLL_SPEED);
-        }
-        is_free
     }
 }
 

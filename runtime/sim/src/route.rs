@@ -1,8 +1,8 @@
 //! Ways of the base over the floor: a way round what stands there, and the first contact on the way. The base
 //! counts as a disc.
 //!
-//! A way goes along straight legs from corner to corner of the obstacles, each inflated by the disc (visibility
-//! graph: Lozano-Pérez and Wesley 1979). Only obstacles that lie on the way are taken into the graph.
+//! A way goes along straight legs from corner to corner of the obstacles, each inflated by the disc
+//! (visibility graph: Lozano-Pérez and Wesley 1979). Only obstacles that lie on the way are in the graph.
 
 use crate::body::{BasePose, UprightBody};
 use crate::motion::BaseMotion;
@@ -15,7 +15,8 @@ use smol_str::SmolStr;
 const SPARE_M: f64 = 0.01;
 /// Distance of the corners of a way from what it passes, beside the disc and what it keeps.
 const CORNER_M: f64 = 0.02;
-/// Height in m below which things are in the way of the base, and below which a loose thing lies on the floor.
+/// Height in m below which furniture is in the way of the base, and below which a loose thing lies on the
+/// floor.
 const ABOVE_M: f64 = 1.0;
 const FLOOR_M: f64 = 0.3;
 /// Greatest number of obstacles that a way goes round.

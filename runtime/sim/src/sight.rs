@@ -1,14 +1,16 @@
 //! Sight of the robot: what a look sees of the world as it is, what it takes it for, and what the robot
 //! believes from then on.
 //!
-//! The belief about a thing changes by sight and touch alone. What is in view is noted, up to the error of the
-//! camera; what is not seen where it was believed to be, although nothing hides that place, is lost.
+//! The belief about a thing changes by sight and touch alone. What is in view is noted, up to the error of
+//! the camera; what is not seen where it was believed to be, although nothing hides that place, is lost.
 
+use crate::body::distance;
 use crate::chance::Chance;
 use crate::failure::Failure;
 use crate::sim::Sim;
 use crate::world::{Rest, Role, SimWorld, Thing};
 use motet_robots::scene::Entity;
+use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 
 /// Least share of a thing that has to show for the robot to see it.
@@ -248,7 +250,7 @@ impl Sim {
         }
         let name = self.belief.name(id);
         let Some(believed) = self.belief.thing(id) else {
-            return Err(Failure::new("not_found", format!("there is no {name}")));
+            return Err(Failure::new(failures::NOT_FOUND, format!("there is no {name}")));
         };
         if !self.world.has_in_view(believed, ViewDirection::Ahead) {
             let bearing = self.world.base.bearing_of(believed.body.x(), believed.body.y());
@@ -272,7 +274,7 @@ impl Sim {
             Some(container) => format!("{name} is in {}, which is closed", self.belief.name(container)),
             None => format!("{name} is not in view from here"),
         };
-        Err(Failure::new("not_found", text))
+        Err(Failure::new(failures::NOT_FOUND, text))
     }
 }
 
@@ -281,10 +283,10 @@ pub(crate) fn the_one(found: Vec<SmolStr>, what: &str) -> Result<SmolStr, Failur
     let count = found.len();
     let mut found = found.into_iter();
     match (found.next(), found.next()) {
-        (None, _) => Err(Failure::new("not_found", format!("nothing in view is \"{what}\""))),
+        (None, _) => Err(Failure::new(failures::NOT_FOUND, format!("nothing in view is \"{what}\""))),
         (Some(only), None) => Ok(only),
         (Some(_), Some(_)) => {
-            Err(Failure::new("ambiguous", format!("{count} things in view are \"{what}\"")))
+            Err(Failure::new(failures::AMBIGUOUS, format!("{count} things in view are \"{what}\"")))
         }
     }
 }
@@ -294,9 +296,4 @@ fn colour(entity: &Entity) -> Option<&'static str> {
     let names: Vec<String> = entity.descriptions().collect();
     let has = |word: &&&str| names.iter().any(|name| name.split(' ').any(|part| part == **word));
     COLOURS.iter().find(has).copied()
-}
-
-/// Distance between two points in m.
-pub(crate) fn distance([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
-    (a - x).hypot(b - y).hypot(c - z)
 }

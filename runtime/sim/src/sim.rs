@@ -1,13 +1,12 @@
 //! The simulator: a world, the goals that run in it, and who watches it.
 
-use crate::body::BasePose;
+use crate::body::{BasePose, distance};
 use crate::faults::{FaultSchedule, Faults};
 use crate::observation::InitialFacts;
 use crate::people::People;
 use crate::people::Strolls;
 use crate::profile::Profile;
 use crate::route::Contact;
-use crate::sight::distance;
 use crate::task::Task;
 use crate::world::SimWorld;
 use indexmap::IndexMap;

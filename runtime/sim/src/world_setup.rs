@@ -11,6 +11,7 @@ use indexmap::IndexMap;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_runtime::Time;
+use motet_stdlib::lang::kinds;
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
 
@@ -116,8 +117,8 @@ fn entities(scene: &Scene, options: &SimOptions) -> Vec<Entity> {
             entities.push(bare(id, kind, pose));
         }
     };
-    add("start", "Place", Some(Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, heading] }));
-    add("user", "Person", None);
+    add("start", kinds::PLACE, Some(Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, heading] }));
+    add("user", kinds::PERSON, None);
     for (id, kind) in &options.entities {
         add(id, kind, None);
     }
@@ -191,7 +192,7 @@ fn thing(entity: &Entity, options: &SimOptions, row: &mut Row) -> Thing {
 
 /// Name of an entity in words: its first, else its id.
 fn name(entity: &Entity) -> SmolStr {
-    if entity.kind == "Person" {
+    if entity.kind == kinds::PERSON {
         return format!("`{}`", entity.id).into();
     }
     let words = entity.names.first().unwrap_or(&entity.id);
@@ -204,11 +205,11 @@ fn role(entity: &Entity, options: &SimOptions) -> Role {
     let mut kind = &entity.kind;
     for _ in 0..=options.kinds.len() {
         match kind.as_str() {
-            "Place" | "Zone" => return Role::Place,
-            "Surface" => return Role::Surface,
-            "Container" => return Role::Container,
-            "Object" => return Role::Object,
-            "Person" => return Role::Person,
+            kinds::PLACE | kinds::ZONE => return Role::Place,
+            kinds::SURFACE => return Role::Surface,
+            kinds::CONTAINER => return Role::Container,
+            kinds::OBJECT => return Role::Object,
+            kinds::PERSON => return Role::Person,
             _ => {}
         }
         match options.kinds.get(kind) {

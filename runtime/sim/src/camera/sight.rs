@@ -18,8 +18,8 @@ impl SimWorld {
         [base.x + cos * x - sin * y, base.y + sin * x + cos * y, z]
     }
 
-    /// Share from 0 to 1 of a thing that nothing hides from the camera: of one of this world, or of one that is
-    /// believed to be in it. O(things).
+    /// Share from 0 to 1 of a thing that nothing hides from the camera: of one of this world, or of one that
+    /// is believed to be in it. O(things).
     pub(crate) fn unhidden_share(&self, id: &str, thing: &Thing) -> f64 {
         let holder = match &thing.rest {
             Rest::With(person) => Some(person),

@@ -105,8 +105,9 @@ fn on(id: &str, support: &str) -> Query {
 
 #[test]
 fn world_belief_changes_by_sight_alone() {
-    let steals = r#"{"world": [{"at": 1, "what": {"moves": {"object": "mug_2", "to": {"container": "fridge_1"}}}},
-                               {"at": 1, "what": {"moves": {"object": "mug_1", "to": {"surface": "sink"}}}}]}"#;
+    let steals = r#"{"world": [
+        {"at": 1, "what": {"moves": {"object": "mug_2", "to": {"container": "fridge_1"}}}},
+        {"at": 1, "what": {"moves": {"object": "mug_1", "to": {"surface": "sink"}}}}]}"#;
     let mut bench = in_world(&kitchen(), kitchen(), steals);
     bench.next(2.0);
     let seen = |bench: &mut Bench, id: &str, support: &str| {
