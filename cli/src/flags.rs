@@ -1,16 +1,18 @@
 //! Flags that several subcommands share: documents, the robot and its scene, the format of diagnostics, runs
 //! in simulation. The flags of one subcommand are in its own file in `command`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum, value_parser};
 use motet_decode::export::Dialect;
 use motet_planner::runtime_check::CheckMode;
-use motet_project::{Project, ProjectBuilder};
+use motet_project::{
+    DiagnosticSink, Project, ProjectBuilder, ProjectError, SimulationInputs, read_profile, read_scene,
+};
 use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
-use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
+use motet_syntax::{Sources, Syntax};
 
 /// Documents to read.
 #[derive(Args, Debug)]
@@ -212,6 +214,30 @@ pub(crate) struct SimulationArgs {
     /// JSON file with faults to inject
     #[arg(long, value_name = "FILE")]
     pub(crate) faults: Option<PathBuf>,
+    /// How often things go wrong by themselves: `ideal`, `typical`, `harsh`, or a TOML file
+    #[arg(long, default_value = "typical", value_name = "NAME|FILE")]
+    pub(crate) profile: String,
+    /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON
+    /// file
+    #[arg(long, alias = "real", value_name = "NAME|FILE")]
+    pub(crate) world: Option<String>,
+}
+
+impl SimulationArgs {
+    /// Reads the inputs of a simulation. `eye` is the camera's position in the frame of the base, in m.
+    pub(crate) fn inputs(
+        &self,
+        answers: Option<&Path>,
+        eye: Option<[f64; 3]>,
+        sink: &mut dyn DiagnosticSink,
+    ) -> Result<SimulationInputs, ProjectError> {
+        let inputs = SimulationInputs::read(self.seed, self.faults.as_deref(), answers, sink)?;
+        let world = match &self.world {
+            Some(name) => Some(read_scene(name, &mut Sources::default(), sink)?),
+            None => None,
+        };
+        Ok(inputs.with_profile(read_profile(&self.profile)?).with_world(world).with_eye(eye))
+    }
 }
 
 /// Reads a seed.

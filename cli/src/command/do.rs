@@ -11,10 +11,8 @@ use std::rc::Rc;
 
 use motet_planner::Planner;
 use motet_planner::dialogue::{Conversation, DialogueSetup, Outcome};
-use motet_project::read_scene;
 use motet_runtime::{Driver, Time};
 use motet_sim::Sim;
-use motet_syntax::Sources;
 
 use super::run;
 use crate::error::{CliError, Exit};
@@ -40,12 +38,8 @@ fn plan_and_run(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Ex
     };
     let scene = opened.scene.clone().unwrap_or_default();
     let (domains, geometry) = (opened.domains.clone(), opened.geometry.clone());
-    let real = match &args.real {
-        Some(name) => read_scene(name, &mut Sources::default(), report)?,
-        None => scene.clone(),
-    };
     let eye = geometry.as_ref().and_then(|geometry| geometry.eye());
-    let simulator = run::simulator((&robot, &opened.session), &real, eye, &args.simulation, report)?;
+    let simulator = run::simulator((&robot, &opened.session), &scene, eye, &args.simulation, report)?;
     let operator = Rc::new(OperatorInput::read(&args.ask)?);
     let record = args.record.as_deref().map(ConversationRecord::create).transpose()?;
     let setting = DialogueSetup {

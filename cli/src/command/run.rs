@@ -9,7 +9,7 @@ use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
 use motet_planner::runtime_check::{CheckMode, Guard};
-use motet_project::{Project, ProjectSession, SavedDriver, SavedProject, SimulationInputs, named_robot};
+use motet_project::{Project, ProjectSession, SavedDriver, SavedProject, named_robot};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::journal::{
@@ -57,6 +57,7 @@ pub(crate) struct RunArgs {
         value_name = "FOLDER",
         conflicts_with_all = [
             "file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain",
+            "profile", "world",
         ]
     )]
     resume: Option<PathBuf>,
@@ -77,12 +78,7 @@ pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, CliError> {
 fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
     let mut project = args.session.project().open_with(report)?;
     let simulation = &args.simulation;
-    let inputs = SimulationInputs::read(
-        simulation.seed,
-        simulation.faults.as_deref(),
-        args.answers.as_deref(),
-        report,
-    )?;
+    let inputs = simulation.inputs(args.answers.as_deref(), None, report)?;
     let policy = args.policy.as_deref();
     let document = one_document(file)?;
     let Some((graph, parsed, opened)) = compile(&document, policy, args.format, &mut project, report)? else {
@@ -93,7 +89,8 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     };
     inputs.check_names(&opened.session.signatures())?;
     let declarations: Vec<_> = opened.domains.iter().chain([&parsed.file]).collect();
-    let options = inputs.for_policy(&graph, &declarations);
+    let eye = opened.geometry.as_ref().and_then(|geometry| geometry.eye());
+    let options = inputs.with_eye(eye).for_policy(&graph, &declarations);
     let start = start_state(opened.scene.as_ref());
     let scene = opened.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
@@ -168,12 +165,12 @@ pub(super) fn simulator(
     args: &SimulationArgs,
     report: &mut Report,
 ) -> Result<Sim, CliError> {
-    let inputs = SimulationInputs::read(args.seed, args.faults.as_deref(), None, report)?;
+    let inputs = args.inputs(None, eye, report)?;
     if args.faults.is_some() {
         let there = session.with_scene(Some(scene), None);
         inputs.check_names(&there.signatures())?;
     }
-    Ok(Sim::new(robot, scene, inputs.without_policy(eye)))
+    Ok(Sim::new(robot, scene, inputs.without_policy()))
 }
 
 /// Rebuilds the engine and the simulator from a journal, and continues.

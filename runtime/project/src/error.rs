@@ -38,6 +38,9 @@ pub enum ProjectError {
     /// A number in a file of faults is out of range.
     #[error("`{}`: {error}", path.display())]
     Faults { path: PathBuf, error: motet_sim::FaultsError },
+    /// A profile is not TOML of its form, or a number in it is out of range.
+    #[error("`{}`: {error}", path.display())]
+    Profile { path: PathBuf, error: motet_sim::ProfileError },
     /// A journal does not describe its driver, or was written by another host.
     #[error("{0}")]
     Journal(String),
@@ -59,6 +62,7 @@ impl ProjectError {
             | Self::Invalid { .. }
             | Self::FaultNames(_)
             | Self::Faults { .. }
+            | Self::Profile { .. }
             | Self::Journal(_) => None,
         }
     }

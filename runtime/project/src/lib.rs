@@ -14,4 +14,4 @@ pub use project::{
 pub use robot::find_stance;
 pub use robot::{RobotFiles, robot_names};
 pub use saved::{SavedAddress, SavedDriver, SavedProject, SavedSimulator};
-pub use simulation::SimulationInputs;
+pub use simulation::{SimulationInputs, read_profile};

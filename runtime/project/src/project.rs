@@ -420,7 +420,7 @@ pub fn read_scene(
     scene.ok_or_else(|| invalid("scene", diagnostics, sources))
 }
 
-fn looks_like_file(name: &str) -> bool {
+pub(crate) fn looks_like_file(name: &str) -> bool {
     let path = Path::new(name);
     path.exists() || path.extension().is_some() || path.components().count() > 1
 }

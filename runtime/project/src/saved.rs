@@ -9,7 +9,7 @@ use motet_compiler::WorldTracker;
 use motet_host::remote::DriverAddress;
 use motet_robots::clearance::ClearanceOverride;
 use motet_robots::{card, scene};
-use motet_sim::{Faults, PersonScript, Sim, SimOptions};
+use motet_sim::{Faults, PersonScript, Profile, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -60,6 +60,13 @@ pub struct SavedSimulator {
     entities: Vec<(SmolStr, SmolStr)>,
     told: Vec<(SmolStr, Vec<SmolStr>, bool)>,
     #[serde(default)]
+    profile: Profile,
+    /// Text of the scene as it is, if it differs from the one that the robot knows.
+    #[serde(default)]
+    world: Option<String>,
+    #[serde(default)]
+    eye: Option<[f64; 3]>,
+    #[serde(default)]
     guard: Option<Box<SavedProject>>,
 }
 
@@ -84,6 +91,9 @@ impl SavedDriver {
             kinds: options.kinds.clone(),
             entities: options.entities.clone(),
             told: told.map(|((name, args), holds)| (name.clone(), args.clone(), *holds)).collect(),
+            profile: options.profile.clone(),
+            world: options.world.as_ref().map(scene::write),
+            eye: options.eye,
             guard: project.map(Box::new),
         }))
     }
@@ -135,6 +145,11 @@ impl SavedDriver {
     }
 }
 
+fn read_scene(text: &str) -> Result<scene::Scene, ProjectError> {
+    let (scene, _) = scene::read(&Source::new("scene.json", text), FileId(0));
+    scene.ok_or_else(|| unreadable("scene"))
+}
+
 fn unreadable(what: &str) -> ProjectError {
     ProjectError::Journal(format!("cannot read the {what} in the journal"))
 }
@@ -146,9 +161,7 @@ impl SavedSimulator {
     ///
     /// This version cannot read the saved scene.
     pub fn scene(&self) -> Result<scene::Scene, ProjectError> {
-        let Some(text) = &self.scene else { return Ok(scene::Scene::default()) };
-        let (scene, _) = scene::read(&Source::new("scene.json", text.as_str()), FileId(0));
-        scene.ok_or_else(|| unreadable("scene"))
+        self.scene.as_ref().map_or_else(|| Ok(scene::Scene::default()), |text| read_scene(text))
     }
 
     /// Simulator in its state at the start of the run.
@@ -169,7 +182,9 @@ impl SavedSimulator {
             kinds: self.kinds.clone(),
             entities: self.entities.clone(),
             initial_facts: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
-            eye: None,
+            eye: self.eye,
+            profile: self.profile.clone(),
+            world: self.world.as_deref().map(read_scene).transpose()?,
         };
         Ok(Sim::new(&robot, &scene, options))
     }

@@ -6,14 +6,16 @@ use std::path::Path;
 
 use motet_compiler::signature::Signatures;
 use motet_graph::{FactArg, Graph, Term, Value};
-use motet_sim::{Faults, PersonScript, SimOptions};
+use motet_robots::scene::Scene;
+use motet_sim::{Faults, PersonScript, Profile, SimOptions};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::located::{Located, LocatedValue, parse_json};
 use motet_syntax::{FileId, Source, suggest};
 use smol_str::SmolStr;
 
 use crate::error::{DiagnosticSink, ProjectError};
-use crate::files::read_json;
+use crate::files::{read_json, read_small};
+use crate::project::looks_like_file;
 
 /// Inputs of a simulated run, read before the policy is known.
 #[derive(Debug, Default)]
@@ -23,6 +25,38 @@ pub struct SimulationInputs {
     source: Option<Source>,
     answers: Vec<Option<String>>,
     seed: u64,
+    profile: Profile,
+    world: Option<Scene>,
+    eye: Option<[f64; 3]>,
+}
+
+/// Reads a profile: a built-in one by its name, or a TOML file.
+///
+/// ```
+/// let profile = motet_project::read_profile("typical")?;
+/// assert!(profile.hand.slip > 0.0);
+/// assert!(motet_project::read_profile("tipical").is_err());
+/// # Ok::<(), motet_project::ProjectError>(())
+/// ```
+///
+/// # Errors
+///
+/// There is no such profile, the file cannot be read, or a number in it is out of range.
+pub fn read_profile(name: &str) -> Result<Profile, ProjectError> {
+    if let Some(profile) = Profile::builtin(name) {
+        return Ok(profile);
+    }
+    let path = Path::new(name);
+    if !looks_like_file(name) {
+        let near = suggest::closest(name, Profile::names());
+        let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        let names = suggest::one_of(Profile::names());
+        let help = format!("{near}built-in profiles: {names}; your own profile is a TOML file");
+        return Err(ProjectError::Unknown { what: "profile", name: name.to_owned(), help });
+    }
+    let bytes = read_small(path)?;
+    let text = std::str::from_utf8(&bytes).map_err(|_| ProjectError::NotText { path: path.to_owned() })?;
+    Profile::from_toml(text).map_err(|error| ProjectError::Profile { path: path.to_owned(), error })
 }
 
 impl SimulationInputs {
@@ -57,7 +91,25 @@ impl SimulationInputs {
             Some(path) => read_json(path, "file of answers", sink)?.0,
             None => Vec::new(),
         };
-        Ok(Self { faults, source, answers, seed })
+        Ok(Self { faults, source, answers, seed, ..Self::default() })
+    }
+
+    /// The same inputs with a profile.
+    #[must_use]
+    pub fn with_profile(self, profile: Profile) -> Self {
+        Self { profile, ..self }
+    }
+
+    /// The same inputs with the room as it is, where it differs from the scene that the robot knows.
+    #[must_use]
+    pub fn with_world(self, world: Option<Scene>) -> Self {
+        Self { world, ..self }
+    }
+
+    /// The same inputs with the camera's position in the frame of the base, in m.
+    #[must_use]
+    pub fn with_eye(self, eye: Option<[f64; 3]>) -> Self {
+        Self { eye, ..self }
     }
 
     /// Checks that the primitives, failures and entities in the file of faults exist.
@@ -73,14 +125,16 @@ impl SimulationInputs {
         }
     }
 
-    /// Options without a policy. `eye` is the camera's position in the base's frame, in m.
+    /// Options without a policy.
     #[must_use]
-    pub fn without_policy(self, eye: Option<[f64; 3]>) -> SimOptions {
+    pub fn without_policy(self) -> SimOptions {
         SimOptions {
             seed: self.seed,
             faults: self.faults,
             script: PersonScript { answers: self.answers },
-            eye,
+            eye: self.eye,
+            profile: self.profile,
+            world: self.world,
             ..SimOptions::default()
         }
     }
@@ -101,7 +155,7 @@ impl SimulationInputs {
                 .iter()
                 .filter_map(|initial| Some((initial_fact(graph, &initial.fact)?, initial.value)))
                 .collect(),
-            ..self.without_policy(None)
+            ..self.without_policy()
         }
     }
 }

@@ -41,6 +41,11 @@ pub(crate) fn turned(angle: f64) -> f64 {
     sin.atan2(cos)
 }
 
+/// Distance between two points in m.
+pub(crate) fn distance([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
+    (a - x).hypot(b - y).hypot(c - z)
+}
+
 /// An upright thing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct UprightBody {

@@ -15,7 +15,8 @@ pub(crate) enum SimCommand {
     StartPose,
     WakeUp,
     Pick(SmolStr),
-    Grasp(SmolStr),
+    /// The object, and the pose at which the hand closes.
+    Grasp(SmolStr, Option<Pose>),
     Lift,
     /// The object, its support, and the rules for its place.
     Place(SmolStr, SmolStr, Placing),
@@ -63,7 +64,7 @@ impl SimCommand {
             "start_pose" => Self::StartPose,
             "wake_up" => Self::WakeUp,
             "pick" => Self::Pick(entity("object")?),
-            "grasp" => Self::Grasp(entity("object")?),
+            "grasp" => Self::Grasp(entity("object")?, command.arg("at").and_then(pose)),
             "lift" => Self::Lift,
             "place" => {
                 let on = entity("on")?;
@@ -116,7 +117,7 @@ impl SimCommand {
             Self::Detect(_) | Self::DetectAll(_) | Self::Locate(_) | Self::Ground(_) | Self::Inspect(_) => {
                 0.3
             }
-            Self::Pick(_) | Self::Grasp(_) | Self::Lift | Self::Place(..) => 0.4,
+            Self::Pick(_) | Self::Grasp(..) | Self::Lift | Self::Place(..) => 0.4,
             Self::Open(_) | Self::Close(_) | Self::Push(_) => 0.4,
             Self::Unknown => 0.5,
         }
@@ -129,7 +130,7 @@ impl SimCommand {
             Self::Home => ArmPose::Home,
             Self::StartPose | Self::Search(_, _) => ArmPose::Ready,
             Self::Lift => ArmPose::Carry,
-            Self::Pick(_) | Self::Grasp(_) | Self::Place(..) | Self::Handover(_, _) => ArmPose::Out,
+            Self::Pick(_) | Self::Grasp(..) | Self::Place(..) | Self::Handover(_, _) => ArmPose::Out,
             Self::Open(_) | Self::Close(_) | Self::Push(_) => ArmPose::Out,
             Self::Go(_) | Self::GoToPose(_) | Self::Turn(_) | Self::WakeUp | Self::Unknown => return,
             Self::Detect(_) | Self::DetectAll(_) | Self::Locate(_) | Self::Ground(_) | Self::Inspect(_) => {

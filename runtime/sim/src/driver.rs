@@ -1,15 +1,22 @@
 //! The simulator as a driver: goals become tasks, and time goes from one thing that happens to the next.
 
-use crate::body::BasePose;
+use crate::body::{BasePose, distance};
+use crate::chance::Chance;
 use crate::command::SimCommand;
+use crate::failure::Failure;
+use crate::faults::WorldEvent;
 use crate::motion::BaseMotion;
 use crate::sim::Sim;
-use crate::task::{NextStage, Task, TaskContext, TaskStage};
+use crate::task::{NextStage, Task, TaskStage};
 use motet_graph::{Manner, Waypoint};
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, PrimitiveSet, Query, Time};
+use motet_stdlib::lang::failures;
 use rand::RngExt;
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
+
+/// Difference in m up to which something stands where it was told.
+const AS_TOLD_M: f64 = 0.01;
 
 impl Driver for Sim {
     fn base(&self) -> Option<[f64; 3]> {
@@ -19,6 +26,7 @@ impl Driver for Sim {
 
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         self.pass(now);
+        self.calls += 1;
         let jitter = 0.9 + self.random.random::<f64>() * (1.1 - 0.9);
         let fault = self.faults.of_call(&command.primitive);
         if let Some(failure) = fault.refuses {
@@ -31,8 +39,9 @@ impl Driver for Sim {
         let task = Task {
             goal,
             uses: command.uses.clone(),
-            work_secs: command.deadline_secs * share * jitter,
+            work_secs: command.deadline_secs * share * jitter + self.delay(&parsed),
             path: base_path(&parsed, command),
+            occasion: self.calls,
             command: parsed,
             slower: fault.slower,
             stretch: stretch(command),
@@ -70,7 +79,7 @@ impl Driver for Sim {
         let mut task = self.tasks.remove(place);
         let hangs = task.stage == TaskStage::Working(Time::NEVER);
         if matches!(task.stage, TaskStage::Driving(_)) {
-            self.world.motion = None;
+            self.halt();
         }
         task.command = SimCommand::of(command);
         task.path = base_path(&task.command, command);
@@ -87,6 +96,10 @@ impl Driver for Sim {
     fn hold(&mut self, now: Time, goal: GoalId) {
         self.pass(now);
         let motion = self.world.motion.clone();
+        let is_driving = |task: &Task| task.goal == goal && matches!(task.stage, TaskStage::Driving(_));
+        if self.tasks.iter().any(is_driving) {
+            self.contact = None;
+        }
         let Some(task) = self.tasks.iter_mut().find(|task| task.goal == goal) else { return };
         task.stage = match (&task.stage, motion) {
             (TaskStage::Driving(_), Some(motion)) => {
@@ -116,6 +129,7 @@ impl Driver for Sim {
             TaskStage::HeldWorking(left) => TaskStage::Working(now.after(left)),
             running @ (TaskStage::Driving(_) | TaskStage::Working(_)) => running,
         };
+        self.expect_contact();
     }
 
     fn safe_stop(&mut self, now: Time, goal: GoalId) {
@@ -187,11 +201,23 @@ impl Sim {
     /// Takes a task to its next stage, or ends it.
     pub(crate) fn go_on(&mut self, mut task: Task) {
         let now = self.world.now;
-        let mut play = TaskContext { world: &mut self.world, people: &mut self.people, scene: &self.scene };
-        let next = play.next(&mut task);
+        self.feel();
+        if task.step > 0 {
+            self.look_about();
+        }
+        let next = self.next_stage(&mut task);
+        let follows = matches!(next, NextStage::Follow(_));
         let motion = match next {
-            NextStage::Drive(to) => BaseMotion::through(&self.world.drive, self.world.base, &[to], now),
-            NextStage::Follow(path) => BaseMotion::through(&self.world.drive, self.world.base, &path, now),
+            NextStage::Drive(to) => match self.belief.route(to) {
+                Ok(way) => self.motion_through(way),
+                Err(id) => {
+                    let failure =
+                        Failure::new(failures::BLOCKED, format!("{} is in the way", self.belief.name(&id)));
+                    self.report(DriverEvent::Ended { goal: task.goal, outcome: failure.outcome() });
+                    return;
+                }
+            },
+            NextStage::Follow(path) => self.motion_through(path),
             NextStage::Turn(by) => Some(BaseMotion::turn(&self.world.drive, self.world.base, by, now)),
             NextStage::Work => {
                 task.stage = TaskStage::Working(now.after(Time::from_secs(task.work_secs * task.slower)));
@@ -206,12 +232,83 @@ impl Sim {
         if let Some(motion) = motion {
             let motion = motion.slowed(task.slower * task.stretch);
             task.stage = TaskStage::Driving(motion.end());
+            self.drop_on_the_way(&motion);
             self.world.motion = Some(motion);
+            self.follows = follows;
+            self.expect_contact();
             self.tasks.push(task);
         } else {
-            let failure = SmolStr::new_static("unreachable").into();
-            self.report(DriverEvent::Ended { goal: task.goal, outcome: Outcome::Failure(failure) });
+            let failure = Failure::new(failures::UNREACHABLE, "the base cannot move");
+            self.report(DriverEvent::Ended { goal: task.goal, outcome: failure.outcome() });
         }
+    }
+
+    /// A motion through stances that ends a little beside the last.
+    fn motion_through(&self, mut stances: Vec<BasePose>) -> Option<BaseMotion> {
+        let from = self.world.base;
+        if let Some(last) = stances.last_mut().filter(|last| from.distance_to(last.x, last.y) > 1e-6) {
+            let [dx, dy] = self.chance().error(self.profile.base.error_m, "drive", "");
+            (last.x, last.y) = (last.x + dx, last.y + dy);
+        }
+        BaseMotion::through(&self.world.drive, from, &stances, self.world.now)
+    }
+
+    /// The hand may drop on a drive what it carries.
+    fn drop_on_the_way(&mut self, motion: &BaseMotion) {
+        let carried = self.world.hands.values().find(|grip| grip.lifted).and_then(|grip| grip.holds.clone());
+        let Some(carried) = carried else { return };
+        let chance = self.chance();
+        if !motion.is_still() && chance.comes(self.profile.hand.drop, "drop", &carried) {
+            let span = motion.end().since(self.world.now).secs() * chance.share("drop at", &carried);
+            self.faults.insert(self.world.now.after(Time::from_secs(span)), WorldEvent::Slips(carried));
+        }
+    }
+
+    /// Delay of a late answer, in s.
+    fn delay(&self, command: &SimCommand) -> f64 {
+        let rates = &self.profile.people;
+        let is_answered = matches!(command, SimCommand::Ask(_) | SimCommand::Choose(_));
+        let is_late = is_answered && Chance::new(self.seed, self.calls).comes(rates.late, "late", "");
+        if is_late { rates.late_secs } else { 0.0 }
+    }
+
+    /// Looks ahead for the contact at which the motion of the base will end. On a certified path, what stands
+    /// where it was told is none: the certificate knows the robot's shape better than a disc does.
+    pub(crate) fn expect_contact(&mut self) {
+        let follows = self.follows;
+        let is_as_told = |id: &SmolStr| {
+            let pair = self.world.thing(id).zip(self.told.get(id));
+            pair.is_some_and(|(thing, told)| distance(thing.body.xyz, *told) <= AS_TOLD_M)
+        };
+        let solid = |id: &SmolStr| !(follows && is_as_told(id));
+        self.contact = self.world.motion.as_ref().and_then(|motion| self.world.contact(motion, solid));
+    }
+
+    /// The base touches something and stops: the drive ends.
+    pub(crate) fn bump(&mut self, with: &str) {
+        self.halt();
+        self.feel();
+        self.notice(with);
+        let is_driving = |task: &Task| matches!(task.stage, TaskStage::Driving(_));
+        if let Some(place) = self.tasks.iter().position(is_driving) {
+            let task = self.tasks.remove(place);
+            if matches!(&task.command, SimCommand::Go(to) if self.belief.root(to) == with) {
+                // It came to what it went to earlier than it thought.
+                self.go_on(task);
+                return;
+            }
+            let failure = Failure::new(
+                failures::BLOCKED,
+                format!("the base meets {} on its way", self.world.name(with)),
+            );
+            self.report(DriverEvent::Ended { goal: task.goal, outcome: failure.outcome() });
+        }
+    }
+
+    /// The base stops where it is.
+    fn halt(&mut self) {
+        self.world.motion = None;
+        self.contact = None;
     }
 
     /// Forgets a goal; the base stops where it is. Whether it was live.
@@ -219,7 +316,7 @@ impl Sim {
         let Some(place) = self.tasks.iter().position(|task| task.goal == goal) else { return false };
         let task = self.tasks.remove(place);
         if matches!(task.stage, TaskStage::Driving(_)) {
-            self.world.motion = None;
+            self.halt();
         }
         true
     }

@@ -60,9 +60,14 @@ pub enum CallFaultKind {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorldChange {
-    /// Time in seconds from the beginning of the run.
+    /// Time in seconds from the beginning of the run, or from the answer.
+    #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub at: f64,
+    /// Number of the answer, from 1, with which the time begins: a person answers, and does something.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub after_answer: Option<u32>,
     pub what: WorldEvent,
 }
 
@@ -165,6 +170,9 @@ impl WorldChange {
         if self.at < 0.0 {
             return Some(format!("`at` is {} s, least is 0 s", self.at));
         }
+        if self.after_answer == Some(0) {
+            return Some("`after_answer` counts from 1".to_owned());
+        }
         match &self.what {
             WorldEvent::Walks { speed, .. } if *speed < 1e-3 => {
                 Some(format!("`speed` is {speed} m/s, least is 0.001 m/s"))
@@ -189,6 +197,9 @@ pub(crate) struct FaultSchedule {
     calls: Vec<CallFault>,
     counts: IndexMap<SmolStr, u32>,
     changes: VecDeque<(Time, WorldEvent)>,
+    /// Changes that follow answers.
+    later: Vec<WorldChange>,
+    answers: u32,
 }
 
 /// A fault of one call.
@@ -202,10 +213,29 @@ pub(crate) struct ScheduledFault {
 
 impl FaultSchedule {
     pub(crate) fn new(faults: &Faults) -> Self {
+        let (later, timed): (Vec<_>, Vec<_>) =
+            faults.world.iter().cloned().partition(|change| change.after_answer.is_some());
         let mut changes: Vec<_> =
-            faults.world.iter().map(|change| (Time::from_secs(change.at), change.what.clone())).collect();
+            timed.into_iter().map(|change| (Time::from_secs(change.at), change.what)).collect();
         changes.sort_by_key(|(at, _)| *at);
-        Self { calls: faults.calls.clone(), counts: IndexMap::new(), changes: changes.into() }
+        let (calls, counts) = (faults.calls.clone(), IndexMap::new());
+        Self { calls, counts, changes: changes.into(), later, answers: 0 }
+    }
+
+    /// A person has answered: what follows from it is now due.
+    pub(crate) fn answered(&mut self, now: Time) {
+        self.answers += 1;
+        let due: Vec<WorldChange> =
+            self.later.iter().filter(|change| change.after_answer == Some(self.answers)).cloned().collect();
+        for change in due {
+            self.insert(now.after(Time::from_secs(change.at)), change.what);
+        }
+    }
+
+    /// Adds a change behind those of the same time.
+    pub(crate) fn insert(&mut self, at: Time, what: WorldEvent) {
+        let place = self.changes.partition_point(|(time, _)| *time <= at);
+        self.changes.insert(place, (at, what));
     }
 
     /// Counts a call, and tells what happens to it.
@@ -301,6 +331,7 @@ mod tests {
         refused(r#"{"calls": [{"primitive": "go", "nth": 0, "then": "hangs"}]}"#, "counts from 1");
         refused(r#"{"world": [{"at": -1, "what": {"slips": "mug"}}]}"#, "-1 s");
         refused(r#"{"world": [{"at": 1, "what": {"battery": 2}}]}"#, "not between 0 and 1");
+        refused(r#"{"world": [{"after_answer": 0, "what": {"opens": "fridge"}}]}"#, "counts from 1");
         refused(
             r#"{"world": [{"at": 1, "what": {"walks": {"person": "user", "to": [0, 0], "speed": 0}}}]}"#,
             "0 m/s",

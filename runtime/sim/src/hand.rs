@@ -1,17 +1,17 @@
 //! Manipulation: effects of the hands on the world, and their failures.
 
 use crate::body::BasePose;
+use crate::camera::front;
 use crate::command::Placing;
+use crate::failure::Failure;
 use crate::motion::standing_place;
-use crate::world::{Rest, Role, SimWorld};
+use crate::world::{Rest, Role, SimWorld, Thing};
 use motet_graph::Pose;
 use motet_robots::scene::{
     PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, ServedKind, person_gap, serving_gap,
 };
+use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
-
-/// A failure kind of the standard library.
-pub(crate) type Failure = &'static str;
 
 /// Distance that the base may shuffle along what it stands at, in m, while the hand is used.
 const SHUFFLE_M: f64 = 1.5;
@@ -21,10 +21,12 @@ const PUSH_M: f64 = 0.1;
 const MARGIN_M: f64 = 0.03;
 /// Share of the reach that the base's own extent takes. A robot with a long body stands sideways.
 const BASE_SHARE: f64 = 0.4;
+/// Distance in m from a thing's outline within which a hand that closes at a point still holds the thing.
+const NEAR_GRASP_M: f64 = 0.05;
 
 impl SimWorld {
     /// True if a hand reaches a point from a stance: distance in the plane and height.
-    fn serves(&self, stance: BasePose, xyz: [f64; 3]) -> bool {
+    pub(crate) fn serves(&self, stance: BasePose, xyz: [f64; 3]) -> bool {
         let [x, y, z] = xyz;
         let near = stance.distance_to(x, y) <= self.reach() + 1e-6;
         let level = |grip: &crate::world::HandState| {
@@ -53,8 +55,15 @@ impl SimWorld {
             vec![[thing.body.x(), thing.body.y()]]
         };
         let others = self.obstacles(&root);
-        let mut stance =
-            standing_place(&target.body, clearance, self.reach(), self.base, &wanted, &others, radius)?;
+        let mut stance = standing_place(
+            (&target.body, front(target)),
+            clearance,
+            self.reach(),
+            self.base,
+            &wanted,
+            &others,
+            radius,
+        )?;
         if root != id {
             stance.heading += stance.bearing_of(thing.body.x(), thing.body.y());
         }
@@ -100,23 +109,62 @@ impl SimWorld {
         serving_gap(kind, self.reach())
     }
 
-    /// Failure with which a hand cannot take a thing at its place, if any; `wide` failures have no kind of
-    /// their own.
-    fn cannot_take(&self, id: &str) -> Option<Failure> {
-        let Some(thing) = self.thing(id) else { return Some("not_found") };
-        let lightest = |grip: &&crate::world::HandState| thing.mass_kg <= grip.hand.payload_kg;
-        if self.shut_in(id).is_some() {
-            Some("blocked")
+    /// Failure with which a hand cannot take a thing at its place, if any.
+    pub(crate) fn cannot_take(&self, id: &str) -> Option<Failure> {
+        let name = self.name(id);
+        let Some(thing) = self.thing(id) else {
+            return Some(Failure::new(failures::NOT_FOUND, format!("there is no {name}")));
+        };
+        let any = |fits: fn(&crate::world::HandState, &Thing) -> bool| {
+            self.hands.values().any(|grip| fits(grip, thing))
+        };
+        if let Some(container) = self.shut_in(id) {
+            let text = format!("{name} is in {}, which is closed", self.name(container));
+            Some(Failure::new(failures::BLOCKED, text))
         } else if self.stance_for_hand(id).is_none() {
-            let moved = thing.seen_at.is_some_and(|seen| seen != thing.body.xyz);
-            Some(if moved { "not_found" } else { "unreachable" })
-        } else if thing.fixed || !self.hands.values().any(|grip| lightest(&grip)) {
-            Some("too_heavy")
-        } else if !self.hands.values().any(|grip| thing.width_m <= grip.hand.opening_m) {
-            Some("unreachable")
+            let far = self.base.distance_to(thing.body.x(), thing.body.y());
+            let text = format!("{name} is {far:.2} m away, and the hand reaches {:.2} m", self.reach());
+            Some(Failure::new(failures::UNREACHABLE, text))
+        } else if thing.fixed {
+            Some(Failure::new(failures::TOO_HEAVY, format!("{name} is fixed")))
+        } else if !any(|grip, thing| thing.mass_kg <= grip.hand.payload_kg) {
+            Some(Failure::new(failures::TOO_HEAVY, format!("{name} weighs {} kg", thing.mass_kg)))
+        } else if !any(|grip, thing| thing.width_m <= grip.hand.opening_m) {
+            Some(Failure::new(failures::UNREACHABLE, format!("{name} is {} m wide", thing.width_m)))
         } else {
             None
         }
+    }
+
+    /// Distance in m by which a grasp of a thing may miss its middle: half of the room between the fingers.
+    pub(crate) fn grasp_margin(&self, id: &str) -> f64 {
+        let Some(thing) = self.thing(id) else { return 0.0 };
+        let spare = |grip: &crate::world::HandState| (grip.hand.opening_m - thing.width_m) / 2.0;
+        self.hands.values().map(spare).fold(0.0, f64::max)
+    }
+
+    /// Checks a pose that a hand is to close at: within reach, and at the thing.
+    pub(crate) fn grasp_at(&self, id: &str, at: &Pose) -> Result<(), Failure> {
+        let ([x, y, z], name) = (at.xyz, self.name(id));
+        let Some(thing) = self.thing(id) else {
+            return Err(Failure::new(failures::NOT_FOUND, format!("there is no {name}")));
+        };
+        if !self.serves(self.base, at.xyz) {
+            let far = self.base.distance_to(x, y);
+            let reach = self.reach();
+            let text = format!(
+                "the point is {far:.2} m away at a height of {z:.2} m, the hand reaches {reach:.2} m"
+            );
+            return Err(Failure::new(failures::UNREACHABLE, text));
+        }
+        let body = &thing.body;
+        let beyond = (z - body.top()).max(body.bottom() - z).max(0.0);
+        let off = body.gap(x, y).hypot(beyond);
+        if off > NEAR_GRASP_M {
+            let text = format!("the hand closes {off:.2} m beside {name}");
+            return Err(Failure::new(failures::NOT_FOUND, text));
+        }
+        Ok(())
     }
 
     /// True if a motion that grasps a thing from here exists.
@@ -129,16 +177,17 @@ impl SimWorld {
         let used =
             |name: &SmolStr| !uses.iter().any(|used| self.hands.contains_key(used)) || uses.contains(name);
         if self.holder(id).is_some() {
-            return Err("failed");
+            return Err(Failure::new(failures::FAILED, format!("the hand holds {} already", self.name(id))));
         }
         let free = self.hands.iter().find(|(name, grip)| grip.holds.is_none() && used(name));
-        let Some(hand) = free.map(|(name, _)| name.clone()) else { return Err("failed") };
+        let Some(hand) = free.map(|(name, _)| name.clone()) else {
+            return Err(Failure::new(failures::FAILED, "no hand is free"));
+        };
         self.cannot_take(id).map_or(Ok(()), Err)?;
         if let Some(grip) = self.hands.get_mut(&hand) {
             grip.holds = Some(id.into());
             grip.lifted = false;
         }
-        self.saw(id);
         Ok(())
     }
 
@@ -146,7 +195,7 @@ impl SimWorld {
     pub(crate) fn lift(&mut self) -> Result<(), Failure> {
         let held: Vec<_> = self.hands.values().filter_map(|grip| grip.holds.clone()).collect();
         if held.is_empty() {
-            return Err("slipped");
+            return Err(Failure::new(failures::SLIPPED, "the hand holds nothing"));
         }
         for id in held {
             if let Some(thing) = self.things.get_mut(&id) {
@@ -172,35 +221,58 @@ impl SimWorld {
 
     /// Puts a held thing down where the rules allow it.
     pub(crate) fn place(&mut self, id: &str, on: &str, rules: &Placing) -> Result<(), Failure> {
-        if self.holder(id).is_none() {
-            return Err("slipped");
-        }
-        let target = self.thing(on).ok_or("unreachable")?;
+        self.must_hold(id)?;
+        let name = self.name(on);
+        let target = self
+            .thing(on)
+            .ok_or_else(|| Failure::new(failures::UNREACHABLE, format!("there is no {name}")))?;
         if on == id {
-            return Err("blocked");
+            return Err(failures::BLOCKED.into());
         }
-        if !self.stands_at(on) {
-            return Err("unreachable");
-        }
+        self.must_stand_at(on)?;
         let (body, role) = (target.body, target.role);
         let (rest, bottom) = match role {
-            Role::Container if !target.is_open() || self.shut_in(on).is_some() => return Err("blocked"),
+            Role::Container if !target.is_open() || self.shut_in(on).is_some() => {
+                return Err(Failure::new(failures::BLOCKED, format!("{name} is closed")));
+            }
             Role::Container => (Rest::In(on.into()), body.bottom() + 0.01),
             Role::Surface | Role::Object => (Rest::On(on.into()), body.top()),
             Role::Place => (Rest::Free, 0.0),
-            Role::Person => return Err("blocked"),
+            Role::Person => return Err(Failure::new(failures::BLOCKED, "things are handed to people")),
         };
-        let spot = self.spot(id, on, rules, Some(self.base)).ok_or("blocked")?;
+        let no_spot = || Failure::new(failures::BLOCKED, format!("there is no free spot on {name}"));
+        let spot = self.spot(id, on, rules, Some(self.base)).ok_or_else(no_spot)?;
         if rules.at.is_some() && !self.serves(self.base, [spot[0], spot[1], bottom]) {
-            return Err("unreachable");
+            return Err(Failure::new(failures::UNREACHABLE, format!("the spot on {name} is out of reach")));
         }
         self.release(id);
         if let (Some(pose), Some(thing)) = (&rules.at, self.things.get_mut(id)) {
             thing.body.yaw = pose.yaw();
         }
         self.put(id, spot, bottom, rest);
-        self.saw(id);
         Ok(())
+    }
+
+    fn must_hold(&self, id: &str) -> Result<(), Failure> {
+        if self.holder(id).is_some() {
+            return Ok(());
+        }
+        Err(Failure::new(failures::SLIPPED, format!("the hand does not hold {}", self.name(id))))
+    }
+
+    fn must_stand_at(&self, id: &str) -> Result<(), Failure> {
+        if self.stands_at(id) {
+            return Ok(());
+        }
+        let (name, reach) = (self.name(id), self.reach());
+        let far = self.thing(id).map(|thing| thing.body.gap(self.base.x, self.base.y));
+        Err(Failure::new(
+            failures::UNREACHABLE,
+            match far {
+                Some(far) => format!("{name} is {far:.2} m away, and the hand reaches {reach:.2} m"),
+                None => format!("there is no {name}"),
+            },
+        ))
     }
 
     /// The spot on a support for a thing; on a surface one that is served `from` a stance, if there is one.
@@ -233,11 +305,27 @@ impl SimWorld {
             let others = self.obstacles(on);
             let (reach, radius, clearance) =
                 (self.reach(), self.drive.radius_m, self.base_extent() + MARGIN_M);
-            let stance = standing_place(&target.body, clearance, reach, self.base, &[spot], &others, radius)?;
+            let stance = standing_place(
+                (&target.body, front(target)),
+                clearance,
+                reach,
+                self.base,
+                &[spot],
+                &others,
+                radius,
+            )?;
             let is_close = stance.distance_to(self.base.x, self.base.y) <= SHUFFLE_M;
             (is_close && serves(stance, spot)).then_some(stance)
         };
         if here.is_some() || !self.stands_at(on) { self.base } else { elsewhere().unwrap_or(self.base) }
+    }
+
+    /// The stance from which a container is opened and closed: before its front, if that is a shuffle away.
+    pub(crate) fn stance_for_door(&self, id: &str) -> BasePose {
+        let has_front = self.thing(id).is_some_and(|thing| front(thing).is_some());
+        let before =
+            || self.place_for(id).filter(|stance| stance.distance_to(self.base.x, self.base.y) <= SHUFFLE_M);
+        if has_front && self.stands_at(id) { before().unwrap_or(self.base) } else { self.base }
     }
 
     /// Checks if a thing put on a spot keeps to the rules for its place.
@@ -277,22 +365,17 @@ impl SimWorld {
     }
 
     /// Distance in m from the base's axis that the base takes towards what it stands at.
-    fn base_extent(&self) -> f64 {
+    pub(crate) fn base_extent(&self) -> f64 {
         self.drive.radius_m.min(BASE_SHARE * self.reach())
     }
 
     /// Hands a held thing to a person.
     pub(crate) fn hand_over(&mut self, id: &str, to: &str) -> Result<(), Failure> {
-        if self.holder(id).is_none() {
-            return Err("slipped");
-        }
-        let person = self.thing(to).ok_or("unreachable")?.body;
-        if !self.stands_at(to) {
-            return Err("unreachable");
-        }
+        self.must_hold(id)?;
+        self.must_stand_at(to)?;
+        let person = self.thing(to).ok_or(failures::UNREACHABLE)?.body;
         self.release(id);
         self.put(id, [person.x(), person.y()], person.bottom() + 1.0, Rest::With(to.into()));
-        self.saw(id);
         Ok(())
     }
 
@@ -310,20 +393,25 @@ impl SimWorld {
 
     /// The hand opens or closes a container.
     pub(crate) fn work_door(&mut self, id: &str, open: bool) -> Result<(), Failure> {
-        let thing = self.thing(id).ok_or("unreachable")?;
-        if !self.stands_at(id) {
-            return Err("unreachable");
-        }
-        if self.hands.values().all(|grip| grip.holds.is_some()) {
-            return Err("blocked");
-        }
+        self.must_stand_at(id)?;
+        self.must_have_a_hand()?;
+        let thing = self.thing(id).ok_or(failures::UNREACHABLE)?;
         match thing.door {
             None if open => return Ok(()),
-            None => return Err("blocked"),
-            Some(door) if open && door.locked && !door.open => return Err("refused"),
+            None => return Err(Failure::new(failures::BLOCKED, format!("{} has no door", thing.name))),
+            Some(door) if open && door.locked && !door.open => {
+                return Err(Failure::new(failures::REFUSED, format!("{} is locked", thing.name)));
+            }
             Some(_) => {}
         }
         self.set_open(id, open);
+        Ok(())
+    }
+
+    fn must_have_a_hand(&self) -> Result<(), Failure> {
+        if self.hands.values().all(|grip| grip.holds.is_some()) {
+            return Err(Failure::new(failures::BLOCKED, "no hand is free"));
+        }
         Ok(())
     }
 
@@ -338,12 +426,13 @@ impl SimWorld {
 
     /// The hand pushes a thing away from the robot. On its support it goes no further than the edge.
     pub(crate) fn push(&mut self, id: &str) -> Result<(), Failure> {
-        let thing = self.thing(id).ok_or("unreachable")?;
-        if !self.stands_at(id) && self.stance_for_hand(id).is_none() {
-            return Err("unreachable");
+        if self.stance_for_hand(id).is_none() {
+            self.must_stand_at(id)?;
         }
-        if thing.fixed || self.hands.values().all(|grip| grip.holds.is_some()) {
-            return Err("blocked");
+        self.must_have_a_hand()?;
+        let thing = self.thing(id).ok_or(failures::UNREACHABLE)?;
+        if thing.fixed {
+            return Err(Failure::new(failures::BLOCKED, format!("{} is fixed", thing.name)));
         }
         let (dx, dy) = (thing.body.x() - self.base.x, thing.body.y() - self.base.y);
         let length = dx.hypot(dy).max(1e-6);

@@ -82,6 +82,11 @@ impl BaseMotion {
         self.legs.iter().fold(self.start, |end, leg| end.after(leg.span))
     }
 
+    /// True if the base stays where it is.
+    pub(crate) fn is_still(&self) -> bool {
+        self.legs.iter().all(|leg| leg.from.distance_to(leg.to.x, leg.to.y) < 1e-6)
+    }
+
     /// The motion with spans that many times as long.
     pub(crate) fn slowed(mut self, factor: f64) -> Self {
         for leg in &mut self.legs {
@@ -154,10 +159,10 @@ impl PersonWalk {
     }
 }
 
-/// Of stances about a thing, the best: one that is free of `others`, then one that serves most of `wanted`
-/// within `reach`, then the nearest.
+/// Of stances about a thing, the best: one that is free of `others`, then one before the middle of
+/// its `front` if it has one, then one that serves most of `wanted` within `reach`, then the nearest.
 pub(crate) fn standing_place(
-    target: &UprightBody,
+    (target, front): (&UprightBody, Option<[f64; 2]>),
     clearance: f64,
     reach: f64,
     from: BasePose,
@@ -168,7 +173,13 @@ pub(crate) fn standing_place(
     let cost = |stance: &BasePose| {
         let hits = others.iter().filter(|other| other.gap(stance.x, stance.y) < radius).count();
         let missed = wanted.iter().filter(|[x, y]| stance.distance_to(*x, *y) > reach).count();
-        hits as f64 * 1e6 + missed as f64 * 1e3 + stance.distance_to(from.x, from.y)
+        // The middle of the front is where neither the door nor a wall hides what is in it.
+        let aside = front.map_or(0.0, |[x, y]| {
+            let faces = x * stance.heading.cos() + y * stance.heading.sin() < -0.7;
+            let off = (stance.y - target.y()) * x - (stance.x - target.x()) * y;
+            if faces { 10.0 * off.abs() } else { 1e5 }
+        });
+        hits as f64 * 1e6 + aside + missed as f64 * 1e3 + stance.distance_to(from.x, from.y)
     };
     let stances = target.stances(clearance).into_iter();
     stances.map(|stance| (cost(&stance), stance)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, stance)| stance)

@@ -1,12 +1,12 @@
-//! The simulator's eyes: what is in view, where it truly is, and no doubt about it; and pictures of it.
+//! The simulator's eyes: what is in view, as well as the camera tells, and pictures of it.
 //!
 //! The camera is where the options say and turns to wherever it has to, within its view to show where most is
-//! to be seen; what is in view is told by distance and bearing alone, while in a picture what stands in front
-//! hides what is behind.
+//! to be seen. What stands in front hides what is behind.
 
 use crate::body::turned;
 use crate::camera::{CameraLens, encoded, render};
-use crate::observation::ViewDirection;
+use crate::chance::Chance;
+use crate::sight::ViewDirection;
 use crate::sim::Sim;
 use crate::world::Role;
 use motet_graph::Pose;
@@ -27,29 +27,40 @@ impl Perception for Sim {
     fn detections(&mut self, now: Time) -> Vec<Detection> {
         // Looking moves nothing: what is seen is as of the time that the world has reached.
         let at = self.now().min(now);
+        // The same moment gives the same errors, whatever was looked at before.
+        let (chance, rates) = (Chance::new(self.seed, at.nanos()), &self.profile.camera);
         let in_view = self.world.things.iter().filter(|(id, thing)| {
             matches!(thing.role, Role::Object | Role::Surface | Role::Container) && self.world.is_visible(id)
         });
-        let seen = in_view.map(|(id, thing)| {
-            let (sin, cos) = (thing.body.yaw / 2.0).sin_cos();
-            Detection {
-                entity: Some(id.clone()),
+        let seen = in_view.filter_map(|(id, thing)| {
+            let [miss, share] = self.world.miss(id, rates.miss);
+            if chance.comes(miss, "detect", id) {
+                return None;
+            }
+            let far = self.world.base.distance_to(thing.body.x(), thing.body.y());
+            let [dx, dy] = chance.error(rates.error_per_m * far, "detect", id);
+            let ([x, y, z], (sin, cos)) = (thing.body.xyz, (thing.body.yaw / 2.0).sin_cos());
+            Some(Detection {
+                // What nobody told it of has no name.
+                entity: self.belief.things.contains_key(id).then(|| id.clone()),
                 class: self
                     .scene
                     .entities
                     .get(id)
                     .map_or_else(SmolStr::default, |entity| entity.class.clone()),
-                pose: Some(Pose { xyz: thing.body.xyz, quaternion: [0.0, 0.0, sin, cos] }),
+                pose: Some(Pose { xyz: [x + dx, y + dy, z], quaternion: [0.0, 0.0, sin, cos] }),
                 extent: None,
-                confidence: 1.0,
+                confidence: (1.0 - miss) * share,
                 at,
-            }
+            })
         });
-        seen.collect()
+        let mut seen: Vec<Detection> = seen.collect();
+        seen.sort_by(|one, other| other.confidence.total_cmp(&one.confidence));
+        seen
     }
 
     fn image(&mut self, now: Time) -> Option<CameraImage> {
-        let lens = CameraLens::new(self.eye(), self.world.base.heading + self.gaze(), BELOW);
+        let lens = CameraLens::new(self.world.eye_in_map(), self.world.base.heading + self.gaze(), BELOW);
         Some(self.shot(&lens, now)?.image)
     }
 
@@ -59,19 +70,12 @@ impl Perception for Sim {
         }
         let body = self.world.thing(of)?.body;
         let middle = [body.x(), body.y(), (body.bottom() + body.top()) / 2.0];
-        let lens = CameraLens::towards(self.eye(), middle, self.world.base.heading);
+        let lens = CameraLens::towards(self.world.eye_in_map(), middle, self.world.base.heading);
         self.shot(&lens, now)
     }
 }
 
 impl Sim {
-    /// Position where the camera is, in the frame `map`.
-    fn eye(&self) -> [f64; 3] {
-        let (base, [x, y, z]) = (self.world.base, self.eye);
-        let (sin, cos) = base.heading.sin_cos();
-        [base.x + cos * x - sin * y, base.y + sin * x + cos * y, z]
-    }
-
     /// Pan angle in rad that brings most visible things into the image; ties go to the angle nearest to
     /// straight ahead.
     fn gaze(&self) -> f64 {

@@ -1,15 +1,19 @@
 //! The simulator: a world, the goals that run in it, and who watches it.
 
-use crate::body::BasePose;
+use crate::body::{BasePose, distance};
 use crate::faults::{FaultSchedule, Faults};
 use crate::observation::InitialFacts;
 use crate::people::People;
+use crate::people::Strolls;
+use crate::profile::Profile;
+use crate::route::Contact;
 use crate::task::Task;
 use crate::world::SimWorld;
 use indexmap::IndexMap;
+use motet_graph::Value;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::{Answer, DriverEvent, Query, Time};
+use motet_runtime::{Answer, DriverEvent, Pattern, Query, Time};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng;
 use smol_str::SmolStr;
@@ -17,26 +21,46 @@ use std::collections::VecDeque;
 
 /// While something moves, watches are looked at that often, in ns.
 const SAMPLE_NANOS: u64 = 50_000_000;
-/// Position where the camera is of a robot of which that is not said: about as high as a person's who sits.
-const EYE: [f64; 3] = [0.0, 0.0, 1.1];
+/// Difference in m up to which the pose of a thing counts as known.
+const KNOWN_M: f64 = 0.05;
 
 /// A robot in a room. It implements [`motet_runtime::Driver`]; its time is virtual and goes as the host
 /// advances it.
+///
+/// There are two worlds: the one that is, and the one that the robot believes in. Drives and grasps aim at
+/// where things are believed to be, and end as the world makes them end. The belief changes by what the robot
+/// sees and feels. [`Self::holds`] and [`Self::position`] give the truth, [`motet_runtime::Driver::observe`]
+/// the belief.
 ///
 /// The same robot, scene and options and the same calls at the same times give the same reports, byte for
 /// byte.
 #[derive(Clone, Debug)]
 pub struct Sim {
+    /// The world as it is.
     pub(crate) world: SimWorld,
+    /// The world as the robot believes that it is.
+    pub(crate) belief: SimWorld,
     pub(crate) people: People,
+    /// The true scene, by which things are described.
     pub(crate) scene: Scene,
+    pub(crate) profile: Profile,
+    pub(crate) seed: u64,
+    /// Number of the call that runs or has run last.
+    pub(crate) occasion: u64,
+    /// Number of calls so far.
+    pub(crate) calls: u64,
+    /// Positions that the robot was told.
+    pub(crate) told: IndexMap<SmolStr, [f64; 3]>,
+    pub(crate) strolls: Strolls,
+    /// Contact at which the present motion of the base will end.
+    pub(crate) contact: Option<Contact>,
+    /// True if the present motion of the base follows a path that was certified.
+    pub(crate) follows: bool,
     pub(crate) faults: FaultSchedule,
     pub(crate) random: SplitMix64,
     pub(crate) tasks: Vec<Task>,
     pub(crate) watches: Vec<(Query, Answer)>,
     pub(crate) outbox: VecDeque<(Time, DriverEvent)>,
-    /// Position where the camera is, in the frame of the base, in m.
-    pub(crate) eye: [f64; 3],
     /// The name of the first camera.
     pub(crate) camera: Option<SmolStr>,
     observes: Vec<SmolStr>,
@@ -44,25 +68,43 @@ pub struct Sim {
 }
 
 impl Sim {
-    /// A world at time 0. What the scene leaves open is filled in: a thing without a pose gets a place of its
-    /// own, an object without mass or width is light and slim; `start` and `user` always exist.
+    /// A world at time 0, of which the robot was told the scene. What the scene leaves open is filled in: a
+    /// thing without a pose gets a place of its own, an object without mass or width is light and slim;
+    /// `start` and `user` always exist. The truth is the world of the options, or else the scene with the
+    /// errors of the profile.
     #[must_use]
     pub fn new(robot: &Robot, scene: &Scene, options: SimOptions) -> Self {
         let answers = options.script.answers.iter().chain(&options.faults.answers).cloned();
-        Self {
-            world: SimWorld::new(robot, scene, &options),
+        let mut belief = SimWorld::new(robot, scene, &options);
+        let world = match &options.world {
+            Some(real) => SimWorld::new(robot, real, &options),
+            None => belief.displaced(&options.profile.room, options.seed),
+        };
+        belief.base = world.base;
+        let mut sim = Self {
+            strolls: Strolls::new(&world, &options.profile.people, options.seed),
+            world,
             people: People::new(answers),
-            scene: scene.clone(),
+            scene: options.world.unwrap_or_else(|| scene.clone()),
+            profile: options.profile,
+            seed: options.seed,
+            occasion: 0,
+            calls: 0,
+            told: belief.things.iter().map(|(id, thing)| (id.clone(), thing.body.xyz)).collect(),
+            belief,
+            contact: None,
+            follows: false,
             faults: FaultSchedule::new(&options.faults),
             random: SplitMix64::seed_from_u64(options.seed),
             tasks: Vec::new(),
             watches: Vec::new(),
             outbox: VecDeque::new(),
-            eye: options.eye.unwrap_or(EYE),
             camera: robot.cameras.keys().next().cloned(),
             observes: robot.observes.clone(),
             initial_facts: options.initial_facts,
-        }
+        };
+        sim.feel();
+        sim
     }
 
     /// Position where the base is now.
@@ -83,10 +125,16 @@ impl Sim {
         self.world.hands.values().find_map(|grip| grip.holds.as_ref())
     }
 
-    /// The position of an entity's pose in the frame `map`, in m.
+    /// The true position of an entity's pose in the frame `map`, in m.
     #[must_use]
     pub fn position(&self, entity: &str) -> Option<[f64; 3]> {
         self.world.thing(entity).map(|thing| thing.body.xyz)
+    }
+
+    /// The position of an entity as the robot believes it, in the frame `map`, in m.
+    #[must_use]
+    pub fn believed_position(&self, entity: &str) -> Option<[f64; 3]> {
+        self.belief.thing(entity).filter(|thing| !thing.lost).map(|thing| thing.body.xyz)
     }
 
     /// True if a fact holds in the world, whatever the robot can observe; nothing where the world does not
@@ -95,7 +143,16 @@ impl Sim {
     /// Arguments are names of entities and hands.
     #[must_use]
     pub fn holds(&self, fluent: &str, args: &[&str]) -> Option<bool> {
-        self.world.fact(fluent, args, &self.initial_facts)
+        let truth = self.world.fact(fluent, args, &self.initial_facts);
+        match (fluent, args) {
+            // Knowledge is the robot's, and its truth the world's.
+            ("located", [id]) => {
+                let believed = self.belief.fact(fluent, args, &self.initial_facts)?;
+                let known = self.believed_position(id).zip(self.position(id));
+                Some(believed && known.is_some_and(|(one, other)| distance(one, other) <= KNOWN_M))
+            }
+            (_, _) => truth,
+        }
     }
 
     /// Utterances of the robot with the times at which they ended.
@@ -108,15 +165,49 @@ impl Sim {
         self.outbox.push_back((self.world.now, event));
     }
 
-    /// Observation of the robot. Fluents and measures that its card does not list cannot be observed.
-    pub(crate) fn read(&self, query: &Query) -> Answer {
+    /// Observation of the robot, by its senses and its belief. Fluents and measures that its card does not
+    /// list cannot be observed.
+    pub(crate) fn read(&mut self, query: &Query) -> Answer {
         let observable = match query {
             Query::Fact { fluent: name, .. } | Query::Measure { measure: name, .. } => {
                 self.observes.contains(name)
             }
             Query::Field { .. } => true,
         };
-        if observable { self.world.answer(query, &self.initial_facts) } else { Answer::Unknown }
+        if !observable {
+            return Answer::Unknown;
+        }
+        self.feel();
+        self.look_for(query);
+        let is_visibility = matches!(query, Query::Fact { fluent, .. } if fluent == "visible");
+        let source = if is_visibility { &self.world } else { &self.belief };
+        source.answer(query, &self.initial_facts)
+    }
+
+    /// Looks for what a query is about.
+    fn look_for(&mut self, query: &Query) {
+        let is_felt = |name: &str| matches!(name, "free" | "holding" | "lifted" | "visited" | "standing");
+        let named = |value: &Value| match value {
+            Value::Entity(id) => Some(id.clone()),
+            Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) => None,
+            Value::Case(_) | Value::Pose(_) | Value::List(_) => None,
+        };
+        let ids: Vec<SmolStr> = match query {
+            Query::Fact { fluent, .. } if is_felt(fluent) => return,
+            Query::Fact { args, .. } => {
+                if args.contains(&Pattern::Any) {
+                    self.look_about();
+                }
+                let is = |arg: &Pattern| match arg {
+                    Pattern::Is(value) => named(value),
+                    Pattern::Any => None,
+                };
+                args.iter().filter_map(is).collect()
+            }
+            Query::Measure { args, .. } => args.iter().filter_map(named).collect(),
+            Query::Field { .. } => return,
+        };
+        ids.iter().for_each(|id| self.refresh(id));
     }
 
     /// Time at which something happens next.
@@ -128,7 +219,8 @@ impl Sim {
         } else {
             Time::NEVER
         };
-        tasks.min(self.faults.next_time()).min(sampled)
+        let contact = self.contact.as_ref().map_or(Time::NEVER, |contact| contact.at);
+        tasks.min(self.faults.next_time()).min(sampled).min(contact).min(self.strolls.next_time())
     }
 
     /// The host's time has come to `now`: everything until then happens.
@@ -148,8 +240,19 @@ impl Sim {
     /// Time comes to `now`: changes that are due happen, then stages end, then watchers look.
     pub(crate) fn reach(&mut self, now: Time) {
         self.world.advance(now.max(self.world.now));
+        let mut changed = false;
         while let Some(change) = self.faults.take(now) {
             self.world.happen(&change);
+            changed = true;
+        }
+        while let Some(person) = self.strolls.take(now) {
+            changed |= self.stroll(&person);
+        }
+        if changed {
+            self.expect_contact();
+        }
+        if let Some(contact) = self.contact.take_if(|contact| contact.at <= now) {
+            self.bump(&contact.with);
         }
         while let Some(place) = self.tasks.iter().position(|task| task.stage.due() <= now) {
             let task = self.tasks.remove(place);
@@ -184,11 +287,16 @@ impl Sim {
 /// ```
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct SimOptions {
-    /// Decides how long things take, within a tenth. Same seed, same run.
+    /// Decides how long things take, within a tenth, and what goes wrong. Same seed, same run.
     pub seed: u64,
     pub faults: Faults,
     /// Scripted answers of people.
     pub script: PersonScript,
+    /// How often and by how much things go wrong by themselves.
+    pub profile: Profile,
+    /// The room as it is. Without one it is the scene that the robot was told, with the errors of the
+    /// profile.
+    pub world: Option<Scene>,
     /// The parent of each kind that the policy's library declares, so that a `Tray: Surface` counts as a
     /// surface. Kinds of the standard library need not be in it.
     pub kinds: IndexMap<SmolStr, SmolStr>,

@@ -7,11 +7,13 @@ use crate::body::{BasePose, UprightBody};
 use crate::motion::{BaseMotion, PersonWalk};
 use indexmap::IndexMap;
 use motet_robots::card::{BaseSpec, CameraSpec, HandSpec};
-use motet_robots::scene::Travel;
+use motet_robots::scene::{EntityShape, Travel};
 use motet_runtime::Time;
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
 
+/// Greatest distance in m between the bottom of a thing and the top of what it stands on.
+const BENEATH_M: f64 = 0.03;
 /// The share of the battery that a metre of driving takes.
 const DRAIN_PER_M: f64 = 0.001;
 
@@ -24,6 +26,8 @@ pub(crate) struct SimWorld {
     pub(crate) drive: BaseSpec,
     pub(crate) hands: IndexMap<SmolStr, HandState>,
     pub(crate) cameras: Vec<CameraSpec>,
+    /// Position of the first camera in the frame of the base, in m.
+    pub(crate) eye: [f64; 3],
     pub(crate) things: IndexMap<SmolStr, Thing>,
     pub(crate) arm: ArmPose,
     pub(crate) standing: bool,
@@ -151,10 +155,23 @@ impl SimWorld {
         for _ in 0..self.things.len() {
             match self.thing(root).and_then(|thing| thing.rest.support()) {
                 Some(support) if self.things.contains_key(support.as_str()) => root = support,
-                Some(_) | None => break,
+                Some(_) | None => match self.beneath(root) {
+                    Some(support) => root = support,
+                    None => break,
+                },
             }
         }
         root
+    }
+
+    /// The furniture on which a thing stands of which nobody said so.
+    fn beneath(&self, id: &str) -> Option<&SmolStr> {
+        let body = self.thing(id).filter(|thing| thing.role == Role::Object && !self.is_lifted(id))?.body;
+        let carries = |(_, thing): &(&SmolStr, &Thing)| {
+            let level = (thing.body.top() - body.bottom()).abs() <= BENEATH_M;
+            thing.role == Role::Surface && level && thing.body.gap(body.x(), body.y()) <= 0.0
+        };
+        self.things.iter().find(carries).map(|(support, _)| support)
     }
 
     /// The closed container that a thing is in, directly or not.
@@ -190,12 +207,12 @@ impl SimWorld {
 
     /// Bodies that the base has to keep out of, but for one.
     pub(crate) fn obstacles(&self, but: &str) -> Vec<UprightBody> {
-        let stands_there = |thing: &Thing| match thing.role {
-            Role::Surface | Role::Container | Role::Person => thing.body.bottom() < 1.0,
-            Role::Object | Role::Place => false,
-        };
-        let others = self.things.iter().filter(|(id, thing)| *id != but && stands_there(thing));
-        others.map(|(_, thing)| thing.body).collect()
+        self.floor_things().filter(|(id, _)| *id != but).map(|(_, thing)| thing.body).collect()
+    }
+
+    /// The name of an entity in words.
+    pub(crate) fn name(&self, id: &str) -> SmolStr {
+        self.thing(id).map_or_else(|| format!("`{id}`").into(), |thing| thing.name.clone())
     }
 
     /// A free spot for a thing on a support, the one nearest to `from` of a grid with a step in m and of
@@ -235,6 +252,7 @@ impl SimWorld {
     pub(crate) fn saw(&mut self, id: &str) {
         if let Some(thing) = self.things.get_mut(id) {
             thing.seen_at = Some(thing.body.xyz);
+            thing.lost = false;
         }
     }
 
@@ -252,14 +270,22 @@ impl SimWorld {
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Thing {
     pub(crate) role: Role,
+    /// Its name in words, such as `the red mug`.
+    pub(crate) name: SmolStr,
     pub(crate) body: UprightBody,
+    /// Its shape, where the scene gives one.
+    pub(crate) shape: Option<EntityShape>,
     pub(crate) rest: Rest,
     pub(crate) fixed: bool,
     pub(crate) door: Option<Door>,
-    /// Visibility at the start, if the scene states it.
+    /// Visibility at the start, if the scene states it of a thing whose pose it does not give.
     pub(crate) visible_at_start: Option<bool>,
+    /// True if the scene gives its pose.
+    pub(crate) placed: bool,
     /// Last seen position.
     pub(crate) seen_at: Option<[f64; 3]>,
+    /// True if it was looked for in vain where it was believed to be.
+    pub(crate) lost: bool,
     pub(crate) walk: Option<PersonWalk>,
     /// It has been moved since the beginning.
     pub(crate) moved: bool,

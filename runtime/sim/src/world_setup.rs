@@ -2,18 +2,23 @@
 //! place stands in a row beside the room, an object without mass or width is light and slim.
 
 use crate::body::{BasePose, UprightBody};
+use crate::chance::Chance;
 use crate::observation::InitialFacts;
+use crate::profile::RoomRates;
 use crate::sim::SimOptions;
 use crate::world::{ArmPose, Door, HandState, Rest, Role, SimWorld, Thing};
 use indexmap::IndexMap;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_runtime::Time;
+use motet_stdlib::lang::kinds;
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
 
 /// Metres between things that are filled in.
 const ROW_M: f64 = 2.5;
+/// Position of the camera of a robot that does not say where it is: about as high as a sitting person's eyes.
+const EYE: [f64; 3] = [0.0, 0.0, 1.1];
 /// Default mass of an object in kg.
 const MASS_KG: f64 = 0.2;
 /// Default width of an object in m.
@@ -30,6 +35,7 @@ impl SimWorld {
             drive: robot.base.clone(),
             hands: robot.hands.iter().map(|(name, hand)| (name.clone(), grip(hand.clone()))).collect(),
             cameras: robot.cameras.values().cloned().collect(),
+            eye: options.eye.unwrap_or(EYE),
             things: IndexMap::new(),
             arm: ArmPose::Home,
             standing: !robot.initially.iter().any(|fact| fact.trim() == "not standing(robot)"),
@@ -53,9 +59,10 @@ impl SimWorld {
         }
         world.believe(&options.initial_facts);
         world.carry();
-        for thing in world.things.values_mut() {
+        for (id, thing) in &mut world.things {
+            let said = scene.entities.get(id).and_then(|entity| entity.visible).or(thing.visible_at_start);
             thing.moved = false;
-            thing.seen_at = thing.visible_at_start.unwrap_or(false).then_some(thing.body.xyz);
+            thing.seen_at = (said == Some(true)).then_some(thing.body.xyz);
         }
         world
     }
@@ -110,8 +117,8 @@ fn entities(scene: &Scene, options: &SimOptions) -> Vec<Entity> {
             entities.push(bare(id, kind, pose));
         }
     };
-    add("start", "Place", Some(Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, heading] }));
-    add("user", "Person", None);
+    add("start", kinds::PLACE, Some(Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, heading] }));
+    add("user", kinds::PERSON, None);
     for (id, kind) in &options.entities {
         add(id, kind, None);
     }
@@ -165,12 +172,16 @@ fn thing(entity: &Entity, options: &SimOptions, row: &mut Row) -> Thing {
     };
     Thing {
         role,
+        name: name(entity),
+        placed: !is_lost,
         seen_at: None,
+        lost: false,
         body,
+        shape: entity.shape.clone(),
         rest,
         fixed: entity.fixed,
         door: has_door.then_some(door),
-        visible_at_start: entity.visible,
+        visible_at_start: entity.visible.filter(|_| is_lost),
         walk: None,
         moved: false,
         mass_kg: entity.mass_kg.unwrap_or(MASS_KG),
@@ -179,17 +190,26 @@ fn thing(entity: &Entity, options: &SimOptions, row: &mut Row) -> Thing {
     }
 }
 
+/// Name of an entity in words: its first, else its id.
+fn name(entity: &Entity) -> SmolStr {
+    if entity.kind == kinds::PERSON {
+        return format!("`{}`", entity.id).into();
+    }
+    let words = entity.names.first().unwrap_or(&entity.id);
+    format!("the {}", words.replace('_', " ")).into()
+}
+
 /// The standard kind that an entity's kind descends from. Of a kind that nobody declared, the entity itself
 /// tells.
 fn role(entity: &Entity, options: &SimOptions) -> Role {
     let mut kind = &entity.kind;
     for _ in 0..=options.kinds.len() {
         match kind.as_str() {
-            "Place" | "Zone" => return Role::Place,
-            "Surface" => return Role::Surface,
-            "Container" => return Role::Container,
-            "Object" => return Role::Object,
-            "Person" => return Role::Person,
+            kinds::PLACE | kinds::ZONE => return Role::Place,
+            kinds::SURFACE => return Role::Surface,
+            kinds::CONTAINER => return Role::Container,
+            kinds::OBJECT => return Role::Object,
+            kinds::PERSON => return Role::Person,
             _ => {}
         }
         match options.kinds.get(kind) {
@@ -264,7 +284,7 @@ impl SimWorld {
                 }
             }
             ("visible", [id], visible) => {
-                if let Some(thing) = self.things.get_mut(*id) {
+                if let Some(thing) = self.things.get_mut(*id).filter(|thing| !thing.placed) {
                     thing.visible_at_start = Some(visible);
                 }
             }
@@ -275,6 +295,58 @@ impl SimWorld {
     fn set_rest(&mut self, id: &str, rest: Rest) {
         if let Some(thing) = self.things.get_mut(id) {
             thing.rest = rest;
+        }
+    }
+}
+
+impl SimWorld {
+    /// The world as it is, where this one is as the robot was told: what stands on something stands a little
+    /// elsewhere on it, or on something else.
+    pub(crate) fn displaced(&self, rates: &RoomRates, seed: u64) -> Self {
+        let (mut world, chance) = (self.clone(), Chance::new(seed, 0));
+        let is_loose = |(id, thing): &(&SmolStr, &Thing)| {
+            thing.role == Role::Object && !thing.fixed && self.holder(id).is_none()
+        };
+        let loose: Vec<SmolStr> = self.things.iter().filter(is_loose).map(|(id, _)| id.clone()).collect();
+        for id in &loose {
+            let Some(Rest::On(support)) = self.thing(id).map(|thing| thing.rest.clone()) else { continue };
+            if chance.comes(rates.misplaced, "misplaced", id) {
+                world.misplace(id, &support, chance.share("surface", id));
+                continue;
+            }
+            let [dx, dy] = chance.error(rates.shift_m, "shift", id);
+            world.nudge(id, [dx, dy]);
+        }
+        for thing in world.things.values_mut() {
+            thing.moved = false;
+        }
+        world
+    }
+
+    /// Puts a thing on another surface, drawn by a number in `0 .. 1`.
+    fn misplace(&mut self, id: &str, support: &str, drawn: f64) {
+        let is_other = |(other, thing): &(&SmolStr, &Thing)| thing.role == Role::Surface && *other != support;
+        let others: Vec<SmolStr> =
+            self.things.iter().filter(is_other).map(|(other, _)| other.clone()).collect();
+        let index = (drawn * others.len() as f64) as usize;
+        if let Some(other) = others.get(index) {
+            self.lay(id, other, Rest::On(other.clone()));
+        }
+    }
+
+    /// Moves a thing a little on its support, unless it would leave it or touch something else on it.
+    pub(crate) fn nudge(&mut self, id: &str, [dx, dy]: [f64; 2]) {
+        let Some(thing) = self.thing(id) else { return };
+        let mut body = thing.body;
+        (body.xyz[0], body.xyz[1]) = (body.x() + dx, body.y() + dy);
+        let Some(support) = thing.rest.support().and_then(|support| self.thing(support)) else { return };
+        let placed = body.placed();
+        let stays = support.body.holds_disc(body.x(), body.y(), 0.0);
+        let mut others = self.things.iter().filter(|(other, beside)| {
+            *other != id && beside.rest == thing.rest && beside.role == Role::Object
+        });
+        if stays && others.all(|(_, other)| other.body.placed().gap(&placed) > 0.005) {
+            self.shift(id, [dx, dy, 0.0]);
         }
     }
 }

@@ -18,7 +18,7 @@ fn vision_simulator_s_eyes_keep_the_laws() {
     let seen = Perception::detections(&mut sim, Time::from_secs(2.0));
     let mug = seen.iter().find(|seen| seen.entity.as_deref() == Some("mug_1")).unwrap();
     assert_eq!(mug.class, "mug");
-    assert!(!seen.iter().any(|seen| seen.entity.as_deref() == Some("coke")), "not in view at the start");
+    assert!(!seen.iter().any(|seen| seen.entity.as_deref() == Some("mug_2")), "behind the robot");
 }
 
 #[test]

@@ -36,10 +36,6 @@ pub(crate) struct DoArgs {
     pub(super) record: Option<PathBuf>,
     #[command(flatten)]
     pub(super) simulation: SimulationArgs,
-    /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON
-    /// file
-    #[arg(long = "real", value_name = "NAME|FILE")]
-    pub(super) real: Option<String>,
     /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(super) format: OutputFormat,

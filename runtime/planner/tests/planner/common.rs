@@ -23,8 +23,9 @@ pub(super) fn walled() -> Scene {
     for ((x, y, along, across), at) in walls.into_iter().zip(0..) {
         let mut wall = scene.entities["shelf"].clone();
         wall.id = format!("wall_{at}").into();
-        wall.pose = Some(Placement { xyz: [x, y, 1.0], rpy: [0.0; 3] });
-        wall.shape = Some(EntityShape::Box([along, across, 2.0]));
+        // The camera sees over them.
+        wall.pose = Some(Placement { xyz: [x, y, 0.35], rpy: [0.0; 3] });
+        wall.shape = Some(EntityShape::Box([along, across, 0.7]));
         scene.entities.insert(wall.id.clone(), wall);
     }
     scene

@@ -2,13 +2,15 @@
 //! where the robot's camera is. The same world gives the same bytes.
 //!
 //! Fed by the world alone, [`scenery`] says what there is to be seen and in which colours, [`solid`] where a
-//! ray meets it, [`lens`] which ray a pixel is, and [`render`] puts these together. There are no walls, no
-//! shadows and no robot in a picture: it is for telling things apart, not for beauty.
+//! ray meets it, [`lens`] which ray a pixel is, [`render`] puts these together, and [`sight`] tells how much
+//! of a thing is not hidden. There are no walls, no shadows and no robot in a picture: it is for telling things apart, not for beauty.
 
 mod lens;
 mod render;
 mod scenery;
+mod sight;
 mod solid;
 
 pub(crate) use lens::CameraLens;
 pub(crate) use render::{encoded, render};
+pub(crate) use scenery::front;

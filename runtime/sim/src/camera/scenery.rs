@@ -4,7 +4,7 @@
 use super::solid::{Form, Solid};
 use crate::world::{Role, SimWorld, Thing};
 use motet_robots::scene::{Colour, Outline, PERSON_COLOUR, Palette, Scene, Travel, colour};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// Thickness of the walls of open containers in m.
 const WALL_M: f64 = 0.02;
@@ -30,24 +30,50 @@ pub(super) fn scenery(world: &SimWorld, scene: &Scene) -> Vec<Painted> {
         if world.shut_in(id).is_some() {
             continue;
         }
-        let own = entity.and_then(|entity| entity.shape.as_ref()).and_then(Form::of);
-        let whole = solid(thing, own);
-        let parts = match whole.form {
-            Form::Box(half) if thing.role == Role::Container && thing.is_open() => {
-                hollow(&whole, half, thing)
-            }
-            Form::Box(_) | Form::Cylinder { .. } | Form::Sphere { .. } => vec![whole],
-        };
-        all.extend(parts.into_iter().map(|solid| Painted { solid, colour }));
+        all.extend(parts(thing).into_iter().map(|solid| Painted { solid, colour }));
     }
     all
 }
 
+/// The solids of a thing: one, or the walls of an open container.
+pub(super) fn parts(thing: &Thing) -> Vec<Solid> {
+    let whole = solid(thing);
+    match whole.form {
+        Form::Box(half) if thing.role == Role::Container && thing.is_open() => hollow(&whole, half, thing),
+        Form::Cylinder { radius, half } if thing.role == Role::Container && thing.is_open() => {
+            barrel(&whole, radius, half)
+        }
+        Form::Box(_) | Form::Cylinder { .. } | Form::Sphere { .. } => vec![whole],
+    }
+}
+
+/// The staves and the floor of a bin that is open at the top.
+fn barrel(whole: &Solid, radius: f64, half: f64) -> Vec<Solid> {
+    let wall = (WALL_M / 2.0).min(radius / 2.0);
+    let away = radius - wall;
+    let stave = |step: i32| {
+        let turn = f64::from(step) * FRAC_PI_4;
+        let (sin, cos) = turn.sin_cos();
+        Solid {
+            centre: placed(whole, [away * cos, away * sin, 0.0]),
+            yaw: whole.yaw + turn,
+            form: Form::Box([wall, radius * (FRAC_PI_4 / 2.0).tan(), half]),
+        }
+    };
+    let floor = wall.min(half);
+    let bottom = Solid {
+        centre: placed(whole, [0.0, 0.0, floor - half]),
+        form: Form::Cylinder { radius, half: floor },
+        ..*whole
+    };
+    (0..8).map(stave).chain([bottom]).collect()
+}
+
 /// A thing as one solid: in its own shape, or as the world takes it.
-fn solid(thing: &Thing, own: Option<Form>) -> Solid {
+fn solid(thing: &Thing) -> Solid {
     let body = &thing.body;
     let half = (body.top() - body.bottom()) / 2.0;
-    let form = own.unwrap_or(match body.outline {
+    let form = thing.shape.as_ref().and_then(Form::of).unwrap_or(match body.outline {
         Outline::Disc { radius } => Form::Cylinder { radius, half },
         Outline::Rectangle { half: [x, y] } => Form::Box([x, y, half]),
     });
@@ -72,6 +98,20 @@ fn hollow(whole: &Solid, half: [f64; 3], thing: &Thing) -> Vec<Solid> {
         .collect();
     parts.extend(door.map(|door| door.solid(whole, half)));
     parts
+}
+
+/// Direction in the frame `map` in which a container opens, where its door or drawer says so.
+pub(crate) fn front(thing: &Thing) -> Option<[f64; 2]> {
+    let whole = solid(thing);
+    let face = match (thing.door?.travel?, whole.form) {
+        (Travel::Slide { axis, .. }, _) => axis,
+        (Travel::Hinge { axis, at, angle }, Form::Box(half)) if axis[2].abs() > 0.5 => {
+            swing(half, at, angle * axis[2].signum()).face
+        }
+        (Travel::Hinge { .. }, Form::Box(_) | Form::Cylinder { .. } | Form::Sphere { .. }) => return None,
+    };
+    let [x, y, _] = thing.body.turned_out(face);
+    (x.hypot(y) > 0.5).then_some([x, y])
 }
 
 /// The wall of a face, given by its normal in the frame of the box.

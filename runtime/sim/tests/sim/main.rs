@@ -17,6 +17,8 @@ mod faults;
 mod laws;
 mod limits;
 mod primitives;
+mod rates;
+mod world;
 
 use motet_graph::Value;
 use motet_robots::{builtin, card, scene};
@@ -115,7 +117,18 @@ impl Bench {
 
     #[track_caller]
     fn fails(&mut self, primitive: &str, args: &[(&str, Value)], kind: &str) {
-        assert_eq!(self.call(primitive, args), Outcome::Failure(kind.into()), "{primitive} {args:?}");
+        let outcome = self.call(primitive, args);
+        let is_kind = matches!(&outcome, Outcome::Failure(failure) if failure.kind == kind);
+        assert!(is_kind, "{primitive} {args:?}: {outcome}, not {kind}");
+    }
+
+    /// Checks the kind of a failure and words of its text.
+    #[track_caller]
+    fn says(&mut self, primitive: &str, args: &[(&str, Value)], kind: &str, words: &str) {
+        let outcome = self.call(primitive, args);
+        let Outcome::Failure(failure) = &outcome else { panic!("{primitive} {args:?}: {outcome}") };
+        let text = failure.text.as_deref().unwrap_or_default();
+        assert!(failure.kind == kind && text.contains(words), "{primitive}: {} \"{text}\"", failure.kind);
     }
 
     #[track_caller]
