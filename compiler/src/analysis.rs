@@ -90,6 +90,10 @@ pub(crate) trait Domain<'p> {
     fn restore(&mut self, mark: &Self::Mark);
     /// The path from a mark to the present point.
     fn path(&self, mark: &Self::Mark) -> Self::Path;
+    /// The paths from a mark to the present point, where some of them are kept apart.
+    fn ways(&mut self, mark: &Self::Mark) -> Vec<Self::Path> {
+        vec![self.path(mark)]
+    }
     /// Goes along a path from the mark where it began.
     fn follow(&mut self, path: &Self::Path);
     /// Joins paths from a mark; control ends if there is none.
@@ -156,7 +160,7 @@ pub(crate) trait Domain<'p> {
     fn replace_head(&mut self, _head: Option<Self::Mark>) -> Option<Self::Mark> {
         None
     }
-    /// Forgets what a name was bound to in the round before.
+    /// Forgets what a name was bound to before, such as in an earlier round.
     fn begin_round(&mut self, _item: BindingId) {}
     /// Number of findings so far.
     fn findings(&self) -> (usize, usize) {
@@ -273,16 +277,17 @@ pub(crate) trait Domain<'p> {
         self.enclosing().push(Enclosing::Try { handlers });
         self.block(body);
         let Some(Enclosing::Try { handlers }) = self.enclosing().pop() else { return };
-        let mut paths = Vec::with_capacity(1 + catches.len());
-        if self.is_live() {
-            paths.push(self.path(&mark));
-        }
+        let mut paths = if self.is_live() { self.ways(&mark) } else { Vec::with_capacity(catches.len()) };
         for (catch, Handler { states, kinds, .. }) in catches.iter().zip(&handlers) {
             self.begin_handler(catch, kinds);
             self.restore(&mark);
             if !self.follow_failures(states) {
                 self.skip(&catch.body);
                 continue;
+            }
+            if let Some(caught) = catch.binds {
+                self.begin_round(caught.kind);
+                self.begin_round(caught.text);
             }
             self.block(&catch.body);
             self.end_handler(catch, kinds);
@@ -468,7 +473,7 @@ pub(crate) trait Domain<'p> {
         let leaving = Leaving { failed, kinds, ended, interrupted };
         self.enclosing().push(Enclosing::Finally(Box::new(leaving)));
         self.block(body);
-        let end = self.is_live().then(|| self.path(&mark));
+        let ends = if self.is_live() { self.ways(&mark) } else { Vec::new() };
         let Some(Enclosing::Finally(leaving)) = self.enclosing().pop() else { return };
         let Leaving { failed, kinds, ended, interrupted } = *leaving;
         self.restore(&mark);
@@ -476,7 +481,7 @@ pub(crate) trait Domain<'p> {
             return;
         }
         let mut entries: Vec<Self::Path> = Vec::with_capacity(2);
-        entries.extend(end.clone());
+        entries.extend(ends.iter().cloned());
         let mut ways = Vec::with_capacity(1 + ended.len());
         let failed = (None, &failed);
         for (ended, states) in ended.iter().map(|(ended, states)| (Some(*ended), states)).chain([failed]) {
@@ -489,7 +494,8 @@ pub(crate) trait Domain<'p> {
             // What interrupted the block goes on from any of its states, and from those of its cleanup.
             self.cleaned(&mark, &path, cleanup);
         }
-        let end = end.map(|path| self.cleaned(&mark, &path, cleanup));
+        let ends: Vec<Self::Path> =
+            ends.iter().filter_map(|path| self.cleaned(&mark, path, cleanup)).collect();
         self.join(&mark, &entries);
         self.clean(cleanup);
         self.leave_fixpoint();
@@ -503,7 +509,7 @@ pub(crate) trait Domain<'p> {
             }
         }
         self.restore(&mark);
-        self.join(&mark, end.flatten().as_slice());
+        self.join(&mark, &ends);
     }
 
     /// The states behind a cleanup that begins at the end of a path, as a path; `None` if there are none. Its

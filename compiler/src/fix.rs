@@ -94,7 +94,9 @@ pub fn fix_parsed(
     let mut at = Candidate::new(session, source.text.to_string(), parsed);
     let (mut applied, mut left) = (Vec::new(), limits.most);
     loop {
-        if let Some((next, done)) = at.in_plain_form(session, source, file) {
+        // The shapes of the document, then the notations in what they are read as.
+        for _ in 0..2 {
+            let Some((next, done)) = at.in_plain_form(session, source, file) else { break };
             applied.extend(done);
             at = next;
         }
@@ -132,16 +134,19 @@ impl Candidate {
         source: &Source,
         file: FileId,
     ) -> Option<(Self, Vec<AppliedFix>)> {
-        self.parsed.written.as_ref()?;
+        let is_shape = |said: &Diagnostic| said.code.0 == "M0122";
+        let has_shapes = self.parsed.written.is_some();
         let notes = self.findings.iter().map(|found| &found.diagnostic);
         let notes = notes.filter(|said| said.severity == Severity::Note && said.fix.is_some());
+        let notes = notes.filter(|said| is_shape(said) == has_shapes);
         let (mut edits, mut done) = (Vec::new(), Vec::new());
         for note in notes {
             let fix = note.fix.as_ref()?;
             edits.extend(fix.edits.iter().cloned());
             done.push(record(note.code, fix, Applicability::Safe));
         }
-        let text = apply(&self.text, file, &Fix { title: String::new(), edits })?;
+        let is_changed = !edits.is_empty();
+        let text = apply(&self.text, file, &Fix { title: String::new(), edits }).filter(|_| is_changed)?;
         Some((Self::of(session, text, source, file), done))
     }
 

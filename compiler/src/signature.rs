@@ -42,6 +42,8 @@ pub enum Type {
     Quantity(Dimension),
     Text,
     Pose,
+    /// A failure that a handler caught.
+    Failure,
     /// Entity of the kind with this index, or of a descendant.
     Entity(usize),
     /// Case of the enumeration with this index.
@@ -231,6 +233,7 @@ impl Signatures {
             Type::Quantity(dimension) => dimension.type_name().unwrap_or("Number").into(),
             Type::Text => "Text".into(),
             Type::Pose => "Pose".into(),
+            Type::Failure => "Failure".into(),
             Type::Entity(kind) => self.kinds.get(*kind).map_or("Entity", |kind| kind.name.as_str()).into(),
             Type::Enum(id) => self.enums.get(*id).map_or("Text", |id| id.name.as_str()).into(),
             Type::List(element) => format!("List<{}>", self.type_name(element)),
@@ -247,9 +250,10 @@ fn of_type(ty: Ty) -> Option<Type> {
         Base::Quantity(dimension) => Type::Quantity(dimension),
         Base::Text => Type::Text,
         Base::Pose => Type::Pose,
+        Base::Failure => Type::Failure,
         Base::Entity(kind) => Type::Entity(kind.index()),
         Base::Enum(id) => Type::Enum(id.index()),
-        Base::Failure | Base::Unknown => return None,
+        Base::Unknown => return None,
     };
     Some((0..ty.lists).fold(base, |inner, _| Type::List(Box::new(inner))))
 }

@@ -3,7 +3,8 @@
 use crate::support::Place;
 
 const WORLD: &str = "decode - --robot hsr --scene kitchen";
-const HEAD: &str = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":["#;
+const HEAD: &str =
+    r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"steps":["#;
 
 /// A drive to the table of the mugs.
 const GO: &str = r#"{"do":"go","to":"kitchen_table"}"#;
@@ -63,13 +64,13 @@ fn a_refusal_has_a_place_and_a_reason() {
     let ran = decode("decode_refused", "", &twice);
     ran.check(
         1,
-        &["out:refused: \"i\" at byte 161 (line 1, column 162), after …", "out:why: ", "out:may follow:\n"],
+        &["out:refused: \"i\" at byte 175 (line 1, column 176), after …", "out:why: ", "out:may follow:\n"],
     );
     assert!(ran.stdout.contains("`pick` needs"), "{}", ran.stdout);
     decode(
         "decode_spelling",
         "",
-        r#"{ "motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":[{"end":"done"}]}"#,
+        r#"{ "motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"steps":[{"end":"done"}]}"#,
     )
     .check(1, &["out:refused: \" \" at byte 1", "out:why: only the spelling"]);
 }

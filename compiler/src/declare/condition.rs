@@ -36,7 +36,11 @@ impl Elaborator<'_> {
             ExprKind::List(_) => self.no_condition(expr, "a list"),
             ExprKind::Wrong(_) => Condition::Unknown,
             ExprKind::Any => self.no_condition(expr, "`any`"),
-            ExprKind::Field(..) | ExprKind::Arith(..) => self.no_condition(expr, "a value"),
+            ExprKind::Field(of, name) => match self.fact_as_field(of, name, expr.span) {
+                Some(condition) => condition,
+                None => self.no_condition(expr, "a value"),
+            },
+            ExprKind::Arith(..) => self.no_condition(expr, "a value"),
         }
     }
 

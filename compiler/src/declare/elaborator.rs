@@ -4,7 +4,7 @@
 use motet_syntax::ast::{Expr, ExprKind, Name};
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{About, Diagnostic, Span, Syntax};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::errors::{
@@ -25,6 +25,8 @@ pub(crate) struct Elaborator<'a> {
     pub(crate) form: Syntax,
     pub(crate) scope: Scope,
     pub(crate) bindings: Vec<Binding>,
+    /// Names of which a use was reported that nothing binds, with the places of the reports.
+    pub(crate) unbound: FxHashMap<SmolStr, usize>,
     /// Bindings of which a use without a value was reported, by the span where they are bound.
     pub(crate) gaps_told: FxHashSet<Span>,
     /// True behind a step that could not be read, which may have bound any name.
@@ -70,9 +72,20 @@ impl<'a> Elaborator<'a> {
     /// Elaborator outside of any policy, without bindings.
     pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Syntax) -> Self {
         let (scope, bindings, diagnostics) = (Scope::default(), Vec::new(), Vec::new());
-        let gaps_told = FxHashSet::default();
+        let (unbound, gaps_told) = (FxHashMap::default(), FxHashSet::default());
         let is_behind_gap = false;
-        Self { library, entities, has_scene, form, scope, bindings, gaps_told, is_behind_gap, diagnostics }
+        Self {
+            library,
+            entities,
+            has_scene,
+            form,
+            scope,
+            bindings,
+            unbound,
+            gaps_told,
+            is_behind_gap,
+            diagnostics,
+        }
     }
 
     pub(crate) fn report(&mut self, mistake: impl Into<Diagnostic>) {
@@ -82,6 +95,9 @@ impl<'a> Elaborator<'a> {
     /// Elaborates a value that must have the expected type.
     /// One value stands for a list of it.
     pub(crate) fn term_of(&mut self, expr: &Expr, wanted: Expected<'_>) -> Term {
+        if let Some(only) = self.only_value(expr, wanted.ty) {
+            return self.term_of(only, wanted);
+        }
         let element = wanted.ty.element().filter(|_| !matches!(expr.kind, ExprKind::List(_)));
         let (mut term, mut ty) =
             self.term(expr, Some(element.map_or(wanted, |ty| Expected { ty, ..wanted })));
@@ -119,7 +135,10 @@ impl<'a> Elaborator<'a> {
             ExprKind::Template(parts) => self.template(parts),
             ExprKind::Name(name) => self.name(name, expr.span, wanted),
             ExprKind::Binding(name) => self.binding(name, expr.span, wanted),
-            ExprKind::Plain(text) => self.plain(text, expr.span, wanted),
+            ExprKind::Plain(text) => match self.value_in_string(text, expr.span, wanted) {
+                Some(found) => found,
+                None => self.plain(text, expr.span, wanted),
+            },
             ExprKind::Wrong(_) => (Term::Unknown, Ty::UNKNOWN),
             ExprKind::Any => {
                 self.report(MisplacedAny { span: expr.span });

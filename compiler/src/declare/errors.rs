@@ -72,6 +72,12 @@ motet_syntax::mistakes! {
     }
     about(m) { m.about.clone() }
 
+    /// Part of the document in another notation than the language's, where the declarations show one reading.
+    ReadNotation("M0226", Note) { written: String, read: String, fix: Fix }
+    message(m) { format!("{} is read as {}", m.written, m.read) }
+    help(_m) { Some("`motet check --fix` writes it so".to_owned()) }
+    fix(m) { Some(m.fix.clone()) }
+
     /// Use of a name that is not bound.
     UnknownBinding("M0203", Error) { name: SmolStr, near: Option<SmolStr>, is_text: bool }
     message(m) { format!("nothing is bound to `{}` here", m.name) }

@@ -16,6 +16,7 @@ pub(crate) mod gap;
 pub(crate) mod library;
 pub(crate) mod list_term;
 pub(crate) mod name;
+pub(crate) mod notation;
 mod pose;
 pub(crate) mod words;
 

@@ -1,7 +1,7 @@
 //! Resolution of names to bindings, entities and cases, and the diagnostics of unknown names.
 
-use motet_syntax::Span;
 use motet_syntax::words::is_bare_name;
+use motet_syntax::{Diagnostic, Mistake as _, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
@@ -118,8 +118,26 @@ impl Elaborator<'_> {
         let same = self.entities.find(name).map(|_| name.clone());
         let near = same.or_else(|| near(name, self.scope.names().map(SmolStr::as_str)));
         let is_text = wanted.is_some_and(|wanted| wanted.ty == Ty::TEXT);
-        self.report(UnknownBinding { span, name: name.clone(), near, is_text });
+        self.report_unbound(name, UnknownBinding { span, name: name.clone(), near, is_text });
         (Term::Unknown, Ty::UNKNOWN)
+    }
+
+    /// Reports a use of a name that nothing binds. Another use of it is mended by the fix of the first
+    /// report, and needs none of its own.
+    fn report_unbound(&mut self, name: &SmolStr, mistake: impl Into<Diagnostic>) {
+        let said: Diagnostic = mistake.into();
+        let first = self.unbound.get(name).and_then(|place| self.diagnostics.get_mut(*place));
+        match first.filter(|first| first.code == UnknownBinding::CODE) {
+            Some(first) => {
+                if let (Some(fix), Some(more)) = (&mut first.fix, said.fix) {
+                    fix.edits.extend(more.edits);
+                }
+            }
+            None => {
+                self.unbound.insert(name.clone(), self.diagnostics.len());
+                self.diagnostics.push(said);
+            }
+        }
     }
 
     pub(super) fn case_of(&self, id: EnumId, name: &str) -> Option<(Term, Ty)> {
@@ -136,6 +154,12 @@ impl Elaborator<'_> {
         written: NameNotation,
     ) {
         if self.is_behind_gap && written == NameNotation::Bare {
+            return;
+        }
+        // What a string of JSON writes with a `$` has no `$` in the braces of a text.
+        if written == NameNotation::Bare
+            && self.unbound.get(name).is_some_and(|place| *place < self.diagnostics.len())
+        {
             return;
         }
         let name = name.clone();
@@ -159,6 +183,8 @@ impl Elaborator<'_> {
                     self.entities.iter().filter(|(_, _, other)| library.is_kind(*other, kind)).collect();
                 let names =
                     self.scope.names().map(SmolStr::as_str).chain(fitting.iter().map(|row| row.1.as_str()));
+                // A room is none of the things in it: `kitchen` is not `kitchen_table`.
+                let names = names.filter(|known| !is_begun(&name, known));
                 let near = near(&name, names).map(|near| self.spelled(near, written));
                 let known = if fitting.len() <= 12 {
                     list(fitting.iter().map(|row| row.1.clone()))
@@ -207,6 +233,12 @@ impl Elaborator<'_> {
         let params: Vec<&str> = fluent.or_else(measure)?.iter().map(|(param, _)| param.as_str()).collect();
         Some(format!("{name}({})", params.join(", ")))
     }
+}
+
+/// A name is the first word of a longer one that goes on with another word, and not with a number.
+fn is_begun(name: &str, known: &str) -> bool {
+    let rest = known.strip_prefix(name).and_then(|rest| rest.strip_prefix('_'));
+    rest.is_some_and(|rest| rest.bytes().any(|byte| byte.is_ascii_alphabetic()))
 }
 
 /// Notation of a name in the document.

@@ -60,7 +60,9 @@ impl Prover<'_> {
         frame: CallFrame<'_>,
     ) -> bool {
         let here = self.state.facts.mark();
-        if here > partition.since + MAX_AGE || !partition.differs(|fluent| mentions(condition, fluent)) {
+        if here > partition.since + MAX_AGE
+            || !partition.differs(|fluent| mentions(condition, fluent) || self.is_tested(condition, fluent))
+        {
             return true;
         }
         // What was written since holds on every way.
@@ -88,7 +90,13 @@ impl Prover<'_> {
             Condition::Literal(value) => *value == truth,
             Condition::Unknown | Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => true,
             Condition::Not(inner) => self.narrow(inner, !truth, cause, frame),
-            Condition::Compare(..) => possible(self.evaluate(condition, frame), truth),
+            Condition::Compare(op, left, right) => {
+                let is_possible = possible(self.evaluate(condition, frame), truth);
+                if is_possible {
+                    self.note((*op, left, right), truth, cause);
+                }
+                is_possible
+            }
             Condition::Fact(fact) => {
                 let known = self.evaluate(condition, frame);
                 if !possible(known, truth) {
@@ -106,7 +114,7 @@ impl Prover<'_> {
                 match known.narrow(truth, cause) {
                     Some(narrowed) => {
                         if narrowed != known {
-                            self.state.facts.set(fact.fluent, key, narrowed);
+                            self.learn(fact.fluent, key, narrowed);
                         }
                         true
                     }

@@ -47,6 +47,7 @@ impl<'a> Prover<'a> {
         self.check_lasting(&lasting);
         self.fail(id, call, def, frame, &makes, &mut verdicts);
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
+        call.binds.into_iter().for_each(|binding| self.forget_tests(binding));
         let armed = self.armed(id);
         self.make(&makes, cause);
         self.stand(def, frame, cause);

@@ -59,6 +59,11 @@ impl<'a> Domain<'a> for Prover<'a> {
         self.state.facts.delta(*mark)
     }
 
+    /// Keeps the paths apart that differ in the outcome of a test of what cannot change.
+    fn ways(&mut self, mark: &usize) -> Vec<Delta> {
+        self.tested_ways(*mark).unwrap_or_else(|| vec![self.path(mark)])
+    }
+
     fn follow(&mut self, path: &Delta) {
         self.state.facts.replay(path);
     }
@@ -192,6 +197,7 @@ impl<'a> Domain<'a> for Prover<'a> {
 
     fn begin_round(&mut self, item: BindingId) {
         self.forget(self.symbols.of_binding(item.index()));
+        self.forget_tests(item);
     }
 
     /// Numbers of diagnostics and recorded states.
@@ -271,11 +277,8 @@ impl Prover<'_> {
                 let known = self.evaluate(condition, CallFrame::default());
                 let key = self.key(fact, CallFrame::default()).filter(|key| !key.is_pattern());
                 if let (Some(key), false) = (key, known.is_true()) {
-                    self.state.facts.set(
-                        fact.fluent,
-                        key,
-                        known.narrow(true, cause).unwrap_or(TruthSet::yes(cause)),
-                    );
+                    let seen = known.narrow(true, cause).unwrap_or(TruthSet::yes(cause));
+                    self.learn(fact.fluent, key, seen);
                 }
             }
             Condition::All(parts) => parts.iter().for_each(|part| self.await_condition(part, cause)),
@@ -283,7 +286,7 @@ impl Prover<'_> {
                 if let Condition::Fact(fact) = &**inner
                     && let Some(key) = self.key(fact, CallFrame::default())
                 {
-                    self.state.facts.set(fact.fluent, key, TruthSet::no(cause));
+                    self.learn(fact.fluent, key, TruthSet::no(cause));
                 }
             }
             Condition::Literal(_)

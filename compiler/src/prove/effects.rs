@@ -273,6 +273,15 @@ impl Prover<'_> {
         }
     }
 
+    /// Writes what an observation has shown of a fact. From then on what happens to an entity is felt by what is
+    /// known of a symbol that it may be.
+    pub(super) fn learn(&mut self, fluent: Fluent, key: FactKey, value: TruthSet) {
+        self.state.facts.set(fluent, key, value);
+        if !self.symbols.is_empty() && self.has_symbol(fluent, key) {
+            self.aliased.get_mut(fluent.index()).into_iter().for_each(|aliased| *aliased = true);
+        }
+    }
+
     /// Returns whether an argument of a fact is a symbol.
     fn has_symbol(&self, fluent: Fluent, key: FactKey) -> bool {
         self.library.fluent(fluent).is_some_and(|def| {

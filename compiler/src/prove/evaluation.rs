@@ -131,7 +131,10 @@ impl Prover<'_> {
             // An error that was reported: neither it nor its negation is refuted.
             Condition::Unknown => TruthSet::default(),
             Condition::Fact(fact) => self.evaluate_fact(fact, frame),
-            Condition::Compare(op, left, right) => self.compare(*op, left, right, frame),
+            Condition::Compare(op, left, right) => {
+                let known = self.compare(*op, left, right, frame);
+                if known == TruthSet::NOTHING_KNOWN { self.recall(*op, left, right) } else { known }
+            }
             Condition::MonitoredMeasure(id) => {
                 let watched = self.state.watched.iter().any(|watched| watched.measures.contains(id));
                 TruthSet::of(watched, Cause::NOTHING)

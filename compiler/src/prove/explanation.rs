@@ -72,7 +72,8 @@ impl Prover<'_> {
                 let maker = cause.as_step().map(|_| self.maker(cause));
                 let wanted = self.show(condition, truth, frame);
                 let subject = self.library.fluent(fact.fluent).map(|def| (def.name.clone(), truth));
-                let (fact, way) = (Some((fact.fluent, truth)), self.way(cause));
+                let way = self.cleanup_way(cause, fact.fluent, truth).unwrap_or_else(|| self.way(cause));
+                let fact = Some((fact.fluent, truth));
                 return Explanation { wanted, cause, fact, subject, maker, way, ..Explanation::default() };
             }
             Condition::Compare(CompareOp::Unequal, left, _)
@@ -173,6 +174,40 @@ impl Prover<'_> {
             }
         }
         String::new()
+    }
+
+    /// Describes the path on which the cleanup around a cause, which would undo it, fails; `None` without such
+    /// a cleanup.
+    fn cleanup_way(&self, cause: Cause, fluent: Fluent, truth: bool) -> Option<String> {
+        let maker = cause.as_step().filter(|maker| self.control.here.is_none_or(|here| *maker < here))?;
+        let around = |id: StepId| self.program.around(id).map(|(id, _)| id);
+        let shared: Vec<StepId> = self.control.here.into_iter().flat_map(around).collect();
+        let mut slot = self.program.step(maker)?.position.slot;
+        let (whole, _) = self.program.around(maker).find(|(id, outer)| {
+            let inside = std::mem::replace(&mut slot, outer.position.slot);
+            matches!(outer.kind, StepKind::Finally { .. })
+                && inside != BlockSlot::Finally
+                && !shared.contains(id)
+        })?;
+        let achieves = |id: StepId| match self.program.step(id).map(|step| &step.kind) {
+            Some(StepKind::Call(call)) => self.library.primitive(call.primitive).is_some_and(|def| {
+                def.makes.iter().any(|effect| effect.fact.fluent == fluent && effect.value == truth)
+            }),
+            _ => false,
+        };
+        let is_in_cleanup = |id: StepId| {
+            let mut slot = self.program.step(id).map(|step| step.position.slot);
+            let mut around = self.program.around(id);
+            around.any(|(outer, step)| {
+                slot.replace(step.position.slot) == Some(BlockSlot::Finally) && outer == whole
+            })
+        };
+        let steps = (whole.0 + 1..).take(self.program.steps.len()).map(StepId);
+        let mut steps = steps.take_while(|id| self.program.step(*id).is_some());
+        let undoes = steps.find(|id| achieves(*id) && is_in_cleanup(*id))?;
+        let is_sure = self.program.step(undoes)?.position.parent == Some(whole);
+        let ending = if is_sure { "fails" } else { "does not run" };
+        Some(format!(" where `{}` in the `finally` {ending}", self.cause_name(Cause::step(undoes))))
     }
 
     /// Explains a need of a step in a cleanup that holds on some of the ways there, and not on the one where

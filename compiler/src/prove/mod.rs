@@ -19,6 +19,7 @@ mod lints;
 mod monitor;
 pub(crate) mod suspended;
 pub(crate) mod symbols;
+pub(crate) mod tested;
 
 use motet_syntax::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
@@ -31,6 +32,7 @@ use self::effects::{FactChange, PerceptionLifetime};
 use self::evaluation::CallFrame;
 use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
+use self::tested::TestTable;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
@@ -96,6 +98,7 @@ pub(crate) struct Prover<'a> {
     pub(crate) symbols: Symbols,
     /// Table of poses that are not stale, by binding and step.
     fresh: Fluent,
+    tested: TestTable,
     /// By fluent, whether a symbol has an entry.
     aliased: Vec<bool>,
     pub(crate) state: AbstractState<'a>,
@@ -130,12 +133,13 @@ pub(crate) struct AbstractState<'w> {
 }
 
 impl<'w> AbstractState<'w> {
-    /// State before the first step, and the table of poses that are not stale.
-    fn at_start(environment: &'w Environment) -> (Self, Fluent) {
+    /// State before the first step, the table of poses that are not stale, and that of tests.
+    fn at_start(environment: &'w Environment) -> (Self, Fluent, TestTable) {
         let mut facts = FactStore::above(&environment.facts);
         // A pose that no step has bound here is neither fresh nor stale.
         let fresh = facts.add_table(TruthSet::default());
-        (Self { facts, ..Self::default() }, fresh)
+        let tested = TestTable::new(facts.add_table(TruthSet::NOTHING_KNOWN));
+        (Self { facts, ..Self::default() }, fresh, tested)
     }
 
     /// Lays the state above the facts of an environment, which must be those that it was lifted from.
@@ -269,7 +273,7 @@ pub(crate) fn prove(
 impl<'a> Prover<'a> {
     /// The state before the first step.
     pub(crate) fn new(program: &'a Program, library: &'a Library, environment: &'a Environment) -> Self {
-        let (state, fresh) = AbstractState::at_start(environment);
+        let (state, fresh, tested) = AbstractState::at_start(environment);
         let symbols = Symbols::new(program, library, environment);
         let steps = program.steps.len();
         let proof = Proof {
@@ -277,7 +281,7 @@ impl<'a> Prover<'a> {
             reached: vec![false; steps],
             ..Proof::default()
         };
-        let names = (symbols, fresh, vec![false; library.fluents.len()]);
+        let names = (symbols, (fresh, tested), vec![false; library.fluents.len()]);
         Self { proof, ..Self::resume((program, library, environment), state, names) }
     }
 
@@ -285,7 +289,7 @@ impl<'a> Prover<'a> {
     fn resume(
         (program, library, environment): ProofInput<'a>,
         state: AbstractState<'a>,
-        (symbols, fresh, aliased): (Symbols, Fluent, Vec<bool>),
+        (symbols, (fresh, tested), aliased): (Symbols, (Fluent, TestTable), Vec<bool>),
     ) -> Self {
         Self {
             library,
@@ -293,6 +297,7 @@ impl<'a> Prover<'a> {
             program,
             symbols,
             fresh,
+            tested,
             aliased,
             state,
             control: Control { live: true, ..Control::default() },

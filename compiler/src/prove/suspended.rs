@@ -6,6 +6,7 @@ use motet_syntax::{Code, Diagnostic, Severity, Span};
 
 use super::evaluation::CallFrame;
 use super::symbols::Symbols;
+use super::tested::TestTable;
 use super::{AbstractState, Mode, Prover};
 use crate::analysis::Domain;
 use crate::declare::{Library, PrimitiveDef};
@@ -19,6 +20,7 @@ pub(crate) struct SuspendedProof {
     state: AbstractState<'static>,
     pub(crate) symbols: Symbols,
     fresh: Fluent,
+    tested: TestTable,
     aliased: Vec<bool>,
     pub(crate) live: bool,
 }
@@ -86,10 +88,10 @@ pub(crate) type ProofInput<'p> = (&'p Program, &'p Library, &'p Environment);
 impl SuspendedProof {
     /// The proof before the first step.
     pub(crate) fn new(program: &Program, library: &Library, environment: &Environment) -> Self {
-        let (state, fresh) = AbstractState::at_start(environment);
+        let (state, fresh, tested) = AbstractState::at_start(environment);
         let symbols = Symbols::new(program, library, environment);
         let aliased = vec![false; library.fluents.len()];
-        Self { state: state.lift(), symbols, fresh, aliased, live: true }
+        Self { state: state.lift(), symbols, fresh, tested, aliased, live: true }
     }
 
     /// Lets the conditions of a monitor around all steps be watched. Its reactions need no proof.
@@ -176,14 +178,16 @@ impl SuspendedProof {
         let (_, _, environment) = input;
         let head = self.state.head;
         let state = std::mem::take(&mut self.state).over(environment);
-        let names = (std::mem::take(&mut self.symbols), self.fresh, std::mem::take(&mut self.aliased));
+        let tables = (self.fresh, self.tested.clone());
+        let names = (std::mem::take(&mut self.symbols), tables, std::mem::take(&mut self.aliased));
         let mut prover = Prover::resume(input, state, names);
         prover.control.live = self.live;
         prover.mode = Mode::Decide;
         let answer = run(&mut prover);
-        let Prover { symbols, state, aliased, control, .. } = prover;
+        let Prover { symbols, tested, state, aliased, control, .. } = prover;
         self.state = AbstractState { head, ..state.lift() };
         self.symbols = symbols;
+        self.tested = tested;
         self.aliased = aliased;
         self.live = control.live;
         answer

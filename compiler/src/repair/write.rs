@@ -263,11 +263,12 @@ impl Writer<'_> {
     }
 
     /// Adapts the name in a fix to the syntax: in JSON with the quotes and the `$` of the name that it
-    /// replaces, in text in back-quotes if it needs them. Numbers, quantities, manners and whole steps stay.
+    /// replaces, in text in back-quotes if it needs them. Numbers, quantities, manners, whole steps and other
+    /// notations stay.
     /// `None` if the name is not written in the document as it is: in a string with escapes, or as a part of
     /// a shape.
     pub(super) fn in_form(&self, code: Code, mut fix: Fix) -> Option<Fix> {
-        let is_no_name = matches!(code.0, "M0302" | "M0310" | "M0315");
+        let is_no_name = matches!(code.0, "M0226" | "M0302" | "M0310" | "M0315");
         for edit in fix.edits.iter_mut().filter(|_| !is_no_name) {
             let old = self.parsed.text.get(edit.span.range()).unwrap_or_default();
             let is_object = edit.text.starts_with('{');

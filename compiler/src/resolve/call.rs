@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_syntax::ast::{Arg, Do, Expr, ExprKind, Manner, Policy, PrimitiveKind};
+use motet_syntax::ast::{Arg, Do, Expr, ExprKind, Manner, Name, Policy, PrimitiveKind};
 use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
@@ -18,7 +18,7 @@ use crate::declare::elaborator::{Expected, ValueRole};
 use crate::declare::errors::{BadDeclaration, MissingArgument, TooManyArguments, UnknownParameter};
 use crate::declare::library::ParamDef;
 use crate::declare::name::{list, near};
-use crate::declare::words;
+use crate::declare::{notation, words};
 use crate::ir::{self, Base, BlockSlot, StepId, StepKind, StepPosition, Term, Ty};
 
 /// A parameter from the view of a call.
@@ -361,6 +361,16 @@ impl StepResolver<'_> {
         formals: &[FormalParam<'_>],
     ) -> SmallVec<[Option<&'e Expr>; 4]> {
         let mut given: SmallVec<[Option<&Expr>; 4]> = smallvec![None; formals.len()];
+        if let Some((arg, items)) = notation::arguments_in_order(&call.call.args, self.elaborator.form)
+            && items.len() <= formals.len()
+            && !formals.iter().any(|formal| arg.name.as_ref().is_some_and(|name| name.text == *formal.name))
+        {
+            let names: Vec<&str> = formals.iter().map(|formal| formal.name.as_str()).collect();
+            self.elaborator.note_arguments((arg, items), &names);
+            given.iter_mut().zip(items).for_each(|(slot, item)| *slot = Some(item));
+            self.report_missing(call, callee, formals, (&given, 0));
+            return given;
+        }
         let mut unknown = 0;
         for (position, arg) in call.call.args.iter().enumerate() {
             let index = match &arg.name {
@@ -372,6 +382,7 @@ impl StepResolver<'_> {
                         self.elaborator.report(IgnoredArgument { span, name, callee: callee.clone() });
                         continue;
                     }
+                    None if let Some(index) = self.other_name(name, formals, call) => index,
                     None => {
                         unknown += 1;
                         let near = self.parameter_meant(call, &name.text, formals);
@@ -411,14 +422,45 @@ impl StepResolver<'_> {
                 }
             }
         }
-        // An argument under a wrong name is most likely the one that is missing.
-        let missing = formals.iter().zip(&given).filter(|(formal, slot)| slot.is_none() && !formal.optional);
+        self.report_missing(call, callee, formals, (&given, unknown));
+        given
+    }
+
+    /// Reports the parameters without an argument, if there are more of them than `unknown` arguments: one
+    /// under a wrong name is most likely the one that is missing.
+    fn report_missing(
+        &mut self,
+        call: &Do,
+        callee: &SmolStr,
+        formals: &[FormalParam<'_>],
+        (given, unknown): (&[Option<&Expr>], usize),
+    ) {
+        let missing = formals.iter().zip(given).filter(|(formal, slot)| slot.is_none() && !formal.optional);
         for (formal, _) in missing.skip(unknown) {
             let ty = self.elaborator.library.type_name(formal.ty);
             let (callee, param) = (callee.clone(), formal.name.clone());
             self.elaborator.report(MissingArgument { span: call.call.span, callee, param, ty });
         }
-        given
+    }
+
+    /// The place of the parameter for which a key of JSON is another name, where that is told with a note.
+    fn other_name(&mut self, name: &Name, formals: &[FormalParam<'_>], call: &Do) -> Option<usize> {
+        let is_given = |known: &str| {
+            call.call.args.iter().any(|arg| arg.name.as_ref().is_some_and(|name| name.text == known))
+        };
+        let free = formals.iter().map(|formal| formal.name.as_str()).filter(|param| !is_given(param));
+        let meant = words::parameter(&name.text, free).filter(|_| self.elaborator.form == Syntax::Json)?;
+        // Two keys may be other names for the same one.
+        let is_same = |arg: &Arg| {
+            let other = arg.name.as_ref().filter(|other| other.text != name.text);
+            other.is_some_and(|other| words::parameter(&other.text, std::iter::once(meant)).is_some())
+        };
+        let index = formals.iter().position(|formal| formal.name == meant)?;
+        if call.call.args.iter().any(is_same) {
+            return None;
+        }
+        self.elaborator.note_parameter(name, meant);
+        Some(index)
     }
 
     /// Checks for a key of JSON that only explains the step, and is no other name of a parameter.

@@ -17,6 +17,7 @@ use motet_syntax::ast::{Expr, ExprKind, Policy};
 use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::SmolStr;
 
+use self::result::PolicyResult;
 pub use self::step::MAX_NODES;
 use self::step::StepResolver;
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
@@ -68,6 +69,8 @@ pub(crate) fn resolve_step(
     let mut steps = StepResolver::new(elaborator);
     steps.point = Some(point);
     steps.program = std::mem::take(program);
+    let declared = steps.program.result.and_then(|id| steps.elaborator.bindings.get(id.index()));
+    steps.result = PolicyResult::new(declared.map(|binding| binding.ty), steps.program.result);
     steps.calls.push(name.clone());
     let index = u32::try_from(steps.program.body.len()).unwrap_or(u32::MAX);
     let slot = if kept.is_some() { BlockSlot::Kept } else { BlockSlot::Steps };

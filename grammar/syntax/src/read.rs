@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
 use crate::errors::{IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
-use crate::located::Located;
+use crate::located::{Located, end_of_value};
 use crate::source::{FileId, Source, Span, Syntax};
 use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
 use crate::words::{DECLARATIONS, STEP_WORDS};
@@ -201,7 +201,7 @@ fn after_json(text: &str, start: usize) -> Reply {
     if text.trim_ascii_end().ends_with(closing) {
         return Reply::Whole;
     }
-    let Some(end) = json_end(text, start) else { return Reply::Whole };
+    let Some(end) = end_of_value(text, start) else { return Reply::Whole };
     let rest = text.get(end..).unwrap_or("").trim_start();
     let is_prose =
         rest.chars().next().is_some_and(|c| c.is_alphabetic() || matches!(c, '`' | '*' | '#' | '(' | '-'));
@@ -382,33 +382,12 @@ fn bare_json(text: &str, keys: &[&str]) -> Option<(usize, usize)> {
             from = start + 1;
             continue;
         }
-        let end = json_end(text, start).unwrap_or(text.len());
+        let end = end_of_value(text, start).unwrap_or(text.len());
         let document = text.get(start..end)?;
         if (is_list || inside.starts_with('"')) && keys.iter().any(|key| document.contains(key)) {
             return Some((start, end));
         }
         from = end;
-    }
-    None
-}
-
-/// One past the bracket that closes the object or list at `start`; `None` where it is not closed.
-fn json_end(text: &str, start: usize) -> Option<usize> {
-    let (mut depth, mut in_text, mut is_escaped) = (0_usize, false, false);
-    for (offset, byte) in text.get(start..)?.bytes().enumerate() {
-        match byte {
-            _ if is_escaped => is_escaped = false,
-            b'\\' if in_text => is_escaped = true,
-            b'"' => in_text = !in_text,
-            b'{' | b'[' if !in_text => depth += 1,
-            b'}' | b']' if !in_text => {
-                depth = depth.saturating_sub(1);
-                if depth == 0 {
-                    return Some(start + offset + 1);
-                }
-            }
-            _ => {}
-        }
     }
     None
 }

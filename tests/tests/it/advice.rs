@@ -279,10 +279,6 @@ fn diagnostics_words_lead_to_what_exists() {
     let said = "M0306: `+` does not apply to Text and Text; write values in the braces of one text: \
                 `\"I see {count(cans)} cans\"`";
     text("say(\"a\" + \"b\")", &[said]);
-    json(
-        r#"{"do": "go", "to": ["user"]}"#,
-        &["M0301: `to` of `go` takes an `Entity`, not a `List<Person>`; write the value without brackets"],
-    );
     json(r#"{"do": "say", "text": "x", "comment": "be polite", "step": 1}"#, &[]);
     let all = r#"{"do": "detect_all", "what": "mug", "as": "xs"}"#;
     json(&format!(r#"{DETECT}, {all}, {{"do": "inspect", "what": "$xs[0]"}}"#), &[]);
@@ -302,8 +298,7 @@ fn diagnostics_waits_and_endings_written_as_calls_are_mended() {
     for (step, written) in [
         (r#"{"do": "sleep", "seconds": 3}"#, r#"{"wait": 3}"#),
         (r#"{"do": "wait", "time": "200 ms"}"#, r#"{"wait": "200 ms"}"#),
-        // The reason would be lost.
-        (r#"{"do": "cannot", "why": "a"}"#, r#"{"do": "cannot", "why": "a"}"#),
+        (r#"{"do": "cannot", "why": "a"}"#, r#"{"end": "cannot", "why": "a"}"#),
     ] {
         let text = mended(&format!(r#"{{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{step}]}}"#));
         assert!(text.contains(written), "{step}: {text}");

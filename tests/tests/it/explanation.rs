@@ -1,7 +1,8 @@
 //! A refutation tells which fact, needed by which step, made false by which, and on which way.
 
 use motet_eval::check_in_domain;
-use motet_syntax::Severity;
+use motet_syntax::{FileId, Severity, Source, Sources, read};
+use motet_tests::setup;
 
 const DOMAIN: &str = "
 closed world
@@ -44,5 +45,27 @@ fn explanation_story_tells_the_way() {
         } else {
             assert_eq!(found, format!("`light` needs `not wet()`, {expected}"), "{body}");
         }
+    }
+}
+
+/// A fact that a cleanup would have made true again is told with the cleanup.
+#[test]
+fn explanation_story_names_the_cleanup() {
+    let (robot, scene) = (setup::robot("anymal_z1"), setup::scene("kitchen"));
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    for (cleanup, way) in [
+        ("home()", "where `home()` in the `finally` fails"),
+        ("if free(hand) { home() }", "where `home()` in the `finally` does not run"),
+    ] {
+        let text = format!(
+            "policy p for anymal_z1 {{ wake_up() go(shelf) sequence look {{ start_pose() inspect(shelf) }} \
+             finally {{ {cleanup} }} go(user) }}"
+        );
+        let found = session.check(&read(&Source::new("p.motet", text.as_str()), FileId(9)));
+        let errors: Vec<_> = found.into_iter().filter(|said| said.severity == Severity::Error).collect();
+        let story = format!(
+            "`go` needs `arm_home(robot) or arm_carry(robot)`, which `start_pose()` made false {way}"
+        );
+        assert!(errors.iter().any(|said| said.message == story), "{errors:#?}");
     }
 }

@@ -26,7 +26,8 @@ const PROVEN: usize = 64;
 /// a binding stands, or is a second name or a field of one.
 const OF_SCOPE: &[&str] = &["M0202", "M0203", "M0206", "M0211", "M0216", "M0217", "M0301"];
 /// What only state can tell, and what runs at once; that a fluent is not decided yet where a goal is stated.
-const OF_STATE: &[&str] = &["M0501", "M0502", "M0503", "M0506", "M0701", "M0702", "M0804", "M0805"];
+const OF_STATE: &[&str] =
+    &["M0316", "M0317", "M0318", "M0501", "M0502", "M0503", "M0506", "M0701", "M0702", "M0804", "M0805"];
 
 fn settings() -> Vec<(Session, std::sync::Arc<Signatures>)> {
     let known = [("hsr", Some("kitchen")), ("anymal_z1", Some("lab")), ("panda", Some("lab")), ("hsr", None)];

@@ -25,6 +25,7 @@ mod grammars;
 mod hostile;
 mod library;
 mod manners;
+mod notations;
 mod oracle;
 mod outcomes;
 mod pddl;

@@ -77,7 +77,14 @@ fn prompt_lists_the_language_within_2600_tokens() {
                 assert!(written.system.contains(&format!("{name}(")), "{} is not listed: {name}", robot.name);
             }
             assert!(written.left_out.is_empty(), "{:?}", written.left_out);
-            assert!(written.tokens <= 2600, "{} in {:?}: {} tokens", robot.name, scene.robot, written.tokens);
+            assert!(
+                written.tokens <= 2600,
+                "{} in {:?}: {} tokens\n{}",
+                robot.name,
+                scene.robot,
+                written.tokens,
+                written.system
+            );
         }
     }
 }

@@ -249,7 +249,8 @@ fn values(signatures: &Signatures, param: &ParamSignature) -> Vec<String> {
         Type::Int | Type::Number | Type::Quantity(_) => {
             vec![param.range.map_or(1.0, |(least, _)| least).to_string()]
         }
-        Type::Pose | Type::List(_) => Vec::new(),
+        Type::Pose => vec!["{\"pose\":[0,0,0,0]}".to_owned()],
+        Type::Failure | Type::List(_) => Vec::new(),
     }
 }
 

@@ -191,7 +191,8 @@ impl Converter {
     fn call_step(&mut self, mut step: super::term::Do, span: Span, depth: usize) -> Do {
         // A key of another step is no argument, not even one that does not exist.
         step.args.0.retain(|(key, _)| {
-            let is_reserved = words::json_key_owner(&key.value).is_some();
+            // One may be another name of a parameter.
+            let is_reserved = words::json_key_owner(&key.value).is_some() && key.value != "in";
             if is_reserved {
                 self.found.push(ReservedKey { span: key.span, key: key.value.clone() }.into());
             }

@@ -88,7 +88,10 @@ pub(crate) struct PolicyDocument {
 pub(crate) fn read_policy(text: &str, file: FileId, plain_form: ShapeReading) -> PolicyDocument {
     let (tree, found) = match parse(text, file) {
         Ok(parsed) => parsed,
-        Err(found) => return PolicyDocument { found, ..PolicyDocument::default() },
+        Err(found) => match objects(text, file) {
+            Some(tree) => (tree, Vec::new()),
+            None => return PolicyDocument { found, ..PolicyDocument::default() },
+        },
     };
     // A duplicate is not in the tree, so its text cannot be edited.
     let has_duplicates = !found.is_empty();
@@ -113,6 +116,36 @@ pub(crate) fn read_policy(text: &str, file: FileId, plain_form: ShapeReading) ->
     read.found.extend(notes);
     read.settle(&tree);
     PolicyDocument { written: Some(tree.into_owned()), ..read }
+}
+
+/// Maximal number of objects that are read one after the other.
+const MAX_OBJECTS: usize = 256;
+
+/// Objects that stand one after the other, without brackets around them, as a list of them; `None` for anything
+/// else, and for policies.
+#[cold]
+fn objects(text: &str, file: FileId) -> Option<Located<'static>> {
+    let mut items: Vec<Located<'static>> = Vec::new();
+    let mut at = text.len() - text.trim_start().len();
+    while text.get(at..)?.starts_with('{') {
+        let end = located::end_of_value(text, at)?;
+        // The spans are those of the whole text.
+        let before = text.get(..at)?.bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' });
+        let alone: String = before.chain(text.get(at..end)?.chars()).collect();
+        let (object, found) = located::parse_json(&alone, file);
+        let object = object.filter(|_| found.is_empty())?.into_owned();
+        let is_part = |key: &str| ["motet", "policy", "steps"].contains(&key);
+        let is_policy = object.members().iter().any(|(key, _)| key.text().is_some_and(is_part));
+        if is_policy || items.len() >= MAX_OBJECTS {
+            return None;
+        }
+        items.push(object);
+        let rest = text.get(end..)?.trim_start();
+        at = text.len() - rest.strip_prefix(',').map_or(rest, str::trim_start).len();
+    }
+    let (first, last) = (items.first()?, items.last()?);
+    let span = first.span.to(last.span);
+    (items.len() > 1 && at == text.len()).then_some(Located { span, value: LocatedValue::Array(items) })
 }
 
 impl PolicyDocument {

@@ -348,3 +348,24 @@ impl<T: JsonSchema> JsonSchema for Lenient<T> {
         T::json_schema(generator)
     }
 }
+
+/// One past the bracket that closes the object or list at `start`; `None` where it is not closed.
+pub(crate) fn end_of_value(text: &str, start: usize) -> Option<usize> {
+    let (mut depth, mut in_text, mut is_escaped) = (0_usize, false, false);
+    for (offset, byte) in text.get(start..)?.bytes().enumerate() {
+        match byte {
+            _ if is_escaped => is_escaped = false,
+            b'\\' if in_text => is_escaped = true,
+            b'"' => in_text = !in_text,
+            b'{' | b'[' if !in_text => depth += 1,
+            b'}' | b']' if !in_text => {
+                depth = depth.saturating_sub(1);
+                if depth == 0 {
+                    return Some(start + offset + 1);
+                }
+            }
+            _ => {}
+        }
+    }
+    None
+}

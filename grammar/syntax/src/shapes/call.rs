@@ -3,11 +3,13 @@
 
 use serde_json::{Map, Value as Json};
 
-use super::{ShapeReader, is_any, is_any_key, is_misspelt, member, quoted, replace, start, table, whole};
+use super::{
+    ShapeReader, is_any, is_any_key, is_misspelt, member, pattern, quoted, replace, start, table, whole,
+};
 use crate::diagnostic::Edit;
 use crate::located::{Located, LocatedValue};
 use crate::source::Span;
-use crate::words::{is_bare_name, is_name};
+use crate::words::{CALL_KEYS, is_bare_name, is_name};
 
 /// A step in another shape, as the parts of its object that stay and the edits in them.
 #[derive(Default)]
@@ -33,7 +35,9 @@ impl ShapeReader<'_> {
     /// The shape of a step that is no form of the language; `None` if there is no such reading, or several.
     pub(super) fn call_shape(&self, node: &Located<'_>) -> Option<CallShape> {
         let mut shape = CallShape::default();
-        let is_read = self.collect(node, Around::Steps, &mut shape) || self.single(node, &mut shape);
+        let is_read = self.collect(node, Around::Steps, &mut shape)
+            || self.single(node, &mut shape)
+            || self.single_argument(node, &mut shape);
         (is_read && shape.is_changed).then_some(shape)
     }
 
@@ -107,6 +111,8 @@ impl ShapeReader<'_> {
     fn arguments(&self, value: &Located<'_>, callee: Option<&Located<'_>>, shape: &mut CallShape) -> bool {
         let is_plain = callee.is_some_and(|key| key.text() == Some("do"));
         match &value.value {
+            // Arguments in arguments are no shape of a call.
+            LocatedValue::Object(_) if is_any_key(value, &table::ARGUMENTS) => false,
             LocatedValue::Object(members) if !is_plain || !self.is_term(value) => {
                 shape.parts.extend(members.iter().map(whole));
                 true
@@ -125,6 +131,44 @@ impl ShapeReader<'_> {
             }
             _ => false,
         }
+    }
+
+    /// Reads an ending with the key of its reason: `{"do": "cannot", "why": "…"}`. Returns `false` for anything
+    /// else.
+    pub(super) fn ending_call(&mut self, node: &Located<'_>, key: &Located<'_>, value: &Located<'_>) -> bool {
+        let Some(kind) = value.text().and_then(|word| self.ending(word)) else { return false };
+        let is_part = |(name, _): &(Located<'_>, Located<'_>)| name == key || name.text() == Some("why");
+        if member(node, "why").is_none() || !node.members().iter().all(is_part) {
+            return false;
+        }
+        let edits = vec![replace(key.span.to(value.span), format!("\"end\": {}", quoted(kind)))];
+        self.read_as(start(node), pattern(node), "`{\"end\": …}`", edits);
+        true
+    }
+
+    /// Reads a callee as the key of its only argument: `{"go": "user"}`, `{"detect": "mug", "as": "m"}`.
+    fn single_argument(&self, node: &Located<'_>, shape: &mut CallShape) -> bool {
+        let is_clause = |(key, _): &&(Located<'_>, Located<'_>)| is_any(key, &CALL_KEYS);
+        let mut others = node.members().iter().filter(|member| !is_clause(member));
+        let (Some((key, value)), None, None) = (others.next(), others.next(), member(node, "do")) else {
+            return false;
+        };
+        let is_callee = |name: &&str| {
+            is_bare_name(name)
+                && self.ending(name).is_none()
+                && !table::is_own(key)
+                && !table::LABELS.contains(name)
+                && !table::KINDS.contains(name)
+                && (table::SHORT_CALLEES.contains(name) || !is_misspelt(name, &self.steps))
+        };
+        let Some(name) = key.text().filter(is_callee).filter(|_| value.text().is_some()) else {
+            return false;
+        };
+        *shape = CallShape { is_changed: true, ..CallShape::default() };
+        shape.keys.push(format!("{}: …", quoted(name)));
+        shape.parts.extend(node.members().iter().map(whole));
+        shape.edits.push(replace(key.span, format!("\"do\": {}, \"arg1\"", quoted(name))));
+        true
     }
 
     /// Reads a callee, or an ending, as the only key: `{"pick": {"object": "mug_1"}}`, `{"fail": "why"}`.

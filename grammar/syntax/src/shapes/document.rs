@@ -2,9 +2,10 @@
 //! its parts, and prose beside them.
 
 use super::{
-    ShapeReader, after, before, insert, is_any, member, pattern, quoted, shown, start, table, whole,
+    ShapeReader, after, before, insert, is_any, member, pattern, quoted, replace, shown, start, table, whole,
 };
 use crate::located::{Located, LocatedValue};
+use crate::source::Span;
 use crate::text;
 use crate::words::is_name;
 
@@ -18,8 +19,20 @@ impl ShapeReader<'_> {
         let Some(step) = steps.and_then(|steps| self.view.list_items(steps)) else { return };
         match &node.value {
             LocatedValue::Array(items) if items.iter().any(|item| self.is_step(item)) => {
-                let edits = vec![before(node, head), after(node, "}")];
-                self.read_as(start(node), "a list of steps".to_owned(), read, edits);
+                let is_list = self.source(node).starts_with('[');
+                let (open, close) = if is_list { ("", "") } else { ("[", "]") };
+                let mut edits =
+                    vec![before(node, format!("{head}{open}")), after(node, format!("{close}}}"))];
+                for pair in items.windows(2).filter(|_| !is_list) {
+                    if let [one, next] = pair {
+                        edits.push(replace(
+                            Span { start: one.span.end, end: next.span.start, ..one.span },
+                            ", ",
+                        ));
+                    }
+                }
+                let written = if is_list { "a list of steps" } else { "several objects" };
+                self.read_as(start(node), written.to_owned(), read, edits);
                 items.iter().for_each(|item| self.value(item, step));
             }
             LocatedValue::Object(_) if member(node, "motet").or(member(node, "policy")).is_some() => {

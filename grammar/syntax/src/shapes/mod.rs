@@ -266,6 +266,7 @@ impl<'t> ShapeReader<'t> {
                 }
             }
             Some((key, _)) if key.text() != Some("do") => {}
+            Some((key, value)) if self.ending_call(node, key, value) => {}
             Some(_) | None => self.call(node),
         }
     }

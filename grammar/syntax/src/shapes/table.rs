@@ -29,6 +29,9 @@ pub(super) const FLUENTS: [&str; 3] = ["fluent", "fact", "predicate"];
 /// Names of fluents that are one letter from a key of a form.
 pub(super) const SHORT_FLUENTS: [&str; 3] = ["in", "on", "at"];
 
+/// Names of callees that are one letter from a key of a form.
+pub(super) const SHORT_CALLEES: [&str; 1] = ["go"];
+
 /// Other keys and operators of conditions.
 pub(super) const CONDITIONS: [(&str, &str); 20] = [
     ("and", "all"),

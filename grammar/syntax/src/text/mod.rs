@@ -10,6 +10,8 @@ mod step;
 mod syntax_error;
 pub(crate) mod template;
 
+pub use self::template::MAX_TEXT_VALUES;
+
 use pest::Parser as _;
 
 use crate::ast;
@@ -165,6 +167,14 @@ pub fn parse_condition(text: &str) -> Result<ast::Expr, String> {
         (_, Some(mistake)) => Err(mistake.message),
         (None, None) => Err("nothing is written here".to_owned()),
     }
+}
+
+/// Parses one value that a string of another document holds, at a place of that document; `None` if it is
+/// none. Every part of it has that place.
+#[must_use]
+pub fn parse_value(text: &str, place: Span) -> Option<ast::Expr> {
+    let (expr, found) = parse_expr(text, Origin::Within(place), 0);
+    expr.filter(|_| found.is_empty())
 }
 
 /// Reads a text with values as it stands between quotes: `I see {count(cans)} cans`. Without values it is an

@@ -12,7 +12,7 @@ use crate::errors::BadTextValue;
 use crate::source::{FileId, Span};
 
 /// The most values of one text.
-pub(crate) const MAX_TEXT_VALUES: usize = 64;
+pub const MAX_TEXT_VALUES: usize = 64;
 
 /// A text as it was read.
 pub(crate) struct ReadText {

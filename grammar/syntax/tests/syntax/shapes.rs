@@ -111,6 +111,58 @@ fn shapes_of_tool_calls_are_calls() {
 }
 
 #[test]
+fn shapes_of_calls_with_one_argument_name_it_by_place() {
+    let read = r#"is read as `{"do": …}`"#;
+    step(r#"{"go":"fridge_1"}"#, r#"{"do": "go", "arg1": "fridge_1"}"#, &format!(r#"`{{"go": …}}` {read}"#));
+    step(
+        r#"{"detect":"red mug","as":"m","retry":2}"#,
+        r#"{"do": "detect", "arg1": "red mug", "as": "m", "retry": 2}"#,
+        &format!(r#"`{{"detect": …}}` {read}"#),
+    );
+    // Neither a word about a step nor a misspelt form is a callee.
+    for shape in [r#"{"note":"red mug"}"#, r#"{"wiat":"near(user)"}"#, r#"{"go":"sink","by":"user"}"#] {
+        let document = format!(r#"{{"motet": 1, "policy": "p", "steps": [{shape}]}}"#);
+        let is_error = |said: &motet_syntax::Diagnostic| said.severity == Severity::Error;
+        assert!(parse(&document).diagnostics.iter().any(is_error), "{shape}");
+    }
+}
+
+#[test]
+fn shapes_of_endings_have_a_reason_as_a_call() {
+    step(
+        r#"{"do":"cannot","why":"no mug"}"#,
+        r#"{"end": "cannot", "why": "no mug"}"#,
+        r#"`{"do": …, "why": …}` is read as `{"end": …}`"#,
+    );
+    step(
+        r#"{"do":"abort","why":"no mug"}"#,
+        r#"{"end": "fail", "why": "no mug"}"#,
+        r#"`{"do": …, "why": …}` is read as `{"end": …}`"#,
+    );
+}
+
+#[test]
+fn shapes_of_objects_in_a_row_are_steps() {
+    let form = r#"{"motet": 1, "policy": "plan", "steps": [{"do": "home"}, {"do": "go", "to": "sink"}]}"#;
+    let note = "several objects is read as a policy with these steps";
+    check("{\"do\":\"home\"}\n{\"do\":\"go\",\"to\":\"sink\"}\n", form, &[note]);
+    check(r#"{"do":"home"}, {"do":"go","to":"sink"}"#, form, &[note]);
+    check(
+        "{\"home\":{}}\n\n{\"action\":\"go\",\"to\":\"sink\"}",
+        form,
+        &[note, r#"`{"home": {…}}` is read as `{"do": …}`"#, r#"`{"action": …}` is read as `{"do": …}`"#],
+    );
+    for text in [
+        "{\"do\":\"home\"} x {\"do\":\"home\"}",
+        "{\"do\":\"home\"}\n{\"do\":",
+        "{\"motet\":1}\n{\"do\":\"home\"}",
+    ] {
+        let found = parse(text).diagnostics;
+        assert!(found.iter().any(|said| said.severity == Severity::Error), "{text}: {found:?}");
+    }
+}
+
+#[test]
 fn shapes_of_endings_and_reactions_are_read_by_their_word() {
     step(r#""done""#, r#"{"end": "done"}"#, r#"`done` is read as `{"end": "done"}`"#);
     step(r#""finished""#, r#"{"end": "done"}"#, r#"`finished` is read as `{"end": "done"}`"#);

@@ -6,7 +6,7 @@ import motet
 import numpy
 import pytest
 
-START = '{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":['
+START = '{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"steps":['
 
 
 def feed(decoder, text):

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use super::event_log::{CallFrame, Event, Flags, Id, Name, State, UNSEEN};
 use super::machine::Machine;
-use crate::automaton::{Op, OpId};
+use super::oracle::meaning;
+use crate::automaton::{Meaning, Op, OpId};
 use crate::grammar::{Action, BlockRole, ConditionUse, Constant, NodeKind, Split};
 
 impl Machine {
@@ -28,6 +29,10 @@ impl Machine {
                     state.op = *rule;
                 }
                 Op::Jump(to) => state.op = *to,
+                Op::Gives { then, other } => {
+                    let gives = self.frame(state.frame).result.is_some();
+                    state.op = if gives { *then } else { *other };
+                }
                 Op::Return => {
                     let frame = self.frame(state.frame);
                     state.frame = frame.below;
@@ -68,6 +73,18 @@ impl Machine {
             }
             Action::Head => {
                 state.event = self.arenas.record_step_end(state.event);
+                return;
+            }
+            Action::Gives => {
+                let word = self.arenas.entry(state.event).map(|said| said.event);
+                let meaning = word.and_then(|word| meaning(&self.context.automaton, word));
+                let result = if let Some(Meaning::Named(ty)) = meaning { Some(ty) } else { None };
+                CallFrame { result, ..frame }
+            }
+            Action::Forget => {
+                if self.has_caught_name(state.event) {
+                    state.scope = self.arenas.name(state.scope).map_or(0, |name| name.below);
+                }
                 return;
             }
             Action::BindItem => {

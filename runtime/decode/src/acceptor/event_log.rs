@@ -65,6 +65,8 @@ pub(crate) struct CallFrame {
     pub(crate) scope: Id,
     /// The scope at the beginning of its present step, if that has blocks.
     pub(crate) begun: Id,
+    /// The number of the type of the policy's result, if it gives one.
+    pub(crate) result: Option<u16>,
 }
 
 /// Properties of a rule and of everything that it calls.
@@ -188,6 +190,7 @@ impl CallFrame {
             slot: BlockRole::Body,
             scope: 0,
             begun: 0,
+            result: None,
         }
     }
 }

@@ -7,9 +7,9 @@ use super::event_log::{Event, Flags, Id, Name, State};
 use super::machine::Machine;
 use super::oracle::{Argument, CallSite, MOST_SHARED};
 use super::word::BOUND;
-use crate::automaton::{BoundNames, Meaning, Op, OpId, WordList};
+use crate::automaton::{BoundNames, CaughtField, Meaning, Op, OpId, WordList};
 use crate::grammar::{BlockRole, Guard, NodeKind, WordRole};
-use crate::subset::{MAX_CONDITION_DEPTH, MAX_STEPS};
+use crate::subset::{MAX_CONDITION_DEPTH, MAX_NAME_CHARS, MAX_STEPS};
 
 impl Machine {
     fn site(&self, state: &State, event: Id) -> CallSite {
@@ -32,6 +32,8 @@ impl Machine {
             Guard::Open | Guard::Rare => true,
             Guard::Never => false,
             Guard::Below(most) => frame.count < most,
+            // A policy with a result ends in an ending.
+            Guard::Close if frame.slot == BlockRole::Body && frame.result.is_some() => false,
             Guard::Close => self.may_close(state, frame.slot, flags),
             Guard::Empty => {
                 let block = [Event::Open(NodeKind::Block), Event::Close];
@@ -43,6 +45,9 @@ impl Machine {
             Guard::Room => has_room,
             Guard::List => self.has_list(state.scope),
             Guard::OfList => may_be_loose && self.has_list(state.scope),
+            Guard::Caught => self.has_caught(state.scope),
+            Guard::OfCaught => may_be_loose && self.has_caught(state.scope),
+            Guard::Pose => self.takes_pose(state),
             Guard::First(place, ty) => self.can_be_first(state, place, ty),
             Guard::Interrupt => {
                 let pause = [Event::Open(NodeKind::Within), Event::Close];
@@ -74,12 +79,12 @@ impl Machine {
                         || self.some_condition_holds(state, &wait, true))
             }
             Guard::Done => {
-                let done = [Event::Open(NodeKind::Done), Event::Close];
+                let Some(done) = self.done(state) else { return false };
                 usize::from(frame.count) < MAX_STEPS
                     && self.may_be_done(state.event)
                     && (!flags.has(Flags::SHARED) || self.verify_beside(state.event, &done))
             }
-            Guard::DoneWhen => self.verify(state.event, &[Event::Open(NodeKind::Done), Event::Close]),
+            Guard::DoneWhen => self.done(state).is_some_and(|done| self.verify(state.event, &done)),
             Guard::React(NodeKind::Pause) => {
                 let is_plain = !flags.has(Flags::TRIED) && !flags.has(Flags::SHARED);
                 is_plain || self.verify_beside(state.event, &[Event::Open(NodeKind::Pause), Event::Close])
@@ -167,7 +172,46 @@ impl Machine {
 
     /// A `let` may give some value a name.
     fn can_name_a_value(&self, state: &State) -> bool {
-        self.context.automaton.names_values || self.has_list(state.scope)
+        self.context.automaton.names_values || self.has_list(state.scope) || self.has_caught(state.scope)
+    }
+
+    /// Some failure is bound.
+    fn has_caught(&self, scope: Id) -> bool {
+        let automaton = &self.context.automaton;
+        let is_caught = |name: &Name| automaton.ty(name.ty) == Some(&Type::Failure);
+        automaton.catches && self.visible(scope).iter().any(|(_, name)| is_caught(name))
+    }
+
+    /// The events of a `done`, with a result if the policy gives one; `None` if nothing can be its result.
+    fn done(&self, state: &State) -> Option<Vec<Event>> {
+        let result = match self.frame(state.frame).result {
+            Some(ty) => Some(self.names_of(state.scope, ty).first().copied().map(Event::Bound)?),
+            None => None,
+        };
+        let done = [Event::Open(NodeKind::Done)];
+        Some(done.into_iter().chain(result).chain([Event::Close]).collect())
+    }
+
+    /// The names of values of the type with a number.
+    fn names_of(&self, scope: Id, ty: u16) -> Vec<Id> {
+        let automaton = &self.context.automaton;
+        let fits = |name: &Name| {
+            automaton
+                .ty(ty)
+                .zip(automaton.ty(name.ty))
+                .is_some_and(|(wanted, actual)| automaton.signatures.fits(wanted, actual))
+        };
+        let names = self.visible(scope).into_iter().filter(|(_, name)| fits(name));
+        names.map(|(id, _)| id).collect()
+    }
+
+    /// A pose that is written out may be the next argument of the call that is being written.
+    fn takes_pose(&self, state: &State) -> bool {
+        let call = self.call_so_far(state.event);
+        call.is_some_and(|(callable, _, before)| {
+            let site = self.site_of(callable, self.site(state, before));
+            site.is_some_and(|site| site.takes_pose(self, callable))
+        })
     }
 
     /// Some list is bound.
@@ -251,7 +295,13 @@ impl Machine {
         let own = own.map(|index| Event::Word(op, index));
         let bound = |id| match words.bound {
             BoundNames::First(_) => Event::First(id),
-            BoundNames::None | BoundNames::Type(_) | BoundNames::Lists | BoundNames::List => Event::Bound(id),
+            BoundNames::None
+            | BoundNames::Type(_)
+            | BoundNames::Lists
+            | BoundNames::List
+            | BoundNames::Given
+            | BoundNames::Caught
+            | BoundNames::CaughtField(_) => Event::Bound(id),
         };
         own.chain(self.bound_words(words, scope).map(bound)).collect()
     }
@@ -263,7 +313,9 @@ impl Machine {
         let fits = move |actual: u16| {
             let Some(actual) = automaton.ty(actual) else { return false };
             match bound {
-                BoundNames::None => false,
+                // Its type is that of the policy.
+                BoundNames::None | BoundNames::Given => false,
+                BoundNames::Caught | BoundNames::CaughtField(_) => *actual == Type::Failure,
                 BoundNames::Lists | BoundNames::List => matches!(actual, Type::List(_)),
                 BoundNames::First(wanted) => match (automaton.ty(wanted), actual) {
                     (Some(wanted), Type::List(element)) => automaton.signatures.fits(wanted, element),
@@ -303,7 +355,12 @@ impl Machine {
         };
         let mut found: Vec<u32> = Vec::new();
         let mut kind = None;
-        let words_of = self.words_of(state.op, state.scope, arg);
+        let words_of = match (words.bound, frame.result) {
+            (BoundNames::Given, Some(ty)) => {
+                self.names_of(state.scope, ty).into_iter().map(Event::Bound).collect()
+            }
+            _ => self.words_of(state.op, state.scope, arg),
+        };
         if let (Some((callable, given, _)), Some(site)) = (&mut call, site) {
             self.probe_values(*callable, given, &words_of, site);
         }
@@ -336,9 +393,9 @@ impl Machine {
                     (None, _) => true,
                 },
                 WordRole::Fluent | WordRole::Head
-                    if words.table.get(entry).is_some_and(|entry| entry.guard == Guard::List) =>
+                    if let Some(guard) = words.table.get(entry).and_then(|entry| of_bound(entry.guard)) =>
                 {
-                    self.allows(state, Guard::OfList)
+                    self.allows(state, guard)
                 }
                 WordRole::Fluent if frame.flags.has(Flags::STRICT) => {
                     number.is_some_and(|fluent| self.condition_holds(state, fluent, &mut Vec::new()))
@@ -361,6 +418,12 @@ impl Machine {
                         _ => None,
                     };
                     wanted.is_none() || own == wanted
+                }
+                // The field of a failure. What follows its name has a fixed length.
+                WordRole::Keyword if entry >= BOUND => {
+                    self.fits(MAX_NAME_CHARS, words.next, state.frame)
+                        && (words.bound == BoundNames::CaughtField(CaughtField::Text)
+                            || self.allows(state, Guard::OfCaught))
                 }
                 WordRole::Keyword => words.table.get(entry).is_some_and(|entry| {
                     let to = entry.to.unwrap_or(words.next);
@@ -440,5 +503,14 @@ impl Machine {
         let text = if is_plain { self.plain_text(text) } else { text };
         given.push(Argument::One(text));
         self.completes_call(callable, &mut given, site)
+    }
+}
+
+/// The guard of a condition about a bound name, where that of its word asks for one.
+fn of_bound(guard: Guard) -> Option<Guard> {
+    match guard {
+        Guard::List => Some(Guard::OfList),
+        Guard::Caught => Some(Guard::OfCaught),
+        _ => None,
     }
 }

@@ -85,9 +85,8 @@ impl Machine {
                 (0..=u8::MAX).filter(|byte| self.may_begin(state.op, *byte)).for_each(|byte| bytes.add(byte));
             }
             Op::Accept => {}
-            Op::Text { .. } | Op::Name(_) | Op::Action(_) | Op::Call(_) | Op::Jump(_) | Op::Return => {
-                return ByteSet::ALL;
-            }
+            Op::Text { .. } | Op::Name(_) | Op::Action(_) | Op::Call(_) => return ByteSet::ALL,
+            Op::Gives { .. } | Op::Jump(_) | Op::Return => return ByteSet::ALL,
         }
         bytes
     }

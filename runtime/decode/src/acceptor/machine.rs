@@ -163,6 +163,7 @@ impl Machine {
             | Op::Number(_)
             | Op::Action(_)
             | Op::Call(_)
+            | Op::Gives { .. }
             | Op::Jump(_)
             | Op::Return
             | Op::Accept => return None,
@@ -277,7 +278,8 @@ impl Machine {
                     state.event = self.record(state.event, Event::Number(units, automaton.decimals(range)));
                     (state, origin) = (self.follow_epsilon(state, state.op + 1), StateRef::Detached);
                 }
-                Op::Action(_) | Op::Call(_) | Op::Jump(_) | Op::Return | Op::Accept => return None,
+                Op::Action(_) | Op::Call(_) | Op::Gives { .. } | Op::Jump(_) => return None,
+                Op::Return | Op::Accept => return None,
             }
         }
     }

@@ -18,6 +18,7 @@ mod question;
 mod safe_condition;
 mod scope;
 mod step_builder;
+mod syntax_node;
 mod word;
 
 use std::sync::Arc;

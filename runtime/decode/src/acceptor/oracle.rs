@@ -7,6 +7,7 @@
 use motet_compiler::Session;
 use motet_compiler::incremental::{ArgumentValue, IncrementalChecker, LoopTest};
 use motet_compiler::signature::Type;
+use motet_syntax::ast::POSE;
 
 use super::context::Question;
 use super::event_log::{Event, Id, mix};
@@ -40,6 +41,17 @@ pub(crate) struct CallSite {
     pub(crate) cleans: bool,
     /// The number of values tried for the next argument, if `shared`.
     pub(crate) tries: usize,
+}
+
+impl CallSite {
+    /// A pose may be written out there as an argument of a primitive. Beside concurrent steps, and in a
+    /// policy, its numbers could refute something.
+    pub(crate) fn takes_pose(&self, machine: &Machine, callable: u16) -> bool {
+        let automaton = &machine.context.automaton;
+        let made = automaton.callables.get(usize::from(callable));
+        let poses = automaton.signatures.measure(POSE).is_none();
+        poses && !self.shared && made.is_some_and(|made| made.primitive.is_some())
+    }
 }
 
 impl Machine {
@@ -318,7 +330,12 @@ impl Machine {
                 let first = self.firsts(ty, site.scope).into_iter();
                 first.chain(words(word)).map(Argument::One).collect()
             }
-            Type::Pose | Type::Enum(_) => words(word).into_iter().map(Argument::One).collect(),
+            Type::Pose => {
+                let callable = u16::try_from(callable).unwrap_or(u16::MAX);
+                let pose = site.takes_pose(self, callable).then_some(Event::AnyText);
+                pose.into_iter().chain(words(word)).map(Argument::One).collect()
+            }
+            Type::Enum(_) | Type::Failure => words(word).into_iter().map(Argument::One).collect(),
         }
     }
 
@@ -361,7 +378,7 @@ impl Machine {
                 }
                 // The contents of a list decide nothing.
                 Event::Close => {
-                    log.find(|said| said.event == Event::Open(NodeKind::List));
+                    log.find(|said| matches!(said.event, Event::Open(NodeKind::List | NodeKind::Pose)));
                     given.push(Argument::One(Event::AnyText));
                 }
                 event => given.push(Argument::One(event)),

@@ -1,12 +1,15 @@
 //! Incremental proofs that follow the machine: events become steps, and the checker proves them one by one.
 
 use motet_compiler::incremental::IncrementalChecker;
+use motet_compiler::signature::{Signatures, Type};
 use motet_syntax::ast::{self, Policy, Step};
 use motet_syntax::{Span, Syntax};
 
 use super::context::Context;
 use super::event_log::{Arenas, Event, Id};
+use super::oracle::meaning;
 use super::step_builder::Builder;
+use crate::automaton::Meaning;
 
 /// An incremental proof that follows a machine. Steps that the log shares with the last call are kept.
 #[derive(Clone, Debug, Default)]
@@ -59,6 +62,13 @@ impl Transcript<'_> {
         }
         let automaton = &context.automaton;
         let named = |text: smol_str::SmolStr| ast::Name { text, span: Span::default() };
+        let mut result = None;
+        if let Some((word, behind)) = rest.split_first()
+            && let Some(Meaning::Named(ty)) = meaning(automaton, *word)
+        {
+            result = automaton.ty(ty).map(|ty| written(ty, &automaton.signatures));
+            rest = behind;
+        }
         let mut builder = Builder { automaton, arenas, bytes, events: rest, choice: &[], in_cleanup: false };
         let achieves = matches!(rest.first(), Some(Event::Open(_))).then(|| builder.condition());
         if achieves.is_none() {
@@ -69,13 +79,24 @@ impl Transcript<'_> {
             doc: ast::Doc::default(),
             name: named(text.into()),
             params: Vec::new(),
-            result: None,
+            result,
             robot: robot.cloned().map(named),
             achieves,
             body: ast::Block::default(),
             keeps: builder.keeps(),
             cleanup: None,
             span: Span::default(),
+        }
+    }
+}
+
+/// A type as a policy writes it.
+fn written(ty: &Type, signatures: &Signatures) -> ast::TypeExpr {
+    match ty {
+        Type::List(element) => ast::TypeExpr::List(Box::new(written(element, signatures)), Span::default()),
+        ty => {
+            let text = signatures.type_name(ty).into();
+            ast::TypeExpr::Named(ast::Name { text, span: Span::default() })
         }
     }
 }

@@ -180,7 +180,7 @@ impl Machine {
             height,
             is_comparison: matches!(
                 events.last(),
-                Some(Event::Open(NodeKind::Get(_) | NodeKind::Field(_) | NodeKind::Count))
+                Some(Event::Open(NodeKind::Get(_) | NodeKind::Field(_) | NodeKind::Count | NodeKind::Caught))
             ),
             is_joined: matches!(before, Some(Event::Joined(_))),
         }

@@ -95,6 +95,22 @@ impl Machine {
         names.fold(before, |below, name| self.arenas.bind(without(name, below)))
     }
 
+    /// The handler that ends the log has named its failure. Its block is closed.
+    pub(super) fn has_caught_name(&self, event: Id) -> bool {
+        let (mut closed, mut log) = (0usize, self.arenas.back(event));
+        while let Some(said) = log.next() {
+            match said.event {
+                Event::Close => closed += 1,
+                Event::Open(_) => closed = closed.saturating_sub(1),
+                _ => {}
+            }
+            if closed == 0 {
+                return log.next().is_some_and(|before| matches!(before.event, Event::Name(..)));
+            }
+        }
+        false
+    }
+
     /// Binds the names that are bound behind the ways through the open node.
     pub(super) fn meet(&mut self, mut state: State) -> State {
         let Some((kind, ways)) = self.ways(state.event, 0) else { return state };
@@ -267,6 +283,7 @@ impl FlowReader<'_> {
         let ty = match value {
             LetValue::Count => Some(&Type::Int),
             LetValue::First => None,
+            LetValue::CaughtText => Some(&Type::Text),
             LetValue::Get(index) => {
                 signatures.measures.get(usize::from(index)).map(|measure| &measure.result)
             }

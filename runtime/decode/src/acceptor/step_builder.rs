@@ -7,12 +7,13 @@ use motet_compiler::incremental::{CHOICE, PROGRAM_POINT};
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{
-    Arg, Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, Manner, Name,
-    Reaction, Step, StepKind, When,
+    Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, Manner, Name, Reaction,
+    Step, StepKind, When,
 };
 use smol_str::SmolStr;
 
 use super::event_log::{Arenas, Event};
+use super::syntax_node::{argument, end, expr, fail, named, number, of_list, pose, step, written};
 use crate::automaton::{Automaton, Meaning, Op};
 use crate::grammar::{Constant, LetValue, NodeKind, Relation};
 use crate::subset::{Decimal, Modifiers};
@@ -204,7 +205,9 @@ impl Builder<'_> {
             | NodeKind::Any
             | NodeKind::Get(_)
             | NodeKind::Field(_)
+            | NodeKind::Caught
             | NodeKind::List
+            | NodeKind::Pose
             | NodeKind::Group => fail().kind,
         }
     }
@@ -268,6 +271,7 @@ impl Builder<'_> {
                 expr(ExprKind::Call(self.applied(measure)))
             }
             LetValue::Field(index) => expr(self.field(index)),
+            LetValue::CaughtText => expr(self.field_named(SmolStr::new_static("text"))),
         }
     }
 
@@ -279,7 +283,10 @@ impl Builder<'_> {
 
     fn field(&mut self, index: u16) -> ExprKind {
         let field = self.automaton.signatures.fields.get(usize::from(index));
-        let name = field.map(|field| field.name.clone()).unwrap_or_default();
+        self.field_named(field.map(|field| field.name.clone()).unwrap_or_default())
+    }
+
+    fn field_named(&mut self, name: SmolStr) -> ExprKind {
         let of = self.value().unwrap_or_else(|| expr(ExprKind::Any));
         ExprKind::Field(Box::new(of), named(name))
     }
@@ -374,6 +381,12 @@ impl Builder<'_> {
             Event::Number(units, decimals) => ExprKind::Number(Decimal { units, decimals }.value()),
             Event::Constant(Constant::True) => ExprKind::Bool(true),
             Event::Constant(Constant::False) => ExprKind::Bool(false),
+            Event::Open(NodeKind::Pose) => {
+                self.next();
+                let numbers = [(); 4].map(|()| self.number().unwrap_or_else(|| number(0.0)));
+                self.close();
+                return Some(expr(ExprKind::Call(pose(numbers))));
+            }
             Event::Open(NodeKind::List) => {
                 self.next();
                 let mut items = Vec::new();
@@ -439,6 +452,11 @@ impl Builder<'_> {
                 self.next();
                 let field = self.field(index);
                 self.comparison(field)
+            }
+            NodeKind::Caught => {
+                self.next();
+                let kind = self.field_named(SmolStr::new_static("kind"));
+                self.comparison(kind)
             }
             NodeKind::Count => {
                 self.next();
@@ -543,54 +561,16 @@ impl Builder<'_> {
         if matches!(&on, CatchOn::Kinds(kinds) if kinds.is_empty()) {
             on = CatchOn::Any(Span::default());
         }
-        Catch { on, bind: None, body: self.block(), span: Span::default() }
+        let bind = matches!(self.peek(), Some(Event::Name(..))).then(|| self.name());
+        Catch { on, bind, body: self.block(), span: Span::default() }
     }
 
     fn end(&mut self, kind: EndKind) -> End {
-        End { why: self.value().or(end(kind).why), ..end(kind) }
+        match kind {
+            EndKind::Done => End { result: self.value(), ..end(kind) },
+            EndKind::Fail | EndKind::Cannot | EndKind::Replan => {
+                End { why: self.value().or(end(kind).why), ..end(kind) }
+            }
+        }
     }
-}
-
-/// A text as it stands between quotes; what it cannot mean is never written.
-fn written(text: SmolStr) -> ExprKind {
-    match motet_syntax::text::parse_text(&text).map(|read| read.kind) {
-        Ok(ExprKind::Text(text)) => ExprKind::Plain(text),
-        Ok(template) => template,
-        Err(_) => ExprKind::Plain(text),
-    }
-}
-
-fn argument(name: &SmolStr, value: Expr) -> Arg {
-    Arg { name: Some(named(name.clone())), value, span: Span::default() }
-}
-
-fn named(text: SmolStr) -> Name {
-    Name { text, span: Span::default() }
-}
-
-fn step(kind: StepKind) -> Step {
-    Step { kind, span: Span::default() }
-}
-
-fn number(value: f64) -> Expr {
-    expr(ExprKind::Number(value))
-}
-
-/// A term of the language on a list.
-fn of_list(term: &'static str, list: Expr) -> Call {
-    let name = named(SmolStr::new_static(term));
-    Call { name, args: vec![argument(&SmolStr::new_static("of"), list)], span: Span::default() }
-}
-
-fn expr(kind: ExprKind) -> Expr {
-    Expr { kind, span: Span::default() }
-}
-
-fn end(kind: EndKind) -> End {
-    let why = (kind != EndKind::Done).then(|| expr(ExprKind::Text(SmolStr::new_static("?"))));
-    End { kind, result: None, why, span: Span::default() }
-}
-
-fn fail() -> Step {
-    Step { kind: StepKind::End(end(EndKind::Fail)), span: Span::default() }
 }

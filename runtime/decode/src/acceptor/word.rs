@@ -3,6 +3,8 @@
 
 use motet_compiler::signature::Type;
 use motet_syntax::Syntax;
+use motet_syntax::text::MAX_TEXT_VALUES;
+use motet_syntax::words::RESERVED;
 
 use super::event_log::{Event, Id, Name, State, UNSEEN};
 use super::machine::{Machine, StateRef, WordStep};
@@ -70,9 +72,15 @@ impl Machine {
                 match words.bound {
                     BoundNames::Lists => state = self.bind_item(state, id),
                     BoundNames::First(_) => state.event = self.record(state.event, Event::First(id)),
-                    BoundNames::None | BoundNames::Type(_) | BoundNames::List => {
+                    BoundNames::CaughtField(field) => {
+                        state.event = self.record(state.event, Event::Open(field.node()));
                         state.event = self.record(state.event, Event::Bound(id));
                     }
+                    BoundNames::None
+                    | BoundNames::Type(_)
+                    | BoundNames::List
+                    | BoundNames::Given
+                    | BoundNames::Caught => state.event = self.record(state.event, Event::Bound(id)),
                 }
                 words.next
             }
@@ -134,7 +142,7 @@ impl Machine {
             Some(id) => {
                 let name = self.arenas.name(id)?;
                 let pos = match pos.checked_sub(1) {
-                    _ if words.ends == WordEnd::Bare => pos,
+                    _ if matches!(words.ends, WordEnd::Bare | WordEnd::Whole) => pos,
                     None => return Some(b'$'),
                     Some(pos) => pos,
                 };
@@ -143,6 +151,11 @@ impl Machine {
             }
         };
         match name.get(pos) {
+            None if let BoundNames::CaughtField(field) = words.bound
+                && entry >= BOUND =>
+            {
+                field.spelled().as_bytes().get(pos - name.len()).copied()
+            }
             Some(byte) => Some(*byte),
             None => (pos == name.len() && has_quote).then_some(b'"'),
         }
@@ -198,6 +211,9 @@ impl Machine {
             (0, _, b'{') => state.lo = UNSEEN,
             (begun, ..) => {
                 let (start, len) = self.written(begun)?;
+                if begun == 0 && self.values_before(state.pos) >= MAX_TEXT_VALUES {
+                    return None;
+                }
                 let rest = self.rest_of_value(&state, (start, len), byte)?;
                 state.lo = if byte == b'}' { UNSEEN } else { begun + 1 };
                 open = rest;
@@ -209,6 +225,19 @@ impl Machine {
             && self.fits(2 + open, next, state.frame);
         state.pos += 1;
         can.then_some(state)
+    }
+
+    /// The number of values among the last `count` bytes of a text, behind which a brace is open.
+    fn values_before(&self, count: u32) -> usize {
+        let Some((start, len)) = self.written(count) else { return 0 };
+        let text = self.bytes.get(start as usize..(start + len) as usize).unwrap_or_default();
+        // A brace that is written twice opens nothing.
+        let open = text.iter().fold((0usize, false), |(found, is_open), byte| match byte {
+            b'{' if is_open => (found - 1, false),
+            b'{' => (found + 1, true),
+            _ => (found, false),
+        });
+        open.0.saturating_sub(usize::from(open.1))
     }
 
     /// The number of bytes that end a value in a text behind one more byte: the shortest value that goes on
@@ -230,8 +259,13 @@ impl Machine {
             }
             let can_say = *said != Type::Pose;
             let is_list = matches!(ty, Type::List(_));
-            let values: [(bool, &[u8], &[u8]); 3] = [
-                (can_say, b"", b""),
+            // A word of the language is no value by itself.
+            let is_plain = !RESERVED.iter().any(|word| word.as_bytes() == spelled);
+            let is_caught = is_plain && *ty == Type::Failure && automaton.catches;
+            let values: [(bool, &[u8], &[u8]); 5] = [
+                (is_plain && can_say, b"", b""),
+                (is_caught, b"", b".kind"),
+                (is_caught, b"", b".text"),
                 (is_list && automaton.counts, if is_json { b"count($" } else { b"count(" }, b")"),
                 (is_list && can_say && automaton.firsts, if is_json { b"first($" } else { b"first(" }, b")"),
             ];

@@ -101,11 +101,16 @@ impl Assembler {
             }
             Op::Word(words) if words.role == WordRole::Keyword => keyword(words, rest),
             Op::Word(words) => self.word(words, rest),
+            Op::Optional(maybe) if maybe.guard == Guard::Pose => {
+                either(len(&maybe.bytes) + at(maybe.then), at(maybe.other))
+            }
             Op::Optional(maybe) => {
                 let here = is_always_open(maybe.guard).then(|| len(&maybe.bytes) + at(maybe.then));
                 let there = is_always_open(maybe.absent).then(|| at(maybe.other));
                 here.into_iter().chain(there).min().unwrap_or(ENDLESS)
             }
+            // A pose may be all that can stand there.
+            Op::Fork { then, guard: Guard::Pose, other, .. } => either(at(*then), at(*other)),
             Op::Fork { other, .. } => at(*other),
             Op::Text { .. } => 2 + next,
             Op::Name(naming) => match naming {
@@ -115,6 +120,7 @@ impl Assembler {
             Op::Number(range) => width(range.least, range.greatest, range.decimals) + next,
             Op::Action(_) => next,
             Op::Call(rule) => at(*rule) + next,
+            Op::Gives { then, other } => at(*then).max(at(*other)),
             Op::Jump(to) => at(*to),
             Op::Return | Op::Accept => 0,
         }
@@ -128,9 +134,14 @@ impl Assembler {
         });
         let bound = match words.bound {
             BoundNames::None => None,
-            BoundNames::Type(_) | BoundNames::Lists | BoundNames::List | BoundNames::First(_) => {
-                Some(u32::try_from(MAX_NAME_CHARS).unwrap_or(0) + 1 + at(words.next))
-            }
+            // Another word is always there.
+            BoundNames::CaughtField(_) => None,
+            BoundNames::Type(_)
+            | BoundNames::Lists
+            | BoundNames::List
+            | BoundNames::First(_)
+            | BoundNames::Given
+            | BoundNames::Caught => Some(u32::try_from(MAX_NAME_CHARS).unwrap_or(0) + 1 + at(words.next)),
         };
         own.chain(bound).filter(|way| *way < ENDLESS).max().map_or(ENDLESS, |most| most.saturating_add(2))
     }
@@ -162,6 +173,9 @@ fn is_always_open(guard: Guard) -> bool {
         | Guard::LetValue
         | Guard::List
         | Guard::OfList
+        | Guard::Caught
+        | Guard::OfCaught
+        | Guard::Pose
         | Guard::First(..)
         | Guard::Interrupt
         | Guard::If
@@ -190,6 +204,11 @@ fn keyword(words: &WordList, rest: &[u32]) -> u32 {
     let calls = entries.filter(|entry| matches!(entry.guard, Guard::Callable(_)));
     let calls = || longest(&mut calls.map(way));
     longest(&mut fluents.map(way)).or(open).or_else(calls).unwrap_or(ENDLESS)
+}
+
+/// The longer of two paths of which either may be the only one.
+fn either(one: u32, other: u32) -> u32 {
+    if one < ENDLESS && other < ENDLESS { one.max(other) } else { one.min(other) }
 }
 
 fn len(bytes: &[u8]) -> u32 {

@@ -5,8 +5,8 @@
 
 use smol_str::{SmolStr, format_smolstr};
 
-use super::lowering::{Lowering, Way};
-use super::{Op, OpId};
+use super::lowering::{Lowering, Way, behind_caught};
+use super::{CaughtField, Op, OpId};
 use crate::grammar::{Action, Atom, AtomSort, Guard, NodeKind, WordRole};
 use crate::subset::MAX_MEMBERS;
 
@@ -35,6 +35,16 @@ impl Lowering<'_> {
         ways
     }
 
+    /// The rule of a condition on the kind of a failure in text, behind the name and the field.
+    fn caught(&mut self) -> Option<OpId> {
+        let grammar = self.grammar;
+        let parts = grammar.atoms.iter().find_map(|atom| behind_caught(&atom.spelled))?;
+        let rule = self.asm.here();
+        self.parts(parts);
+        self.asm.put(Op::Return);
+        Some(rule)
+    }
+
     fn prefix_conditions(&mut self) -> OpId {
         let start = self.later();
         let end = self.asm.literal("}");
@@ -46,10 +56,14 @@ impl Lowering<'_> {
             atom.is_decoded && atom.sort == AtomSort::Measure && atom.spelled.guard == Guard::Loose
         };
         let get = if self.grammar.atoms.iter().any(is_measure) { Guard::Loose } else { Guard::OfList };
+        let is_field = |atom: &Atom| {
+            atom.is_decoded && atom.sort == AtomSort::Field && atom.spelled.guard == Guard::Loose
+        };
+        let field = if self.grammar.atoms.iter().any(is_field) { Guard::Loose } else { Guard::OfCaught };
         for (word, sort, role, guard) in [
             ("is\":\"", AtomSort::Fluent, WordRole::Fluent, Guard::Is),
             ("get\":\"", AtomSort::Measure, WordRole::Head, get),
-            ("field\":\"", AtomSort::Field, WordRole::Head, Guard::Loose),
+            ("field\":\"", AtomSort::Field, WordRole::Head, field),
         ] {
             let atoms = self.atoms(sort);
             if !atoms.is_empty() || sort == AtomSort::Fluent {
@@ -98,7 +112,9 @@ impl Lowering<'_> {
         let atoms = [fluents.clone(), comparisons].concat();
         // Rules that call each other: their places come first.
         let (negated, group) = (self.later(), self.later());
-        let member = self.primary(&atoms, [(not, negated, Guard::Not), ("(", group, Guard::Paren(1))]);
+        let caught = self.caught();
+        let member =
+            self.primary((&atoms, caught), [(not, negated, Guard::Not), ("(", group, Guard::Paren(1))]);
 
         let parts = self.act(Action::Deeper);
         self.act(Action::Loosen);
@@ -110,7 +126,8 @@ impl Lowering<'_> {
         let group_at = self.rule(&[Action::Open(NodeKind::Group)], parts, ")");
         self.land(group, group_at);
 
-        let inner = self.primary(&atoms, [(not, negated, Guard::Not), ("(", group, Guard::Paren(1))]);
+        let inner =
+            self.primary((&atoms, caught), [(not, negated, Guard::Not), ("(", group, Guard::Paren(1))]);
         let parts = self.act(Action::Deeper);
         self.act(Action::Loosen);
         self.asm.put(Op::Call(inner));
@@ -126,7 +143,8 @@ impl Lowering<'_> {
             ],
         );
         let enclosed = self.rule(&[Action::Open(NodeKind::Group)], parts, "");
-        let operand = self.primary(&fluents, [(not, negated, Guard::Not), ("(", enclosed, Guard::NotParen)]);
+        let operand =
+            self.primary((&fluents, None), [(not, negated, Guard::Not), ("(", enclosed, Guard::NotParen)]);
         let negated_at =
             self.rule(&[Action::Open(NodeKind::Not), Action::Negate, Action::Deeper], operand, "");
         self.land(negated, negated_at);
@@ -140,7 +158,8 @@ impl Lowering<'_> {
         // Behind `Action::Deeper`, which is done.
         self.asm
             .choose(choice, &[(and_word.into(), and + 1, Guard::All), (or_word.into(), or + 1, Guard::Any)]);
-        let whole = self.primary(&atoms, [(not, negated, Guard::Not), ("(", first, Guard::Paren(2))]);
+        let whole =
+            self.primary((&atoms, caught), [(not, negated, Guard::Not), ("(", first, Guard::Paren(2))]);
         let start = self.asm.put(Op::Call(whole));
         let (join, other) = (self.later(), self.later());
         let done = self.asm.put(Op::Return);
@@ -165,10 +184,15 @@ impl Lowering<'_> {
     }
 
     /// A condition without `and` or `or` around it: one of some words, each with a rule behind it.
-    fn primary(&mut self, atoms: &[Way], more: [(&'static str, OpId, Guard); 2]) -> OpId {
+    fn primary(
+        &mut self,
+        (atoms, caught): (&[Way], Option<OpId>),
+        more: [(&'static str, OpId, Guard); 2],
+    ) -> OpId {
         let more = more.map(|(word, rule, guard)| (SmolStr::new_static(word), rule, guard));
         let start = self.later();
-        self.keywords(start, atoms.iter().cloned().chain(more).collect());
+        let caught = caught.map(|rule| (CaughtField::Kind, rule));
+        self.keywords_or_caught(start, atoms.iter().cloned().chain(more).collect(), caught);
         start
     }
 

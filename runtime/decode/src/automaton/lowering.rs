@@ -16,7 +16,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::{
-    Assembler, Automaton, BoundNames, Callable, Meaning, Op, OpId, Word, WordEnd, WordList, WordTable,
+    Assembler, Automaton, BoundNames, Callable, CaughtField, Meaning, Op, OpId, Word, WordEnd, WordList,
+    WordTable,
 };
 use crate::grammar::{
     Action, Alternative, AtomSort, BlockRole, ChoiceStyle, CleanupOf, ConditionUse, Constant, Grammar, Guard,
@@ -103,6 +104,7 @@ impl Automaton {
             names_values: grammar.names_values(),
             counts: grammar.has_term("count"),
             firsts: grammar.has_term("first"),
+            catches: grammar.has_caught(),
             subset: grammar.subset,
             taken: taken(signatures, grammar.subset),
             signatures: Arc::clone(signatures),
@@ -120,6 +122,18 @@ fn taken(signatures: &Signatures, subset: Subset) -> FxHashSet<SmolStr> {
     let words = RESERVED.iter().map(|word| SmolStr::new_static(word));
     let cases = signatures.enums.iter().flat_map(|def| def.cases.iter().cloned());
     words.chain(entities).chain(cases).collect()
+}
+
+/// The parts of an alternative behind the field of a caught failure with which it begins in text.
+pub(super) fn behind_caught(alternative: &Alternative) -> Option<&[Part]> {
+    match alternative.parts.as_slice() {
+        [Part::Action(Action::Open(_)), Part::Caught, Part::Literal(field), behind @ ..]
+            if field.starts_with('.') =>
+        {
+            Some(behind)
+        }
+        _ => None,
+    }
 }
 
 impl Lowering<'_> {
@@ -179,7 +193,12 @@ impl Lowering<'_> {
             Part::Relation(ty) => self.relation(ty),
             Part::Failures => self.failures(),
             Part::EntityList => self.entity_list(),
-            Part::ListName => self.list_name(),
+            Part::ListName => self.bound_name(BoundNames::List),
+            Part::Caught => self.bound_name(BoundNames::Caught),
+            Part::FailureKind => self.failure_kind(),
+            Part::CaughtName => self.caught_name(),
+            Part::ResultType => self.result_type(),
+            Part::Given { lead, end } => self.given([lead, end]),
             Part::Cleanup(of) => self.optional_cleanup(*of),
             Part::Condition(asked) => {
                 if self.is_json() {
@@ -211,9 +230,17 @@ impl Lowering<'_> {
 
     fn choice(&mut self, style: ChoiceStyle, alternatives: &[Alternative]) {
         let at = self.later();
-        let (mut ways, mut jumps) = (Vec::new(), Vec::new());
+        let (mut ways, mut jumps, mut caught) = (Vec::new(), Vec::new(), None);
         for alternative in alternatives {
             let to = self.asm.here();
+            if style == ChoiceStyle::Keywords
+                && let Some(behind) = behind_caught(alternative)
+            {
+                self.parts(behind);
+                jumps.push(self.later());
+                caught = Some((CaughtField::Text, to));
+                continue;
+            }
             let literal = match alternative.parts.as_slice() {
                 // The brace of a condition is what tells it from `null`.
                 [Part::Condition(asked)] if alternative.literal.is_empty() => {
@@ -231,7 +258,7 @@ impl Lowering<'_> {
         jumps.into_iter().for_each(|jump| self.land_here(jump));
         match style {
             ChoiceStyle::Literals => self.asm.choose(at, &ways),
-            ChoiceStyle::Keywords => self.keywords(at, ways),
+            ChoiceStyle::Keywords => self.keywords_or_caught(at, ways, caught),
             ChoiceStyle::Names(role) => {
                 let numbers = alternatives.iter().map(|alternative| alternative.number);
                 self.names(at, role, ways.into_iter().zip(numbers));
@@ -256,6 +283,16 @@ impl Lowering<'_> {
 
     /// One of several words, each with a guard of its own.
     pub(super) fn keywords(&mut self, at: OpId, ways: Vec<Way>) {
+        self.keywords_or_caught(at, ways, None);
+    }
+
+    /// The same, or a field of a caught failure, behind which another operation follows.
+    pub(super) fn keywords_or_caught(
+        &mut self,
+        at: OpId,
+        ways: Vec<Way>,
+        caught: Option<(CaughtField, OpId)>,
+    ) {
         let words = ways.into_iter().map(|(name, to, guard)| Word {
             name,
             meaning: Meaning::Any,
@@ -263,8 +300,10 @@ impl Lowering<'_> {
             guard,
         });
         let table = Arc::new(WordTable::new(words));
-        let (bound, role, ends) = (BoundNames::None, WordRole::Keyword, WordEnd::Whole);
-        self.asm.set(at, Op::Word(WordList { table, bound, role, ends, next: at }));
+        let (bound, next) =
+            caught.map_or((BoundNames::None, at), |(field, next)| (BoundNames::CaughtField(field), next));
+        let (role, ends) = (WordRole::Keyword, WordEnd::Whole);
+        self.asm.set(at, Op::Word(WordList { table, bound, role, ends, next }));
     }
 
     fn repeat(&mut self, repeat: &Repeat) {
@@ -417,7 +456,8 @@ impl Lowering<'_> {
             let at = self.asm.here();
             self.parts(&step.parts);
             self.act(Action::StepDone);
-            let is_bare = step.parts.iter().all(|part| matches!(part, Part::Action(_)));
+            let is_bare = !is_json
+                && step.parts.iter().all(|part| matches!(part, Part::Action(_) | Part::Given { .. }));
             if is_bare {
                 // A keyword may not begin another one: the space behind it belongs to it.
                 ways.push((format_smolstr!("{} ", step.literal), at, step.guard));

@@ -23,7 +23,7 @@ use smol_str::SmolStr;
 
 pub(crate) use self::assembler::Assembler;
 pub(crate) use self::values::{Meaning, Word, WordTable};
-use crate::grammar::{Action, Guard, NameUse, WordRole};
+use crate::grammar::{Action, Guard, LetValue, NameUse, NodeKind, WordRole};
 use crate::subset::{NumberRange, Subset};
 
 /// The index of an operation.
@@ -54,6 +54,8 @@ pub(crate) enum Op {
     Action(Action),
     /// Calls a rule, then goes to the next operation.
     Call(OpId),
+    /// Goes to `then` if the policy gives a result, else to `other`.
+    Gives { then: OpId, other: OpId },
     /// Goes to another operation.
     Jump(OpId),
     /// Returns to behind the call.
@@ -118,6 +120,39 @@ pub(crate) enum BoundNames {
     List,
     /// Names of lists of which the first element has the type with this number.
     First(u16),
+    /// Names of the type of the policy's result.
+    Given,
+    /// Names of failures.
+    Caught,
+    /// Names of failures, with what is told of them behind: the name of their field.
+    CaughtField(CaughtField),
+}
+
+/// A field of a caught failure with which a word of the text syntax begins.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum CaughtField {
+    /// In a condition.
+    Kind,
+    /// In a `let`.
+    Text,
+}
+
+impl CaughtField {
+    /// The bytes behind the name of the failure.
+    pub(crate) fn spelled(self) -> &'static str {
+        match self {
+            Self::Kind => ".kind ",
+            Self::Text => ".text",
+        }
+    }
+
+    /// The node that the word begins.
+    pub(crate) fn node(self) -> NodeKind {
+        match self {
+            Self::Kind => NodeKind::Caught,
+            Self::Text => NodeKind::Let(LetValue::CaughtText),
+        }
+    }
 }
 
 /// The automaton of one grammar.
@@ -141,6 +176,8 @@ pub(crate) struct Automaton {
     /// `count` and `first` are terms on lists.
     pub(crate) counts: bool,
     pub(crate) firsts: bool,
+    /// The kind and the text of a failure can be written.
+    pub(crate) catches: bool,
     pub(crate) subset: Subset,
     /// Names that a policy may not give.
     pub(crate) taken: FxHashSet<SmolStr>,

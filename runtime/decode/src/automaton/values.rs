@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use motet_compiler::incremental::ArgumentValue;
 use motet_compiler::signature::{Signatures, Type};
+use motet_syntax::print::identifier;
 use motet_syntax::unit::Unit;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::lowering::Lowering;
 use super::{BoundNames, Op, OpId, WordEnd, WordList};
-use crate::grammar::{Action, Constant, Guard, NodeKind, Relation, ValuePlace, ValueSet, WordRole};
+use crate::grammar::{Action, Constant, Guard, NameUse, NodeKind, Relation, ValuePlace, ValueSet, WordRole};
 use crate::subset::{MAX_ITEMS, NumberRange, is_text_char};
 
 impl Lowering<'_> {
@@ -23,6 +24,7 @@ impl Lowering<'_> {
         };
         let (word, element) = match (role, ty) {
             (WordRole::Argument(place), Type::Entity(_)) => (Some(self.entity_or_first(ty, place)), None),
+            (WordRole::Argument(place), Type::Pose) => (Some(self.pose(place)), None),
             _ => self.value(ty, range, role),
         };
         match self.owner {
@@ -49,7 +51,7 @@ impl Lowering<'_> {
         role: WordRole,
     ) -> (Option<OpId>, Option<OpId>) {
         match ty {
-            Type::Entity(_) | Type::Enum(_) | Type::Pose => {
+            Type::Entity(_) | Type::Enum(_) | Type::Pose | Type::Failure => {
                 let (table, with_any) = self.table(ty);
                 (Some(self.word(if role == WordRole::Of { with_any } else { table }, ty, role)), None)
             }
@@ -136,9 +138,117 @@ impl Lowering<'_> {
         self.list_or_word(choice, open, word);
     }
 
-    /// The name of a list in a term on it.
-    pub(super) fn list_name(&mut self) {
-        self.bound_word(BoundNames::List, WordRole::Free);
+    /// The name of a list in a term on it, or of a failure before its field.
+    pub(super) fn bound_name(&mut self, bound: BoundNames) {
+        self.bound_word(bound, WordRole::Free);
+    }
+
+    /// The name that a handler gives its failure, or nothing.
+    pub(super) fn caught_name(&mut self) {
+        let is_json = self.is_json();
+        if is_json {
+            self.asm.literal(",\"as\":");
+        }
+        let choice = self.later();
+        let ty = self.type_number(&Type::Failure);
+        let name = self.asm.put(Op::Name(NameUse::Result(ty)));
+        let none = self.asm.here();
+        if is_json {
+            let ways = [("null".into(), none, Guard::Open), ("\"".into(), name, Guard::Open)];
+            self.asm.choose(choice, &ways);
+        } else {
+            self.asm.optional(choice, ("as ", name, Guard::Open), (none, Guard::Open));
+        }
+    }
+
+    /// A kind of failure.
+    pub(super) fn failure_kind(&mut self) {
+        let is_json = self.is_json();
+        let failures = self.signatures.failures.iter().zip(0u16..).filter(|(name, _)| *name != "any");
+        let words = failures.map(|(name, number)| Word {
+            name: if is_json { name.clone() } else { identifier(name).into() },
+            meaning: Meaning::Named(number),
+            to: None,
+            guard: Guard::Open,
+        });
+        let (table, ends) = (Arc::new(WordTable::new(words)), self.word_end());
+        self.plain_word(table, ends);
+    }
+
+    /// The type of the policy's result, or nothing.
+    pub(super) fn result_type(&mut self) {
+        let is_json = self.is_json();
+        if is_json {
+            self.asm.literal(",\"result\":");
+        }
+        let types = self.grammar.result_types().into_iter();
+        let words = types.map(|(number, name)| Word {
+            name: if is_json { name } else { format_smolstr!("{name} ") },
+            meaning: Meaning::Named(number),
+            to: None,
+            guard: Guard::Open,
+        });
+        let table = Arc::new(WordTable::new(words));
+        let choice = self.later();
+        let some = self.asm.here();
+        self.plain_word(table, if is_json { WordEnd::Tail } else { WordEnd::Whole });
+        self.act(Action::Gives);
+        let none = self.asm.here();
+        if is_json {
+            let ways = [("null".into(), none, Guard::Open), ("\"".into(), some, Guard::Open)];
+            self.asm.choose(choice, &ways);
+        } else {
+            self.asm.optional(choice, ("-> ", some, Guard::Open), (none, Guard::Open));
+        }
+    }
+
+    /// The result of a `done`, if the policy gives one.
+    pub(super) fn given(&mut self, [lead, end]: [&str; 2]) {
+        let choice = self.later();
+        let then = self.asm.here();
+        if !lead.is_empty() {
+            self.asm.literal(lead);
+        }
+        self.bound_word(BoundNames::Given, WordRole::Free);
+        if !end.is_empty() {
+            self.asm.literal(end);
+        }
+        let other = self.asm.here();
+        self.asm.set(choice, Op::Gives { then, other });
+    }
+
+    /// A pose that is an argument of a call: the name of one, or one that is written out. The operation of
+    /// its word.
+    fn pose(&mut self, place: u8) -> OpId {
+        let ty = Type::Pose;
+        let [open, separator, end] =
+            if self.is_json() { ["{\"pose\":[", ",", "]}"] } else { ["pose(", ", ", ")"] };
+        let choice = self.grammar.has_poses().then(|| self.later());
+        let table = self.table(&ty).0;
+        let role = WordRole::Argument(place);
+        let word = self.word(table, &ty, role);
+        let Some(choice) = choice else { return word };
+        let over = self.later();
+        let pose = self.asm.here();
+        if self.is_json() {
+            self.asm.literal(open);
+        }
+        self.act(Action::Open(NodeKind::Pose));
+        for (index, range) in NumberRange::of_pose().into_iter().enumerate() {
+            if index > 0 {
+                self.asm.literal(separator);
+            }
+            self.number(range);
+        }
+        self.asm.literal(end);
+        self.act(Action::Close);
+        self.land_here(over);
+        if self.is_json() {
+            self.asm.set(choice, Op::Fork { byte: b'{', then: pose, guard: Guard::Pose, other: word });
+        } else {
+            self.asm.optional(choice, (open, pose, Guard::Pose), (word, Guard::Rare));
+        }
+        word
     }
 
     fn bound_word(&mut self, bound: BoundNames, role: WordRole) -> OpId {
@@ -221,7 +331,7 @@ impl Lowering<'_> {
                 self.plain_word(table, ends);
             }
             // The grammar compares nothing with these.
-            Type::Pose | Type::List(_) => {}
+            Type::Pose | Type::Failure | Type::List(_) => {}
         }
     }
 

@@ -40,6 +40,7 @@ pub(super) fn complete(policy: &Policy, grammar: &Grammar) -> Result<Node, Outsi
         return Err(outside(written.span, format!("the policy is for `{}`", written.text)));
     }
     let name = completer.new_name(&policy.name.text, policy.name.span)?;
+    let result = policy.result.as_ref().map(|ty| completer.result_type(ty)).transpose()?;
     let goal = policy.achieves.as_ref().map(|goal| completer.asked(goal)).transpose()?;
     let keeps = match policy.keeps.as_slice() {
         [] => Item::Nothing,
@@ -47,7 +48,7 @@ pub(super) fn complete(policy: &Policy, grammar: &Grammar) -> Result<Node, Outsi
     };
     let steps = completer.block(&policy.body, grammar.subset.depth, 1)?;
     let cleanup = completer.cleanup(policy.cleanup.as_ref(), grammar.subset.depth)?;
-    let mut items = vec![goal.unwrap_or(Item::Nothing)];
+    let mut items = vec![result.unwrap_or(Item::Nothing), goal.unwrap_or(Item::Nothing)];
     // Without observed distances there is no place for a rule.
     let has_keeps = grammar.keep_rule(ValuePlace::Operand).is_some();
     items.extend((has_keeps || is_json || keeps != Item::Nothing).then_some(keeps));
@@ -226,6 +227,11 @@ impl Completer<'_> {
                     })?;
                 (NodeKind::Let(LetValue::Get(number)), self.observed(call, &measure.params, false)?)
             }
+            ExprKind::Field(of, name)
+                if let (Some(caught), "text") = (self.caught_name(of), name.text.as_str()) =>
+            {
+                (NodeKind::Let(LetValue::CaughtText), vec![Item::Value(Value::Binding(caught))])
+            }
             ExprKind::Field(of, name) => {
                 let (number, field) = numbered(&signatures.fields, |row| row.name == name.text)
                     .ok_or_else(|| outside(value.span, format!("there is no field `{}`", name.text)))?;
@@ -348,10 +354,10 @@ impl Completer<'_> {
                 kinds.iter().map(|kind| kind.text.clone()).collect()
             }
         };
-        if let Some(bind) = &catch.bind {
-            return Err(outside(bind.span, "a handler gives its failure no name in the canonical subset"));
-        }
-        let items = vec![Item::Failures(on), self.inner(&catch.body, depth, 0)?];
+        let caught = catch.bind.as_ref().map(|bind| self.new_name(&bind.text, bind.span)).transpose()?;
+        self.bound.extend(caught.clone());
+        let body = self.inner(&catch.body, depth, 0)?;
+        let items = vec![Item::Failures(on), caught.map_or(Item::Nothing, Item::Name), body];
         Ok(Node { kind: NodeKind::Catch, span: catch.span, name: None, items })
     }
 
@@ -362,11 +368,18 @@ impl Completer<'_> {
             EndKind::Cannot => NodeKind::Cannot,
             EndKind::Replan => NodeKind::Replan,
         };
-        if let Some(result) = &end.result {
-            return Err(outside(result.span, "`done` gives no result in the canonical subset"));
-        }
+        let result = match &end.result {
+            None => Item::Nothing,
+            // An unknown name is the checker's business, and an entity has none of its own.
+            Some(Expr { kind: ExprKind::Name(name) | ExprKind::Binding(name), span }) => {
+                Item::Value(Value::Binding(self.new_name(name, *span)?))
+            }
+            Some(result) => {
+                return Err(outside(result.span, "`done` gives a bound name in the canonical subset"));
+            }
+        };
         let items = match (end.kind, &end.why) {
-            (EndKind::Done, _) => Vec::new(),
+            (EndKind::Done, _) => vec![result],
             (EndKind::Fail | EndKind::Cannot | EndKind::Replan, Some(why)) => {
                 vec![Item::Value(self.value(why, &Type::Text, None)?)]
             }
@@ -377,6 +390,20 @@ impl Completer<'_> {
         let node = Node { kind, span: end.span, name: None, items };
         self.cleans(&node)?;
         Ok(node)
+    }
+
+    /// The type of the policy's result.
+    fn result_type(&self, ty: &ast::TypeExpr) -> Result<Item, OutsideSubset> {
+        fn spelled(ty: &ast::TypeExpr) -> SmolStr {
+            match ty {
+                ast::TypeExpr::Named(name) => name.text.clone(),
+                ast::TypeExpr::List(element, _) => format_smolstr!("List<{}>", spelled(element)),
+            }
+        }
+        let name = spelled(ty);
+        let is_known = self.grammar.result_types().iter().any(|(_, known)| *known == name);
+        let why = format!("nothing in a policy is bound to a `{name}`");
+        is_known.then_some(Item::Name(name)).ok_or_else(|| outside(ty.span(), why))
     }
 
     fn manner(
@@ -458,7 +485,10 @@ fn names(block: &Block, found: &mut FxHashSet<SmolStr>) {
             }
             StepKind::Try { body, catches } => {
                 names(body, found);
-                catches.iter().for_each(|catch| names(&catch.body, found));
+                for catch in catches {
+                    found.extend(catch.bind.as_ref().map(|name| name.text.clone()));
+                    names(&catch.body, found);
+                }
             }
             StepKind::Parallel { branches } => branches.iter().for_each(|block| names(block, found)),
             StepKind::Finally { step, cleanup } => {

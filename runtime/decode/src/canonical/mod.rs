@@ -46,7 +46,7 @@ impl std::error::Error for OutsideSubset {}
 /// assert_eq!(
 ///     canonical(policy, &grammar).as_deref(),
 ///     Ok(concat!(
-///         r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
+///         r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"#,
 ///         r#""steps":[{"do":"go","to":"sink"}],"finally":null}"#,
 ///     )),
 /// );

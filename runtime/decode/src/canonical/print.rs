@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 
 use super::OutsideSubset;
 use crate::grammar::{Alternative, CleanupOf, Grammar, NodeKind, Part, Relation};
-use crate::subset::Decimal;
+use crate::subset::{Decimal, NumberRange};
 
 /// A step, a condition or another node of a policy; the policy itself is a block with a name.
 #[derive(Clone, PartialEq, Debug)]
@@ -35,6 +35,8 @@ pub(super) enum Item {
     /// A part of the robot's speed as its manner.
     Part(Decimal),
     Relation(Relation),
+    /// The name of a failure, or of the type of the policy's result.
+    Name(SmolStr),
     /// The kinds of failure of a handler; empty for `any`.
     Failures(Vec<SmolStr>),
     /// A condition or a reaction.
@@ -59,6 +61,8 @@ pub(super) enum Value {
     List(Vec<Value>),
     /// The first element of the list with this name.
     First(SmolStr),
+    /// A pose by its coordinates and its turn.
+    Pose([Decimal; 4]),
 }
 
 /// Prints a policy.
@@ -135,7 +139,25 @@ impl Printer<'_> {
     /// A part that is one item.
     fn item(&mut self, part: &Part, item: &Item, node: &Node) -> Result<(), OutsideSubset> {
         match (part, item) {
-            (Part::Value { .. } | Part::EntityList | Part::ListName, Item::Value(value)) => self.value(value),
+            (
+                Part::Value { .. } | Part::EntityList | Part::ListName | Part::Caught | Part::FailureKind,
+                Item::Value(value),
+            ) => self.value(value),
+            (Part::CaughtName, Item::Name(name)) => {
+                self.put(if self.is_json { ",\"as\":" } else { "as " });
+                self.spaced(&if self.is_json { quoted(name) } else { name.to_string() });
+            }
+            (Part::ResultType, Item::Name(name)) => {
+                self.put(if self.is_json { ",\"result\":" } else { "-> " });
+                self.spaced(&if self.is_json { quoted(name) } else { name.to_string() });
+            }
+            (Part::CaughtName, Item::Nothing) if self.is_json => self.put(",\"as\":null"),
+            (Part::ResultType, Item::Nothing) if self.is_json => self.put(",\"result\":null"),
+            (Part::Given { .. }, Item::Value(value)) => {
+                self.put(if self.is_json { ",\"result\":" } else { " " });
+                self.value(value);
+            }
+            (Part::CaughtName | Part::ResultType | Part::Given { .. }, Item::Nothing) => {}
             (Part::Number(range), Item::Number(number)) => self.number(*number, range.unit),
             (Part::OptionalNumber { lead, range }, Item::Number(number)) => {
                 self.put(lead);
@@ -273,6 +295,14 @@ impl Printer<'_> {
                 self.put(&format!("{{\"get\":\"first\",\"of\":\"${list}\"}}"));
             }
             Value::First(list) => self.put(&format!("first({list})")),
+            Value::Pose(numbers) => {
+                self.put(if self.is_json { "{\"pose\":[" } else { "pose(" });
+                for (index, (number, range)) in numbers.iter().zip(NumberRange::of_pose()).enumerate() {
+                    self.put(if index > 0 { self.separator() } else { "" });
+                    self.number(*number, range.unit);
+                }
+                self.put(if self.is_json { "]}" } else { ")" });
+            }
             Value::Any => self.put(self.any()),
             Value::List(items) => {
                 self.put("[");

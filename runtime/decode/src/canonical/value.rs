@@ -2,15 +2,17 @@
 
 use motet_compiler::signature::{Signatures, Type};
 use motet_syntax::ast::{Call, Expr, ExprKind, TextPart};
+use motet_syntax::print::identifier;
+use motet_syntax::text::MAX_TEXT_VALUES;
 use motet_syntax::unit::Dimension;
 use motet_syntax::{Span, Syntax};
 use rustc_hash::FxHashSet;
-use smol_str::SmolStr;
+use smol_str::{SmolStr, format_smolstr};
 
 use super::OutsideSubset;
 use super::print::{Item, Node, Value};
 use crate::grammar::{Grammar, NodeKind, Relation};
-use crate::subset::{self, NumberRange, Subset};
+use crate::subset::{self, Decimal, NumberRange, Subset};
 
 /// The state of completing one policy.
 pub(super) struct Completer<'a> {
@@ -53,6 +55,16 @@ impl Completer<'_> {
             }
             (ExprKind::Call(call), Type::Entity(_)) if self.is_term(call, "first") => {
                 self.list_name(call).map(Value::First)
+            }
+            (ExprKind::Call(call), Type::Pose) if call.is_pose() && self.grammar.has_poses() => {
+                self.pose(call.args.iter().map(|arg| &arg.value), expr)
+            }
+            (ExprKind::List(numbers), Type::Pose) => self.pose(numbers.iter(), expr),
+            (ExprKind::Field(of, name), Type::Text) if name.text == "text" => {
+                let of = self.caught_name(of).ok_or_else(|| {
+                    outside(expr.span, "a value that is calculated has no place in the canonical subset")
+                })?;
+                self.written(format_smolstr!("{{{of}.text}}"), expr)
             }
             (ExprKind::Binding(name), _) => self.binding(name, expr),
             (ExprKind::Name(name), _) => self.named(name, expr, ty),
@@ -103,6 +115,41 @@ impl Completer<'_> {
         }
     }
 
+    /// A pose by its numbers, of which the height may be left out.
+    fn pose<'e>(&self, numbers: impl Iterator<Item = &'e Expr>, expr: &Expr) -> Result<Value, OutsideSubset> {
+        let why = "a pose has three coordinates and an angle, each a number, in the canonical subset";
+        let numbers: Vec<&Expr> = numbers.collect();
+        let [length, angle] = [Dimension::LENGTH, Dimension::ANGLE].map(Type::Quantity);
+        let number = |number: &Expr, ty: &Type| match self.value(number, ty, None)? {
+            Value::Number(number, _) => Ok(number),
+            _ => Err(outside(number.span, why)),
+        };
+        let ([x, y, yaw], z) = match numbers.as_slice() {
+            [x, y, yaw] => ([*x, *y, *yaw], Decimal { units: 0, decimals: 3 }),
+            [x, y, z, yaw] => ([*x, *y, *yaw], number(z, &length)?),
+            _ => return Err(outside(expr.span, why)),
+        };
+        Ok(Value::Pose([number(x, &length)?, number(y, &length)?, z, number(yaw, &angle)?]))
+    }
+
+    /// A name that a text says: in both syntaxes no word of the language.
+    fn said_name(&self, name: &SmolStr, span: Span) -> Result<SmolStr, OutsideSubset> {
+        if identifier(name) != *name {
+            return Err(outside(span, format!("`{name}` is a word of the language, which no text says")));
+        }
+        self.new_name(name, span)
+    }
+
+    /// The name before a field of a failure. Whether it is that of one is the checker's business.
+    pub(super) fn caught_name(&self, expr: &Expr) -> Option<SmolStr> {
+        match &expr.kind {
+            ExprKind::Name(name) | ExprKind::Binding(name) if self.grammar.has_caught() => {
+                self.new_name(name, expr.span).ok()
+            }
+            _ => None,
+        }
+    }
+
     fn number(
         &self,
         value: f64,
@@ -137,6 +184,10 @@ impl Completer<'_> {
 
     /// A text with values, each of them a bound name, or the length or the first element of a list.
     fn template(&self, parts: &[TextPart], expr: &Expr) -> Result<Value, OutsideSubset> {
+        let values = parts.iter().filter(|part| matches!(part, TextPart::Value(_))).count();
+        if values > MAX_TEXT_VALUES {
+            return Err(outside(expr.span, format!("a text has at most {MAX_TEXT_VALUES} values")));
+        }
         let mut written = String::new();
         for part in parts {
             match part {
@@ -144,7 +195,7 @@ impl Completer<'_> {
                 TextPart::Value(value) => match &value.kind {
                     // An unknown name is the checker's business.
                     ExprKind::Name(name) | ExprKind::Binding(name) => {
-                        let name = self.new_name(name, value.span)?;
+                        let name = self.said_name(name, value.span)?;
                         written.push_str(&format!("{{{name}}}"));
                     }
                     ExprKind::Call(call) if self.is_term(call, "count") || self.is_term(call, "first") => {
@@ -152,9 +203,15 @@ impl Completer<'_> {
                         let mark = if self.subset.syntax == Syntax::Json { "$" } else { "" };
                         written.push_str(&format!("{{{}({mark}{list})}}", call.name.text));
                     }
+                    ExprKind::Field(of, field)
+                        if let (Some(of), "kind" | "text") = (self.caught_name(of), field.text.as_str()) =>
+                    {
+                        let of = self.said_name(&of, value.span)?;
+                        written.push_str(&format!("{{{of}.{}}}", field.text));
+                    }
                     _ => {
-                        let why = "a value in a text is a bound name, or `count` or `first` of one, in the \
-                                   canonical subset";
+                        let why = "a value in a text is a bound name, `count` or `first` of one, or `kind` or \
+                                   `text` of a failure, in the canonical subset";
                         return Err(outside(value.span, why));
                     }
                 },
@@ -231,7 +288,7 @@ impl Completer<'_> {
             }
             Value::Binding(_) => true,
             Value::Name(_) | Value::Number(..) | Value::Text(_) | Value::Bool(_) => false,
-            Value::Any | Value::First(_) => false,
+            Value::Any | Value::First(_) | Value::Pose(_) => false,
         };
         let why = "the list of an `each` is a name, or entities of one kind, in the canonical subset";
         if is_alike { Ok(list) } else { Err(outside(expr.span, why)) }
@@ -313,7 +370,34 @@ impl Completer<'_> {
         }
     }
 
+    /// A comparison of the kind of a failure.
+    fn failure_kind(
+        &self,
+        of: (SmolStr, Span),
+        relation: Relation,
+        with: &Expr,
+    ) -> Result<Node, OutsideSubset> {
+        let kind = match &with.kind {
+            ExprKind::Name(name) | ExprKind::Plain(name) if self.signatures.failures.contains(name) => name,
+            _ => return Err(outside(with.span, "a kind is compared with the name of a failure")),
+        };
+        if !Relation::EQUALITY.contains(&relation) {
+            return Err(outside(of.1, "only numbers can be more or less"));
+        }
+        let items = vec![
+            Item::Value(Value::Binding(of.0)),
+            Item::Relation(relation),
+            Item::Value(Value::Name(kind.clone())),
+        ];
+        Ok(Node { kind: NodeKind::Caught, span: of.1, name: None, items })
+    }
+
     fn comparison(&self, of: &Expr, relation: Relation, with: &Expr) -> Result<Node, OutsideSubset> {
+        if let ExprKind::Field(caught, field) = &of.kind
+            && let Some(name) = self.caught_name(caught).filter(|_| field.text == "kind")
+        {
+            return self.failure_kind((name, of.span), relation, with);
+        }
         let (kind, mut items, ty) = match &of.kind {
             ExprKind::Call(call) if self.is_term(call, "count") => {
                 (NodeKind::Count, vec![Item::Value(Value::Binding(self.list_name(call)?))], &Type::Int)
@@ -389,7 +473,7 @@ impl Completer<'_> {
 
     /// The name is a word of the language or a case.
     fn is_taken(&self, name: &str) -> bool {
-        motet_syntax::print::identifier(name) != name
+        identifier(name) != name
             || self.signatures.enums.iter().any(|def| def.cases.iter().any(|case| case == name))
     }
 }

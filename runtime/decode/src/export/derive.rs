@@ -34,7 +34,8 @@ pub(super) fn ebnf(grammar: &Grammar) -> EbnfGrammar {
         [out.add("name", terminal::name_but(words.iter().map(SmolStr::as_str)), true); 2]
     };
     let terms: Vec<&str> = terminal::TEXT_TERMS.into_iter().filter(|term| grammar.has_term(term)).collect();
-    let text = out.add("text", quoted("\"", terminal::text(&terms, grammar.subset.syntax)), true);
+    let fields: &[&str] = if grammar.has_caught() { &terminal::TEXT_FIELDS } else { &[] };
+    let text = out.add("text", quoted("\"", terminal::text(&terms, fields, grammar.subset.syntax)), true);
     let mut deriver = Deriver {
         grammar,
         is_json,
@@ -192,7 +193,22 @@ impl Deriver<'_> {
                 found.extend((!self.is_json).then(|| Expr::literal(" ")));
             }
             Part::EntityList => found.push(self.entity_list()),
-            Part::ListName => found.push(self.binding.clone()),
+            Part::ListName | Part::Caught => found.push(self.binding.clone()),
+            Part::FailureKind => found.push(self.failure()),
+            Part::CaughtName => self.optional([",\"as\":", "as "], self.name.clone(), found),
+            Part::ResultType => {
+                let types = self.grammar.result_types();
+                let spelled = |name: &SmolStr| match self.is_json {
+                    true => Expr::literal(format!("\"{name}\"")),
+                    false => self.literals(name),
+                };
+                let types = Expr::choice(types.iter().map(|(_, name)| spelled(name)).collect());
+                self.optional([",\"result\":", "-> "], types, found);
+            }
+            Part::Given { .. } => {
+                let lead = if self.is_json { ",\"result\":" } else { " " };
+                found.push(Expr::Seq(vec![Expr::literal(lead), self.binding.clone()]).optional());
+            }
             Part::Cleanup(of) => self.cleanup(*of, level, found),
             Part::Condition(asked) => found.push(self.condition(*asked == ConditionUse::Goal)),
             Part::Block(role, least) => {
@@ -217,6 +233,28 @@ impl Deriver<'_> {
                 found.push(self.bracketed([open, end], Expr::seq(vec![first, more])));
             }
         }
+    }
+
+    /// A word, or in JSON `null` and in text nothing, behind what leads to it.
+    fn optional(&self, [json, text]: [&str; 2], word: Expr, found: &mut Vec<Expr>) {
+        if self.is_json {
+            self.literal(json, found);
+            found.push(Expr::choice(vec![word, Expr::literal("null")]));
+        } else {
+            let mut some = Vec::new();
+            self.literal(text, &mut some);
+            some.extend([word, Expr::literal(" ")]);
+            found.push(Expr::Seq(some).optional());
+        }
+    }
+
+    /// A kind of failure.
+    fn failure(&mut self) -> Expr {
+        if let Some(known) = self.rules.get("failure") {
+            return known.clone();
+        }
+        let failures = self.grammar.signatures.failures.iter().map(|name| self.word(name)).collect();
+        self.rule("failure".into(), Expr::choice(failures))
     }
 
     /// The cleanup of a step or of the policy, or none.
@@ -299,6 +337,18 @@ impl Deriver<'_> {
                 if self.is_json { ["{\"get\":\"first\",\"of\":", "}"] } else { ["first(", ")"] };
             values.push(self.bracketed([open, end], self.binding.clone()));
         }
+        if set.pose {
+            let [open, end] = if self.is_json { ["{\"pose\":[", "]}"] } else { ["pose(", ")"] };
+            let mut numbers = Vec::new();
+            for (index, range) in NumberRange::of_pose().into_iter().enumerate() {
+                if index > 0 {
+                    self.literal(if self.is_json { "," } else { ", " }, &mut numbers);
+                }
+                numbers.push(self.number(range));
+            }
+            let numbers = self.seq(numbers);
+            values.push(self.bracketed([open, end], numbers));
+        }
         if let Some(items) = &set.items {
             let item = self.value((**items).clone());
             values.push(self.bracketed(["[", "]"], self.list(item, [1, MAX_ITEMS])));
@@ -316,8 +366,7 @@ impl Deriver<'_> {
         if let Some(known) = self.rules.get("failures") {
             return known.clone();
         }
-        let failures = self.grammar.signatures.failures.iter().map(|name| self.word(name)).collect();
-        let failure = self.rule("failure".into(), Expr::choice(failures));
+        let failure = self.failure();
         let several = self.list(failure, [1, MAX_MEMBERS]);
         let brackets = if self.is_json { ["[", "]"] } else { ["", ""] };
         // As a keyword, which is no name.

@@ -7,8 +7,9 @@
 
 use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
+use smol_str::SmolStr;
 
-use super::terminal::TEXT_TERMS;
+use super::terminal::{TEXT_FIELDS, TEXT_TERMS};
 use crate::grammar::{
     Alternative, BlockRole, CleanupOf, ConditionUse, Grammar, NodeKind, Part, Relation, ValueSet,
 };
@@ -24,7 +25,9 @@ pub(super) fn schema(grammar: &Grammar) -> Value {
     let name = "[a-zA-Z_][a-zA-Z0-9_]*";
     let terms = TEXT_TERMS.iter().filter(|term| grammar.has_term(term));
     let terms: String = terms.map(|term| format!(r"|{term}\(\${name}\)")).collect();
-    let braces = format!(r"\{{\{{|\}}\}}|\{{({name}{terms})\}}");
+    let fields =
+        if grammar.has_caught() { format!(r"|{name}\.({})", TEXT_FIELDS.join("|")) } else { String::new() };
+    let braces = format!(r"\{{\{{|\}}\}}|\{{({name}{terms}{fields})\}}");
     let (first, rest) = (r"[ !#%-\[\]-z|~]", r"[ !#-\[\]-z|~]");
     let pattern = format!("^({first}|{braces})({rest}|{braces})*$");
     deriver.define("text", json!({"type": "string", "pattern": pattern}));
@@ -201,6 +204,18 @@ impl Deriver<'_> {
                     let part = number(&NumberRange::PART);
                     self.once("manner".to_owned(), |_| json!({"anyOf": [words, part, {"type": "null"}]}))
                 }
+                Part::CaughtName => {
+                    keys.text.push_str(",\"as\":");
+                    let name = json!({"anyOf": [reference("name"), {"type": "null"}]});
+                    self.once("optional_name".to_owned(), |_| name)
+                }
+                Part::ResultType => {
+                    keys.text.push_str(",\"result\":");
+                    let types = self.grammar.result_types();
+                    let types: Vec<&SmolStr> = types.iter().map(|(_, name)| name).collect();
+                    json!({"anyOf": [words(&types), {"type": "null"}]})
+                }
+                Part::Given { .. } => continue,
                 // That of a step makes two objects of one: see `choice`.
                 Part::Cleanup(CleanupOf::Step) => continue,
                 Part::Cleanup(CleanupOf::Policy) => {
@@ -250,6 +265,14 @@ impl Deriver<'_> {
                         });
                         shapes.push(cleaned);
                     }
+                    if parts.iter().any(|part| matches!(part, Part::Given { .. })) {
+                        let giving = self.once(format!("{name}_result"), |deriver| {
+                            let mut object = deriver.object(&way.literal, parts, level);
+                            add_key(&mut object, "result", reference("binding"));
+                            object
+                        });
+                        shapes.push(giving);
+                    }
                     self.once(name, |deriver| deriver.object(&way.literal, parts, level))
                 }
             };
@@ -280,7 +303,10 @@ impl Deriver<'_> {
                 let any = failures.iter().map(|name| name.as_str()).chain(["any"]);
                 array(words(&any.collect::<Vec<_>>()), 1, MAX_MEMBERS)
             }),
-            Part::ListName => reference("binding"),
+            Part::ListName | Part::Caught => reference("binding"),
+            Part::FailureKind => {
+                self.once("failure".to_owned(), |deriver| words(&deriver.grammar.signatures.failures))
+            }
             Part::EntityList => self.once("list".to_owned(), |deriver| {
                 let binds = deriver.grammar.binds_lists();
                 let mut lists: Vec<Value> = binds.then(|| reference("binding")).into_iter().collect();
@@ -303,7 +329,8 @@ impl Deriver<'_> {
                 array(item, usize::from(repeat.least), usize::from(repeat.most))
             }
             Part::Literal(_) | Part::Action(_) | Part::OptionalNumber { .. } => Value::Null,
-            Part::Manner | Part::Cleanup(_) => Value::Null,
+            Part::Manner | Part::Cleanup(_) | Part::CaughtName => Value::Null,
+            Part::ResultType | Part::Given { .. } => Value::Null,
             Part::Choice(_, alternatives) => self.choice("", alternatives, level),
             // Nothing may be left out in JSON.
             Part::Optional { .. } => Value::Null,
@@ -338,6 +365,14 @@ impl Deriver<'_> {
                 let mut keys = Keys::default();
                 keys.properties.insert("get".to_owned(), words(&["first"]));
                 keys.properties.insert("of".to_owned(), reference("binding"));
+                keys.finish()
+            }));
+        }
+        if set.pose {
+            shapes.push(self.once("pose".to_owned(), |_| {
+                let [length, ..] = NumberRange::of_pose();
+                let mut keys = Keys::default();
+                keys.properties.insert("pose".to_owned(), array(number(&length), 4, 4));
                 keys.finish()
             }));
         }

@@ -24,16 +24,24 @@ struct Tree {
 /// The terms on lists that a text may say.
 pub(super) const TEXT_TERMS: [&str; 2] = ["count", "first"];
 
-/// A text, without its quotes, in which some terms on lists may be said. In JSON their names have a `$`.
-pub(super) fn text(terms: &[&str], syntax: Syntax) -> EbnfExpr {
+/// The fields of a failure that a text may say.
+pub(super) const TEXT_FIELDS: [&str; 2] = ["kind", "text"];
+
+/// A text, without its quotes, in which some terms on lists and some fields of failures may be said. In JSON
+/// the names of lists have a `$`.
+pub(super) fn text(terms: &[&str], fields: &[&str], syntax: Syntax) -> EbnfExpr {
+    // A word of the language is no value.
+    let plain = || name_but(RESERVED.into_iter());
     let of = |term: &&str| {
         let (mark, name) = match syntax {
             Syntax::Json => ("$", name()),
-            Syntax::Text => ("", name_but(RESERVED.into_iter())),
+            Syntax::Text => ("", plain()),
         };
         EbnfExpr::seq(vec![EbnfExpr::literal(format!("{term}({mark}")), name, EbnfExpr::literal(")")])
     };
-    let values = EbnfExpr::choice(std::iter::once(name()).chain(terms.iter().map(of)).collect());
+    let field = |field: &&str| EbnfExpr::seq(vec![plain(), EbnfExpr::literal(format!(".{field}"))]);
+    let values = std::iter::once(plain()).chain(terms.iter().map(of)).chain(fields.iter().map(field));
+    let values = EbnfExpr::choice(values.collect());
     let value = EbnfExpr::seq(vec![EbnfExpr::literal("{"), values, EbnfExpr::literal("}")]);
     let braces = || [EbnfExpr::literal("{{"), EbnfExpr::literal("}}"), value.clone()];
     let of = |class: &[(char, char)]| {

@@ -28,6 +28,10 @@ pub(crate) enum Action {
     Negate,
     /// The condition that follows says nothing about the facts by itself.
     Loosen,
+    /// The word before is the type of the policy's result.
+    Gives,
+    /// The name of the failure of the handler is forgotten.
+    Forget,
     /// The item of a loop gets the kind of the list that was written out.
     BindItem,
     /// The ways through the open node meet: what all of them have bound is in scope.
@@ -94,6 +98,12 @@ pub(crate) enum Guard {
     List,
     /// A list is bound, and the condition may be one that says nothing about the facts.
     OfList,
+    /// A failure is bound.
+    Caught,
+    /// A failure is bound, and the condition may be one that says nothing about the facts.
+    OfCaught,
+    /// A pose that is written out may be an argument of the call.
+    Pose,
     /// The first element of a bound list may be the argument with this number, of the type with the other
     /// number.
     First(u8, u16),
@@ -169,6 +179,10 @@ pub(crate) enum NodeKind {
     Any,
     Get(u16),
     Field(u16),
+    /// A comparison of the kind of a failure.
+    Caught,
+    /// A pose that is written out.
+    Pose,
     /// A comparison of the length of a list.
     Count,
     IsEmpty,
@@ -187,7 +201,7 @@ impl NodeKind {
             Self::Pause | Self::Restart | Self::Resume | Self::OutOf | Self::Distance => false,
             Self::Done | Self::Fail | Self::Cannot | Self::Replan | Self::Finally | Self::Block => false,
             Self::Is(_) | Self::Not | Self::All | Self::Any | Self::Get(_) | Self::Field(_) => false,
-            Self::Count | Self::IsEmpty | Self::List | Self::Group => false,
+            Self::Count | Self::IsEmpty | Self::Caught | Self::List | Self::Pose | Self::Group => false,
         }
     }
 }
@@ -199,6 +213,8 @@ pub(crate) enum LetValue {
     First,
     Get(u16),
     Field(u16),
+    /// The text of a failure.
+    CaughtText,
 }
 
 /// The role of a block in its step.

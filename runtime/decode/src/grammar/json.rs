@@ -45,6 +45,7 @@ pub(super) fn document(grammar: &Grammar) -> Vec<Part> {
     vec![
         literal("{\"motet\":1,\"policy\":"),
         Part::Name(NameUse::Policy),
+        Part::ResultType,
         Part::literal(format!("{robot},\"achieves\":")),
         condition_or_null(grammar, ConditionUse::Goal, Guard::Open),
         literal(",\"keep\":"),
@@ -98,8 +99,10 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
         literal("{\"on\":"),
         Part::open(NodeKind::Catch),
         Part::Failures,
+        Part::CaughtName,
         literal(",\"steps\":"),
         Part::Block(Role::Catch, 0),
+        Part::Action(Action::Forget),
         literal("}"),
         close(),
     ];
@@ -174,8 +177,9 @@ fn ending(done: Guard) -> Alternative {
     let reason =
         Part::Value { ty: motet_compiler::signature::Type::Text, range: None, place: ValuePlace::Plain };
     let with_reason = |kind| vec![Part::open(kind), literal(",\"why\":"), reason.clone()];
+    let given = Part::Given { lead: ",\"result\":", end: "" };
     let ways = vec![
-        Alternative::new("done\"", done, vec![Part::open(NodeKind::Done)]),
+        Alternative::new("done\"", done, vec![Part::open(NodeKind::Done), given]),
         Alternative::new("fail\"", Guard::Open, with_reason(NodeKind::Fail)),
         Alternative::new("cannot\"", Guard::Open, with_reason(NodeKind::Cannot)),
         Alternative::new("replan\"", Guard::Open, with_reason(NodeKind::Replan)),

@@ -272,6 +272,7 @@ impl Grammar {
     /// atom with a value that only a binding could fill is left out.
     pub(crate) fn asked_atoms(&self, in_goal: bool) -> impl Iterator<Item = &Atom> {
         let is_unfilled = move |part: &Part| match part {
+            Part::ListName | Part::Caught => in_goal,
             Part::Value { ty, range, place } => ValueSet::of(ty, *range, *place, in_goal, self).is_empty(),
             _ => false,
         };
@@ -355,6 +356,7 @@ impl Grammar {
             atoms.push(Atom { sort: AtomSort::Field, spelled, is_observable: true, is_decoded });
         }
         atoms.extend(self.list_atoms());
+        atoms.extend(self.caught_atom());
         atoms
     }
 

@@ -3,14 +3,16 @@
 
 use motet_compiler::signature::{Signatures, Type};
 use motet_syntax::Syntax;
+use motet_syntax::ast::POSE;
 use motet_syntax::print::identifier;
 use motet_syntax::unit::{Dimension, Unit};
+use smol_str::SmolStr;
 
 use super::{
     Action, Alternative, Atom, AtomSort, ChoiceStyle, Grammar, Guard, LetValue, NodeKind, Part, ValuePlace,
     ValueSet, WordRole,
 };
-use crate::subset::NumberRange;
+use crate::subset::{NumberRange, is_name};
 
 /// The terms on lists that the language itself has.
 const TERMS: [&str; 3] = ["count", "first", "is_empty"];
@@ -21,7 +23,8 @@ pub(super) fn bindable(signatures: &Signatures) -> Vec<Type> {
     let length = found.iter().any(|ty| matches!(ty, Type::List(_))).then_some(&Type::Int);
     let measures = signatures.measures.iter().filter(|measure| measure.is_observable);
     let fields = signatures.fields.iter().map(|field| &field.ty);
-    for ty in length.into_iter().chain(measures.map(|measure| &measure.result)).chain(fields) {
+    let caught = (!signatures.failures.is_empty()).then_some(&Type::Failure);
+    for ty in length.into_iter().chain(caught).chain(measures.map(|measure| &measure.result)).chain(fields) {
         if !found.contains(ty) {
             found.push(ty.clone());
         }
@@ -40,6 +43,52 @@ impl Grammar {
         self.binds_lists()
             && signatures.measures.iter().all(|measure| measure.name != name)
             && signatures.fluents.iter().all(|fluent| fluent.name != name)
+    }
+
+    /// A pose can be written out: no measure has its name.
+    pub(crate) fn has_poses(&self) -> bool {
+        self.signatures.measure(POSE).is_none()
+    }
+
+    /// The kind and the text of a caught failure can be written: no field of a kind has their names.
+    pub(crate) fn has_caught(&self) -> bool {
+        let is_ours = |name: &str| name == "kind" || name == "text";
+        self.can_bind(&Type::Failure) && !self.signatures.fields.iter().any(|field| is_ours(&field.name))
+    }
+
+    /// The types that a policy may give, with the numbers of the types of names and with their spelling.
+    pub(crate) fn result_types(&self) -> Vec<(u16, SmolStr)> {
+        let mut found: Vec<(u16, SmolStr)> = Vec::new();
+        for ty in self.bindable.iter().filter(|ty| **ty != Type::Failure) {
+            let name = SmolStr::new(self.signatures.type_name(ty));
+            let plain = name.trim_start_matches("List<").trim_end_matches('>');
+            let is_spelled = is_name(plain) && identifier(plain) == plain;
+            let has_name = !matches!(ty, Type::Quantity(dimension) if dimension.type_name().is_none());
+            if is_spelled && has_name && found.iter().all(|(_, known)| *known != name) {
+                found.push((self.type_number(ty), name));
+            }
+        }
+        found
+    }
+
+    /// The condition on the kind of a caught failure.
+    pub(super) fn caught_atom(&self) -> Option<Atom> {
+        let mut parts = vec![Part::open(NodeKind::Caught)];
+        let relation = Part::Relation(Type::Failure);
+        let spelled = if self.is_json() {
+            parts.extend([literal(",\"of\":"), Part::Caught, literal(",\"is\":"), relation]);
+            parts.extend([literal(",\"than\":"), Part::FailureKind]);
+            parts.extend(self.atom_end(""));
+            self.applied("kind", Guard::Caught, u16::MAX, parts)
+        } else {
+            // The name of the failure stands before the word.
+            parts.extend([Part::Caught, literal(".kind "), relation, Part::FailureKind]);
+            parts.extend(self.atom_end(""));
+            Alternative::new("", Guard::OfCaught, parts)
+        };
+        let spelled = spelled.named("caught_kind");
+        let atom = Atom { sort: AtomSort::Field, spelled, is_observable: true, is_decoded: true };
+        self.has_caught().then_some(atom)
     }
 
     /// The conditions on bound lists.
@@ -88,7 +137,9 @@ impl Grammar {
         let end = |value: LetValue, ty: &Type| {
             let bind = match value {
                 LetValue::First => Action::BindFirst,
-                LetValue::Count | LetValue::Get(_) | LetValue::Field(_) => Action::Bind(self.type_number(ty)),
+                LetValue::Count | LetValue::Get(_) | LetValue::Field(_) | LetValue::CaughtText => {
+                    Action::Bind(self.type_number(ty))
+                }
             };
             let end = if self.is_json() { "}" } else { ")" };
             [literal(end), Part::Action(bind)]
@@ -135,6 +186,17 @@ impl Grammar {
             };
             fields.push(named.named(format!("let_{}", field.name)));
         }
+        if self.has_caught() {
+            let open = Part::open(NodeKind::Let(LetValue::CaughtText));
+            let [close, bind] = end(LetValue::CaughtText, &Type::Text);
+            let named = if self.is_json() {
+                let parts = vec![open, literal(",\"of\":"), Part::Caught, close, bind];
+                self.applied("text", Guard::Caught, u16::MAX, parts)
+            } else {
+                Alternative::new("", Guard::Caught, vec![open, Part::Caught, literal(".text"), bind])
+            };
+            fields.push(named.named("let_caught_text"));
+        }
         [("get", gets), ("field", fields)]
     }
 
@@ -142,7 +204,11 @@ impl Grammar {
     pub(super) fn let_step(&self) -> Option<Alternative> {
         let mut ways = Vec::new();
         for (key, values) in self.let_values() {
-            let guard = if key == "get" && !self.names_measures() { Guard::List } else { Guard::Open };
+            let guard = match key {
+                "get" if !self.names_measures() => Guard::List,
+                "field" if self.signatures.fields.is_empty() => Guard::Caught,
+                _ => Guard::Open,
+            };
             if !values.is_empty() {
                 let values = Part::Choice(ChoiceStyle::Names(WordRole::Head), values);
                 ways.push(Alternative::new(format!("{key}\":\""), guard, vec![values]));

@@ -33,6 +33,19 @@ pub(crate) enum Part {
     Manner,
     /// The name of a bound list.
     ListName,
+    /// The name of a bound failure.
+    Caught,
+    /// A kind of failure with which that of a bound one is compared.
+    FailureKind,
+    /// The name that a handler gives its failure, or nothing; in JSON with its key.
+    CaughtName,
+    /// The type of the policy's result, or nothing; in text with its arrow, and with the space behind it.
+    ResultType,
+    /// The result of a `done`, if the policy gives one, between bytes that are only written with it.
+    Given {
+        lead: &'static str,
+        end: &'static str,
+    },
     /// A relation between values of a type; in text with the space behind it.
     Relation(Type),
     /// The kinds of failure of a handler, with brackets in JSON, with the space behind them in text.
@@ -252,6 +265,8 @@ pub(crate) struct ValueSet {
     pub(crate) binding: bool,
     /// The first element of a bound list.
     pub(crate) first: bool,
+    /// A pose that is written out.
+    pub(crate) pose: bool,
     /// The items of a list that is written out.
     pub(crate) items: Option<Box<Self>>,
 }
@@ -280,6 +295,7 @@ impl ValueSet {
             | Type::Quantity(_)
             | Type::Text
             | Type::Pose
+            | Type::Failure
             | Type::List(_) => Vec::new(),
         };
         let items = match ty {
@@ -300,6 +316,7 @@ impl ValueSet {
             any,
             binding: binds && grammar.can_bind(ty),
             first,
+            pose: Self::is_pose(ty, place, grammar),
             items: items.filter(|items| !items.is_empty()).map(Box::new),
         }
     }
@@ -317,7 +334,8 @@ impl ValueSet {
             Type::Enum(id) => signatures.enums.get(*id).is_some_and(|def| !def.cases.is_empty()),
             Type::Text | Type::Bool => true,
             Type::Int | Type::Number | Type::Quantity(_) => NumberRange::of(ty, range).is_some(),
-            Type::Pose => false,
+            Type::Pose => Self::is_pose(ty, place, grammar),
+            Type::Failure => false,
             Type::List(element) => Self::is_fillable(element, None, place, grammar),
         };
         is_written || place == ValuePlace::OfFluent || (place != ValuePlace::Operand && grammar.can_bind(ty))
@@ -327,8 +345,13 @@ impl ValueSet {
     pub(crate) fn is_empty(&self) -> bool {
         self.names.is_empty()
             && self.number.is_none()
-            && !(self.text || self.bool || self.any || self.binding || self.first)
+            && !(self.text || self.bool || self.any || self.binding || self.first || self.pose)
             && self.items.is_none()
+    }
+
+    /// A pose may be written out at a place: an argument of a call.
+    fn is_pose(ty: &Type, place: ValuePlace, grammar: &Grammar) -> bool {
+        *ty == Type::Pose && matches!(place, ValuePlace::Argument(_)) && grammar.has_poses()
     }
 
     /// The values have an order, so that they can be compared by more than equality.

@@ -25,7 +25,7 @@ fn no_value() -> Vec<Part> {
 }
 
 pub(super) fn document(grammar: &Grammar) -> Vec<Part> {
-    let mut parts = vec![literal("policy "), Part::Name(NameUse::Policy)];
+    let mut parts = vec![literal("policy "), Part::Name(NameUse::Policy), Part::ResultType];
     parts.extend(grammar.robot().map(|robot| Part::literal(format!("for {} ", identifier(robot)))));
     let goal = vec![Part::Condition(ConditionUse::Goal), literal(" ")];
     let present = Alternative::new("achieves ", grammar.when_asked(ConditionUse::Goal), goal);
@@ -84,7 +84,9 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
     let handler = vec![
         Part::open(NodeKind::Catch),
         Part::Failures,
+        Part::CaughtName,
         Part::Block(BlockRole::Catch, 0),
+        Part::Action(Action::Forget),
         Part::Action(Action::Close),
     ];
     let handlers = Part::repeat([" catch ", " catch ", ""], [1, MAX_MEMBERS], handler);
@@ -116,7 +118,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
         add("keep ", Guard::Interrupt, NodeKind::Keep, vec![rules, block(BlockRole::During)]);
     }
     // The parts behind `let` end with the calls themselves.
-    steps.extend(endings(Guard::Done));
+    steps.extend(endings(Guard::Done, Part::Given { lead: "", end: " " }));
     for step in &mut steps {
         step.parts.push(Part::Action(Action::Close));
         step.parts.extend(step.is_composite().then_some(Part::Cleanup(CleanupOf::Step)));
@@ -131,7 +133,7 @@ fn when(grammar: &Grammar) -> Vec<Part> {
         Alternative::new(word, Guard::React(kind), parts)
     };
     let pause = grammar.modifier("within", NumberRange::DURATION).into_iter().collect();
-    let mut reactions = endings(Guard::DoneWhen);
+    let mut reactions = endings(Guard::DoneWhen, Part::Given { lead: " ", end: "" });
     let resume = vec![COUNT, literal(" "), block(BlockRole::Reaction)];
     reactions.extend([
         reacts("pause", NodeKind::Pause, pause),
@@ -149,12 +151,12 @@ fn when(grammar: &Grammar) -> Vec<Part> {
     ]
 }
 
-fn endings(done: Guard) -> Vec<Alternative> {
+fn endings(done: Guard, given: Part) -> Vec<Alternative> {
     let reason = Part::Value { ty: Type::Text, range: None, place: ValuePlace::Plain };
     let room = Guard::Below(u8::try_from(MAX_STEPS).unwrap_or(u8::MAX));
     let with_reason = |kind| vec![Part::open(kind), reason.clone()];
     vec![
-        Alternative::new("done", done, vec![Part::open(NodeKind::Done)]).ending(),
+        Alternative::new("done", done, vec![Part::open(NodeKind::Done), given]).ending(),
         Alternative::new("fail ", room, with_reason(NodeKind::Fail)).ending(),
         Alternative::new("cannot ", room, with_reason(NodeKind::Cannot)).ending(),
         Alternative::new("replan ", room, with_reason(NodeKind::Replan)).ending(),

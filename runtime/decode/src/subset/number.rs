@@ -46,9 +46,8 @@ impl NumberRange {
             Type::Quantity(Dimension::MASS) => (0.0, 1e3, 3),
             Type::Quantity(Dimension::NONE) => (0.0, 1.0, 3),
             Type::Quantity(_) => (-100.0, 100.0, 3),
-            Type::Bool | Type::Text | Type::Pose | Type::Entity(_) | Type::Enum(_) | Type::List(_) => {
-                return None;
-            }
+            Type::Bool | Type::Text | Type::Pose | Type::Failure | Type::Entity(_) => return None,
+            Type::Enum(_) | Type::List(_) => return None,
         };
         let (lower, upper) = card.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         let scale = Decimal::scale(decimals);
@@ -60,6 +59,14 @@ impl NumberRange {
             _ => None,
         };
         (least <= greatest).then_some(Self { least, greatest, decimals, unit })
+    }
+
+    /// The numbers of a pose: three coordinates and the turn about the vertical.
+    pub(crate) fn of_pose() -> [Self; 4] {
+        let number =
+            |decimals, greatest: i64, unit| Self { least: -greatest, greatest, decimals, unit: Some(unit) };
+        let length = number(3, 1_000_000, Unit::Metre);
+        [length, length, length, number(4, 1_000_000, Unit::Radian)]
     }
 
     /// The range as the text syntax spells its digits: percents are a hundred times the value, with two

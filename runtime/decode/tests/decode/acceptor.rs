@@ -75,7 +75,8 @@ fn acceptor_opens_concurrent_calls_that_check() {
     let branch = r#"{"parallel":[[{"do":"go","to":"fridge_1"}],["#.to_owned();
     let (mut open, mut closed) = (0, 0);
     for (begin, end) in [(restart, "]}"), (resume, "]}"), (branch, "]]}")] {
-        let head = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":["#;
+        let head =
+            r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"steps":["#;
         let begin = format!(r#"{head}{{"do":"go","to":"fridge_1"}},{begin}"#);
         for callable in &session.signatures().callables {
             let [param] = callable.params.as_slice() else { continue };
@@ -241,7 +242,7 @@ fn acceptor_forces_text_and_explains_refusals() {
     let mut acceptor = factory.acceptor(1000).unwrap();
     assert_eq!(acceptor.forced(), b"{\"motet\":1,\"policy\":\"");
     let start = concat!(
-        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
+        r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"#,
         r#""steps":[{"do":"go","to":"kitchen_table"},{"do":"pick","object":"mug_1","from":"auto"}"#,
     )
     .as_bytes();
@@ -257,7 +258,7 @@ fn acceptor_forces_text_and_explains_refusals() {
 fn acceptor_excludes_infeasible_arguments() {
     let session = session("hsr", "kitchen");
     let start = concat!(
-        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
+        r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"#,
         r#""steps":[{"do":"go","to":"kitchen_table"},{"do":"pick","object":"mug_1""#,
     )
     .as_bytes();

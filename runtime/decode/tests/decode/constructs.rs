@@ -8,7 +8,7 @@ use crate::common::{errors, session};
 use motet_decode::{AcceptorFactory, Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Syntax};
 
-const POLICIES: [&str; 13] = [
+const POLICIES: [&str; 18] = [
     r#"policy clean for hsr { go(kitchen_table) try { pick(mug_1, auto) } catch any { say("no") } finally {
         if holding(mug_1) { go(sink) place(mug_1, sink) } home() } }"#,
     "policy whole for hsr { go(sink) } finally { home() }",
@@ -33,6 +33,18 @@ const POLICIES: [&str; 13] = [
         sequence b { let x = detect("cup") let y = detect("mug") } say("{x} {y}") }"#,
     r#"policy goal for hsr achieves on(mug_1, sink) { go(kitchen_table) pick(mug_1, auto) go(sink)
         sequence s { place(mug_1, sink) done } finally { if visible(user) { say("so") } home() } }"#,
+    r#"policy caught for hsr { go(kitchen_table) try { pick(mug_1, auto) } catch slipped, timeout as e {
+        if e.kind == slipped { say("{e.kind}: {e.text}") } let why = e.text say("{why} {e}") fail "{e.text}" }
+        try { home() } catch any as e { if not (e.kind != timeout) { done } } }"#,
+    r#"policy found -> Object for hsr { go(kitchen_table) let mug = detect("mug")
+        if visible(user) { done mug } monitor { when visible(user) then done mug } during { home() }
+        done mug }"#,
+    r#"policy counted -> Int for hsr keep out of stairs { let cups = detect_all("cup")
+        let n = count(cups) if visible(user) { done n } fail "{n}" }"#,
+    r#"policy posed for hsr { go_to_pose(pose(1.2 m, 0.5 m, 0 m, 1.5708 rad))
+        go_to_pose(pose(-1 m, 0 m, 90 deg)) }"#,
+    r#"policy poses for hsr { go(kitchen_table) pick(mug_1, auto) go(sink)
+        place_at(mug_1, sink, pose(0.1 m, 0.2 m, 0 rad)) }"#,
 ];
 
 fn read(text: &str) -> motet_syntax::ast::Policy {
@@ -98,7 +110,7 @@ fn acceptor_lets_no_monitor_fire_by_itself() {
 
 /// The constructs with what each of them is found by, in JSON and in text; nothing where the acceptor does
 /// not write it. A `#` is a digit.
-const FOUND_BY: [(&str, &str, &str); 19] = [
+const FOUND_BY: [(&str, &str, &str); 26] = [
     ("cleanup", "],\"finally\":[{", "} finally {"),
     ("keep", "{\"keep\":[", " keep "),
     ("keep of the policy", ",\"keep\":[", "policy % keep "),
@@ -122,6 +134,13 @@ const FOUND_BY: [(&str, &str, &str); 19] = [
     ("part as a manner", "\"manner\":#", " at # %"),
     ("cannot", "{\"end\":\"cannot\"", " cannot \""),
     ("call", "{\"do\":", "("),
+    ("name of a failure", "],\"as\":\"", " as % {"),
+    ("kind of a failure", "{\"field\":\"kind\"", ".kind ==|.kind !="),
+    ("let of the text of a failure", "{\"field\":\"text\"", " = %.text "),
+    ("failure in a text", ".kind}|.text}", ".kind}|.text}"),
+    ("type of a result", "\"result\":\"%\",\"robot\"", " -> "),
+    ("result", "\"done\",\"result\":\"$", " done % }"),
+    ("pose", "{\"pose\":[", "(pose("),
 ];
 
 #[test]

@@ -34,8 +34,8 @@ fn acceptor_takes_loop_items_as_arguments() {
         (
             Syntax::Json,
             concat!(
-                r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":["#,
-                r#"{"each":"J","in":["drawer_1"],"at_most":1,"steps":["#,
+                r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"#,
+                r#""steps":[{"each":"J","in":["drawer_1"],"at_most":1,"steps":["#,
                 r#"{"do":"go","to":"$J"},{"do":"open","what":"$J"},{"end":"done"}]},"#,
                 r#"{"end":"done"}],"finally":null}"#,
             ),

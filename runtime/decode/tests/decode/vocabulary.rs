@@ -166,7 +166,7 @@ fn vocabulary_excludes_special_tokens_and_pairs_twins() {
     assert!(set(&mask, usize::from(b'{')) && set(&mask, 256));
     assert_eq!(mask.iter().map(|word| word.count_ones()).sum::<u32>(), 2);
     let policy = concat!(
-        r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
+        r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"#,
         r#""steps":[{"end":"done"}],"finally":null}"#,
     )
     .as_bytes();
@@ -217,6 +217,10 @@ fn environment_opens_by_name_and_by_text() {
     let state = Some(r#"{"holding(mug_1)": true, "free(hand)": false}"#);
     let world = Environment { robot: Some("hsr"), scene: Some(scene), state, ..Environment::default() };
     let prepared = AcceptorFactory::new(&world.session().unwrap(), Subset::default());
-    let pick = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"steps":[{"do":"pick""#;
-    assert!(prepared.acceptor(2000).unwrap().accept(pick) < pick.len());
+    let head = r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"#;
+    let pick = format!(r#"{head}"steps":[{{"do":"pick""#);
+    let mut acceptor = prepared.acceptor(2000).unwrap();
+    assert_eq!(acceptor.accept(head.as_bytes()), head.len());
+    let mut acceptor = prepared.acceptor(2000).unwrap();
+    assert!(acceptor.accept(pick.as_bytes()) < pick.len());
 }

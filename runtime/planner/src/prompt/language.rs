@@ -9,8 +9,9 @@ use motet_compiler::{Session, make_explicit};
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
+use motet_stdlib::lang::entities::ROBOT;
 use motet_stdlib::lang::{kinds, primitives};
-use motet_syntax::ast::{Block, Clause, ExprKind, PrimitiveDecl, Quantified, StepKind};
+use motet_syntax::ast::{Arg, Block, Clause, ExprKind, PrimitiveDecl, Quantified, StepKind};
 use motet_syntax::{FileId, Severity, Source, Syntax, print};
 use smol_str::SmolStr;
 
@@ -67,7 +68,7 @@ impl StaticPrompt {
 fn form(robot: &Robot) -> String {
     let name = &robot.name;
     format!(
-        "You plan for a robot, {} (`{name}`). Answer with one policy for it and nothing else, as JSON:\n\
+        "You plan for a robot, {}. Answer with one policy and nothing else, as JSON:\n\
          {{\"motet\": 1, \"policy\": NAME, \"robot\": \"{name}\", \"steps\": [STEP, …]}}\n",
         robot.title
     )
@@ -193,16 +194,45 @@ fn primitives(session: &Session, detail: Detail) -> String {
         let others: Vec<&str> = others.map(|(_, decl, _)| decl.name.text.as_str()).collect();
         let _ = writeln!(text, "All but {} need {need}.", others.join(", "));
     }
+    if detail == Detail::Contracts {
+        text.push_str(&left_behind(known.iter().map(|(_, decl, _)| *decl)));
+    }
     for (callable, decl, needs) in known {
         text.push_str(&signature(callable, &signatures));
         let doc = decl.doc.split_inclusive(". ").next().unwrap_or_default().replace('\n', " ");
-        let _ = write!(text, "  {}", doc.trim());
+        let _ = write!(text, " {}", doc.trim());
         if detail == Detail::Contracts {
             text.push_str(&contract(decl, needs, &usual));
         }
         text.push('\n');
     }
     text
+}
+
+/// Facts about the robot itself that several primitives make false, such as a posture of its arm.
+fn left_behind<'d>(primitives: impl Iterator<Item = &'d PrimitiveDecl>) -> String {
+    let mut found: IndexMap<Vec<String>, Vec<&str>> = IndexMap::new();
+    for decl in primitives {
+        let makes = decl.clauses.iter().filter_map(|clause| match clause {
+            Clause::Makes(effects) => Some(effects),
+            _ => None,
+        });
+        let ended: Vec<String> = makes.flatten().filter_map(ended_fact).collect();
+        if !ended.is_empty() {
+            found.entry(ended).or_default().push(&decl.name.text);
+        }
+    }
+    let several = found.iter().filter(|(_, names)| names.len() > 2);
+    several.map(|(facts, names)| format!("{} end {}.\n", names.join(", "), facts.join(", "))).collect()
+}
+
+/// Name of the fact that `not arm_home(robot)` ends.
+fn ended_fact(effect: &Quantified) -> Option<String> {
+    let ExprKind::Not(fact) = &effect.expr.kind else { return None };
+    let ExprKind::Call(fact) = &fact.kind else { return None };
+    let is_robot = |arg: &Arg| matches!(&arg.value.kind, ExprKind::Name(name) if name == ROBOT);
+    let is_plain = effect.each.is_none() && effect.when.is_none();
+    (is_plain && !fact.args.is_empty() && fact.args.iter().all(is_robot)).then(|| fact.name.text.to_string())
 }
 
 /// Needs that more than half of some primitives have.
@@ -336,5 +366,5 @@ fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<
 
 /// JSON without line breaks and indents.
 fn one_line(json: &str) -> String {
-    json.lines().map(str::trim).collect::<Vec<_>>().join(" ")
+    json.lines().map(str::trim).collect::<Vec<_>>().join(" ").replace("[ ", "[")
 }

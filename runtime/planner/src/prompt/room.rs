@@ -241,13 +241,14 @@ pub(crate) fn told(seen: &[Sighting]) -> String {
             None => "",
         };
         let reach = match &one.feasible {
-            Reachability::AsFarAsNumbersTell => "feasible".to_owned(),
-            Reachability::Yes => "feasible: there is a way to it and a motion there".to_owned(),
+            Reachability::AsFarAsNumbersTell => "feasible as far as mass and width tell".to_owned(),
+            Reachability::Yes => "feasible".to_owned(),
             Reachability::No(why) => format!("not feasible: {why}"),
             Reachability::Hardly(why) => format!("no motion was found, which proves nothing: {why}"),
             Reachability::Unknown(why) => format!("not known whether feasible: {why}"),
         };
         format!("- {}: {sight}{reach}\n", one.id)
     });
-    format!("# What the request names\n{}", lines.collect::<String>())
+    let meaning = "Feasible: to drive there, and to pick it, or to open or close it.";
+    format!("# What the request names\n{meaning}\n{}", lines.collect::<String>())
 }

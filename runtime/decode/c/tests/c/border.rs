@@ -106,7 +106,7 @@ fn a_policy_is_written() {
         motet_vocabulary_free(tokens);
         assert_eq!(taken(motet_decoder_forced(decoder)), "{\"motet\":1,\"policy\":\"");
         let start = concat!(
-            r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"keep":null,"#,
+            r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"#,
             r#""steps":[{"do":"go","to":"mug_1"},{"do":"pick","object":"mug_1","from":"auto"}"#,
         )
         .as_bytes();

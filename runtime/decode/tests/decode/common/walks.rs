@@ -176,6 +176,17 @@ fn choose_text(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8
     let has = |byte: u8| bytes.contains(&byte);
     let any = |dice: &mut Dice| bytes.get(dice.below(bytes.len())).copied().unwrap_or(b' ');
     let in_text = before.iter().filter(|byte| **byte == b'"').count() % 2 == 1;
+    // A failure has a name that begins as no fluent does, so that conditions are found that are about it.
+    let is_asked = [&b" if "[..], b" when ", b" = "].iter().any(|word| before.ends_with(word));
+    if has(b'z') && (before.ends_with(b" as ") || is_asked && dice.chance(70)) {
+        return b'z';
+    }
+    if has(b'i') && before.ends_with(b" if ") && dice.chance(40) {
+        return b'i';
+    }
+    if has(b's') && before.ends_with(b" i") && dice.chance(70) {
+        return b's';
+    }
     if bytes.len() > 40 {
         // A text or a name: short ones will do.
         let end = if in_text { b'"' } else { b' ' };
