@@ -64,7 +64,8 @@ impl Machine {
                 let cleanup = [Event::Open(NodeKind::Finally), Event::Close];
                 may_nest
                     && usize::from(frame.fix) < MAX_FIXPOINTS
-                    && (!flags.has(Flags::SHARED) || self.verify(state.event, &cleanup))
+                    && (!flags.has(Flags::SHARED) && !self.has_monitor(state.event)
+                        || self.verify(state.event, &cleanup))
             }
             Guard::Cleaned => true,
             Guard::Callable(number) => has_room && self.can_be_called(number, self.site(state, state.event)),
@@ -250,6 +251,17 @@ impl Machine {
         }
         let lists = self.visible(scope).into_iter().filter(|(_, name)| fits(name));
         lists.map(|(id, _)| Event::First(id)).collect()
+    }
+
+    /// The step before, or at the end of the policy any step, watches something. A reaction that leaves it needs
+    /// a proof only if a cleanup follows.
+    fn has_monitor(&self, event: Id) -> bool {
+        let before = self.arenas.entry(event).map_or(0, |said| said.before);
+        let first = if before == event { 0 } else { before };
+        let watches = |event: &Event| {
+            matches!(event, Event::Open(NodeKind::Monitor | NodeKind::Within | NodeKind::Keep))
+        };
+        self.arenas.between(first, event).iter().any(watches)
     }
 
     /// The open block is the body of a `repeat`.
