@@ -16,6 +16,7 @@ use motet_runtime::{
     Command, Driver, DriverClock, DriverEvent, Effect, Engine, Event, GoalId, Pattern, Query, StartState,
     Time,
 };
+use motet_stdlib::lang;
 use serde_json::json;
 use smol_str::SmolStr;
 
@@ -87,9 +88,8 @@ pub(super) fn check(file: Option<&Path>, args: &DriveArgs, report: &mut Report) 
         None => test_policy(args.session.environment.robot.is_some()),
     };
     let compiled = compile(&document, args.policy.as_deref(), args.format, &mut project, report)?;
-    let Some((graph, _, opened)) = compiled else { return Ok(Exit::Findings) };
-    let observes = opened.robot.as_ref().map_or(&[][..], |robot| &robot.observes);
-    let (command, query) = (first_call(&graph)?, question(observes));
+    let Some((graph, ..)) = compiled else { return Ok(Exit::Findings) };
+    let (command, query) = (first_call(&graph)?, question());
     catch_interrupts()?;
     let connect = |log: Box<dyn DriverLog>| {
         let hello = Hello::of(&graph, &run_id());
@@ -177,12 +177,9 @@ fn first_call(graph: &Graph) -> Result<Command, CliError> {
     })
 }
 
-/// Something that the robot observes, without the name of an entity.
-fn question(observes: &[SmolStr]) -> Query {
-    if observes.iter().any(|name| name == "battery") {
-        return Query::Measure { measure: SmolStr::new_static("battery"), args: Vec::new() };
-    }
-    Query::Fact { fluent: SmolStr::new_static("holding"), args: vec![Pattern::Any] }
+/// Something that every robot with a hand observes, without the name of an entity.
+fn question() -> Query {
+    Query::Fact { fluent: SmolStr::new_static(lang::fluents::HOLDING), args: vec![Pattern::Any] }
 }
 
 fn print_scene(

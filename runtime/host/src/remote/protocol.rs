@@ -132,6 +132,13 @@ pub struct Welcome {
     pub capabilities: Capabilities,
 }
 
+/// Time of a call, among its parameters.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct CallTime {
+    /// Seconds of the run.
+    pub at: f64,
+}
+
 /// Parameters of `advance`.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AdvanceParams {
@@ -284,7 +291,8 @@ pub fn say(id: u64, call: &DriverCall, at: Option<Time>) -> String {
     // These types are written as maps, and writing them does not fail.
     if let Ok(Value::Object(mut call)) = serde_json::to_value(call) {
         if let Some((at, params)) = at.zip(call.get_mut("params").and_then(Value::as_object_mut)) {
-            params.insert("at".to_owned(), json!(at.secs()));
+            let time = serde_json::to_value(CallTime { at: at.secs() });
+            params.extend(time.ok().and_then(|time| time.as_object().cloned()).into_iter().flatten());
         }
         message.extend(call);
     }
@@ -348,6 +356,8 @@ fn depth(value: &Value) -> usize {
 struct ProtocolSchema {
     /// Calls of the host: with `jsonrpc` and, but for `bye`, `id` beside it.
     call: DriverCall,
+    /// Beside the parameters of `hello`, and of all calls but `bye` to a driver that owns the clock.
+    call_time: CallTime,
     /// Notification from a driver: with `jsonrpc` beside it.
     report: DriverReport,
     /// The result of `hello`.
