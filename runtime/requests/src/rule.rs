@@ -10,6 +10,8 @@ use crate::reader::{self, Clause};
 use crate::template::{Part, Side, Template};
 use crate::token::{Token, words};
 use crate::verb::Act;
+#[cfg(test)]
+use tests::fits;
 
 /// A list of rules by its name in the files.
 pub(crate) struct Rules(pub(crate) &'static str);
@@ -63,7 +65,7 @@ impl Rules {
         let begin = clause.begin;
         match list(self.0)? {
             List::Rules(rules) => {
-                let state = clause.rules(rules, State { at: begin, ..State::default() })?;
+                let state = clause.rules(self.0, rules, State { at: begin, ..State::default() })?;
                 Some(Found { end: state.at, words: state.value.unwrap_or_default() })
             }
             // A list without a slot needs no rule.
@@ -77,11 +79,12 @@ impl Rules {
     /// Applies the first rule that fits anywhere: what it writes.
     pub(crate) fn search(&self, tokens: &[Token]) -> Option<Vec<Token>> {
         let Some(List::Rules(rules)) = list(self.0) else { return None };
-        rules.iter().find_map(|rule| {
+        rules.iter().enumerate().find_map(|(index, rule)| {
             let found = (0..tokens.len()).find_map(|at| {
                 Clause::new(tokens, at, None, &[]).rule(rule, State { at, ..State::default() })
-            });
-            found?.value
+            })?;
+            fits(self.0, index);
+            found.value
         })
     }
 
@@ -102,8 +105,13 @@ impl Rules {
 }
 
 impl Clause<'_> {
-    fn rules(&self, rules: &'static [Template], state: State) -> Option<State> {
-        rules.iter().find_map(|rule| self.rule(rule, state.clone()))
+    fn rules(&self, name: &'static str, rules: &'static [Template], state: State) -> Option<State> {
+        let (index, found) = rules
+            .iter()
+            .enumerate()
+            .find_map(|(index, rule)| Some((index, self.rule(rule, state.clone())?)))?;
+        fits(name, index);
+        Some(found)
     }
 
     fn rule(&self, rule: &'static Template, state: State) -> Option<State> {
@@ -156,7 +164,7 @@ impl Clause<'_> {
                         .into_iter()
                         .collect()
                 }
-                Some(List::Rules(rules)) => self.rules(rules, state).into_iter().collect(),
+                Some(List::Rules(rules)) => self.rules(name, rules, state).into_iter().collect(),
                 None => Vec::new(),
             },
             Part::Slot(name, part) => {
@@ -189,6 +197,9 @@ impl Clause<'_> {
     }
 }
 
+#[cfg(not(test))]
+const fn fits(_list: &str, _index: usize) {}
+
 /// A value with its slots filled.
 fn filled(value: &'static str, slots: &[(&'static str, Vec<Token>)]) -> Vec<Token> {
     let mut filled = Vec::new();
@@ -202,4 +213,19 @@ fn filled(value: &'static str, slots: &[(&'static str, Vec<Token>)]) -> Vec<Toke
         }
     }
     filled
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use std::cell::RefCell;
+
+    thread_local! {
+        /// Rules that fitted, as list and position, in order. The last of a call is the rule of its own list.
+        pub(crate) static FITTING: RefCell<Vec<(&'static str, usize)>> = const { RefCell::new(Vec::new()) };
+    }
+
+    /// Notes that a rule fits.
+    pub(super) fn fits(list: &'static str, index: usize) {
+        FITTING.with_borrow_mut(|fitting| fitting.push((list, index)));
+    }
 }
