@@ -7,9 +7,10 @@ use smol_str::SmolStr;
 use crate::RequestContext;
 use crate::asking::skip_leads;
 use crate::english::{
-    AGAIN, AGREES, AGREES_AS_CLAUSE, AGREES_PLAINLY, ALL_OF_THEM, ANSWER_LEADS, ANY_OF_THEM,
-    BESIDE_THE_POINT, DENIAL_WORDS, GIVES_UP, IS_TAG_ASKS, MODAL_CAN, NEGATES_NO, NUMBERED_THE, NUMBERS,
-    ORDINALS, PLAIN_WORDS, REPORT_WORDS, RETRY_WORDS, SIDE_THE, SKIP_SOFT_SOFT, SOUNDS, TRIES_AGAIN,
+    AGAIN, AGREEING_SOUNDS, AGREES, AGREES_AS_CLAUSE, AGREES_PLAINLY, ALL_OF_THEM, ANSWER_LEADS, ANY_OF_THEM,
+    BESIDE_THE_POINT, CHOICE_FILLERS, DENIAL_WORDS, FORMER, GIVES_UP, IS_TAG_ASKS, LATTER, MODAL_CAN,
+    NEGATES_NO, NUMBERED_THE, NUMBERS, ONE_OF_THEM, ORDINALS, PLAIN_WORDS, REPORT_WORDS, RETRY_WORDS,
+    SIDE_THE, SIDES, SKIP_SOFT_SOFT, SOUNDS, THE_OTHER, TRIES_AGAIN,
 };
 use crate::noun::{Noun, Spot, noun, spot};
 use crate::token::{Token, singular, stands, tokens};
@@ -51,11 +52,11 @@ pub fn pick(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -
         }
         _ => (Vec::new(), place(spot(words, 0).map(|(place, _)| place))),
     };
-    told.retain(|word| word != "one" && word != "thing");
+    told.retain(|word| !ONE_OF_THEM.has(word));
     if let [ordinal] = told.as_slice()
-        && let Some(index) = ["first", "second", "third", "fourth"].iter().position(|known| known == ordinal)
+        && let Some(number) = ORDINALS.value(ordinal).and_then(|number| number.parse::<usize>().ok())
     {
-        return options.get(index).cloned();
+        return options.get(number.checked_sub(1)?).cloned();
     }
     let is_option = |id: &SmolStr| options.is_empty() || options.contains(id);
     // What is only told by its place is among the options; a bare place is the option itself.
@@ -84,7 +85,7 @@ pub fn pick(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -
 #[must_use]
 pub fn choose(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Vec<SmolStr> {
     let mut words: Vec<String> = tokens(answer).iter().map(|token| token.word().to_owned()).collect();
-    words.retain(|word| !matches!(word.as_str(), "" | "please" | "just" | "really" | "then"));
+    words.retain(|word| !word.is_empty() && !CHOICE_FILLERS.has(word));
     let said = words.join(" ");
     if ANY_OF_THEM.has(said.as_str()) {
         return options.first().cloned().into_iter().collect();
@@ -133,8 +134,8 @@ fn numbered(words: &[String], options: &[SmolStr]) -> Option<SmolStr> {
     let kept = all.into_iter().filter(|word| !NUMBERED_THE.has(word) && (is_first || *word != "one"));
     let kept: Vec<&str> = kept.collect();
     match kept.as_slice() {
-        ["last" | "latter"] => options.last().cloned(),
-        ["former"] => options.first().cloned(),
+        [word] if LATTER.has(word) => options.last().cloned(),
+        [word] if FORMER.has(word) => options.first().cloned(),
         [word] | ["in", word, "place"] if ordinal(word).is_some() => options.get(ordinal(word)? - 1).cloned(),
         [word] if number(word).is_some() => {
             // The number of a name, where the options have such names, and else that of the option.
@@ -157,7 +158,7 @@ fn numbered(words: &[String], options: &[SmolStr]) -> Option<SmolStr> {
 
 /// `the other one`, of two of which one was spoken of; or another thing of the same kind by its name.
 fn other(said: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Option<SmolStr> {
-    if matches!(said, "the other one" | "the other") {
+    if THE_OTHER.has(said) {
         let mut not_spoken_of = options.iter().filter(|id| !situation.spoken_of.contains(id));
         return match (options.len(), not_spoken_of.next(), not_spoken_of.next()) {
             (2, Some(only), None) => Some(only.clone()),
@@ -237,10 +238,10 @@ pub(super) enum Side {
 /// The side that words name.
 pub(super) fn side(words: &[&str]) -> Option<Side> {
     let kept: Vec<&str> = words.iter().copied().filter(|word| !SIDE_THE.has(word)).collect();
-    match kept.as_slice() {
-        ["left" | "leftmost"] => Some(Side::Left),
-        ["right" | "rightmost"] => Some(Side::Right),
-        _ => None,
+    let [side] = kept.as_slice() else { return None };
+    match SIDES.value(side)? {
+        "left" => Some(Side::Left),
+        _ => Some(Side::Right),
     }
 }
 
@@ -282,7 +283,7 @@ pub fn encourages(answer: &str) -> Option<String> {
     // `uh huh` and `mm hm` agree.
     said.retain(|token| {
         let word = token.word();
-        !SOUNDS.has(word) || matches!(word, "uh" | "huh" | "mm" | "hm")
+        !SOUNDS.has(word) || AGREEING_SOUNDS.has(word)
     });
     let (mut agrees, mut beside) = (false, Vec::new());
     for clause in said.split(|token| matches!(token, Token::Comma | Token::Stop)) {

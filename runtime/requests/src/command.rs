@@ -1,7 +1,8 @@
 //! Sentences as commands and statements: which verb, what it is about, where from and where to.
 
 use crate::english::{
-    GOES_ON_AT_HITHER, GOES_ON_DO_NOT, ONTO, PART_FOLLOWS_OVER, PREDICATES, WHERE_IT_BELONGS,
+    BUT_DO_NOT, GOES_ON_AT_HITHER, GOES_ON_DO_NOT, ONTO, PART_FOLLOWS_OVER, PREDICATES, SAYS_WHERE, SERIES,
+    WHERE_IT_BELONGS,
 };
 use crate::noun::{Noun, Relation, Spot, Which, is_direction, located, noun, place, spot};
 use crate::part::part;
@@ -55,8 +56,8 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
         match tokens.get(at) {
             None | Some(Token::Stop) => break,
             // `pick it up, but do not bring it`
-            Some(Token::Word(word)) if word == "but" && stands(tokens, at + 1, "do not").is_some() => break,
-            Some(Token::Word(word)) if !matches!(word.as_str(), "and" | "then") => {
+            Some(Token::Word(_)) if BUT_DO_NOT.longest(tokens, at).is_some() => break,
+            Some(Token::Word(word)) if !SERIES.has(word) => {
                 at = part(tokens, begin, at, &mut now)?;
             }
             Some(Token::Comma | Token::Word(_)) => {
@@ -111,9 +112,8 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
 /// it was said just before.
 fn left_out(now: &mut Command, commands: &[Command]) {
     let carries = |act: Act| !matches!(act, Act::Go | Act::Come | Act::Open | Act::Close | Act::Find);
-    let says_more = now.to.is_some()
-        || now.to_whom.is_some()
-        || ["in", "on", "away", "back", "hand", "out"].iter().any(|word| now.has(word));
+    let says_more =
+        now.to.is_some() || now.to_whom.is_some() || now.with.iter().any(|word| SAYS_WHERE.has(word));
     let before = commands.iter().rev().find(|command| carries(command.act) && !command.items.is_empty());
     if carries(now.act) && now.act != Act::Release && now.items.is_empty() && says_more && before.is_some() {
         now.items.push(Noun::Before("it"));
@@ -129,8 +129,7 @@ fn is_another_place(now: &Command, tokens: &[Token], at: usize) -> bool {
 }
 
 fn skip_and(tokens: &[Token], mut at: usize) -> usize {
-    while tokens.get(at).is_some_and(|token| matches!(token.word(), "and" | "then") || *token == Token::Comma)
-    {
+    while tokens.get(at).is_some_and(|token| SERIES.has(token.word()) || *token == Token::Comma) {
         at += 1;
     }
     at

@@ -2,11 +2,12 @@
 //! preposition.
 
 use crate::english::{
-    DETERMINERS, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, PHRASE_SOMETHING, PREPOSITIONS_OF_DIRECTION,
-    PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS,
+    DEICTICS, DETERMINERS, ENDS_AT_CAN, IT, KINDS_OF, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, OPEN_NOUNS,
+    PARTS_OF_THINGS, PHRASE_SOMETHING, PREPOSITIONS_OF_DIRECTION, PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS,
+    THAT_IS, USE_ENDS,
 };
 use crate::phrases::Phrases;
-use crate::token::{Token, singular, stands};
+use crate::token::{Token, singular};
 use crate::vocabulary::{Role, good_for, is_package};
 
 /// The determiner of a noun phrase: the one, any, a count, all.
@@ -56,21 +57,20 @@ pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
         return Some((Noun::Speaker, at + count));
     }
     let pronoun = PRONOUNS.value(word);
-    if let Some(pronoun) = pronoun.filter(|_| matches!(word, "it" | "them") || ends(tokens, at + 1)) {
+    if let Some(pronoun) = pronoun.filter(|_| IT.has(word) || ends(tokens, at + 1)) {
         return Some((Noun::Before(pronoun), at + 1));
     }
-    match word {
-        "here" => return Some((Noun::Here, at + 1)),
-        "there" => return Some((Noun::There, at + 1)),
-        _ => {}
+    match DEICTICS.value(word) {
+        Some("here") => Some((Noun::Here, at + 1)),
+        Some(_) => Some((Noun::There, at + 1)),
+        None => phrase(tokens, at),
     }
-    phrase(tokens, at)
 }
 
 fn ends(tokens: &[Token], at: usize) -> bool {
     match tokens.get(at) {
         None | Some(Token::Comma | Token::Stop) => true,
-        Some(Token::Word(word)) if word == "can" => stands(tokens, at, "can you").is_some(),
+        Some(Token::Word(word)) if word == "can" => ENDS_AT_CAN.longest(tokens, at).is_some(),
         Some(Token::Word(word)) => NOUN_ENDS.has(word.as_str()) || is_direction(tokens, at),
     }
 }
@@ -80,18 +80,14 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
     let mut words: Vec<String> = Vec::new();
     let mut content_at = None;
     let mut is_plural = false;
-    let is_open = matches!(tokens.get(at).map_or("", Token::word), "something" | "anything" | "everything");
-    let which = match tokens.get(at).map_or("", Token::word) {
-        "everything" => Some(Which::All),
-        "something" | "anything" => Some(Which::Any),
-        _ => which,
+    let open = OPEN_NOUNS.valued(tokens, at);
+    let is_open = open.is_some();
+    let which = match open {
+        Some((_, "all")) => Some(Which::All),
+        Some(_) => Some(Which::Any),
+        None => which,
     };
-    if is_open {
-        at += 1;
-        if tokens.get(at).is_some_and(|token| token.word() == "else") {
-            at += 1;
-        }
-    }
+    at += open.map_or(0, |(count, _)| count);
     while !ends(tokens, at) {
         let word = tokens.get(at).map_or("", Token::word);
         // `hand the guest the magazine`
@@ -99,11 +95,9 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
             break;
         }
         at += 1;
-        if (word == "of" && !words.is_empty())
-            || (words.is_empty() && matches!(word, "kind" | "sort" | "other"))
-        {
+        if (word == "of" && !words.is_empty()) || (words.is_empty() && KINDS_OF.has(word)) {
             // `the door of the fridge` is no other thing than the fridge.
-            if matches!(words.as_slice(), [part] if matches!(part.as_str(), "door" | "lid" | "handle")) {
+            if matches!(words.as_slice(), [part] if PARTS_OF_THINGS.has(part)) {
                 words.clear();
             }
             // `a bag of the chips`
@@ -193,7 +187,7 @@ fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
 /// `to clean it up with`: what still belongs to the use.
 fn rest_of_use(tokens: &[Token], mut at: usize) -> usize {
     while let Some(Token::Word(word)) = tokens.get(at) {
-        if matches!(word.as_str(), "and" | "then" | "please" | "from") {
+        if USE_ENDS.has(word) {
             break;
         }
         at += 1;
@@ -205,7 +199,7 @@ fn rest_of_use(tokens: &[Token], mut at: usize) -> usize {
 fn determiner(tokens: &[Token], at: usize) -> (Option<Which>, usize) {
     let word = tokens.get(at).map_or("", Token::word);
     // `the one that is blue`
-    if word == "that" && tokens.get(at + 1).is_some_and(|next| matches!(next.word(), "is" | "are" | "was")) {
+    if THAT_IS.longest(tokens, at).is_some() {
         return (None, at);
     }
     let which = match DETERMINERS.value(word) {

@@ -2,7 +2,7 @@
 
 use crate::asking::{contrasts, skip_leads, thanks};
 use crate::command::{Command, command, words};
-use crate::english::SPOKEN_I_MEAN;
+use crate::english::{DENIES_REQUEST, OF_IT, SPOKEN_I_MEAN};
 use crate::frame::asks_for_it;
 use crate::noun::{Noun, noun};
 use crate::remark::{When, beside, caution, forbidden, is_question, is_remark, remark_end};
@@ -48,7 +48,6 @@ pub(super) fn parse(tokens: &[Token]) -> Result<Spoken, String> {
             at = begin + 1;
             continue;
         }
-        let word = tokens.get(begin).map_or("", Token::word);
         let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Stop));
         let more = spoken
             .commands
@@ -91,10 +90,7 @@ pub(super) fn parse(tokens: &[Token]) -> Result<Spoken, String> {
         if asked_whether && stands(tokens, at, "then").is_some() {
             return Err(words(tokens, at, tokens.len()));
         }
-        if matches!(word, "not" | "never")
-            || contrasts(tokens, begin)
-            || stands(tokens, begin, "do not").is_some()
-        {
+        if DENIES_REQUEST.longest(tokens, begin).is_some() || contrasts(tokens, begin) {
             return Err(words(tokens, begin, tokens.len()));
         }
         // `the sponge should go in the drawer, can you do that for me?`
@@ -158,7 +154,6 @@ fn only_needs(tokens: &[Token], begin: usize) -> Option<usize> {
     let until = (next..tokens.len())
         .find(|at| matches!(tokens.get(*at), Some(Token::Comma | Token::Stop)))
         .unwrap_or(tokens.len());
-    let is_of_it =
-        tokens.get(next..until)?.iter().any(|token| matches!(token.word(), "it" | "that" | "them"));
+    let is_of_it = tokens.get(next..until)?.iter().any(|token| OF_IT.has(token.word()));
     (begins(tokens, next) && is_of_it).then_some(end)
 }

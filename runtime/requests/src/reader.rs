@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use crate::asking::{overtures, skip_leads, wish};
+use crate::english::{DEICTICS, OF_IT};
 use crate::noun::{Noun, Relation, Spot, direction, is_direction, noun, place, spot};
 use crate::phrases::{List, list};
 use crate::remark::remark_end;
@@ -188,7 +189,8 @@ const READERS: &[(&str, Reader)] = &[
         begin = skip_leads(clause.tokens, begin);
         begin += usize::from(clause.word(begin) == "you");
         let here = clause.tokens.get(begin..clause.clause_end(begin)).unwrap_or_default();
-        let is_of_it = here.iter().any(|token| matches!(token.word(), "it" | "them" | "there" | "that"));
+        let is_of_it =
+            here.iter().any(|token| OF_IT.has(token.word()) || DEICTICS.value(token.word()) == Some("there"));
         clause.check(is_of_it && begins(clause.tokens, begin), at)
     }),
 ];

@@ -3,7 +3,7 @@
 
 use crate::asking::skip_leads;
 use crate::command::{Command, command};
-use crate::english::{FORBIDDEN_NOT, FORBIDDEN_UNTIL};
+use crate::english::{CLAUSE_JOINTS, ELSEWHERE, FORBIDDEN_NOT, FORBIDDEN_UNTIL, TURNS};
 use crate::frame::asks_for_it;
 use crate::noun::Noun;
 use crate::rule::Rules;
@@ -14,7 +14,7 @@ use crate::verb::{Act, begins, verb};
 pub(super) fn remark_end(tokens: &[Token], begin: usize) -> usize {
     let mut at = begin;
     while let Some(token) = tokens.get(at) {
-        let is_joint = matches!(token, Token::Comma) || matches!(token.word(), "and" | "so" | "but");
+        let is_joint = matches!(token, Token::Comma) || CLAUSE_JOINTS.has(token.word());
         let asks = || begins(tokens, at + 1) || asks_for_it(tokens, at + 1).is_some();
         if matches!(token, Token::Stop) || (at > begin && is_joint && asks()) {
             break;
@@ -70,7 +70,7 @@ pub(super) fn forbidden(tokens: &[Token], begin: usize, asked: &[Command]) -> Op
     let joint = tokens.get(end)?;
     let next = skip_leads(tokens, end + 1);
     let led = tokens.get(end..next)?;
-    let turns = |token: &Token| matches!(token.word(), "just" | "instead" | "but" | "rather");
+    let turns = |token: &Token| TURNS.has(token.word());
     let is_turned = *joint == Token::Comma || turns(joint) || led.iter().any(turns);
     let (then, after) = one(tokens, next)?;
     let differs = tokens.get(next..after)? != said;
@@ -103,8 +103,7 @@ fn is_other(forbidden: &Command, asked: &Command) -> bool {
     let is_of_it = |command: &Command| command.items.iter().any(|item| matches!(item, Noun::Before(_)));
     let is_of_it = is_of_it(forbidden) || is_of_it(asked);
     // `do not take it anywhere`, of what is only to be picked up
-    let is_away =
-        ["anywhere", "away", "elsewhere"].iter().any(|word| forbidden.has(word)) || forbidden.to.is_some();
+    let is_away = forbidden.with.iter().any(|word| ELSEWHERE.has(word)) || forbidden.to.is_some();
     match act {
         Act::Pick | Act::Lift => {
             not == Act::Fetch

@@ -8,8 +8,8 @@ use smol_str::SmolStr;
 
 use crate::ReportedLocation;
 use crate::english::{
-    ADVICE, BEFORE_REPORT, BEHIND_REPORT, IS_HABIT_ALWAYS, LIKES, LOOK_THERE, NEXT_PLACE, REPORT_DENIALS,
-    SPOTS_GOES_ON, TOLD_THERE,
+    ADVICE, BEFORE_REPORT, BEHIND_REPORT, IS_HABIT_ALWAYS, LIKES, LOOK_THERE, NEEDS_TO, NEXT_PLACE,
+    REPORT_DENIALS, SPOTS_GOES_ON, TELLING_BE, TOLD_THERE,
 };
 use crate::meaning::{ANYWHERE, OBJECTS, Reader};
 use crate::noun::{Noun, Phrase, Relation, Spot, Which, noun, place, spot};
@@ -17,7 +17,7 @@ use crate::parse::{Spoken, Statement};
 use crate::phrases::Phrases;
 use crate::rule::Rules;
 use crate::token::{Token, stands};
-use crate::vocabulary::Role;
+use crate::vocabulary::{Role, good_for};
 
 impl Reader<'_> {
     /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things
@@ -87,7 +87,7 @@ impl Reader<'_> {
             // of it.
             let word =
                 |back: usize| at.checked_sub(back).and_then(|at| tokens.get(at)).map_or("", Token::word);
-            let is_told = matches!(word(1), "is" | "are" | "was" | "were") && word(2) != "there";
+            let is_told = TELLING_BE.has(word(1)) && word(2) != "there";
             // `that is enough of the can`
             if !(is_told && phrase.which != Which::The) || phrase.said.starts_with("enough of") {
                 self.mention(&phrase);
@@ -131,18 +131,14 @@ impl Reader<'_> {
 
     /// Reads what somebody may want who only says how they are.
     pub(super) fn wished(&self, spoken: &Spoken) -> Option<String> {
-        let says = |word: &str| {
-            let mut words = spoken.statements.iter().flat_map(|statement| &statement.tokens);
-            words.any(|token| token.word() == word)
-        };
+        let words = spoken.statements.iter().flat_map(|statement| &statement.tokens);
+        let wishes: Vec<_> = words.filter_map(|token| NEEDS_TO.value(token.word())).collect();
         let has = |what: &str| {
             self.vocabulary.things.iter().any(|thing| thing.role == Role::Object && thing.is(what))
         };
-        if says("thirsty") && has("drink") {
-            return Some("Shall I bring you something to drink?".to_owned());
-        }
-        let is_hungry = (says("hungry") || says("starving")) && has("food");
-        is_hungry.then(|| "Shall I bring you something to eat?".to_owned())
+        // Who is thirsty and hungry is offered first what stands first in the list.
+        let found = NEEDS_TO.values().find(|verb| wishes.contains(verb) && good_for(verb).is_some_and(has));
+        found.map(|verb| format!("Shall I bring you something to {verb}?"))
     }
 }
 

@@ -1,6 +1,6 @@
 //! A request as words: lower case, contractions opened, sentence marks kept as marks.
 
-use crate::english::{CONTRACTIONS, PLURALS};
+use crate::english::{CONTRACTIONS, OFFERS, PLURALS};
 
 /// A word or a mark.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -31,9 +31,8 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
         let is_stop = token == Token::Stop;
         // `want the coke?` offers it, `want the coke!` asks for it.
         let asks = is_stop && text.get(..end).is_some_and(|said| said.ends_with('?'));
-        if asks && tokens.get(begin).is_some_and(|first| matches!(first.word(), "want" | "need" | "fancy")) {
-            let you = ["do", "you"].map(|word| Token::Word(word.to_owned()));
-            tokens.splice(begin..begin, you);
+        if asks && tokens.get(begin).is_some_and(|first| OFFERS.has(first.word())) {
+            tokens.splice(begin..begin, words("do you"));
         }
         tokens.push(token);
         if is_stop {

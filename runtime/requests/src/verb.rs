@@ -1,7 +1,10 @@
 //! The verbs of household requests and their forms: `bring`, `bringing`, `brought`.
 
 use crate::asking::{skip_leads, wish};
-use crate::english::{APART_VERBS, NO_THING, PARTICIPLES, PASTS, TAKE_HOLD, VAGUE_VERBS, VERB, WANTED_LATER};
+use crate::english::{
+    APART_VERBS, BINS, CLAUSE_JOINTS, NO_THING, PARTICIPLES, PASTS, TAKE_HOLD, VAGUE_VERBS, VERB,
+    WANTED_LATER,
+};
 use crate::noun::noun;
 use crate::token::{Token, words};
 
@@ -65,9 +68,8 @@ impl Act {
 /// The verb that stands at a place, and where its object begins.
 pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     // `the table, trash can and shelf`: a noun, for want of an object.
-    let next = tokens.get(at + 1).map_or("", Token::word);
-    if matches!(tokens.get(at)?.word(), "trash" | "bin") && matches!(next, "" | "can" | "bin" | "bag" | "and")
-    {
+    let is_last = tokens.get(at + 1).is_none_or(|next| next.word().is_empty());
+    if BINS.valued(tokens, at).is_some_and(|(count, _)| count > 1 || is_last) {
         return None;
     }
     // `take care of it` says nothing of what to do with it.
@@ -98,7 +100,8 @@ fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
     // `I will need it later` tells of another time.
     let is_end = |token: &&Token| {
         matches!(token, Token::Comma | Token::Stop)
-            || matches!(token.word(), "and" | "so" | "but" | "because")
+            || CLAUSE_JOINTS.has(token.word())
+            || token.word() == "because"
     };
     let clause = tokens.get(after..)?.iter().take_while(|token| !is_end(token));
     let is_later = clause.clone().any(|token| WANTED_LATER.has(token.word()));
