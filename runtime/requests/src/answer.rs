@@ -5,17 +5,17 @@ use motet_stdlib::lang::entities;
 use smol_str::SmolStr;
 
 use crate::RequestContext;
-use crate::asking::skip_leads;
-use crate::english::{
+use crate::engine::asking::skip_leads;
+use crate::engine::english::{
     AGAIN, AGREEING_SOUNDS, AGREES, AGREES_AS_CLAUSE, AGREES_PLAINLY, ALL_OF_THEM, ANSWER_LEADS, ANY_OF_THEM,
     BESIDE_THE_POINT, CHOICE_FILLERS, DENIAL_WORDS, FORMER, GIVES_UP, IS_TAG_ASKS, LATTER, MODAL_CAN,
     NEGATES_NO, NUMBERED_THE, NUMBERS, ONE_OF_THEM, ORDINALS, PLAIN_WORDS, REPORT_WORDS, RETRY_WORDS,
     SIDE_THE, SIDES, SKIP_SOFT_SOFT, SOUNDS, THE_OTHER, TRIES_AGAIN,
 };
-use crate::noun::{Noun, Spot, noun, spot};
-use crate::token::{Token, singular, stands, tokens};
-use crate::verb::{Act, Inflection, base, verb};
-use crate::vocabulary::{Role, Vocabulary};
+use crate::engine::noun::{Noun, Spot, noun, spot};
+use crate::engine::token::{Token, singular, stands, tokens};
+use crate::engine::verb::{Act, Inflection, base, verb};
+use crate::engine::vocabulary::{Role, Vocabulary};
 
 const ALL: &[Role] = &[Role::Object, Role::Surface, Role::Container, Role::Place, Role::Person];
 

@@ -7,11 +7,11 @@ use smol_str::SmolStr;
 
 use crate::RequestError;
 use crate::command::{BELONGS, Command, KEPT, WANTED};
+use crate::engine::noun::{Noun, Relation, Spot, Which};
+use crate::engine::verb::Act;
+use crate::engine::vocabulary::Role;
 use crate::errand::{all_of, any_of, hold_on, not, question};
 use crate::meaning::{HOLDERS, OBJECTS, Reader};
-use crate::noun::{Noun, Relation, Spot, Which};
-use crate::verb::Act;
-use crate::vocabulary::Role;
 
 /// The target of a command that takes a thing somewhere.
 enum Target {

@@ -8,10 +8,10 @@ use smol_str::SmolStr;
 
 use crate::RequestError;
 use crate::command::{Command, ONLY_IF};
+use crate::engine::noun::{Noun, Which};
+use crate::engine::verb::Act;
+use crate::engine::vocabulary::Role;
 use crate::meaning::{ANYWHERE, HOLDERS, OBJECTS, Reader};
-use crate::noun::{Noun, Which};
-use crate::verb::Act;
-use crate::vocabulary::Role;
 
 impl Reader<'_> {
     pub(super) fn command(&mut self, command: &Command, later: &[Command]) -> Result<(), RequestError> {

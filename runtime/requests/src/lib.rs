@@ -1,28 +1,17 @@
 #![doc = include_str!("../README.md")]
 
 mod answer;
-mod asking;
 mod carry;
 mod command;
-mod english;
+mod engine;
 mod errand;
 mod error;
-mod frame;
 mod meaning;
-mod noun;
 mod parse;
 mod part;
-mod phrases;
 mod polarity;
-mod reader;
-mod reference;
 mod remark;
-mod rule;
 mod statement;
-mod template;
-mod token;
-mod verb;
-mod vocabulary;
 
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
@@ -81,17 +70,17 @@ pub fn told(answer: &str, situation: &RequestContext<'_>) -> Vec<ReportedLocatio
     if answer.len() > MAX_REQUEST {
         return Vec::new();
     }
-    meaning::told(&frame::without_courtesy(&token::tokens(answer)), situation)
+    meaning::told(&engine::frame::without_courtesy(&engine::token::tokens(answer)), situation)
 }
 
 /// True if an answer is a bare noun or place, such as completes a request: "the cupboard", "on the
 /// table, please".
 #[must_use]
 pub fn is_bare(answer: &str) -> bool {
-    let mut tokens = token::tokens(answer);
+    let mut tokens = engine::token::tokens(answer);
     tokens.retain(|token| !matches!(token.word(), "please" | ""));
-    let place = noun::place(&tokens, 0).map(|(_, end)| end);
-    noun::noun(&tokens, 0).map(|(_, end)| end).or(place) == Some(tokens.len())
+    let place = engine::noun::place(&tokens, 0).map(|(_, end)| end);
+    engine::noun::noun(&tokens, 0).map(|(_, end)| end).or(place) == Some(tokens.len())
 }
 
 /// The most bytes of a request: what somebody says in one breath, and no document. Longer ones are not read.
@@ -107,7 +96,7 @@ pub fn understand(request: &str, situation: &RequestContext<'_>) -> Result<Inten
         let why = format!("a request may have at most {MAX_REQUEST} bytes; this one has {}", request.len());
         return Err(RequestError::Unfit { why });
     }
-    let tokens = frame::plain(&token::tokens(request));
+    let tokens = engine::frame::plain(&engine::token::tokens(request));
     let spoken = parse::parse(&tokens).map_err(|part| RequestError::NotUnderstood { part })?;
     meaning::understood(&spoken, request, situation)
 }

@@ -7,11 +7,11 @@ use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
 use crate::command::Command;
-use crate::noun::{Noun, Phrase};
+use crate::engine::noun::{Noun, Phrase};
+use crate::engine::token::{Token, singular, tokens};
+use crate::engine::verb::Act;
+use crate::engine::vocabulary::{Role, Vocabulary};
 use crate::parse::Spoken;
-use crate::token::{Token, singular, tokens};
-use crate::verb::Act;
-use crate::vocabulary::{Role, Vocabulary};
 use crate::{ReportedLocation, RequestContext, RequestError};
 
 /// Roles of the things that can be carried.

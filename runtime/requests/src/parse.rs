@@ -1,14 +1,14 @@
 //! A request as its commands and the remarks beside them, in order.
 
-use crate::asking::{contrasts, skip_leads, thanks};
 use crate::command::{Command, command, words};
-use crate::english::{DENIES_REQUEST, OF_IT, SPOKEN_I_MEAN};
-use crate::frame::asks_for_it;
-use crate::noun::{Noun, noun};
-use crate::remark::{When, beside, caution, forbidden, is_question, is_remark, remark_end};
-use crate::rule::Rules;
-use crate::token::{Token, stands};
-use crate::verb::{begins, is_want, verb};
+use crate::engine::asking::{contrasts, skip_leads, thanks};
+use crate::engine::english::{DENIES_REQUEST, OF_IT, SPOKEN_I_MEAN};
+use crate::engine::frame::{asks_for_it, remark_end};
+use crate::engine::noun::{Noun, noun};
+use crate::engine::rule::Rules;
+use crate::engine::token::{Token, stands};
+use crate::engine::verb::{begins, is_want, verb};
+use crate::remark::{When, beside, caution, forbidden, is_question, is_remark};
 
 /// A clause beside the commands of a request.
 #[derive(Clone, PartialEq, Debug)]

@@ -2,11 +2,11 @@
 //! The rules `parts` say which; this module does it to the command.
 
 use crate::command::{Command, words};
-use crate::english::{CARRYING, HANDS, PART_GO};
-use crate::noun::{self, Noun, Relation, Spot, noun};
-use crate::rule::Rules;
-use crate::token::Token;
-use crate::verb::Act;
+use crate::engine::english::{CARRYING, HANDS, PART_GO};
+use crate::engine::noun::{self, Noun, Relation, Spot, noun};
+use crate::engine::rule::Rules;
+use crate::engine::token::Token;
+use crate::engine::verb::Act;
 
 /// One part of a command: where the next begins.
 pub(super) fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<usize, String> {

@@ -1,11 +1,11 @@
 //! Yes and no: the polarity of an answer's first words, words that stop a moving robot, and refusals.
 
-use crate::english::{
+use crate::engine::english::{
     ADDITIONS, ANSWER_COURTESY, ASKED_TO_STOP, HOLDS_STILL, IGNORANT, NO, PLACE_AFTER_STOP, REFUSALS, STOPS,
     STOPS_ALONE, YES,
 };
-use crate::phrases::Phrases;
-use crate::token::{Token, pieces, tokens};
+use crate::engine::phrases::Phrases;
+use crate::engine::token::{Token, pieces, tokens};
 
 /// Polarity of the first words of an answer, with the remaining words.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

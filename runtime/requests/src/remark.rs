@@ -1,28 +1,13 @@
 //! Remarks beside a request, which ask for nothing: facts, reasons, questions, cautions; and prohibitions:
 //! `do not bring it to me, just put it on the table`.
 
-use crate::asking::skip_leads;
 use crate::command::{Command, command};
-use crate::english::{CLAUSE_JOINTS, ELSEWHERE, FORBIDDEN_NOT, FORBIDDEN_UNTIL, TURNS};
-use crate::frame::asks_for_it;
-use crate::noun::Noun;
-use crate::rule::Rules;
-use crate::token::Token;
-use crate::verb::{Act, begins, verb};
-
-/// A remark goes on to the end of its sentence, or to a comma or a joint behind which something is asked for.
-pub(super) fn remark_end(tokens: &[Token], begin: usize) -> usize {
-    let mut at = begin;
-    while let Some(token) = tokens.get(at) {
-        let is_joint = matches!(token, Token::Comma) || CLAUSE_JOINTS.has(token.word());
-        let asks = || begins(tokens, at + 1) || asks_for_it(tokens, at + 1).is_some();
-        if matches!(token, Token::Stop) || (at > begin && is_joint && asks()) {
-            break;
-        }
-        at += 1;
-    }
-    at
-}
+use crate::engine::asking::skip_leads;
+use crate::engine::english::{ELSEWHERE, FORBIDDEN_NOT, FORBIDDEN_UNTIL, TURNS};
+use crate::engine::noun::Noun;
+use crate::engine::rule::Rules;
+use crate::engine::token::Token;
+use crate::engine::verb::{Act, verb};
 
 /// True if words are a remark. Anything else that is no command is not understood.
 pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {

@@ -7,17 +7,16 @@ use motet_stdlib::lang::fluents;
 use smol_str::SmolStr;
 
 use crate::ReportedLocation;
-use crate::english::{
-    ADVICE, BEFORE_REPORT, BEHIND_REPORT, IS_HABIT_ALWAYS, LIKES, LOOK_THERE, NEEDS_TO, NEXT_PLACE,
-    REPORT_DENIALS, SPOTS_GOES_ON, TELLING_BE, TOLD_THERE,
+use crate::engine::english::{
+    ADVICE, BEFORE_REPORT, BEHIND_REPORT, IS_HABIT_ALWAYS, LIKES, LOOK_THERE, NEEDS_TO, REPORT_DENIALS,
+    TELLING_BE, TOLD_THERE,
 };
+use crate::engine::noun::{Noun, Phrase, Relation, Spot, Which, noun, skip, spot, spots};
+use crate::engine::rule::Rules;
+use crate::engine::token::{Token, stands};
+use crate::engine::vocabulary::{Role, good_for};
 use crate::meaning::{ANYWHERE, OBJECTS, Reader};
-use crate::noun::{Noun, Phrase, Relation, Spot, Which, noun, place, spot};
 use crate::parse::{Spoken, Statement};
-use crate::phrases::Phrases;
-use crate::rule::Rules;
-use crate::token::{Token, stands};
-use crate::vocabulary::{Role, good_for};
 
 impl Reader<'_> {
     /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things
@@ -237,37 +236,6 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
     Some((noun(&found.words, 0)?.0, spots(tokens, found.end, is_looked_for)?))
 }
 
-/// Places to the end of a clause: `in the fridge or in the cupboard`, `the fridge first and then the drawer`.
-pub(super) fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>> {
-    let mut spots: Vec<Spot> = Vec::new();
-    loop {
-        // `the cupboard yesterday`, `the fridge first and then …`: a place ends before such words, `the first
-        // drawer` does not.
-        let whole = tokens;
-        let is_end = |end: &usize| {
-            let after = skip(whole, *end, &BEHIND_REPORT);
-            after > *end && (after == whole.len() || NEXT_PLACE.longest(whole, after).is_some())
-        };
-        let end = (at + 1..whole.len()).find(is_end).unwrap_or(whole.len());
-        let tokens = whole.get(..end)?;
-        let bare = || {
-            let (noun, after) = noun(tokens, at)?;
-            let is_named = matches!(noun, Noun::Phrase(_));
-            let spot =
-                Spot { relation: Relation::To, preposition: String::new(), noun, is_behind_thing: false };
-            (is_named && (may_be_bare || !spots.is_empty())).then_some((spot, after))
-        };
-        let (spot, after) = place(tokens, at).or_else(bare)?;
-        spots.push(spot);
-        at = skip(whole, after, &BEHIND_REPORT);
-        if at >= whole.len() || (at > 0 && SPOTS_GOES_ON.longest(whole, at).is_some()) {
-            return Some(spots);
-        }
-        at += NEXT_PLACE.longest(whole, at)?;
-        at = skip(whole, at, &LOOK_THERE);
-    }
-}
-
 /// Past what says how sure somebody is, or is only said before.
 fn leading(tokens: &[Token], mut at: usize, clause: Clause) -> usize {
     loop {
@@ -278,10 +246,6 @@ fn leading(tokens: &[Token], mut at: usize, clause: Clause) -> usize {
             None => return at,
         }
     }
-}
-
-fn skip(tokens: &[Token], at: usize, skipped: &Phrases) -> usize {
-    at + skipped.run(tokens, at)
 }
 
 /// The number of words that say how sure somebody is.

@@ -1,18 +1,18 @@
 //! Noun phrases: a noun with its article, its count and what narrows it down; and places, a noun with a
 //! preposition.
 
-use crate::english::{
-    DEICTICS, DETERMINERS, ENDS_AT_CAN, IT, KINDS_OF, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, OPEN_NOUNS,
-    PARTS_OF_THINGS, PHRASE_SOMETHING, PREPOSITIONS_OF_DIRECTION, PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS,
-    THAT_IS, USE_ENDS,
+use crate::engine::english::{
+    BEHIND_REPORT, DEICTICS, DETERMINERS, ENDS_AT_CAN, IT, KINDS_OF, LOOK_THERE, NARROWED_IS, NARROWED_LIKED,
+    NEXT_PLACE, NOUN_ENDS, OPEN_NOUNS, PARTS_OF_THINGS, PHRASE_SOMETHING, PREPOSITIONS_OF_DIRECTION,
+    PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS, SPOTS_GOES_ON, THAT_IS, USE_ENDS,
 };
-use crate::phrases::Phrases;
-use crate::token::{Token, singular};
-use crate::vocabulary::{Role, good_for, is_package};
+use crate::engine::phrases::Phrases;
+use crate::engine::token::{Token, singular};
+use crate::engine::vocabulary::{Role, good_for, is_package};
 
 /// The determiner of a noun phrase: the one, any, a count, all.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Which {
+pub(crate) enum Which {
     /// `the mug`: the one.
     The,
     /// `a mug`, `some chips`, `mug`: any.
@@ -24,7 +24,7 @@ pub(super) enum Which {
 
 /// A noun phrase or a pronoun.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) enum Noun {
+pub(crate) enum Noun {
     Speaker,
     /// `it`, `them`, `that`
     Before(&'static str),
@@ -35,23 +35,23 @@ pub(super) enum Noun {
 
 /// A noun with what narrows it down.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Phrase {
+pub(crate) struct Phrase {
     /// As it was said.
-    pub(super) said: String,
+    pub(crate) said: String,
     /// Its words in the singular; none for `something`.
-    pub(super) words: Vec<String>,
-    pub(super) content: Vec<String>,
-    pub(super) which: Which,
-    pub(super) is_plural: bool,
-    pub(super) good_for: Option<&'static str>,
-    pub(super) is: Vec<(bool, Vec<String>)>,
-    pub(super) place: Option<Box<Spot>>,
+    pub(crate) words: Vec<String>,
+    pub(crate) content: Vec<String>,
+    pub(crate) which: Which,
+    pub(crate) is_plural: bool,
+    pub(crate) good_for: Option<&'static str>,
+    pub(crate) is: Vec<(bool, Vec<String>)>,
+    pub(crate) place: Option<Box<Spot>>,
     /// `something that I would like`
-    pub(super) is_liked: bool,
+    pub(crate) is_liked: bool,
 }
 
 /// A noun that begins at a place, and where it ends.
-pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
+pub(crate) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     let word = tokens.get(at)?.word();
     if let Some(count) = SPEAKERS.longest(tokens, at) {
         return Some((Noun::Speaker, at + count));
@@ -224,7 +224,7 @@ fn determiner(tokens: &[Token], at: usize) -> (Option<Which>, usize) {
 
 /// A spatial relation of a thing to a place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Relation {
+pub(crate) enum Relation {
     On,
     In,
     At,
@@ -236,22 +236,22 @@ pub(super) enum Relation {
 
 /// A place with its preposition.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Spot {
-    pub(super) relation: Relation,
+pub(crate) struct Spot {
+    pub(crate) relation: Relation,
     /// The preposition as it was said.
-    pub(super) preposition: String,
-    pub(super) noun: Noun,
-    pub(super) is_behind_thing: bool,
+    pub(crate) preposition: String,
+    pub(crate) noun: Noun,
+    pub(crate) is_behind_thing: bool,
 }
 
 impl Spot {
     /// True if it can only say where to: `onto`, `into`, `to`.
-    pub(super) fn moves(&self) -> bool {
+    pub(crate) fn moves(&self) -> bool {
         !PREPOSITIONS_OF_PLACE.has(&self.preposition)
     }
 
     /// As it was said.
-    pub(super) fn said(&self) -> String {
+    pub(crate) fn said(&self) -> String {
         let noun = match &self.noun {
             Noun::Speaker => "me",
             Noun::Before(word) => word,
@@ -278,7 +278,7 @@ impl Relation {
 
     /// True if something can be so to a thing of this role: on a shelf, in a drawer. A sink and a
     /// shelf have things in them as well as on them; what lies in a mug is not known.
-    pub(super) const fn fits(self, role: Role) -> bool {
+    pub(crate) const fn fits(self, role: Role) -> bool {
         match self {
             Self::On => matches!(role, Role::Surface | Role::Object | Role::Place),
             Self::In => matches!(role, Role::Surface | Role::Container | Role::Place),
@@ -289,28 +289,28 @@ impl Relation {
 }
 
 /// `on the table`, `in the drawer`, `at the counter`
-pub(super) fn located(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
+pub(crate) fn located(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     spot(tokens, at).map(|(spot, after)| (spot.noun, after))
 }
 
 /// The same with its preposition.
-pub(super) fn spot(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
+pub(crate) fn spot(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
     let is_static = PREPOSITIONS_OF_DIRECTION.longest(tokens, at) < PREPOSITIONS_OF_PLACE.longest(tokens, at);
     is_static.then(|| placed(tokens, at, &PREPOSITIONS_OF_PLACE)).flatten()
 }
 
 /// A place with a preposition of place or of direction.
-pub(super) fn place(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
+pub(crate) fn place(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
     spot(tokens, at).or_else(|| direction(tokens, at))
 }
 
 /// `to the table`, `into the drawer`, `next to the sink`: where to, or near what.
-pub(super) fn direction(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
+pub(crate) fn direction(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
     placed(tokens, at, &PREPOSITIONS_OF_DIRECTION)
 }
 
 /// True if a preposition of direction, or of near by, stands here.
-pub(super) fn is_direction(tokens: &[Token], at: usize) -> bool {
+pub(crate) fn is_direction(tokens: &[Token], at: usize) -> bool {
     PREPOSITIONS_OF_DIRECTION.longest(tokens, at) > PREPOSITIONS_OF_PLACE.longest(tokens, at)
 }
 
@@ -322,10 +322,46 @@ fn placed(tokens: &[Token], at: usize, prepositions: &Phrases) -> Option<(Spot, 
     Some((Spot { relation, preposition: preposition.join(" "), noun, is_behind_thing: false }, after))
 }
 
+/// Places to the end of a clause: `in the fridge or in the cupboard`, `the fridge first and then the drawer`.
+pub(crate) fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>> {
+    let mut spots: Vec<Spot> = Vec::new();
+    loop {
+        // `the cupboard yesterday`, `the fridge first and then …`: a place ends before such words, `the first
+        // drawer` does not.
+        let whole = tokens;
+        let is_end = |end: &usize| {
+            let after = skip(whole, *end, &BEHIND_REPORT);
+            after > *end && (after == whole.len() || NEXT_PLACE.longest(whole, after).is_some())
+        };
+        let end = (at + 1..whole.len()).find(is_end).unwrap_or(whole.len());
+        let tokens = whole.get(..end)?;
+        let bare = || {
+            let (noun, after) = noun(tokens, at)?;
+            let is_named = matches!(noun, Noun::Phrase(_));
+            let spot =
+                Spot { relation: Relation::To, preposition: String::new(), noun, is_behind_thing: false };
+            (is_named && (may_be_bare || !spots.is_empty())).then_some((spot, after))
+        };
+        let (spot, after) = place(tokens, at).or_else(bare)?;
+        spots.push(spot);
+        at = skip(whole, after, &BEHIND_REPORT);
+        if at >= whole.len() || (at > 0 && SPOTS_GOES_ON.longest(whole, at).is_some()) {
+            return Some(spots);
+        }
+        at += NEXT_PLACE.longest(whole, at)?;
+        at = skip(whole, at, &LOOK_THERE);
+    }
+}
+
+/// Past phrases of a list that stand one behind another.
+pub(crate) fn skip(tokens: &[Token], at: usize, skipped: &Phrases) -> usize {
+    at + skipped.run(tokens, at)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Noun, Phrase, Relation, Which, direction, noun, spot};
-    use crate::token::tokens;
+    use crate::engine::token::tokens;
 
     fn phrase(text: &str) -> (Phrase, usize) {
         match noun(&tokens(text), 0) {

@@ -5,11 +5,11 @@
 //! several places, such as `{thing}` at each word behind which a noun may end: these are tried in order. So
 //! the work for a rule is linear in its parts for each of them.
 
-use crate::phrases::{List, list};
-use crate::reader::{self, Clause};
-use crate::template::{Part, Side, Template};
-use crate::token::{Token, words};
-use crate::verb::Act;
+use crate::engine::phrases::{List, list};
+use crate::engine::reader::{self, Clause};
+use crate::engine::template::{Part, Side, Template};
+use crate::engine::token::{Token, words};
+use crate::engine::verb::Act;
 #[cfg(test)]
 use tests::fits;
 
@@ -225,7 +225,7 @@ pub(crate) mod tests {
     }
 
     /// Notes that a rule fits.
-    pub(super) fn fits(list: &'static str, index: usize) {
+    pub(crate) fn fits(list: &'static str, index: usize) {
         FITTING.with_borrow_mut(|fitting| fitting.push((list, index)));
     }
 }

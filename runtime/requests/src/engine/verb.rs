@@ -1,16 +1,16 @@
 //! The verbs of household requests and their forms: `bring`, `bringing`, `brought`.
 
-use crate::asking::{skip_leads, wish};
-use crate::english::{
+use crate::engine::asking::{skip_leads, wish};
+use crate::engine::english::{
     APART_VERBS, BINS, CLAUSE_JOINTS, NO_THING, PARTICIPLES, PASTS, TAKE_HOLD, VAGUE_VERBS, VERB,
     WANTED_LATER,
 };
-use crate::noun::noun;
-use crate::token::{Token, words};
+use crate::engine::noun::noun;
+use crate::engine::token::{Token, words};
 
 /// The act that a verb asks for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Act {
+pub(crate) enum Act {
     Go,
     /// Come to the person.
     Come,
@@ -42,7 +42,7 @@ pub(super) enum Act {
 
 impl Act {
     /// The act of a name in the list of verbs.
-    pub(super) fn named(name: &str) -> Option<Self> {
+    pub(crate) fn named(name: &str) -> Option<Self> {
         Some(match name {
             "go" => Self::Go,
             "come" => Self::Come,
@@ -66,7 +66,7 @@ impl Act {
 }
 
 /// The verb that stands at a place, and where its object begins.
-pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
+pub(crate) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     // `the table, trash can and shelf`: a noun, for want of an object.
     let is_last = tokens.get(at + 1).is_none_or(|next| next.word().is_empty());
     if BINS.valued(tokens, at).is_some_and(|(count, _)| count > 1 || is_last) {
@@ -84,7 +84,7 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
 
 /// `lock it away`, `track it down`: the verb with its small word behind the thing, and where what is read
 /// ends.
-pub(super) fn apart(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
+pub(crate) fn apart(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     let word = tokens.get(at)?.word();
     let (_, after) = noun(tokens, at + 1).filter(|_| APART_VERBS.begins_with(word))?;
     // The verb and what follows the thing, as if they stood together.
@@ -110,25 +110,25 @@ fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
 }
 
 /// True if it is a wish that stands here, and no verb.
-pub(super) fn is_want(tokens: &[Token], at: usize) -> bool {
+pub(crate) fn is_want(tokens: &[Token], at: usize) -> bool {
     wanted(tokens, at).is_some()
 }
 
 /// True if a request begins here, after what politeness puts before it.
-pub(super) fn begins(tokens: &[Token], at: usize) -> bool {
+pub(crate) fn begins(tokens: &[Token], at: usize) -> bool {
     verb(tokens, skip_leads(tokens, at)).is_some()
 }
 
 /// An inflection of a verb.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Inflection {
+pub(crate) enum Inflection {
     Base,
     Gerund,
     Participle,
 }
 
 /// The verb of a request of which a word is the past: `if you took it`.
-pub(super) fn of_past(word: &str) -> Option<String> {
+pub(crate) fn of_past(word: &str) -> Option<String> {
     if let Some(verb) = PASTS.value(word) {
         return Some(verb.to_owned());
     }
@@ -136,7 +136,7 @@ pub(super) fn of_past(word: &str) -> Option<String> {
 }
 
 /// A verb of a request by one of its forms: `fetching`, `placing`, `putting`, `carried`.
-pub(super) fn base(word: &str) -> Option<(String, Inflection)> {
+pub(crate) fn base(word: &str) -> Option<(String, Inflection)> {
     if let Some(verb) = PARTICIPLES.value(word) {
         return Some((verb.to_owned(), Inflection::Participle));
     }

@@ -1,6 +1,6 @@
 //! A request as words: lower case, contractions opened, sentence marks kept as marks.
 
-use crate::english::{CONTRACTIONS, OFFERS, PLURALS};
+use crate::engine::english::{CONTRACTIONS, OFFERS, PLURALS};
 
 /// A word or a mark.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -24,7 +24,7 @@ impl Token {
 
 /// Splits a request. Anything that is neither a letter, a digit nor a mark separates words; an apostrophe
 /// belongs to its word. O(bytes).
-pub(super) fn tokens(text: &str) -> Vec<Token> {
+pub(crate) fn tokens(text: &str) -> Vec<Token> {
     let mut tokens: Vec<Token> = Vec::new();
     let mut begin = 0;
     for (token, end) in pieces(text) {
@@ -98,7 +98,7 @@ fn push(pieces: &mut Vec<(Token, usize)>, word: &mut String, end: usize) {
 
 /// A noun in the singular, by the common rules: `cookies` → `cookie`, `glasses` → `glass`, `berries` →
 /// `berry`, `knives` → `knife`. What does not look like a plural stays.
-pub(super) fn singular(word: &str) -> String {
+pub(crate) fn singular(word: &str) -> String {
     if let Some(one) = PLURALS.value(word) {
         return one.to_owned();
     }
@@ -118,12 +118,12 @@ pub(super) fn singular(word: &str) -> String {
 }
 
 /// Words as tokens.
-pub(super) fn words(text: &str) -> Vec<Token> {
+pub(crate) fn words(text: &str) -> Vec<Token> {
     text.split(' ').map(|word| Token::Word(word.to_owned())).collect()
 }
 
 /// Counts how many tokens words take at a place; none where they do not stand there.
-pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> {
+pub(crate) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> {
     // Most of a table begins with another word.
     if !words.starts_with(tokens.get(at)?.word()) {
         return None;

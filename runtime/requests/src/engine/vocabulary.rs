@@ -6,13 +6,13 @@ use motet_robots::scene::Scene;
 use motet_stdlib::lang::{entities, kinds};
 use smol_str::SmolStr;
 
-use crate::english::{HOLDS_CAN, ORDINARY_WORDS, PACKAGES, SAME, THINGS, USES};
-use crate::phrases::is_word_of_lists;
-use crate::token::singular;
+use crate::engine::english::{HOLDS_CAN, ORDINARY_WORDS, PACKAGES, SAME, THINGS, USES};
+use crate::engine::phrases::is_word_of_lists;
+use crate::engine::token::singular;
 
 /// The role of a thing in requests.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Role {
+pub(crate) enum Role {
     /// It can be carried.
     Object,
     /// Things stand on it.
@@ -26,10 +26,10 @@ pub(super) enum Role {
 
 /// A thing with its names.
 #[derive(Clone, Debug)]
-pub(super) struct Thing {
-    pub(super) id: SmolStr,
-    pub(super) role: Role,
-    pub(super) support: Option<SmolStr>,
+pub(crate) struct Thing {
+    pub(crate) id: SmolStr,
+    pub(crate) role: Role,
+    pub(crate) support: Option<SmolStr>,
     /// Its id, class and names, as words in the singular.
     names: Vec<Vec<String>>,
     tags: Vec<String>,
@@ -37,14 +37,14 @@ pub(super) struct Thing {
 
 /// The names of a scene.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Vocabulary {
-    pub(super) things: Vec<Thing>,
+pub(crate) struct Vocabulary {
+    pub(crate) things: Vec<Thing>,
 }
 
 impl Vocabulary {
     /// Collects the names. `supports` says where things are now, where that is known better than by the
     /// scene.
-    pub(super) fn new(scene: &Scene, supports: &[(SmolStr, Option<SmolStr>)]) -> Self {
+    pub(crate) fn new(scene: &Scene, supports: &[(SmolStr, Option<SmolStr>)]) -> Self {
         let things = scene.entities.values().map(|entity| {
             let mut names: Vec<Vec<String>> = Vec::new();
             for name in [&entity.id, &entity.class].into_iter().chain(&entity.names) {
@@ -80,12 +80,12 @@ impl Vocabulary {
         Self { things }
     }
 
-    pub(super) fn thing(&self, id: &str) -> Option<&Thing> {
+    pub(crate) fn thing(&self, id: &str) -> Option<&Thing> {
         self.things.iter().find(|thing| thing.id == id)
     }
 
     /// Takes in where a thing is.
-    pub(super) fn moved(&mut self, id: &str, place: &SmolStr) {
+    pub(crate) fn moved(&mut self, id: &str, place: &SmolStr) {
         if let Some(thing) = self.things.iter_mut().find(|thing| thing.id == id) {
             thing.support = Some(place.clone());
         }
@@ -93,7 +93,7 @@ impl Vocabulary {
 
     /// The things of some roles that words mean, by the closest of three matches: by a whole name,
     /// by what it is, or by words of its name and of what it is together. Words are in the singular.
-    pub(super) fn meant(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
+    pub(crate) fn meant(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
         let all = || self.things.iter().filter(|thing| roles.contains(&thing.role));
         let phrase = words.join(" ");
         let usual = usual(&phrase).unwrap_or(&phrase);
@@ -114,14 +114,14 @@ impl Vocabulary {
 
     /// The things of some roles of which every word tells something, be it that they only tell it apart: `the
     /// red one`.
-    pub(super) fn told_by(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
+    pub(crate) fn told_by(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
         let all = self.things.iter().filter(|thing| roles.contains(&thing.role));
         all.filter(|thing| thing.are_its(words)).collect()
     }
 
     /// Words with those that nothing is called replaced by the one name that they are a slip away from. None
     /// where one has no such name.
-    pub(super) fn respelt(&self, words: &[String]) -> Option<Vec<String>> {
+    pub(crate) fn respelt(&self, words: &[String]) -> Option<Vec<String>> {
         let own = self.things.iter().flat_map(|thing| thing.names.iter().flatten());
         let tags = self.things.iter().flat_map(|thing| &thing.tags).flat_map(|tag| tag.split(' '));
         let mut known: Vec<&str> = own.map(String::as_str).chain(tags).collect();
@@ -164,7 +164,7 @@ impl Vocabulary {
 
 impl Thing {
     /// Reads what it is called: its first name that is no id, else the id in words.
-    pub(super) fn called(&self) -> String {
+    pub(crate) fn called(&self) -> String {
         self.names
             .iter()
             .max_by_key(|name| name.len())
@@ -172,12 +172,12 @@ impl Thing {
     }
 
     /// True if some words hold all those of one of its names.
-    pub(super) fn is_named_in(&self, words: &[String]) -> bool {
+    pub(crate) fn is_named_in(&self, words: &[String]) -> bool {
         self.names.iter().any(|name| name.iter().all(|word| words.contains(word)))
     }
 
     /// True if it is something, by category.
-    pub(super) fn is(&self, what: &str) -> bool {
+    pub(crate) fn is(&self, what: &str) -> bool {
         self.tags.iter().any(|tag| tag == what)
     }
 
@@ -200,7 +200,7 @@ impl Thing {
     }
 
     /// True if a word says what it is or what is in it: the noun of one of its names, or a category.
-    pub(super) fn is_content(&self, word: &str) -> bool {
+    pub(crate) fn is_content(&self, word: &str) -> bool {
         self.names.iter().any(|name| name.last().is_some_and(|last| last == word))
             || self.is(usual(word).unwrap_or(word))
     }
@@ -249,12 +249,12 @@ fn kinds(name: &[String]) -> Vec<&'static str> {
 }
 
 /// Reads what a thing is that someone eats, drinks, cleans with.
-pub(super) fn good_for(verb: &str) -> Option<&'static str> {
+pub(crate) fn good_for(verb: &str) -> Option<&'static str> {
     USES.value(verb)
 }
 
 /// True if a word says how a thing is packed.
-pub(super) fn is_package(word: &str) -> bool {
+pub(crate) fn is_package(word: &str) -> bool {
     PACKAGES.has(word)
 }
 

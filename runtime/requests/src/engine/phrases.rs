@@ -7,8 +7,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::{LazyLock, OnceLock};
 
-use crate::template::{self, Lists, Part, Template};
-use crate::token::Token;
+use crate::engine::template::{self, Lists, Part, Template};
+use crate::engine::token::Token;
 
 /// A list of phrases by its name in the files.
 pub(crate) struct Phrases {
@@ -19,7 +19,7 @@ pub(crate) struct Phrases {
 /// A list of the files.
 pub(crate) enum List {
     Phrases(Phrases),
-    /// Rules, with slots, for [`crate::rule`].
+    /// Rules, with slots, for [`crate::engine::rule`].
     Rules(&'static [Template]),
 }
 
@@ -277,7 +277,7 @@ impl Builder<'_> {
 #[cfg(test)]
 mod tests {
     use super::Automaton;
-    use crate::template::{Lists, read};
+    use crate::engine::template::{Lists, read};
 
     fn automaton(text: &'static str) -> Automaton {
         let mut lists = Lists::new();

@@ -5,12 +5,12 @@
 //! repetition, and `<name>` for another list. Several templates may share a line, divided by `|`. `=> value`
 //! behind a template gives what it stands for. A line in quotes is an example; the tests hold that one reaches
 //! each template. `#` begins a comment. The notation is that of JSGF with the layout of hassil's sentence
-//! files. [`crate::phrases`] compiles what is read here.
+//! files. [`crate::engine::phrases`] compiles what is read here.
 //!
 //! A list of rules has slots besides: `{noun}` reads a noun, `{thing:noun}` keeps it under another name, and
 //! `{x:<list>}` keeps what a list reads. `&a` and `!a` look ahead, `^a` and `!^a` look back, `,` and `.` are
 //! the marks of a sentence. `=> put {thing}` writes what takes the place of all that was read, or is the
-//! value of the rule in another one. [`crate::rule`] interprets them.
+//! value of the rule in another one. [`crate::engine::rule`] interprets them.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -27,7 +27,7 @@ pub(crate) enum Part {
     Repeat(Box<Part>),
     /// A part whose words are kept under a name.
     Slot(&'static str, Box<Part>),
-    /// A reader of [`crate::reader`] by its number, with its argument.
+    /// A reader of [`crate::engine::reader`] by its number, with its argument.
     Read(usize, &'static str),
     /// A part that stands here, or does not, and is not taken.
     Look(Side, bool, Box<Part>),
@@ -233,7 +233,7 @@ impl Parser {
             inner.split_once('}').filter(|_| is_named).unwrap_or((name, inner.get(1..).unwrap_or("")));
         self.rest = rest;
         let (kind, argument) = reader.split_once(' ').unwrap_or((reader, ""));
-        let number = crate::reader::number(kind).ok_or_else(|| format!("nothing reads `{kind}`"))?;
+        let number = crate::engine::reader::number(kind).ok_or_else(|| format!("nothing reads `{kind}`"))?;
         let name = if is_named { name } else { kind };
         Ok(Part::Slot(name, Box::new(Part::Read(number, argument))))
     }

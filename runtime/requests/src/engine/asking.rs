@@ -5,12 +5,12 @@
 //! or bounds anything. Those that do, `not`, `unless`, `when`, are no part of it but in a few phrases that
 //! ask for the contrary of what they say.
 
-use crate::english::{
+use crate::engine::english::{
     ASKS_SOMEBODY, BEFORE_CURT, CONTRASTS, CURT_WISHES, DOUBTS, FAVOUR, LEADS, MAY_HAVE, MINDING, NO_LEADS,
     OVERTURES, SOFTENERS, THANKS, VERB, WISH, WISH_HAVE,
 };
-use crate::rule::Rules;
-use crate::token::{Token, stands};
+use crate::engine::rule::Rules;
+use crate::engine::token::{Token, stands};
 
 /// The number of words that ask somebody for something; what is asked for stands behind.
 fn asking(tokens: &[Token], at: usize) -> Option<usize> {
@@ -40,7 +40,7 @@ fn behind_overtures(tokens: &[Token], at: usize, rules: &'static str) -> Option<
 }
 
 /// The ends of words of wishing, thinking and politeness that stand one behind another.
-pub(super) fn overtures(tokens: &[Token], at: usize) -> Vec<usize> {
+pub(crate) fn overtures(tokens: &[Token], at: usize) -> Vec<usize> {
     let next = |end: &usize| {
         let count = OVERTURES.longest(tokens, *end).max(MINDING.longest(tokens, *end))?;
         Some(end + count)
@@ -49,7 +49,7 @@ pub(super) fn overtures(tokens: &[Token], at: usize) -> Vec<usize> {
 }
 
 /// Counts how many words a wish takes at a place, behind which stands what somebody wants to have.
-pub(super) fn wish(tokens: &[Token], at: usize) -> Option<usize> {
+pub(crate) fn wish(tokens: &[Token], at: usize) -> Option<usize> {
     // `would it be possible to have the coke`, `any chance of the coke`
     let chance = WISH_HAVE.longest(tokens, at).filter(|count| {
         !tokens.get(at + count).is_some_and(|token| token.word() == "you" || token.word().ends_with("ing"))
@@ -72,7 +72,7 @@ fn may_have(tokens: &[Token], at: usize) -> Option<usize> {
 }
 
 /// Finds where the request itself begins.
-pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
+pub(crate) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
     loop {
         if contrasts(tokens, at) {
             return at;
@@ -101,7 +101,7 @@ pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
 }
 
 /// Counts how many words of thanks and the like stand at a place.
-pub(super) fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
+pub(crate) fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
     if contrasts(tokens, at) {
         return None;
     }
@@ -109,6 +109,6 @@ pub(super) fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
 }
 
 /// `instead of the wrench`, `rather than there`: what follows is not wanted.
-pub(super) fn contrasts(tokens: &[Token], at: usize) -> bool {
+pub(crate) fn contrasts(tokens: &[Token], at: usize) -> bool {
     CONTRASTS.longest(tokens, at).is_some()
 }

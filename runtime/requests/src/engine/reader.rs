@@ -3,14 +3,13 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use crate::asking::{overtures, skip_leads, wish};
-use crate::english::{DEICTICS, OF_IT};
-use crate::noun::{Noun, Relation, Spot, direction, is_direction, noun, place, spot};
-use crate::phrases::{List, list};
-use crate::remark::remark_end;
-use crate::statement::spots;
-use crate::token::{Token, words};
-use crate::verb::{Act, Inflection, apart, base, begins, of_past, verb};
+use crate::engine::asking::{overtures, skip_leads, wish};
+use crate::engine::english::{DEICTICS, OF_IT};
+use crate::engine::frame::remark_end;
+use crate::engine::noun::{Noun, Relation, Spot, direction, is_direction, noun, place, spot, spots};
+use crate::engine::phrases::{List, list};
+use crate::engine::token::{Token, words};
+use crate::engine::verb::{Act, Inflection, apart, base, begins, of_past, verb};
 
 /// Tokens of a request, with what a rule knows of the place where it began.
 pub(crate) struct Clause<'a> {

@@ -1,22 +1,22 @@
 //! The lists of English, by the names that they have in the files of the folder `english/`.
 
-use crate::phrases::Phrases;
+use crate::engine::phrases::Phrases;
 
 /// The files, by name.
 pub(crate) const FILES: &[(&str, &str)] = &[
-    ("answers", include_str!("../english/answers.phrases")),
-    ("asking", include_str!("../english/asking.phrases")),
-    ("commands", include_str!("../english/commands.phrases")),
-    ("courtesy", include_str!("../english/courtesy.phrases")),
-    ("frames", include_str!("../english/frames.phrases")),
-    ("knowledge", include_str!("../english/knowledge.phrases")),
-    ("nouns", include_str!("../english/nouns.phrases")),
-    ("places", include_str!("../english/places.phrases")),
-    ("remarks", include_str!("../english/remarks.phrases")),
-    ("rewrites", include_str!("../english/rewrites.phrases")),
-    ("tokens", include_str!("../english/tokens.phrases")),
-    ("verbs", include_str!("../english/verbs.phrases")),
-    ("wishes", include_str!("../english/wishes.phrases")),
+    ("answers", include_str!("../../english/answers.phrases")),
+    ("asking", include_str!("../../english/asking.phrases")),
+    ("commands", include_str!("../../english/commands.phrases")),
+    ("courtesy", include_str!("../../english/courtesy.phrases")),
+    ("frames", include_str!("../../english/frames.phrases")),
+    ("knowledge", include_str!("../../english/knowledge.phrases")),
+    ("nouns", include_str!("../../english/nouns.phrases")),
+    ("places", include_str!("../../english/places.phrases")),
+    ("remarks", include_str!("../../english/remarks.phrases")),
+    ("rewrites", include_str!("../../english/rewrites.phrases")),
+    ("tokens", include_str!("../../english/tokens.phrases")),
+    ("verbs", include_str!("../../english/verbs.phrases")),
+    ("wishes", include_str!("../../english/wishes.phrases")),
 ];
 
 macro_rules! lists {
@@ -96,12 +96,12 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::{FILES, RULES, USED};
-    use crate::phrases::{self, List};
-    use crate::rule::Rules;
-    use crate::rule::tests::FITTING;
-    use crate::template::{self, Lists, Part};
-    use crate::token::{self, Token};
-    use crate::verb::Act;
+    use crate::engine::phrases::{self, List};
+    use crate::engine::rule::Rules;
+    use crate::engine::rule::tests::FITTING;
+    use crate::engine::template::{self, Lists, Part};
+    use crate::engine::token::{self, Token};
+    use crate::engine::verb::Act;
 
     fn lists() -> Lists {
         let mut lists = Lists::new();

@@ -6,11 +6,11 @@
 //! place or state (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and
 //! what politeness puts before them. They stand in `rewrites.phrases`; this module applies them in order.
 
-use crate::asking::skip_leads;
-use crate::english::{NEED_NOT, PLAIN_AND};
-use crate::rule::Rules;
-use crate::token::Token;
-use crate::verb::{Inflection, base, of_past};
+use crate::engine::asking::skip_leads;
+use crate::engine::english::{CLAUSE_JOINTS, NEED_NOT, PLAIN_AND};
+use crate::engine::rule::Rules;
+use crate::engine::token::Token;
+use crate::engine::verb::{Inflection, base, begins, of_past};
 
 /// Rules for what is said before an imperative or in the place of one: what each writes is read again. In
 /// those of a series the verbs that follow stand in the same form.
@@ -29,14 +29,14 @@ enum Series {
 }
 
 /// A request without its courtesy.
-pub(super) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
+pub(crate) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
     let mut tokens = tokens.to_vec();
     Rules("courtesy").rewrite(&mut tokens);
     tokens
 }
 
 /// A request with its frames said plainly.
-pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
+pub(crate) fn plain(tokens: &[Token]) -> Vec<Token> {
     let mut tokens = tokens.to_vec();
     // What is left out may stand between other words that are.
     // `I cannot open it, could you?` has to be read before courtesy is left out.
@@ -131,6 +131,20 @@ fn asked_for(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> 
 }
 
 /// The end of a clause that asks for what was spoken of.
-pub(super) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usize> {
+pub(crate) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usize> {
     Rules("asks_for_it").end(tokens, at)
+}
+
+/// A remark goes on to the end of its sentence, or to a comma or a joint behind which something is asked for.
+pub(crate) fn remark_end(tokens: &[Token], begin: usize) -> usize {
+    let mut at = begin;
+    while let Some(token) = tokens.get(at) {
+        let is_joint = matches!(token, Token::Comma) || CLAUSE_JOINTS.has(token.word());
+        let asks = || begins(tokens, at + 1) || asks_for_it(tokens, at + 1).is_some();
+        if matches!(token, Token::Stop) || (at > begin && is_joint && asks()) {
+            break;
+        }
+        at += 1;
+    }
+    at
 }

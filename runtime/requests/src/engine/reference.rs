@@ -4,13 +4,13 @@ use motet_stdlib::lang::entities;
 use smol_str::SmolStr;
 
 use crate::RequestError;
-use crate::english::CANDIDATES_OPEN;
+use crate::engine::english::CANDIDATES_OPEN;
+use crate::engine::noun::{Noun, Phrase, Which};
+use crate::engine::vocabulary::Role;
 use crate::meaning::{OBJECTS, Reader};
-use crate::noun::{Noun, Phrase, Which};
-use crate::vocabulary::Role;
 
 impl Reader<'_> {
-    pub(super) fn is_person(&self, noun: &Noun) -> bool {
+    pub(crate) fn is_person(&self, noun: &Noun) -> bool {
         match noun {
             Noun::Speaker | Noun::Here => true,
             Noun::Before(_) | Noun::There => false,
@@ -18,7 +18,7 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn one(&mut self, noun: &Noun, roles: &[Role]) -> Result<SmolStr, RequestError> {
+    pub(crate) fn one(&mut self, noun: &Noun, roles: &[Role]) -> Result<SmolStr, RequestError> {
         // Furniture before what stands on it: `the table` is no toy table.
         let fixed: Vec<Role> = roles.iter().copied().filter(|role| *role != Role::Object).collect();
         let found = self
@@ -38,7 +38,7 @@ impl Reader<'_> {
     }
 
     /// For each thing that is meant, what it may be: several where any will do.
-    pub(super) fn choices(
+    pub(crate) fn choices(
         &mut self,
         noun: &Noun,
         from: Option<&[SmolStr]>,
@@ -65,7 +65,7 @@ impl Reader<'_> {
     }
 
     /// The things that are meant; of a single noun the one.
-    pub(super) fn things(
+    pub(crate) fn things(
         &mut self,
         noun: &Noun,
         roles: &[Role],
@@ -113,7 +113,7 @@ impl Reader<'_> {
     }
 
     /// All things that a noun may mean.
-    pub(super) fn candidates(
+    pub(crate) fn candidates(
         &mut self,
         phrase: &Phrase,
         roles: &[Role],
@@ -241,7 +241,7 @@ impl Reader<'_> {
     }
 }
 
-pub(super) fn ambiguous(phrase: &Phrase, options: Vec<SmolStr>) -> RequestError {
+pub(crate) fn ambiguous(phrase: &Phrase, options: Vec<SmolStr>) -> RequestError {
     RequestError::AmbiguousReference { what: phrase.said.clone(), options }
 }
 
@@ -262,9 +262,9 @@ fn unfit(called: &str, role: Role, asked: &[Role]) -> String {
 mod tests {
     use motet_robots::builtin;
 
+    use crate::engine::noun::noun;
+    use crate::engine::token::tokens;
     use crate::meaning::{OBJECTS, Reader};
-    use crate::noun::noun;
-    use crate::token::tokens;
     use crate::{RequestContext, RequestError};
 
     /// The things of the kitchen that words mean, after some were spoken of.
