@@ -10,7 +10,7 @@ use std::sync::mpsc;
 
 use clap::{Args, Subcommand, ValueEnum, value_parser};
 use motet_dataset::format;
-use motet_dataset::generate::{self, Dataset, Order, RoomRows};
+use motet_dataset::generate::{self, Dataset, Order, SceneRows};
 use motet_dataset::lint::family;
 use motet_dataset::picture::{FOLDER, Pictures};
 use motet_dataset::{Body, Row, scenery, wordings};
@@ -48,7 +48,7 @@ pub(crate) struct DatasetArgs {
 /// Subcommands of `motet dataset`.
 #[derive(Subcommand, Debug)]
 enum DatasetCommand {
-    /// Find rows whose plan cannot run, contradictory or duplicate rows, rooms in several files, and missing
+    /// Find rows whose plan cannot run, contradictory or duplicate rows, scenes in several files, and missing
     /// or unused images
     Lint(LintArgs),
 }
@@ -163,12 +163,12 @@ fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
     for (name, rows) in [("train", &dataset.train), ("test", &dataset.test)] {
         let lines = rows.iter().map(|row| format::write(row, order.form));
         write(&folder.join(format!("{name}.jsonl")), lines)?;
-        let rooms: std::collections::BTreeSet<&str> =
+        let scenes: std::collections::BTreeSet<&str> =
             rows.iter().map(|row| family(&row.about.scene)).collect();
         report.out.line(&format!(
             "{name}.jsonl: {} in {}{}",
             count(rows.len(), "row"),
-            count(rooms.len(), "room"),
+            count(scenes.len(), "scene"),
             kinds(rows)
         ));
     }
@@ -203,18 +203,18 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, CliError> {
         Some(name) => read_scene(name, &mut Sources::default(), report)?,
         None => scenery::things(),
     };
-    let mut rooms = Vec::new();
+    let mut bases = Vec::new();
     for name in &args.room {
         let scene = read_scene(name, &mut Sources::default(), report)?;
         let stem =
             Path::new(name).file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().into_owned());
-        rooms.push((SmolStr::from(stem.replace('.', "_")), scene));
+        bases.push((SmolStr::from(stem.replace('.', "_")), scene));
     }
     let bodies = args.robot.iter().map(|name| body(name, report)).collect::<Result<_, _>>()?;
     Ok(Order {
         seed: args.seed,
         bodies,
-        rooms,
+        bases,
         things,
         wordings,
         scenes: args.scenes as usize,
@@ -232,7 +232,7 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, CliError> {
 }
 
 /// Parts of a dataset in order, generated on all cores.
-fn parts(order: &Order) -> Vec<RoomRows> {
+fn parts(order: &Order) -> Vec<SceneRows> {
     let workers = std::thread::available_parallelism().map_or(1, usize::from).min(order.scenes);
     let next = AtomicUsize::new(0);
     let (send, receive) = mpsc::channel();
@@ -250,7 +250,7 @@ fn parts(order: &Order) -> Vec<RoomRows> {
         }
     });
     drop(send);
-    let mut parts: Vec<(usize, RoomRows)> = receive.into_iter().collect();
+    let mut parts: Vec<(usize, SceneRows)> = receive.into_iter().collect();
     parts.sort_by_key(|(number, _)| *number);
     parts.into_iter().map(|(_, part)| part).collect()
 }
@@ -277,9 +277,9 @@ fn pictures(folder: &Path, dataset: &Dataset) -> Result<(), CliError> {
 }
 
 fn scenes(dataset: &Dataset) -> impl Iterator<Item = String> + '_ {
-    dataset.scenes.iter().map(|(name, room)| {
-        let room: Value = serde_json::from_str(&scene::write(room)).unwrap_or_default();
-        json!({"name": name.as_str(), "scene": room}).to_string()
+    dataset.scenes.iter().map(|(name, scene)| {
+        let scene: Value = serde_json::from_str(&scene::write(scene)).unwrap_or_default();
+        json!({"name": name.as_str(), "scene": scene}).to_string()
     })
 }
 

@@ -1,4 +1,4 @@
-//! Cases: a request in words for something in a room, what shall come of it, and what goes wrong on the way.
+//! Cases: a request in words for something in a scene, what shall come of it, and what goes wrong on the way.
 
 use motet_planner::dialogue::Kind;
 use motet_robots::card::Robot;
@@ -22,7 +22,7 @@ pub struct Case {
     pub goal: (&'static str, Vec<SmolStr>, bool),
     /// Failures in their order.
     pub failures: Vec<Kind>,
-    /// The room as it is, where that is not as the robot was told.
+    /// The scene as it is, where that is not as the robot was told.
     pub real: Scene,
     /// Injected faults of steps.
     pub faults: Faults,
@@ -47,28 +47,28 @@ const TROUBLES: &[(usize, &[Kind])] = &[
 /// Number of attempts of a step that merely failed, before a question and once more.
 const SLIPS: u32 = 3;
 
-/// Draws a case for a robot in a room; none where the room has nothing for what was drawn. O(things²).
+/// Draws a case for a robot in a scene; none where the scene has nothing for what was drawn. O(things²).
 #[must_use]
-pub fn draw(robot: &Robot, room: &Scene, wordings: &Wordings, draw: &mut SplitMix64) -> Option<Case> {
+pub fn draw(robot: &Robot, scene: &Scene, wordings: &Wordings, draw: &mut SplitMix64) -> Option<Case> {
     let task = *draw.pick(&Task::ALL)?;
     let said: Vec<&String> =
         wordings.requests.iter().filter(|(known, _)| *known == task).map(|(_, said)| said).collect();
     let wording = (*draw.pick(&said)?).clone();
     if task.carries() {
-        carried(robot, room, wordings, task, &wording, draw)
+        carried(robot, scene, wordings, task, &wording, draw)
     } else {
-        plain(room, task, &wording, draw)
+        plain(scene, task, &wording, draw)
     }
 }
 
 /// A request that is about a place alone: nothing goes wrong with it.
-fn plain(room: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Option<Case> {
+fn plain(scene: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Option<Case> {
     let fits = |entity: &&Entity| match task {
         Task::Open => is_closet(entity) && entity.open == Some(false),
         Task::Close => is_closet(entity) && entity.open == Some(true),
         _ => matches!(entity.kind.as_str(), kinds::SURFACE | kinds::PLACE),
     };
-    let places: Vec<&Entity> = room.entities.values().filter(fits).collect();
+    let places: Vec<&Entity> = scene.entities.values().filter(fits).collect();
     let place = draw.pick(&places)?;
     let goal = match task {
         Task::Go => (fluents::AT, vec![SmolStr::new_static(entities::ROBOT), place.id.clone()], true),
@@ -76,10 +76,10 @@ fn plain(room: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Opti
     };
     Some(Case {
         task,
-        request: fill(wording, "{place}", &the(room, place, draw)?),
+        request: fill(wording, "{place}", &the(scene, place, draw)?),
         goal,
         failures: Vec::new(),
-        real: room.clone(),
+        real: scene.clone(),
         faults: Faults::default(),
         answers: Vec::new(),
         is_given_up: false,
@@ -88,7 +88,7 @@ fn plain(room: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Opti
 
 fn carried(
     robot: &Robot,
-    room: &Scene,
+    scene: &Scene,
     wordings: &Wordings,
     task: Task,
     wording: &str,
@@ -96,7 +96,7 @@ fn carried(
 ) -> Option<Case> {
     let mut failures = drawn_failures(draw).to_vec();
     let objects: Vec<&Entity> =
-        room.entities.values().filter(|entity| entity.kind == kinds::OBJECT && !entity.fixed).collect();
+        scene.entities.values().filter(|entity| entity.kind == kinds::OBJECT && !entity.fixed).collect();
     let is_twin = |one: &&&Entity| objects.iter().any(|other| other.id != one.id && other.class == one.class);
     let asks_which = failures.contains(&Kind::AmbiguousReference);
     let among: Vec<&Entity> = objects.iter().filter(|one| !asks_which || is_twin(one)).copied().collect();
@@ -106,27 +106,27 @@ fn carried(
         // That alone is trouble enough.
         failures = vec![Kind::NotReachable];
     }
-    let own = the(room, thing, draw)?;
+    let own = the(scene, thing, draw)?;
     let called = if asks_which && !is_given_up { format!("the {}", thing.class) } else { own.clone() };
     let holder = match task {
-        Task::Put => Some(other_place(room, kinds::SURFACE, thing, draw)?),
-        Task::Stow => Some(other_place(room, kinds::CONTAINER, thing, draw)?),
+        Task::Put => Some(other_place(scene, kinds::SURFACE, thing, draw)?),
+        Task::Stow => Some(other_place(scene, kinds::CONTAINER, thing, draw)?),
         _ => None,
     };
-    let place = holder.map(|holder| the(room, holder, draw)).unwrap_or(Some(String::new()))?;
+    let place = holder.map(|holder| the(scene, holder, draw)).unwrap_or(Some(String::new()))?;
     let mut request = fill(&fill(wording, "{thing}", &called), "{place}", &place);
     let id = thing.id.clone();
     let goal = match (task, holder) {
         (Task::Put, Some(holder)) => (fluents::ON, vec![id, holder.id.clone()], true),
         (Task::Stow, Some(holder)) => (fluents::IN, vec![id, holder.id.clone()], true),
         (Task::Throw, _) => {
-            (fluents::IN, vec![id, room.entities.values().find(|entity| is_bin(entity))?.id.clone()], true)
+            (fluents::IN, vec![id, scene.entities.values().find(|entity| is_bin(entity))?.id.clone()], true)
         }
         (Task::Pick, _) => (fluents::HOLDING, vec![id], true),
         _ => (fluents::AT, vec![id, SmolStr::new_static(entities::USER)], true),
     };
     let mut answers = Vec::new();
-    let mut real = room.clone();
+    let mut real = scene.clone();
     for kind in &failures {
         let answer = match kind {
             Kind::NotReachable if is_given_up => draw.pick(&wordings.leave)?.clone(),
@@ -200,12 +200,17 @@ fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Spli
 }
 
 /// A place of a kind where a thing is not yet.
-fn other_place<'r>(room: &'r Scene, kind: &str, thing: &Entity, draw: &mut SplitMix64) -> Option<&'r Entity> {
+fn other_place<'r>(
+    scene: &'r Scene,
+    kind: &str,
+    thing: &Entity,
+    draw: &mut SplitMix64,
+) -> Option<&'r Entity> {
     let fits = |place: &&Entity| {
         let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
         place.kind == kind && !is_there && (kind == kinds::SURFACE || is_closet(place))
     };
-    let places: Vec<&Entity> = room.entities.values().filter(fits).collect();
+    let places: Vec<&Entity> = scene.entities.values().filter(fits).collect();
     draw.pick(&places).copied()
 }
 
@@ -221,10 +226,10 @@ fn can_carry(robot: &Robot, thing: &Entity) -> bool {
     })
 }
 
-/// Name of an entity in speech, with its article: one of the names that nothing else in the room has.
-fn the(room: &Scene, entity: &Entity, draw: &mut SplitMix64) -> Option<String> {
+/// Name of an entity in speech, with its article: one of the names that nothing else in the scene has.
+fn the(scene: &Scene, entity: &Entity, draw: &mut SplitMix64) -> Option<String> {
     let own = entity.names.iter().chain([&entity.class]).filter(|name| !name.is_empty());
-    let names: Vec<&SmolStr> = own.filter(|name| room.matches(name).len() == 1).collect();
+    let names: Vec<&SmolStr> = own.filter(|name| scene.matches(name).len() == 1).collect();
     draw.pick(&names).map(|name| format!("the {name}"))
 }
 

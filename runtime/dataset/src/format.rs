@@ -8,7 +8,7 @@
 //! | [`RowFormat::InteLiPlan`] | `text` with tags and a list of actions | TRL's `SFTTrainer`, as plain text |
 //!
 //! Beside that each row has `motet`, an object of texts, which trainers pass over and [`crate::lint`] needs:
-//! the robot, the room, the task, what goes wrong, and the turn.
+//! the robot, the scene, the task, what goes wrong, and the turn.
 
 use motet_planner::dialogue::Kind;
 use motet_planner::inteliplan::exchange::{self, Exchange};
@@ -140,7 +140,7 @@ pub fn dataset_info(names: &[&str], pictures: Pictures) -> String {
 pub struct About {
     /// The robot's name.
     pub robot: SmolStr,
-    /// The name of the room as it is in this row: that of the varied room, with a number behind a point where
+    /// The name of the scene as it is in this row: that of the varied scene, with a number behind a point where
     /// something has happened in it.
     pub scene: SmolStr,
     pub task: Task,
@@ -180,7 +180,7 @@ const TAG: &str = "<image>";
 pub struct Read {
     /// The robot, where the row says.
     pub robot: Option<SmolStr>,
-    /// The room, where the row says.
+    /// The scene, where the row says.
     pub scene: Option<SmolStr>,
     /// Everything that the model is shown, of pictures where they are.
     pub input: String,

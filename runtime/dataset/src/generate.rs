@@ -1,4 +1,4 @@
-//! Datasets: rooms are varied, cases drawn in them and played, and the turns kept that hold what they
+//! Datasets: scenes are varied, cases drawn in them and played, and the turns kept that hold what they
 //! promise.
 
 use std::collections::BTreeMap;
@@ -24,17 +24,17 @@ pub struct Order {
     /// The same seed gives the same dataset.
     pub seed: u64,
     pub bodies: Vec<Body>,
-    /// Rooms by name, to be varied in turn.
-    pub rooms: Vec<(SmolStr, Scene)>,
+    /// Scenes by name, to be varied in turn.
+    pub bases: Vec<(SmolStr, Scene)>,
     /// Things that may stand in them beside their own.
     pub things: Scene,
     /// Wordings of requests and answers.
     pub wordings: Wordings,
-    /// Number of varied rooms.
+    /// Number of varied scenes.
     pub scenes: usize,
-    /// Number of cases for each robot in each room.
+    /// Number of cases for each robot in each scene.
     pub cases: usize,
-    /// Share of the varied rooms that is kept for tests, between 0 and 1.
+    /// Share of the varied scenes that is kept for tests, between 0 and 1.
     pub test: f64,
     /// Budget of a motion search; without one, no motion is searched.
     pub effort: Option<SearchBudget>,
@@ -44,9 +44,9 @@ pub struct Order {
     pub pictures: Pictures,
 }
 
-/// Rows of one varied room.
+/// Rows of one varied scene.
 #[derive(Clone, Debug, Default)]
-pub struct RoomRows {
+pub struct SceneRows {
     rows: Vec<Row>,
     scenes: IndexMap<SmolStr, Scene>,
     pictures: BTreeMap<SmolStr, Picture>,
@@ -58,9 +58,9 @@ pub struct RoomRows {
 pub struct Dataset {
     /// To learn from.
     pub train: Vec<Row>,
-    /// To test with, in rooms that are not among those of `train`.
+    /// To test with, in scenes that are not among those of `train`.
     pub test: Vec<Row>,
-    /// Every room of a row, by name.
+    /// Every scene of a row, by name.
     pub scenes: IndexMap<SmolStr, Scene>,
     /// The picture of each row that has one, by its path: PNGs.
     pub pictures: BTreeMap<SmolStr, Arc<[u8]>>,
@@ -78,31 +78,31 @@ impl Order {
     }
 }
 
-/// Number of draws of a case in a room that has nothing for the first one.
+/// Number of draws of a case in a scene that has nothing for the first one.
 const DRAWS: usize = 8;
 
-/// Makes the rows of one varied room, by its number below [`Order::scenes`]. Each number by itself gives the
+/// Makes the rows of one varied scene, by its number below [`Order::scenes`]. Each number by itself gives the
 /// same, so they can be made in any order.
 #[must_use]
-pub fn part(order: &Order, number: usize) -> RoomRows {
-    let mut part = RoomRows::default();
-    let Some((name, room)) = order.rooms.get(number % order.rooms.len().max(1)) else { return part };
+pub fn part(order: &Order, number: usize) -> SceneRows {
+    let mut part = SceneRows::default();
+    let Some((name, base)) = order.bases.get(number % order.bases.len().max(1)) else { return part };
     let seed = u64::try_from(number).unwrap_or(u64::MAX);
     let mut draw = random::part(order.seed, seed);
-    let told = scenery::vary(room, &order.things, &mut draw);
+    let told = scenery::vary(base, &order.things, &mut draw);
     let name = format_smolstr!("{name}-{}", number + 1);
     for body in &order.bodies {
         let stage = match Stage::new(body, &told, order.effort) {
             Ok(stage) => stage,
             Err(_) => {
-                part.leave_out("the robot cannot be in the room");
+                part.leave_out("the robot cannot be in the scene");
                 continue;
             }
         };
         for _ in 0..order.cases {
             let drawn = (0..DRAWS).find_map(|_| case::draw(&body.robot, &told, &order.wordings, &mut draw));
             let Some(case) = drawn else {
-                part.leave_out("the room has nothing for it");
+                part.leave_out("the scene has nothing for it");
                 continue;
             };
             match play(&case, &stage, order.shown()) {
@@ -118,19 +118,19 @@ pub fn part(order: &Order, number: usize) -> RoomRows {
     part
 }
 
-impl RoomRows {
+impl SceneRows {
     fn leave_out(&mut self, why: &'static str) {
         *self.dropped.entry(why).or_default() += 1;
     }
 
-    /// Keeps a turn as a row where its answer can be carried out in the room as it is then.
+    /// Keeps a turn as a row where its answer can be carried out in the scene as it is then.
     #[expect(clippy::too_many_arguments, reason = "what a turn is about")]
     fn turn(
         &mut self,
         order: &Order,
         body: &Body,
         stage: &Stage,
-        room: &SmolStr,
+        scene: &SmolStr,
         case: &case::Case,
         turn: usize,
         played: crate::play::Turn,
@@ -140,11 +140,11 @@ impl RoomRows {
             return;
         };
         let is_start = played.scene == stage.scene;
-        let picture = played.picture.map(|picture| (picture.path(room, &body.robot.name), picture));
+        let picture = played.picture.map(|picture| (picture.path(scene, &body.robot.name), picture));
         let mut row = Row {
             about: About {
                 robot: body.robot.name.to_smolstr(),
-                scene: room.clone(),
+                scene: scene.clone(),
                 task: case.task,
                 failures: case.failures.clone(),
                 turn,
@@ -170,14 +170,14 @@ impl RoomRows {
             None => Some(String::new()),
         };
         if fault.is_some() {
-            self.leave_out("the plan cannot run in the room as it is known then");
+            self.leave_out("the plan cannot run in the scene as it is known then");
             return;
         }
         if !is_start {
             let known = self.scenes.iter().find(|(_, scene)| **scene == played.scene);
             row.about.scene = known
                 .map(|(name, _)| name.clone())
-                .unwrap_or_else(|| format_smolstr!("{room}.{}", self.scenes.len() + 1));
+                .unwrap_or_else(|| format_smolstr!("{scene}.{}", self.scenes.len() + 1));
         }
         self.scenes.entry(row.about.scene.clone()).or_insert(played.scene);
         self.pictures.extend(picture);
@@ -186,9 +186,9 @@ impl RoomRows {
 }
 
 /// Puts parts together, in the order of their numbers: a row whose input is there already is left out, and
-/// each varied room is either for learning or for testing.
+/// each varied scene is either for learning or for testing.
 #[must_use]
-pub fn gather(order: &Order, parts: Vec<RoomRows>) -> Dataset {
+pub fn gather(order: &Order, parts: Vec<SceneRows>) -> Dataset {
     let mut dataset = Dataset::default();
     let is_test = tested(order);
     let mut inputs: FxHashSet<String> = FxHashSet::default();
@@ -217,7 +217,7 @@ pub fn gather(order: &Order, parts: Vec<RoomRows>) -> Dataset {
     dataset
 }
 
-/// Chooses the rooms that are kept for tests: at least one if the share is above 0, and never all.
+/// Chooses the scenes that are kept for tests: at least one if the share is above 0, and never all.
 fn tested(order: &Order) -> Vec<bool> {
     let wanted = (order.test.clamp(0.0, 1.0) * order.scenes as f64).round() as usize;
     let least = usize::from(order.test > 0.0);

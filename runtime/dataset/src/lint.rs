@@ -1,5 +1,5 @@
 //! Faults in files of rows: unreadable rows, plans that cannot run on their robot, different replies to one
-//! input, repeated rows, rooms in more than one file, and missing images.
+//! input, repeated rows, scenes in more than one file, and missing images.
 
 use indexmap::IndexMap;
 use motet_geometry::planning::SearchBudget;
@@ -17,7 +17,7 @@ use crate::stage::{Body, Stage};
 pub enum RowFault {
     /// It is no row in any of the forms.
     Unreadable,
-    /// Neither the row nor anybody else says on which robot and in which room its plan is to run.
+    /// Neither the row nor anybody else says on which robot and in which scene its plan is to run.
     NoWorld,
     /// Its plan cannot run there.
     CannotRun,
@@ -25,7 +25,7 @@ pub enum RowFault {
     Contradiction,
     /// The same input has the same answer elsewhere.
     Duplicate,
-    /// Its room is in another file too.
+    /// Its scene is in another file too.
     Leak,
     /// A picture is missing, cannot be read, or has no place in the row; or no row refers to it.
     Image,
@@ -67,16 +67,16 @@ pub struct Finding {
     pub other: Option<Place>,
 }
 
-/// The robots and rooms that rows can be about.
+/// The robots and scenes that rows can be about.
 #[derive(Clone, Debug, Default)]
 pub struct Worlds {
     /// Robots by name.
     pub bodies: IndexMap<SmolStr, Body>,
-    /// Rooms by name.
+    /// Scenes by name.
     pub scenes: IndexMap<SmolStr, Scene>,
     /// The robot of rows that name none.
     pub robot: Option<SmolStr>,
-    /// The room of rows that name none.
+    /// The scene of rows that name none.
     pub scene: Option<SmolStr>,
     /// Budget of a motion search; without one, no motion is searched.
     pub effort: Option<SearchBudget>,
@@ -92,17 +92,17 @@ pub trait Shelf {
 pub struct Linter<'w> {
     worlds: &'w Worlds,
     shelf: Option<&'w mut dyn Shelf>,
-    /// Robot and room of the row before, and the stage of them: rows of one room mostly follow each other.
+    /// Robot and scene of the row before, and the stage of them: rows of one scene mostly follow each other.
     stage: Option<((SmolStr, SmolStr), Result<Stage, String>)>,
     /// Inputs, with the answer and where it stands.
     inputs: FxHashMap<String, (String, Place)>,
-    /// In which file a room was first.
-    rooms: FxHashMap<SmolStr, Place>,
+    /// In which file a scene, or a variation of it, was first.
+    families: FxHashMap<SmolStr, Place>,
     leaked: FxHashSet<(String, SmolStr)>,
 }
 
 impl<'w> Linter<'w> {
-    /// Looks at rows about these robots and rooms.
+    /// Looks at rows about these robots and scenes.
     #[must_use]
     pub fn new(worlds: &'w Worlds) -> Self {
         Self {
@@ -110,7 +110,7 @@ impl<'w> Linter<'w> {
             shelf: None,
             stage: None,
             inputs: FxHashMap::default(),
-            rooms: FxHashMap::default(),
+            families: FxHashMap::default(),
             leaked: FxHashSet::default(),
         }
     }
@@ -156,7 +156,7 @@ impl<'w> Linter<'w> {
             }
         }
         if let Some(other) = self.leak(&row, &at) {
-            let message = format!("its room `{}` is in another file too", family(&other.1));
+            let message = format!("its scene `{}` is in another file too", family(&other.1));
             find(RowFault::Leak, message, Some(other.0));
         }
         if let Some(places) = row.places.filter(|places| *places != row.images.len()) {
@@ -176,12 +176,12 @@ impl<'w> Linter<'w> {
         found
     }
 
-    /// Finds the room of a row in another file. Reports each room and file once.
+    /// Finds the scene of a row in another file. Reports each scene and file once.
     fn leak(&mut self, row: &Read, at: &Place) -> Option<(Place, SmolStr)> {
         let scene = row.scene.clone()?;
-        let room = SmolStr::from(family(&scene));
-        let first = self.rooms.entry(room.clone()).or_insert_with(|| at.clone()).clone();
-        let is_new = first.file != at.file && self.leaked.insert((at.file.clone(), room));
+        let family = SmolStr::from(family(&scene));
+        let first = self.families.entry(family.clone()).or_insert_with(|| at.clone()).clone();
+        let is_new = first.file != at.file && self.leaked.insert((at.file.clone(), family));
         is_new.then_some((first, scene))
     }
 
@@ -199,17 +199,17 @@ impl<'w> Linter<'w> {
         let robot = row.robot.clone().or_else(|| worlds.robot.clone());
         let robot = robot.ok_or_else(|| missing("for which robot it is", "--robot NAME"))?;
         let scene = row.scene.clone().or_else(|| worlds.scene.clone());
-        let scene = scene.ok_or_else(|| missing("in which room it is", "--scene NAME"))?;
+        let scene = scene.ok_or_else(|| missing("in which scene it is", "--scene NAME"))?;
         let key = (robot, scene);
         if self.stage.as_ref().is_none_or(|(known, _)| *known != key) {
             let (robot, scene) = &key;
             let body = worlds.bodies.get(robot).ok_or_else(|| format!("there is no robot `{robot}`"))?;
-            let room = worlds.scenes.get(scene).ok_or_else(|| format!("there is no room `{scene}`"))?;
-            self.stage = Some((key, Stage::new(body, room, worlds.effort)));
+            let known = worlds.scenes.get(scene).ok_or_else(|| format!("there is no scene `{scene}`"))?;
+            self.stage = Some((key, Stage::new(body, known, worlds.effort)));
         }
         match self.stage.as_ref().map(|(_, stage)| stage) {
             Some(Ok(stage)) => Ok(fault(stage, &row.target)),
-            Some(Err(why)) => Err(format!("its robot cannot be in its room: {why}")),
+            Some(Err(why)) => Err(format!("its robot cannot be in its scene: {why}")),
             None => Ok(None),
         }
     }
@@ -231,14 +231,14 @@ pub fn fault(stage: &Stage, target: &Target) -> Option<String> {
     }
 }
 
-/// The varied room of a room in which something has happened: its name before the last point.
+/// The varied scene of a scene in which something has happened: its name before the last point.
 ///
 /// ```
 /// assert_eq!(motet_dataset::lint::family("kitchen_7.2"), "kitchen_7");
 /// ```
 #[must_use]
 pub fn family(scene: &str) -> &str {
-    scene.rsplit_once('.').map_or(scene, |(room, _)| room)
+    scene.rsplit_once('.').map_or(scene, |(family, _)| family)
 }
 
 /// An input as it is compared: letter case, white space and the marks of sentences do not count.

@@ -23,12 +23,12 @@ pub enum Pictures {
 pub(crate) struct Picture(pub(crate) Arc<[u8]>);
 
 impl Picture {
-    /// Its path as seen from the folder of the rows: of the room, the robot and what it shows, so that the
+    /// Its path as seen from the folder of the rows: of the scene, the robot and what it shows, so that the
     /// same is stored once.
-    pub(crate) fn path(&self, room: &str, robot: &str) -> SmolStr {
+    pub(crate) fn path(&self, scene: &str, robot: &str) -> SmolStr {
         let digest: String =
             Sha256::digest(&self.0).iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-        format_smolstr!("{FOLDER}/{room}_{robot}_{digest}.png")
+        format_smolstr!("{FOLDER}/{scene}_{robot}_{digest}.png")
     }
 }
 

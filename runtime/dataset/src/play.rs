@@ -1,5 +1,5 @@
 //! A case played from its request to its end, with every turn in which a planner is asked: the request, the
-//! answer, and the room as it was then.
+//! answer, and the scene as it was then.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -32,7 +32,7 @@ impl Person for Scripted {
     }
 }
 
-/// Plays a case where the robot was told the room of a stage. Gives its turns, or why it did not go as it was
+/// Plays a case where the robot was told the scene of a stage. Gives its turns, or why it did not go as it was
 /// drawn: it came to another end, its goal does not hold, or something that should go wrong was never asked
 /// about.
 pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec<Turn>, &'static str> {
@@ -69,7 +69,7 @@ pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec
 /// A turn: a planner is asked, and answers.
 #[derive(Clone, Debug)]
 pub(crate) struct Turn {
-    /// The room as it is then, as far as it is known.
+    /// The scene as it is then, as far as it is known.
     pub(crate) scene: Scene,
     pub(crate) system: String,
     pub(crate) user: String,
@@ -89,7 +89,7 @@ pub(crate) type Shared = Rc<RefCell<Sim>>;
 
 /// The planner that needs no model, with a memory of its turns.
 pub(crate) struct Mind {
-    /// The room as the robot was told that it is.
+    /// The scene as the robot was told that it is.
     pub(crate) told: Scene,
     pub(crate) sim: Shared,
     pub(crate) pictures: Pictures,
@@ -154,7 +154,7 @@ impl Mind {
         }
     }
 
-    /// The room as it is known: what is believed of things counts where it is not the case.
+    /// The scene as it is known: what is believed of things counts where it is not the case.
     fn scene_now(&self, ask: &PlanRequest<'_>) -> Scene {
         let sim = self.sim.borrow();
         let mut scene = self.told.clone();

@@ -4,7 +4,7 @@ use rand::{Rng, RngExt};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng;
 
-/// Draws of the values of which rooms and cases are made. Written out here, because a later version of `rand`
+/// Draws of the values of which scenes and cases are made. Written out here, because a later version of `rand`
 /// may draw ranges otherwise, and then a seed would give another dataset.
 pub(crate) trait Draw: Rng {
     /// A number in `least ..= most`.
@@ -12,7 +12,7 @@ pub(crate) trait Draw: Rng {
         least + (most - least) * self.random::<f64>()
     }
 
-    /// A number below `count`; 0 where that is 0. The bias is below 2⁻⁴⁰ for the counts of a room.
+    /// A number below `count`; 0 where that is 0. The bias is below 2⁻⁴⁰ for the counts of a scene.
     fn below(&mut self, count: usize) -> usize {
         let count = u64::try_from(count).unwrap_or(u64::MAX).max(1);
         usize::try_from(self.next_u64() % count).unwrap_or_default()

@@ -1,6 +1,6 @@
-//! Rooms that differ: the furniture of a room, with other things at other places.
+//! Scenes that differ: the furniture of a scene, with other things at other places.
 //!
-//! The things come from the room itself and from a catalogue, a scene whose objects stand nowhere. What
+//! The things come from the scene itself and from a catalogue, a scene whose objects stand nowhere. What
 //! varies is which things there are, how many of a class, on or in what they are and where on it, what stands
 //! open, which furniture there is, and where the robot begins.
 
@@ -15,18 +15,18 @@ use crate::random::Draw;
 /// The catalogue that comes with Motet, as the text of a scene.
 pub const THINGS: &str = include_str!("../data/things.json");
 
-/// Least number of things in a room.
+/// Least number of things in a scene.
 const LEAST: usize = 5;
 const MOST: usize = 10;
 /// Probability that a piece of furniture is missing.
 const MISSING: f64 = 0.2;
-/// Probability that a room has two things of a class.
+/// Probability that a scene has two things of a class.
 const TWINS: f64 = 0.6;
-/// Probability that a thing is in a container, if the room has any.
+/// Probability that a thing is in a container, if the scene has any.
 const INSIDE: f64 = 0.25;
 /// Probability that a container is open.
 const OPEN: f64 = 0.2;
-/// Probability that the robot begins at one of the room's places.
+/// Probability that the robot begins at one of the scene's places.
 const ELSEWHERE: f64 = 0.4;
 /// Mass that most hands cannot lift, in kg.
 const HEAVY_KG: f64 = 1.0;
@@ -39,11 +39,11 @@ pub fn things() -> Scene {
     motet_robots::scene::read(&Source::new("things.json", THINGS), FileId(0)).0.unwrap_or_default()
 }
 
-/// A variation of a room. The same draw gives the same room. O(things × furniture).
+/// A variation of a scene. The same draw gives the same scene. O(things × furniture).
 #[must_use]
-pub fn vary(room: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
-    let in_view = in_view(room);
-    let mut scene = Scene { entities: furniture(room, draw), views: Vec::new(), ..room.clone() };
+pub fn vary(base: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
+    let in_view = in_view(base);
+    let mut scene = Scene { entities: furniture(base, draw), views: Vec::new(), ..base.clone() };
     scene.robot.holding = Some(None);
     scene.robot.at = None;
     let places: Vec<_> = scene.entities.values().filter(|entity| entity.kind == kinds::PLACE).collect();
@@ -58,7 +58,7 @@ pub fn vary(room: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
             entity.open = Some(draw.chance(OPEN));
         }
     }
-    for mut thing in chosen(room, catalogue, draw) {
+    for mut thing in chosen(base, catalogue, draw) {
         thing.id = free_id(&scene, &thing.id);
         if stand(&mut scene, &mut thing, INSIDE, draw) {
             let sight = thing.on.as_ref().is_some_and(sees);
@@ -69,10 +69,10 @@ pub fn vary(room: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
     scene
 }
 
-/// Entities of a room that nobody carries about, without a random few.
-fn furniture(room: &Scene, draw: &mut SplitMix64) -> indexmap::IndexMap<SmolStr, Entity> {
+/// Entities of a scene that nobody carries about, without a random few.
+fn furniture(scene: &Scene, draw: &mut SplitMix64) -> indexmap::IndexMap<SmolStr, Entity> {
     let stays = |entity: &&Entity| entity.kind != kinds::OBJECT;
-    let mut kept: Vec<&Entity> = room.entities.values().filter(stays).collect();
+    let mut kept: Vec<&Entity> = scene.entities.values().filter(stays).collect();
     let holds = |id: &SmolStr, kept: &[&Entity]| {
         kept.iter().any(|other| other.on.as_ref() == Some(id) || other.inside.as_ref() == Some(id))
     };
@@ -96,14 +96,14 @@ pub(crate) fn is_bin(entity: &Entity) -> bool {
 }
 
 /// Surfaces in view of the camera where the robot begins.
-fn in_view(room: &Scene) -> Vec<SmolStr> {
-    let seen = room.entities.values().filter(|entity| entity.visible == Some(true));
+fn in_view(scene: &Scene) -> Vec<SmolStr> {
+    let seen = scene.entities.values().filter(|entity| entity.visible == Some(true));
     seen.filter_map(|entity| entity.on.clone()).collect()
 }
 
-/// Draws the things of a room, some with a second one of their class.
-fn chosen(room: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Vec<Entity> {
-    let own = room.entities.values().filter(|entity| entity.kind == kinds::OBJECT && !entity.fixed);
+/// Draws the things of a scene, some with a second one of their class.
+fn chosen(scene: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Vec<Entity> {
+    let own = scene.entities.values().filter(|entity| entity.kind == kinds::OBJECT && !entity.fixed);
     let mut pool: Vec<&Entity> = own.chain(catalogue.entities.values()).collect();
     draw.shuffle(&mut pool);
     let count = LEAST + draw.below(MOST - LEAST + 1);
@@ -244,10 +244,10 @@ mod tests {
         assert!(catalogue.entities.len() > 30);
         let mut all = BTreeSet::new();
         for BuiltinScene { name, .. } in builtin::SCENES {
-            let room = builtin::scene(name).unwrap();
+            let base = builtin::scene(name).unwrap();
             for seed in 0..40 {
-                let varied = vary(&room, &catalogue, &mut SplitMix64::seed_from_u64(seed));
-                assert_eq!(varied, vary(&room, &catalogue, &mut SplitMix64::seed_from_u64(seed)));
+                let varied = vary(&base, &catalogue, &mut SplitMix64::seed_from_u64(seed));
+                assert_eq!(varied, vary(&base, &catalogue, &mut SplitMix64::seed_from_u64(seed)));
                 let written = scene::write(&varied);
                 let (again, said) = scene::read(&Source::new("varied", written.as_str()), FileId(0));
                 assert!(said.is_empty(), "{name} {seed}: {said:?}");
@@ -258,6 +258,6 @@ mod tests {
                 all.insert(written);
             }
         }
-        assert_eq!(all.len(), 120, "no two rooms are the same");
+        assert_eq!(all.len(), 120, "no two scenes are the same");
     }
 }

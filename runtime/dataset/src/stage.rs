@@ -1,4 +1,4 @@
-//! A robot in a room, as plans are tried in it: checked, with their motions, and run in simulation.
+//! A robot in a scene, as plans are tried in it: checked, with their motions, and run in simulation.
 
 use std::sync::Arc;
 
@@ -23,23 +23,23 @@ pub struct Body {
     pub urdf: Option<Urdf>,
 }
 
-/// A robot in a room.
+/// A robot in a scene.
 #[derive(Debug)]
 pub struct Stage {
     /// Session that checks the plans.
     pub session: Session,
-    /// The robot's body in the room, where motions are looked for.
+    /// The robot's body in the scene, where motions are looked for.
     pub geometry: Option<Arc<Geometry>>,
     pub robot: Robot,
     pub scene: Scene,
 }
 
 impl Stage {
-    /// Puts a robot into a room. With an effort, motions are looked for.
+    /// Puts a robot into a scene. With an effort, motions are looked for.
     ///
     /// # Errors
     ///
-    /// What keeps the robot from being in that room.
+    /// What keeps the robot from being in that scene.
     pub fn new(body: &Body, scene: &Scene, effort: Option<SearchBudget>) -> Result<Self, String> {
         let robot = &body.robot;
         let inputs = SessionInputs { robot: Some(robot), scene: Some(scene), ..SessionInputs::default() };

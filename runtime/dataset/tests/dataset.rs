@@ -27,7 +27,7 @@ fn body(name: &str) -> Body {
     Body { robot, urdf: Some(urdf) }
 }
 
-fn room(name: &str) -> scene::Scene {
+fn scene(name: &str) -> scene::Scene {
     builtin::scene(name).unwrap()
 }
 
@@ -35,7 +35,7 @@ fn order(form: RowFormat) -> Order {
     Order {
         seed: 5,
         bodies: vec![body("hsr"), body("anymal_z1")],
-        rooms: ["kitchen", "living_room"].map(|name| (name.into(), room(name))).to_vec(),
+        bases: ["kitchen", "living_room"].map(|name| (name.into(), scene(name))).to_vec(),
         things: scenery::things(),
         wordings: wordings::read(wordings::OWN).unwrap(),
         scenes: 2,
@@ -116,12 +116,12 @@ fn dataset_seed_gives_the_same_rows_and_another_seed_others() {
 }
 
 #[test]
-fn dataset_rooms_are_on_one_side_and_what_happens_varies() {
+fn dataset_scenes_are_on_one_side_and_what_happens_varies() {
     let dataset = made(&Order { scenes: 6, cases: 8, ..order(RowFormat::Trl) });
-    let rooms = |rows: &[Row]| -> BTreeSet<String> {
+    let scenes = |rows: &[Row]| -> BTreeSet<String> {
         rows.iter().map(|row| family(&row.about.scene).to_owned()).collect()
     };
-    let (train, test) = (rooms(&dataset.train), rooms(&dataset.test));
+    let (train, test) = (scenes(&dataset.train), scenes(&dataset.test));
     assert!(train.is_disjoint(&test), "{train:?} {test:?}");
     assert_eq!((train.len(), test.len()), (4, 2));
     let all: Vec<&Row> = dataset.train.iter().chain(&dataset.test).collect();
@@ -173,7 +173,7 @@ fn wrong_row(request: &str, policy: &str) -> String {
 #[test]
 fn dataset_rows_that_are_wrong_are_found_each_in_its_way() {
     let mut worlds = worlds(&Dataset::default(), None);
-    worlds.scenes.insert("kitchen".into(), room("kitchen"));
+    worlds.scenes.insert("kitchen".into(), scene("kitchen"));
     let fetch = "policy p for hsr { go(counter) pick(coke) }";
     let say = "policy p for hsr { say(\"hello\") }";
     for (name, rows, fault, row, words) in [
@@ -201,11 +201,11 @@ fn dataset_rows_that_are_wrong_are_found_each_in_its_way() {
             "give --robot",
         ),
         (
-            "an unknown room",
+            "an unknown scene",
             vec![wrong_row("a", say).replace("kitchen", "cellar")],
             RowFault::NoWorld,
             1,
-            "no room `cellar`",
+            "no scene `cellar`",
         ),
         (
             "a misspelt step",
@@ -284,7 +284,7 @@ fn dataset_rows_that_are_wrong_are_found_each_in_its_way() {
 fn dataset_room_in_two_files_is_found_once() {
     let mut worlds = worlds(&Dataset::default(), None);
     for name in ["kitchen-1", "kitchen-1.2", "kitchen-2"] {
-        worlds.scenes.insert(name.into(), room("kitchen"));
+        worlds.scenes.insert(name.into(), scene("kitchen"));
     }
     let row = |request: &str, scene: &str| {
         wrong_row(request, "policy p for hsr { go(counter) }").replace("\"kitchen\"", &format!("\"{scene}\""))
@@ -337,7 +337,7 @@ fn dataset_pictures_go_with_rows_in_every_form_that_has_them() {
 #[test]
 fn dataset_pictures_that_are_wrong_are_found() {
     let mut worlds = worlds(&Dataset::default(), None);
-    worlds.scenes.insert("kitchen".into(), room("kitchen"));
+    worlds.scenes.insert("kitchen".into(), scene("kitchen"));
     let dataset = Dataset {
         pictures: [
             ("images/good.gif".into(), b"GIF89a".as_slice().into()),

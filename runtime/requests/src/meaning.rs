@@ -190,7 +190,7 @@ impl Reader<'_> {
         let words: Vec<String> = tokens(request).iter().map(|token| singular(token.word())).collect();
         let is_named = |id: &SmolStr| {
             let is_answered = self.situation.meant.iter().any(|(_, meant)| meant == id);
-            // Only things of the room have names; the robot and its person need none.
+            // Only things of the scene have names; the robot and its person need none.
             is_answered
                 || self
                     .vocabulary

@@ -124,7 +124,7 @@ impl<'a> Said<'a> {
         at + phrases.run(&self.words, at)
     }
 
-    /// True if a phrase stands at a place and no place of the room behind it: `stop`, but not `stop at`.
+    /// True if a phrase stands at a place and no place of the scene behind it: `stop`, but not `stop at`.
     fn skips_no_place(&self, at: usize, phrases: &Phrases) -> bool {
         self.skip(at, phrases).is_some_and(|left| PLACE_AFTER_STOP.longest(&self.words, left).is_none())
     }

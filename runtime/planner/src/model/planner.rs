@@ -66,7 +66,7 @@ pub struct ModelPlanner<'m> {
     ready: Option<KeptParts>,
 }
 
-/// Parts that depend on robot and room only, kept between requests.
+/// Parts that depend on robot and scene only, kept between requests.
 #[derive(Clone)]
 struct KeptParts {
     signatures: Arc<Signatures>,

@@ -22,7 +22,7 @@ const STEPS: &str = include_str!("../../prompt/language.txt");
 /// Advice on planning.
 const ADVICE: &str = include_str!("../../prompt/advice.txt");
 
-/// Requests for a thing that the room does not list, each with a policy, for rooms and robots of different
+/// Requests for a thing that the scene does not list, each with a policy, for scenes and robots of different
 /// kinds, the most instructive first.
 const EXAMPLES: [(&str, &str); 5] = [
     ("put the WHAT in the CONTAINER", include_str!("../../prompt/example.json")),
@@ -32,7 +32,7 @@ const EXAMPLES: [(&str, &str); 5] = [
     ("put the WHAT on the FIRST", include_str!("../../prompt/example_in_place.json")),
 ];
 
-/// Descriptions for the example of a thing that the room does not list.
+/// Descriptions for the example of a thing that the scene does not list.
 const UNLISTED: [&str; 3] = ["blue cup", "tennis ball", "pink umbrella"];
 
 /// The parts of a prompt that do not change.
@@ -74,7 +74,7 @@ fn form(robot: &Robot) -> String {
     )
 }
 
-/// The kinds of steps, without the examples that this robot cannot carry out. Only where the room has a zone
+/// The kinds of steps, without the examples that this robot cannot carry out. Only where the scene has a zone
 /// is there something to keep out of.
 fn steps(session: &Session, robot: &Robot, scene: &Scene) -> String {
     let zone = scene.entities.values().find(|entity| entity.kind == kinds::ZONE);
@@ -334,8 +334,8 @@ fn take_conditions(steps: &mut Block, from: Block) {
     }
 }
 
-/// A request for a thing that the room does not list: look for it on the surfaces, catch, guard, and put the
-/// room back in order.
+/// A request for a thing that the scene does not list: look for it on the surfaces, catch, guard, and put the
+/// scene back in order.
 fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<String> {
     let what = UNLISTED.into_iter().find(|what| !session.describes(what))?;
     let mut surfaces = scene.entities.values().filter(|entity| entity.kind == kinds::SURFACE);

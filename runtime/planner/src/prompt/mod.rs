@@ -1,9 +1,9 @@
-//! The prompt: the language and the primitives of the robot, the room in words, the present state, earlier
+//! The prompt: the language and the primitives of the robot, the scene in words, the present state, earlier
 //! requests, an example, and the request. The same inputs give the same text within a token budget; only a
 //! motion search that takes too long leaves something out.
 
 mod language;
-mod room;
+mod scene;
 
 use std::time::Duration;
 
@@ -15,8 +15,8 @@ use motet_runtime::memory::Memory;
 use smol_str::SmolStr;
 
 pub use language::StaticPrompt;
-pub(crate) use room::told;
-pub use room::{Reachability, Sighting, seen};
+pub(crate) use scene::told;
+pub use scene::{Reachability, Sighting, seen};
 
 /// Bytes of English text and JSON that make about one token of a byte-pair encoding.
 const BYTES_PER_TOKEN: usize = 4;
@@ -39,7 +39,7 @@ pub struct Prompt<'a> {
     pub situation: &'a RequestContext<'a>,
     /// Earlier requests and their endings.
     pub memory: &'a Memory,
-    /// Parts that all prompts of a robot in a room share.
+    /// Parts that all prompts of a robot in a scene share.
     pub lasting: &'a StaticPrompt,
     /// Maximum number of tokens, estimated from bytes.
     pub tokens: usize,
@@ -68,18 +68,18 @@ impl Prompt<'_> {
     #[must_use]
     pub fn write(&self, request: &str) -> Written {
         let named = motet_requests::named(request, self.situation);
-        let room = |entities: &dyn Fn(&SmolStr) -> bool| room::entities(self.situation, entities);
+        let listed = |entities: &dyn Fn(&SmolStr) -> bool| scene::entities(self.situation, entities);
         let mut parts: Vec<Section> = vec![
             ("what the primitives need and how they fail", self.lasting.contracts.clone()),
-            ("things that the request does not name", room(&|id| !named.contains(id))),
+            ("things that the request does not name", listed(&|id| !named.contains(id))),
             ("what was done", self.done()),
             ("the example", self.lasting.example.clone()),
         ];
         let mut left_out = Vec::new();
         let fixed = [
             self.lasting.rules.clone(),
-            room(&|id| named.contains(id)),
-            room::now(self.situation, (self.session, self.robot), self.memory),
+            listed(&|id| named.contains(id)),
+            scene::now(self.situation, (self.session, self.robot), self.memory),
             told(&seen(self.session, self.robot, self.scene, &named, self.time)),
             format!("# Request\n{}\n", request.trim()),
         ];
@@ -99,13 +99,13 @@ impl Prompt<'_> {
         let text = |index: usize| parts.get(index).map(|(_, text)| text.as_str()).unwrap_or_default();
         let [rules, things, now, seen, asked] = fixed;
         let others = text(1);
-        let room = match (things.is_empty(), others.is_empty()) {
+        let scene = match (things.is_empty(), others.is_empty()) {
             (true, true) => String::new(),
             (false, true) => format!("# In the room, among other things\n{things}"),
             (true | false, false) => format!("# In the room\n{things}{others}"),
         };
         let system = join(&[&rules, text(0), text(3)]);
-        let user = join(&[&room, &now, &seen, text(2), &asked]);
+        let user = join(&[&scene, &now, &seen, text(2), &asked]);
         let tokens = (system.len() + user.len()).div_ceil(BYTES_PER_TOKEN);
         Written { system, user, tokens, left_out }
     }

@@ -1,4 +1,4 @@
-//! The room, the present state and the sightings, in words.
+//! The scene, the present state and the sightings, in words.
 
 use std::time::{Duration, Instant};
 
