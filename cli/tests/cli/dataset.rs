@@ -10,7 +10,7 @@ fn a_dataset_is_made_and_passes_lint() {
     for form in ["trl", "llamafactory", "qwen-vl", "inteliplan"] {
         place
             .run(&format!("{MAKE} --out {form} --form {form}"))
-            .check(0, &["out:train.jsonl: ", "out: in 2 rooms", "out:test.jsonl: "]);
+            .check(0, &["out:train.jsonl: ", "out: in 2 scenes", "out:test.jsonl: "]);
         place
             .run(&format!("dataset lint {form}/train.jsonl {form}/test.jsonl --no-geometry"))
             .check(0, &["err: rows, 0 with findings"]);
