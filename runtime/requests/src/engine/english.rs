@@ -185,7 +185,7 @@ mod tests {
             reached.insert((*list, applied.index));
             reached.extend(applied.inner);
         }
-        // A list that is composed of other lists is best understood by an example, a rule needs one of its own.
+        // A rule needs an example of its own, a list that is composed of other lists one of them all.
         let mut bare = Vec::new();
         for (name, templates) in &lists() {
             if let Some(List::Rules(_)) = phrases::list(name) {
@@ -211,8 +211,8 @@ mod tests {
         inner: Vec<(&'static str, usize)>,
     }
 
-    /// Applies the first rule of a list that fits anywhere in an example. `take out: it` is an example behind a
-    /// command, with its act and its facts; without them, each act is tried.
+    /// Applies the first rule of a list that fits anywhere in an example. `take out: it` is an example behind
+    /// a command, with its act and its facts; without them, each act is tried.
     fn applied(list: &'static str, example: &str) -> Option<Applied> {
         let (head, text) = example.split_once(": ").unwrap_or(("", example));
         let mut facts: Vec<&str> = head.split(' ').collect();

@@ -1,5 +1,5 @@
-//! The engine: words, lists of templates and their matcher, rules that rewrite, nouns and places, verbs, and the
-//! things of a scene that all these name. The files beside this folder read sentences with it, and turn
+//! The engine: words, lists of templates and their matcher, rules that rewrite, nouns and places, verbs, and
+//! the things of a scene that all these name. The files beside this folder read sentences with it, and turn
 //! what they read into goals and answers.
 
 pub(crate) mod asking;
