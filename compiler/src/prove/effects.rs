@@ -273,8 +273,8 @@ impl Prover<'_> {
         }
     }
 
-    /// Writes what an observation has shown of a fact. From then on what happens to an entity is felt by what is
-    /// known of a symbol that it may be.
+    /// Writes what an observation has shown of a fact. From then on what happens to an entity is felt by
+    /// what is known of a symbol that it may be.
     pub(super) fn learn(&mut self, fluent: Fluent, key: FactKey, value: TruthSet) {
         self.state.facts.set(fluent, key, value);
         if !self.symbols.is_empty() && self.has_symbol(fluent, key) {

@@ -176,8 +176,8 @@ impl Prover<'_> {
         String::new()
     }
 
-    /// Describes the path on which the cleanup around a cause, which would undo it, fails; `None` without such
-    /// a cleanup.
+    /// Describes the path on which the cleanup around a cause, which would undo it, fails; `None` without
+    /// such a cleanup.
     fn cleanup_way(&self, cause: Cause, fluent: Fluent, truth: bool) -> Option<String> {
         let maker = cause.as_step().filter(|maker| self.control.here.is_none_or(|here| *maker < here))?;
         let around = |id: StepId| self.program.around(id).map(|(id, _)| id);

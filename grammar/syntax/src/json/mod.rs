@@ -121,8 +121,8 @@ pub(crate) fn read_policy(text: &str, file: FileId, plain_form: ShapeReading) ->
 /// Maximal number of objects that are read one after the other.
 const MAX_OBJECTS: usize = 256;
 
-/// Objects that stand one after the other, without brackets around them, as a list of them; `None` for anything
-/// else, and for policies.
+/// Objects that stand one after the other, without brackets around them, as a list of them; `None` for
+/// anything else, and for policies.
 #[cold]
 fn objects(text: &str, file: FileId) -> Option<Located<'static>> {
     let mut items: Vec<Located<'static>> = Vec::new();

@@ -133,8 +133,8 @@ impl ShapeReader<'_> {
         }
     }
 
-    /// Reads an ending with the key of its reason: `{"do": "cannot", "why": "…"}`. Returns `false` for anything
-    /// else.
+    /// Reads an ending with the key of its reason: `{"do": "cannot", "why": "…"}`. Returns `false` for
+    /// anything else.
     pub(super) fn ending_call(&mut self, node: &Located<'_>, key: &Located<'_>, value: &Located<'_>) -> bool {
         let Some(kind) = value.text().and_then(|word| self.ending(word)) else { return false };
         let is_part = |(name, _): &(Located<'_>, Located<'_>)| name == key || name.text() == Some("why");

@@ -3,9 +3,8 @@
 
 use std::sync::Arc;
 
-use super::event_log::{CallFrame, Event, Flags, Id, Name, State, UNSEEN};
+use super::event_log::{CallFrame, Event, Flags, Id, Name, State, UNSEEN, meaning};
 use super::machine::Machine;
-use super::oracle::meaning;
 use crate::automaton::{Meaning, Op, OpId};
 use crate::grammar::{Action, BlockRole, ConditionUse, Constant, NodeKind, Split};
 

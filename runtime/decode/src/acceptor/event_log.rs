@@ -4,7 +4,7 @@
 //! Arenas only grow and are truncated. A [`State`] holds an index into each of them, so it is small, and
 //! going back is forgetting it.
 
-use crate::automaton::OpId;
+use crate::automaton::{Automaton, Meaning, Op, OpId};
 use crate::grammar::{BlockRole, Constant, NodeKind};
 
 /// An index into an arena; entry 0 is the bottom.
@@ -336,4 +336,11 @@ pub(crate) fn mix(hash: u64, more: u64) -> u64 {
 
 fn end<T>(list: &[T]) -> Id {
     u32::try_from(list.len()).unwrap_or(u32::MAX)
+}
+
+/// The meaning of a word event.
+pub(super) fn meaning(automaton: &Automaton, event: Event) -> Option<Meaning> {
+    let Event::Word(op, index) = event else { return None };
+    let Op::Word(words) = automaton.op(op) else { return None };
+    words.table.get(index).map(|entry| entry.meaning)
 }

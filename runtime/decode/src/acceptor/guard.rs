@@ -253,8 +253,8 @@ impl Machine {
         lists.map(|(id, _)| Event::First(id)).collect()
     }
 
-    /// The step before, or at the end of the policy any step, watches something. A reaction that leaves it needs
-    /// a proof only if a cleanup follows.
+    /// The step before, or at the end of the policy any step, watches something. A reaction that leaves
+    /// it needs a proof only if a cleanup follows.
     fn has_monitor(&self, event: Id) -> bool {
         let before = self.arenas.entry(event).map_or(0, |said| said.before);
         let first = if before == event { 0 } else { before };

@@ -10,10 +10,10 @@ use motet_compiler::signature::Type;
 use motet_syntax::ast::POSE;
 
 use super::context::Question;
-use super::event_log::{Event, Id, mix};
+use super::event_log::{Event, Id, meaning, mix};
 use super::machine::Machine;
 use super::proof_cursor::Transcript;
-use crate::automaton::{Automaton, Meaning, Op};
+use crate::automaton::Meaning;
 use crate::grammar::{Constant, NodeKind};
 
 /// Number of values tried for the next argument of a call that must be proved together with concurrent
@@ -396,11 +396,4 @@ fn of_call(callable: u16, given: &[Argument]) -> impl Iterator<Item = Event> {
         Argument::List(event) => [Some(Event::Open(NodeKind::List)), Some(*event), Some(Event::Close)],
     });
     std::iter::once(open).chain(args.flatten()).chain([Event::Close])
-}
-
-/// The meaning of a word event.
-pub(super) fn meaning(automaton: &Automaton, event: Event) -> Option<Meaning> {
-    let Event::Word(op, index) = event else { return None };
-    let Op::Word(words) = automaton.op(op) else { return None };
-    words.table.get(index).map(|entry| entry.meaning)
 }

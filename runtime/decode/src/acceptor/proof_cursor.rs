@@ -6,8 +6,7 @@ use motet_syntax::ast::{self, Policy, Step};
 use motet_syntax::{Span, Syntax};
 
 use super::context::Context;
-use super::event_log::{Arenas, Event, Id};
-use super::oracle::meaning;
+use super::event_log::{Arenas, Event, Id, meaning};
 use super::step_builder::Builder;
 use crate::automaton::Meaning;
 

@@ -4,9 +4,8 @@
 use motet_compiler::incremental::LoopTest;
 
 use super::context::Question;
-use super::event_log::{Event, Flags, Id, State, mix};
+use super::event_log::{Event, Flags, Id, State, meaning, mix};
 use super::machine::Machine;
-use super::oracle::meaning;
 use crate::automaton::Meaning;
 use crate::grammar::NodeKind;
 use crate::subset::MAX_CONDITION_DEPTH;

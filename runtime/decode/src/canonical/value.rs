@@ -210,8 +210,8 @@ impl Completer<'_> {
                         written.push_str(&format!("{{{of}.{}}}", field.text));
                     }
                     _ => {
-                        let why = "a value in a text is a bound name, `count` or `first` of one, or `kind` or \
-                                   `text` of a failure, in the canonical subset";
+                        let why = "a value in a text is a bound name, `count` or `first` of one, or `kind` \
+                                   or `text` of a failure, in the canonical subset";
                         return Err(outside(value.span, why));
                     }
                 },
