@@ -8,7 +8,6 @@ pub(crate) mod dataset;
 pub(crate) mod decode;
 pub(crate) mod dialog;
 pub(crate) mod r#do;
-pub(crate) mod drive;
 pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod feasible;

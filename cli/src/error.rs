@@ -46,6 +46,9 @@ pub(crate) enum CliError {
     /// Nothing has this name.
     #[error("there is no {what} `{name}`")]
     Unknown { what: &'static str, name: String, help: String },
+    /// Any other reason, with advice.
+    #[error("{problem}")]
+    Advised { problem: String, help: String },
     /// Any other reason, as one clause.
     #[error("{0}")]
     Message(String),
@@ -60,7 +63,7 @@ impl CliError {
     /// Advice on how to correct the error, where one is known.
     pub(crate) fn help(&self) -> Option<&str> {
         match self {
-            Self::Unknown { help, .. } => Some(help),
+            Self::Unknown { help, .. } | Self::Advised { help, .. } => Some(help),
             Self::Project(error) => error.help(),
             Self::Invalid(_) | Self::Write { .. } | Self::Message(_) => None,
         }

@@ -204,19 +204,19 @@ impl From<ServerDialect> for Dialect {
 /// Settings of a simulated run.
 #[derive(Args, Debug)]
 pub(crate) struct SimulationArgs {
-    /// Speed relative to real time: a factor, or `max` for as fast as possible
-    #[arg(long, default_value = "1", value_name = "max|FACTOR", allow_negative_numbers = true)]
-    pub(crate) speed: Speed,
-    /// Seed of all randomness in the simulation
-    #[arg(long, default_value_t = 0, value_name = "NUMBER", value_parser = seed,
-          allow_negative_numbers = true)]
-    pub(crate) seed: u64,
+    /// Speed relative to real time: a factor, or `max` for as fast as possible [default: 1]
+    #[arg(long, value_name = "max|FACTOR", allow_negative_numbers = true)]
+    pub(crate) speed: Option<Speed>,
+    /// Seed of all randomness in the simulation [default: 0]
+    #[arg(long, value_name = "NUMBER", value_parser = seed, allow_negative_numbers = true)]
+    pub(crate) seed: Option<u64>,
     /// JSON file with faults to inject
     #[arg(long, value_name = "FILE")]
     pub(crate) faults: Option<PathBuf>,
-    /// How often things go wrong by themselves: `ideal`, `typical`, `harsh`, or a TOML file
-    #[arg(long, default_value = "typical", value_name = "NAME|FILE")]
-    pub(crate) profile: String,
+    /// How often things go wrong by themselves: `ideal`, `typical`, `harsh`, or a TOML file [default:
+    /// typical]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) profile: Option<String>,
     /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON
     /// file
     #[arg(long, alias = "real", value_name = "NAME|FILE")]
@@ -224,6 +224,16 @@ pub(crate) struct SimulationArgs {
 }
 
 impl SimulationArgs {
+    /// Speed of the run.
+    pub(crate) fn speed(&self) -> Speed {
+        self.speed.unwrap_or(Speed::Times(1.0))
+    }
+
+    /// Seed of the run.
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed.unwrap_or_default()
+    }
+
     /// Reads the inputs of a simulation. `eye` is the camera's position in the frame of the base, in m.
     pub(crate) fn inputs(
         &self,
@@ -231,12 +241,15 @@ impl SimulationArgs {
         eye: Option<[f64; 3]>,
         sink: &mut dyn DiagnosticSink,
     ) -> Result<SimulationInputs, ProjectError> {
-        let inputs = SimulationInputs::read(self.seed, self.faults.as_deref(), answers, sink)?;
+        let inputs = SimulationInputs::read(self.seed(), self.faults.as_deref(), answers, sink)?;
         let world = match &self.world {
             Some(name) => Some(read_scene(name, &mut Sources::default(), sink)?),
             None => None,
         };
-        Ok(inputs.with_profile(read_profile(&self.profile)?).with_world(world).with_eye(eye))
+        Ok(inputs
+            .with_profile(read_profile(self.profile.as_deref().unwrap_or("typical"))?)
+            .with_world(world)
+            .with_eye(eye))
     }
 }
 

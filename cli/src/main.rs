@@ -11,6 +11,7 @@ mod runner;
 
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 
 use error::{CliError, Exit};
@@ -55,10 +56,8 @@ enum Command {
     Dialog(command::dialog::DialogArgs),
     /// Generate instruction and policy pairs for fine-tuning, or lint a file of them
     Dataset(Box<command::dataset::DatasetArgs>),
-    /// Check a policy and run it in simulation
+    /// Check a policy and run it in simulation or on a driver, or check a driver
     Run(command::run::RunArgs),
-    /// Check a policy and run it on a driver in another process
-    Drive(command::drive::DriveArgs),
     /// Replay the journal of a run and report the first difference
     Replay(command::replay::ReplayArgs),
     /// Export the journal of a run to another format
@@ -82,6 +81,15 @@ enum Command {
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
+        Err(error) if is_drive(&error) => {
+            let moved = CliError::Advised {
+                problem: "there is no `motet drive` any more".to_owned(),
+                help: "write `motet run` with the same flags: `motet run FILE --driver COMMAND|ADDRESS`"
+                    .to_owned(),
+            };
+            print_error(&moved, Colors::new(ColorChoice::default()));
+            return Exit::CouldNotRun.into();
+        }
         Err(error) => {
             // Nobody reads the help: a closed pipe is no error.
             let _ = error.print();
@@ -98,6 +106,11 @@ fn main() -> ExitCode {
     }
 }
 
+/// Is `true` if the command line names the subcommand that `motet run --driver` has replaced.
+fn is_drive(error: &clap::Error) -> bool {
+    matches!(error.get(ContextKind::InvalidSubcommand), Some(ContextValue::String(name)) if name == "drive")
+}
+
 fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
     match command {
         Command::Check(args) => command::check::run(args, colors),
@@ -110,7 +123,6 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Dataset(args) => command::dataset::run(args, colors),
         Command::Plan(args) => command::plan::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
-        Command::Drive(args) => command::drive::run(args, colors),
         Command::Replay(args) => command::replay::run(args),
         Command::Export(args) => command::export::run(args),
         Command::Feasible(args) => command::feasible::run(args, colors),

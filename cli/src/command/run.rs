@@ -1,4 +1,8 @@
-//! `motet run`: checks a policy and runs it in simulation, with or without a journal.
+//! `motet run`: checks a policy and runs it in simulation or on a driver in another process, with or without
+//! a journal; or checks such a driver.
+
+mod conformance;
+mod driver;
 
 use std::path::{Path, PathBuf};
 
@@ -8,6 +12,7 @@ use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
+use motet_host::remote::{DriverAddress, DriverTimeouts};
 use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_project::{Project, ProjectSession, SavedDriver, SavedProject, named_robot};
 use motet_robots::card::Robot;
@@ -26,6 +31,7 @@ use crate::output::{Colors, count, note};
 use crate::report::Report;
 use crate::run_view::{Clock, events, view};
 use crate::runner::{PacedView, Runner, connect, exit_of, journal_error};
+use driver::DriverChoice;
 
 /// Flags of `motet run`.
 #[derive(Args, Debug)]
@@ -33,16 +39,34 @@ use crate::runner::{PacedView, Runner, connect, exit_of, journal_error};
     motet run fetch_mug.motet --robot hsr --scene kitchen --speed max\n  \
     motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json\n  \
     motet run fetch_mug.motet --scene kitchen --record run/    write a journal for `motet replay run/`\n  \
-    motet run --resume run/                                    continue after a crash")]
+    motet run --resume run/                                    continue after a crash\n  \
+    motet run fetch_mug.motet --scene kitchen --driver 'python3 examples/drivers/echo.py'\n  \
+    motet run fetch_mug.motet --scene kitchen --driver tcp://127.0.0.1:4711\n  \
+    motet run fetch_mug.motet --scene kitchen --driver mujoco  run in physics\n  \
+    motet run --check --driver 'python3 my_driver.py'          check the laws of drivers")]
 pub(crate) struct RunArgs {
-    /// Policy file, or `-` for stdin
-    #[arg(value_name = "FILE", required_unless_present = "resume")]
+    /// Policy file, or `-` for stdin; with `--check`, the driver gets its first call instead of `say`
+    #[arg(value_name = "FILE", required_unless_present_any = ["resume", "check"])]
     file: Option<PathBuf>,
     /// Policy to run; required if the file has several
     #[arg(long, value_name = "NAME")]
     policy: Option<String>,
     #[command(flatten)]
     session: SessionArgs,
+    /// Driver: `kinematic`, the simulator without physics; `mujoco`, physics, for which Python needs the
+    /// package `motet-mujoco`; a command that speaks the driver protocol on its stdin and stdout; or
+    /// tcp://127.0.0.1:PORT
+    #[arg(long, default_value = "kinematic", value_name = "kinematic|mujoco|COMMAND|ADDRESS")]
+    driver: DriverChoice,
+    /// Check if a driver in another process keeps the laws of drivers, and print each broken one with its
+    /// messages
+    #[arg(long, conflicts_with_all = ["record", "speed", "resume"])]
+    check: bool,
+    /// Seconds that a call may take in a check
+    ///
+    /// The default is 5, or the deadline of the call for a driver that owns the clock.
+    #[arg(long, value_name = "SECS", requires = "check")]
+    patience: Option<f64>,
     #[command(flatten)]
     simulation: SimulationArgs,
     /// JSON file with the answers of the simulated person
@@ -57,7 +81,7 @@ pub(crate) struct RunArgs {
         value_name = "FOLDER",
         conflicts_with_all = [
             "file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain",
-            "profile", "world",
+            "profile", "world", "driver",
         ]
     )]
     resume: Option<PathBuf>,
@@ -68,46 +92,116 @@ pub(crate) struct RunArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, CliError> {
+    args.driver.refuse_flags(&args.simulation, args.answers.as_deref())?;
     Report::run(args.format.into(), colors, |report| match (&args.resume, &args.file) {
+        (None, file) if args.check => conformance::check(file.as_deref(), args, report),
         (Some(folder), _) => resume(folder, args, colors, report),
         (None, Some(file)) => check_and_run(file, args, colors, report),
         (None, None) => Err(CliError::Message("a policy is needed".to_owned())),
     })
 }
 
+impl RunArgs {
+    /// Address of the driver; `None` for the simulator in this process. Robot and scene are those of the
+    /// flags, or the robot that the policy names.
+    fn address(&self, parsed: &Parsed) -> Result<Option<DriverAddress>, CliError> {
+        let given = &self.session.environment;
+        let robot = given.robot.clone().or_else(|| named_robot(&parsed.file));
+        self.driver.address(robot.as_deref(), given.scene.as_deref(), self.simulation.seed())
+    }
+}
+
 fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
     let mut project = args.session.project().open_with(report)?;
-    let simulation = &args.simulation;
-    let inputs = simulation.inputs(args.answers.as_deref(), None, report)?;
     let policy = args.policy.as_deref();
     let document = one_document(file)?;
     let Some((graph, parsed, opened)) = compile(&document, policy, args.format, &mut project, report)? else {
         return Ok(Exit::Findings);
     };
+    let run = run_id();
+    let ready = match args.address(&parsed)? {
+        Some(address) => remote(&address, Hello::of(&graph, &run), args, opened)?,
+        None => kinematic((&graph, &parsed), args, opened, report)?,
+    };
+    let ReadyDriver { mut driver, saved, clock, speed, settings } = ready;
+    let start = start_state(opened.scene.as_ref());
+    let guard = opened.session.world_tracker().map(|course| Guard::new(course, speed.verifies()));
+    let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings)?;
+    let journal = match args.record.as_deref().zip(saved) {
+        Some((folder, saved)) => Some(create_journal(folder, &run, (&engine, &start), &saved)?),
+        None => None,
+    };
+    let view = view(args.format, engine.graph(), colors, clock);
+    // Where the driver keeps the time of the wall clock, the view never waits.
+    let paced = PacedView::new(view, speed).with_guard(guard);
+    let events = vec![Event::Begin];
+    Runner { engine, driver: &mut *driver, journal, from: Time::ZERO, events }.run(paced)
+}
+
+/// Driver that is ready for a run.
+struct ReadyDriver {
+    driver: Box<dyn Driver>,
+    /// Description for the journal, if there is one.
+    saved: Option<SavedDriver>,
+    clock: Clock,
+    speed: Speed,
+    settings: EngineSettings,
+}
+
+/// Simulator of a policy.
+fn kinematic(
+    (graph, parsed): (&Graph, &Parsed),
+    args: &RunArgs,
+    opened: &ProjectSession,
+    report: &mut Report,
+) -> Result<ReadyDriver, CliError> {
     let (Some(robot), Some(files)) = (&opened.robot, &opened.files) else {
         return Err(no_robot(named_robot(&parsed.file)));
     };
+    let inputs = args.simulation.inputs(args.answers.as_deref(), None, report)?;
     inputs.check_names(&opened.session.signatures())?;
     let declarations: Vec<_> = opened.domains.iter().chain([&parsed.file]).collect();
     let eye = opened.geometry.as_ref().and_then(|geometry| geometry.eye());
-    let options = inputs.with_eye(eye).for_policy(&graph, &declarations);
-    let start = start_state(opened.scene.as_ref());
+    let options = inputs.with_eye(eye).for_policy(graph, &declarations);
     let scene = opened.scene.clone().unwrap_or_default();
-    let mut simulator = Sim::new(robot, &scene, options.clone());
-    let guard = opened.session.world_tracker().map(|course| Guard::new(course, simulation.speed.verifies()));
-    let engine = engine(graph, &start, simulator.capabilities(), guard.as_ref(), EngineSettings::default())?;
-    let journal = match &args.record {
-        Some(folder) => {
-            let scene_text = opened.scene_text.clone();
-            let saved = SavedDriver::simulator(files, scene_text, &options, SavedProject::of(opened));
-            Some(create_journal(folder, &run_id(), (&engine, &start), &saved)?)
+    let saved = args.record.is_some().then(|| {
+        SavedDriver::simulator(files, opened.scene_text.clone(), &options, SavedProject::of(opened))
+    });
+    Ok(ReadyDriver {
+        driver: Box::new(Sim::new(robot, &scene, options)),
+        saved,
+        clock: Clock::Simulated,
+        speed: args.simulation.speed(),
+        settings: EngineSettings::default(),
+    })
+}
+
+/// Driver in another process.
+fn remote(
+    address: &DriverAddress,
+    hello: Hello,
+    args: &RunArgs,
+    opened: &ProjectSession,
+) -> Result<ReadyDriver, CliError> {
+    let driver = connect(address, hello, Time::ZERO)?;
+    let (clock, speed) = match (driver.capabilities().clock, args.simulation.speed) {
+        (DriverClock::Driver, _) => (Clock::Simulated, args.simulation.speed()),
+        (DriverClock::Wall, None) => (Clock::Wall, Speed::Times(1.0)),
+        (DriverClock::Wall, Some(_)) => {
+            let why =
+                "this driver goes by the clock on the wall: `--speed` is for drivers that own the clock";
+            return Err(CliError::Message(why.to_owned()));
         }
-        None => None,
     };
-    let view = view(args.format, engine.graph(), colors, Clock::Simulated);
-    let paced = PacedView::new(view, simulation.speed).with_guard(guard);
-    let events = vec![Event::Begin];
-    Runner { engine, driver: &mut simulator, journal, from: Time::ZERO, events }.run(paced)
+    let saved = args
+        .record
+        .is_some()
+        .then(|| SavedDriver::process(address, &driver.welcome().instance, SavedProject::of(opened)));
+    // A safe stop may take as long as it takes to reach a silent driver again.
+    let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
+    let settings =
+        EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() };
+    Ok(ReadyDriver { driver: Box::new(driver), saved, clock, speed, settings })
 }
 
 /// Reads and compiles a policy, and reports the diagnostics. `None` if the check refuses it.
@@ -154,7 +248,7 @@ pub(super) fn paced_view(
     colors: Colors,
     simulation: &SimulationArgs,
 ) -> PacedView {
-    PacedView::new(view(format, graph, colors, Clock::Simulated), simulation.speed)
+    PacedView::new(view(format, graph, colors, Clock::Simulated), simulation.speed())
 }
 
 /// Simulator for policies that are not known yet. `eye` is the camera's position in the base's frame, in m.
@@ -190,7 +284,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let clock = clock_of(head, &saved);
     let view = view(args.format, replay.engine().graph(), colors, clock);
     let speed = match clock {
-        Clock::Simulated => args.simulation.speed,
+        Clock::Simulated => args.simulation.speed(),
         Clock::Wall => Speed::Times(1.0),
     };
     let mut paced = PacedView::new(view, speed);

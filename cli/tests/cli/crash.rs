@@ -1,6 +1,6 @@
 //! Drivers in another process and a host that end at bad moments.
 
-use crate::drive::{AWAY, has_python, odd, recorded};
+use crate::driver::{AWAY, has_python, odd, recorded};
 use crate::support::{Place, eventually};
 use std::process::{Child, Command, Stdio};
 

@@ -17,7 +17,7 @@ mod crash;
 mod dataset;
 mod decode;
 mod dialog;
-mod drive;
+mod driver;
 mod fmt;
 mod grammar;
 mod import;

@@ -115,7 +115,7 @@ pub trait Driver {
     fn look(&mut self, _now: Time, _camera: Option<&str>) -> Option<RgbdView> {
         None
     }
-    /// Detections in the current view. Looking changes nothing.
+    /// Detections in the current view, the surest first. Looking changes nothing.
     fn detections(&mut self, _now: Time) -> Vec<Detection> {
         Vec::new()
     }

@@ -65,19 +65,22 @@ pub struct RgbdView {
     pub camera: CameraModel,
 }
 
-/// The eyes of a robot. A driver that has any implements it beside [`crate::Driver`].
+/// Pictures that a planner asks for: the camera turns to what is worth to be seen. A driver that can turn it
+/// implements this beside [`crate::Driver`], whose `look` takes the camera as it is turned and whose
+/// `detections` tell what is in view.
 ///
 /// # Laws
+///
+/// They hold for [`crate::Driver::look`] and [`crate::Driver::detections`], too.
 ///
 /// 1. Looking changes nothing: neither the world, nor what the driver reports.
 /// 2. What is given is as of `now` or older, and says so in `at`; nothing is dated later than `now`.
 /// 3. A confidence is between 0 and 1, and a pose finite.
 /// 4. Looked at twice at the same time, it gives the same.
+/// 5. The surest detection comes first.
 ///
 /// [`crate::conformance::check_perception`] checks them.
 pub trait Perception {
-    /// Detections in the current or latest view, in descending order of confidence.
-    fn detections(&mut self, now: Time) -> Vec<Detection>;
     /// A fresh picture; none where there is no camera or it has nothing to show.
     fn image(&mut self, now: Time) -> Option<CameraImage>;
     /// A fresh picture of an entity with depth, the camera turned towards it; none where no camera measures
@@ -89,10 +92,6 @@ pub trait Perception {
 
 /// Eyes that are also somebody else's.
 impl<P: Perception> Perception for Rc<RefCell<P>> {
-    fn detections(&mut self, now: Time) -> Vec<Detection> {
-        self.borrow_mut().detections(now)
-    }
-
     fn image(&mut self, now: Time) -> Option<CameraImage> {
         self.borrow_mut().image(now)
     }

@@ -9,7 +9,10 @@ use crate::motion::BaseMotion;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task, TaskStage};
 use motet_graph::{Manner, Waypoint};
-use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, PrimitiveSet, Query, Time};
+use motet_runtime::{
+    Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Moved, Outcome, PrimitiveSet, Query,
+    RgbdView, Time,
+};
 use motet_stdlib::lang::failures;
 use rand::RngExt;
 use smol_str::SmolStr;
@@ -65,10 +68,13 @@ impl Driver for Sim {
         }
     }
 
-    /// It can hold everything, and `go` somewhere else on the way.
+    /// It can hold everything, and `go` somewhere else on the way. It sees if its card has a camera.
     fn capabilities(&self) -> Capabilities {
         Capabilities {
             update: PrimitiveSet::Only(BTreeSet::from([SmolStr::new_static("go")])),
+            moved: true,
+            look: self.camera.is_some(),
+            detections: self.camera.is_some(),
             ..Capabilities::default()
         }
     }
@@ -173,6 +179,18 @@ impl Driver for Sim {
             }
             self.reach(next);
         }
+    }
+
+    fn telemetry(&mut self) -> Option<Moved> {
+        self.trail.next(&self.world)
+    }
+
+    fn look(&mut self, now: Time, camera: Option<&str>) -> Option<RgbdView> {
+        self.overview(now, camera)
+    }
+
+    fn detections(&mut self, now: Time) -> Vec<Detection> {
+        self.detected_at(now)
     }
 }
 

@@ -20,6 +20,7 @@ mod sim;
 mod stage;
 mod stroll;
 mod task;
+mod telemetry;
 mod world;
 mod world_setup;
 

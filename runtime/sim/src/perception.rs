@@ -24,7 +24,24 @@ const TURN: f64 = 0.2;
 const FURNITURE: i64 = 4;
 
 impl Perception for Sim {
-    fn detections(&mut self, now: Time) -> Vec<Detection> {
+    fn image(&mut self, now: Time) -> Option<CameraImage> {
+        Some(self.overview(now, None)?.image)
+    }
+
+    fn view(&mut self, now: Time, of: &str) -> Option<RgbdView> {
+        if !self.world.sees(of, ViewDirection::Around) {
+            return None;
+        }
+        let body = self.world.thing(of)?.body;
+        let middle = [body.x(), body.y(), (body.bottom() + body.top()) / 2.0];
+        let lens = CameraLens::towards(self.world.eye_in_map(), middle, self.world.base.heading);
+        self.shot(&lens, now)
+    }
+}
+
+impl Sim {
+    /// What is in view, as well as the camera tells, the surest first.
+    pub(crate) fn detected_at(&self, now: Time) -> Vec<Detection> {
         // Looking moves nothing: what is seen is as of the time that the world has reached.
         let at = self.now().min(now);
         // The same moment gives the same errors, whatever was looked at before.
@@ -59,23 +76,15 @@ impl Perception for Sim {
         seen
     }
 
-    fn image(&mut self, now: Time) -> Option<CameraImage> {
-        let lens = CameraLens::new(self.world.eye_in_map(), self.world.base.heading + self.gaze(), BELOW);
-        Some(self.shot(&lens, now)?.image)
-    }
-
-    fn view(&mut self, now: Time, of: &str) -> Option<RgbdView> {
-        if !self.world.sees(of, ViewDirection::Around) {
+    /// A picture of most of what is visible. There is one camera, the first of the card.
+    pub(crate) fn overview(&self, now: Time, camera: Option<&str>) -> Option<RgbdView> {
+        if camera.is_some_and(|name| self.camera.as_deref() != Some(name)) {
             return None;
         }
-        let body = self.world.thing(of)?.body;
-        let middle = [body.x(), body.y(), (body.bottom() + body.top()) / 2.0];
-        let lens = CameraLens::towards(self.world.eye_in_map(), middle, self.world.base.heading);
+        let lens = CameraLens::new(self.world.eye_in_map(), self.world.base.heading + self.gaze(), BELOW);
         self.shot(&lens, now)
     }
-}
 
-impl Sim {
     /// Pan angle in rad that brings most visible things into the image; ties go to the angle nearest to
     /// straight ahead.
     fn gaze(&self) -> f64 {

@@ -8,6 +8,7 @@ use crate::people::Strolls;
 use crate::profile::Profile;
 use crate::route::Contact;
 use crate::task::Task;
+use crate::telemetry::Trail;
 use crate::world::SimWorld;
 use indexmap::IndexMap;
 use motet_graph::Value;
@@ -61,6 +62,7 @@ pub struct Sim {
     pub(crate) tasks: Vec<Task>,
     pub(crate) watches: Vec<(Query, Answer)>,
     pub(crate) outbox: VecDeque<(Time, DriverEvent)>,
+    pub(crate) trail: Trail,
     /// The name of the first camera.
     pub(crate) camera: Option<SmolStr>,
     observes: Vec<SmolStr>,
@@ -99,6 +101,7 @@ impl Sim {
             tasks: Vec::new(),
             watches: Vec::new(),
             outbox: VecDeque::new(),
+            trail: Trail::default(),
             camera: robot.cameras.keys().next().cloned(),
             observes: robot.observes.clone(),
             initial_facts: options.initial_facts,

@@ -3,7 +3,7 @@
 use motet_graph::Pose;
 use motet_planner::vision::{NoPoint, Pointer, ground, lift, point, with_detections};
 use motet_runtime::conformance::check_perception;
-use motet_runtime::{CameraImage, CameraModel, DepthImage, Detection, Driver, Perception, RgbdView, Time};
+use motet_runtime::{CameraImage, CameraModel, DepthImage, Detection, Driver, RgbdView, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_tests::setup;
 
@@ -15,7 +15,7 @@ fn vision_simulator_s_eyes_keep_the_laws() {
         check_perception(&mut sim, &[Time::from_secs(1.0), Time::from_secs(2.0)]),
         Vec::<String>::new()
     );
-    let seen = Perception::detections(&mut sim, Time::from_secs(2.0));
+    let seen = sim.detections(Time::from_secs(2.0));
     let mug = seen.iter().find(|seen| seen.entity.as_deref() == Some("mug_1")).unwrap();
     assert_eq!(mug.class, "mug");
     assert!(!seen.iter().any(|seen| seen.entity.as_deref() == Some("mug_2")), "behind the robot");

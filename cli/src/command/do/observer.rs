@@ -154,7 +154,7 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn verifies(&self) -> CheckMode {
-        self.args.simulation.speed.verifies()
+        self.args.simulation.speed().verifies()
     }
 
     fn is_stopped(&self) -> bool {

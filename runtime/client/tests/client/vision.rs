@@ -9,7 +9,7 @@ use motet_graph::{Pose, Value};
 use motet_planner::dialogue::{Conversation, NoOperator, Outcome};
 use motet_planner::vision::GroundingDriver;
 use motet_runtime::{
-    CameraImage, CameraModel, DepthImage, Detection, Engine, Perception, RgbdView, RunEnd, StartState, Time,
+    CameraImage, CameraModel, DepthImage, Engine, Perception, RgbdView, RunEnd, StartState, Time,
 };
 use motet_sim::{Faults, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
@@ -27,10 +27,6 @@ fn picture(now: Time) -> CameraImage {
 struct Head;
 
 impl Perception for Head {
-    fn detections(&mut self, _now: Time) -> Vec<Detection> {
-        Vec::new()
-    }
-
     fn image(&mut self, now: Time) -> Option<CameraImage> {
         Some(picture(now))
     }
@@ -62,10 +58,6 @@ fn client_fresh_picture_goes_with_every_plan() {
 struct Wall;
 
 impl Perception for Wall {
-    fn detections(&mut self, _now: Time) -> Vec<Detection> {
-        Vec::new()
-    }
-
     fn image(&mut self, now: Time) -> Option<CameraImage> {
         Some(picture(now))
     }

@@ -1,5 +1,6 @@
 //! The laws of [`crate::Driver`] and of [`crate::Perception`], and the violations of them.
 
+use crate::driver::Driver;
 use crate::perception::Perception;
 use crate::time::Time;
 use std::fmt;
@@ -65,9 +66,9 @@ impl fmt::Display for LawViolation {
     }
 }
 
-/// Looks twice at each of some times, given in order, and tells what breaks a law; nothing where none is
-/// broken. What is detected is looked at more closely, too.
-pub fn check_perception(eyes: &mut dyn Perception, times: &[Time]) -> Vec<String> {
+/// Looks twice at each of some times, given in order, and tells what breaks a law of [`Perception`]; nothing
+/// where none is broken. What is detected is looked at more closely, too.
+pub fn check_perception<D: Driver + Perception>(eyes: &mut D, times: &[Time]) -> Vec<String> {
     let mut broken = Vec::new();
     let finite =
         |pose: &motet_graph::Pose| pose.xyz.iter().chain(&pose.quaternion).all(|number| number.is_finite());
@@ -75,7 +76,8 @@ pub fn check_perception(eyes: &mut dyn Perception, times: &[Time]) -> Vec<String
         let seen = eyes.detections(*now);
         let again = eyes.detections(*now);
         let image = eyes.image(*now);
-        if seen != again || image != eyes.image(*now) {
+        let picture = eyes.look(*now, None);
+        if seen != again || image != eyes.image(*now) || picture != eyes.look(*now, None) {
             broken.push(format!("{} s: a second look at the same time gives something else", now.secs()));
         }
         for one in &seen {
@@ -93,7 +95,7 @@ pub fn check_perception(eyes: &mut dyn Perception, times: &[Time]) -> Vec<String
         if seen.windows(2).any(|pair| matches!(pair, [one, next] if one.confidence < next.confidence)) {
             broken.push(format!("{} s: the surest does not come first", now.secs()));
         }
-        if image.is_some_and(|image| image.at > *now) {
+        if image.into_iter().chain(picture.map(|view| view.image)).any(|image| image.at > *now) {
             broken.push(format!("{} s: the image is dated later", now.secs()));
         }
         for entity in seen.iter().filter_map(|one| one.entity.as_ref()) {

@@ -3,7 +3,7 @@
 
 use crate::sim;
 use motet_runtime::conformance::check_perception;
-use motet_runtime::{Perception, RgbdView, Time};
+use motet_runtime::{Driver, Perception, RgbdView, Time};
 use motet_sim::{Sim, SimOptions};
 use std::io::Cursor;
 
@@ -78,6 +78,14 @@ fn camera_pictures_keep_the_laws_and_are_the_same_of_the_same_world() {
     for (robot, room) in [("hsr", "kitchen"), ("anymal_z1", "living_room"), ("panda", "lab")] {
         let mut eyes = sim(robot, room, SimOptions::default());
         assert_eq!(check_perception(&mut eyes, &[Time::ZERO]), [""; 0], "{robot} in {room}");
+        let can = eyes.capabilities();
+        let view = eyes.look(Time::ZERO, None);
+        assert_eq!((can.look, can.detections), (view.is_some(), view.is_some()), "{robot}");
+        assert_eq!(eyes.look(Time::ZERO, Some("no camera")), None);
+        if let Some(view) = view {
+            let name = view.image.camera.clone();
+            assert_eq!(eyes.look(Time::ZERO, Some(&name)), Some(view));
+        }
         assert_eq!(eyes.image(Time::ZERO), sim(robot, room, SimOptions::default()).image(Time::ZERO));
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{Bench, entity};
 use motet_graph::Value;
-use motet_runtime::{Answer, Driver, DriverEvent, Outcome, Pattern, Query, Time};
+use motet_runtime::{Answer, Driver, DriverEvent, Moved, Outcome, Pattern, Query, Time};
 use motet_sim::SimOptions;
 
 fn distance() -> Query {
@@ -95,4 +95,36 @@ fn sim_seed_decides_all() {
     };
     assert_eq!(run(7), run(7));
     assert_ne!(run(7), run(8));
+}
+
+#[test]
+fn sim_telemetry_says_what_has_moved_at_most_fifty_times_a_second() {
+    let mut bench = Bench::kitchen();
+    assert!(bench.sim.capabilities().moved);
+    let first = bench.sim.telemetry().unwrap();
+    let at =
+        |moved: &Moved, id: &str| moved.things.iter().find(|thing| thing.id == id).map(|thing| thing.xyz);
+    assert_eq!(at(&first, "mug_1"), bench.sim.position("mug_1"), "the first report has all things");
+    assert_eq!(bench.sim.telemetry(), None, "nothing has moved");
+    bench.start("go", &[("to", entity("kitchen_table"))]);
+    let (mut last, mut count) = (first, 0);
+    for step in 1..=200 {
+        let now = Time::from_secs(f64::from(step) * 0.005);
+        while bench.sim.advance(now).is_some() {}
+        while let Some(moved) = bench.sim.telemetry() {
+            assert!(moved.at.since(last.at) >= Time::from_secs(0.02), "{moved:?} after {last:?}");
+            assert_ne!(moved.base, last.base);
+            assert_eq!(moved.things, [], "the robot carries nothing");
+            (last, count) = (moved, count + 1);
+        }
+    }
+    assert!((40..=50).contains(&count), "{count} reports in a second");
+    bench.now = bench.sim.now();
+    while !matches!(bench.next(600.0), Some(DriverEvent::Ended { .. })) {}
+    bench.does("pick", &[("object", entity("mug_1"))]);
+    bench.does("go", &[("to", entity("counter"))]);
+    let carried = bench.sim.telemetry().unwrap();
+    assert_eq!(at(&carried, "mug_1"), bench.sim.position("mug_1"));
+    assert_eq!(at(&carried, "kitchen_table"), None);
+    assert_eq!(Some(carried.base), Driver::base(&bench.sim));
 }

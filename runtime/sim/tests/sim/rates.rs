@@ -2,7 +2,7 @@
 
 use crate::{Bench, entity, sim, text};
 use motet_graph::Value;
-use motet_runtime::{Driver as _, Outcome, Perception, Time};
+use motet_runtime::{Driver as _, Outcome, Time};
 use motet_sim::{HandRates, PeopleRates, Profile, RoomRates, SimOptions};
 
 const SEEDS: u64 = 300;
@@ -114,7 +114,7 @@ fn rates_errors_are_within_twice_the_deviation() {
         let is_there = bench.sim.holds("on", &["mug_1", "kitchen_table"]) == Some(true);
         assert!(!is_there || off <= 2.0 * harsh.room.shift_m + 1e-9, "{off} m");
         shifted += usize::from(off > 0.005);
-        for seen in Perception::detections(&mut bench.sim, Time::ZERO) {
+        for seen in bench.sim.detections(Time::ZERO) {
             let (Some(id), Some(pose)) = (seen.entity, seen.pose) else { continue };
             let real = bench.sim.position(&id).unwrap();
             let (off, far) = ((real[0] - pose.xyz[0]).hypot(real[1] - pose.xyz[1]), real[0].hypot(real[1]));

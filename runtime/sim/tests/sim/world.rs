@@ -4,7 +4,7 @@
 use crate::{Bench, entity, robot, scene, text};
 use motet_graph::{Pose, Value};
 use motet_robots::{builtin, scene::Scene};
-use motet_runtime::{Answer, Driver, DriverEvent, Outcome, Pattern, Perception, Query, Time};
+use motet_runtime::{Answer, Driver, DriverEvent, Outcome, Pattern, Query, Time};
 use motet_sim::{Faults, Sim, SimOptions};
 
 /// The HSR in a room of which it was told something else.
@@ -130,7 +130,7 @@ fn world_thing_behind_a_screen_is_not_seen() {
     for (wide, is_seen) in [(1.0, false), (0.02, true)] {
         let mut bench = Bench::of(Sim::new(&robot("hsr"), &room(wide), SimOptions::default()));
         assert_eq!(matches!(bench.call("detect", &ball), Outcome::Success(_)), is_seen, "{wide} m");
-        let seen = Perception::detections(&mut bench.sim, bench.now);
+        let seen = bench.sim.detections(bench.now);
         let found = seen.iter().find(|seen| seen.entity.as_deref() == Some("ball"));
         assert_eq!(found.is_some(), is_seen, "{wide} m");
         assert!(found.is_none_or(|ball| (0.3..=1.0).contains(&ball.confidence)), "{found:?}");

@@ -1,4 +1,4 @@
-//! `motet drive --check`: leads a driver in another process through the scenes of the conformance suite.
+//! `motet run --check`: leads a driver in another process through the scenes of the conformance suite.
 
 use std::cell::RefCell;
 use std::collections::{BTreeSet, VecDeque};
@@ -20,8 +20,7 @@ use motet_stdlib::lang;
 use serde_json::json;
 use smol_str::SmolStr;
 
-use super::DriveArgs;
-use crate::command::run::compile;
+use super::{RunArgs, compile};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
@@ -81,20 +80,24 @@ impl DriverLog for TranscriptLog {
 }
 
 /// Runs the scenes and prints the laws that are broken.
-pub(super) fn check(file: Option<&Path>, args: &DriveArgs, report: &mut Report) -> Result<Exit, CliError> {
+pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) -> Result<Exit, CliError> {
     let mut project = args.session.project().open_with(report)?;
     let document = match file {
         Some(file) => one_document(file)?,
         None => test_policy(args.session.environment.robot.is_some()),
     };
     let compiled = compile(&document, args.policy.as_deref(), args.format, &mut project, report)?;
-    let Some((graph, ..)) = compiled else { return Ok(Exit::Findings) };
+    let Some((graph, parsed, _)) = compiled else { return Ok(Exit::Findings) };
     let (command, query) = (first_call(&graph)?, question());
+    let Some(address) = args.address(&parsed)? else {
+        let why = "`--check` leads a driver in another process: name it with `--driver`";
+        return Err(CliError::Message(why.to_owned()));
+    };
     catch_interrupts()?;
     let connect = |log: Box<dyn DriverLog>| {
         let hello = Hello::of(&graph, &run_id());
-        RemoteDriver::connect(args.driver.clone(), hello, DriverTimeouts::default(), Time::ZERO, log)
-            .map_err(|breakage| format!("{} ({})", escape(&breakage.to_string()), args.driver))
+        RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), Time::ZERO, log)
+            .map_err(|breakage| format!("{} ({})", escape(&breakage.to_string()), address))
     };
     let greeted = connect(Box::new(|text: &str| note(&escape(text)))).map_err(CliError::Message)?;
     let is_virtual = greeted.capabilities().clock == DriverClock::Driver;

@@ -1,4 +1,4 @@
-//! `motet drive`: the example driver in another process, and drivers that misbehave.
+//! `motet run --driver`: the example driver in another process, and drivers that misbehave.
 
 use crate::support::{GOOD, Place, eventually};
 use std::io::{BufRead, BufReader, Write};
@@ -22,7 +22,7 @@ pub(crate) fn has_python() -> bool {
 
 /// The command line that has a driver do a policy.
 pub(crate) fn driven(policy: &str, driver: &str) -> Vec<String> {
-    ["drive", policy, "--robot", "hsr", "--scene", "kitchen", "--driver", driver].map(str::to_owned).to_vec()
+    ["run", policy, "--robot", "hsr", "--scene", "kitchen", "--driver", driver].map(str::to_owned).to_vec()
 }
 
 /// The same, with a journal in the folder `run`.
@@ -43,6 +43,74 @@ pub(crate) fn odd(then: &str) -> String {
          \x20       continue\n\
          {then}"
     )
+}
+
+#[test]
+fn what_another_driver_has_no_use_for_is_refused() {
+    let place = Place::new("driver_flags").file("good.motet", GOOD).file("none.json", "{}");
+    place.run("drive good.motet --driver tcp://127.0.0.1:4711").check(
+        2,
+        &["err:there is no `motet drive` any more", "err:`motet run FILE --driver COMMAND|ADDRESS`"],
+    );
+    for flag in ["--faults none.json", "--answers none.json", "--profile harsh", "--world lab", "--seed 3"] {
+        let name = flag.split(' ').next().unwrap();
+        let refused = format!("err:`{name}` is for the kinematic simulator, not for another driver");
+        place.run(&format!("run good.motet --scene kitchen --driver cat {flag}")).check(2, &[&refused]);
+        let physics = place.run(&format!("run good.motet --driver mujoco {flag}"));
+        assert_eq!(physics.stderr.contains(&refused[4..]), name != "--seed", "{physics:#?}");
+    }
+    let line = "run good.motet --scene kitchen --driver kinematic --seed 3 --profile ideal --speed max";
+    place.run(line).check(0, &["out:✓ tidy: done"]);
+    place.run("run --check").check(2, &["err:`--check` leads a driver in another process"]);
+    place.run("run").check(2, &["err:<FILE"]);
+    place.run("run --resume run --driver mujoco").check(2, &["err:cannot be used with"]);
+}
+
+#[test]
+fn physics_gets_the_robot_the_scene_and_the_seed_of_the_run() {
+    if !has_python() {
+        return;
+    }
+    // A package of the same name, which does what the example does.
+    let stand_in = format!(
+        "import runpy, sys\nprint(sys.argv[1:], file=sys.stderr)\n\
+         sys.argv = ['echo', '--clock', 'driver']\nrunpy.run_path({ECHO:?}, run_name='__main__')\n"
+    );
+    let place = Place::new("driver_physics")
+        .file("good.motet", GOOD)
+        .file("say.motet", "policy hello for hsr {\n    say(\"Hello!\")\n}\n")
+        .file("mujoco.py", "")
+        .file("numpy.py", "")
+        .file("motet_mujoco/__init__.py", "")
+        .file("motet_mujoco/__main__.py", stand_in);
+    place.run("run good.motet --scene kitchen --driver mujoco --seed 7 --speed max --record run").check(
+        0,
+        &["out:✓ tidy: done", "err:['--robot', 'hsr', '--scene', 'kitchen', '--seed', '7', '--motet', "],
+    );
+    place.run("replay run").check(0, &["out:identical"]);
+    place
+        .run("run say.motet --driver mujoco")
+        .check(2, &["err:`--driver mujoco` needs a scene: give --scene"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn physics_that_is_not_installed_is_explained() {
+    let place = Place::new("driver_no_physics").file("good.motet", GOOD);
+    let line = "run good.motet --scene kitchen --driver mujoco";
+    let script = "mkdir bin none && printf '#!/bin/sh\\necho motet_mujoco mujoco\\n' >bin/python3 && chmod +x bin/python3";
+    place.shell(script).check(0, &[]);
+    let with =
+        |folder: &str| place.run_with(line, b"", &[("PATH", &place.path(folder).display().to_string())]);
+    with("bin").check(
+        2,
+        &[
+            "err:modules that `python3` does not find: `motet_mujoco`, `mujoco`",
+            "err:`pip install runtime/mujoco`",
+        ],
+    );
+    with("none")
+        .check(2, &["err:`--driver mujoco` cannot start `python3`", "err:install Python 3.10 or later"]);
 }
 
 #[test]
@@ -170,7 +238,7 @@ fn a_check_tells_the_laws_that_a_driver_breaks() {
         return;
     }
     let check = |place: &Place, driver: &str, more: &[&str]| {
-        let args = [&["drive", "--check", "--driver", driver], more].concat();
+        let args = [&["run", "--check", "--driver", driver], more].concat();
         place.run_args(&args.iter().map(|arg| (*arg).to_owned()).collect::<Vec<_>>())
     };
     let place = Place::new("drive_check").file("away.motet", AWAY);
