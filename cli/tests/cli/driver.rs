@@ -98,7 +98,8 @@ fn physics_gets_the_robot_the_scene_and_the_seed_of_the_run() {
 fn physics_that_is_not_installed_is_explained() {
     let place = Place::new("driver_no_physics").file("good.motet", GOOD);
     let line = "run good.motet --scene kitchen --driver mujoco";
-    let script = "mkdir bin none && printf '#!/bin/sh\\necho motet_mujoco mujoco\\n' >bin/python3 && chmod +x bin/python3";
+    let script = "mkdir bin none && cd bin && printf '#!/bin/sh\\necho motet_mujoco mujoco\\n' >python3 \
+                  && chmod +x python3";
     place.shell(script).check(0, &[]);
     let with =
         |folder: &str| place.run_with(line, b"", &[("PATH", &place.path(folder).display().to_string())]);
