@@ -8,6 +8,7 @@ pub mod repairs;
 pub mod saycan;
 pub mod scenarios;
 pub mod setup;
+pub mod world;
 
 use std::time::Duration;
 

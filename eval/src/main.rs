@@ -6,6 +6,8 @@
 //! - `saycan --planned` plans the instructions from their text instead, and exits with 0 if at least 60 % of
 //!   them are carried out.
 //! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot.
+//! - `world` takes the number of runs in a world that can fail, and exits with 0 if none of them ends as done
+//!   without its goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
 //!   passes without a word fails by a need that was not listed.
 //! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are
@@ -18,8 +20,9 @@ use std::process::ExitCode;
 
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, dialogue, dynamic, mutations, planbench, repairs, saycan, scenarios, spread, summary,
+    Judged, dialogue, dynamic, mutations, planbench, repairs, saycan, scenarios, spread, summary, world,
 };
+use motet_sim::Profile;
 
 /// Suite over the lines of a file.
 type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
@@ -63,7 +66,7 @@ fn run() -> Result<bool, String> {
     let usage = || {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
-            "usage: eval {} FILE [--json], eval dynamic TRIALS, eval mutations, or \
+            "usage: eval {} FILE [--json], eval dynamic TRIALS, eval world RUNS, eval mutations, or \
              eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
             names.join("|")
         )
@@ -71,6 +74,10 @@ fn run() -> Result<bool, String> {
     if let ["dynamic", count] = words.as_slice() {
         let count = count.parse().map_err(|_| usage())?;
         return shown(&changed(count)?, only_json);
+    }
+    if let ["world", count] = words.as_slice() {
+        let count = count.parse().map_err(|_| usage())?;
+        return shown(&failing(count)?, only_json);
     }
     if words == ["mutations"] {
         return shown(&mutated()?, only_json);
@@ -165,6 +172,18 @@ fn mutated() -> Result<Report, String> {
     Ok(Report {
         lines: notes.collect(),
         is_good: sums.unlisted * 50 <= sums.silent,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}
+
+fn failing(count: usize) -> Result<Report, String> {
+    let harsh = Profile::builtin("harsh").ok_or("there is no profile `harsh`")?;
+    let ends = world::carry_out(world::runs(Path::new(EXAMPLES), count)?, &harsh);
+    let untrue = ends.iter().filter(|end| end.is_done && !end.is_true).map(serde_json::to_string);
+    let sums = world::sums(&ends);
+    Ok(Report {
+        lines: untrue.collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?,
+        is_good: sums.untrue == 0,
         summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
     })
 }

@@ -70,13 +70,18 @@ pub struct Summary {
     pub unlisted: usize,
 }
 
-/// Mutants of the examples in a folder, in the order of their names.
-///
-/// # Errors
-///
-/// A file cannot be read, or does not name its robot and its scene.
-pub fn mutants(folder: &Path) -> Result<Vec<Mutant>, String> {
-    let wrong = |path: &Path, why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
+/// Example with its robot and its scene.
+pub(crate) struct Example {
+    pub(crate) name: String,
+    /// The policy as text.
+    pub(crate) text: String,
+    pub(crate) robot: String,
+    pub(crate) scene: String,
+    path: PathBuf,
+}
+
+/// Examples in a folder, in the order of their names.
+pub(crate) fn examples(folder: &Path) -> Result<Vec<Example>, String> {
     let entries = std::fs::read_dir(folder).map_err(|error| wrong(folder, &error))?;
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "motet"));
@@ -87,15 +92,33 @@ pub fn mutants(folder: &Path) -> Result<Vec<Mutant>, String> {
         let words = text.split_once("Robot ").and_then(|(_, rest)| rest.split_once(", scene "));
         let named = words.and_then(|(robot, rest)| Some((robot, rest.split_once('.')?.0)));
         let (robot, scene) = named.ok_or_else(|| wrong(&path, &"it names no robot and no scene"))?;
+        let (robot, scene) = (robot.to_owned(), scene.to_owned());
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        all.push(Example { name, robot, scene, text, path });
+    }
+    Ok(all)
+}
+
+fn wrong(path: &Path, why: &dyn std::fmt::Display) -> String {
+    format!("{}: {why}", path.display())
+}
+
+/// Mutants of the examples in a folder, in the order of their names.
+///
+/// # Errors
+///
+/// A file cannot be read, or does not name its robot and its scene.
+pub fn mutants(folder: &Path) -> Result<Vec<Mutant>, String> {
+    let mut all = Vec::new();
+    for Example { name: stem, robot, scene, path, .. } in examples(folder)? {
         let json = path.with_extension("json");
         let policy = std::fs::read_to_string(&json).map_err(|error| wrong(&json, &error))?;
         let policy: Value = serde_json::from_str(&policy).map_err(|error| wrong(&json, &error))?;
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         all.extend(of_policy(&policy).into_iter().map(|(change, text)| Mutant {
             name: format!("{stem}: {change}"),
             text,
-            robot: robot.to_owned(),
-            scene: scene.to_owned(),
+            robot: robot.clone(),
+            scene: scene.clone(),
         }));
     }
     Ok(all)

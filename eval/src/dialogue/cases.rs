@@ -185,7 +185,7 @@ fn case(
 
 impl Case {
     /// The room as the robot is told that it is.
-    pub(super) fn told(&self, mut scene: Scene) -> Scene {
+    pub(crate) fn told(&self, mut scene: Scene) -> Scene {
         if let Some((_, args)) = &self.undo
             && let Some(entity) = args.first().and_then(|id| scene.entities.get_mut(id.as_str()))
         {

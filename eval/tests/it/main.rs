@@ -13,3 +13,4 @@ mod mutations;
 mod planbench;
 mod saycan;
 mod scenarios;
+mod world;

@@ -9,7 +9,7 @@ use crate::chance::Chance;
 use crate::failure::Failure;
 use crate::sim::Sim;
 use crate::world::{Rest, Role, SimWorld, Thing};
-use motet_robots::scene::Entity;
+use motet_robots::scene::{Entity, Palette, colour};
 use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 
@@ -23,11 +23,6 @@ const SAME_M: f64 = 0.01;
 const MISS_RAD: f64 = 0.1;
 /// Greatest probability of a miss.
 const MOST_MISSED: f64 = 0.95;
-/// Words for colours, by which things look alike.
-const COLOURS: &[&str] = &[
-    "red", "green", "blue", "yellow", "orange", "purple", "pink", "brown", "black", "white", "grey", "silver",
-];
-
 /// Freedom of the robot to turn while it looks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum ViewDirection {
@@ -233,14 +228,15 @@ impl Sim {
         fitting
     }
 
-    /// True if two things are of one class, category or colour.
+    /// True if two things are of one class or category, or have the same colour in a picture.
     fn look_alike(&self, one: &str, other: &str) -> bool {
-        let (Some(one), Some(other)) = (self.scene.entities.get(one), self.scene.entities.get(other)) else {
-            return false;
-        };
-        (!one.class.is_empty() && one.class == other.class)
-            || one.categories.iter().any(|category| other.categories.contains(category))
-            || colour(one).is_some_and(|word| colour(other) == Some(word))
+        let [a, b] = [one, other].map(|id| self.scene.entities.get(id));
+        let hue = |id: &str, entity: Option<&Entity>| colour(id, entity, Palette::Things);
+        let is_alike = a.zip(b).is_some_and(|(a, b)| {
+            (!a.class.is_empty() && a.class == b.class)
+                || a.categories.iter().any(|category| b.categories.contains(category))
+        });
+        is_alike || hue(one, a) == hue(other, b)
     }
 
     /// Looks at a thing, turned towards where it is believed to be.
@@ -289,11 +285,4 @@ pub(crate) fn the_one(found: Vec<SmolStr>, what: &str) -> Result<SmolStr, Failur
             Err(Failure::new(failures::AMBIGUOUS, format!("{count} things in view are \"{what}\"")))
         }
     }
-}
-
-/// Word for a colour among the names of an entity.
-fn colour(entity: &Entity) -> Option<&'static str> {
-    let names: Vec<String> = entity.descriptions().collect();
-    let has = |word: &&&str| names.iter().any(|name| name.split(' ').any(|part| part == **word));
-    COLOURS.iter().find(has).copied()
 }

@@ -3,7 +3,8 @@
 //!
 //! Fed by the world alone, [`scenery`] says what there is to be seen and in which colours, [`solid`] where a
 //! ray meets it, [`lens`] which ray a pixel is, [`render`] puts these together, and [`sight`] tells how much
-//! of a thing is not hidden. There are no walls, no shadows and no robot in a picture: it is for telling things apart, not for beauty.
+//! of a thing is not hidden. There are no walls, no shadows and no robot in a picture: it is for telling
+//! things apart, not for beauty.
 
 mod lens;
 mod render;
