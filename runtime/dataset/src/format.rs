@@ -3,7 +3,7 @@
 //! | format | a row | reader |
 //! |---|---|---|
 //! | [`RowFormat::Trl`] | `messages` with `role` and `content` | TRL's `SFTTrainer`, as a conversation |
-//! | [`RowFormat::LlamaFactory`] | `conversations` with `from`, `value`; `system` | LLaMA-Factory's `sharegpt` |
+//! | [`RowFormat::LlamaFactory`] | `conversations` with `from`, `value`; `system` | `sharegpt` of LLaMA-Factory |
 //! | [`RowFormat::QwenVl`] | `conversations` alone: no system part | the trainer of Qwen2.5-VL |
 //! | [`RowFormat::InteLiPlan`] | `text` with tags and a list of actions | TRL's `SFTTrainer`, as plain text |
 //!
@@ -140,8 +140,8 @@ pub fn dataset_info(names: &[&str], pictures: Pictures) -> String {
 pub struct About {
     /// The robot's name.
     pub robot: SmolStr,
-    /// The name of the scene as it is in this row: that of the varied scene, with a number behind a point where
-    /// something has happened in it.
+    /// The name of the scene as it is in this row: that of the varied scene, with a number behind a point
+    /// where something has happened in it.
     pub scene: SmolStr,
     pub task: Task,
     /// Failures in the conversation, in their order.

@@ -32,9 +32,9 @@ impl Person for Scripted {
     }
 }
 
-/// Plays a case where the robot was told the scene of a stage. Gives its turns, or why it did not go as it was
-/// drawn: it came to another end, its goal does not hold, or something that should go wrong was never asked
-/// about.
+/// Plays a case where the robot was told the scene of a stage. Gives its turns, or why it did not go as it
+/// was drawn: it came to another end, its goal does not hold, or something that should go wrong was never
+/// asked about.
 pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec<Turn>, &'static str> {
     let eye = stage.geometry.as_ref().and_then(|geometry| geometry.eye());
     let options = SimOptions { faults: case.faults.clone(), eye, ..SimOptions::default() };

@@ -4,8 +4,8 @@ use rand::{Rng, RngExt};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng;
 
-/// Draws of the values of which scenes and cases are made. Written out here, because a later version of `rand`
-/// may draw ranges otherwise, and then a seed would give another dataset.
+/// Draws of the values of which scenes and cases are made. Written out here, because a later version of
+/// `rand` may draw ranges otherwise, and then a seed would give another dataset.
 pub(crate) trait Draw: Rng {
     /// A number in `least ..= most`.
     fn within(&mut self, least: f64, most: f64) -> f64 {

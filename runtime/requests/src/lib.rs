@@ -10,6 +10,7 @@ mod meaning;
 mod parse;
 mod part;
 mod polarity;
+mod reference;
 mod remark;
 mod statement;
 

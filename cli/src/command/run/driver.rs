@@ -26,7 +26,7 @@ pub(crate) enum DriverChoice {
     Kinematic,
     /// The physics driver with the robot, the scene and the seed of the flags.
     Mujoco,
-    /// Another process.
+    /// A driver in another process.
     Process(DriverAddress),
 }
 

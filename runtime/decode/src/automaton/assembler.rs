@@ -1,9 +1,13 @@
 //! Assembly of operations, and the length of the shortest completion of each.
 
-use super::lowering::Way;
+use smol_str::SmolStr;
+
 use super::{BoundNames, Branch, Op, OpId, OptionalPart, Word, WordList};
 use crate::grammar::{Action, Guard, NameUse, WordRole};
 use crate::subset::MAX_NAME_CHARS;
+
+/// An alternative with the place where it goes on.
+pub(super) type Way = (SmolStr, OpId, Guard);
 
 /// A list of operations that grows; places are kept for operations whose goals are known later.
 #[derive(Debug, Default)]

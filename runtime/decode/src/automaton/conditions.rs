@@ -5,7 +5,8 @@
 
 use smol_str::{SmolStr, format_smolstr};
 
-use super::lowering::{Lowering, Way, behind_caught};
+use super::assembler::Way;
+use super::lowering::{Lowering, behind_caught};
 use super::{CaughtField, Op, OpId};
 use crate::grammar::{Action, Atom, AtomSort, Guard, NodeKind, WordRole};
 use crate::subset::MAX_MEMBERS;

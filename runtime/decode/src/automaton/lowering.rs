@@ -15,6 +15,7 @@ use motet_syntax::words::RESERVED;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::{SmolStr, format_smolstr};
 
+use super::assembler::Way;
 use super::{
     Assembler, Automaton, BoundNames, Callable, CaughtField, Meaning, Op, OpId, Word, WordEnd, WordList,
     WordTable,
@@ -24,9 +25,6 @@ use crate::grammar::{
     NodeKind, Part, Repeat, Split, WordRole,
 };
 use crate::subset::{MAX_MEMBERS, MAX_STEPS, Subset};
-
-/// An alternative with the place where it goes on.
-pub(super) type Way = (SmolStr, OpId, Guard);
 
 /// The state of lowering one grammar.
 pub(super) struct Lowering<'g> {

@@ -8,7 +8,6 @@ pub(crate) mod frame;
 pub(crate) mod noun;
 pub(crate) mod phrases;
 pub(crate) mod reader;
-pub(crate) mod reference;
 pub(crate) mod rule;
 pub(crate) mod template;
 pub(crate) mod token;

@@ -4,8 +4,8 @@
 //! template is a row of words with `(a|b)` for alternatives, `[a]` for an optional part, `a*` and `a+` for
 //! repetition, and `<name>` for another list. Several templates may share a line, divided by `|`. `=> value`
 //! behind a template gives what it stands for. A line in quotes is an example; the tests hold that one
-//! reaches each template. `#` begins a comment. The notation is that of JSGF with the layout of hassil's sentence
-//! files. [`crate::engine::phrases`] compiles what is read here.
+//! reaches each template. `#` begins a comment. The notation is that of JSGF with the layout of hassil's
+//! sentence files. [`crate::engine::phrases`] compiles what is read here.
 //!
 //! A list of rules has slots besides: `{noun}` reads a noun, `{thing:noun}` keeps it under another name, and
 //! `{x:<list>}` keeps what a list reads. `&a` and `!a` look ahead, `^a` and `!^a` look back, `,` and `.` are
