@@ -23,7 +23,7 @@ fn a_dataset_is_made_and_passes_lint() {
     // The same rows on both sides are a leak, and duplicates.
     place.run("dataset lint trl/train.jsonl again/train.jsonl --no-geometry").check(
         1,
-        &["out:again/train.jsonl:1: duplicate: ", "out:again/train.jsonl:1: leak: its room `kitchen-"],
+        &["out:again/train.jsonl:1: duplicate: ", "out:again/train.jsonl:1: leak: its scene `kitchen-"],
     );
 }
 

@@ -17,7 +17,7 @@ use crate::ir::{Base, Condition, Term, Ty};
 const ARGUMENTS: [&str; 5] = ["args", "arguments", "parameters", "params", "input"];
 
 /// The arguments in the order of the parameters, if that is all that a call in JSON has: `"args": ["user"]`.
-pub(crate) fn arguments_in_order<'a>(args: &'a [Arg], syntax: Syntax) -> Option<(&'a Arg, &'a [Expr])> {
+pub(crate) fn arguments_in_order(args: &[Arg], syntax: Syntax) -> Option<(&Arg, &[Expr])> {
     let [arg] = args else { return None };
     let name = arg.name.as_ref().filter(|name| ARGUMENTS.contains(&name.text.as_str()))?;
     match &arg.value.kind {

@@ -71,10 +71,13 @@ pub(crate) struct Strolls {
 impl Strolls {
     /// Draws the times of the walks of everybody in a world: a Poisson process for each.
     pub(crate) fn new(world: &SimWorld, rates: &PeopleRates, seed: u64) -> Self {
+        if rates.walk_per_min <= 0.0 {
+            return Self { walks: VecDeque::new() };
+        }
         let mut walks = Vec::new();
         for (id, _) in world.things.iter().filter(|(_, thing)| thing.role == Role::Person) {
             let (mut at, mut number) = (0.0, 0);
-            while rates.walk_per_min > 0.0 {
+            loop {
                 number += 1;
                 at -= 60.0 / rates.walk_per_min * (1.0 - Chance::new(seed, number).share("stroll", id)).ln();
                 if at > STROLL_SECS {

@@ -231,11 +231,10 @@ fn lever(model: &RobotModel, dof: usize) -> f64 {
     let poses = model.tree().root_from_links(model.rest());
     let parts = model.body().parts().iter().flat_map(|part| {
         let own = model.ancestor_joints(part.link).iter().find(|own| own.coupling.dof == dof);
-        let placed = own.and_then(|own| {
+        own.and_then(|own| {
             let frame = poses.get(own.frame)?.inverse() * poses.get(part.link)?;
             Some((frame * nalgebra::Point3::from(part.solid.centre)).coords.norm())
-        });
-        placed
+        })
     });
     parts.fold(0.02, f64::max)
 }

@@ -9,6 +9,7 @@ use std::io::{BufRead, BufReader};
 
 const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/drivers/echo.py");
 
+#[allow(clippy::print_stdout, reason = "a skipped test says so")]
 fn has_python() -> bool {
     let python = std::process::Command::new("python3").arg("--version").output();
     let is_there = python.is_ok_and(|output| output.status.success());
