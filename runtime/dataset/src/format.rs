@@ -3,7 +3,7 @@
 //! | format | a row | reader |
 //! |---|---|---|
 //! | [`RowFormat::Trl`] | `messages` with `role` and `content` | TRL's `SFTTrainer`, as a conversation |
-//! | [`RowFormat::LlamaFactory`] | `conversations` with `from`, `value`; `system` | `sharegpt` of LLaMA-Factory |
+//! | [`RowFormat::LlamaFactory`] | `conversations`: `from`, `value`; `system` | `sharegpt` of LLaMA-Factory |
 //! | [`RowFormat::QwenVl`] | `conversations` alone: no system part | the trainer of Qwen2.5-VL |
 //! | [`RowFormat::InteLiPlan`] | `text` with tags and a list of actions | TRL's `SFTTrainer`, as plain text |
 //!

@@ -253,7 +253,8 @@ mod tests {
         }
         let length: f64 =
             points.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum();
-        // The gap between the walls is too narrow: the path leads round the end of the first, 2 m to the side.
+        // The gap between the walls is too narrow: the path leads round the end of the first,
+        // 2 m to the side.
         assert!((6.0..6.5).contains(&length), "{length}");
     }
 

@@ -59,7 +59,7 @@ def test_a_policy_is_followed_forced_and_taken_back(environment, tokenizer):
     feed(decoder, ",{")
     decoder.rollback(2)
     assert decoder.text == other.text and decoder.tokens == other.tokens
-    feed(decoder, ',{"end":"done"}]}')
+    feed(decoder, ',{"end":"done"}],"finally":null}')
     assert decoder.is_accepting and not decoder.is_over and not other.is_accepting
     assert decoder.allowed().nonzero()[0].tolist() == [decoder.vocabulary.end]
     assert decoder.accept(decoder.vocabulary.end) and decoder.is_over

@@ -9,6 +9,7 @@ mod assembler;
 mod conditions;
 mod lowering;
 mod values;
+mod word_table;
 
 use std::sync::Arc;
 
@@ -22,7 +23,7 @@ use rustc_hash::FxHashSet;
 use smol_str::SmolStr;
 
 pub(crate) use self::assembler::Assembler;
-pub(crate) use self::values::{Meaning, Word, WordTable};
+pub(crate) use self::word_table::{Meaning, Word, WordTable};
 use crate::grammar::{Action, Guard, LetValue, NameUse, NodeKind, WordRole};
 use crate::subset::{NumberRange, Subset};
 
