@@ -11,6 +11,8 @@ WORLDS = [("hsr", "kitchen", "bring me the coke"), ("anymal_z1", "living_room", 
 # Which name is bound where and with which type, and the motions and facts of a state: no grammar follows these.
 BINDINGS = {"M0203", "M0205", "M0206", "M0301"}
 STATE = ("M05", "M06", "M07", "M08", "M09")
+# The result that the head declares: no grammar follows the branches of a policy to their ends.
+RESULTS = {"M0316", "M0317"}
 
 
 def motet(binary, *arguments, text=None):
@@ -46,6 +48,8 @@ def judge(binary, world, reply, wrong, tally):
     for error in errors:
         if error["code"].startswith(STATE):
             tally["state"] += 1
+        elif error["code"] in RESULTS:
+            tally["results"] += 1
         elif binding_only(error, reply):
             tally["bindings"] += 1
         elif error["code"] == "M0107":
