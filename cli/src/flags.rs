@@ -213,8 +213,7 @@ pub(crate) struct SimulationArgs {
     /// JSON file with faults to inject
     #[arg(long, value_name = "FILE")]
     pub(crate) faults: Option<PathBuf>,
-    /// How often things go wrong by themselves: `ideal`, `typical`, `harsh`, or a TOML file [default:
-    /// typical]
+    /// Profile of what goes wrong by itself: `ideal`, `typical`, `harsh`, or a TOML file [default: typical]
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) profile: Option<String>,
     /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON

@@ -13,7 +13,7 @@ use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts};
-use motet_planner::runtime_check::{CheckMode, Guard};
+use motet_planner::runtime_check::Guard;
 use motet_project::{Project, ProjectSession, SavedDriver, SavedProject, named_robot};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -289,13 +289,9 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     };
     let mut paced = PacedView::new(view, speed);
     let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
-    let verifies = match clock {
-        Clock::Simulated => speed.verifies(),
-        Clock::Wall => CheckMode::Beside,
-    };
     let checked = saved.project().filter(|_| head.settings.verify_within.is_some());
     let course = checked.and_then(|checked| open_course(checked, report));
-    let mut guard = course.map(|course| Guard::new(course, verifies));
+    let mut guard = course.map(|course| Guard::new(course, speed.verifies()));
     let mut begun = false;
     for (number, entry) in entries.iter().enumerate() {
         let differs = |why: String| CliError::Message(format!("entry {number} of the journal: {why}"));

@@ -39,7 +39,7 @@ impl Stage {
     ///
     /// # Errors
     ///
-    /// What keeps the robot from being in that scene.
+    /// Reason why the robot cannot be in that scene.
     pub fn new(body: &Body, scene: &Scene, effort: Option<SearchBudget>) -> Result<Self, String> {
         let robot = &body.robot;
         let inputs = SessionInputs { robot: Some(robot), scene: Some(scene), ..SessionInputs::default() };

@@ -97,27 +97,32 @@ pub trait Driver {
     /// ```
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)>;
 
+    /// Driver behind this one, whose telemetry, words and sight this one passes on. `None` for a driver that
+    /// stands alone.
+    fn inner(&mut self) -> Option<&mut dyn Driver> {
+        None
+    }
     /// Next telemetry that was not read yet, the oldest first. The run loop reads all of it after each
     /// [`Driver::advance`]. A driver keeps a bounded number and drops the oldest.
     fn telemetry(&mut self) -> Option<Moved> {
-        None
+        self.inner()?.telemetry()
     }
     /// Next detections that the driver reported by itself, read like [`Driver::telemetry`].
     fn detected(&mut self) -> Option<Vec<Detection>> {
-        None
+        self.inner()?.detected()
     }
     /// Next words that a person said without being asked, read like [`Driver::telemetry`].
     fn heard(&mut self) -> Option<Heard> {
-        None
+        self.inner()?.heard()
     }
     /// Picture of a camera as it is turned now, with depth; of the first camera if none is named. `None` if
     /// there is no such camera or no picture. Looking changes nothing.
-    fn look(&mut self, _now: Time, _camera: Option<&str>) -> Option<RgbdView> {
-        None
+    fn look(&mut self, now: Time, camera: Option<&str>) -> Option<RgbdView> {
+        self.inner()?.look(now, camera)
     }
     /// Detections in the current view, the surest first. Looking changes nothing.
-    fn detections(&mut self, _now: Time) -> Vec<Detection> {
-        Vec::new()
+    fn detections(&mut self, now: Time) -> Vec<Detection> {
+        self.inner().map(|inner| inner.detections(now)).unwrap_or_default()
     }
 
     /// Carries an effect out by the call that is meant by it. Records, verdicts and the end of the run are

@@ -4,9 +4,11 @@
 //! generator, from the seed, the occasion and what it is about: the same run gives the same draws, and a
 //! profile that adds one kind of failure leaves the others where they are.
 
+use fnv::FnvHasher;
 use rand::RngExt;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng;
+use std::hash::Hasher as _;
 
 /// Occasion of draws: one look, one grasp, one drive.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -45,12 +47,12 @@ impl Chance {
     }
 
     fn random(self, purpose: &str, of: &str) -> SplitMix64 {
-        let parts = [&self.occasion.to_le_bytes(), purpose.as_bytes(), &[0][..], of.as_bytes()];
-        // FNV-1a, which is the same everywhere.
-        let hash = parts.into_iter().flatten().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-            (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-        });
-        let mut random = SplitMix64::seed_from_u64(self.seed ^ hash);
+        // FNV-1a is the same everywhere.
+        let mut hasher = FnvHasher::default();
+        for part in [&self.occasion.to_le_bytes(), purpose.as_bytes(), &[0][..], of.as_bytes()] {
+            hasher.write(part);
+        }
+        let mut random = SplitMix64::seed_from_u64(self.seed ^ hasher.finish());
         // The first number of near seeds is not far enough apart.
         let seed: u64 = random.random();
         SplitMix64::seed_from_u64(seed)

@@ -40,7 +40,7 @@ impl Perception for Sim {
 }
 
 impl Sim {
-    /// What is in view, as well as the camera tells, the surest first.
+    /// Detections of the things in view, as well as the camera tells, the surest first.
     pub(crate) fn detected_at(&self, now: Time) -> Vec<Detection> {
         // Looking moves nothing: what is seen is as of the time that the world has reached.
         let at = self.now().min(now);

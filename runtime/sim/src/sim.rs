@@ -3,8 +3,7 @@
 use crate::body::{BasePose, distance};
 use crate::faults::{FaultSchedule, Faults};
 use crate::observation::InitialFacts;
-use crate::people::People;
-use crate::people::Strolls;
+use crate::people::{People, Strolls};
 use crate::profile::Profile;
 use crate::route::Contact;
 use crate::task::Task;
@@ -146,7 +145,6 @@ impl Sim {
     /// Arguments are names of entities and hands.
     #[must_use]
     pub fn holds(&self, fluent: &str, args: &[&str]) -> Option<bool> {
-        let truth = self.world.fact(fluent, args, &self.initial_facts);
         match (fluent, args) {
             // Knowledge is the robot's, and its truth the world's.
             ("located", [id]) => {
@@ -154,7 +152,7 @@ impl Sim {
                 let known = self.believed_position(id).zip(self.position(id));
                 Some(believed && known.is_some_and(|(one, other)| distance(one, other) <= KNOWN_M))
             }
-            (_, _) => truth,
+            (_, _) => self.world.fact(fluent, args, &self.initial_facts),
         }
     }
 
@@ -295,7 +293,7 @@ pub struct SimOptions {
     pub faults: Faults,
     /// Scripted answers of people.
     pub script: PersonScript,
-    /// How often and by how much things go wrong by themselves.
+    /// Rates and sizes of what goes wrong by itself.
     pub profile: Profile,
     /// The room as it is. Without one it is the scene that the robot was told, with the errors of the
     /// profile.

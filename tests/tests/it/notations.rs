@@ -94,7 +94,7 @@ fn notations_of_values_and_facts_have_one_reading() {
     assert_eq!(said(&told, Severity::Note), [""; 0]);
 }
 
-/// What could be read in several ways is an error: two keys for one parameter, too many values.
+/// A notation that could be read in several ways is an error: two keys for one parameter, too many values.
 #[test]
 fn notations_with_several_readings_are_errors() {
     let session = session();

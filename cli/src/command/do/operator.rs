@@ -15,10 +15,7 @@ use motet_planner::dialogue::{Kind, Person, Problem};
 use motet_project::files::read_small;
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
-use motet_runtime::{
-    Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Heard, Moved, Outcome, Query, RgbdView,
-    Time,
-};
+use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
 use smol_str::SmolStr;
 
 use super::planner::printable;
@@ -242,23 +239,7 @@ impl Driver for AskingDriver<'_> {
         self.outbox.pop_front().or_else(|| self.driver.advance(until))
     }
 
-    fn telemetry(&mut self) -> Option<Moved> {
-        self.driver.telemetry()
-    }
-
-    fn detected(&mut self) -> Option<Vec<Detection>> {
-        self.driver.detected()
-    }
-
-    fn heard(&mut self) -> Option<Heard> {
-        self.driver.heard()
-    }
-
-    fn look(&mut self, now: Time, camera: Option<&str>) -> Option<RgbdView> {
-        self.driver.look(now, camera)
-    }
-
-    fn detections(&mut self, now: Time) -> Vec<Detection> {
-        self.driver.detections(now)
+    fn inner(&mut self) -> Option<&mut dyn Driver> {
+        Some(&mut *self.driver)
     }
 }

@@ -4,9 +4,7 @@ use crate::driver::{Capabilities, Driver};
 use crate::effect::Command;
 use crate::event::DriverEvent;
 use crate::ids::GoalId;
-use crate::perception::{Detection, RgbdView};
 use crate::query::Query;
-use crate::telemetry::{Heard, Moved};
 use crate::time::Time;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -182,23 +180,7 @@ impl<D: Driver> Driver for FaultyDriver<D> {
         }
     }
 
-    fn telemetry(&mut self) -> Option<Moved> {
-        self.inner.telemetry()
-    }
-
-    fn detected(&mut self) -> Option<Vec<Detection>> {
-        self.inner.detected()
-    }
-
-    fn heard(&mut self) -> Option<Heard> {
-        self.inner.heard()
-    }
-
-    fn look(&mut self, now: Time, camera: Option<&str>) -> Option<RgbdView> {
-        self.inner.look(now, camera)
-    }
-
-    fn detections(&mut self, now: Time) -> Vec<Detection> {
-        self.inner.detections(now)
+    fn inner(&mut self) -> Option<&mut dyn Driver> {
+        Some(&mut self.inner)
     }
 }

@@ -54,7 +54,7 @@ fn welcome(call: &Value, capabilities: Value) -> Value {
     answer(call, told)
 }
 
-/// What a log heard.
+/// Lines that a log got.
 #[derive(Clone, Default)]
 struct Told {
     notes: Rc<RefCell<Vec<String>>>,

@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use motet_graph::{Pose, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Capabilities, Command, Detection, Driver, DriverEvent, FailureReport, GoalId, Heard, Moved, Outcome,
-    Perception, Query, RgbdView, Time,
+    Capabilities, Command, Driver, DriverEvent, FailureReport, GoalId, Outcome, Perception, Query, RgbdView,
+    Time,
 };
 use motet_stdlib::lang::{failures, primitives};
 use smol_str::SmolStr;
@@ -307,23 +307,7 @@ impl Driver for GroundingDriver<'_> {
         }
     }
 
-    fn telemetry(&mut self) -> Option<Moved> {
-        self.driver.telemetry()
-    }
-
-    fn detected(&mut self) -> Option<Vec<Detection>> {
-        self.driver.detected()
-    }
-
-    fn heard(&mut self) -> Option<Heard> {
-        self.driver.heard()
-    }
-
-    fn look(&mut self, now: Time, camera: Option<&str>) -> Option<RgbdView> {
-        self.driver.look(now, camera)
-    }
-
-    fn detections(&mut self, now: Time) -> Vec<Detection> {
-        self.driver.detections(now)
+    fn inner(&mut self) -> Option<&mut dyn Driver> {
+        Some(&mut *self.driver)
     }
 }

@@ -1,4 +1,4 @@
-//! How often things go wrong in a profile: by counting over fixed seeds.
+//! Rates of the failures of a profile, by counting over fixed seeds.
 
 use crate::{Bench, entity, sim, text};
 use motet_graph::Value;
