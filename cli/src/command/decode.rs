@@ -23,7 +23,7 @@ use continuations::{describe_tokens, next_words, quoted, read_vocabulary, refuse
 #[command(after_help = "Examples:\n  \
     printf '{\"motet\":1,' | motet decode - --robot hsr --scene kitchen\n  \
     motet decode prefix.json --robot hsr --scene kitchen --explain\n  \
-    motet decode prefix.json --robot hsr --scene kitchen --tokenizer o200k\n\n\
+    motet decode prefix.json --robot hsr --scene kitchen --tokenizer tokenizer.json\n\n\
     The prefix is written in the canonical subset, without white space; a final line break is ignored.\n\
     Exit codes: 0 some policy starts with the prefix, 1 none does, 2 the command could not run.")]
 pub(crate) struct DecodeArgs {
@@ -35,8 +35,8 @@ pub(crate) struct DecodeArgs {
     /// Describe the possible words, and why other words are refused
     #[arg(long)]
     explain: bool,
-    /// Show the possible tokens of a vocabulary: `cl100k`, `o200k`, or a file (tokenizer.json, a JSON list,
-    /// or base64 lines)
+    /// Show the possible tokens of a vocabulary: a file (tokenizer.json, a JSON list, or base64 lines), or
+    /// `cl100k` or `o200k` if motet was built with the feature `tiktoken`
     #[arg(long, value_name = "NAME|FILE")]
     tokenizer: Option<String>,
     /// Token that ends a sequence, by name or number; required if the file does not define it

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::{ParamSignature, Type};
-use motet_decode::vocabulary::{Encoding, MAX_FILE_BYTES};
+use motet_decode::vocabulary::MAX_FILE_BYTES;
 use motet_decode::{Acceptor, AcceptorFactory, EndToken, Vocabulary};
 use motet_syntax::{Diagnostic, Syntax};
 
@@ -380,14 +380,29 @@ impl Next {
 /// Maximum number of tokens that are shown.
 const SHOWN: usize = 32;
 
+/// Vocabularies that the feature `tiktoken` builds in.
+const ENCODINGS: [&str; 2] = ["cl100k", "o200k"];
+
+/// Builds the vocabulary of an encoding.
+fn encoding(name: &str) -> Result<Vocabulary, CliError> {
+    #[cfg(feature = "tiktoken")]
+    if let Some(encoding) = motet_decode::vocabulary::Encoding::named(name) {
+        return Vocabulary::of_encoding(encoding)
+            .map_err(|error| CliError::Message(format!("`{name}`: {error}")));
+    }
+    Err(CliError::Message(format!(
+        "this build of motet does not contain `{name}`; give a tokenizer file, or install motet with \
+         `--features tiktoken`"
+    )))
+}
+
 /// Reads the vocabulary of an encoding or a file.
 pub(super) fn read_vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, CliError> {
-    let wrong = |error: motet_decode::VocabularyError| CliError::Message(format!("`{name}`: {error}"));
-    if let Some(encoding) = Encoding::named(name) {
+    if ENCODINGS.contains(&name.strip_suffix("_base").unwrap_or(name)) {
         if end.is_some() {
             return Err(CliError::Message(format!("`{name}` defines its end; `--end` is only for files")));
         }
-        return Vocabulary::of_encoding(encoding).map_err(wrong);
+        return encoding(name);
     }
     let end = match end {
         None => EndToken::Known,
@@ -399,7 +414,7 @@ pub(super) fn read_vocabulary(name: &str, end: Option<&str>) -> Result<Vocabular
     let mut bytes = Vec::new();
     // One byte above the limit shows that the file is too large.
     file.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(unread)?;
-    Vocabulary::from_file(&bytes, end).map_err(wrong)
+    Vocabulary::from_file(&bytes, end).map_err(|error| CliError::Message(format!("`{name}`: {error}")))
 }
 
 /// Describes the tokens that may follow an accepted prefix.
