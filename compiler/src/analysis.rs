@@ -91,7 +91,7 @@ pub(crate) trait Domain<'p> {
     /// The path from a mark to the present point.
     fn path(&self, mark: &Self::Mark) -> Self::Path;
     /// The paths from a mark to the present point, where some of them are kept apart.
-    fn ways(&mut self, mark: &Self::Mark) -> Vec<Self::Path> {
+    fn paths(&mut self, mark: &Self::Mark) -> Vec<Self::Path> {
         vec![self.path(mark)]
     }
     /// Goes along a path from the mark where it began.
@@ -277,7 +277,7 @@ pub(crate) trait Domain<'p> {
         self.enclosing().push(Enclosing::Try { handlers });
         self.block(body);
         let Some(Enclosing::Try { handlers }) = self.enclosing().pop() else { return };
-        let mut paths = if self.is_live() { self.ways(&mark) } else { Vec::with_capacity(catches.len()) };
+        let mut paths = if self.is_live() { self.paths(&mark) } else { Vec::with_capacity(catches.len()) };
         for (catch, Handler { states, kinds, .. }) in catches.iter().zip(&handlers) {
             self.begin_handler(catch, kinds);
             self.restore(&mark);
@@ -460,8 +460,8 @@ pub(crate) trait Domain<'p> {
         is_found
     }
 
-    /// Walks over a block with a cleanup. The cleanup is walked from each way on which control leaves the
-    /// block, and behind it the way goes on; then once from all of them, for the verdicts on its steps.
+    /// Walks over a block with a cleanup. The cleanup is walked from each path on which control leaves the
+    /// block, and behind it the path goes on; then once from all of them, for the verdicts on its steps.
     fn protect(&mut self, id: StepId, body: &'p [StepId], cleanup: &'p [StepId]) {
         let mark = self.mark();
         let is_interruptible = self.program().is_interruptible(id);
@@ -473,7 +473,7 @@ pub(crate) trait Domain<'p> {
         let leaving = Leaving { failed, kinds, ended, interrupted };
         self.enclosing().push(Enclosing::Finally(Box::new(leaving)));
         self.block(body);
-        let ends = if self.is_live() { self.ways(&mark) } else { Vec::new() };
+        let ends = if self.is_live() { self.paths(&mark) } else { Vec::new() };
         let Some(Enclosing::Finally(leaving)) = self.enclosing().pop() else { return };
         let Leaving { failed, kinds, ended, interrupted } = *leaving;
         self.restore(&mark);
@@ -482,12 +482,12 @@ pub(crate) trait Domain<'p> {
         }
         let mut entries: Vec<Self::Path> = Vec::with_capacity(2);
         entries.extend(ends.iter().cloned());
-        let mut ways = Vec::with_capacity(1 + ended.len());
+        let mut paths = Vec::with_capacity(1 + ended.len());
         let failed = (None, &failed);
         for (ended, states) in ended.iter().map(|(ended, states)| (Some(*ended), states)).chain([failed]) {
             let Some(path) = self.collected(states) else { continue };
             entries.push(path.clone());
-            ways.push((self.cleaned(&mark, &path, cleanup), ended));
+            paths.push((self.cleaned(&mark, &path, cleanup), ended));
         }
         if let Some(path) = interrupted.and_then(|states| self.anywhere(&states, body)) {
             entries.push(path.clone());
@@ -499,7 +499,7 @@ pub(crate) trait Domain<'p> {
         self.join(&mark, &entries);
         self.clean(cleanup);
         self.leave_fixpoint();
-        for (path, ended) in ways {
+        for (path, ended) in paths {
             self.restore(&mark);
             let Some(path) = path else { continue };
             self.follow(&path);

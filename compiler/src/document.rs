@@ -37,7 +37,7 @@ pub struct DocumentCheck {
     pub policies: Vec<PolicyOutcome>,
     /// Notes on what policies without errors and parameters leave to the run, in the order of the document:
     /// needs that stay unknown, which the engine checks just before their steps.
-    pub left_to_run: Vec<Diagnostic>,
+    pub deferred_notes: Vec<Diagnostic>,
 }
 
 /// Outcome of one policy of a document.
@@ -94,7 +94,7 @@ impl Session {
                     self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
                 findings.append(&mut analysis.findings);
                 if policy.params.is_empty() {
-                    left.extend(analysis.left_to_run(policy, parsed, library, environment));
+                    left.extend(analysis.deferred_notes(policy, parsed, library, environment));
                     let (graph, skipped_motions) = analysis.lower(is_refused, library, environment);
                     policies.push(PolicyOutcome { name: policy.name.text.clone(), graph, skipped_motions });
                 }
@@ -103,8 +103,8 @@ impl Session {
         findings.extend(diagnostics.into_iter().map(Finding::from));
         let diagnostics = in_order(findings).into_iter().map(|found| found.diagnostic).collect();
         let left = in_order(left.into_iter().map(Finding::from).collect());
-        let left_to_run = left.into_iter().map(|found| found.diagnostic).collect();
-        DocumentCheck { diagnostics, policies, left_to_run }
+        let deferred_notes = left.into_iter().map(|found| found.diagnostic).collect();
+        DocumentCheck { diagnostics, policies, deferred_notes }
     }
 
     /// Returns true if a policy of the document has a goal, can end as done, and reaches the goal at none of
@@ -284,7 +284,7 @@ struct Analysis {
 
 impl Analysis {
     /// Notes on what the policy leaves to the run; none after an error.
-    fn left_to_run(
+    fn deferred_notes(
         &self,
         policy: &Policy,
         parsed: &Parsed,
@@ -295,7 +295,7 @@ impl Analysis {
             return Vec::new();
         }
         let Self { program, proof, motions, .. } = self;
-        let mut notes = crate::lower::left_to_run(program, proof, motions, library, environment);
+        let mut notes = crate::lower::deferred_notes(program, proof, motions, library, environment);
         for note in &mut notes {
             locate(note, policy, parsed, program, library);
         }

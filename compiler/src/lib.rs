@@ -5,7 +5,6 @@ mod declare;
 mod document;
 mod environment;
 pub mod explain_pages;
-mod explicit;
 mod facts;
 mod feasibility;
 pub mod fix;
@@ -19,16 +18,17 @@ mod repair;
 mod resolve;
 mod session;
 pub mod signature;
+mod syntax_conversion;
 
 pub use declare::{
     Library, LibraryBuilder, MAX_COUNT, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES, MAX_SECONDS,
 };
 pub use document::{Compiled, DocumentCheck, PolicyOutcome};
 pub use environment::{Environment, InitialState};
-pub use explicit::make_explicit;
 pub use feasibility::{Access, Forecast, Geometry, WorldTracker};
 pub use ir::MAX_ENTITIES;
 pub use prove::MAX_FIXPOINTS;
 pub use resolve::MAX_NODES;
 pub use session::{CheckOptions, InitialFact, Session, SessionBuilder};
 pub use signature::Signatures;
+pub use syntax_conversion::make_explicit;

@@ -3,6 +3,7 @@
 //! Grammars and prompts for language models derive from them, so they offer exactly what the stages accept.
 //! Built once from a library and an environment, then only read.
 
+use motet_stdlib::lang;
 use motet_syntax::ast::{Expr, Policy};
 use motet_syntax::unit::Dimension;
 use motet_syntax::{Severity, Syntax};
@@ -234,7 +235,9 @@ impl Signatures {
             Type::Text => "Text".into(),
             Type::Pose => "Pose".into(),
             Type::Failure => "Failure".into(),
-            Type::Entity(kind) => self.kinds.get(*kind).map_or("Entity", |kind| kind.name.as_str()).into(),
+            Type::Entity(kind) => {
+                self.kinds.get(*kind).map_or(lang::kinds::ENTITY, |kind| kind.name.as_str()).into()
+            }
             Type::Enum(id) => self.enums.get(*id).map_or("Text", |id| id.name.as_str()).into(),
             Type::List(element) => format!("List<{}>", self.type_name(element)),
         }

@@ -94,6 +94,7 @@ names! {
         HOME = "home"
         INSPECT = "inspect"
         LIFT = "lift"
+        LOCATE = "locate"
         OPEN = "open"
         PICK = "pick"
         PLACE = "place"

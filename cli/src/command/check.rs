@@ -206,10 +206,10 @@ impl Tally {
         if let Bytes::All(bytes) = &found.bytes {
             progress.advance(bytes.len());
         }
-        self.left += checked.left_to_run.len();
+        self.left += checked.deferred_notes.len();
         // Without a scene nearly everything is left to the run.
         let lists_left = self.denies_deferred || has_scene;
-        let left = checked.left_to_run.into_iter().filter(|_| lists_left);
+        let left = checked.deferred_notes.into_iter().filter(|_| lists_left);
         let diagnostics: Vec<_> = checked.diagnostics.into_iter().chain(left).collect();
         if !diagnostics.is_empty() {
             let sources = opened.sources(source);

@@ -11,6 +11,7 @@ use motet_project::SavedDriver;
 use motet_robots::scene::{EntityShape, Scene};
 use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_sim::Sim;
+use motet_stdlib::lang;
 use motet_stdlib::lang::kinds;
 
 use crate::error::{CliError, Exit};
@@ -123,7 +124,7 @@ impl SceneReplay {
                 EntityShape::Mesh { .. } => return None,
             };
             let mut xyz = self.sim.position(&entity.id)?;
-            if let (true, McapSolid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {
+            if let (true, McapSolid::Cylinder { height, .. }) = (entity.kind == lang::kinds::PERSON, solid) {
                 // A person's pose is that of the feet.
                 xyz[2] = 0.5 * height;
             }

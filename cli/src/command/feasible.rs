@@ -13,6 +13,7 @@ use motet_geometry::planning::{
 };
 use motet_project::{open_robot, read_scene, require};
 use motet_robots::scene::{self, Scene};
+use motet_stdlib::lang;
 use motet_syntax::ast::{Arg, Call, Expr, ExprKind};
 use motet_syntax::text::parse_condition;
 use motet_syntax::unit::Dimension;
@@ -263,7 +264,7 @@ fn require_known<'a, I: Iterator<Item = &'a str>>(
 /// All motions of a scene.
 fn all_motions(machine: &RobotModel, scene: &Scene) -> Vec<MotionQuery> {
     let drives = scene.entities.keys().filter(|_| machine.drives()).cloned().map(MotionQuery::GoTo);
-    let objects = scene.entities.iter().filter(|(_, entity)| entity.kind == "Object");
+    let objects = scene.entities.iter().filter(|(_, entity)| entity.kind == lang::kinds::OBJECT);
     let reaches = objects.map(|(id, _)| MotionQuery::Reach(id.clone(), None));
     let world = SceneState::new(machine, scene);
     let doors = scene.entities.iter().filter(|(_, entity)| entity.travel.is_some()).map(|(id, entity)| {

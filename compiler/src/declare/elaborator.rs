@@ -28,7 +28,7 @@ pub(crate) struct Elaborator<'a> {
     /// Names of which a use was reported that nothing binds, with the places of the reports.
     pub(crate) unbound: FxHashMap<SmolStr, usize>,
     /// Bindings of which a use without a value was reported, by the span where they are bound.
-    pub(crate) gaps_told: FxHashSet<Span>,
+    pub(crate) unbound_told: FxHashSet<Span>,
     /// True behind a step that could not be read, which may have bound any name.
     pub(crate) is_behind_gap: bool,
     pub(crate) diagnostics: Vec<Diagnostic>,
@@ -72,7 +72,7 @@ impl<'a> Elaborator<'a> {
     /// Elaborator outside of any policy, without bindings.
     pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Syntax) -> Self {
         let (scope, bindings, diagnostics) = (Scope::default(), Vec::new(), Vec::new());
-        let (unbound, gaps_told) = (FxHashMap::default(), FxHashSet::default());
+        let (unbound, unbound_told) = (FxHashMap::default(), FxHashSet::default());
         let is_behind_gap = false;
         Self {
             library,
@@ -82,7 +82,7 @@ impl<'a> Elaborator<'a> {
             scope,
             bindings,
             unbound,
-            gaps_told,
+            unbound_told,
             is_behind_gap,
             diagnostics,
         }

@@ -4,8 +4,8 @@ use motet_syntax::ast::Name;
 use motet_syntax::{About, Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
-use super::gap::Unbound;
 use super::name::{article, list, near};
+use super::unbound::Unbound;
 use super::words;
 
 pub(crate) fn replace(span: Span, text: &str) -> Option<Fix> {
@@ -86,7 +86,7 @@ motet_syntax::mistakes! {
             Some(near) if *near == m.name => format!("`{}` is an entity: write it without `$`", m.name),
             Some(near) => format!("did you mean `${near}`?"),
             None if m.is_text => format!("to start a text with `$`, write two: `$${}`", m.name),
-            None => "a binding is visible behind its step, where every way leads through it".to_owned(),
+            None => "a binding is visible behind its step, where every path leads through it".to_owned(),
         })
     }
     fix(m) {
@@ -178,17 +178,17 @@ motet_syntax::mistakes! {
     message(m) { format!("there is no resource `{}`", m.name) }
     help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the robot has {}", m.known))) }
 
-    /// Use of a name that not every way to the use has bound.
+    /// Use of a name that not every path to the use has bound.
     PartlyBound("M0216", Error) { name: SmolStr, bound: Span, reason: Unbound }
     message(m) {
         let name = &m.name;
         match &m.reason {
-            Unbound::Way { name: way, .. } => format!("`{name}` is not bound on the way through {way}"),
+            Unbound::Path { name: path, .. } => format!("`{name}` is not bound on the path through {path}"),
             Unbound::NoElse(_) => {
                 format!("`{name}` is bound only if the condition of an `if` without `else` holds")
             }
             Unbound::Handler => format!("`{name}` is bound in the `try`, which may have failed before"),
-            Unbound::OtherWay => format!("`{name}` is bound on another way, which does not lead here"),
+            Unbound::OtherPath => format!("`{name}` is bound on another path, which does not lead here"),
             Unbound::Cleanup => {
                 format!("`{name}` is bound in what the `finally` cleans up, which may have ended before")
             }
@@ -204,12 +204,12 @@ motet_syntax::mistakes! {
     help(m) {
         let (name, endings) = (&m.name, "`done`, `replan`, `cannot` or `fail`");
         Some(match &m.reason {
-            Unbound::Way { .. } => format!("bind `{name}` there too, or end that way with {endings}"),
+            Unbound::Path { .. } => format!("bind `{name}` there too, or end that path with {endings}"),
             Unbound::NoElse(_) => {
                 format!("use `{name}` inside the `if`, or add an `else` that binds it or ends with {endings}")
             }
             Unbound::Handler => format!("bind `{name}` before the `try`, or by a step of the handler"),
-            Unbound::OtherWay => format!("bind `{name}` on this way too, or before the ways part"),
+            Unbound::OtherPath => format!("bind `{name}` on this path too, or before the paths part"),
             Unbound::Cleanup => format!("bind `{name}` before that step, or by a step of the `finally`"),
             Unbound::Loop => format!("use `{name}` inside the loop"),
             Unbound::Reaction => format!("bind `{name}` before the monitor, or in its body"),
@@ -220,11 +220,11 @@ motet_syntax::mistakes! {
     }
     related(m) {
         let other = match &m.reason {
-            Unbound::Way { end, .. } => Some(Related::new("this way goes on without it", *end)),
+            Unbound::Path { end, .. } => Some(Related::new("this path goes on without it", *end)),
             Unbound::NoElse(condition) => Some(Related::new("this may not hold", *condition)),
             Unbound::TwoBranches { second } => Some(Related::new("and here", *second)),
             Unbound::Handler
-            | Unbound::OtherWay
+            | Unbound::OtherPath
             | Unbound::Cleanup
             | Unbound::Loop
             | Unbound::Reaction
@@ -234,11 +234,11 @@ motet_syntax::mistakes! {
         std::iter::once(Related::new("bound here", m.bound)).chain(other).collect()
     }
 
-    /// Use of a name that two ways bind to values of different types.
+    /// Use of a name that two paths bind to values of different types.
     TwoTypes("M0217", Error) { name: SmolStr, types: [SmolStr; 2], first: Span, second: Span }
     message(m) {
         let [one, other] = &m.types;
-        format!("`{}` is {} on one way and {} on another", m.name, article(one), article(other))
+        format!("`{}` is {} on one path and {} on another", m.name, article(one), article(other))
     }
     help(m) { Some(format!("give one of them another name than `{}`", m.name)) }
     related(m) { vec![Related::new("bound here", m.first), Related::new("and here", m.second)] }

@@ -12,12 +12,12 @@ pub(crate) mod condition;
 mod contract;
 pub(crate) mod elaborator;
 pub(crate) mod errors;
-pub(crate) mod gap;
 pub(crate) mod library;
 pub(crate) mod list_term;
 pub(crate) mod name;
 pub(crate) mod notation;
 mod pose;
+pub(crate) mod unbound;
 pub(crate) mod words;
 
 pub use self::arithmetic::{MAX_COUNT, MAX_SECONDS};

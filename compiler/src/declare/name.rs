@@ -8,7 +8,7 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::elaborator::{Elaborator, Expected, parse_quantity};
 use super::errors::{UnknownBinding, UnknownCase, UnknownName};
-use super::gap::Gap;
+use super::unbound::UnboundName;
 use crate::ir::{Base, BindingId, EnumId, Term, Ty};
 
 impl Elaborator<'_> {
@@ -82,10 +82,10 @@ impl Elaborator<'_> {
         }
     }
 
-    /// Meaning of a name that is bound here, or was bound before on some ways only, which is an error.
+    /// Meaning of a name that is bound here, or was bound before on some paths only, which is an error.
     fn in_scope(&mut self, name: &SmolStr, span: Span) -> Option<(Term, Ty)> {
         let entry = self.scope.latest(name)?;
-        let Some(gap) = &entry.gap else {
+        let Some(unbound) = &entry.unbound else {
             let (term, value, ty) = (entry.term.clone(), entry.value.clone(), entry.ty);
             if let Term::Binding(id) | Term::Caught(_, id) = term {
                 self.count_use(id);
@@ -93,8 +93,8 @@ impl Elaborator<'_> {
             return Some((value.unwrap_or(term), ty));
         };
         // One report is enough for all uses of a binding.
-        if self.gaps_told.insert(entry.span) {
-            let (said, ids) = (gap.report(name, span, entry.span), gap.ids.clone());
+        if self.unbound_told.insert(entry.span) {
+            let (said, ids) = (unbound.report(name, span, entry.span), unbound.ids.clone());
             self.diagnostics.push(said);
             ids.into_iter().for_each(|id| self.count_use(id));
         }
@@ -268,7 +268,7 @@ pub(crate) struct ScopeEntry {
     pub(crate) ty: Ty,
     pub(crate) span: Span,
     /// Reason for which the name, which was bound before, has no value here.
-    pub(crate) gap: Option<Gap>,
+    pub(crate) unbound: Option<UnboundName>,
     /// True behind the block that bound it, where another binding may have its name.
     pub(crate) is_free: bool,
 }
@@ -282,7 +282,7 @@ pub(crate) struct ScopeMark {
 
 impl Scope {
     pub(crate) fn push(&mut self, name: SmolStr, term: Term, ty: Ty, span: Span) {
-        self.extend([ScopeEntry { name, term, value: None, ty, span, gap: None, is_free: false }]);
+        self.extend([ScopeEntry { name, term, value: None, ty, span, unbound: None, is_free: false }]);
     }
 
     /// Lets the latest name stand for a value.
@@ -306,7 +306,7 @@ impl Scope {
 
     /// Entry of a name that has a value here.
     pub(crate) fn find(&self, name: &str) -> Option<&ScopeEntry> {
-        self.latest(name).filter(|entry| entry.gap.is_none())
+        self.latest(name).filter(|entry| entry.unbound.is_none())
     }
 
     /// Latest entry of a name, with or without a value.
@@ -318,7 +318,7 @@ impl Scope {
     /// Names that have a value here.
     pub(crate) fn names(&self) -> impl Iterator<Item = &SmolStr> {
         let visible = |place: &usize, entry: &ScopeEntry| {
-            entry.gap.is_none()
+            entry.unbound.is_none()
                 && self.places.get(&entry.name).and_then(|places| places.last()) == Some(place)
         };
         let entries = self.entries.iter().enumerate().skip(self.barrier);

@@ -11,11 +11,11 @@ use crate::ir::{Entity, Fact, Fluent, Kind, ROBOT, Term};
 
 /// Facts that follow from the pose of the base, by fluent and key.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Standing {
+pub(crate) struct BasePoseFacts {
     facts: IndexMap<(Fluent, FactKey), (Fact, bool)>,
 }
 
-impl Standing {
+impl BasePoseFacts {
     /// The facts with their values.
     pub(crate) fn facts(&self) -> impl Iterator<Item = (&Fact, bool)> {
         self.facts.values().map(|(fact, holds)| (fact, *holds))
@@ -112,7 +112,7 @@ pub(super) fn derive(library: &Library, environment: &mut Environment) {
             environment.facts.set(fact.fluent, key(&fact), TruthSet::of(holds, Cause::START));
         }
         if !(is_covered && says_place) {
-            environment.standing.facts.insert((fact.fluent, key(&fact)), (fact, holds));
+            environment.base_pose_facts.facts.insert((fact.fluent, key(&fact)), (fact, holds));
         }
     }
 }
@@ -162,7 +162,8 @@ fn served_kind(library: &Library, kind: Kind) -> ServedKind {
 /// Takes back what the pose of the base has decided, where a fact that is about to be recorded says that the
 /// robot or a thing is elsewhere than in the scene.
 pub(super) fn doubt(library: &Library, environment: &mut Environment, fact: &Fact, value: Option<bool>) {
-    let Some(fluents) = PlaceFluents::of(library).filter(|_| !environment.standing.facts.is_empty()) else {
+    let Some(fluents) = PlaceFluents::of(library).filter(|_| !environment.base_pose_facts.facts.is_empty())
+    else {
         return;
     };
     let items = &library.lang_items;
@@ -187,7 +188,7 @@ pub(super) fn doubt(library: &Library, environment: &mut Environment, fact: &Fac
 
 /// Forgets all that follows from the pose of the base. What was given stays.
 fn forget_all(fluents: PlaceFluents, environment: &mut Environment) {
-    environment.standing = Standing::default();
+    environment.base_pose_facts = BasePoseFacts::default();
     let robot = FactKey::new([arg(ROBOT), ANY].into_iter());
     environment.facts.set(fluents.at, robot, TruthSet::NOTHING_KNOWN);
     if let Some(near) = fluents.near {
@@ -222,8 +223,8 @@ fn forget_thing(fluents: PlaceFluents, environment: &mut Environment, thing: Ent
     for name in moved {
         let Some((entity, _)) = environment.entities.find(&name) else { continue };
         for fact in [Some(fluents.served(entity)), fluents.nearby(entity)].into_iter().flatten() {
-            if environment.standing.facts.contains_key(&(fact.fluent, key(&fact))) {
-                environment.standing.drop_covered(&fact);
+            if environment.base_pose_facts.facts.contains_key(&(fact.fluent, key(&fact))) {
+                environment.base_pose_facts.drop_covered(&fact);
                 environment.facts.set(fact.fluent, key(&fact), TruthSet::NOTHING_KNOWN);
             }
         }

@@ -49,7 +49,7 @@ impl InitialState {
                     {
                         super::scene_facts::held(library, environment, *held);
                     }
-                    super::standing::doubt(library, environment, &fact, *value);
+                    super::base_pose_facts::doubt(library, environment, &fact, *value);
                     said.push((fact.clone(), *value, *span));
                     match value {
                         Some(value) => environment.assert_fact(fact, *value),

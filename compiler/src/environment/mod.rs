@@ -1,13 +1,13 @@
 //! The environment: entities, and the facts at the start. Built once from a library, a scene and a state,
 //! then shared by all policies that are checked against it.
 
+pub(crate) mod base_pose_facts;
 mod errors;
 mod initial_state;
 mod scene_facts;
-pub(crate) mod standing;
 
+pub(crate) use base_pose_facts::BasePoseFacts;
 pub use initial_state::InitialState;
-pub(crate) use standing::Standing;
 
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ pub struct Environment {
     /// The facts at the start as they were given, in order, for the graph.
     pub(crate) given: Vec<(Fact, bool)>,
     /// Facts that follow from the pose of the base, unless another word was given about them.
-    pub(crate) standing: Standing,
+    pub(crate) base_pose_facts: BasePoseFacts,
 }
 
 impl Environment {
@@ -79,12 +79,12 @@ impl Environment {
             endings,
             facts,
             given: Vec::new(),
-            standing: Standing::default(),
+            base_pose_facts: BasePoseFacts::default(),
         };
         scene_facts::facts(library, &mut environment);
-        standing::derive(library, &mut environment);
+        base_pose_facts::derive(library, &mut environment);
         for (fact, value, _) in &library.initially {
-            standing::doubt(library, &mut environment, fact, Some(*value));
+            base_pose_facts::doubt(library, &mut environment, fact, Some(*value));
             environment.assert_fact(fact.clone(), *value);
         }
         if let Some(state) = state {
@@ -119,7 +119,7 @@ impl Environment {
     /// Records a fact at the start.
     pub(crate) fn assert_fact(&mut self, fact: Fact, value: bool) {
         self.facts.set(fact.fluent, key(&fact), TruthSet::of(value, Cause::START));
-        self.standing.drop_covered(&fact);
+        self.base_pose_facts.drop_covered(&fact);
         // One about every entity says it of those, too, of which something was said. Of a single one the
         // later word counts by coming later.
         if fact.args.iter().any(Option::is_none) {
@@ -131,13 +131,13 @@ impl Environment {
     /// Records that a fact is unknown at the start; a fact with `any` covers many.
     pub(crate) fn forget(&mut self, fact: &Fact) {
         self.facts.set(fact.fluent, key(fact), TruthSet::open(Cause::START));
-        self.standing.drop_covered(fact);
+        self.base_pose_facts.drop_covered(fact);
         self.forget_given(fact);
     }
 
     /// Facts at the start, in order: a later one overrides.
     pub(crate) fn initial_facts(&self) -> impl Iterator<Item = (&Fact, bool)> {
-        self.given.iter().map(|(fact, holds)| (fact, *holds)).chain(self.standing.facts())
+        self.given.iter().map(|(fact, holds)| (fact, *holds)).chain(self.base_pose_facts.facts())
     }
 
     /// Drops earlier entries that a fact covers.

@@ -17,8 +17,8 @@ impl FactStore<'_> {
     }
 
     /// Writes the facts of a path.
-    pub(crate) fn replay(&mut self, way: &Delta) {
-        for (rank, value) in &way.written {
+    pub(crate) fn replay(&mut self, path: &Delta) {
+        for (rank, value) in &path.written {
             let (fluent, key) = rank.atom();
             self.set(fluent, key, *value);
         }
@@ -108,24 +108,24 @@ impl PathPartition {
     }
 
     /// Values of the atoms at the end of each path.
-    pub(crate) fn ways(&self) -> impl Iterator<Item = impl Iterator<Item = (Atom, TruthSet)> + '_> + '_ {
-        let ways = self.values.chunks(self.atoms.len().max(1));
-        ways.map(|values| self.atoms.iter().copied().zip(values.iter().copied()))
+    pub(crate) fn paths(&self) -> impl Iterator<Item = impl Iterator<Item = (Atom, TruthSet)> + '_> + '_ {
+        let paths = self.values.chunks(self.atoms.len().max(1));
+        paths.map(|values| self.atoms.iter().copied().zip(values.iter().copied()))
     }
 }
 
 impl FactStore<'_> {
     /// Joins the paths through a fork that began at the present state, and returns them as partitions.
     /// Without a path the facts stay as they are.
-    pub(crate) fn join(&mut self, ways: &[Delta]) -> PathPartition {
-        if let [only] = ways {
+    pub(crate) fn join(&mut self, paths: &[Delta]) -> PathPartition {
+        if let [only] = paths {
             self.replay(only);
             return PathPartition::default();
         }
-        let ranks = Rank::each_once(ways.iter().flat_map(Delta::ranks));
-        let mut values = Vec::with_capacity(ways.len() * ranks.len());
-        for way in ways {
-            values.extend(ranks.iter().map(|rank| way.at(self, *rank)));
+        let ranks = Rank::each_once(paths.iter().flat_map(Delta::ranks));
+        let mut values = Vec::with_capacity(paths.len() * ranks.len());
+        for path in paths {
+            values.extend(ranks.iter().map(|rank| path.at(self, *rank)));
         }
         let atoms: Vec<Atom> = ranks.into_iter().map(Rank::atom).collect();
         for (index, (fluent, key)) in atoms.iter().copied().enumerate() {

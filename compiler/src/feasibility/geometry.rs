@@ -198,7 +198,7 @@ impl Geometry {
         at: &Fingerprinted,
         query: &MotionQuery,
         change: SceneChange,
-        way: &MotionWitness,
+        motion: &MotionWitness,
     ) -> Option<Arc<Fingerprinted>> {
         let key = (at.key.clone(), query.clone(), change);
         if let Some(known) = self.memo().and_then(|memo| memo.after.get(&key).cloned()) {
@@ -206,10 +206,10 @@ impl Geometry {
         }
         let room = self.room(&at.world);
         let world = match change {
-            SceneChange::Gone => Some(room.after_move(way)),
-            SceneChange::Taken => room.after_reach(way),
-            SceneChange::Put => room.after_put(way),
-            SceneChange::Travelled => room.after_pull(way),
+            SceneChange::Gone => Some(room.after_move(motion)),
+            SceneChange::Taken => room.after_reach(motion),
+            SceneChange::Put => room.after_put(motion),
+            SceneChange::Travelled => room.after_pull(motion),
             SceneChange::Given => match query {
                 MotionQuery::Offer(_, to) => room.after_offer(to),
                 _ => None,
@@ -320,8 +320,8 @@ impl Geometry {
         if self.machine().drives() {
             let query = MotionQuery::GoTo(id.clone());
             let answer = self.answer(&at, &query);
-            let MotionAnswer::Feasible(way) = &*answer else { return said(&answer) };
-            match self.after(&at, &query, SceneChange::Gone, way) {
+            let MotionAnswer::Feasible(motion) = &*answer else { return said(&answer) };
+            match self.after(&at, &query, SceneChange::Gone, motion) {
                 Some(there) => at = Arc::clone(&there),
                 None => return Access::Unknown(SmolStr::new_static("the end of the path is unknown")),
             }

@@ -59,14 +59,14 @@ impl MotionChecker<'_> {
             possible.at = self.geometry.keeping(&possible.at, regions);
             let answer = self.geometry.answer(&possible.at, &query);
             match &*answer {
-                MotionAnswer::Feasible(way) => {
+                MotionAnswer::Feasible(motion) => {
                     (is_refused, is_all_caught) = (false, false);
                     let next = self.following(id, call, def, &query, &possible, &answer);
                     if witness.is_none() {
                         let machine = self.geometry.machine();
-                        let found = graph_witness(machine, way, call.manner);
+                        let found = graph_witness(machine, motion, call.manner);
                         let end = next.known.first().filter(|_| next.lost.is_none());
-                        let leaves = end.map(|end| leaves(machine, &found, way, &end.at.world.robot));
+                        let leaves = end.map(|end| leaves(machine, &found, motion, &end.at.world.robot));
                         witness = Some((Box::new(found), leaves.map(Box::new)));
                     }
                     after.join(next);
@@ -144,13 +144,13 @@ impl MotionChecker<'_> {
         answer: &MotionAnswer,
     ) -> Worlds {
         let lost = || Worlds::lost(format_smolstr!("the outcome of `{}` is unknown", def.name));
-        let MotionAnswer::Feasible(way) = answer else { return lost() };
+        let MotionAnswer::Feasible(motion) = answer else { return lost() };
         let change = match motion_effect(self.library, def, query) {
             MotionEffect::Changed(change) => change,
             MotionEffect::Nothing => return Worlds::only(from.clone()),
             MotionEffect::Unknown => return lost(),
         };
-        let Some(at) = self.geometry.after(&from.at, query, change, way) else { return lost() };
+        let Some(at) = self.geometry.after(&from.at, query, change, motion) else { return lost() };
         let mut next = PossibleWorld { at, ..from.clone() };
         match (change, query) {
             (SceneChange::Gone, MotionQuery::GoTo(target)) => {
@@ -188,7 +188,9 @@ impl MotionChecker<'_> {
         let query = MotionQuery::GoTo(place.clone());
         let answer = self.geometry.answer(&from.at, &query);
         let after = match &*answer {
-            MotionAnswer::Feasible(way) => self.geometry.after(&from.at, &query, SceneChange::Gone, way),
+            MotionAnswer::Feasible(motion) => {
+                self.geometry.after(&from.at, &query, SceneChange::Gone, motion)
+            }
             MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
         };
         match after {
@@ -354,10 +356,10 @@ pub(super) fn graph_witness(
 pub(super) fn leaves(
     machine: &RobotModel,
     found: &graph::Witness,
-    way: &MotionWitness,
+    motion: &MotionWitness,
     robot: &Configuration,
 ) -> graph::Configuration {
-    let start = way.path.first();
+    let start = motion.path.first();
     let joints = machine.tree().dofs().iter().zip(0..).filter_map(|(dof, at)| {
         let value = *robot.joints.get(at)?;
         let before = start.and_then(|start| start.joints.get(at)).copied();

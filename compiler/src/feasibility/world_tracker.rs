@@ -89,11 +89,12 @@ impl WorldTracker {
         };
         let Some(kind) = MotionKind::from_name(motion) else { return unknown("the motion is not known") };
         match &*self.geometry.answer(at, &motion_query(kind, &args_of, side(args))) {
-            MotionAnswer::Feasible(way) => {
+            MotionAnswer::Feasible(motion) => {
                 let machine = self.geometry.machine();
-                let witness = Box::new(graph_witness(machine, way, manner));
+                let witness = Box::new(graph_witness(machine, motion, manner));
                 let end = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result: None });
-                let leaves = end.ok().map(|end| Box::new(leaves(machine, &witness, way, &end.world.robot)));
+                let leaves =
+                    end.ok().map(|end| Box::new(leaves(machine, &witness, motion, &end.world.robot)));
                 Forecast::Feasible { witness, leaves }
             }
             MotionAnswer::Infeasible(why) if why.certified => self.infeasible(def, why),
@@ -222,7 +223,7 @@ fn step(
     change: SceneChange,
 ) -> Option<Arc<Fingerprinted>> {
     match &*geometry.answer(at, query) {
-        MotionAnswer::Feasible(way) => geometry.after(at, query, change, way),
+        MotionAnswer::Feasible(motion) => geometry.after(at, query, change, motion),
         MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
     }
 }

@@ -53,7 +53,7 @@ impl PolicyTemplate {
     }
 
     /// Returns whether control can come behind a call of the policy with a name, or the template made of it.
-    /// A policy whose every way ends in `fail` or `replan` never goes on.
+    /// A policy whose every path ends in `fail` or `replan` never goes on.
     #[must_use]
     pub fn goes_on(session: &Session, name: &str, template: Option<&Self>) -> bool {
         match template {

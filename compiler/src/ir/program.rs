@@ -122,27 +122,27 @@ pub(crate) struct Binding {
     pub(crate) ty: Ty,
     /// The name where it is bound first.
     pub(crate) span: Span,
-    /// Literal descriptions in the perceptions that find it, one for each way to its uses; `None` if one of
+    /// Literal descriptions in the perceptions that find it, one for each path to its uses; `None` if one of
     /// them has none.
     pub(crate) descriptions: Option<SmallVec<[SmolStr; 1]>>,
-    /// Steps that bind it, one for each way to its uses.
+    /// Steps that bind it, one for each path to its uses.
     pub(crate) binders: SmallVec<[StepId; 1]>,
     /// True for a parameter of a sub-policy that is checked alone.
     pub(crate) is_param: bool,
     /// Number of uses.
     pub(crate) uses: u32,
-    /// Places that bind it on ways without a use of their own, each with the number of uses where the ways
+    /// Places that bind it on paths without a use of their own, each with the number of uses where the paths
     /// met: more uses are for all of them.
     pub(crate) idle: Vec<(Span, u32)>,
 }
 
 impl Binding {
-    /// Takes in the bindings of the same name and type on the other ways that meet here.
+    /// Takes in the bindings of the same name and type on the other paths that meet here.
     pub(crate) fn merge(&mut self, others: Vec<Self>) {
         let uses = others.iter().fold(self.uses, |uses, other| uses + other.uses);
         let mut idle = Vec::new();
-        for way in std::iter::once(&*self).chain(&others) {
-            idle.extend(way.unused().map(|span| (span, uses)));
+        for path in std::iter::once(&*self).chain(&others) {
+            idle.extend(path.unused().map(|span| (span, uses)));
         }
         (self.idle, self.uses) = (idle, uses);
         for other in others {

@@ -8,7 +8,7 @@ use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
 use crate::feasibility::{MotionVerdict, MotionVerdicts};
 use crate::ir::{BlockSlot, Call, Program, StepId, StepKind, Term};
-use crate::prove::errors::LeftToRun;
+use crate::prove::errors::DeferredToRun;
 use crate::prove::evaluation::CallFrame;
 use crate::prove::{NeedVerdict, Proof, Prover};
 
@@ -32,7 +32,7 @@ pub(super) fn need_verdict(
 
 /// Notes on the steps of a program that have guards, in the order of the steps. Motions count only if there
 /// was a geometry that could have decided them.
-pub(crate) fn left_to_run(
+pub(crate) fn deferred_notes(
     program: &Program,
     proof: &Proof,
     placed: &MotionVerdicts,
@@ -65,7 +65,7 @@ pub(crate) fn left_to_run(
         let Some((last, rest)) = left.split_last() else { continue };
         let what = if rest.is_empty() { last.clone() } else { format!("{} and {last}", rest.join(", ")) };
         let number = number(program, StepId(id));
-        notes.push(LeftToRun { span: step.span, callee: def.name.clone(), what, step: number }.into());
+        notes.push(DeferredToRun { span: step.span, callee: def.name.clone(), what, step: number }.into());
     }
     notes
 }

@@ -3,7 +3,7 @@
 //!
 //! Guarded by the graph snapshots of `tests/tests` and the validation in `motet_graph`.
 
-mod left;
+mod deferred_notes;
 mod table;
 
 use motet_graph as graph;
@@ -11,7 +11,7 @@ use motet_graph::{NodeId, RegionId};
 use motet_stdlib::lang;
 use motet_syntax::ast::EndKind;
 
-pub(crate) use self::left::left_to_run;
+pub(crate) use self::deferred_notes::deferred_notes;
 use self::table::Tables;
 use crate::declare::{EffectDef, Library, NeedDef, PrimitiveDef};
 use crate::environment::Environment;
@@ -362,7 +362,8 @@ impl Lowering<'_> {
         let mut needs = Vec::with_capacity(def.needs.len());
         let placed = self.placed.get_mut(step.index()).and_then(Option::take);
         for (index, need) in def.needs.iter().enumerate() {
-            let verdict = left::need_verdict(self.proof, placed.as_ref(), (step, index), def, library);
+            let verdict =
+                deferred_notes::need_verdict(self.proof, placed.as_ref(), (step, index), def, library);
             let Some(verdict) = verdict else { break };
             needs.push(self.need(need, verdict, call, &def.fails));
         }

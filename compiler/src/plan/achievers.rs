@@ -156,7 +156,7 @@ impl<'a> Prover<'a> {
     /// Repeats the step that bound a symbol.
     fn as_before(&self, primitive: Primitive, found: Entity, binding: usize) -> Option<CandidateCall> {
         let again = BindingId(u32::try_from(binding).ok()?);
-        // What several ways bind, no step of one way finds again.
+        // What several paths bind, no step of one path finds again.
         self.program.bindings.get(binding).filter(|binding| binding.binders.len() == 1)?;
         let calls = self.program.steps.iter().filter_map(|step| match &step.kind {
             StepKind::Call(call) => Some(call),

@@ -46,13 +46,13 @@ pub(super) fn search(
     while let Some((_, index)) = open.pop() {
         let Some(rest) = left.checked_sub(1) else { return Err(NoPlan::Budget { goal: shown(prover) }) };
         *left = rest;
-        let way = way(&nodes, index);
+        let path = path(&nodes, index);
         replay(prover, before);
-        for (offset, call) in way.iter().enumerate() {
+        for (offset, call) in path.iter().enumerate() {
             apply(prover, before.len() + offset, call);
         }
         if prover.evaluate(goal, CallFrame::default()).is_true() {
-            return Ok(way);
+            return Ok(path);
         }
         let mut estimate = Estimate::new(prover);
         let is_hopeless = estimate.goal(goal).is_none();
@@ -87,7 +87,7 @@ pub(super) fn search(
 }
 
 /// Calls that lead to a node.
-fn way(nodes: &[Node], index: usize) -> Vec<CandidateCall> {
+fn path(nodes: &[Node], index: usize) -> Vec<CandidateCall> {
     let mut calls = Vec::new();
     let mut at = Some(index);
     while let Some(node) = at.and_then(|at| nodes.get(at)) {

@@ -8,14 +8,14 @@ use crate::ir::{Condition, Fluent};
 /// Maximal number of joins that are remembered.
 const MAX_PARTITIONS: usize = 8;
 /// Maximal number of paths of a join that are kept apart.
-pub(super) const MAX_WAYS: usize = 24;
+pub(super) const MAX_PATHS: usize = 24;
 /// Number of writes after which a join is forgotten.
 const MAX_AGE: usize = 1000;
 
 impl Prover<'_> {
     /// Remembers the paths of a join.
     pub(crate) fn remember(&mut self, partition: PathPartition) {
-        if (2..=MAX_WAYS).contains(&partition.ways().count()) {
+        if (2..=MAX_PATHS).contains(&partition.paths().count()) {
             if self.state.partitions.len() >= MAX_PARTITIONS {
                 self.state.partitions.remove(0);
             }
@@ -65,12 +65,12 @@ impl Prover<'_> {
         {
             return true;
         }
-        // What was written since holds on every way.
+        // What was written since holds on every path.
         let later = self.state.facts.delta(partition.since);
         let (mut open, mut all) = (Vec::new(), 0_usize);
-        for way in partition.ways() {
+        for path in partition.paths() {
             all += 1;
-            for ((fluent, key), value) in way {
+            for ((fluent, key), value) in path {
                 self.state.facts.set(fluent, key, value);
             }
             self.state.facts.replay(&later);

@@ -9,7 +9,7 @@ use super::evaluation::{CallFrame, MAX_ALIASES};
 use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::{LastsDef, NeedDef, PrimitiveDef, ResourceSet};
-use crate::environment::standing;
+use crate::environment::base_pose_facts;
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
 use crate::ir::{Base, BindingId, Call, Condition, Entity, Fluent, MotionKind, StepId, StepKind, Term, Ty};
 
@@ -68,7 +68,7 @@ impl<'a> Prover<'a> {
         let Some((MotionKind::StandAt, args)) = &def.motion else { return };
         let Some(Term::Param(index)) = args.first() else { return };
         let Some(Term::Pose { xyz: [x, y, _], .. }) = frame.args.get(usize::from(*index)) else { return };
-        let facts = standing::from_base(self.library, self.environment, [*x, *y]);
+        let facts = base_pose_facts::from_base(self.library, self.environment, [*x, *y]);
         let change = |(fluent, key, truth)| FactChange { fluent, key, truth, sure: Certainty::Always };
         let changes: Vec<FactChange> = facts.into_iter().map(change).collect();
         self.make(&changes, cause);
@@ -156,7 +156,7 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Freshness of a pose: stale if it is, by whichever way it was bound.
+    /// Freshness of a pose: stale if it is, by whichever path it was bound.
     fn freshness(&self, binding: BindingId) -> TruthSet {
         let found = self.poses(binding).into_iter();
         found.fold(TruthSet::default(), |fresh, key| fresh.join(self.state.facts.get(self.fresh, key)))
@@ -326,7 +326,7 @@ impl<'a> Prover<'a> {
         PerceptionLifetime { resources: lasts.resources, entities: entities.map(Entity).collect() }
     }
 
-    /// Shortens the lifetime of the facts of a name to that of all steps that bind it: where their ways have
+    /// Shortens the lifetime of the facts of a name to that of all steps that bind it: where their paths have
     /// met, it may be what any of them found.
     fn outlive(
         &self,

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::Prover;
-use super::assume::MAX_WAYS;
+use super::assume::MAX_PATHS;
 use crate::analysis::Enclosing;
 use crate::facts::{Atom, Delta, FactKey, FactStore, TruthSet};
 use crate::ir::Fluent;
@@ -23,33 +23,33 @@ pub(crate) struct Collector {
     /// back below them: only later writes can be new.
     seen: SmallVec<[usize; 8]>,
     /// Paths to the collected states; none if they are too many to be kept apart.
-    ways: Option<Vec<Delta>>,
+    paths: Option<Vec<Delta>>,
 }
 
 impl Collector {
     pub(crate) fn new(mark: usize) -> Self {
         let (pending, patterns, seen) = (FxHashMap::default(), Vec::new(), SmallVec::new());
-        Self { mark, pending, patterns, hit: false, seen, ways: None }
+        Self { mark, pending, patterns, hit: false, seen, paths: None }
     }
 
     /// Collects the present state and the path to it.
-    pub(crate) fn see_way(&mut self, facts: &FactStore<'_>) {
+    pub(crate) fn see_path(&mut self, facts: &FactStore<'_>) {
         if self.seen.last() == Some(&facts.mark()) {
             return;
         }
         if !self.hit {
-            self.ways = Some(Vec::new());
+            self.paths = Some(Vec::new());
         }
-        match &mut self.ways {
-            Some(ways) if ways.len() < MAX_WAYS => ways.push(facts.delta(self.mark)),
-            ways => *ways = None,
+        match &mut self.paths {
+            Some(paths) if paths.len() < MAX_PATHS => paths.push(facts.delta(self.mark)),
+            paths => *paths = None,
         }
         self.see(facts);
     }
 
     /// Paths to the collected states, if all were kept.
-    pub(crate) fn ways(&self) -> Option<&[Delta]> {
-        self.ways.as_deref()
+    pub(crate) fn paths(&self) -> Option<&[Delta]> {
+        self.paths.as_deref()
     }
 
     /// Collects the present state.

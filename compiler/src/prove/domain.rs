@@ -60,8 +60,8 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     /// Keeps the paths apart that differ in the outcome of a test of what cannot change.
-    fn ways(&mut self, mark: &usize) -> Vec<Delta> {
-        self.tested_ways(*mark).unwrap_or_else(|| vec![self.path(mark)])
+    fn paths(&mut self, mark: &usize) -> Vec<Delta> {
+        self.tested_paths(*mark).unwrap_or_else(|| vec![self.path(mark)])
     }
 
     fn follow(&mut self, path: &Delta) {
@@ -92,7 +92,7 @@ impl<'a> Domain<'a> for Prover<'a> {
 
     fn collect(&self, into: &mut Collector, exit: Exit) {
         match exit {
-            Exit::Failure => into.see_way(&self.state.facts),
+            Exit::Failure => into.see_path(&self.state.facts),
             Exit::Done => into.see(&self.state.facts),
         }
     }
@@ -103,10 +103,10 @@ impl<'a> Domain<'a> for Prover<'a> {
 
     /// Keeps the paths to a handler apart, so that a test there shows how far the body got.
     fn follow_failures(&mut self, states: &Collector) -> bool {
-        match (states.ways(), self.collected(states)) {
+        match (states.paths(), self.collected(states)) {
             (_, None) => return false,
-            (Some(ways), Some(_)) => {
-                let partition = self.state.facts.join(ways);
+            (Some(paths), Some(_)) => {
+                let partition = self.state.facts.join(paths);
                 self.remember(partition);
             }
             (None, Some(joined)) => self.state.facts.replay(&joined),
@@ -323,9 +323,9 @@ impl Prover<'_> {
         let round = self.exits(id, how, &mark);
         self.restore(&mark);
         fingerprint(&round, seen);
-        let Some(way) = round.back else { return true };
+        let Some(path) = round.back else { return true };
         let entry = Delta::default();
-        let head = entry.or(&way, &self.state.facts);
+        let head = entry.or(&path, &self.state.facts);
         if !head.same_sets(&entry, &self.state.facts) {
             self.control.fixpoints += 1;
             fingerprint(&self.rounds(id, body, how, head), seen);

@@ -55,7 +55,7 @@ motet_syntax::mistakes! {
     help(m) { Some(format!("remove `{}` from the `catch`", m.name)) }
 
     /// Needs that stay unknown, which the engine checks just before the step.
-    LeftToRun("M0505", Note) { callee: SmolStr, what: String, step: String }
+    DeferredToRun("M0505", Note) { callee: SmolStr, what: String, step: String }
     message(m) { format!("left to the run: {}, checked before `{}` (step {})", m.what, m.callee, m.step) }
     help(m) {
         Some(format!("let a step before `{}` make it certain, or handle the failure with `try`", m.callee))

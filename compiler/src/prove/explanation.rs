@@ -27,7 +27,7 @@ pub(crate) struct Explanation {
     /// Phrase for the cause: "`place(mug, table)` made".
     maker: Option<String>,
     /// Path from the cause: " where `open(drawer)` holds".
-    way: String,
+    path: String,
     /// Advice, if no earlier step could help.
     advice: Option<SmolStr>,
 }
@@ -39,9 +39,9 @@ impl Explanation {
             return numbers.clone();
         }
         match (&self.maker, self.cause) {
-            (Some(maker), _) => format!("which {maker} false{}", self.way),
+            (Some(maker), _) => format!("which {maker} false{}", self.path),
             (None, Cause::NONE | Cause::NOTHING) => "which no step makes true".to_owned(),
-            (None, _) if !self.way.is_empty() => format!("which does not hold{}", self.way),
+            (None, _) if !self.path.is_empty() => format!("which does not hold{}", self.path),
             (None, _) => "which does not hold at the start".to_owned(),
         }
     }
@@ -72,9 +72,9 @@ impl Prover<'_> {
                 let maker = cause.as_step().map(|_| self.maker(cause));
                 let wanted = self.show(condition, truth, frame);
                 let subject = self.library.fluent(fact.fluent).map(|def| (def.name.clone(), truth));
-                let way = self.cleanup_way(cause, fact.fluent, truth).unwrap_or_else(|| self.way(cause));
+                let path = self.cleanup_path(cause, fact.fluent, truth).unwrap_or_else(|| self.path(cause));
                 let fact = Some((fact.fluent, truth));
-                return Explanation { wanted, cause, fact, subject, maker, way, ..Explanation::default() };
+                return Explanation { wanted, cause, fact, subject, maker, path, ..Explanation::default() };
             }
             Condition::Compare(CompareOp::Unequal, left, _)
                 if truth && self.is_misgiven(condition, frame) =>
@@ -147,7 +147,7 @@ impl Prover<'_> {
     }
 
     /// Describes the path from a cause to the present step, if there are others.
-    fn way(&self, cause: Cause) -> String {
+    fn path(&self, cause: Cause) -> String {
         let Some(maker) = cause.as_step() else { return String::new() };
         if self.control.here.is_some_and(|here| maker >= here) {
             return " in an earlier round".to_owned();
@@ -156,7 +156,7 @@ impl Prover<'_> {
         let shared: Vec<StepId> = self.control.here.into_iter().flat_map(around).collect();
         let mut slot = self.program.step(maker).map(|step| step.position.slot);
         for (outer, fork) in self.program.around(maker) {
-            // A step beside the one being proved, in another block of the same fork, is on another way too.
+            // A step beside the one being proved, in another block of the same fork, is on another path too.
             let apart = !shared.contains(&outer);
             match (&fork.kind, slot) {
                 (StepKind::If { condition, .. }, Some(BlockSlot::Then)) if apart => {
@@ -178,7 +178,7 @@ impl Prover<'_> {
 
     /// Describes the path on which the cleanup around a cause, which would undo it, fails; `None` without
     /// such a cleanup.
-    fn cleanup_way(&self, cause: Cause, fluent: Fluent, truth: bool) -> Option<String> {
+    fn cleanup_path(&self, cause: Cause, fluent: Fluent, truth: bool) -> Option<String> {
         let maker = cause.as_step().filter(|maker| self.control.here.is_none_or(|here| *maker < here))?;
         let around = |id: StepId| self.program.around(id).map(|(id, _)| id);
         let shared: Vec<StepId> = self.control.here.into_iter().flat_map(around).collect();
@@ -210,7 +210,7 @@ impl Prover<'_> {
         Some(format!(" where `{}` in the `finally` {ending}", self.cause_name(Cause::step(undoes))))
     }
 
-    /// Explains a need of a step in a cleanup that holds on some of the ways there, and not on the one where
+    /// Explains a need of a step in a cleanup that holds on some of the paths there, and not on the one where
     /// the first step before the cleanup fails. `None` for any other need.
     pub(crate) fn explain_in_cleanup(
         &self,
@@ -240,7 +240,7 @@ impl Prover<'_> {
         }
         let test = explanation.wanted.trim_matches('`');
         explanation.advice = Some(format_smolstr!("test it first: `if {test} {{ … }}`"));
-        explanation.way = format!(" where `{}` fails", self.cause_name(Cause::step(first)));
+        explanation.path = format!(" where `{}` fails", self.cause_name(Cause::step(first)));
         Some(explanation)
     }
 

@@ -58,9 +58,9 @@ impl<'a> Prover<'a> {
             for when in &restarts {
                 self.state.facts.replay(&states);
                 if self.assume_at(id, &when.condition, true) {
-                    let way = self.state.facts.delta(mark);
+                    let path = self.state.facts.delta(mark);
                     self.back_to(mark);
-                    next = next.or(&way, &self.state.facts);
+                    next = next.or(&path, &self.state.facts);
                 } else {
                     self.back_to(mark);
                 }

@@ -231,18 +231,18 @@ impl Prover<'_> {
     /// Joins the paths through each of several steps.
     pub(crate) fn choose(&mut self, steps: &[StepId]) {
         let mark = self.state.facts.mark();
-        let mut ways = Vec::with_capacity(steps.len());
+        let mut paths = Vec::with_capacity(steps.len());
         for step in steps {
             self.step(*step);
             if self.control.live {
-                ways.push(self.state.facts.delta(mark));
+                paths.push(self.state.facts.delta(mark));
             }
             self.restore(&mark);
             if self.is_settled() {
                 break;
             }
         }
-        self.join(&mark, &ways);
+        self.join(&mark, &paths);
     }
 
     /// Returns whether one of the first `count` needs of a call is refuted here, in their order.

@@ -22,7 +22,7 @@ pub(crate) struct Symbol {
     pub(crate) may_be: Option<Vec<Entity>>,
 }
 
-/// Entities that fit the descriptions of a binding; `None` if it may be another one on some way.
+/// Entities that fit the descriptions of a binding; `None` if it may be another one on some path.
 pub(crate) fn described(
     binding: &Binding,
     library: &Library,

@@ -196,17 +196,17 @@ impl Prover<'_> {
     }
 
     /// The paths from a mark on which a test had different outcomes; `None` if there are none, or too many.
-    pub(super) fn tested_ways(&mut self, mark: usize) -> Option<Vec<Delta>> {
+    pub(super) fn tested_paths(&mut self, mark: usize) -> Option<Vec<Delta>> {
         let tested = self.tested.fluent;
         let mut inside = self.state.partitions.iter().rev().take_while(|partition| partition.since > mark);
         let partition = inside.find(|partition| partition.differs(|fluent| fluent == tested))?.clone();
-        if partition.ways().count() > MAX_SPLIT {
+        if partition.paths().count() > MAX_SPLIT {
             return None;
         }
         let (here, later) = (self.state.facts.mark(), self.state.facts.delta(partition.since));
         let mut found = Vec::with_capacity(MAX_SPLIT);
-        for way in partition.ways() {
-            for ((fluent, key), value) in way {
+        for path in partition.paths() {
+            for ((fluent, key), value) in path {
                 self.state.facts.set(fluent, key, value);
             }
             self.state.facts.replay(&later);

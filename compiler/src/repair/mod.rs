@@ -234,7 +234,7 @@ impl RepairFinder {
         let found = prover.program.steps.iter().position(|step| {
             let StepKind::Call(call) = &step.kind else { return false };
             let binding = call.binds.and_then(|id| prover.program.bindings.get(id.index()));
-            // What several ways bind, no step of one way finds again.
+            // What several paths bind, no step of one path finds again.
             binding.is_some_and(|binding| binding.span == bound && binding.binders.len() == 1)
         });
         let Some(found) = found.and_then(|index| u32::try_from(index).ok()) else { return };
@@ -281,7 +281,7 @@ impl Prover<'_> {
         self.library.fluent(*fluent).filter(|def| def.params.is_empty()).map(|_| *fluent)
     }
 
-    /// The needs of a step in a cleanup that hold only on some of the ways there, as a condition.
+    /// The needs of a step in a cleanup that hold only on some of the paths there, as a condition.
     fn test_of(&self, id: StepId, def: &PrimitiveDef, frame: CallFrame<'_>) -> Option<String> {
         let refuted = def.needs.iter().filter(|need| self.need(need, frame).0.no.is_some());
         let tests = refuted.map(|need| {

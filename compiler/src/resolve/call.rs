@@ -10,9 +10,9 @@ use smol_str::SmolStr;
 use super::errors::{
     EmptyList, IgnoredArgument, NoMotion, NoResult, PoseForEntity, Recursion, UnknownPrimitive,
 };
-use super::meant::step_to_write;
 use super::result::PolicyResult;
 use super::step::StepResolver;
+use super::step_suggestion::suggested_step;
 use crate::declare::PrimitiveDef;
 use crate::declare::elaborator::{Expected, ValueRole};
 use crate::declare::errors::{BadDeclaration, MissingArgument, TooManyArguments, UnknownParameter};
@@ -60,7 +60,7 @@ impl StepResolver<'_> {
             self.misplaced(call.call.name.span);
             return self.unknown(span, position);
         }
-        let step = step_to_write(call, library, self.elaborator.form);
+        let step = suggested_step(call, library, self.elaborator.form);
         let provided = library.primitives.iter().filter(|def| def.provided).map(|def| def.name.as_str());
         let policies = library.policies.iter().map(|policy| policy.name.text.as_str());
         let near = near(name, provided.chain(policies).filter(|known| self.may_mean(call, known)));

@@ -5,15 +5,15 @@ use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
 use crate::declare::errors::{did_you_mean, replace};
-use crate::declare::gap::Unbound;
 use crate::declare::name::article;
+use crate::declare::unbound::Unbound;
 
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
     /// Call of an unknown primitive or policy.
     UnknownPrimitive("M0201", Error) {
-        name: SmolStr, step: Option<StepToWrite>, near: Option<SmolStr>, cannot: &'static str,
+        name: SmolStr, step: Option<StepSuggestion>, near: Option<SmolStr>, cannot: &'static str,
     }
     message(m) { format!("there is no primitive or policy `{}`", m.name) }
     help(m) {
@@ -67,13 +67,13 @@ motet_syntax::mistakes! {
         Some(format!("declare its type, as in `policy {}() -> Object`, or write `done` alone", m.policy))
     }
 
-    /// Way through a policy that ends without the result that the policy declares.
-    MissingResult("M0317", Error) { policy: SmolStr, ty: String, way: Option<Option<Unbound>> }
+    /// Path through a policy that ends without the result that the policy declares.
+    MissingResult("M0317", Error) { policy: SmolStr, ty: String, path: Option<Option<Unbound>> }
     message(m) {
         let gives = format!("`{}` gives {}", m.policy, article(&m.ty));
-        match &m.way {
+        match &m.path {
             None => format!("{gives}, but this `done` gives nothing"),
-            Some(Some(Unbound::Way { name, .. })) => format!("{gives}, but not on the way through {name}"),
+            Some(Some(Unbound::Path { name, .. })) => format!("{gives}, but not on the path through {name}"),
             Some(Some(Unbound::NoElse(_))) => {
                 format!("{gives}, but not if the condition of an `if` without `else` does not hold")
             }
@@ -82,11 +82,11 @@ motet_syntax::mistakes! {
         }
     }
     help(_m) {
-        Some("end that way with `done` and a value, or with `fail`, `cannot` or `replan`".to_owned())
+        Some("end that path with `done` and a value, or with `fail`, `cannot` or `replan`".to_owned())
     }
     related(m) {
-        let related = match &m.way {
-            Some(Some(Unbound::Way { end, .. })) => Some(Related::new("this way goes on without it", *end)),
+        let related = match &m.path {
+            Some(Some(Unbound::Path { end, .. })) => Some(Related::new("this path goes on without it", *end)),
             Some(Some(Unbound::NoElse(condition))) => Some(Related::new("this may not hold", *condition)),
             Some(_) | None => None,
         };
@@ -134,7 +134,7 @@ motet_syntax::mistakes! {
 
 /// The step to write for a word that is no callee.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct StepToWrite {
+pub(crate) struct StepSuggestion {
     pub(crate) help: String,
     /// Edits, where the word and the arguments have one reading.
     pub(crate) fix: Option<Fix>,

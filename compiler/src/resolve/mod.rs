@@ -8,10 +8,10 @@
 
 mod call;
 pub(crate) mod errors;
-mod meant;
+mod path;
 mod result;
 mod step;
-mod way;
+mod step_suggestion;
 
 use motet_syntax::ast::{Expr, ExprKind, Policy};
 use motet_syntax::{Diagnostic, Span, Syntax};

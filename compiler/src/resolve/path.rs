@@ -1,9 +1,9 @@
 //! Definite assignment (Gosling et al., *The Java Language Specification*, chapter 16): a name is bound
-//! behind a step if every way that goes on has bound it. A way that ends the policy, or fails, does not
+//! behind a step if every path that goes on has bound it. A path that ends the policy, or fails, does not
 //! count.
 //!
-//! Ways that bind one name with values of one type share one binding, so that later stages need not know by
-//! which way control came. Any other name is left as a gap of the scope, with the reason.
+//! Paths that bind one name with values of one type share one binding, so that later stages need not know by
+//! which path control came. Any other name is left as an unbound name of the scope, with the reason.
 
 use motet_syntax::Span;
 use motet_syntax::ast::Block;
@@ -12,21 +12,21 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use super::step::StepResolver;
-use crate::declare::gap::{Gap, GapCause, Unbound};
 use crate::declare::name::{ScopeEntry, ScopeMark};
+use crate::declare::unbound::{Unbound, UnboundCause, UnboundName};
 use crate::ir::{self, Base, BindingId, BlockSlot, Renumbering, Rewrite, StepId, Term, Ty};
 
-/// Ways through a step that were resolved so far.
+/// Paths through a step that were resolved so far.
 pub(super) struct Fork {
     step: StepId,
     scope: ScopeMark,
-    /// Numbers of steps and bindings after the first way.
+    /// Numbers of steps and bindings after the first path.
     first: (usize, usize),
-    ways: Vec<Way>,
+    paths: Vec<Path>,
 }
 
-/// One way through a step.
-struct Way {
+/// One path through a step.
+struct Path {
     /// Names that it binds, the latest last.
     entries: Vec<ScopeEntry>,
     /// False if control never reaches its end.
@@ -35,35 +35,35 @@ struct Way {
     lacks: Unbound,
 }
 
-/// A name with its entry on each way that has one, in the order of the ways.
+/// A name with its entry on each path that has one, in the order of the paths.
 type Found = SmallVec<[(usize, ScopeEntry); 2]>;
 
 impl Fork {
-    /// The step whose ways they are.
+    /// The step whose paths they are.
     pub(super) fn step(&self) -> StepId {
         self.step
     }
 }
 
 impl StepResolver<'_> {
-    /// Begins the ways through a step.
+    /// Begins the paths through a step.
     pub(super) fn fork(&self, step: StepId) -> Fork {
-        Fork { step, scope: self.elaborator.scope.mark(), first: (0, 0), ways: Vec::new() }
+        Fork { step, scope: self.elaborator.scope.mark(), first: (0, 0), paths: Vec::new() }
     }
 
-    /// Resolves a block as the next way. The ways behind it do not see its names, for the reason `unseen`.
-    pub(super) fn way(
+    /// Resolves a block as the next path. The paths behind it do not see its names, for the reason `unseen`.
+    pub(super) fn path(
         &mut self,
         fork: &mut Fork,
         block: (&Block, BlockSlot),
         name: &str,
         unseen: &Unbound,
     ) -> ir::Block {
-        self.way_with(fork, block, name, unseen, Vec::new())
+        self.path_with(fork, block, name, unseen, Vec::new())
     }
 
     /// The same with names of its own, which no step behind it sees.
-    pub(super) fn way_with(
+    pub(super) fn path_with(
         &mut self,
         fork: &mut Fork,
         (block, slot): (&Block, BlockSlot),
@@ -87,21 +87,21 @@ impl StepResolver<'_> {
             .collect();
         scope.extend(unseen);
         let end = block.steps.last().map_or(block.span, |step| step.span);
-        self.add(fork, Way { entries, goes_on, lacks: Unbound::Way { name: name.into(), end } });
+        self.add(fork, Path { entries, goes_on, lacks: Unbound::Path { name: name.into(), end } });
         body
     }
 
-    /// Adds the way around an `if` whose condition does not hold.
-    pub(super) fn way_around(&mut self, fork: &mut Fork, condition: Span) {
+    /// Adds the path around an `if` whose condition does not hold.
+    pub(super) fn path_around(&mut self, fork: &mut Fork, condition: Span) {
         let lacks = Unbound::NoElse(condition);
-        self.add(fork, Way { entries: Vec::new(), goes_on: true, lacks });
+        self.add(fork, Path { entries: Vec::new(), goes_on: true, lacks });
     }
 
-    fn add(&mut self, fork: &mut Fork, way: Way) {
-        if fork.ways.is_empty() {
+    fn add(&mut self, fork: &mut Fork, path: Path) {
+        if fork.paths.is_empty() {
             fork.first = (self.program.steps.len(), self.elaborator.bindings.len());
         }
-        fork.ways.push(way);
+        fork.paths.push(path);
     }
 
     /// Leaves names that were bound since a mark without a value.
@@ -110,20 +110,20 @@ impl StepResolver<'_> {
         self.elaborator.scope.extend(entries.iter().map(|entry| without_value(entry, reason)));
     }
 
-    /// Leads behind a step of which one way is taken.
+    /// Leads behind a step of which one path is taken.
     pub(super) fn meet(&mut self, fork: Fork) {
-        let Fork { scope, first, mut ways, .. } = fork;
+        let Fork { scope, first, mut paths, .. } = fork;
         self.elaborator.scope.back_to(scope);
-        let live: Vec<usize> = (0..ways.len()).filter(|way| is_live(&ways, *way)).collect();
-        let open = live.first().and_then(|way| ways.get(*way)).filter(|_| live.len() < ways.len());
+        let live: Vec<usize> = (0..paths.len()).filter(|path| is_live(&paths, *path)).collect();
+        let open = live.first().and_then(|path| paths.get(*path)).filter(|_| live.len() < paths.len());
         if let Some(open) = open.filter(|_| self.goes_on) {
-            self.result.open_way = Some(open.lacks.clone());
+            self.result.open_path = Some(open.lacks.clone());
         }
         self.goes_on &= !live.is_empty();
         let (mut entries, mut shared) = (Vec::new(), Vec::new());
-        for found in by_name(&mut ways) {
+        for found in by_name(&mut paths) {
             let missing =
-                live.iter().find(|way| !found.iter().any(|(at, entry)| at == *way && is_bound(entry)));
+                live.iter().find(|path| !found.iter().any(|(at, entry)| at == *path && is_bound(entry)));
             let Some((_, first)) = found.iter().find(|(_, entry)| is_bound(entry)).or(found.first()) else {
                 continue;
             };
@@ -132,49 +132,51 @@ impl StepResolver<'_> {
                 entries.push(first.clone());
                 continue;
             }
-            // On all ways that go on it is what it was before.
-            let is_met = found.iter().any(|(way, _)| is_live(&ways, *way));
+            // On all paths that go on it is what it was before.
+            let is_met = found.iter().any(|(path, _)| is_live(&paths, *path));
             if !is_met && self.elaborator.scope.find(&first.name).is_some() {
                 continue;
             }
             let Some(missing) = missing else {
-                let bound = found.into_iter().filter(|(way, _)| is_live(&ways, *way)).map(|(_, entry)| entry);
+                let bound =
+                    found.into_iter().filter(|(path, _)| is_live(&paths, *path)).map(|(_, entry)| entry);
                 entries.extend(self.joined(bound.collect(), &mut shared));
                 continue;
             };
-            let own = found.iter().find(|(way, _)| way == missing).and_then(|(_, entry)| entry.gap.as_ref());
-            let cause = match (own, ways.get(*missing)) {
-                (Some(gap), _) => gap.cause.clone(),
-                (None, Some(way)) => GapCause::Unbound(way.lacks.clone()),
+            let own =
+                found.iter().find(|(path, _)| path == missing).and_then(|(_, entry)| entry.unbound.as_ref());
+            let cause = match (own, paths.get(*missing)) {
+                (Some(unbound), _) => unbound.cause.clone(),
+                (None, Some(path)) => UnboundCause::Unbound(path.lacks.clone()),
                 (None, None) => continue,
             };
-            entries.push(gap(first, cause, found.iter().map(|(_, entry)| entry)));
+            entries.push(unbound(first, cause, found.iter().map(|(_, entry)| entry)));
         }
         self.share(first, shared, &mut entries);
         self.elaborator.scope.extend(entries.into_iter().map(free));
     }
 
-    /// Leads behind a step of which all ways are taken at once.
+    /// Leads behind a step of which all paths are taken at once.
     pub(super) fn meet_all(&mut self, fork: Fork) {
-        let Fork { scope, mut ways, .. } = fork;
+        let Fork { scope, mut paths, .. } = fork;
         self.elaborator.scope.back_to(scope);
-        self.goes_on &= ways.iter().all(|way| way.goes_on);
-        let found = by_name(&mut ways).into_iter();
+        self.goes_on &= paths.iter().all(|path| path.goes_on);
+        let found = by_name(&mut paths).into_iter();
         let entries = found.filter_map(|found| {
             let mut bound = found.iter().map(|(_, entry)| entry).filter(|entry| is_bound(entry));
             match (bound.next(), bound.next()) {
                 (None, _) => found.first().map(|(_, entry)| entry.clone()),
                 (Some(only), None) => Some(only.clone()),
                 (Some(first), Some(second)) => {
-                    let cause = GapCause::Unbound(Unbound::TwoBranches { second: second.span });
-                    Some(gap(first, cause, found.iter().map(|(_, entry)| entry)))
+                    let cause = UnboundCause::Unbound(Unbound::TwoBranches { second: second.span });
+                    Some(unbound(first, cause, found.iter().map(|(_, entry)| entry)))
                 }
             }
         });
         self.elaborator.scope.extend(entries.map(free));
     }
 
-    /// Entry of a name that all ways have bound, if their types are the same. Adds the bindings that become
+    /// Entry of a name that all paths have bound, if their types are the same. Adds the bindings that become
     /// one.
     fn joined(&mut self, bound: Vec<ScopeEntry>, shared: &mut Vec<Vec<BindingId>>) -> Option<ScopeEntry> {
         let first = bound.first()?;
@@ -185,7 +187,7 @@ impl StepResolver<'_> {
         }
         if let Some(second) = bound.iter().find(|entry| entry.ty != first.ty) {
             let types = [first.ty, second.ty].map(|ty| self.elaborator.library.type_name(ty).into());
-            return Some(gap(first, GapCause::Types { types, second: second.span }, bound.iter()));
+            return Some(unbound(first, UnboundCause::Types { types, second: second.span }, bound.iter()));
         }
         if bound.len() > 1 {
             shared.push(bound.iter().flat_map(ids).collect());
@@ -194,7 +196,7 @@ impl StepResolver<'_> {
         Some(ScopeEntry { value, ..first.clone() })
     }
 
-    /// Makes each group of bindings one: the first of it. All others stand in the ways behind the first way.
+    /// Makes each group of bindings one: the first of it. All others stand in the paths behind the first.
     fn share(
         &mut self,
         (first_step, first): (usize, usize),
@@ -241,7 +243,7 @@ impl StepResolver<'_> {
         for entry in entries.iter_mut() {
             new.term(&mut entry.term);
             new.terms(&mut entry.value);
-            entry.gap.iter_mut().flat_map(|gap| &mut gap.ids).for_each(|id| new.binding(id));
+            entry.unbound.iter_mut().flat_map(|unbound| &mut unbound.ids).for_each(|id| new.binding(id));
         }
     }
 }
@@ -250,20 +252,20 @@ fn free(entry: ScopeEntry) -> ScopeEntry {
     ScopeEntry { is_free: true, ..entry }
 }
 
-fn is_live(ways: &[Way], way: usize) -> bool {
-    ways.get(way).is_some_and(|way| way.goes_on)
+fn is_live(paths: &[Path], path: usize) -> bool {
+    paths.get(path).is_some_and(|path| path.goes_on)
 }
 
 fn is_bound(entry: &ScopeEntry) -> bool {
-    entry.gap.is_none()
+    entry.unbound.is_none()
 }
 
-/// The names of all ways, each with its latest entries, in the order in which they were bound first.
-fn by_name(ways: &mut [Way]) -> Vec<Found> {
+/// The names of all paths, each with its latest entries, in the order in which they were bound first.
+fn by_name(paths: &mut [Path]) -> Vec<Found> {
     let mut places: FxHashMap<SmolStr, usize> = FxHashMap::default();
     let mut all: Vec<Found> = Vec::new();
-    for (index, way) in ways.iter_mut().enumerate() {
-        for entry in std::mem::take(&mut way.entries) {
+    for (index, path) in paths.iter_mut().enumerate() {
+        for entry in std::mem::take(&mut path.entries) {
             let place = *places.entry(entry.name.clone()).or_insert_with(|| {
                 all.push(Found::new());
                 all.len() - 1
@@ -279,19 +281,23 @@ fn by_name(ways: &mut [Way]) -> Vec<Found> {
 }
 
 fn ids(entry: &ScopeEntry) -> SmallVec<[BindingId; 1]> {
-    match (&entry.gap, &entry.term) {
-        (Some(gap), _) => gap.ids.clone(),
+    match (&entry.unbound, &entry.term) {
+        (Some(unbound), _) => unbound.ids.clone(),
         (None, Term::Binding(id)) => SmallVec::from_elem(*id, 1),
         (None, _) => SmallVec::new(),
     }
 }
 
 /// The entry of a name without a value.
-fn gap<'e>(entry: &ScopeEntry, cause: GapCause, all: impl Iterator<Item = &'e ScopeEntry>) -> ScopeEntry {
-    let gap = Gap { cause, ids: all.flat_map(ids).collect() };
-    ScopeEntry { term: Term::Unknown, ty: Ty::UNKNOWN, gap: Some(gap), ..entry.clone() }
+fn unbound<'e>(
+    entry: &ScopeEntry,
+    cause: UnboundCause,
+    all: impl Iterator<Item = &'e ScopeEntry>,
+) -> ScopeEntry {
+    let unbound = UnboundName { cause, ids: all.flat_map(ids).collect() };
+    ScopeEntry { term: Term::Unknown, ty: Ty::UNKNOWN, unbound: Some(unbound), ..entry.clone() }
 }
 
 pub(super) fn without_value(entry: &ScopeEntry, reason: &Unbound) -> ScopeEntry {
-    gap(entry, GapCause::Unbound(reason.clone()), std::iter::once(entry))
+    unbound(entry, UnboundCause::Unbound(reason.clone()), std::iter::once(entry))
 }

@@ -1,4 +1,4 @@
-//! Results of policies: the value that each `done` gives, and the ways that end without one.
+//! Results of policies: the value that each `done` gives, and the paths that end without one.
 //!
 //! A `done` with a value is a `let` of the result and the `done` alone, so that later stages know no more
 //! than these two.
@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 use super::errors::{MissingResult, ReactionResult, UnwantedResult};
 use super::step::StepResolver;
 use crate::declare::elaborator::{Expected, ValueRole};
-use crate::declare::gap::Unbound;
+use crate::declare::unbound::Unbound;
 use crate::ir::{self, BindingId, Renumbering, Rewrite as _, StepId, StepPosition, Term, Ty};
 
 /// Result of the policy whose steps are being resolved.
@@ -24,8 +24,8 @@ pub(super) struct PolicyResult {
     values: Vec<Term>,
     /// Steps that bind the result.
     binders: SmallVec<[StepId; 1]>,
-    /// Reason for which control came so far without a `done`, where another way has one.
-    pub(super) open_way: Option<Unbound>,
+    /// Reason for which control came so far without a `done`, where another path has one.
+    pub(super) open_path: Option<Unbound>,
 }
 
 impl PolicyResult {
@@ -70,7 +70,7 @@ impl StepResolver<'_> {
             }
             (None, Some(ty)) => {
                 let ty = self.elaborator.library.type_name(ty);
-                self.report_once(MissingResult { span: end.span, policy, ty, way: None });
+                self.report_once(MissingResult { span: end.span, policy, ty, path: None });
                 return None;
             }
         };
@@ -89,16 +89,16 @@ impl StepResolver<'_> {
         self.elaborator.term_of(given, Expected { ty, place: ValueRole::Named("the result of a policy") })
     }
 
-    /// Reports a way to the end of a policy that gives no result, behind its steps.
+    /// Reports a path to the end of a policy that gives no result, behind its steps.
     pub(super) fn check_given(&mut self, policy: &Policy) {
         let Some(ty) = self.result.ty.filter(|_| self.goes_on) else { return };
         if self.elaborator.is_behind_gap {
             return;
         }
         let span = policy.body.steps.last().map_or(policy.name.span, |step| step.span);
-        let way = Some(self.result.open_way.take());
+        let path = Some(self.result.open_path.take());
         let (policy, ty) = (policy.name.text.clone(), self.elaborator.library.type_name(ty));
-        self.report_once(MissingResult { span, policy, ty, way });
+        self.report_once(MissingResult { span, policy, ty, path });
     }
 
     /// Reports a mistake in a policy, which is found again at each call.

@@ -10,12 +10,12 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::ResolvedStep;
 use super::errors::{NoReason, Shadows, TooManySteps};
+use super::path::{Fork, without_value};
 use super::result::{PolicyResult, stands_for_itself};
-use super::way::{Fork, without_value};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::errors::{NotACondition, UnknownFailure};
-use crate::declare::gap::Unbound;
 use crate::declare::name::{Scope, ScopeMark, list, near};
+use crate::declare::unbound::Unbound;
 use crate::ir::{self, Binding, BindingId, BlockSlot, Condition, Program, StepId, StepPosition, Term, Ty};
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
@@ -283,12 +283,12 @@ impl<'a> StepResolver<'a> {
                 let condition = self.elaborator.condition(test);
                 let mut fork = self.fork(id);
                 let first = "the first block of the `if`";
-                let then = self.way(&mut fork, (then, BlockSlot::Then), first, &Unbound::OtherWay);
+                let then = self.path(&mut fork, (then, BlockSlot::Then), first, &Unbound::OtherPath);
                 let otherwise = otherwise.as_ref().map(|block| {
-                    self.way(&mut fork, (block, BlockSlot::Else), "the `else`", &Unbound::OtherWay)
+                    self.path(&mut fork, (block, BlockSlot::Else), "the `else`", &Unbound::OtherPath)
                 });
                 if otherwise.is_none() {
-                    self.way_around(&mut fork, test.span);
+                    self.path_around(&mut fork, test.span);
                 }
                 self.meet(fork);
                 ir::StepKind::If { condition, span: test.span, then, otherwise }
@@ -331,7 +331,7 @@ impl<'a> StepResolver<'a> {
             StepKind::Try { body, catches } => {
                 let mut fork = self.fork(id);
                 let whole = "the body of the `try`";
-                let body = self.way(&mut fork, (body, BlockSlot::Try), whole, &Unbound::Handler);
+                let body = self.path(&mut fork, (body, BlockSlot::Try), whole, &Unbound::Handler);
                 let numbered = catches.iter().enumerate();
                 let catches = numbered.map(|(index, catch)| self.catch(catch, &mut fork, index)).collect();
                 self.meet(fork);
@@ -353,7 +353,7 @@ impl<'a> StepResolver<'a> {
                 let outer = self.goes_on;
                 let body = self.block(body, Some(id), BlockSlot::Steps);
                 if outer && !std::mem::replace(&mut self.goes_on, outer) {
-                    self.result.open_way = Some(Unbound::Loop);
+                    self.result.open_path = Some(Unbound::Loop);
                 }
                 self.leave(mark, &Unbound::Loop);
                 ir::StepKind::Each { item: binding, list: term, at_most, body }
@@ -363,7 +363,7 @@ impl<'a> StepResolver<'a> {
                 let numbered = branches.iter().enumerate();
                 let branches = numbered.map(|(index, block)| {
                     let slot = BlockSlot::Branch(u16::try_from(index).unwrap_or(u16::MAX));
-                    self.way(&mut fork, (block, slot), "a branch", &Unbound::Beside)
+                    self.path(&mut fork, (block, slot), "a branch", &Unbound::Beside)
                 });
                 let branches = branches.collect();
                 self.meet_all(fork);
@@ -533,14 +533,14 @@ impl<'a> StepResolver<'a> {
         name: &str,
     ) -> (Option<ir::CaughtFailure>, ir::Block) {
         let Some(bind) = &catch.bind else {
-            return (None, self.way(fork, (&catch.body, slot), name, &Unbound::OtherWay));
+            return (None, self.path(fork, (&catch.body, slot), name, &Unbound::OtherPath));
         };
         let inside = self.elaborator.scope.mark();
         let ty = Ty::plain(ir::Base::Failure);
         let term = self.named(bind, ty, Some(fork.step()));
         self.name_term(&bind.text, term.clone(), ty, bind.span);
         let caught = self.elaborator.scope.take_since(inside);
-        let body = self.way_with(fork, (&catch.body, slot), name, &Unbound::OtherWay, caught);
+        let body = self.path_with(fork, (&catch.body, slot), name, &Unbound::OtherPath, caught);
         let binds = match term {
             Term::Caught(kind, text) => Some(ir::CaughtFailure { kind, text }),
             _ => None,

@@ -4,12 +4,12 @@ use motet_syntax::ast::{Arg, Do, Expr, ExprKind};
 use motet_syntax::unit::{Dimension, Unit, parse_quantity};
 use motet_syntax::{Edit, Fix, Syntax, print};
 
-use super::errors::StepToWrite;
+use super::errors::StepSuggestion;
 use crate::declare::Library;
 use crate::declare::words::{self, Meaning};
 
 /// The step that a call of an unknown name probably means.
-pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Option<StepToWrite> {
+pub(super) fn suggested_step(call: &Do, library: &Library, syntax: Syntax) -> Option<StepSuggestion> {
     match words::meaning(&call.call.name.text)? {
         Meaning::Calls(calls) => {
             let known = calls.iter().filter_map(|meant| Some((meant, params(meant.callee, library)?)));
@@ -26,7 +26,7 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
                 }
                 _ => None,
             };
-            (!steps.is_empty()).then(|| StepToWrite { help: format!("write {}", steps.join(" or ")), fix })
+            (!steps.is_empty()).then(|| StepSuggestion { help: format!("write {}", steps.join(" or ")), fix })
         }
         Meaning::End(kind) => {
             let why = match call.call.args.as_slice() {
@@ -50,7 +50,7 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
                 let edits = vec![Edit { span: call.call.span, text: step(why.as_deref()) }];
                 Fix { title: help.clone(), edits }
             });
-            Some(StepToWrite { help, fix })
+            Some(StepSuggestion { help, fix })
         }
         Meaning::Wait => {
             let (time, until) = match syntax {
@@ -66,11 +66,11 @@ pub(super) fn step_to_write(call: &Do, library: &Library, syntax: Syntax) -> Opt
                 title: format!("write `{step}`"),
                 edits: vec![Edit { span: call.call.span, text: step }],
             });
-            Some(StepToWrite { help, fix })
+            Some(StepSuggestion { help, fix })
         }
         Meaning::Help(text, json) => {
             let help = if syntax == Syntax::Text { text } else { json };
-            Some(StepToWrite { help: format!("write {help}"), fix: None })
+            Some(StepSuggestion { help: format!("write {help}"), fix: None })
         }
     }
 }

@@ -278,7 +278,7 @@ impl Case {
         };
         for parsed in &policies {
             self.said.extend(session.check(parsed));
-            self.left.extend(session.check_document(parsed).left_to_run);
+            self.left.extend(session.check_document(parsed).deferred_notes);
             // A file whose policies all have parameters is there to be called.
             self.said.extend(session.compile(parsed, None).diagnostics);
         }

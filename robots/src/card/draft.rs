@@ -4,6 +4,7 @@
 use std::fmt::Write;
 
 use indexmap::IndexMap;
+use motet_stdlib::lang::primitives;
 use smol_str::SmolStr;
 
 use super::draft_parts::{DraftHand, RobotParts};
@@ -111,11 +112,18 @@ fn write_card(
         writeln!(card, "{resource} = []")?;
     }
     writeln!(card, "voice = []\n\n# What its driver carries out: guessed.\n[primitives]")?;
-    let driving: &[&str] = if drive == "fixed" { &[] } else { &["go"] };
-    let handling: &[&str] =
-        if parts.hand.is_some() { &["home", "start_pose", "pick", "place", "handover"] } else { &[] };
-    let seeing: &[&str] = if parts.camera.is_some() { &["detect", "detect_all", "locate"] } else { &[] };
-    for primitive in driving.iter().chain(handling).chain(seeing).chain(&["say", "ask"]) {
+    let driving: &[&str] = if drive == "fixed" { &[] } else { &[primitives::GO] };
+    let handling: &[&str] = if parts.hand.is_some() {
+        &[primitives::HOME, primitives::START_POSE, primitives::PICK, primitives::PLACE, primitives::HANDOVER]
+    } else {
+        &[]
+    };
+    let seeing: &[&str] = if parts.camera.is_some() {
+        &[primitives::DETECT, primitives::DETECT_ALL, primitives::LOCATE]
+    } else {
+        &[]
+    };
+    for primitive in driving.iter().chain(handling).chain(seeing).chain(&[primitives::SAY, primitives::ASK]) {
         writeln!(card, "{primitive} = {{}}")?;
     }
     Ok(())

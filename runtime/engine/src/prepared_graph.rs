@@ -7,6 +7,7 @@ use motet_graph::{
     CallNode, Ending, FailureId, Graph, Motion, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region,
     RegionId, Term, Value, Verdict, Watch,
 };
+use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -83,7 +84,7 @@ impl PreparedGraph {
                 failures.len() - 1
             }) as u32)
         };
-        let (exhausted, failed) = (failure("exhausted"), failure("failed"));
+        let (exhausted, failed) = (failure(failures::EXHAUSTED), failure(failures::FAILED));
         let mut plan = Self {
             watches: Vec::new(),
             exhausted,

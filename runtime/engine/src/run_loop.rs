@@ -11,6 +11,7 @@ use crate::telemetry::{Heard, Moved};
 use crate::time::Time;
 use crate::verifier::Verifier;
 use motet_graph::Graph;
+use motet_stdlib::lang;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -245,7 +246,7 @@ impl RunLoop<'_> {
         for effect in self.out.drain(..) {
             match (&effect, control) {
                 (Effect::Start { goal, .. }, RunControl::Stop) => {
-                    let failure = SmolStr::new_static("failed").into();
+                    let failure = SmolStr::new_static(lang::failures::FAILED).into();
                     let refused = DriverEvent::Refused { goal: *goal, failure };
                     self.first.push_back(Event::Driver(refused));
                     continue;

@@ -8,6 +8,7 @@ use crate::time::Time;
 use motet_graph::{
     CallNode, Condition, Fact, FactArg, Graph, InitialFact, NodeKind, Term, TextPart, Type, Value,
 };
+use motet_stdlib::lang::{entities, kinds};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -43,7 +44,9 @@ pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
     let mut beliefs = Beliefs::new(graph);
     let mut ears = EntityCollector { graph, beliefs: &mut beliefs };
     // Those that always exist.
-    for (id, kind) in [("robot", "Entity"), ("user", "Person"), ("start", "Place")] {
+    for (id, kind) in
+        [(entities::ROBOT, kinds::ENTITY), (entities::USER, kinds::PERSON), (entities::START, kinds::PLACE)]
+    {
         ears.hear(&SmolStr::new_static(id), kind);
     }
     start.entities.iter().for_each(|(id, kind)| ears.hear(id, kind));

@@ -10,6 +10,8 @@ use crate::ids::CheckId;
 use crate::query::{Query, Truth};
 use std::sync::Arc;
 
+use motet_stdlib::lang;
+
 /// Checks motions that the compiler deferred, in the world as a run has made it. [`crate::run`] shows the one
 /// that its observer has ([`crate::Observer::verifier`]) all events and effects, asks it, and takes its
 /// verdicts as they come.
@@ -43,7 +45,7 @@ pub trait Verifier {
 /// the verdict of a motion, and the guard of that motion is checked beside it, so it is accepted.
 pub(crate) fn derived(query: &Query) -> Truth {
     match query {
-        Query::Fact { fluent, .. } if fluent == "reachable" => Truth::True,
+        Query::Fact { fluent, .. } if fluent == lang::fluents::REACHABLE => Truth::True,
         Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. } => Truth::Unknown,
     }
 }

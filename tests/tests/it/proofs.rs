@@ -71,7 +71,7 @@ fn left_to_run_are_the_guards_of_the_graph() {
         let checked = session.check_document(&parsed);
         let graph = checked.policies.iter().find_map(|policy| policy.graph.as_ref()).unwrap();
         let mut listed = BTreeMap::<String, usize>::new();
-        for note in &checked.left_to_run {
+        for note in &checked.deferred_notes {
             assert_eq!(note.code.0, "M0505");
             assert!(note.message.starts_with("left to the run: `"), "{}", note.message);
             *listed.entry(note.path.clone()).or_default() += 1;

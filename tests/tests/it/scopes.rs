@@ -181,7 +181,7 @@ fn errors(text: &str) -> Vec<String> {
 }
 
 #[test]
-fn diagnostics_gap_names_the_way_and_what_to_write() {
+fn diagnostics_unbound_name_tells_the_path_and_what_to_write() {
     let text = r#"policy p for hsr {
     go(kitchen_table)
     try {
@@ -195,8 +195,8 @@ fn diagnostics_gap_names_the_way_and_what_to_write() {
     place(mug, kitchen_table)
 }
 "#;
-    let expected = "M0216 `mug`: `mug` is not bound on the way through `catch not_found, ambiguous`; \
-                    bind `mug` there too, or end that way with `done`, `replan`, `cannot` or `fail` \
+    let expected = "M0216 `mug`: `mug` is not bound on the path through `catch not_found, ambiguous`; \
+                    bind `mug` there too, or end that path with `done`, `replan`, `cannot` or `fail` \
                     [\"mug\", \"say(\\\"I see none.\\\")\"]";
     assert_eq!(errors(text), [expected]);
     let json = turned(&session(), text, Syntax::Json);

@@ -29,7 +29,7 @@ struct Layout {
     graph: Graph,
     /// Objects that are bound here, the latest last.
     objects: Vec<BindingId>,
-    /// Binding that the first `detect` of the next region binds, as those of the other ways do.
+    /// Binding that the first `detect` of the next region binds, as those of the other paths do.
     share: Option<BindingId>,
     /// Resources that branches at the same time need.
     taken: Vec<ResourceId>,
@@ -55,13 +55,13 @@ impl Layout {
     }
 
     /// Regions of which one is taken. If each has a `detect`, the first of each binds one object.
-    fn ways(&mut self, owner: NodeId, ways: &[(&[StepSketch], String)]) -> Vec<RegionId> {
+    fn paths(&mut self, owner: NodeId, paths: &[(&[StepSketch], String)]) -> Vec<RegionId> {
         let detects = |step: &StepSketch| matches!(step, StepSketch::Call(call) if call.primitive == DETECT);
-        let shares = ways.len() > 1 && ways.iter().all(|(steps, _)| steps.iter().any(detects));
+        let shares = paths.len() > 1 && paths.iter().all(|(steps, _)| steps.iter().any(detects));
         let shared = shares.then(|| self.binding("it", Type::Entity(v::OBJECT)));
         let first = self.graph.nodes.len();
-        let mut regions = Vec::with_capacity(ways.len());
-        for (steps, path) in ways {
+        let mut regions = Vec::with_capacity(paths.len());
+        for (steps, path) in paths {
             self.share = shared;
             regions.push(self.closed_region(owner, steps, path));
             self.share = None;
@@ -72,7 +72,7 @@ impl Layout {
             _ => None,
         });
         let count = calls.filter(|binds| Some(*binds) == shared).count();
-        self.objects.extend(shared.filter(|_| count == ways.len()));
+        self.objects.extend(shared.filter(|_| count == paths.len()));
         regions
     }
 
@@ -125,9 +125,9 @@ impl Layout {
             }
             StepSketch::If(condition, then, otherwise) => {
                 let condition = self.condition(condition);
-                let mut ways = vec![(then.as_slice(), format!("{path}/then"))];
-                ways.extend(otherwise.iter().map(|steps| (steps.as_slice(), format!("{path}/else"))));
-                let regions = self.ways(id, &ways);
+                let mut paths = vec![(then.as_slice(), format!("{path}/then"))];
+                paths.extend(otherwise.iter().map(|steps| (steps.as_slice(), format!("{path}/else"))));
+                let regions = self.paths(id, &paths);
                 let region = |index: usize| regions.get(index).copied();
                 NodeKind::If { condition, then: region(0).unwrap_or(ROOT), otherwise: region(1) }
             }
@@ -148,13 +148,13 @@ impl Layout {
             }
             StepSketch::Monitor(whens, steps) => self.monitor(id, whens, steps, path),
             StepSketch::Try(body, handlers) => {
-                let mut ways = vec![(body.as_slice(), format!("{path}/try"))];
+                let mut paths = vec![(body.as_slice(), format!("{path}/try"))];
                 let numbered = handlers.iter().enumerate();
-                ways.extend(
-                    numbered
-                        .map(|(index, (_, steps))| (steps.as_slice(), format!("{path}/catch/{index}/steps"))),
-                );
-                let mut regions = self.ways(id, &ways).into_iter();
+                paths
+                    .extend(numbered.map(|(index, (_, steps))| {
+                        (steps.as_slice(), format!("{path}/catch/{index}/steps"))
+                    }));
+                let mut regions = self.paths(id, &paths).into_iter();
                 let body = regions.next().unwrap_or(ROOT);
                 let handlers = handlers.iter().zip(regions);
                 let handlers = handlers.map(|((on, _), body)| Handler { on: on.clone(), binds: None, body });

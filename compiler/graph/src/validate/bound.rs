@@ -1,8 +1,8 @@
 //! Definite assignment: every name is bound on every path before it is used.
 //!
-//! A given name is bound everywhere. Any other is bound by a call or a loop, for what follows. Where ways
-//! meet, a name is bound if every way that goes on has bound it: the walk in document order takes back what
-//! one way binds before it walks the next, and compares them behind the last.
+//! A given name is bound everywhere. Any other is bound by a call or a loop, for what follows. Where paths
+//! meet, a name is bound if every path that goes on has bound it: the walk in document order takes back what
+//! one path binds before it walks the next, and compares them behind the last.
 
 use super::{Findings, InvalidReason};
 use crate::model::{
@@ -27,15 +27,15 @@ enum Todo {
     Cleanup { region: RegionId, keep: usize, goes_on: bool },
     /// The end of a cleanup: names that the region before it bound, and whether control went on behind that.
     Cleaned { keep: usize, names: Vec<BindingId>, goes_on: bool },
-    /// The first of the ways through a node.
+    /// The first of the paths through a node.
     Fork,
-    /// The end of one way.
-    Way,
-    /// The place where the ways through a node meet.
+    /// The end of one path.
+    Path,
+    /// The place where the paths through a node meet.
     Meet { how: Meeting, goes_on: bool },
 }
 
-/// Ways through a node that meet.
+/// Paths through a node that meet.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Meeting {
     /// One is taken.
@@ -46,8 +46,8 @@ enum Meeting {
     All,
 }
 
-/// A way through a node: the names that it binds, and false if control never reaches its end.
-type Way = (Vec<BindingId>, bool);
+/// A path through a node: the names that it binds, and false if control never reaches its end.
+type Path = (Vec<BindingId>, bool);
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
     let bound = graph.bindings.iter().map(|binding| binding.given).collect();
@@ -90,9 +90,9 @@ struct Walk<'a> {
     goes_on: bool,
     /// By node, of sub-policies.
     inlined: Vec<Inlined>,
-    /// The open forks, each with the number of names bound before it and its ways so far.
-    forks: Vec<(usize, Vec<Way>)>,
-    /// By binding, the number of ways that bind it; zero between two forks.
+    /// The open forks, each with the number of names bound before it and its paths so far.
+    forks: Vec<(usize, Vec<Path>)>,
+    /// By binding, the number of paths that bind it; zero between two forks.
     counts: Vec<usize>,
     todo: Vec<Todo>,
     /// Parts of a term that are still to be looked at; empty between two terms.
@@ -128,10 +128,10 @@ impl<'a> Walk<'a> {
                 self.forks.push((self.log.len(), Vec::new()));
                 self.goes_on = true;
             }
-            Todo::Way => {
-                let Some((keep, mut ways)) = self.forks.pop() else { return };
-                ways.push((self.take_back(keep), std::mem::replace(&mut self.goes_on, true)));
-                self.forks.push((keep, ways));
+            Todo::Path => {
+                let Some((keep, mut paths)) = self.forks.pop() else { return };
+                paths.push((self.take_back(keep), std::mem::replace(&mut self.goes_on, true)));
+                self.forks.push((keep, paths));
             }
             Todo::Meet { how, goes_on } => self.meet(how, goes_on),
             Todo::Until(id) => {
@@ -184,33 +184,33 @@ impl<'a> Walk<'a> {
         names
     }
 
-    /// Binds what is bound behind the ways of the innermost fork.
+    /// Binds what is bound behind the paths of the innermost fork.
     fn meet(&mut self, how: Meeting, goes_on: bool) {
-        let Some((_, mut ways)) = self.forks.pop() else { return };
+        let Some((_, mut paths)) = self.forks.pop() else { return };
         if how == Meeting::OneOrNone {
-            ways.push((Vec::new(), true));
+            paths.push((Vec::new(), true));
         }
-        let live = ways.iter().filter(|(_, goes_on)| *goes_on).count();
-        // Nothing runs behind ways that never go on, nor behind branches of which one does not.
+        let live = paths.iter().filter(|(_, goes_on)| *goes_on).count();
+        // Nothing runs behind paths that never go on, nor behind branches of which one does not.
         let wanted = match how {
             Meeting::One | Meeting::OneOrNone if live == 0 => None,
             Meeting::One | Meeting::OneOrNone => Some(live),
             // Of a name that two branches bind at once the value is not known.
             Meeting::All => Some(1),
         };
-        self.goes_on = goes_on && if how == Meeting::All { live == ways.len() } else { live > 0 };
-        let counted = |(_, goes_on): &&Way| how == Meeting::All || *goes_on;
-        for name in ways.iter().filter(counted).flat_map(|(names, _)| names) {
+        self.goes_on = goes_on && if how == Meeting::All { live == paths.len() } else { live > 0 };
+        let counted = |(_, goes_on): &&Path| how == Meeting::All || *goes_on;
+        for name in paths.iter().filter(counted).flat_map(|(names, _)| names) {
             if let Some(count) = self.counts.get_mut(name.index()) {
                 *count += 1;
             }
         }
-        for name in ways.iter().flat_map(|(names, _)| names) {
+        for name in paths.iter().flat_map(|(names, _)| names) {
             if wanted.is_none_or(|wanted| self.counts.get(name.index()) == Some(&wanted)) {
                 self.bind(*name);
             }
         }
-        for name in ways.iter().flat_map(|(names, _)| names) {
+        for name in paths.iter().flat_map(|(names, _)| names) {
             if let Some(count) = self.counts.get_mut(name.index()) {
                 *count = 0;
             }
@@ -297,11 +297,11 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Walks the regions one by one, each as a way of its own.
+    /// Walks the regions one by one, each as a path of its own.
     fn fork(&mut self, how: Meeting, regions: Vec<(RegionId, [Option<BindingId>; 2])>) {
         self.todo.push(Todo::Meet { how, goes_on: self.goes_on });
         for (region, names) in regions.into_iter().rev() {
-            self.todo.extend([Todo::Way, Todo::Open { region, names, until: None }]);
+            self.todo.extend([Todo::Path, Todo::Open { region, names, until: None }]);
         }
         self.todo.push(Todo::Fork);
     }

@@ -42,10 +42,12 @@ impl Machine {
         let mut bytes = ByteSet::NONE;
         match context.automaton.op(state.op) {
             Op::Literal(literal) => literal.get(pos).into_iter().for_each(|byte| bytes.add(*byte)),
-            Op::Choose(ways) => {
+            Op::Choose(alternatives) => {
                 let left = |index: usize| pos == 0 || state.lo & (1u32 << index) != 0;
-                let ways = ways.iter().enumerate().filter(|(index, _)| left(*index));
-                ways.filter_map(|(_, way)| way.bytes.get(pos)).for_each(|byte| bytes.add(*byte));
+                let alternatives = alternatives.iter().enumerate().filter(|(index, _)| left(*index));
+                alternatives
+                    .filter_map(|(_, alternative)| alternative.bytes.get(pos))
+                    .for_each(|byte| bytes.add(*byte));
             }
             Op::Word(words) => {
                 if pos == 0 && words.ends == WordEnd::Quoted {

@@ -123,15 +123,21 @@ impl Machine {
         };
         match context.automaton.op(state.op) {
             Op::Literal(bytes) => return bytes.get(pos).copied(),
-            Op::Choose(ways) => {
-                for (index, way) in ways.iter().enumerate() {
+            Op::Choose(alternatives) => {
+                for (index, alternative) in alternatives.iter().enumerate() {
                     let bit = 1u32 << index;
                     let is_open = if pos > 0 {
                         state.lo & bit != 0
                     } else {
-                        self.is_open(&state, origin, bit, (way.bytes.len(), way.to), way.guard)
+                        self.is_open(
+                            &state,
+                            origin,
+                            bit,
+                            (alternative.bytes.len(), alternative.to),
+                            alternative.guard,
+                        )
                     };
-                    if is_open && !way.bytes.get(pos).is_some_and(|byte| offer(*byte)) {
+                    if is_open && !alternative.bytes.get(pos).is_some_and(|byte| offer(*byte)) {
                         return None;
                     }
                 }
@@ -176,7 +182,9 @@ impl Machine {
         let pos = state.pos as usize;
         match self.context.automaton.op(state.op) {
             Op::Literal(bytes) => bytes.get(pos) != Some(&byte),
-            Op::Choose(ways) => ways.iter().all(|way| way.bytes.get(pos) != Some(&byte)),
+            Op::Choose(alternatives) => {
+                alternatives.iter().all(|alternative| alternative.bytes.get(pos) != Some(&byte))
+            }
             Op::Fork { .. } => !self.may_begin(state.op, byte),
             _ => false,
         }
@@ -186,7 +194,9 @@ impl Machine {
     pub(super) fn may_begin(&self, op: OpId, byte: u8) -> bool {
         match self.context.automaton.behind_actions(op) {
             Op::Literal(bytes) => bytes.first() == Some(&byte),
-            Op::Choose(ways) => ways.iter().any(|way| way.bytes.first() == Some(&byte)),
+            Op::Choose(alternatives) => {
+                alternatives.iter().any(|alternative| alternative.bytes.first() == Some(&byte))
+            }
             Op::Fork { byte: sign, other, .. } => byte == *sign || self.may_begin(*other, byte),
             Op::Word(words) if words.ends == WordEnd::Quoted => byte == b'"',
             Op::Number(_) => byte == b'-' || byte.is_ascii_digit(),
@@ -211,21 +221,27 @@ impl Machine {
                     let is_over = bytes.len() == state.pos as usize;
                     return Some(if is_over { self.follow_epsilon(state, state.op + 1) } else { state });
                 }
-                Op::Choose(ways) => {
+                Op::Choose(alternatives) => {
                     let mut left = 0u32;
                     let mut over = None;
-                    for (index, way) in ways.iter().enumerate() {
+                    for (index, alternative) in alternatives.iter().enumerate() {
                         let bit = 1u32 << index;
-                        if way.bytes.get(state.pos as usize) != Some(&byte)
+                        if alternative.bytes.get(state.pos as usize) != Some(&byte)
                             || (state.pos > 0 && state.lo & bit == 0)
                             || (state.pos == 0
-                                && !self.is_open(&state, origin, bit, (way.bytes.len(), way.to), way.guard))
+                                && !self.is_open(
+                                    &state,
+                                    origin,
+                                    bit,
+                                    (alternative.bytes.len(), alternative.to),
+                                    alternative.guard,
+                                ))
                         {
                             continue;
                         }
                         left |= bit;
-                        if way.bytes.len() == state.pos as usize + 1 {
-                            over = Some(way.to);
+                        if alternative.bytes.len() == state.pos as usize + 1 {
+                            over = Some(alternative.to);
                         }
                     }
                     if left == 0 {

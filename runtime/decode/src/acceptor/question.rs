@@ -134,12 +134,12 @@ impl Machine {
         let Some((fluent, place)) = self.fluent_so_far(event) else { return };
         let params = self.context.automaton.fluents.get(usize::from(fluent)).map_or(0, Vec::len);
         let Some(wait) = self.open_wait(event).filter(|_| place + 1 == params) else { return };
-        let ways: Vec<Vec<Event>> = values
+        let choices: Vec<Vec<Event>> = values
             .iter()
             .filter(|value| !self.is_independent(event, &[**value]))
             .map(|value| vec![*value])
             .collect();
-        self.probe((wait, event), &ways);
+        self.probe((wait, event), &choices);
     }
 
     /// The event before the `wait` whose condition is being written.
@@ -153,23 +153,23 @@ impl Machine {
 
     /// Verifies the current step with each of several continuations behind `event`, as far as common proofs
     /// tell. The continuations are steps that begin behind `from`.
-    fn probe(&mut self, (from, event): (Id, Id), ways: &[Vec<Event>]) {
+    fn probe(&mut self, (from, event): (Id, Id), choices: &[Vec<Event>]) {
         let mut open: Vec<(u64, &[Event])> = Vec::new();
-        for way in ways {
-            let key = self.key(Question::Verify, event, way.iter().copied());
+        for choice in choices {
+            let key = self.key(Question::Verify, event, choice.iter().copied());
             if self.known(key).is_none() {
-                open.push((key, way));
+                open.push((key, choice));
             }
         }
         let mut left = vec![open.as_slice()];
-        while let Some(ways) = left.pop() {
-            if ways.len() <= FEW {
+        while let Some(choices) = left.pop() {
+            if choices.len() <= FEW {
                 continue;
             }
-            if self.permits_any((from, event), ways.iter().map(|(_, way)| *way)) {
-                ways.iter().for_each(|(key, _)| self.context.memo.put(*key, true));
+            if self.permits_any((from, event), choices.iter().map(|(_, choice)| *choice)) {
+                choices.iter().for_each(|(key, _)| self.context.memo.put(*key, true));
             } else {
-                let (first, second) = ways.split_at(ways.len() / 2);
+                let (first, second) = choices.split_at(choices.len() / 2);
                 left.extend([first, second]);
             }
         }
@@ -177,11 +177,16 @@ impl Machine {
 
     /// Verifies the current step with all continuations at once. If that fails, some of them may still be
     /// right.
-    fn permits_any<'c>(&mut self, (from, event): (Id, Id), ways: impl Iterator<Item = &'c [Event]>) -> bool {
+    fn permits_any<'c>(
+        &mut self,
+        (from, event): (Id, Id),
+        choices: impl Iterator<Item = &'c [Event]>,
+    ) -> bool {
         let (before, events) = self.arenas.present(from, &[Event::Hole]);
         let begun = self.arenas.between(from, event);
         let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
-        let choice = ways.map(|way| transcript.step(&[&begun, way].concat())).collect::<Option<Vec<Step>>>();
+        let choice =
+            choices.map(|choice| transcript.step(&[&begun, choice].concat())).collect::<Option<Vec<Step>>>();
         let step = choice.and_then(|choice| transcript.step_with(&events, &choice));
         let draft = self.oracle.verifier.follow(&transcript, before);
         draft.zip(step).is_some_and(|(draft, step)| draft.permits_any(&self.context.session, &step))

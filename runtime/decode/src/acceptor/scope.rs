@@ -1,5 +1,5 @@
 //! Names behind a block and a step: definite assignment on the event log, by the same rule as the resolver of
-//! the compiler. A name is bound behind a step if every way that goes on has bound it with one type.
+//! the compiler. A name is bound behind a step if every path that goes on has bound it with one type.
 
 use motet_compiler::signature::Type;
 
@@ -70,7 +70,7 @@ impl Machine {
             BlockRole::Reaction => (frame.scope, false),
             // Only the cleanup of the policy may follow.
             BlockRole::Body => return state.scope,
-            // What follows is one of several ways, or, behind a cleanup, sees what it saw before.
+            // What follows is one of several paths, or, behind a cleanup, sees what it saw before.
             BlockRole::Cleanup
             | BlockRole::Then
             | BlockRole::Else
@@ -111,18 +111,18 @@ impl Machine {
         false
     }
 
-    /// Binds the names that are bound behind the ways through the open node.
+    /// Binds the names that are bound behind the paths through the open node.
     pub(super) fn meet(&mut self, mut state: State) -> State {
-        let Some((kind, ways)) = self.ways(state.event, 0) else { return state };
-        for BoundName { start, len, ty } in self.met(kind, &ways).names {
+        let Some((kind, paths)) = self.paths(state.event, 0) else { return state };
+        for BoundName { start, len, ty } in self.met(kind, &paths).names {
             let name = Name { below: state.scope, start, len, ty, is_free: true };
             state.scope = self.arenas.bind(name);
         }
         state
     }
 
-    /// Returns whether the end of the open block, the last of several ways so far, makes one entity of what
-    /// two ways have found: what follows from each of them alone may then be refuted.
+    /// Returns whether the end of the open block, the last of several paths so far, makes one entity of what
+    /// two paths have found: what follows from each of them alone may then be refuted.
     pub(super) fn joins_entities(&self, event: Id, slot: BlockRole) -> bool {
         // In a handler the block, the handler and the `try` are open.
         let levels = match slot {
@@ -130,19 +130,19 @@ impl Machine {
             BlockRole::Catch => 2,
             _ => return false,
         };
-        let Some((_, ways)) = self.ways(event, levels) else { return false };
-        let Some((last, earlier)) = ways.split_last() else { return false };
+        let Some((_, paths)) = self.paths(event, levels) else { return false };
+        let Some((last, earlier)) = paths.split_last() else { return false };
         let mut names = last.names.iter().filter(|name| {
             last.goes_on && matches!(self.context.automaton.ty(name.ty), Some(Type::Entity(_)))
         });
         names.any(|name| {
-            let mut others = earlier.iter().filter(|way| way.goes_on).flat_map(|way| &way.names);
+            let mut others = earlier.iter().filter(|path| path.goes_on).flat_map(|path| &path.names);
             others.any(|other| self.is_same(name, other) && name.ty == other.ty)
         })
     }
 
-    /// The open node around so many other open nodes, and its ways so far, of which the last may be open.
-    fn ways(&self, event: Id, mut levels: usize) -> Option<(NodeKind, Vec<Flow>)> {
+    /// The open node around so many other open nodes, and its paths so far, of which the last may be open.
+    fn paths(&self, event: Id, mut levels: usize) -> Option<(NodeKind, Vec<Flow>)> {
         let (mut events, mut closed) = (Vec::new(), 0usize);
         for said in self.arenas.back(event) {
             match said.event {
@@ -161,20 +161,21 @@ impl Machine {
         None
     }
 
-    /// The flow behind the ways through a node.
-    fn met(&self, kind: NodeKind, ways: &[Flow]) -> Flow {
+    /// The flow behind the paths through a node.
+    fn met(&self, kind: NodeKind, paths: &[Flow]) -> Flow {
         let is_parallel = kind == NodeKind::Parallel;
-        let live = ways.iter().filter(|way| way.goes_on).count();
-        let goes_on = if is_parallel { live == ways.len() } else { live > 0 };
-        // Nothing runs behind ways that never go on: all of them count then.
-        let counts = |way: &&Flow| is_parallel || live == 0 || way.goes_on;
+        let live = paths.iter().filter(|path| path.goes_on).count();
+        let goes_on = if is_parallel { live == paths.len() } else { live > 0 };
+        // Nothing runs behind paths that never go on: all of them count then.
+        let counts = |path: &&Flow| is_parallel || live == 0 || path.goes_on;
         let mut names: Vec<BoundName> = Vec::new();
-        for name in ways.iter().filter(counts).flat_map(|way| &way.names) {
+        for name in paths.iter().filter(counts).flat_map(|path| &path.names) {
             if names.iter().any(|known| self.is_same(known, name)) {
                 continue;
             }
-            let latest = |way: &Flow| way.names.iter().rev().find(|known| self.is_same(known, name)).copied();
-            let found: Vec<Option<BoundName>> = ways.iter().filter(counts).map(latest).collect();
+            let latest =
+                |path: &Flow| path.names.iter().rev().find(|known| self.is_same(known, name)).copied();
+            let found: Vec<Option<BoundName>> = paths.iter().filter(counts).map(latest).collect();
             let mut values = found.iter().flatten().filter(|name| name.ty != NO_VALUE);
             let first = values.next();
             let is_bound = if is_parallel {
@@ -228,8 +229,8 @@ impl FlowReader<'_> {
             }
             NodeKind::Block => self.block(),
             NodeKind::If | NodeKind::Try | NodeKind::Parallel => {
-                let (ways, _) = self.blocks();
-                self.machine.met(kind, &ways)
+                let (paths, _) = self.blocks();
+                self.machine.met(kind, &paths)
             }
             NodeKind::Sequence | NodeKind::Repeat | NodeKind::Catch | NodeKind::Within | NodeKind::Keep => {
                 let (mut blocks, _) = self.blocks();

@@ -7,7 +7,7 @@ use crate::grammar::{Action, Guard, NameUse, WordRole};
 use crate::subset::MAX_NAME_CHARS;
 
 /// An alternative with the place where it goes on.
-pub(super) type Way = (SmolStr, OpId, Guard);
+pub(super) type Transition = (SmolStr, OpId, Guard);
 
 /// A list of operations that grows; places are kept for operations whose goals are known later.
 #[derive(Debug, Default)]
@@ -49,7 +49,7 @@ impl Assembler {
         }
     }
 
-    pub(crate) fn choose(&mut self, at: OpId, alternatives: &[Way]) {
+    pub(crate) fn choose(&mut self, at: OpId, alternatives: &[Transition]) {
         let made = alternatives.iter().map(|(text, to, guard)| Branch {
             bytes: text.as_bytes().into(),
             to: *to,
@@ -100,8 +100,11 @@ impl Assembler {
             Op::Literal(bytes) => len(bytes) + next,
             Op::Choose(alternatives) => {
                 // Alternatives that depend on the state may be closed.
-                let ways = alternatives.iter().filter(|way| is_always_open(way.guard));
-                ways.map(|way| len(&way.bytes) + at(way.to)).min().unwrap_or(ENDLESS)
+                let transitions = alternatives.iter().filter(|transition| is_always_open(transition.guard));
+                transitions
+                    .map(|transition| len(&transition.bytes) + at(transition.to))
+                    .min()
+                    .unwrap_or(ENDLESS)
             }
             Op::Word(words) if words.role == WordRole::Keyword => keyword(words, rest),
             Op::Word(words) => self.word(words, rest),
@@ -147,7 +150,10 @@ impl Assembler {
             | BoundNames::Given
             | BoundNames::Caught => Some(u32::try_from(MAX_NAME_CHARS).unwrap_or(0) + 1 + at(words.next)),
         };
-        own.chain(bound).filter(|way| *way < ENDLESS).max().map_or(ENDLESS, |most| most.saturating_add(2))
+        own.chain(bound)
+            .filter(|length| *length < ENDLESS)
+            .max()
+            .map_or(ENDLESS, |most| most.saturating_add(2))
     }
 }
 
@@ -197,17 +203,17 @@ fn is_always_open(guard: Guard) -> bool {
 /// The length of the path through keywords that is always open. Among conditions, where one must be found
 /// that refutes nothing, the longest fluent counts; among calls only, the longest call.
 fn keyword(words: &WordList, rest: &[u32]) -> u32 {
-    let way = |entry: &Word| {
+    let length = |entry: &Word| {
         let to = rest.get(entry.to.unwrap_or(words.next) as usize).copied().unwrap_or(ENDLESS);
         len(entry.name.as_bytes()).saturating_add(to)
     };
     let entries = words.table.entries.iter();
     let fluents = entries.clone().filter(|entry| matches!(entry.guard, Guard::Fluent(_)));
-    let longest = |ways: &mut dyn Iterator<Item = u32>| ways.filter(|way| *way < ENDLESS).max();
-    let open = entries.clone().filter(|entry| is_always_open(entry.guard)).map(way).min();
+    let longest = |lengths: &mut dyn Iterator<Item = u32>| lengths.filter(|length| *length < ENDLESS).max();
+    let open = entries.clone().filter(|entry| is_always_open(entry.guard)).map(length).min();
     let calls = entries.filter(|entry| matches!(entry.guard, Guard::Callable(_)));
-    let calls = || longest(&mut calls.map(way));
-    longest(&mut fluents.map(way)).or(open).or_else(calls).unwrap_or(ENDLESS)
+    let calls = || longest(&mut calls.map(length));
+    longest(&mut fluents.map(length)).or(open).or_else(calls).unwrap_or(ENDLESS)
 }
 
 /// The longer of two paths of which either may be the only one.

@@ -5,7 +5,7 @@
 
 use smol_str::{SmolStr, format_smolstr};
 
-use super::assembler::Way;
+use super::assembler::Transition;
 use super::lowering::{Lowering, behind_caught};
 use super::{CaughtField, Op, OpId};
 use crate::grammar::{Action, Atom, AtomSort, Guard, NodeKind, WordRole};
@@ -24,16 +24,16 @@ impl Lowering<'_> {
     }
 
     /// The rules of atoms of one sort, each behind its name, with the numbers of their declarations.
-    fn atoms(&mut self, sort: AtomSort) -> Vec<(Way, u16)> {
-        let mut ways = Vec::new();
+    fn atoms(&mut self, sort: AtomSort) -> Vec<(Transition, u16)> {
+        let mut transitions = Vec::new();
         let grammar = self.grammar;
         for atom in grammar.atoms.iter().filter(|atom| atom.sort == sort && atom.is_decoded) {
             let at = self.asm.here();
             self.parts(&atom.spelled.parts);
             self.asm.put(Op::Return);
-            ways.push(((atom.spelled.literal.clone(), at, atom.spelled.guard), atom.spelled.number));
+            transitions.push(((atom.spelled.literal.clone(), at, atom.spelled.guard), atom.spelled.number));
         }
-        ways
+        transitions
     }
 
     /// The rule of a condition on the kind of a failure in text, behind the name and the field.
@@ -51,7 +51,7 @@ impl Lowering<'_> {
         let end = self.asm.literal("}");
         self.act(Action::Close);
         self.asm.put(Op::Return);
-        let mut ways: Vec<Way> = Vec::new();
+        let mut transitions: Vec<Transition> = Vec::new();
         // Without measures only the length of a list can be compared.
         let is_measure = |atom: &Atom| {
             atom.is_decoded && atom.sort == AtomSort::Measure && atom.spelled.guard == Guard::Loose
@@ -70,7 +70,7 @@ impl Lowering<'_> {
             if !atoms.is_empty() || sort == AtomSort::Fluent {
                 let at = self.later();
                 self.names(at, role, atoms.into_iter());
-                ways.push((word.into(), at, guard));
+                transitions.push((word.into(), at, guard));
             }
         }
         let not = self.act(Action::Open(NodeKind::Not));
@@ -80,7 +80,7 @@ impl Lowering<'_> {
         self.asm.put(Op::Jump(end));
         // The `{"` before a condition is read already, and that of the first one in it is read with the word.
         let word = |open: &str| format_smolstr!("{}{{\"", open.trim_start_matches("{\""));
-        ways.push((word(self.connective(NodeKind::Not)[0]), not, Guard::Not));
+        transitions.push((word(self.connective(NodeKind::Not)[0]), not, Guard::Not));
         for (kind, guard) in [(NodeKind::All, Guard::All), (NodeKind::Any, Guard::Any)] {
             let [open, separator, _] = self.connective(kind);
             let separator = format!("{separator}{{\"");
@@ -95,14 +95,16 @@ impl Lowering<'_> {
             let second = self.asm.put(Op::Call(start));
             self.act(Action::Count);
             self.next_member([&separator, "]"], second, MEMBERS - 1);
-            ways.push((word(open), at, guard));
+            transitions.push((word(open), at, guard));
         }
-        self.asm.choose(start, &ways);
+        self.asm.choose(start, &transitions);
         start
     }
 
     fn infix_conditions(&mut self) -> OpId {
-        let bare = |ways: Vec<(Way, u16)>| ways.into_iter().map(|(way, _)| way).collect::<Vec<Way>>();
+        let bare = |transitions: Vec<(Transition, u16)>| {
+            transitions.into_iter().map(|(transition, _)| transition).collect::<Vec<Transition>>()
+        };
         let fluents = bare(self.atoms(AtomSort::Fluent));
         let [not, and_word, or_word] = [
             self.connective(NodeKind::Not)[0],
@@ -187,7 +189,7 @@ impl Lowering<'_> {
     /// A condition without `and` or `or` around it: one of some words, each with a rule behind it.
     fn primary(
         &mut self,
-        (atoms, caught): (&[Way], Option<OpId>),
+        (atoms, caught): (&[Transition], Option<OpId>),
         more: [(&'static str, OpId, Guard); 2],
     ) -> OpId {
         let more = more.map(|(word, rule, guard)| (SmolStr::new_static(word), rule, guard));

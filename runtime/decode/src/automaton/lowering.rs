@@ -15,7 +15,7 @@ use motet_syntax::words::RESERVED;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::{SmolStr, format_smolstr};
 
-use super::assembler::Way;
+use super::assembler::Transition;
 use super::{
     Assembler, Automaton, BoundNames, Callable, CaughtField, Meaning, Op, OpId, Word, WordEnd, WordList,
     WordTable,
@@ -205,7 +205,7 @@ impl Lowering<'_> {
                 self.begun_condition(*asked);
             }
             Part::Block(role, least) => self.block(*role, *least),
-            Part::Choice(style, ways) => self.choice(*style, ways),
+            Part::Choice(style, alternatives) => self.choice(*style, alternatives),
             Part::Optional { present, absent, absent_guard } => {
                 let choice = self.later();
                 let then = self.asm.here();
@@ -228,7 +228,7 @@ impl Lowering<'_> {
 
     fn choice(&mut self, style: ChoiceStyle, alternatives: &[Alternative]) {
         let at = self.later();
-        let (mut ways, mut jumps, mut caught) = (Vec::new(), Vec::new(), None);
+        let (mut transitions, mut jumps, mut caught) = (Vec::new(), Vec::new(), None);
         for alternative in alternatives {
             let to = self.asm.here();
             if style == ChoiceStyle::Keywords
@@ -251,22 +251,27 @@ impl Lowering<'_> {
                 }
             };
             jumps.push(self.later());
-            ways.push((literal, to, alternative.guard));
+            transitions.push((literal, to, alternative.guard));
         }
         jumps.into_iter().for_each(|jump| self.land_here(jump));
         match style {
-            ChoiceStyle::Literals => self.asm.choose(at, &ways),
-            ChoiceStyle::Keywords => self.keywords_or_caught(at, ways, caught),
+            ChoiceStyle::Literals => self.asm.choose(at, &transitions),
+            ChoiceStyle::Keywords => self.keywords_or_caught(at, transitions, caught),
             ChoiceStyle::Names(role) => {
                 let numbers = alternatives.iter().map(|alternative| alternative.number);
-                self.names(at, role, ways.into_iter().zip(numbers));
+                self.names(at, role, transitions.into_iter().zip(numbers));
             }
         }
     }
 
     /// One of several names of declarations, behind its opening quote.
-    pub(super) fn names(&mut self, at: OpId, role: WordRole, ways: impl Iterator<Item = (Way, u16)>) {
-        let words = ways.map(|((literal, to, guard), number)| Word {
+    pub(super) fn names(
+        &mut self,
+        at: OpId,
+        role: WordRole,
+        transitions: impl Iterator<Item = (Transition, u16)>,
+    ) {
+        let words = transitions.map(|((literal, to, guard), number)| Word {
             name: literal.trim_end_matches('"').into(),
             meaning: Meaning::Named(number),
             to: Some(to),
@@ -280,18 +285,18 @@ impl Lowering<'_> {
     }
 
     /// One of several words, each with a guard of its own.
-    pub(super) fn keywords(&mut self, at: OpId, ways: Vec<Way>) {
-        self.keywords_or_caught(at, ways, None);
+    pub(super) fn keywords(&mut self, at: OpId, transitions: Vec<Transition>) {
+        self.keywords_or_caught(at, transitions, None);
     }
 
     /// The same, or a field of a caught failure, behind which another operation follows.
     pub(super) fn keywords_or_caught(
         &mut self,
         at: OpId,
-        ways: Vec<Way>,
+        transitions: Vec<Transition>,
         caught: Option<(CaughtField, OpId)>,
     ) {
-        let words = ways.into_iter().map(|(name, to, guard)| Word {
+        let words = transitions.into_iter().map(|(name, to, guard)| Word {
             name,
             meaning: Meaning::Any,
             to: Some(to),
@@ -353,8 +358,8 @@ impl Lowering<'_> {
             self.land_here(over);
             let (some, none) =
                 ((SmolStr::new_static("{\""), enter, Guard::Open), ("]".into(), empty, Guard::Empty));
-            let ways = if least == 0 { vec![some, none] } else { vec![some] };
-            self.asm.choose(choice, &ways);
+            let transitions = if least == 0 { vec![some, none] } else { vec![some] };
+            self.asm.choose(choice, &transitions);
         } else if least > 0 {
             self.asm.literal("{ ");
             self.enter(role);
@@ -447,7 +452,7 @@ impl Lowering<'_> {
         let more = self.later();
         let after_ending = if is_json { self.asm.here() } else { self.asm.literal(" ") };
         let over = self.later();
-        let mut ways: Vec<Way> = Vec::new();
+        let mut transitions: Vec<Transition> = Vec::new();
         let grammar = self.grammar;
         let in_cleanup = self.in_cleanup;
         for step in grammar.steps.iter().filter(|step| step.cleans || !in_cleanup) {
@@ -458,17 +463,17 @@ impl Lowering<'_> {
                 && step.parts.iter().all(|part| matches!(part, Part::Action(_) | Part::Given { .. }));
             if is_bare {
                 // A keyword may not begin another one: the space behind it belongs to it.
-                ways.push((format_smolstr!("{} ", step.literal), at, step.guard));
+                transitions.push((format_smolstr!("{} ", step.literal), at, step.guard));
                 self.asm.put(Op::Jump(over));
             } else {
-                ways.push((step.literal.clone(), at, step.guard));
+                transitions.push((step.literal.clone(), at, step.guard));
                 self.asm.put(Op::Jump(if step.is_ending { after_ending } else { after }));
             }
         }
         for end in std::mem::take(&mut self.splits) {
             self.land(end, after);
         }
-        let ways = self.forked(ways);
+        let transitions = self.forked(transitions);
         let again = self.asm.put(Op::Jump(start));
         let leave = self.act(Action::Leave);
         self.asm.put(Op::Return);
@@ -479,33 +484,34 @@ impl Lowering<'_> {
                 self.asm.choose(at, &[(",{\"".into(), again, room), ("]".into(), leave, guard)]);
             } else {
                 let end = (SmolStr::new_static("}"), leave, guard);
-                self.keywords(at, ways.iter().cloned().chain([end]).collect());
+                self.keywords(at, transitions.iter().cloned().chain([end]).collect());
             }
         }
         if is_json {
-            self.asm.choose(start, &ways);
+            self.asm.choose(start, &transitions);
         } else {
-            self.keywords(start, ways);
+            self.keywords(start, transitions);
         }
         start
     }
 
     /// Alternatives of which none begins another: where one does, the byte behind it tells them apart.
-    fn forked(&mut self, ways: Vec<Way>) -> Vec<Way> {
-        let mut found: Vec<Way> = Vec::with_capacity(ways.len());
-        let mut longer: Vec<Way> = Vec::new();
-        for (index, way) in ways.iter().enumerate() {
-            let begins = |(other, short): (usize, &Way)| {
+    fn forked(&mut self, transitions: Vec<Transition>) -> Vec<Transition> {
+        let mut found: Vec<Transition> = Vec::with_capacity(transitions.len());
+        let mut longer: Vec<Transition> = Vec::new();
+        for (index, transition) in transitions.iter().enumerate() {
+            let begins = |(other, short): (usize, &Transition)| {
                 other != index
-                    && way.0.starts_with(short.0.as_str())
+                    && transition.0.starts_with(short.0.as_str())
                     && !short.0.is_empty()
-                    && (short.0 != way.0 || short.2 == Guard::Room)
+                    && (short.0 != transition.0 || short.2 == Guard::Room)
             };
-            let is_longer = way.2 != Guard::Room && ways.iter().enumerate().any(begins);
-            if is_longer { &mut longer } else { &mut found }.push(way.clone());
+            let is_longer = transition.2 != Guard::Room && transitions.iter().enumerate().any(begins);
+            if is_longer { &mut longer } else { &mut found }.push(transition.clone());
         }
         for (literal, at, guard) in longer {
-            let Some(short) = found.iter_mut().find(|way| literal.starts_with(way.0.as_str())) else {
+            let Some(short) = found.iter_mut().find(|transition| literal.starts_with(transition.0.as_str()))
+            else {
                 continue;
             };
             let rest = literal.get(short.0.len()..).unwrap_or_default();

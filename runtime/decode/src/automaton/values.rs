@@ -153,8 +153,8 @@ impl Lowering<'_> {
         let name = self.asm.put(Op::Name(NameUse::Result(ty)));
         let none = self.asm.here();
         if is_json {
-            let ways = [("null".into(), none, Guard::Open), ("\"".into(), name, Guard::Open)];
-            self.asm.choose(choice, &ways);
+            let transitions = [("null".into(), none, Guard::Open), ("\"".into(), name, Guard::Open)];
+            self.asm.choose(choice, &transitions);
         } else {
             self.asm.optional(choice, ("as ", name, Guard::Open), (none, Guard::Open));
         }
@@ -194,8 +194,8 @@ impl Lowering<'_> {
         self.act(Action::Gives);
         let none = self.asm.here();
         if is_json {
-            let ways = [("null".into(), none, Guard::Open), ("\"".into(), some, Guard::Open)];
-            self.asm.choose(choice, &ways);
+            let transitions = [("null".into(), none, Guard::Open), ("\"".into(), some, Guard::Open)];
+            self.asm.choose(choice, &transitions);
         } else {
             self.asm.optional(choice, ("-> ", some, Guard::Open), (none, Guard::Open));
         }
@@ -408,13 +408,13 @@ impl Lowering<'_> {
             let null = self.asm.literal("null");
             self.constant(Constant::Null);
             jumps.push(self.later());
-            let (words, mut ways) = (self.later(), Vec::new());
+            let (words, mut transitions) = (self.later(), Vec::new());
             for (word, constant) in WORDS {
-                ways.push((format_smolstr!("\"{word}\""), self.constant(constant), Guard::Open));
+                transitions.push((format_smolstr!("\"{word}\""), self.constant(constant), Guard::Open));
                 jumps.push(self.later());
             }
             jumps.into_iter().for_each(|jump| self.land_here(jump));
-            self.asm.choose(words, &ways);
+            self.asm.choose(words, &transitions);
             let guard = Guard::Open;
             self.asm.set(null_or, Op::Fork { byte: b'n', then: null, guard, other: word_or });
             self.asm.set(word_or, Op::Fork { byte: b'"', then: words, guard, other: part });

@@ -1,6 +1,7 @@
 //! Completion: from the syntax tree of a policy to the tree of the canonical subset.
 
 use motet_compiler::signature::{Callable, Type};
+use motet_stdlib::lang;
 use motet_syntax::ast::{self, Block, CatchOn, Do, EndKind, Expr, ExprKind, KeepKind, Policy, StepKind};
 use motet_syntax::unit::Dimension;
 use motet_syntax::{Span, Syntax};
@@ -171,8 +172,8 @@ impl Completer<'_> {
 
     /// A step may stand where it does: a cleanup has few kinds of them.
     fn cleans(&self, node: &Node) -> Result<(), OutsideSubset> {
-        let mut ways = self.grammar.steps.iter().filter(|way| way.opens(node.kind));
-        if self.in_cleanup && ways.next().is_some_and(|way| !way.cleans) {
+        let mut alternatives = self.grammar.steps.iter().filter(|alternative| alternative.opens(node.kind));
+        if self.in_cleanup && alternatives.next().is_some_and(|alternative| !alternative.cleans) {
             let why = "a cleanup has calls, waits, `let`, `if`, `sequence` and `try` in the canonical subset";
             return Err(outside(node.span, why));
         }
@@ -185,7 +186,7 @@ impl Completer<'_> {
             let entity = |to, kind| self.value(to, &Type::Entity(kind), None).map(Item::Value);
             let (kind, items) = match &keep.kind {
                 KeepKind::OutOf(zone) => {
-                    let kind = self.signatures.kinds.iter().position(|kind| kind.name == "Zone");
+                    let kind = self.signatures.kinds.iter().position(|kind| kind.name == lang::kinds::ZONE);
                     (NodeKind::OutOf, vec![entity(zone, kind.unwrap_or(0))?])
                 }
                 KeepKind::Distance { to, at_least } => {

@@ -96,12 +96,12 @@ impl Printer<'_> {
 
     fn alternative(
         &mut self,
-        way: &Alternative,
+        alternative: &Alternative,
         node: &Node,
         items: &mut Items<'_>,
     ) -> Result<(), OutsideSubset> {
-        self.put(&way.literal);
-        self.parts(&way.parts, node, items)
+        self.put(&alternative.literal);
+        self.parts(&alternative.parts, node, items)
     }
 
     fn parts(&mut self, parts: &[Part], node: &Node, items: &mut Items<'_>) -> Result<(), OutsideSubset> {
@@ -116,8 +116,11 @@ impl Printer<'_> {
                 let name = node.name.as_deref().ok_or_else(|| no_production(node))?;
                 self.spaced(&if self.is_json { quoted(name) } else { name.to_owned() });
             }
-            Part::Choice(_, ways) if let Some(way) = ways.iter().find(|way| way.opens(node.kind)) => {
-                self.alternative(way, node, items)?;
+            Part::Choice(_, alternatives)
+                if let Some(alternative) =
+                    alternatives.iter().find(|alternative| alternative.opens(node.kind)) =>
+            {
+                self.alternative(alternative, node, items)?;
             }
             Part::Optional { present, .. } => match items.as_slice().first() {
                 Some(Item::Nothing) => {
@@ -202,7 +205,7 @@ impl Printer<'_> {
                 self.put(",\"finally\":null");
             }
             (Part::Cleanup(_), Item::Nothing) => {}
-            (Part::Choice(_, ways), item) => self.choice(ways, item, node)?,
+            (Part::Choice(_, alternatives), item) => self.choice(alternatives, item, node)?,
             (Part::Repeat(repeat), Item::Members(members)) => {
                 for (index, member) in members.iter().enumerate() {
                     self.put(if index == 0 { &repeat.open } else { &repeat.separator });
@@ -216,22 +219,31 @@ impl Printer<'_> {
     }
 
     /// A choice that is not about the node around it: a reaction, or a condition or `null`.
-    fn choice(&mut self, ways: &[Alternative], item: &Item, node: &Node) -> Result<(), OutsideSubset> {
+    fn choice(
+        &mut self,
+        alternatives: &[Alternative],
+        item: &Item,
+        node: &Node,
+    ) -> Result<(), OutsideSubset> {
         match item {
-            Item::Node(inner) => match ways.iter().find(|way| way.opens(inner.kind)) {
-                Some(way) => self.alternative(way, inner, &mut inner.items.iter()),
-                None => self.condition(inner),
-            },
+            Item::Node(inner) => {
+                match alternatives.iter().find(|alternative| alternative.opens(inner.kind)) {
+                    Some(alternative) => self.alternative(alternative, inner, &mut inner.items.iter()),
+                    None => self.condition(inner),
+                }
+            }
             Item::Members(_) => {
-                let is_list = |way: &&Alternative| matches!(way.parts.as_slice(), [Part::Repeat(_)]);
-                let way = ways.iter().find(is_list).ok_or_else(|| no_production(node))?;
-                self.alternative(way, node, &mut std::slice::from_ref(item).iter())
+                let is_list =
+                    |alternative: &&Alternative| matches!(alternative.parts.as_slice(), [Part::Repeat(_)]);
+                let alternative = alternatives.iter().find(is_list).ok_or_else(|| no_production(node))?;
+                self.alternative(alternative, node, &mut std::slice::from_ref(item).iter())
             }
             Item::Nothing => {
-                let is_empty =
-                    |way: &&Alternative| way.parts.iter().all(|part| matches!(part, Part::Action(_)));
-                let way = ways.iter().find(is_empty).ok_or_else(|| no_production(node))?;
-                self.put(&way.literal);
+                let is_empty = |alternative: &&Alternative| {
+                    alternative.parts.iter().all(|part| matches!(part, Part::Action(_)))
+                };
+                let alternative = alternatives.iter().find(is_empty).ok_or_else(|| no_production(node))?;
+                self.put(&alternative.literal);
                 Ok(())
             }
             _ => Err(no_production(node)),
@@ -246,9 +258,9 @@ impl Printer<'_> {
                 (true, _) => ",{\"",
                 (false, _) => " ",
             });
-            let way = self.grammar.steps.iter().find(|way| way.opens(step.kind));
-            let way = way.ok_or_else(|| no_production(step))?;
-            self.alternative(way, step, &mut step.items.iter())?;
+            let alternative = self.grammar.steps.iter().find(|alternative| alternative.opens(step.kind));
+            let alternative = alternative.ok_or_else(|| no_production(step))?;
+            self.alternative(alternative, step, &mut step.items.iter())?;
         }
         self.put(if self.is_json { "]" } else { " }" });
         Ok(())

@@ -217,9 +217,12 @@ impl Deriver<'_> {
                 found.push(self.block(Level { depth, ..level }, *least));
             }
             Part::Choice(_, alternatives) => {
-                let ways = Alternative::flattened(alternatives, "");
-                let ways = ways.iter().map(|way| self.parts(&way.literal, &way.parts, level)).collect();
-                found.push(Expr::choice(ways));
+                let alternatives = Alternative::flattened(alternatives, "");
+                let alternatives = alternatives
+                    .iter()
+                    .map(|alternative| self.parts(&alternative.literal, &alternative.parts, level))
+                    .collect();
+                found.push(Expr::choice(alternatives));
             }
             Part::Optional { present, .. } => {
                 let some = self.parts(&present.literal, &present.parts, level);
@@ -419,7 +422,7 @@ impl Deriver<'_> {
         let grammar = self.grammar;
         let steps = grammar.steps.iter().filter(|step| step.cleans || !level.in_cleanup);
         let steps: Vec<Alternative> = steps.cloned().collect();
-        let mut ways = Vec::new();
+        let mut alternatives = Vec::new();
         for step in Alternative::flattened(&steps, if self.is_json { "{\"" } else { "" }) {
             let is_composite = step.is_composite();
             if is_composite && depth == 0 {
@@ -430,13 +433,13 @@ impl Deriver<'_> {
                 false => step.name.to_string(),
             };
             let known = self.rules.get(&name).cloned();
-            let way = known.unwrap_or_else(|| {
+            let alternative = known.unwrap_or_else(|| {
                 let body = self.parts(&step.literal, &step.parts, level);
                 self.rule(name, body)
             });
-            ways.push(way);
+            alternatives.push(alternative);
         }
-        self.rule(name, Expr::choice(ways))
+        self.rule(name, Expr::choice(alternatives))
     }
 
     /// Conditions nested as deep as the subset allows.

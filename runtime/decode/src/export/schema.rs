@@ -240,16 +240,16 @@ impl Deriver<'_> {
 
     fn choice(&mut self, lead: &str, alternatives: &[Alternative], level: Level) -> Value {
         let mut shapes = Vec::new();
-        for way in Alternative::flattened(alternatives, lead) {
-            let shape = match way.parts.as_slice() {
+        for alternative in Alternative::flattened(alternatives, lead) {
+            let shape = match alternative.parts.as_slice() {
                 [Part::Condition(asked)] => self.condition(*asked == ConditionUse::Goal),
-                _ if way.literal == "null" => json!({"type": "null"}),
-                [list @ Part::Repeat(_)] if way.literal == "[" => self.value(list, level),
+                _ if alternative.literal == "null" => json!({"type": "null"}),
+                [list @ Part::Repeat(_)] if alternative.literal == "[" => self.value(list, level),
                 parts => {
                     let mark = if level.in_cleanup { "cleanup_" } else { "" };
-                    let name = match way.is_composite() {
-                        true => format!("{mark}{}_{}", way.name, level.depth),
-                        false => way.name.to_string(),
+                    let name = match alternative.is_composite() {
+                        true => format!("{mark}{}_{}", alternative.name, level.depth),
+                        false => alternative.name.to_string(),
                     };
                     // Nothing may be left out in JSON: a step has a cleanup, or it is another object.
                     let is_cleanup = |part: &&Part| matches!(part, Part::Cleanup(CleanupOf::Step));
@@ -259,7 +259,7 @@ impl Deriver<'_> {
                         let cleaned = format!("{name}_cleaned");
                         let cleaned = self.once(cleaned, |deriver| {
                             let block = deriver.block(inner, 1);
-                            let mut object = deriver.object(&way.literal, parts, level);
+                            let mut object = deriver.object(&alternative.literal, parts, level);
                             add_key(&mut object, "finally", block);
                             object
                         });
@@ -267,13 +267,13 @@ impl Deriver<'_> {
                     }
                     if parts.iter().any(|part| matches!(part, Part::Given { .. })) {
                         let giving = self.once(format!("{name}_result"), |deriver| {
-                            let mut object = deriver.object(&way.literal, parts, level);
+                            let mut object = deriver.object(&alternative.literal, parts, level);
                             add_key(&mut object, "result", reference("binding"));
                             object
                         });
                         shapes.push(giving);
                     }
-                    self.once(name, |deriver| deriver.object(&way.literal, parts, level))
+                    self.once(name, |deriver| deriver.object(&alternative.literal, parts, level))
                 }
             };
             shapes.push(shape);

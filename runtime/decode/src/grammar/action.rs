@@ -34,7 +34,7 @@ pub(crate) enum Action {
     Forget,
     /// The item of a loop gets the kind of the list that was written out.
     BindItem,
-    /// The ways through the open node meet: what all of them have bound is in scope.
+    /// The alternatives through the open node meet: what all of them have bound is in scope.
     Meet,
     /// The name given before a call or a value is bound to it; its type has this number.
     Bind(u16),

@@ -26,11 +26,12 @@ fn condition_or_null(grammar: &Grammar, asked: ConditionUse, null: Guard) -> Par
         ConditionUse::Goal => grammar.has_goals(),
         ConditionUse::Branch | ConditionUse::Wait | ConditionUse::Until => grammar.has_conditions(),
     };
-    let mut ways = vec![Alternative::new("null", null, vec![Part::Action(Action::Constant(Constant::Null))])];
+    let mut alternatives =
+        vec![Alternative::new("null", null, vec![Part::Action(Action::Constant(Constant::Null))])];
     if has_any {
-        ways.push(Alternative::new("", grammar.when_asked(asked), vec![Part::Condition(asked)]));
+        alternatives.push(Alternative::new("", grammar.when_asked(asked), vec![Part::Condition(asked)]));
     }
-    Part::Choice(ChoiceStyle::Literals, ways)
+    Part::Choice(ChoiceStyle::Literals, alternatives)
 }
 
 pub(super) fn document(grammar: &Grammar) -> Vec<Part> {
@@ -178,12 +179,12 @@ fn ending(done: Guard) -> Alternative {
         Part::Value { ty: motet_compiler::signature::Type::Text, range: None, place: ValuePlace::Plain };
     let with_reason = |kind| vec![Part::open(kind), literal(",\"why\":"), reason.clone()];
     let given = Part::Given { lead: ",\"result\":", end: "" };
-    let ways = vec![
+    let alternatives = vec![
         Alternative::new("done\"", done, vec![Part::open(NodeKind::Done), given]),
         Alternative::new("fail\"", Guard::Open, with_reason(NodeKind::Fail)),
         Alternative::new("cannot\"", Guard::Open, with_reason(NodeKind::Cannot)),
         Alternative::new("replan\"", Guard::Open, with_reason(NodeKind::Replan)),
     ];
-    let parts = vec![Part::Choice(ChoiceStyle::Literals, ways), literal("}"), close()];
+    let parts = vec![Part::Choice(ChoiceStyle::Literals, alternatives), literal("}"), close()];
     Alternative::new("end\":\"", Guard::Open, parts).ending()
 }

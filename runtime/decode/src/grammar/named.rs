@@ -2,6 +2,7 @@
 //! rules of a `keep`.
 
 use motet_compiler::signature::{Signatures, Type};
+use motet_stdlib::lang;
 use motet_syntax::Syntax;
 use motet_syntax::ast::POSE;
 use motet_syntax::print::identifier;
@@ -202,7 +203,7 @@ impl Grammar {
 
     /// The step that names a value in JSON.
     pub(super) fn let_step(&self) -> Option<Alternative> {
-        let mut ways = Vec::new();
+        let mut alternatives = Vec::new();
         for (key, values) in self.let_values() {
             let guard = match key {
                 "get" if !self.names_measures() => Guard::List,
@@ -211,15 +212,15 @@ impl Grammar {
             };
             if !values.is_empty() {
                 let values = Part::Choice(ChoiceStyle::Names(WordRole::Head), values);
-                ways.push(Alternative::new(format!("{key}\":\""), guard, vec![values]));
+                alternatives.push(Alternative::new(format!("{key}\":\""), guard, vec![values]));
             }
         }
         let parts = vec![
             Part::Name(super::NameUse::Let),
             literal(",\"be\":{\""),
-            Part::Choice(ChoiceStyle::Literals, ways.clone()),
+            Part::Choice(ChoiceStyle::Literals, alternatives.clone()),
         ];
-        (!ways.is_empty()).then(|| Alternative::new("let\":", Guard::LetValue, parts).cleaning())
+        (!alternatives.is_empty()).then(|| Alternative::new("let\":", Guard::LetValue, parts).cleaning())
     }
 
     /// The values that a `let` names in text.
@@ -238,7 +239,7 @@ impl Grammar {
         let least =
             NumberRange { least: 0, greatest: 1_000_000, decimals: 3, unit: Unit::si(Dimension::LENGTH) };
         let signatures = &self.signatures;
-        let is_watched = signatures.measure("distance").is_some_and(|measure| {
+        let is_watched = signatures.measure(lang::measures::DISTANCE).is_some_and(|measure| {
             let to = measure.params.as_slice();
             measure.is_observable && measure.result == LENGTH && matches!(to, [(_, Type::Entity(0))])
         });
@@ -257,8 +258,8 @@ impl Grammar {
         } else {
             [("out of ", Vec::new()), ("distance(", vec![literal(") >= "), Part::Number(least)])]
         };
-        let zone = signatures.kinds.iter().position(|kind| kind.name == "Zone");
-        let mut ways = Vec::new();
+        let zone = signatures.kinds.iter().position(|kind| kind.name == lang::kinds::ZONE);
+        let mut alternatives = Vec::new();
         for (kind, node, (word, rest)) in
             [(zone, NodeKind::OutOf, out), (Some(0), NodeKind::Distance, distance)]
         {
@@ -268,9 +269,10 @@ impl Grammar {
             parts.push(close());
             let fixed = if place == ValuePlace::Operand { "_fixed" } else { "" };
             let name = if node == NodeKind::OutOf { "out_of" } else { "distance" };
-            ways.push(Alternative::new(word, Guard::Open, parts).named(format!("keep_{name}{fixed}")));
+            alternatives
+                .push(Alternative::new(word, Guard::Open, parts).named(format!("keep_{name}{fixed}")));
         }
         let style = if self.is_json() { ChoiceStyle::Literals } else { ChoiceStyle::Keywords };
-        (!ways.is_empty()).then(|| vec![Part::Choice(style, ways)])
+        (!alternatives.is_empty()).then(|| vec![Part::Choice(style, alternatives)])
     }
 }

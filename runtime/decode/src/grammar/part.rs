@@ -176,18 +176,18 @@ impl Alternative {
     /// choice at the beginning of an alternative become part of its own.
     pub(crate) fn flattened(alternatives: &[Self], prefix: &str) -> Vec<Self> {
         let mut flat = Vec::new();
-        for way in alternatives {
-            let literal = format!("{prefix}{}", way.literal);
-            let first = way.parts.iter().position(|part| !matches!(part, Part::Action(_)));
-            match first.and_then(|at| Some((at, way.parts.get(at)?))) {
-                Some((at, Part::Choice(_, inner))) if !way.literal.is_empty() => {
-                    let (before, rest) = way.parts.split_at_checked(at).unwrap_or_default();
+        for alternative in alternatives {
+            let literal = format!("{prefix}{}", alternative.literal);
+            let first = alternative.parts.iter().position(|part| !matches!(part, Part::Action(_)));
+            match first.and_then(|at| Some((at, alternative.parts.get(at)?))) {
+                Some((at, Part::Choice(_, inner))) if !alternative.literal.is_empty() => {
+                    let (before, rest) = alternative.parts.split_at_checked(at).unwrap_or_default();
                     for inner in Self::flattened(inner, &literal) {
                         let parts = before.iter().chain(&inner.parts).chain(rest.iter().skip(1)).cloned();
                         flat.push(Self { parts: parts.collect(), ..inner });
                     }
                 }
-                _ => flat.push(Self { literal: literal.into(), ..way.clone() }),
+                _ => flat.push(Self { literal: literal.into(), ..alternative.clone() }),
             }
         }
         flat
@@ -197,7 +197,7 @@ impl Alternative {
     pub(crate) fn opens(&self, kind: NodeKind) -> bool {
         self.parts.iter().any(|part| match part {
             Part::Action(Action::Open(opened)) => *opened == kind,
-            Part::Choice(_, ways) => ways.iter().any(|way| way.opens(kind)),
+            Part::Choice(_, alternatives) => alternatives.iter().any(|alternative| alternative.opens(kind)),
             _ => false,
         })
     }

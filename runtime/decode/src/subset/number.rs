@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_of_a_range_is_spelled_in_one_way() {
+    fn every_number_of_a_range_is_spelled_in_one_alternative() {
         for (least, greatest, decimals) in
             [(-120, 345, 2), (0, 99, 0), (5, 17, 1), (-20, -3, 1), (1, 9, 0), (995, 1005, 3), (0, 0, 2)]
         {

@@ -17,7 +17,7 @@ pub(crate) enum Freshness {
 
 /// The fluent that is derived from a motion. No effect says when it changes, so what was seen of it does not
 /// last.
-const DERIVED: &str = "reachable";
+const DERIVED: &str = motet_stdlib::lang::fluents::REACHABLE;
 
 /// Judges conditions. Cheap to make.
 pub(crate) struct Evaluator<'a> {

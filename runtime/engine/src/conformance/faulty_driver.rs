@@ -6,6 +6,7 @@ use crate::event::DriverEvent;
 use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
+use motet_stdlib::lang;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use smol_str::SmolStr;
@@ -104,7 +105,7 @@ impl<D: Driver> FaultyDriver<D> {
 impl<D: Driver> Driver for FaultyDriver<D> {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         if self.happens(self.mischief.refuses) {
-            let failure = SmolStr::new_static("unreachable").into();
+            let failure = SmolStr::new_static(lang::failures::UNREACHABLE).into();
             self.queue.push((now, DriverEvent::Refused { goal, failure }));
         } else if self.reaches() {
             self.inner.start(now, goal, command);

@@ -8,6 +8,7 @@ use crate::ids::GoalId;
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 use motet_graph::{BindingId, FailureId, Graph, NodeId, NodeKind, Value};
+use motet_stdlib::lang::{builtin_failures, failures};
 use std::sync::Arc;
 
 impl Memory {
@@ -282,15 +283,15 @@ impl Memory {
 /// The failure that the engine itself gives a step.
 const fn own_kind(cause: EndCause) -> &'static str {
     match cause {
-        EndCause::Exhausted => "exhausted",
-        EndCause::Deadline | EndCause::Lost => "timeout",
+        EndCause::Exhausted => failures::EXHAUSTED,
+        EndCause::Deadline | EndCause::Lost => builtin_failures::TIMEOUT,
         EndCause::Completed
         | EndCause::Failed
         | EndCause::Refused
         | EndCause::Monitor
-        | EndCause::SiblingFailed => "failed",
-        EndCause::ParentEnded | EndCause::Person | EndCause::Driver | EndCause::Swap => "failed",
-        EndCause::GuardRefuted | EndCause::BadValue => "failed",
+        | EndCause::SiblingFailed => failures::FAILED,
+        EndCause::ParentEnded | EndCause::Person | EndCause::Driver | EndCause::Swap => failures::FAILED,
+        EndCause::GuardRefuted | EndCause::BadValue => failures::FAILED,
     }
 }
 

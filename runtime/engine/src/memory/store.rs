@@ -4,6 +4,7 @@ use crate::cleanup::PendingCleanup;
 use crate::time::Time;
 use crate::trace::EndCause;
 use motet_graph::{Graph, NodeId, Value};
+use motet_stdlib::lang;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -37,7 +38,7 @@ impl Default for MemoryLimits {
             bytes: 64 * 1024,
             text_bytes: 2 * 1024,
             running: 128,
-            questions: vec![SmolStr::new_static("ask"), SmolStr::new_static("choose")],
+            questions: lang::ASKING.map(SmolStr::new_static).to_vec(),
         }
     }
 }

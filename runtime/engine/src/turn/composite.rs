@@ -13,6 +13,7 @@ use motet_graph::{
     BindingId, CaughtFailure, Condition, Ending, FailureId, Handler, NodeId, NodeKind, ROOT, RegionId,
     TIMEOUT, Term, Value,
 };
+use motet_stdlib::lang;
 use smol_str::SmolStr;
 
 impl Turn<'_> {
@@ -182,7 +183,9 @@ impl Turn<'_> {
             let why = why.and_then(|why| self.say(why));
             self.run.ending = Some(match how {
                 Ending::Done => RunEnd::Done { why, result: None },
-                Ending::Fail => RunEnd::Failed { kind: SmolStr::new_static("failed"), why, node },
+                Ending::Fail => {
+                    RunEnd::Failed { kind: SmolStr::new_static(lang::failures::FAILED), why, node }
+                }
                 Ending::Cannot => RunEnd::Declined { why },
                 Ending::Replan => RunEnd::Replan { why },
             });

@@ -13,6 +13,7 @@ use crate::time::Time;
 use crate::trace::{EndCause, TraceEventKind};
 use motet_graph::draw::Names;
 use motet_graph::{CallNode, Condition, NodeId, NodeKind, TIMEOUT, Value};
+use motet_stdlib::lang;
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -224,7 +225,7 @@ impl Turn<'_> {
         let missed = plan.graph.goal.iter().find(|part| judge.condition(part) == Truth::False);
         let missed = missed.map(|part| Names(&plan.graph).condition(part)).unwrap_or_default();
         let why = Some(format!("the goal does not hold: `{missed}` was observed to be false"));
-        self.leave(RunEnd::Failed { kind: SmolStr::new_static("failed"), why, node });
+        self.leave(RunEnd::Failed { kind: SmolStr::new_static(lang::failures::FAILED), why, node });
     }
 
     /// The value of a `let` is known, or will not be.

@@ -21,6 +21,7 @@ use super::protocol::{
 };
 use motet_runtime::journal::{OpenGoal, OpenGoals};
 use motet_runtime::{Capabilities, Driver, DriverClock, DriverEvent, Effect, Event, GoalId, Query, Time};
+use motet_stdlib::lang;
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Instant;
@@ -253,7 +254,7 @@ impl Drop for RemoteDriver {
 }
 
 const fn failed() -> SmolStr {
-    SmolStr::new_static("failed")
+    SmolStr::new_static(lang::failures::FAILED)
 }
 
 fn nonsense(line: &str, why: String) -> LinkError {

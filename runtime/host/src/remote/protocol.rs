@@ -8,6 +8,7 @@ pub use sight::{Camera, DepthMap, DetectedThing, Detections, LookParams, LookRes
 
 use motet_graph::{Graph, Type};
 use motet_runtime::{Answer, Capabilities, Command, FailureReport, GoalId, Heard, Outcome, Query, Time};
+use motet_stdlib::lang;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -416,9 +417,10 @@ fn text(graph: &Graph, ty: &Type) -> String {
         Type::Text => "Text".to_owned(),
         Type::Pose => "Pose".to_owned(),
         Type::Quantity(name) | Type::Case(name) => name.to_string(),
-        Type::Entity(kind) => {
-            graph.kinds.get(kind.index()).map_or_else(|| "Entity".to_owned(), |kind| kind.name.to_string())
-        }
+        Type::Entity(kind) => graph
+            .kinds
+            .get(kind.index())
+            .map_or_else(|| lang::kinds::ENTITY.to_owned(), |kind| kind.name.to_string()),
         Type::List(inner) => format!("List<{}>", text(graph, inner)),
     }
 }
