@@ -129,8 +129,9 @@ pub(crate) trait Domain<'p> {
     fn enter(&mut self, id: StepId) -> bool;
     /// Transfer function of a call.
     fn transfer(&mut self, id: StepId, call: &'p Call, span: Span);
-    /// Assumes that a condition of a step is `truth`. Returns false if that cannot be.
-    fn assume_at(&mut self, id: StepId, condition: &Condition, truth: bool) -> bool;
+    /// Assumes that the run sees a condition of a step to hold, or that it does not. Returns false if that
+    /// cannot be.
+    fn assume_at(&mut self, id: StepId, condition: &Condition, is_seen: bool) -> bool;
     /// Assumes the condition of a wait, which something outside may have changed.
     fn await_at(&mut self, id: StepId, condition: &Condition);
     /// Walks over a wait for a time.
@@ -144,6 +145,8 @@ pub(crate) trait Domain<'p> {
     fn branch_changes(&mut self, branches: &'p [Vec<StepId>]) -> Vec<Self::Changes>;
     /// Loses all that the branches beside one may change at any moment.
     fn disturb(&mut self, id: StepId, changes: &[Self::Changes], index: usize);
+    /// Leaves a branch that was disturbed.
+    fn end_branch(&mut self) {}
     /// Leads to the states after all branches, which end with these paths.
     fn compose(&mut self, id: StepId, changes: &[Self::Changes], paths: &[Self::Path]);
 
@@ -380,6 +383,7 @@ pub(crate) trait Domain<'p> {
         for (index, branch) in branches.iter().enumerate() {
             self.disturb(id, &changes, index);
             self.block(branch);
+            self.end_branch();
             is_live &= self.is_live();
             paths.push(self.path(&mark));
             self.restore(&mark);

@@ -118,6 +118,21 @@ impl<'w> FactStore<'w> {
         self.unhidden(fluent, pattern, single);
     }
 
+    /// Visits the facts and patterns with values of their own that a pattern covers, and where it crosses
+    /// another one, in no order; one may come twice.
+    pub(crate) fn parts(&self, fluent: Fluent, pattern: FactKey, mut take: impl FnMut(FactKey)) {
+        let mut part = |cell: &TableEntry| {
+            if cell.key != pattern {
+                take(cell.key);
+            }
+        };
+        if let Some(table) = self.table(fluent) {
+            table.covered(pattern, &mut part);
+        }
+        self.unhidden(fluent, pattern, part);
+        self.crossings(fluent, pattern, take);
+    }
+
     /// Visits the single facts that were written above the start, in no order.
     pub(crate) fn written(&self, fluent: Fluent, mut take: impl FnMut(FactKey, TruthSet)) {
         if let Some(table) = self.table(fluent) {

@@ -64,6 +64,11 @@ impl FactKey {
         (agree && one & !two != 0 && two & !one != 0).then_some(Self(shared))
     }
 
+    /// Returns whether two patterns share a fact.
+    pub(crate) fn meets(self, other: Self) -> bool {
+        (self.0 ^ other.0) & !self.any() & !other.any() == 0
+    }
+
     /// Returns whether every fact of `other` belongs to this pattern.
     pub(crate) fn covers(self, other: Self) -> bool {
         (self.0 ^ other.0) & !self.any() == 0

@@ -1,4 +1,4 @@
-//! Narrowing: the facts after a condition was observed to hold, or not to.
+//! Narrowing: the facts after a condition was observed to hold, or was not observed to hold.
 
 use super::Prover;
 use super::evaluation::CallFrame;
@@ -12,6 +12,45 @@ pub(super) const MAX_PATHS: usize = 24;
 /// Number of writes after which a join is forgotten.
 const MAX_AGE: usize = 1000;
 
+/// Outcome of a test in the run. A condition that stays unknown is neither true nor false.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Outcome {
+    True,
+    False,
+    /// False or unknown: the `else` of an `if`, the next round of a `repeat … until`.
+    NotTrue,
+    /// True or unknown.
+    NotFalse,
+}
+
+impl Outcome {
+    /// Outcome of the negated condition.
+    fn not(self) -> Self {
+        match self {
+            Self::True => Self::False,
+            Self::False => Self::True,
+            Self::NotTrue => Self::NotFalse,
+            Self::NotFalse => Self::NotTrue,
+        }
+    }
+
+    /// The truth value that the condition has if it is known.
+    fn truth(self) -> bool {
+        matches!(self, Self::True | Self::NotFalse)
+    }
+
+    /// Returns whether the condition may also stay unknown.
+    fn is_weak(self) -> bool {
+        matches!(self, Self::NotTrue | Self::NotFalse)
+    }
+
+    /// The values of a fact that this outcome leaves; `None` if there are none.
+    fn narrow(self, known: TruthSet, cause: Cause) -> Option<TruthSet> {
+        let seen = known.narrow(self.truth(), cause)?;
+        Some(if self.is_weak() { seen.join(TruthSet::open(known.open)) } else { seen })
+    }
+}
+
 impl Prover<'_> {
     /// Remembers the paths of a join.
     pub(crate) fn remember(&mut self, partition: PathPartition) {
@@ -23,22 +62,22 @@ impl Prover<'_> {
         }
     }
 
-    /// Narrows the facts to those in which `condition` is `truth`; returns false if there are none, so that
-    /// the path is dead.
+    /// Narrows the facts to those in which `condition` has an outcome; returns false if there are none, so
+    /// that the path is dead.
     ///
     /// Paths of earlier joins on which the condition cannot hold are ruled out: facts of one path alone are
     /// known again once a test shows that it was taken.
     pub(crate) fn assume(
         &mut self,
         condition: &Condition,
-        truth: bool,
+        outcome: Outcome,
         cause: Cause,
         frame: CallFrame<'_>,
     ) -> bool {
         for index in (0..self.state.partitions.len()).rev() {
             let Some(slot) = self.state.partitions.get_mut(index) else { break };
             let partition = std::mem::take(slot);
-            let passes = self.retrace(&partition, condition, truth, cause, frame);
+            let passes = self.retrace(&partition, condition, outcome, cause, frame);
             if let Some(slot) = self.state.partitions.get_mut(index) {
                 *slot = partition;
             }
@@ -46,16 +85,16 @@ impl Prover<'_> {
                 return false;
             }
         }
-        self.narrow(condition, truth, cause, frame)
+        self.narrow(condition, outcome, cause, frame)
     }
 
-    /// Rules out the paths of a join on which `condition` cannot be `truth`; returns false if that is all of
-    /// them.
+    /// Rules out the paths of a join on which `condition` cannot have an outcome; returns false if that is all
+    /// of them.
     fn retrace(
         &mut self,
         partition: &PathPartition,
         condition: &Condition,
-        truth: bool,
+        outcome: Outcome,
         cause: Cause,
         frame: CallFrame<'_>,
     ) -> bool {
@@ -74,7 +113,7 @@ impl Prover<'_> {
                 self.state.facts.set(fluent, key, value);
             }
             self.state.facts.replay(&later);
-            if self.narrow(condition, truth, cause, frame) {
+            if self.narrow(condition, outcome, cause, frame) {
                 open.push(self.state.facts.delta(here));
             }
             self.state.facts.back_to(here);
@@ -85,11 +124,18 @@ impl Prover<'_> {
         !open.is_empty()
     }
 
-    fn narrow(&mut self, condition: &Condition, truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
+    fn narrow(
+        &mut self,
+        condition: &Condition,
+        outcome: Outcome,
+        cause: Cause,
+        frame: CallFrame<'_>,
+    ) -> bool {
+        let truth = outcome.truth();
         match condition {
             Condition::Literal(value) => *value == truth,
             Condition::Unknown | Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => true,
-            Condition::Not(inner) => self.narrow(inner, !truth, cause, frame),
+            Condition::Not(inner) => self.narrow(inner, outcome.not(), cause, frame),
             Condition::Compare(op, left, right) => {
                 let is_possible = possible(self.evaluate(condition, frame), truth);
                 if is_possible {
@@ -106,12 +152,13 @@ impl Prover<'_> {
                 let Some(key) = self.key(fact, frame).filter(|_| !derived) else { return true };
                 if key.is_pattern() {
                     // Some entity has it, but which is not known; none has it, and that is known of all.
-                    if !truth && !known.is_false() {
-                        self.state.facts.set(fact.fluent, key, TruthSet::no(cause));
+                    let is_seen = !outcome.is_weak() || !known.open.is_some();
+                    if !truth && is_seen && !known.is_false() {
+                        self.learn(fact.fluent, key, TruthSet::no(cause));
                     }
                     return true;
                 }
-                match known.narrow(truth, cause) {
+                match outcome.narrow(known, cause) {
                     Some(narrowed) => {
                         if narrowed != known {
                             self.learn(fact.fluent, key, narrowed);
@@ -121,32 +168,44 @@ impl Prover<'_> {
                     None => false,
                 }
             }
-            Condition::All(parts) => self.narrow_all(parts, truth, cause, frame),
-            Condition::AnyOf(parts) => self.narrow_any(parts, truth, cause, frame),
+            Condition::All(parts) => self.narrow_all(parts, outcome, cause, frame),
+            Condition::AnyOf(parts) => self.narrow_any(parts, outcome, cause, frame),
         }
     }
 
-    fn narrow_all(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
-        if truth {
-            return parts.iter().all(|part| self.narrow(part, true, cause, frame));
+    fn narrow_all(
+        &mut self,
+        parts: &[Condition],
+        outcome: Outcome,
+        cause: Cause,
+        frame: CallFrame<'_>,
+    ) -> bool {
+        if outcome.truth() {
+            return parts.iter().all(|part| self.narrow(part, outcome, cause, frame));
         }
         // Not all hold: if all but one certainly do, it is that one.
         let mut doubtful = parts.iter().filter(|part| !self.evaluate(part, frame).is_true());
         match (doubtful.next(), doubtful.next()) {
             (None, _) => false,
-            (Some(only), None) => self.narrow(only, false, cause, frame),
+            (Some(only), None) => self.narrow(only, outcome, cause, frame),
             (Some(_), Some(_)) => true,
         }
     }
 
-    fn narrow_any(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
-        if !truth {
-            return parts.iter().all(|part| self.narrow(part, false, cause, frame));
+    fn narrow_any(
+        &mut self,
+        parts: &[Condition],
+        outcome: Outcome,
+        cause: Cause,
+        frame: CallFrame<'_>,
+    ) -> bool {
+        if !outcome.truth() {
+            return parts.iter().all(|part| self.narrow(part, outcome, cause, frame));
         }
         let mut doubtful = parts.iter().filter(|part| !self.evaluate(part, frame).is_false());
         match (doubtful.next(), doubtful.next()) {
             (None, _) => false,
-            (Some(only), None) => self.narrow(only, true, cause, frame),
+            (Some(only), None) => self.narrow(only, outcome, cause, frame),
             (Some(_), Some(_)) => true,
         }
     }

@@ -3,6 +3,7 @@
 use motet_syntax::{Diagnostic, Mistake, Severity, Span};
 use smallvec::SmallVec;
 
+use super::assume::Outcome;
 use super::effects::{Certainty, FactChange, PerceptionLifetime};
 use super::errors::{Refuted, Stale};
 use super::evaluation::{CallFrame, MAX_ALIASES};
@@ -35,10 +36,8 @@ impl<'a> Prover<'a> {
             self.check_watched(def, frame, span);
             self.check_redundant(def, &makes, frame, &verdicts, span);
         }
-        let is_guarded =
-            |verdict: &NeedVerdict| matches!(verdict, NeedVerdict::Deferred | NeedVerdict::Caught);
-        if verdicts.iter().any(is_guarded) || def.motion.is_some() {
-            // A guard that refuses changes nothing.
+        if def.motion.is_some() {
+            // A motion that is refused changes nothing.
             self.throw_all(&def.fails);
         }
         let lasting = self.lasting(id);
@@ -214,6 +213,10 @@ impl<'a> Prover<'a> {
             {
                 self.check_reactions(def, need, value, frame, span);
             }
+            if matches!(verdict, NeedVerdict::Deferred | NeedVerdict::Caught) {
+                // A guard that refuses changes nothing, and the need did not hold.
+                self.throw(self.library.lang_items.need_failure(&need.condition, &def.fails), usize::MAX);
+            }
             if verdict != NeedVerdict::Proven {
                 self.grant(id, need, frame);
             }
@@ -300,7 +303,7 @@ impl<'a> Prover<'a> {
     pub(crate) fn grant(&mut self, id: StepId, need: &NeedDef, frame: CallFrame<'_>) {
         let cause = Cause::step(id);
         if need.each.is_none() && need.when.is_none() {
-            self.assume(&need.condition, true, cause, frame);
+            self.assume(&need.condition, Outcome::True, cause, frame);
         }
     }
 

@@ -6,10 +6,11 @@ use std::hash::{Hash, Hasher};
 use motet_syntax::Span;
 use rustc_hash::FxHashMap;
 
+use super::assume::Outcome;
 use super::collector::Collector;
 use super::errors::{Conflict, NeverCaught, TooDeep, Unreached};
 use super::evaluation::CallFrame;
-use super::{MAX_FIXPOINTS, PolicyEnd, Prover};
+use super::{MAX_FIXPOINTS, PolicyEnd, Prover, Volatile};
 use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
 use crate::declare::Library;
 use crate::facts::{Atom, Cause, Delta, TruthSet, show};
@@ -19,8 +20,8 @@ impl<'a> Domain<'a> for Prover<'a> {
     type Mark = usize;
     type Path = Delta;
     type Collector = Collector;
-    /// Facts and patterns that a branch writes.
-    type Changes = Vec<Atom>;
+    /// Facts and patterns that a branch writes, with their values behind it.
+    type Changes = Vec<(Atom, TruthSet)>;
 
     fn program(&self) -> &'a Program {
         self.program
@@ -127,7 +128,9 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     fn assume_at(&mut self, id: StepId, condition: &Condition, truth: bool) -> bool {
-        self.assume(condition, truth, Cause::step(id), CallFrame::default())
+        // What the run does not see to be true may be unknown.
+        let outcome = if truth { Outcome::True } else { Outcome::NotTrue };
+        self.assume(condition, outcome, Cause::step(id), CallFrame::default())
     }
 
     fn await_at(&mut self, id: StepId, condition: &Condition) {
@@ -148,26 +151,47 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     /// Proves each branch alone.
-    fn branch_changes(&mut self, branches: &'a [Vec<StepId>]) -> Vec<Vec<Atom>> {
+    fn branch_changes(&mut self, branches: &'a [Vec<StepId>]) -> Vec<Vec<(Atom, TruthSet)>> {
         let (mark, findings) = (self.mark(), self.findings());
         let mut changes = Vec::with_capacity(branches.len());
         for branch in branches {
             self.block(branch);
-            changes.push(self.state.facts.touched(mark));
+            let touched = self.state.facts.touched(mark).into_iter();
+            changes.push(
+                touched.map(|(fluent, key)| ((fluent, key), self.state.facts.get(fluent, key))).collect(),
+            );
             self.restore(&mark);
         }
         self.drop_findings(findings);
         changes
     }
 
-    fn disturb(&mut self, id: StepId, changes: &[Vec<Atom>], index: usize) {
+    fn disturb(&mut self, id: StepId, changes: &[Vec<(Atom, TruthSet)>], index: usize) {
+        self.control.branches.push((self.control.disturbed.len(), self.state.volatile.len()));
         let others = changes.iter().enumerate().filter(|(other, _)| *other != index);
-        for atom in others.flat_map(|(_, touched)| touched) {
+        for (atom, value) in others.flat_map(|(_, touched)| touched) {
             self.disturb_by_branch(id, *atom);
+            // Of a choice only one step is there, and it may be another.
+            if self.target.choice.is_some() {
+                continue;
+            }
+            self.control.disturbed.push(*atom);
+            // What both branches make is made; if one makes it and one undoes it, that is a conflict.
+            if value.open.is_some() {
+                let (fluent, key) = *atom;
+                let value = TruthSet::open(Cause::step(id));
+                self.state.volatile.push(Volatile { fluent, key, value, when: None });
+            }
         }
     }
 
-    fn compose(&mut self, id: StepId, changes: &[Vec<Atom>], paths: &[Delta]) {
+    fn end_branch(&mut self) {
+        let (disturbed, volatile) = self.control.branches.pop().unwrap_or_default();
+        self.control.disturbed.truncate(disturbed);
+        self.state.volatile.truncate(volatile);
+    }
+
+    fn compose(&mut self, id: StepId, changes: &[Vec<(Atom, TruthSet)>], paths: &[Delta]) {
         let joined = self.compose_effects(id, changes, paths);
         self.state.facts.replay(&joined);
     }
@@ -271,7 +295,7 @@ impl Prover<'_> {
     }
 
     /// Assumes the condition of a wait, whatever was known before: something outside may have changed it.
-    fn await_condition(&mut self, condition: &Condition, cause: Cause) {
+    pub(super) fn await_condition(&mut self, condition: &Condition, cause: Cause) {
         match condition {
             Condition::Fact(fact) => {
                 let known = self.evaluate(condition, CallFrame::default());
@@ -349,10 +373,10 @@ impl Prover<'_> {
     }
 
     /// Joins the effects of all branches. Branches that leave different values in a fact are an error.
-    fn compose_effects(&mut self, id: StepId, changed: &[Vec<Atom>], deltas: &[Delta]) -> Delta {
+    fn compose_effects(&mut self, id: StepId, changed: &[Vec<(Atom, TruthSet)>], deltas: &[Delta]) -> Delta {
         let mut written: FxHashMap<Atom, TruthSet> = FxHashMap::default();
         for (touched, delta) in changed.iter().zip(deltas) {
-            for atom in touched.iter().copied() {
+            for (atom, _) in touched.iter().copied() {
                 let value = delta.get(&self.state.facts, atom);
                 match written.get(&atom).copied() {
                     None => {

@@ -12,6 +12,9 @@ use smol_str::SmolStr;
 use crate::declare::{EffectDef, PrimitiveDef, ResourceSet};
 use crate::ir::{Condition, Entity, Fluent, Kind, StepId, Term, Ty};
 
+/// Maximal number of facts that one with symbols may be, before all facts of its fluent are weakened.
+const MAX_INSTANCES: usize = 4096;
+
 /// A change of a fact by a step, computed in the state before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FactChange {
@@ -274,12 +277,24 @@ impl Prover<'_> {
     }
 
     /// Writes what an observation has shown of a fact. From then on what happens to an entity is felt by
-    /// what is known of a symbol that it may be.
+    /// what is known of a symbol that it may be. What a branch beside this one may change is not learnt: it may
+    /// be otherwise when the next step begins.
     pub(super) fn learn(&mut self, fluent: Fluent, key: FactKey, value: TruthSet) {
+        if self.is_disturbed(fluent, key) {
+            return;
+        }
         self.state.facts.set(fluent, key, value);
         if !self.symbols.is_empty() && self.has_symbol(fluent, key) {
             self.aliased.get_mut(fluent.index()).into_iter().for_each(|aliased| *aliased = true);
         }
+    }
+
+    /// Returns whether a branch beside the present one may change a fact, or one of a pattern.
+    fn is_disturbed(&self, fluent: Fluent, key: FactKey) -> bool {
+        self.control.disturbed.iter().any(|(other, changed)| {
+            *other == fluent
+                && (key.meets(*changed) || self.has_symbol(fluent, key) || self.has_symbol(fluent, *changed))
+        })
     }
 
     /// Returns whether an argument of a fact is a symbol.
@@ -306,16 +321,21 @@ impl Prover<'_> {
             // What is no symbol may be one, and the facts at the start speak of none.
             self.state.facts.written(fluent, &mut feels);
         }
-        // Entities behind a symbol that have no entry yet.
+        // Entities behind the symbols that have no entry yet.
+        let mut instances = vec![key];
         for (index, (_, ty)) in def.params.iter().enumerate() {
             let symbol = self.symbols.get(Entity(key.arg(index))).filter(|_| ty.kind().is_some());
             let Some(symbol) = symbol else { continue };
             let candidates = symbol.may_be.clone().unwrap_or_else(|| self.of_kind(symbol.kind, usize::MAX));
-            for candidate in candidates {
-                let other = key.with(index, candidate.0);
-                if !other.is_pattern() && self.state.facts.entry(fluent, other).is_none() {
-                    targets.push((other, self.state.facts.get(fluent, other)));
-                }
+            if instances.len().saturating_mul(candidates.len()) > MAX_INSTANCES {
+                return self.state.facts.change(fluent, FactKey::ALL, |_, old| old.maybe(value, cause));
+            }
+            let known = instances.clone();
+            instances.extend(candidates.iter().flat_map(|it| known.iter().map(|key| key.with(index, it.0))));
+        }
+        for other in instances.into_iter().filter(|other| *other != key && !other.is_pattern()) {
+            if self.state.facts.entry(fluent, other).is_none() {
+                targets.push((other, self.state.facts.get(fluent, other)));
             }
         }
         for (other, known) in targets {

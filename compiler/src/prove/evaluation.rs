@@ -100,7 +100,7 @@ impl Prover<'_> {
                 return TruthSet::open(Cause::NOTHING);
             }
             let generic = symbol.may_be.is_none().then(|| self.state.facts.get(fluent, key));
-            let known = candidates.iter().map(|candidate| self.read(fluent, key.with(index, candidate.0)));
+            let known = candidates.iter().map(|candidate| self.value(fluent, key.with(index, candidate.0)));
             let mut values = known.chain(generic);
             let Some(first) = values.next() else { return self.state.facts.get(fluent, key) };
             return if values.all(|value| value.same_set(first)) {
@@ -160,16 +160,22 @@ impl Prover<'_> {
         if self.library.fluent(fact.fluent).is_some_and(|def| def.derived) {
             return TruthSet::NOTHING_KNOWN;
         }
+        self.value(fact.fluent, key)
+    }
+
+    /// Value of a fact, or of a pattern: whether some fact that it covers holds.
+    fn value(&self, fluent: Fluent, key: FactKey) -> TruthSet {
         if !key.is_pattern() {
-            return self.read(fact.fluent, key);
+            return self.read(fluent, key);
         }
         // Some entity: all the rest, then those that are known one by one, in an order of their own: the
         // cause is the last one's.
         let mut known: SmallVec<[FactKey; 8]> = SmallVec::new();
-        self.state.facts.entries(fact.fluent, key, |key, _| known.push(key));
+        self.state.facts.parts(fluent, key, |key| known.push(key));
         known.sort_unstable();
-        let rest = self.read(fact.fluent, key);
-        known.into_iter().fold(rest, |some, key| self.read(fact.fluent, key).or(some))
+        known.dedup();
+        let rest = self.read(fluent, key);
+        known.into_iter().fold(rest, |some, key| self.read(fluent, key).or(some))
     }
 
     fn compare(&self, op: CompareOp, left: &Term, right: &Term, frame: CallFrame<'_>) -> TruthSet {

@@ -227,9 +227,14 @@ impl Prover<'_> {
     ) {
         let spoken = |fluent: Fluent| mentions(&need.condition, fluent);
         let mut rows = self.state.volatile.iter();
-        let Some(row) = rows.find(|row| spoken(row.fluent) && row.value.open == value.open) else { return };
+        let Some((row, when)) = rows.find_map(|row| {
+            let is_it = spoken(row.fluent) && row.value.open == value.open;
+            Some((row, row.when.filter(|_| is_it)?))
+        }) else {
+            return;
+        };
         let needs = self.show(&need.condition, true, frame);
-        let (when, maker) = (row.when, self.cause_name(row.value.open));
+        let maker = self.cause_name(row.value.open);
         self.warn(ReactionBreaks { span: when, callee: def.name.clone(), needs, maker, step: span }.into());
     }
 }

@@ -36,7 +36,7 @@ use self::tested::TestTable;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::facts::{FactKey, FactStore, PathPartition, TruthSet};
+use crate::facts::{Atom, FactKey, FactStore, PathPartition, TruthSet};
 use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId};
 
 /// Maximal nesting of loops and parallel branches: each level is proved at least twice.
@@ -175,6 +175,10 @@ pub(crate) struct Control {
     enclosing: Vec<Enclosing<Collector>>,
     /// What is watched around each enclosing cleanup, and not in it.
     unwatched: Vec<Vec<Watched>>,
+    /// Facts that a branch beside the present one may change at any moment.
+    disturbed: Vec<Atom>,
+    /// By enclosing branch, the numbers of disturbed and volatile facts around it.
+    branches: Vec<(usize, usize)>,
     /// The call that is being proved.
     pub(crate) here: Option<StepId>,
     /// False if no path leads here.
@@ -195,15 +199,15 @@ pub(crate) enum Mode {
     Decide,
 }
 
-/// A fact that a monitor's reaction may change at any moment of the body.
+/// A fact that a monitor's reaction, or a branch beside the present one, may change at any moment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Volatile {
     pub(crate) fluent: Fluent,
     pub(crate) key: FactKey,
-    /// Value that the reaction leaves.
+    /// Value that the reaction or the branch leaves.
     pub(crate) value: TruthSet,
-    /// Span of the monitor's condition.
-    pub(crate) when: Span,
+    /// Span of the monitor's condition; `None` for a branch.
+    pub(crate) when: Option<Span>,
 }
 
 /// Fluents and measures that an enclosing monitor watches.

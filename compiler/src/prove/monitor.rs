@@ -29,19 +29,22 @@ impl<'a> Prover<'a> {
         self.state.watched.push(watched);
         let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
         let restarts: Vec<_> = restarts.collect();
-        let mut head = Delta::default();
+        self.erode();
+        let before = self.state.facts.delta(mark);
+        for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
+            self.control.live &= self.assume_at(id, &when.condition, false);
+        }
+        // Else it fires at once, and only a restart begins the body.
+        let mut head = self.control.live.then(|| self.state.facts.delta(mark));
+        self.back_to(mark);
         // The body may begin again from any of its states, where a restart asks for it.
         let (end, states) = loop {
             self.drop_findings(said);
-            self.control.live = true;
-            self.state.facts.replay(&head);
+            self.control.live = head.is_some();
+            self.state.facts.replay(head.as_ref().unwrap_or(&before));
             self.control.enclosing.push(Enclosing::Monitor { states: Collector::new(mark) });
             self.erode();
             self.see_states();
-            for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-                self.control.live &= self.assume_at(id, &when.condition, false);
-            }
-            // Else it fires at once, and the body never runs.
             if self.control.live {
                 self.block(body);
                 self.erode();
@@ -52,20 +55,28 @@ impl<'a> Prover<'a> {
                 _ => Delta::default(),
             };
             self.back_to(mark);
+            let states = states.or(&before, &self.state.facts);
             // A reaction may run in any state of the body, and again in what it left.
             let grown = self.rehearse(id, whens, &states, mark, volatile);
             let mut next = head.clone();
             for when in &restarts {
                 self.state.facts.replay(&states);
-                if self.assume_at(id, &when.condition, true) {
+                if self.overtake(id, &when.condition) {
                     let path = self.state.facts.delta(mark);
                     self.back_to(mark);
-                    next = next.or(&path, &self.state.facts);
+                    next = Some(match next {
+                        Some(next) => next.or(&path, &self.state.facts),
+                        None => path,
+                    });
                 } else {
                     self.back_to(mark);
                 }
             }
-            if !grown && next.same_sets(&head, &self.state.facts) {
+            let is_same = match (&next, &head) {
+                (Some(next), Some(head)) => next.same_sets(head, &self.state.facts),
+                (next, head) => next.is_none() == head.is_none(),
+            };
+            if !grown && is_same {
                 break (end, states);
             }
             head = next;
@@ -127,21 +138,21 @@ impl<'a> Prover<'a> {
             let said = self.findings();
             self.control.live = true;
             self.state.facts.replay(states);
-            self.assume_at(id, &when.condition, true);
+            self.overtake(id, &when.condition);
             let seen = self.state.facts.mark();
             self.control.rehearsals += 1;
             self.block(body);
             for (fluent, key) in self.state.facts.touched(seen) {
                 let value = self.state.facts.get(fluent, key);
                 let mut rows = self.state.volatile.iter_mut().skip(first);
-                match rows.find(|row| row.fluent == fluent && row.key == key && row.when == when.span) {
+                match rows.find(|row| row.fluent == fluent && row.key == key && row.when == Some(when.span)) {
                     Some(row) => {
                         let joined = row.value.join(value);
                         grown |= !joined.same_set(row.value);
                         row.value = joined;
                     }
                     None => {
-                        self.state.volatile.push(Volatile { fluent, key, value, when: when.span });
+                        self.state.volatile.push(Volatile { fluent, key, value, when: Some(when.span) });
                         grown = true;
                     }
                 }
@@ -283,19 +294,47 @@ impl<'a> Prover<'a> {
         self.state.volatile = rows;
     }
 
+    /// Assumes that a monitor sees its condition to hold. What the policy itself rules out the world may have
+    /// brought about: then the steps that made it otherwise are undone, and nothing is known of what they
+    /// made. Returns false if the condition cannot hold in any world.
+    fn overtake(&mut self, id: StepId, condition: &Condition) -> bool {
+        let here = self.state.facts.mark();
+        if self.assume_at(id, condition, true) {
+            return true;
+        }
+        if constant(condition) {
+            return false;
+        }
+        self.back_to(here);
+        let makers = std::cell::RefCell::new(Vec::new());
+        condition.any(&|part| {
+            if let Condition::Fact(_) = part {
+                let known = self.evaluate(part, CallFrame::default());
+                makers.borrow_mut().extend(known.yes.as_step().into_iter().chain(known.no.as_step()));
+            }
+            false
+        });
+        let (cause, program) = (Cause::step(id), self.program);
+        for maker in makers.into_inner() {
+            let Some(StepKind::Call(call)) = program.step(maker).map(|step| &step.kind) else { continue };
+            let Some(def) = self.library.primitive(call.primitive) else { continue };
+            let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
+            let mut made = Vec::new();
+            self.changes(&def.makes, CallFrame { args: &call.args, result, each: None }, &mut made);
+            self.unsettle(&made, cause);
+        }
+        self.await_condition(condition, cause);
+        true
+    }
+
     /// Proves a reaction from the states in which it can start.
     fn fire(&mut self, id: StepId, when: &'a When, states: &Delta, mark: usize) {
         self.follow(states);
-        self.control.live = self.assume_at(id, &when.condition, true);
-        if !self.control.live && constant(&when.condition) {
-            self.diagnostics.push(NeverFires { span: when.span }.into());
-        }
+        self.control.live = self.overtake(id, &when.condition);
         if self.control.live {
             self.react(when);
-        } else if let Reaction::Resume { body, .. } = &when.reaction {
-            // A condition that only the environment can bring about still needs its block proved.
-            self.control.live = true;
-            self.block(body);
+        } else {
+            self.diagnostics.push(NeverFires { span: when.span }.into());
         }
         self.restore(&mark);
     }

@@ -216,6 +216,20 @@ impl PreparedGraph {
         self.steps.get(id.index()).unwrap_or(&self.spare_step)
     }
 
+    /// Returns whether a node stands in the block of a monitor's reaction.
+    pub(crate) fn is_in_reaction(&self, id: NodeId) -> bool {
+        let mut region = self.step(id).region;
+        while let Some(owner) = self.region(region).owner {
+            if let NodeKind::Monitor { body, .. } = &self.node(owner).kind
+                && *body != region
+            {
+                return true;
+            }
+            region = self.step(owner).region;
+        }
+        false
+    }
+
     /// The number of a monitor's watch among all.
     pub(crate) fn watch_number(&self, monitor: NodeId, index: u32) -> u32 {
         self.first_watch.get(monitor.index()).copied().unwrap_or_default() + index

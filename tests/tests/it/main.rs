@@ -38,6 +38,7 @@ mod proofs;
 mod replies;
 mod request;
 mod scopes;
+mod soundness;
 mod spec;
 mod speech;
 mod values;
