@@ -2,7 +2,7 @@
 //!
 //! It is planar: only the lines across the hand through the axis on which the tip lies count.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use nalgebra::Vector3;
 
@@ -52,6 +52,8 @@ pub(crate) struct Closing {
     closes: Vector3<f64>,
     /// Greatest distance of a contact from the widest point of a round object, as a share of its radius.
     short: f64,
+    /// Flag of fingers that turn, and do not only slide.
+    turns: bool,
     /// Solids of the palm, and of the fingers stage by stage.
     palm: Vec<Solid>,
     stages: Vec<Vec<Solid>>,
@@ -61,7 +63,17 @@ pub(crate) struct Closing {
     first: f64,
     /// Gaps between the fingers on each line, stage by stage; `None` where one of them does not meet it.
     gaps: OnceLock<Vec<Vec<Option<f64>>>>,
+    /// Flag of fingers that are known to close on each other.
+    is_known: OnceLock<bool>,
+    /// Depths found so far: a search asks for the same few again and again.
+    found: Arc<Mutex<Vec<FoundDepths>>>,
 }
+
+/// Width, contact and least depth, and the depths for them.
+type FoundDepths = ([f64; 2], FingerContact, Option<HoldDepths>);
+
+/// Number of depths that are remembered.
+const REMEMBERED: usize = 64;
 
 impl Closing {
     /// Fingers that point and close along unit vectors, before a palm that reaches to `first` m: the solids of the
@@ -76,7 +88,14 @@ impl Closing {
         let short = if has_fixed_jaw { 2.0 * SHORT * (1.0 - SHORT * SHORT).sqrt() } else { SHORT };
         let end = |solid: &Solid| solid.centre.dot(&points) + solid.extent(&points);
         let ends = stages.iter().map(|solids| solids.iter().map(end).fold(f64::NEG_INFINITY, f64::max));
-        Self { points, closes, short, ends: ends.collect(), stages, palm, first, gaps: OnceLock::new() }
+        let ends = ends.collect();
+        let (gaps, is_known, found) = (OnceLock::new(), OnceLock::new(), Arc::default());
+        let axes = |solids: Option<&Vec<Solid>>| -> Vec<Vector3<f64>> {
+            solids.into_iter().flatten().flat_map(|solid| solid.axes).collect()
+        };
+        let (open, closed) = (axes(stages.first()), axes(stages.last()));
+        let turns = open.iter().zip(&closed).any(|(open, closed)| (open - closed).norm() > 1e-3);
+        Self { points, closes, short, turns, ends, stages, palm, first, gaps, is_known, found }
     }
 
     /// Greatest reach of the fingers in all stages, in m; `None` without fingers.
@@ -97,7 +116,7 @@ impl Closing {
         depth: f64,
         contact: FingerContact,
     ) -> impl Iterator<Item = &Solid> {
-        let at = self.contact(width, depth, contact).filter(|_| self.turns()).map_or(0, |(at, _)| at);
+        let at = self.turns.then(|| self.contact(width, depth, contact)).flatten().map_or(0, |(at, _)| at);
         let stages = [at, at * 2 / 3, at / 3].into_iter().filter(|at| *at > 0);
         stages.filter_map(|at| self.stages.get(at)).flatten()
     }
@@ -108,17 +127,22 @@ impl Closing {
         self.ends.get(..=at)?.iter().copied().max_by(f64::total_cmp)
     }
 
-    /// Checks whether the fingers turn, and do not only slide.
-    fn turns(&self) -> bool {
-        let axes = |solids: Option<&Vec<Solid>>| -> Vec<Vector3<f64>> {
-            solids.into_iter().flatten().flat_map(|solid| solid.axes).collect()
-        };
-        let (open, closed) = (axes(self.stages.first()), axes(self.stages.last()));
-        open.iter().zip(&closed).any(|(open, closed)| (open - closed).norm() > 1e-3)
-    }
-
     /// Depths from `from` m on at which the fingers hold an object of a width; `None` where there are none.
     pub(crate) fn depths(&self, width: f64, contact: FingerContact, from: f64) -> Option<HoldDepths> {
+        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((.., depths)) = found.iter().find(|known| (known.0, known.1) == ([width, from], contact))
+        {
+            return *depths;
+        }
+        let depths = self.search_depths(width, contact, from);
+        if found.len() == REMEMBERED {
+            found.clear();
+        }
+        found.push(([width, from], contact, depths));
+        depths
+    }
+
+    fn search_depths(&self, width: f64, contact: FingerContact, from: f64) -> Option<HoldDepths> {
         let half = match contact {
             FingerContact::Round => width / 2.0,
             FingerContact::Flat(half) => half,
@@ -140,9 +164,12 @@ impl Closing {
 
     /// Checks whether the fingers are known to close on each other.
     pub(crate) fn is_known(&self) -> bool {
-        let least = |gaps: Option<&Vec<Option<f64>>>| gaps?.iter().flatten().copied().min_by(f64::total_cmp);
-        let gaps = self.gaps();
-        least(gaps.last()).is_some_and(|closed| closed < GRIP.max(least(gaps.first()).unwrap_or(FAR) / 2.0))
+        *self.is_known.get_or_init(|| {
+            let least =
+                |gaps: Option<&Vec<Option<f64>>>| gaps?.iter().flatten().copied().min_by(f64::total_cmp);
+            let (gaps, most) = (self.gaps(), |open: Option<f64>| GRIP.max(open.unwrap_or(FAR) / 2.0));
+            least(gaps.last()).is_some_and(|closed| closed < most(least(gaps.first())))
+        })
     }
 
     /// Quality of a hold, the better the greater; `None` where the fingers do not hold.
@@ -157,7 +184,7 @@ impl Closing {
                 let gaps = self.gaps().get(at)?;
                 let inside = |at: f64| (at - depth).abs() <= half.max(STEP / 2.0);
                 let covers = |(at, gap): &(f64, f64)| inside(*at) && *gap <= width + COVERS;
-                let covered = self.lines(gaps).filter(covers).count() as f64 * STEP;
+                let covered = self.lines(gaps, depth, half).filter(covers).count() as f64 * STEP;
                 let apart = half.min(2.0 * STEP).max(STEP);
                 // At an edge of the object the finger must not slope away from it.
                 let inwards = match meets {
@@ -165,7 +192,8 @@ impl Closing {
                     _ if meets + STEP > depth + half => Some(-apart),
                     _ => None,
                 };
-                let gap = |at: f64| self.lines(gaps).find(|(line, _)| (line - at).abs() < STEP / 2.0 + 1e-9);
+                let is_at = |line: f64, at: f64| (line - at).abs() < STEP / 2.0 + 1e-9;
+                let gap = |at: f64| self.lines(gaps, at, STEP).find(|(line, _)| is_at(*line, at));
                 let slope = match inwards {
                     None => 0.0,
                     Some(by) => (gap(meets + by)?.1 - gap(meets)?.1) / apart,
@@ -207,7 +235,11 @@ impl Closing {
             }
             FingerContact::Flat(half) => ((at - depth).abs() <= half.max(STEP / 2.0)).then_some(width),
         };
-        let room = self.lines(gaps).filter_map(|(at, gap)| Some((gap - wide(at)?, at)));
+        let half = match contact {
+            FingerContact::Round => width / 2.0,
+            FingerContact::Flat(half) => half,
+        };
+        let room = self.lines(gaps, depth, half).filter_map(|(at, gap)| Some((gap - wide(at)?, at)));
         // Of equals the one nearest to the middle.
         room.min_by(|one, other| {
             let off = |place: f64| (place - depth).abs();
@@ -216,10 +248,19 @@ impl Closing {
         })
     }
 
-    /// Lines of a stage on which the fingers meet, with their gaps.
-    fn lines<'a>(&self, gaps: &'a [Option<f64>]) -> impl Iterator<Item = (f64, f64)> + use<'a> {
+    /// Lines of a stage on which the fingers meet, with their gaps: those within `half` m of a place, and a step
+    /// more on both sides.
+    fn lines<'a>(
+        &self,
+        gaps: &'a [Option<f64>],
+        place: f64,
+        half: f64,
+    ) -> impl Iterator<Item = (f64, f64)> + use<'a> {
         let first = self.first;
-        gaps.iter().zip(0_u32..).filter_map(move |(gap, at)| Some((first + STEP * f64::from(at), (*gap)?)))
+        let from = libm::floor((place - half - first) / STEP - 1.0).max(0.0) as u32;
+        let count = libm::ceil((2.0 * half) / STEP + 3.0).clamp(0.0, 400.0) as usize;
+        let near = gaps.iter().zip(0_u32..).skip(from as usize).take(count + 1);
+        near.filter_map(move |(gap, at)| Some((first + STEP * f64::from(at), (*gap)?)))
     }
 
     fn gaps(&self) -> &[Vec<Option<f64>>] {
