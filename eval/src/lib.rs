@@ -3,6 +3,7 @@
 pub mod dialogue;
 pub mod dynamic;
 pub mod mutations;
+pub mod physics;
 pub mod planbench;
 pub mod repairs;
 pub mod saycan;

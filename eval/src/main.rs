@@ -13,6 +13,8 @@
 //! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are
 //!   repaired.
 //! - `reach [SCENE|--rooms N --seed S]` asks motion queries.
+//! - `physics --robot NAME [--seeds N]` carries every feasible verdict out in MuJoCo, and exits with 0 if the
+//!   shares that it bears out reach the aims.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -20,7 +22,8 @@ use std::process::ExitCode;
 
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, dialogue, dynamic, mutations, planbench, repairs, saycan, scenarios, spread, summary, world,
+    Judged, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, spread, summary,
+    world,
 };
 use motet_sim::Profile;
 
@@ -60,13 +63,25 @@ fn run() -> Result<bool, String> {
         writeln!(std::io::stdout(), "{text}").map_err(|error| error.to_string())?;
         return Ok(is_good);
     }
+    if let Some((_, flags)) = args.split_first().filter(|(suite, _)| *suite == "physics") {
+        let flags: Vec<String> = flags.iter().filter(|flag| *flag != "--json").cloned().collect();
+        let found = physics::run(&flags)?;
+        let sums = serde_json::from_str(&found.line).map_err(|error| error.to_string())?;
+        let report = Report {
+            lines: found.refuted().chain(found.table()).collect(),
+            is_good: found.is_good(),
+            summary: sums,
+        };
+        return shown(&report, args.iter().any(|arg| arg == "--json"));
+    }
     let only_json = args.iter().any(|arg| arg == "--json");
     let is_planned = args.iter().any(|arg| arg == "--planned");
     let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| !arg.starts_with("--")).collect();
     let usage = || {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
-            "usage: eval {} FILE [--json], eval dynamic TRIALS, eval world RUNS, eval mutations, or \
+            "usage: eval {} FILE [--json], eval dynamic TRIALS, eval world RUNS, eval mutations, \
+             eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \
              eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
             names.join("|")
         )

@@ -107,7 +107,7 @@ impl RunArgs {
     fn address(&self, parsed: &Parsed) -> Result<Option<DriverAddress>, CliError> {
         let given = &self.session.environment;
         let robot = given.robot.clone().or_else(|| named_robot(&parsed.file));
-        self.driver.address(robot.as_deref(), given.scene.as_deref(), self.simulation.seed())
+        self.driver.address(robot.as_deref(), given.scene.as_deref(), &self.simulation)
     }
 }
 

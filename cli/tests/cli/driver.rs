@@ -111,7 +111,7 @@ fn physics_that_is_not_installed_is_explained() {
         ],
     );
     with("none")
-        .check(2, &["err:`--driver mujoco` cannot start `python3`", "err:install Python 3.10 or later"]);
+        .check(2, &["err:`--driver mujoco` cannot start `python3`", "err:install Python 3.11 or later"]);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 import argparse
 import sys
 
+from .chance import profile
 from .driver import Driver, Options, stdio
 from .model import ModelError, find_motet, load
 
@@ -16,28 +17,41 @@ def walk(text):
     return person, (x, y), float(start), float(speed or 0.8)
 
 
+def says(text):
+    """Words of a person: ID:TEXT@SECONDS."""
+    person, _, rest = text.partition(":")
+    words, _, when = rest.rpartition("@")
+    return person, words, float(when)
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="motet_mujoco", description=__doc__)
     parser.add_argument("--robot", required=True, help="a built-in name, or a folder with a robot.toml")
     parser.add_argument("--scene", required=True, help="a built-in name, or a JSON file")
     parser.add_argument("--motet", help="the command `motet` [default: from PATH]")
     parser.add_argument("--seed", type=int, default=0, help="seed of all that is drawn at random")
-    parser.add_argument("--profile", choices=sorted(Options.RATES), default="ideal",
-                        help="how poses, friction and people vary [default: ideal]")
+    parser.add_argument("--profile", default="ideal", metavar="ideal|typical|harsh|FILE",
+                        help="how often and by how much things go wrong [default: ideal]")
     parser.add_argument("--answers", action="append", default=[], metavar="TEXT",
                         help="what people answer, in order; then `yes`")
     parser.add_argument("--walk", action="append", default=[], type=walk, metavar="ID:X,Y[@SECONDS[,SPEED]]",
                         help="a person walks to a place, at a time and with a speed in m/s")
+    parser.add_argument("--says", action="append", default=[], type=says, metavar="ID:TEXT@SECONDS",
+                        help="a person says something by themselves, at a time")
     parser.add_argument("--speed", type=float, default=1.0, help="for hosts with a wall clock: times real time")
     parser.add_argument("--oracle", action="store_true", help="perceive by the truth of the simulator, not by pixels")
     args = parser.parse_args(arguments)
     try:
         command = find_motet(args.motet)
+        rates = profile(args.profile)
         model = load(args.robot, args.scene, command)
+        unknown = [one[0] for one in args.walk + args.says if one[0] not in model.people]
+        if unknown:
+            raise ModelError("the scene has no person `%s`" % unknown[0])
     except ModelError as error:
         print("error: %s" % error, file=sys.stderr)
         return 2
-    driver = Driver(model, command, Options(args.profile, args.seed, args.answers), args.oracle, args.walk)
+    driver = Driver(model, command, Options(rates, args.seed, args.answers), args.oracle, args.walk, args.says)
     stdio(driver, args.speed)
     return 0
 

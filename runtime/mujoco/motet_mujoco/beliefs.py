@@ -6,6 +6,7 @@ The world itself is not asked here, except for what a robot feels: its joints, a
 import copy
 import re
 
+import mujoco
 import numpy as np
 
 from .planner import rpy
@@ -30,6 +31,29 @@ class Beliefs:
         pose["xyz"] = [round(float(part), 5) for part in position - np.array([0.0, 0.0, lift])]
         if quaternion is not None:
             pose["rpy"] = [round(part, 5) for part in rpy(quaternion)]
+
+    def gap(self, entity, point):
+        """Distance in m of a point from where something is believed to be, 0 within it; None if it is not known."""
+        known = self.entities.get(entity)
+        if known is None or "pose" not in known:
+            return None
+        quaternion, rotation = np.zeros(4), np.zeros(9)
+        mujoco.mju_euler2Quat(quaternion, np.array(known["pose"]["rpy"], dtype=float), "XYZ")
+        mujoco.mju_quat2Mat(rotation, quaternion)
+        local = rotation.reshape(3, 3).T @ (np.asarray(point) - np.array(known["pose"]["xyz"], dtype=float))
+        shape = known.get("shape", {})
+        if "box" in shape:
+            beyond = np.abs(local) - np.array(shape["box"]) / 2.0
+        elif "cylinder" in shape:
+            beyond = np.array([np.hypot(*local[:2]) - shape["cylinder"]["radius"],
+                               abs(local[2]) - shape["cylinder"]["height"] / 2.0])
+        elif "capsule" in shape:
+            line = max(abs(local[2]) - shape["capsule"]["height"] / 2.0, 0.0)
+            beyond = np.array([np.hypot(np.hypot(*local[:2]), line) - shape["capsule"]["radius"]])
+        else:
+            radius = shape.get("sphere", {}).get("radius", 0.03)
+            beyond = np.array([np.linalg.norm(local) - radius])
+        return float(np.linalg.norm(np.maximum(beyond, 0.0)))
 
     def rests(self, entity, where, on):
         """Notes what something stands on or lies in; None for nothing."""
@@ -63,8 +87,6 @@ class Beliefs:
             position, quaternion = world.pose(held[0])
             relative = rotation.T @ (position - place)
             turned = np.zeros(4)
-            import mujoco
-
             inverse = np.zeros(4)
             mujoco.mju_mat2Quat(inverse, np.ascontiguousarray(rotation.T).ravel())
             mujoco.mju_mulQuat(turned, inverse, quaternion)

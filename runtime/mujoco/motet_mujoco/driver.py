@@ -10,6 +10,8 @@ import numpy as np
 
 from .beliefs import Beliefs
 from .camera import NoGraphics
+from .chance import Chance, profile
+from .disorder import People, displace
 from .eyes import Eyes
 from .observation import Observer
 from .planner import Planner
@@ -19,35 +21,32 @@ from .world import World
 REFUSED, METHOD_NOT_FOUND, INVALID_PARAMS, INTERNAL = 1, -32601, -32602, -32603
 # After so many seconds without a word a host on a wall clock has vanished.
 SILENCE = 5.0
-# Ticks between two reports `moved`.
+# Seconds between two reports `moved`.
 MOVED_EVERY = 0.05
+# Primitives after which nothing new is in view.
+SPEECH = ("say", "ask", "choose")
 
 
 class Options:
-    """What is drawn at random: noise of poses, how long people take, whether they refuse."""
+    """What goes wrong by itself, as a profile says, and what people answer."""
 
-    RATES = {"ideal": (0.0, 0.0, 0.0, 0.0), "typical": (0.003, 0.05, 0.5, 0.0), "harsh": (0.012, 0.3, 3.0, 0.15)}
-
-    def __init__(self, profile="ideal", seed=0, answers=()):
-        self.pose_m, self.friction, self.late_secs, self.refusal = self.RATES[profile]
-        self.random = np.random.default_rng(seed)
+    def __init__(self, rates=None, seed=0, answers=()):
+        self.rates = rates or profile("ideal")
+        self.chance = Chance(seed)
         self.answers = answers
-
-    def noise(self):
-        """Error of a seen position in m."""
-        return self.random.normal(0.0, self.pose_m, 3) if self.pose_m else np.zeros(3)
 
     def reaction(self):
         """Seconds that a person takes."""
-        return 0.8 + (float(self.random.exponential(self.late_secs)) if self.late_secs else 0.0)
+        people = self.rates["people"]
+        return 0.8 + (people["late_secs"] if self.chance.comes(people["late"], "late") else 0.0)
 
-    def refuses(self):
+    def refuses(self, person=""):
         """True where a person does not do what they are asked."""
-        return bool(self.refusal and self.random.random() < self.refusal)
+        return self.chance.comes(self.rates["people"]["refuse"], "refuse", person)
 
-    def grip_share(self):
+    def friction(self):
         """Friction of a run, as a share of the model's."""
-        return 1.0 + (float(self.random.uniform(-self.friction, self.friction / 2.0)) if self.friction else 0.0)
+        return 1.0 + float(np.clip(self.chance.error(self.rates["hand"]["friction"], "friction")[0], -0.9, 1.0))
 
 
 class Error(Exception):
@@ -69,9 +68,9 @@ class Goal:
 class Driver:
     """Keeps goals, answers calls, and lets the world go on."""
 
-    def __init__(self, model, command, options, oracle=False, walks=()):
+    def __init__(self, model, command, options, oracle=False, walks=(), says=()):
         self.model, self.command, self.options = model, command, options
-        self.oracle, self.walks = oracle, list(walks)
+        self.oracle, self.walks, self.says = oracle, list(walks), list(says)
         self.instance = "%d-%d" % (os.getpid(), time.time_ns())
         self.say = lambda message: None
         self.run, self.protocol, self.has_clock = None, 2, False
@@ -81,15 +80,16 @@ class Driver:
     def make(self):
         """Makes the world as it is at the start."""
         self.world = World(self.model)
-        share = self.options.grip_share()
-        self.model.mj.geom_friction[:, 0] = share
+        rates, chance = self.options.rates, self.options.chance
+        self.model.mj.geom_friction[:, 0] = self.options.friction()
         self.observer = Observer(self.world)
         self.beliefs = Beliefs(self.world)
-        noise = self.options.noise
-        self.eyes = Eyes(self.world, self.observer, self.beliefs, self.oracle, noise)
+        displace(self.world, rates["room"], chance)
+        self.people = People(self.world, self.walks, self.says, rates["people"]["walk_per_min"], Chance(chance.seed))
+        self.eyes = Eyes(self.world, self.observer, self.beliefs, self.oracle, rates["camera"], chance)
         planner = Planner(self.command, self.model.source) if self.command else None
         self.tasks = Tasks(self.world, self.observer, self.beliefs, planner, self.eyes, self.options)
-        self.goals, self.watched, self.moved_at, self.detected = {}, [], -1.0, None
+        self.goals, self.watched, self.moved_at = {}, [], -1.0
         self.hold_what_is_held()
 
     def hold_what_is_held(self):
@@ -123,6 +123,7 @@ class Driver:
     def start(self, params):
         number, command = params["goal"], params["command"]
         if number not in self.goals:
+            self.options.chance.next()
             task = self.tasks.task(command)
             self.goals[number] = Goal(command, task)
             if task is None:
@@ -235,21 +236,11 @@ class Driver:
                 self.end(number, {"success": done.value})
             except Failed as failure:
                 self.end(number, {"failure": self.failure(goal.command["primitive"], failure)})
-        self.walk()
+        for person, text in self.people.tick():
+            self.report("heard", {"text": text, "from": person})
         self.world.step(self.tasks.goal, self.tasks.rate)
         self.observer.tick()
         self.tell()
-
-    def walk(self):
-        """Moves people along their walks: (person, from, to, start and speed)."""
-        for person, target, start, speed in self.walks:
-            at = self.model.people.get(person)
-            if at is None or self.world.now < start:
-                continue
-            off = np.array(target) - self.world.data.mocap_pos[at, :2]
-            far = float(np.linalg.norm(off))
-            if far > 1e-6:
-                self.world.data.mocap_pos[at, :2] += off * min(1.0, speed * self.world.tick / far)
 
     def tell(self):
         """Reports answers that changed, and where everything is."""
@@ -306,6 +297,17 @@ class Driver:
         if outcome == "interrupted":
             self.freeze()
         self.report("ended", {"goal": number, "outcome": outcome})
+        if outcome != "interrupted" and self.goals[number].command["primitive"] not in SPEECH:
+            self.notice()
+
+    def notice(self):
+        """Reports what is in view and was not known, or not there."""
+        try:
+            new = self.eyes.news() if self.protocol >= 2 else []
+        except NoGraphics:
+            return
+        if new:
+            self.report("detected", {"detections": new})
 
     def stop_all(self):
         """Stops everything that moves."""

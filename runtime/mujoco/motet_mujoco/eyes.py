@@ -12,17 +12,22 @@ import sys
 import numpy as np
 
 from .camera import Camera, NoGraphics
+from .chance import Chance
 
 # Distance in m within which a detection may be a known thing, and the part of its size by which it may differ.
 ABOUT, UNLIKE = 0.3, 0.75
+# Distance in m from which a thing counts as being elsewhere.
+ELSEWHERE = 0.08
 
 
 class Eyes:
     """Detections of all cameras of the robot."""
 
-    def __init__(self, world, observer, beliefs, oracle, noise, command=None):
+    def __init__(self, world, observer, beliefs, oracle=False, rates=None, chance=None, command=None):
         self.world, self.observer, self.beliefs = world, observer, beliefs
-        self.oracle, self.noise = oracle, noise
+        self.oracle, self.chance = oracle, chance or Chance(0)
+        self.rates = rates or {"error_per_m": 0.0, "miss": 0.0, "confuse": 0.0}
+        self.told = {}  # where the host was told that something is
         self.camera = Camera(world)
         self.command = command or [sys.executable, "-m", "motet_mujoco.detector"]
         self.process, self.last, self.at, self.sure = None, [], -1.0, set()
@@ -40,7 +45,7 @@ class Eyes:
         """What is in view now, as the driver protocol writes it."""
         if self.at == self.world.now:
             return self.last
-        self.last = self.truth() if self.oracle else self.matched()
+        self.last = self.erred(self.truth() if self.oracle else self.matched())
         self.at = self.world.now
         self.sure = {one["id"] for one in self.last if one["id"] is not None}
         for one in self.last:
@@ -49,6 +54,56 @@ class Eyes:
                 quaternion = self.world.pose(one["id"])[1] if self.oracle else None
                 self.beliefs.saw(one["id"], np.array(one["pose"]["xyz"]), quaternion)
         return self.last
+
+    def erred(self, found):
+        """Detections with the errors of the profile: some are missed, some taken for another, all a little off."""
+        kept, rates, eye = [], self.rates, self.eye()
+        for at, one in enumerate(found):
+            of, far = one["id"] or "%d" % at, float(np.linalg.norm(np.array(one["pose"]["xyz"]) - eye))
+            # As a thing of 10 cm at 1 m would be.
+            small = max(1.0, far * 0.1 / max(float(np.max(one["extent"])), 0.01))
+            if self.chance.comes(min(rates["miss"] * small, 1.0), "miss", of):
+                continue
+            off = self.chance.error(rates["error_per_m"] * far, "place", of)
+            one["pose"]["xyz"] = [round(float(part), 4) for part in np.array(one["pose"]["xyz"]) + [*off, 0.0]]
+            kept.append(one)
+        entities = self.world.model.entities
+        for at, one in enumerate(kept):
+            alike = [other for other in kept[at + 1 :] if one["id"] and other["id"]
+                     and entities[one["id"]].get("class") == entities[other["id"]].get("class")]
+            if alike and self.chance.comes(rates["confuse"], "confuse", one["id"]):
+                for key in ("id", "label"):
+                    one[key], alike[0][key] = alike[0][key], one[key]
+        return kept
+
+    def eye(self):
+        """Position of the first camera, or of the base without one."""
+        model = self.world.model
+        if not model.cameras:
+            return np.array([*self.world.base()[:2], 1.0])
+        return self.world.data.cam_xpos[model.mj.camera(model.cameras[0]).id].copy()
+
+    def news(self):
+        """Detections that the host does not know of: things without an id, and things elsewhere than it was told."""
+        new, held = [], self.world.held()
+        for one in self.detections():
+            place = np.array(one["pose"]["xyz"])
+            if one["id"] in held:
+                continue
+            if one["id"] is None:
+                unknown = [at for key, at in self.told.items() if isinstance(key, tuple)]
+                if any(np.linalg.norm(place - at) < ABOUT for at in unknown):
+                    continue
+                self.told[(one["label"], tuple(place))] = place
+            else:
+                was = self.told.get(one["id"])
+                if was is None:
+                    was = np.array(self.world.model.entities[one["id"]]["pose"]["xyz"])
+                if np.linalg.norm(place - was) < ELSEWHERE:
+                    continue
+                self.told[one["id"]] = place
+            new.append(one)
+        return new
 
     def known(self, wanted):
         """Ids among those wanted that are in view now."""
@@ -92,7 +147,7 @@ class Eyes:
                 taken.add(one["id"])
                 entity = self.world.model.entities[one["id"]]
                 one["label"] = (entity.get("names") or [entity.get("class") or one["id"]])[0]
-                one["pose"]["xyz"] = centred(one, entity, self.noise())
+                one["pose"]["xyz"] = centred(one, entity)
         return found
 
     def match(self, one, taken):
@@ -195,10 +250,10 @@ ALIKE = {"orange": ("brown", "red", "yellow"), "brown": ("orange", "red"), "purp
          "black": ("grey",), "white": ("grey",), "grey": ("white", "black"), "yellow": ("orange",), "pink": ("red",)}
 
 
-def centred(one, entity, noise):
+def centred(one, entity):
     """Middle of a known thing whose near side was seen. Its height is that of its shape on what it stands on."""
     position, half = np.array(one["pose"]["xyz"]), extent(entity) / 2.0
     size = np.array(one["extent"]) / 2.0
     bottom = position[2] - size[2]
     position[2] = bottom + half[2]
-    return [round(float(part), 4) for part in position + noise]
+    return [round(float(part), 4) for part in position]

@@ -1,10 +1,13 @@
 """The judge: carries out every motion that Motet calls feasible, and reports the share that physics bears out.
 
-    python -m motet_mujoco.judge --robot hsr [--scene kitchen]…
+    python -m motet_mujoco.judge --robot hsr [--scene kitchen]… [--profile typical --seeds 10]
 
 `reach` holds if the hand still holds the thing 1.5 s after everything else that bore it is gone. `go_to` holds if
 the base arrives without touching anything. `pull` and `push` hold if the drawer or door is then open or closed.
 `put` holds if the thing comes to rest on or in what it was put on, upright.
+
+With a profile, each verdict is carried out once for each seed: the friction is another one, and the thing is not quite
+where it was seen and the hand not quite where it was sent.
 """
 
 import argparse
@@ -16,6 +19,7 @@ import time
 
 import numpy as np
 
+from .chance import Chance, profile
 from .model import Model, ModelError, find_motet, motet
 from .motion import phases, timed
 from .world import World
@@ -28,11 +32,16 @@ AIMS = {"reach": {"hsr": 0.95, "anymal_z1": 0.9, "panda": 0.95}, "go_to": 1.0, "
 HOLDS, SLIPS = 1.5, 0.03
 
 
-class Trial:
-    """One verdict carried out."""
+# Distance in m from which a thing is seen before it is grasped.
+SEEN_FROM = 1.0
 
-    def __init__(self, scene, query, holds, why, error):
-        self.scene, self.query, self.holds, self.why, self.error = scene, query, holds, why, error
+
+class Trial:
+    """One verdict carried out: `off` is the error in m with which the hand came to the thing."""
+
+    def __init__(self, scene, query, seed, found, off):
+        self.scene, self.query, self.seed, self.off = scene, query, seed, off
+        self.holds, self.why, self.error = found
 
     def kind(self):
         """Kind of the query."""
@@ -244,39 +253,60 @@ def quoted(entity):
     return entity if entity.isidentifier() else "`%s`" % entity
 
 
-def trials(command, robot, scene, kinds, report):
-    """Carries out all feasible verdicts of a scene."""
+def trials(command, robot, scene, kinds):
+    """All feasible verdicts of a scene, with the model in which they are carried out: (xml, query, witness)."""
     xml = motet(command, "robots", "mjcf", "--robot", robot, "--scene", scene)
-    model = Model(xml)
     if kinds - {"put"}:
         for query, witness in verdicts(command, robot, scene):
             if query.partition("(")[0] in kinds - {"put"}:
-                yield from trial(scene, xml, query, witness, report)
+                yield xml, query, witness
     if "put" in kinds:
         with tempfile.TemporaryDirectory() as folder:
-            for held, motions in puts(command, robot, model.scene, folder):
+            for held, motions in puts(command, robot, Model(xml).scene, folder):
                 try:
                     found = verdicts(command, robot, held, *motions)
                 except ModelError as error:
                     print("%s: %s" % (held, error), file=sys.stderr)
                     continue
-                if found:
-                    held_xml = motet(command, "robots", "mjcf", "--robot", robot, "--scene", held)
+                held_xml = motet(command, "robots", "mjcf", "--robot", robot, "--scene", held) if found else None
                 for query, witness in found:
-                    yield from trial(scene, held_xml, query, witness, report)
+                    yield held_xml, query, witness
 
 
-def trial(scene, xml, query, witness, report):
-    """Carries out one verdict in a fresh world."""
-    world = World(Model(xml))
+def disturbed(xml, query, rates, chance):
+    """A fresh world, as a profile and a seed make it, and the error in m with which the hand comes to the thing."""
+    model = Model(xml)
+    friction = chance.error(rates["hand"]["friction"], "friction")[0]
+    model.mj.geom_friction[:, 0] = 1.0 + max(float(friction), -0.9)
+    world = World(model)
     # The verdict is about shapes; a lock is a fact.
-    for at in range(world.model.mj.neq):
-        if world.model.mj.eq(at).name.endswith("/lock"):
+    for at in range(model.mj.neq):
+        if model.mj.eq(at).name.endswith("/lock"):
             world.data.eq_active[at] = 0
-    holds, why, error = carry_out(world, query.replace("`", ""), witness)
-    done = Trial(os.path.basename(scene), query, holds, why, error)
-    report(done, world.now)
-    yield done
+    kind, _, rest = query.replace("`", "").partition("(")
+    thing = rest.rstrip(")").split(",")[0]
+    if kind != "reach":
+        return world, 0.0
+    off = chance.error(rates["hand"]["error_m"], "hand", thing)
+    off = off + chance.error(rates["camera"]["error_per_m"] * SEEN_FROM, "place", thing)
+    if off.any():
+        before = world.pose(thing)[0]
+        world.place(thing, before + [*off, 0.0])
+        world.refresh()
+        # Nothing is within something else.
+        if any(gap < -1e-3 for _, gap in world.gaps(thing, 1e-3)):
+            world.place(thing, before)
+            off = np.zeros(2)
+        world.refresh()
+    return world, float(np.linalg.norm(off))
+
+
+def trial(scene, xml, query, witness, rates=None, seed=0):
+    """Carries out one verdict in a fresh world. Answers the trial, and the seconds simulated and of the processor."""
+    world, off = disturbed(xml, query, rates or profile("ideal"), Chance(seed))
+    begun = time.process_time()
+    found = carry_out(world, query.replace("`", ""), witness)
+    return Trial(os.path.basename(scene), query, seed, found, off), world.now, time.process_time() - begun
 
 
 def main(arguments=None):
@@ -286,52 +316,79 @@ def main(arguments=None):
     parser.add_argument("--motet", help="the command `motet` [default: from PATH]")
     parser.add_argument("--kind", action="append", choices=["reach", "go_to", "pull", "push", "put"],
                         help="kind of motion; repeatable [default: all]")
+    parser.add_argument("--profile", default="ideal", metavar="ideal|typical|harsh|FILE",
+                        help="errors and friction of the trials [default: ideal]")
+    parser.add_argument("--seeds", type=int, default=1, help="trials of each verdict, with seeds from 0 on [default: 1]")
     parser.add_argument("--format", choices=["human", "json"], default="human")
     args = parser.parse_args(arguments)
     scenes = args.scene or SCENES.get(args.robot, DEFAULT)
     kinds = set(args.kind or ["reach", "go_to", "pull", "push", "put"])
-    begun, simulated, all_trials = time.monotonic(), [0.0], []
-
-    def report(done, seconds):
-        simulated[0] += seconds
-        if args.format == "json":
-            print(json.dumps({"scene": done.scene, "query": done.query, "holds": bool(done.holds), "why": done.why,
-                              "error": [round(float(part), 5) for part in done.error]}), flush=True)
-        else:
-            print("%-12s %-32s %-4s %s" % (done.scene, done.query, "yes" if done.holds else "NO", done.why), flush=True)
-
+    simulated, taken, done = 0.0, 0.0, []
     try:
-        command = find_motet(args.motet)
+        command, rates = find_motet(args.motet), profile(args.profile)
         for scene in scenes:
-            all_trials.extend(trials(command, args.robot, scene, kinds, report))
+            for xml, query, witness in trials(command, args.robot, scene, kinds):
+                for seed in range(args.seeds):
+                    one, seconds, processor = trial(scene, xml, query, witness, rates, seed)
+                    simulated, taken = simulated + seconds, taken + processor
+                    done.append(one)
+                    told(one, args.format)
     except ModelError as error:
         print("error: %s" % error, file=sys.stderr)
         return 2
-    summary(args, all_trials, simulated[0], time.monotonic() - begun)
+    summary(args, done, simulated, taken)
     return 0
+
+
+def told(done, form):
+    """Prints a trial."""
+    if form == "json":
+        print(json.dumps({"scene": done.scene, "query": done.query, "seed": done.seed, "holds": bool(done.holds),
+                          "why": done.why, "error": [round(float(part), 5) for part in done.error]}), flush=True)
+    else:
+        print("%-12s %-32s %3d %-4s %s" % (done.scene, done.query, done.seed, "yes" if done.holds else "NO", done.why),
+              flush=True)
+
+
+def interval(held, of):
+    """Interval of a share at 95 %, after Wilson 1927."""
+    if of == 0:
+        return 0.0, 1.0
+    z, share = 1.959964, held / of
+    middle, spread = share + z * z / (2 * of), z * np.sqrt(share * (1 - share) / of + z * z / (4 * of * of))
+    return max(0.0, (middle - spread) / (1 + z * z / of)), min(1.0, (middle + spread) / (1 + z * z / of))
+
+
+def aim_of(kind, robot):
+    """Share of a kind that physics shall bear out."""
+    aim = AIMS[kind]
+    return aim.get(robot, 0.9) if isinstance(aim, dict) else aim
 
 
 def summary(args, done, simulated, taken):
     """Prints the shares."""
     shares = {}
     for one in done:
-        shares.setdefault(one.kind(), []).append(one.holds)
+        shares.setdefault(one.kind(), []).append(bool(one.holds))
     # Where nothing is held or pulled, so that nothing bends the arm.
     free = [one.error for one in done if one.kind() in ("reach", "go_to")]
     error = np.max(free, axis=0) if free else np.zeros(2)
     if args.format == "json":
-        found = {kind: {"held": sum(map(bool, held)), "of": len(held)} for kind, held in shares.items()}
-        print(json.dumps({"robot": args.robot, "shares": found, "error": [float(part) for part in error],
-                          "simulated_secs": simulated, "wall_secs": taken}))
+        found = {kind: {"held": sum(held), "of": len(held), "interval": interval(sum(held), len(held)),
+                        "aim": aim_of(kind, args.robot)} for kind, held in shares.items()}
+        print(json.dumps({"robot": args.robot, "profile": args.profile, "seeds": args.seeds, "shares": found,
+                          "error": [float(part) for part in error], "simulated_secs": simulated,
+                          "processor_secs": taken}))
         return
     print()
     for kind, held in shares.items():
-        aim = AIMS[kind]
-        aim = aim.get(args.robot, 0.9) if isinstance(aim, dict) else aim
-        print("%-6s %3d of %3d borne out, %5.1f %% (aim %.0f %%)"
-              % (kind, sum(map(bool, held)), len(held), 100.0 * sum(map(bool, held)) / len(held), 100.0 * aim))
+        low, high = interval(sum(held), len(held))
+        print("%-6s %3d of %3d borne out, %5.1f %% (%.1f to %.1f; aim %.0f %%)"
+              % (kind, sum(held), len(held), 100.0 * sum(held) / len(held), 100.0 * low, 100.0 * high,
+                 100.0 * aim_of(kind, args.robot)))
     print("the hand is off its witness by at most %.1f mm and %.1f mrad" % (error[0] * 1e3, error[1] * 1e3))
-    print("%.0f s simulated in %.0f s" % (simulated, taken))
+    print("%.0f s simulated in %.0f s of the processor: %.0f times real time" % (simulated, taken,
+                                                                                 simulated / max(taken, 1e-9)))
 
 
 if __name__ == "__main__":

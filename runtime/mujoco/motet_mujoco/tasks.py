@@ -7,10 +7,13 @@ import numpy as np
 
 from .camera import NoGraphics
 from .motion import Path, near_turn, phases, set_targets, timed
+from .observation import AT_PLACE
 from .planner import quoted
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
 BEGINS = 0.05
+# Distance in m from a thing up to which a given point counts as being at it.
+NEAR_GRASP = 0.05
 # Error in m or rad of a servo above which something is in the way.
 BLOCKED = 0.12
 
@@ -148,6 +151,9 @@ class Tasks:
 
     def drive(self, points, times, speed, to):
         held = self.world.held()
+        if self.world.model.drives:
+            points = [np.array(point) for point in points]
+            points[-1][:2] += self.options.chance.error(self.options.rates["base"]["error_m"], "base")
 
         def watch():
             met = self.world.bumped(held)
@@ -200,12 +206,59 @@ class Tasks:
         self.observer.moved.add(thing)
 
     def do_grasp(self, args, motion):
-        thing = entity(args["object"])
-        yield from self.grasp(thing, "reach(%s)" % quoted(thing), motion)
+        thing, at = entity(args["object"]), args.get("at", {}).get("pose")
+        place = None if at is None else np.array(at["xyz"], dtype=float)
+        if place is not None:
+            self.check_grasp(thing, place)
+        yield from self.grasp(thing, "reach(%s)" % quoted(thing), motion, place)
 
-    def grasp(self, thing, query, motion):
+    def check_grasp(self, thing, place):
+        """Checks a point that the hand is to close at: within reach, and at the thing."""
+        gap, (x, y, _) = self.beliefs.gap(thing, place), self.world.base()
+        if gap is None:
+            raise Failed("not_found", "there is no %s" % thing)
+        far, reach = float(np.hypot(place[0] - x, place[1] - y)), self.world.model.card[1]
+        # The base may still move a little.
+        if gap > NEAR_GRASP and far > reach + AT_PLACE * self.world.model.drives:
+            raise Failed("unreachable", "the point is %.2f m away at a height of %.2f m, the hand reaches %.2f m"
+                         % (far, place[2], reach))
+        if gap > NEAR_GRASP:
+            raise Failed("not_found", "the hand closes %.2f m beside %s" % (gap, thing))
+
+    def aside(self, points, off):
+        """Points of a way whose last leg ends elsewhere by an offset of the hand, in m; None out of reach."""
+        world, model = self.world, self.world.model
+        if float(np.linalg.norm(off)) < 1e-4:
+            return points
+        moved = [np.array(point) for point in points]
+        for at in range(max(1, len(points) - 2), len(points)):
+            set_targets(model, world.reacher.data, world.data.qpos.copy(), points[at])
+            place, rotation = world.reacher.pose(world.reacher.data.qpos.copy())
+            target = world.reacher.solve(world.data.qpos, moved[at], place + off, rotation)
+            if target is None:
+                return None
+            for grip in model.grips:
+                target[grip] = points[at][grip]
+            moved[at] = target
+        return moved
+
+    def to_point(self, points, place):
+        """Points of a way on which the fingers close in the plane across them through a point."""
+        world = self.world
+        set_targets(world.model, world.reacher.data, world.data.qpos.copy(), points[-1])
+        tip, rotation = world.reacher.pose(world.reacher.data.qpos.copy())
+        across = rotation[:, 0]
+        return self.aside(points, across * float(across @ (place - tip)))
+
+    def grasp(self, thing, query, motion, place=None):
         """Reaches a thing and closes the hand around it. Gives the points of the way there."""
         points, times, _ = self.motion(motion, query)
+        if place is not None:
+            points = self.to_point(points, place)
+            if points is None:
+                raise Failed("unreachable", "the hand does not reach the point on %s" % thing)
+        dx, dy = self.options.chance.error(self.options.rates["hand"]["error_m"], "hand", thing)
+        points = self.aside(points, np.array([dx, dy, 0.0])) or points
         yield from self.follow(points, times, motion.speed, thing)
         yield from self.grip(True, 1.0)
         held = self.world.held()
@@ -344,7 +397,7 @@ class Tasks:
         points, times, _ = self.motion(motion, "offer(%s, %s)" % (quoted(thing), quoted(person)))
         yield from self.follow(points, times, motion.speed, person, self.keeps(thing))
         yield from self.pause(self.options.reaction())
-        if self.options.refuses():
+        if self.options.refuses(person):
             raise Failed("refused", "%s does not take it" % person)
         at = world.model.people[person]
         world.carried_by[thing] = (person, world.pose(thing)[0] - world.data.mocap_pos[at])

@@ -114,15 +114,16 @@ class World:
         return rotation.T @ (self.pose(thing)[0] - place)
 
     def settle_in_hand(self, thing):
-        """Closes the fingers around a thing that stays where it is meanwhile."""
-        position, quaternion = self.pose(thing)
+        """Closes the fingers around a thing that has no weight meanwhile."""
+        weightless, body = self.model.mj.body_gravcomp, self.model.body_of[thing]
+        before, weightless[body] = float(weightless[body]), 1.0
         ticks, target = int(1.0 / self.tick), self.target.copy()
         start = {at: target[at] for at in self.model.grips}
         for tick in range(ticks):
             for at, (_, closed) in self.model.grips.items():
                 target[at] = start[at] + (closed - start[at]) * min(2.0 * (tick + 1) / ticks, 1.0)
-            self.place(thing, position, quaternion)
             self.step(target)
+        weightless[body] = before
         self.wait(0.3)
 
     def place(self, thing, position, quaternion=None):
@@ -132,6 +133,36 @@ class World:
         if quaternion is not None:
             self.data.qpos[at + 3 : at + 7] = quaternion
         self.data.qvel[dof : dof + 6] = 0.0
+
+    def refresh(self):
+        """Brings positions up to date after something was put elsewhere."""
+        mujoco.mj_kinematics(self.model.mj, self.data)
+        self.near_at = -1.0
+
+    def geoms(self, entity):
+        """Geoms of an entity that something can touch."""
+        mj = self.model.mj
+        return [at for at in range(mj.ngeom) if self.model.geom_owner[at] == entity and mj.geom_contype[at]]
+
+    def bounds(self, entity):
+        """Least and greatest corner of the box around an entity as it is."""
+        mj, data = self.model.mj, self.data
+        low, high = np.full(3, np.inf), np.full(3, -np.inf)
+        for at in self.geoms(entity):
+            rotation, box = data.geom_xmat[at].reshape(3, 3), mj.geom_aabb[at]
+            middle, half = data.geom_xpos[at] + rotation @ box[:3], np.abs(rotation) @ box[3:]
+            low, high = np.minimum(low, middle - half), np.maximum(high, middle + half)
+        return low, high
+
+    def gaps(self, entity, most):
+        """Distances of an entity from others, up to a greatest one: (other, distance in m)."""
+        mj, own = self.model.mj, set(self.geoms(entity))
+        for other in range(mj.ngeom):
+            if other in own or not mj.geom_contype[other] or self.model.geom_owner[other] == entity:
+                continue
+            gap = min(mujoco.mj_geomDistance(mj, self.data, at, other, most, None) for at in own)
+            if gap < most:
+                yield ("floor" if other == self.model.floor else self.model.geom_owner[other]), gap
 
     def opening(self, container):
         """Share of the travel of a drawer or a door: 0 closed, 1 open; None without one."""

@@ -78,3 +78,8 @@ def entity(one):
 def text(one):
     """Value of a text."""
     return {"text": one}
+
+
+def pose(place):
+    """Value of a pose."""
+    return {"pose": {"xyz": place, "quaternion": [0.0, 0.0, 0.0, 1.0]}}

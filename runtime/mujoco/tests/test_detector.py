@@ -21,7 +21,7 @@ def kitchen(motet):
     world.data.qpos[world.model.control_qpos] = target
     world.step(target)
     observer, beliefs = Observer(world), Beliefs(world)
-    eyes = Eyes(world, observer, beliefs, False, lambda: np.zeros(3))
+    eyes = Eyes(world, observer, beliefs)
     try:
         eyes.look()
     except NoGraphics as error:
@@ -54,6 +54,14 @@ def test_an_unknown_thing_has_no_id(kitchen):
     kitchen.world.wait(0.1)
     new = [one for one in kitchen.detections() if one["id"] is None]
     assert any("green" in one["label"] for one in new), new
+
+
+def test_news_are_told_once(kitchen):
+    """What stands where the host was told is no news, and what was moved is, once."""
+    kitchen.at, kitchen.told = -1.0, {}
+    first = {one["id"] for one in kitchen.news()}
+    assert "mug_1" in first and "glass_1" not in first
+    assert kitchen.news() == []
 
 
 def test_pictures_survive_the_wire(kitchen):

@@ -1,9 +1,13 @@
 """The driver over its protocol: what it does, holds, stops and reports, and the same twice."""
 
 import json
+import os
 
 import pytest
-from host import Host, entity, text
+from host import Host, entity, pose, text
+
+# A profile in which things stand elsewhere, and all else is as it should be.
+SHIFTED = os.path.join(os.path.dirname(__file__), "shifted.toml")
 
 
 @pytest.fixture
@@ -95,6 +99,31 @@ def test_a_person_in_the_way(drive):
     host = drive("hsr", "kitchen", "--walk", "user:1.0,0.3@1,2.0")
     failure = host.carry_out("go", to=entity("kitchen_table"))["failure"]
     assert failure["kind"] == "blocked" and "user" in failure["text"]
+
+
+def test_words_and_sights_are_told(drive):
+    host = drive("hsr", "kitchen", "--says", "user:bring the apple, too@0.5", "--profile", SHIFTED, "--seed", "3")
+    host.carry_out("go", to=entity("kitchen_table"))
+    heard = [one["params"] for one in host.reports if one["method"] == "heard"]
+    assert heard == [{"text": "bring the apple, too", "from": "user"}]
+    host.carry_out("inspect", what=entity("mug_1"))
+    seen = [each for one in host.reports if one["method"] == "detected" for each in one["params"]["detections"]]
+    assert any(one["id"] == "mug_1" for one in seen), "it stands on another surface or elsewhere"
+
+
+def test_a_point_decides_a_grasp(drive):
+    host = drive("hsr", "kitchen")
+    host.carry_out("go", to=entity("kitchen_table"))
+    moved = [one["params"] for one in host.reports if one["method"] == "moved"][-1]
+    mug = next(one for one in moved["things"] if one["id"] == "mug_1")["xyz"]
+    failure = host.carry_out("grasp", object=entity("mug_1"), at=pose([5.0, 0.0, 0.0]))["failure"]
+    assert failure["kind"] == "unreachable" and "m away" in failure["text"]
+    beside = [mug[0], mug[1], mug[2] + 0.2]
+    failure = host.carry_out("grasp", object=entity("mug_1"), at=pose(beside))["failure"]
+    assert failure["kind"] == "not_found" and "beside" in failure["text"]
+    high = [mug[0], mug[1], mug[2] + 0.03]
+    assert host.carry_out("grasp", object=entity("mug_1"), at=pose(high)) == {"success": None}
+    assert host.holds("holding", "mug_1")
 
 
 def test_the_same_calls_give_the_same_reports(drive):

@@ -90,6 +90,9 @@ pub struct HandRates {
     /// Rate at which a door or a drawer sticks.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub stick: f64,
+    /// Spread of the friction between the fingers and things, as a share of it. Only physics has friction.
+    #[schemars(range(min = 0.0, max = 0.9))]
+    pub friction: f64,
 }
 
 /// Habits of people.
@@ -160,6 +163,7 @@ impl Profile {
             ("hand.drop", hand.drop, 1.0),
             ("hand.short", hand.short, 1.0),
             ("hand.stick", hand.stick, 1.0),
+            ("hand.friction", hand.friction, 0.9),
             ("people.refuse", people.refuse, 1.0),
             ("people.late", people.late, 1.0),
             ("people.late_secs", people.late_secs, 600.0),

@@ -55,7 +55,7 @@ impl DriverChoice {
         let given = [
             ("--faults", simulation.faults.is_some()),
             ("--answers", answers.is_some()),
-            ("--profile", simulation.profile.is_some()),
+            ("--profile", simulation.profile.is_some() && *self != Self::Mujoco),
             ("--world", simulation.world.is_some()),
             ("--seed", simulation.seed.is_some() && *self != Self::Mujoco),
         ];
@@ -73,7 +73,7 @@ impl DriverChoice {
         &self,
         robot: Option<&str>,
         scene: Option<&str>,
-        seed: u64,
+        simulation: &SimulationArgs,
     ) -> Result<Option<DriverAddress>, CliError> {
         match self {
             Self::Kinematic => Ok(None),
@@ -85,9 +85,12 @@ impl DriverChoice {
                 let robot = robot.ok_or_else(|| missing("robot", "--robot NAME|FOLDER"))?;
                 let scene = scene.ok_or_else(|| missing("scene", "--scene NAME|FILE"))?;
                 check_modules()?;
-                let seed = seed.to_string();
+                let seed = simulation.seed().to_string();
                 let words = [PYTHON, "-m", PACKAGE, "--robot", robot, "--scene", scene, "--seed", &seed];
                 let mut words: Vec<String> = words.map(str::to_owned).to_vec();
+                if let Some(profile) = &simulation.profile {
+                    words.extend(["--profile".to_owned(), profile.clone()]);
+                }
                 // The driver reads the model from this very program.
                 if let Some(own) = std::env::current_exe().ok().as_deref().and_then(Path::to_str) {
                     words.extend(["--motet".to_owned(), own.to_owned()]);
@@ -104,10 +107,10 @@ fn check_modules() -> Result<(), CliError> {
     let asked = Command::new(PYTHON).args(["-c", MISSING]).args(MODULES).stdin(Stdio::null()).output();
     let output = match asked {
         Ok(output) if output.status.success() => output,
-        Ok(_) => return advised(format!("`{PYTHON}` does not work"), "install Python 3.10 or later"),
+        Ok(_) => return advised(format!("`{PYTHON}` does not work"), "install Python 3.11 or later"),
         Err(error) => {
             let problem = format!("`--driver mujoco` cannot start `{PYTHON}`: {error}");
-            return advised(problem, "install Python 3.10 or later, in PATH");
+            return advised(problem, "install Python 3.11 or later, in PATH");
         }
     };
     let said = String::from_utf8_lossy(&output.stdout);

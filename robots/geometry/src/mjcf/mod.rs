@@ -227,7 +227,6 @@ fn defaults(xml: &mut XmlText) {
         xml.close();
     };
     let density = |value: f64| ("density", number(value));
-    let friction = ("friction", "1 0.01 0.001".to_owned());
     xml.open("default", &[]);
     xml.leaf("geom", &[("condim", "4".into()), ("friction", "1 0.005 0.0005".into())]);
     let things = THING | DOOR | FIXED;
@@ -235,7 +234,17 @@ fn defaults(xml: &mut XmlText) {
     class(xml, "robot", ROBOT, things, &[density(robot::DENSITY), grey("0.8"), ("group", "2".into())]);
     let arm = [density(robot::DENSITY), grey("0.7"), ("group", "2".into())];
     class(xml, "arm", ROBOT, things | FLOOR, &arm);
-    let hand = [density(robot::DENSITY), grey("0.3"), ("group", "2".into()), friction];
+    // Fingers are stiff: at MuJoCo's default the force of a hand would press them centimetres into a light thing.
+    let hand = [
+        density(robot::DENSITY),
+        grey("0.3"),
+        ("group", "2".into()),
+        ("friction", "1 0.01 0.001".into()),
+        ("condim", "6".into()),
+        ("priority", "1".into()),
+        ("solref", "0.004 1".into()),
+        ("solimp", "0.95 0.99 0.001".into()),
+    ];
     class(xml, "hand", ROBOT, things | FLOOR, &hand);
     // Round things roll a little, and come to rest.
     class(xml, "thing", THING, things | FLOOR | ROBOT, &[("condim", "6".into())]);

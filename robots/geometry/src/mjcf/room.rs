@@ -2,7 +2,7 @@
 
 use motet_robots::scene::{Colour, Entity, PERSON_COLOUR, Palette, Scene, Travel, colour};
 use motet_stdlib::lang::kinds;
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::element::{XmlText, name, number, numbers, pose, vector};
 use super::geom::{geom, volume};
@@ -179,12 +179,8 @@ fn travel(
 /// Writes the bar of a handle, with two posts that only show.
 fn handle(xml: &mut XmlText, id: &str, opening: &Articulation, at: &Isometry3<f64>) {
     let handle = opening.handle();
-    let rotation = UnitQuaternion::rotation_between(&Vector3::z(), &handle.along)
-        .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
-    let bar = Isometry3::from_parts(Translation3::from(handle.centre.coords), rotation);
-    let shape = Shape::Capsule { radius: THICK / 2.0, half: handle.half };
     let grey = "0.5 0.5 0.52 1".to_owned();
-    let solid = Solid::new(&(at.inverse() * bar), shape);
+    let solid = opening.bar(0.0).moved(&at.inverse());
     let mut attributes = shaped(&solid, "door", &grey);
     attributes.push(("name", format!("{id}/handle")));
     xml.leaf("geom", &attributes);

@@ -6,6 +6,6 @@ mod hand_check;
 mod margins;
 mod prefilter;
 
-pub(crate) use collision_checker::{CollisionChecker, NearObstacle};
+pub(crate) use collision_checker::{CollisionChecker, NearObstacle, is_nearer};
 pub(crate) use edge_check::MotionBound;
 pub(crate) use hand_check::HandChecker;

@@ -1,7 +1,7 @@
 //! Grasp candidates: hand poses from the shape of an object and the opening of the hand.
 //!
-//! The fingers close across the object on a line through its axis or its centre. Its near face is as close
-//! to the palm as possible, with its centre no nearer than between the finger tips.
+//! The fingers close across the object on a line through its axis or its centre, at the depth at which they hold
+//! it best.
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
@@ -9,14 +9,13 @@ use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use crate::collision::{Shape, Solid};
 use crate::planning::query::GraspSide;
-use crate::planning::scene::HandModel;
+use crate::planning::scene::{FingerContact, HandModel, HoldDepths};
 use crate::trigonometry::{sin_cos, turn};
 
-/// Overlap of the fingers with a flat face, in m.
-pub(crate) const GRIP: f64 = 0.01;
-/// Greatest distance of the finger tips behind the widest point of a round object, as a share of its
-/// radius: the sine of the friction angle of rubber on most materials, with some to spare.
-pub(crate) const SHORT: f64 = 0.35;
+/// Height in m of the finger tips above the lower face of an object, for a grasp from above.
+const ABOVE: f64 = 0.004;
+/// Least distance between two depths that are tried, in m.
+const NEXT: f64 = 0.003;
 
 /// Cosine bound of a grasp from above: approaches steeper than 35° from straight down.
 pub(crate) const TOP: f64 = -0.819;
@@ -29,6 +28,9 @@ pub(crate) struct GraspCandidate {
     pub(crate) approach: Vector3<f64>,
     pub(crate) side: GraspSide,
     pub(crate) width: f64,
+    /// Distance of the object's centre from the tip along the fingers, and what is between them.
+    pub(crate) depth: f64,
+    pub(crate) contact: FingerContact,
 }
 
 /// All candidates in a fixed order, and the least width across which the object could be grasped, in m.
@@ -38,7 +40,8 @@ pub(crate) fn grasp_candidates(
     side: Option<GraspSide>,
     base: [f64; 3],
 ) -> (Vec<GraspCandidate>, f64) {
-    let mut found = CandidateList { hand, object, holds: vec![], least: f64::INFINITY };
+    let mut found =
+        CandidateList { hand, object, holds: vec![], shallow: vec![], least: f64::INFINITY, known: vec![] };
     let [x, _, z] = object.axes;
     match object.shape {
         Shape::Box(half) => found.of_box(&half),
@@ -47,8 +50,8 @@ pub(crate) fn grasp_candidates(
             // Across the height at the rim, as for a plate.
             for step in 0..16 {
                 let out = turn(&Unit::new_normalize(z), TAU * f64::from(step) / 16.0) * x;
-                found.add(&-out, &z, 2.0 * half, FingerContact::Flat);
-                found.add(&-out, &-z, 2.0 * half, FingerContact::Flat);
+                found.add(&-out, &z, 2.0 * half, false);
+                found.add(&-out, &-z, 2.0 * half, false);
             }
         }
         Shape::Capsule { radius, half } if half > 0.0 => found.around(&z, radius, half),
@@ -58,6 +61,7 @@ pub(crate) fn grasp_candidates(
     let [base_x, base_y, _] = base;
     let ahead = [object.centre.x - base_x, object.centre.y - base_y];
     let (least, mut holds) = (found.least, found.holds);
+    holds.extend(found.shallow);
     holds.retain(|hold| match side {
         None => true,
         Some(GraspSide::Top) => hold.side == GraspSide::Top,
@@ -65,6 +69,16 @@ pub(crate) fn grasp_candidates(
         Some(GraspSide::Front) => hold.side != GraspSide::Top && is_ahead(&hold.approach, ahead),
     });
     (holds, least)
+}
+
+/// Depths at which the fingers of a hand hold an object whose near face is before the palm; of a round one the
+/// nearest point.
+pub(crate) fn hold_depths(hand: &HandModel, width: f64, contact: FingerContact) -> Option<HoldDepths> {
+    let half = match contact {
+        FingerContact::Round => width / 2.0,
+        FingerContact::Flat(half) => half,
+    };
+    hand.depths(width, contact, (hand.palm + half).max(0.0))
 }
 
 /// Steps in which candidates are ordered by their approach.
@@ -94,24 +108,16 @@ pub(crate) fn is_ahead(approach: &Vector3<f64>, [x, y]: [f64; 2]) -> bool {
     approach.x * x + approach.y * y >= std::f64::consts::FRAC_1_SQRT_2 * flat * libm::hypot(x, y)
 }
 
-/// Shape between the fingers.
-#[derive(Clone, Copy, PartialEq)]
-enum FingerContact {
-    /// Widest at its centre.
-    Round,
-    /// Equally wide along the fingers.
-    Flat,
-}
-
 /// Finger placement around an object, free along its axis.
 struct FingerPlacement {
     approach: Vector3<f64>,
     along: Vector3<f64>,
     width: f64,
     side: GraspSide,
-    /// Distance of the object's centre from the tip, and the greatest one for a grasp from above.
+    contact: FingerContact,
+    /// Distance of the object's centre from the tip, and greater ones for a grasp from above.
     depth: f64,
-    shallow: Option<f64>,
+    shallow: [Option<f64>; 2],
     rotation: UnitQuaternion<f64>,
 }
 
@@ -119,7 +125,11 @@ struct CandidateList<'a> {
     hand: &'a HandModel,
     object: &'a Solid,
     holds: Vec<GraspCandidate>,
+    /// Grasps that hold less of the object.
+    shallow: Vec<GraspCandidate>,
     least: f64,
+    /// Depths at which the fingers hold, by width and contact.
+    known: Vec<(f64, FingerContact, Option<HoldDepths>)>,
 }
 
 impl CandidateList<'_> {
@@ -139,16 +149,14 @@ impl CandidateList<'_> {
                 let approach = down * sin - out * cos;
                 let along = axis.cross(out);
                 // Bent fingers still close across the axis at the widest place.
-                let ways = [along, -along]
-                    .map(|along| self.way(&approach, &along, 2.0 * radius, FingerContact::Round));
+                let ways = [along, -along].map(|along| self.way(&approach, &along, 2.0 * radius, true));
                 for height in heights {
                     ways.iter().flatten().for_each(|way| self.hold(way, axis * (half * height)));
                 }
             }
         }
         for along in &outs {
-            let grip = if ball { FingerContact::Round } else { FingerContact::Flat };
-            self.add(&down, along, 2.0 * radius, grip);
+            self.add(&down, along, 2.0 * radius, ball);
         }
     }
 
@@ -166,9 +174,8 @@ impl CandidateList<'_> {
                 });
                 let direction = third.map_or(Vector3::zeros(), |(_, (axis, _))| *axis);
                 let ways =
-                    [(*approach, *along), (*approach, -along), (-approach, *along), (-approach, -along)].map(
-                        |(approach, along)| self.way(&approach, &along, 2.0 * wide, FingerContact::Flat),
-                    );
+                    [(*approach, *along), (*approach, -along), (-approach, *along), (-approach, -along)]
+                        .map(|(approach, along)| self.way(&approach, &along, 2.0 * wide, false));
                 for shift in shifts {
                     ways.iter().flatten().for_each(|way| self.hold(way, direction * shift));
                 }
@@ -177,8 +184,8 @@ impl CandidateList<'_> {
     }
 
     /// Adds grasps around the centre.
-    fn add(&mut self, approach: &Vector3<f64>, along: &Vector3<f64>, width: f64, grip: FingerContact) {
-        if let Some(way) = self.way(approach, along, width, grip) {
+    fn add(&mut self, approach: &Vector3<f64>, along: &Vector3<f64>, width: f64, is_round: bool) {
+        if let Some(way) = self.way(approach, along, width, is_round) {
             self.hold(&way, Vector3::zeros());
         }
     }
@@ -190,7 +197,7 @@ impl CandidateList<'_> {
         approach: &Vector3<f64>,
         along: &Vector3<f64>,
         width: f64,
-        grip: FingerContact,
+        is_round: bool,
     ) -> Option<FingerPlacement> {
         // A hand never comes from below.
         if approach.z > 0.5 {
@@ -200,36 +207,57 @@ impl CandidateList<'_> {
         if width > self.hand.card.opening_m {
             return None;
         }
-        let half = match grip {
-            FingerContact::Flat => self.object.extent(approach),
+        let half = self.object.extent(approach);
+        let (contact, half) = if is_round {
             // Bent towards a long object, the palm meets its side before its end.
-            FingerContact::Round => {
-                (width / 2.0).max(self.object.extent(approach).min(self.side_extent(approach)))
-            }
+            (FingerContact::Round, (width / 2.0).max(half.min(self.side_extent(approach))))
+        } else {
+            (FingerContact::Flat(half), half)
         };
-        let depth = (self.hand.palm + half).max(0.0);
-        // Greatest distance of the centre from the tip at which the fingers still hold.
-        let most = match grip {
-            FingerContact::Round => self.hand.fingers + SHORT * width / 2.0,
-            FingerContact::Flat => self.hand.fingers + half - GRIP.min(half),
-        };
+        let HoldDepths { best, most, .. } = self.depths(width, contact)?;
+        let depth = best.max(self.hand.palm + half);
         if depth > most {
             return None;
         }
         let side = if approach.z < TOP { GraspSide::Top } else { GraspSide::Side };
         // From above, the finger tips may have to stay above the support.
-        let shallow = (side == GraspSide::Top && most > depth + 0.005).then_some(most);
+        let is_shallow = |at: &f64| side == GraspSide::Top && *at > depth + NEXT;
+        let end = self.hand.closing.end_around(width, best, contact);
+        let above = end.map(|end| end - self.object.extent(approach) + ABOVE).filter(|at| *at < most - NEXT);
+        let shallow = [above, Some(most)].map(|at| at.filter(is_shallow));
         let rotation = self.hand.turned(approach, along);
-        Some(FingerPlacement { approach: *approach, along: *along, width, side, depth, shallow, rotation })
+        Some(FingerPlacement {
+            approach: *approach,
+            along: *along,
+            width,
+            side,
+            contact,
+            depth,
+            shallow,
+            rotation,
+        })
+    }
+
+    /// Depths at which the fingers hold; of a round object those before its nearest point.
+    fn depths(&mut self, width: f64, contact: FingerContact) -> Option<HoldDepths> {
+        if let Some((.., depths)) = self.known.iter().find(|known| (known.0, known.1) == (width, contact)) {
+            return *depths;
+        }
+        let depths = hold_depths(self.hand, width, contact);
+        self.known.push((width, contact, depths));
+        depths
     }
 
     /// Adds the grasps at a shift from the centre.
     fn hold(&mut self, way: &FingerPlacement, shift: Vector3<f64>) {
-        let FingerPlacement { approach, along, width, side, rotation, .. } = *way;
-        for depth in [way.depth].into_iter().chain(way.shallow) {
+        let FingerPlacement { approach, along, width, side, contact, rotation, .. } = *way;
+        for (depth, is_shallow) in [(Some(way.depth), false), (way.shallow[0], true), (way.shallow[1], true)]
+        {
+            let Some(depth) = depth else { continue };
             let at = self.object.centre + shift - approach * depth - along * self.hand.middle(width);
             let map_from_tip = Isometry3::from_parts(Translation3::from(at), rotation);
-            self.holds.push(GraspCandidate { map_from_tip, approach, side, width });
+            let hold = GraspCandidate { map_from_tip, approach, side, width, depth, contact };
+            if is_shallow { self.shallow.push(hold) } else { self.holds.push(hold) }
         }
     }
 

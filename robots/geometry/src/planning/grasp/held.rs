@@ -10,7 +10,10 @@ use super::candidates::{grasp_candidates, in_order, rank};
 use crate::collision::Solid;
 use crate::kinematics::planar;
 use crate::planning::context::QueryContext;
-use crate::planning::scene::{Configuration, RobotModel, SceneState, isometry, solid_shape};
+use crate::planning::query::{InfeasibleReason, MotionAnswer, UnknownReason, certain};
+use crate::planning::scene::{
+    Configuration, HeldObject, PlanningScene, RobotModel, SceneState, isometry, solid_shape,
+};
 
 /// Place of the object before the base while its grasp is chosen, in m.
 const AHEAD: [f64; 3] = [1.0, 0.0, 0.8];
@@ -43,6 +46,27 @@ impl SceneState {
             state.held = grip.map(|grip| (id.clone(), grip));
         }
         state
+    }
+}
+
+impl PlanningScene<'_> {
+    /// Answer to a motion of the held object that the hand cannot hold; `None` for the others.
+    pub(crate) fn unheld(&self, held: &HeldObject<'_>) -> Option<MotionAnswer> {
+        let (_, entity) = self.entity(&held.id)?;
+        let limit = held.hand.card.payload_kg;
+        if let Some(needs) = entity.mass_kg.filter(|mass| *mass > limit) {
+            return Some(certain(InfeasibleReason::TooHeavy { needs, limit }, None));
+        }
+        let is_given = self.scene.robot.grip.as_ref().is_some_and(|grip| grip.of == held.id);
+        let (grasps, _) = grasp_candidates(
+            held.hand,
+            &Solid::new(&Isometry3::identity(), held.shape),
+            None,
+            self.state.robot.base,
+        );
+        let why =
+            format!("no grasp by `{}` of `{}` is known, and the scene gives none", held.hand.name, held.id);
+        (!is_given && grasps.is_empty()).then(|| MotionAnswer::Unknown(UnknownReason::Because(why)))
     }
 }
 

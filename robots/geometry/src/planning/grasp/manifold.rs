@@ -7,11 +7,11 @@ use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
-use super::candidates::{GRIP, GraspCandidate, SHORT, TOP, is_ahead};
+use super::candidates::{GraspCandidate, TOP, hold_depths, is_ahead};
 use crate::collision::{Shape, Solid};
 use crate::inverse::interval::DisplacementBound;
 use crate::planning::query::GraspSide;
-use crate::planning::scene::HandModel;
+use crate::planning::scene::{FingerContact, HandModel, HoldDepths};
 use crate::trigonometry::{atan2, sin_cos, turn, wrapped};
 
 /// Numerical slack of an angle or a length.
@@ -28,6 +28,8 @@ pub(crate) struct GraspManifold<'a> {
     /// Direction from the base to the object, in the plane.
     ahead: [f64; 2],
     slots: Vec<GraspFamily>,
+    /// Further condition of a grasp.
+    permits: Option<&'a dyn Fn(&GraspCandidate) -> bool>,
 }
 
 /// Patch: a box of parameters of one family.
@@ -51,6 +53,9 @@ struct GraspFamily {
     high: [f64; 4],
     /// Set where all poses are from above, unset where none is; `None` for a mixture.
     is_top: Option<bool>,
+    /// Object between the fingers, and the depths at which they hold it.
+    contact: FingerContact,
+    depths: HoldDepths,
 }
 
 #[derive(Clone, Copy)]
@@ -76,7 +81,7 @@ impl<'a> GraspManifold<'a> {
         [x, y, _]: [f64; 3],
     ) -> Self {
         let ahead = [object.centre.x - x, object.centre.y - y];
-        let mut manifold = Self { hand, object: *object, side, ahead, slots: vec![] };
+        let mut manifold = Self { hand, object: *object, side, ahead, slots: vec![], permits: None };
         let [x, _, z] = object.axes;
         match object.shape {
             Shape::Box(half) => manifold.of_box(&half),
@@ -91,6 +96,11 @@ impl<'a> GraspManifold<'a> {
             Shape::HalfSpace => {}
         }
         manifold
+    }
+
+    /// The same grasps, of which a further condition lets some not count. A proof covers them all.
+    pub(crate) fn permitting(self, permits: &'a dyn Fn(&GraspCandidate) -> bool) -> Self {
+        Self { permits: Some(permits), ..self }
     }
 
     /// Grasps of a bar before a face: turned about it by at most `about`, at a depth, and at most `share`
@@ -114,8 +124,11 @@ impl<'a> GraspManifold<'a> {
             low: [-about, 0.0, -1.0, 0.0],
             high: [about, 0.0, 1.0, 0.0],
             is_top: None,
+            contact: FingerContact::Round,
+            depths: HoldDepths { least: depth, best: depth, most: depth },
         };
-        Self { hand, object: *bar, side: None, ahead: [0.0; 2], slots: vec![slot(1.0), slot(-1.0)] }
+        let slots = vec![slot(1.0), slot(-1.0)];
+        Self { hand, object: *bar, side: None, ahead: [0.0; 2], slots, permits: None }
     }
 
     fn around(&mut self, axis: &Vector3<f64>, radius: f64, half: f64) {
@@ -163,7 +176,18 @@ impl<'a> GraspManifold<'a> {
             return;
         }
         let along = along.unwrap_or_default();
+        let contact = match kind {
+            FamilyKind::Around { .. } | FamilyKind::End { is_round: true, .. } | FamilyKind::Bar { .. } => {
+                FingerContact::Round
+            }
+            FamilyKind::End { .. } | FamilyKind::Rim { .. } | FamilyKind::Flat { .. } => {
+                FingerContact::Flat(self.object.extent(&kind.directions(0.0, 0.0).0))
+            }
+        };
+        let Some(depths) = hold_depths(self.hand, width, contact) else { return };
         let whole = GraspFamily {
+            contact,
+            depths,
             kind,
             width,
             along,
@@ -230,7 +254,7 @@ impl<'a> GraspManifold<'a> {
         let [about, bend, place, deep] = patch.half;
         let Some(slot) = self.slots.get(patch.slot) else { return (0.0, 0) };
         let far = self.hand.palm.abs() + self.object.reach() + WRIST;
-        let deep = deep * (self.hand.fingers - self.hand.palm).abs();
+        let deep = deep * (slot.depths.most - slot.depths.least).abs();
         widest(&[about * far, bend * far, place * slot.along.norm(), deep])
     }
 
@@ -287,13 +311,11 @@ impl<'a> GraspManifold<'a> {
         [bend, bends]: [f64; 2],
         [deep, deeps]: [f64; 2],
     ) -> Option<(f64, f64)> {
-        let ([near, far], is_round) = self.extents(slot, approach, bend, bends);
-        let palm = |half: f64| (self.hand.palm + half).max(0.0);
-        let most = if is_round {
-            self.hand.fingers + SHORT * slot.width / 2.0
-        } else {
-            self.hand.fingers + far - GRIP.min(far)
-        };
+        let [near, far] = self.extents(slot, approach, bend, bends);
+        let HoldDepths { least, best, most } = slot.depths;
+        // From the side as well as possible; from above, the finger tips may have to stay above the support.
+        let first = if slot.is_top == Some(false) { best } else { least };
+        let palm = |half: f64| (self.hand.palm + half).max(first);
         let (least, greatest) = (palm(near), palm(far).min(most));
         if least > most + SLACK {
             return None;
@@ -331,12 +353,17 @@ impl<'a> GraspManifold<'a> {
             Some(GraspSide::Side) => side != GraspSide::Top,
             Some(GraspSide::Front) => side != GraspSide::Top && is_ahead(&approach, self.ahead),
         };
-        (is_asked_for && approach.z <= 0.5).then_some(GraspCandidate {
+        let middle = self.object.centre + slot.along * patch.middle.get(2).copied().unwrap_or_default();
+        let hold = GraspCandidate {
             map_from_tip,
             approach,
             side,
             width: slot.width,
-        })
+            depth: (middle - map_from_tip.translation.vector).dot(&approach),
+            contact: slot.contact,
+        };
+        let is_permitted = |hold: &GraspCandidate| self.permits.is_none_or(|permits| permits(hold));
+        (is_asked_for && approach.z <= 0.5).then_some(hold).filter(is_permitted)
     }
 
     /// Checks whether no pose of a patch is from the robot's side, where that is requested.
@@ -350,22 +377,16 @@ impl<'a> GraspManifold<'a> {
         self.side == Some(GraspSide::Front) && is_level && angle.abs() > FRAC_PI_4 + off + SLACK
     }
 
-    /// Range of the object's extent against the fingers, and whether it is round there.
-    fn extents(
-        &self,
-        slot: &GraspFamily,
-        approach: &Vector3<f64>,
-        bend: f64,
-        bends: f64,
-    ) -> ([f64; 2], bool) {
+    /// Range of the object's extent against the fingers.
+    fn extents(&self, slot: &GraspFamily, approach: &Vector3<f64>, bend: f64, bends: f64) -> [f64; 2] {
         let flat = self.object.extent(approach);
         let radius = slot.width / 2.0;
         match slot.kind {
             FamilyKind::Flat { .. }
             | FamilyKind::Rim { .. }
             | FamilyKind::Bar { .. }
-            | FamilyKind::End { is_round: false, .. } => ([flat, flat], false),
-            FamilyKind::End { .. } => ([radius, radius], true),
+            | FamilyKind::End { is_round: false, .. } => [flat, flat],
+            FamilyKind::End { .. } => [radius, radius],
             FamilyKind::Around { .. } => {
                 let (half, is_flat) = match self.object.shape {
                     Shape::Cylinder { half, .. } => (half, true),
@@ -373,7 +394,7 @@ impl<'a> GraspManifold<'a> {
                     Shape::Box(_) | Shape::HalfSpace => (0.0, false),
                 };
                 if half == 0.0 {
-                    return ([radius, radius], true);
+                    return [radius, radius];
                 }
                 let (low, high) = ((bend - bends).max(0.0), bend + bends);
                 let (sin, cos) = (libm::sin, libm::cos);
@@ -383,7 +404,7 @@ impl<'a> GraspManifold<'a> {
                 let whole = |bend: f64| half * sin(bend) + if is_flat { radius * cos(bend) } else { radius };
                 let least = side(low).min(end(high)).min(whole(low)).min(whole(high));
                 let greatest = side(high).min(end(low)).min(whole(bend) + (half + radius) * bends);
-                ([radius.max(least), radius.max(greatest)], true)
+                [radius.max(least), radius.max(greatest)]
             }
         }
     }

@@ -12,8 +12,8 @@ use crate::planning::context::QueryContext;
 use crate::planning::grasp::{GraspCandidate, GraspManifold};
 use crate::planning::query::{ContactTally, GraspSide};
 use crate::planning::scene::{
-    AllowedCollisions, Articulation, Configuration, Contact, HandModel, IkSolver, MIN_CLEARANCE, Obstacle,
-    ObstacleIndex, Padding, RobotModel, THICK, plane,
+    AllowedCollisions, Articulation, Configuration, Contact, FingerContact, HandModel, IkSolver,
+    MIN_CLEARANCE, Obstacle, ObstacleIndex, Padding, RobotModel, THICK, plane,
 };
 use crate::trigonometry::turn;
 
@@ -96,7 +96,14 @@ impl HandlePull<'_> {
                     let side = if approach.z < -0.819 { GraspSide::Top } else { GraspSide::Side };
                     // A hand never comes from below.
                     if approach.z <= 0.5 {
-                        all.push(GraspCandidate { map_from_tip: moved * pose, approach, side, width: THICK });
+                        all.push(GraspCandidate {
+                            map_from_tip: moved * pose,
+                            approach,
+                            side,
+                            width: THICK,
+                            depth: self.depth,
+                            contact: FingerContact::Round,
+                        });
                     }
                 }
             }
@@ -367,6 +374,20 @@ pub(crate) fn without<'w>(
     changed.planning.obstacles = ObstacleIndex::new(around.into_iter().chain(still).collect());
     changed.planning.opening = Some(index);
     (changed, inside.iter().map(|obstacle| obstacle.solid.moved(&back)).collect())
+}
+
+/// Context without the handle of an open container.
+pub(crate) fn without_bar<'w>(
+    context: &QueryContext<'w>,
+    index: usize,
+    opening: &Articulation,
+) -> QueryContext<'w> {
+    let bar = opening.bar(1.0);
+    let mut changed = context.clone();
+    let is_bar = |obstacle: &&Obstacle| obstacle.entity == index && obstacle.solid == bar;
+    changed.planning.obstacles =
+        ObstacleIndex::new(context.obstacles.iter().filter(|obstacle| !is_bar(obstacle)).copied().collect());
+    changed
 }
 
 /// Context with the moving parts at `part` of the travel.

@@ -27,6 +27,9 @@ pub(crate) fn offer(context: &QueryContext<'_>, id: &str, to: &str, budget: Sear
     let Some(held) = context.held_object(id) else {
         return unknown(format!("the hand does not hold `{id}`"));
     };
+    if let Some(answer) = context.unheld(&held) {
+        return answer;
+    }
     let Some((index, entity)) = context.entity(to) else { return unknown(format!("there is no `{to}`")) };
     let Some(pose) = context.state.pose(entity) else {
         return unknown(format!("the pose of `{to}` is unknown"));

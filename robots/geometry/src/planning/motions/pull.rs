@@ -8,7 +8,9 @@ use std::ops::ControlFlow;
 
 use nalgebra::Isometry3;
 
-use super::handle::{BEYOND, HandlePull, beside, follow, follows_to, front_around, gripping, stops, without};
+use super::handle::{
+    BEYOND, HandlePull, beside, follow, follows_to, front_around, gripping, stops, without, without_bar,
+};
 use crate::planning::certify::Certificate;
 use crate::planning::context::QueryContext;
 use crate::planning::grasp::GraspCandidate;
@@ -48,6 +50,8 @@ pub(crate) fn pull(
     let Some(opening) = Articulation::new(entity, context.state) else {
         return unknown(format!("the shape of `{id}` does not determine how it opens"));
     };
+    // The hand is about to close around the bar.
+    let context = &without_bar(context, index, &opening);
     let (clear, contents) = without(context, index, &opening, from);
     let opening = opening.with(contents);
     if let Some(by) = stops(&clear, &opening, parts) {

@@ -42,6 +42,9 @@ pub(crate) fn put(
     let Some(held) = context.held_object(id) else {
         return unknown(format!("the hand does not hold `{id}`"));
     };
+    if let Some(answer) = context.unheld(&held) {
+        return answer;
+    }
     let Some((index, entity)) = context.entity(on) else { return unknown(format!("there is no `{on}`")) };
     if id == on {
         return unknown(format!("`{id}` does not stand on itself"));
@@ -138,6 +141,7 @@ impl PutTask<'_, '_> {
         }
         let search = |tips: Vec<Isometry3<f64>>| {
             let goal = GoalSpec {
+                closes: &|_| None,
                 hand: held.hand,
                 tips,
                 manifold: None,

@@ -2,20 +2,27 @@
 
 use motet_robots::scene::Entity;
 use nalgebra::{Isometry3, Vector3};
+use smol_str::SmolStr;
 
 use crate::collision::Solid;
-use crate::planning::checking::CollisionChecker;
+use crate::planning::checking::{CollisionChecker, is_nearer};
 use crate::planning::context::QueryContext;
 use crate::planning::grasp::{GraspCandidate, GraspManifold, grasp_candidates, in_order};
 use crate::planning::query::{
     Grasp, GraspSide, InfeasibleReason, Margins, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
     certain,
 };
-use crate::planning::scene::{AllowedCollisions, Configuration, HandModel, away, solid_shape};
+use crate::planning::scene::{
+    AllowedCollisions, Configuration, Contact, HandModel, MIN_CLEARANCE, Obstacle, Padding, PlanningScene,
+    above_floor, away, solid_shape,
+};
 use crate::planning::search::{GoalPose, GoalSpec, LAST};
 
 /// Approach distances before the object, in m; the shorter where the longer is blocked.
 const BACK: [f64; 2] = [0.1, 0.05];
+/// Least distance of the open hand from what it grasps, in m.
+const APART: f64 = 1e-4;
+
 /// Answers `reach`: a grasp of an entity.
 pub(crate) fn reach(
     context: &QueryContext<'_>,
@@ -48,7 +55,9 @@ pub(crate) fn reach(
     let target =
         ReachTarget { id, entity, pose, object, hand, allowed: AllowedCollisions::of_grasp(context, index) };
     let (mut all, envelope) = (all, context.reach_envelope(hand));
+    let closes = |hold: &GraspCandidate| context.closing_contact(&target, hold).is_none();
     let manifold = GraspManifold::new(hand, &target.object, side, context.state.robot.base);
+    let manifold = manifold.permitting(&closes);
     if let Some(answer) = envelope.beyond(&target.pose.translation.vector, id, &all)
         && manifold.are_all(|tip, drift| envelope.is_beyond(tip, drift))
     {
@@ -60,7 +69,7 @@ pub(crate) fn reach(
     in_order(&mut all, &(target.pose.translation.vector - Vector3::new(x, y, 0.0)));
     let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
     let centre = target.pose.translation;
-    let grasp = hand.palm.abs().max(hand.fingers.abs()) + target.object.reach();
+    let grasp = hand.palm.abs().max(hand.farthest()) + target.object.reach();
     let checker = context.around([centre.x, centre.y], context.farthest(hand) + grasp + LAST);
     let goal = GoalSpec {
         hand,
@@ -69,6 +78,7 @@ pub(crate) fn reach(
         allowed: target.allowed,
         checker: &checker,
         backs: &|tip| backs(context, tip, hand),
+        closes: &|at| context.closing_contact(&target, all.get(at)?),
     };
     match context.search_goal(&goal, budget) {
         Ok((at, path)) => {
@@ -104,6 +114,41 @@ fn backs(context: &QueryContext<'_>, tip: &Isometry3<f64>, hand: &HandModel) -> 
         backs.extend([past, -past]);
     }
     backs
+}
+
+impl PlanningScene<'_> {
+    /// Contact of the hand with the object before it closes, or of the closing fingers with anything else.
+    fn closing_contact(&self, target: &ReachTarget<'_>, hold: &GraspCandidate) -> Option<Contact> {
+        let (closing, object) = (&target.hand.closing, &target.object);
+        let met = |other: SmolStr| {
+            let link = self.model.tree().links().get(target.hand.tip).cloned().unwrap_or_default();
+            Some(Contact { link, other, is_own: false })
+        };
+        let touches = |own: &Solid, other: &Obstacle, pad: f64| {
+            is_nearer(own, own.reach(), &other.solid, other.reach, pad)
+        };
+        let object = Obstacle::new(usize::MAX, *object, Padding::LEAST);
+        if closing.open().any(|own| touches(&own.moved(&hold.map_from_tip), &object, APART)) {
+            return met(target.id.into());
+        }
+        for finger in closing.sweep(hold.width, hold.depth, hold.contact) {
+            let finger = finger.moved(&hold.map_from_tip);
+            if above_floor(&finger) <= MIN_CLEARANCE {
+                return met("floor".into());
+            }
+            let around = finger.reach() + Padding::new(self.clearance).most();
+            let mut near = self.obstacles.near([finger.centre.x, finger.centre.y], around);
+            let touched = near.find(|(_, other)| {
+                let is_near = target.allowed.is_near(other.entity);
+                let pad = if is_near { MIN_CLEARANCE } else { other.padding.arm };
+                !target.allowed.touches(other.entity, false) && touches(&finger, other, pad)
+            });
+            if let Some((_, other)) = touched {
+                return met(self.name(other.entity));
+            }
+        }
+        None
+    }
 }
 
 impl CollisionChecker<'_, '_> {

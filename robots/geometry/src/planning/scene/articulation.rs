@@ -5,7 +5,7 @@
 //! `motions`.
 
 use motet_robots::scene::{Entity, Travel};
-use nalgebra::{Isometry3, Point3, Translation3, Unit, Vector3};
+use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::scene_state::{SceneState, solid_shape};
 use crate::collision::{Shape, Solid};
@@ -178,6 +178,15 @@ impl Articulation {
                 (self.handle.centre.coords - at).cross(axis).norm() * angle.abs()
             }
         }
+    }
+
+    /// Bar of the handle at `part`.
+    pub(crate) fn bar(&self, part: f64) -> Solid {
+        let Handle { centre, along, half, .. } = self.handle;
+        let rotation = UnitQuaternion::rotation_between(&Vector3::z(), &along)
+            .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
+        let pose = Isometry3::from_parts(Translation3::from(centre.coords), rotation);
+        Solid::new(&(self.map_moved(part) * pose), Shape::Capsule { radius: THICK / 2.0, half })
     }
 
     /// Handle in the closed pose.

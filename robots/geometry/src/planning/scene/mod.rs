@@ -1,6 +1,7 @@
 //! Planning scene: robot model, scene state, obstacles and permitted contacts.
 
 mod articulation;
+mod closing;
 mod configuration;
 mod obstacle;
 mod planning_scene;
@@ -9,6 +10,7 @@ mod scene_state;
 
 pub use articulation::Articulation;
 pub(crate) use articulation::{STANDS_OUT, THICK, WALL, walls};
+pub(crate) use closing::{FingerContact, HoldDepths};
 pub use configuration::Configuration;
 pub(crate) use configuration::plane;
 pub use obstacle::{AllowedCollisions, Contact, MIN_CLEARANCE};

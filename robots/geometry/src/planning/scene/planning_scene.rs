@@ -21,6 +21,8 @@ use crate::kinematics::planar;
 
 /// Distance at which the base counts as being at a place, in m.
 const AT_PLACE: f64 = 0.5;
+/// Distance up to which a robot counts as being at a handle, in m.
+const AT_BAR: f64 = 0.03;
 
 /// A robot in a scene: its model, the scene and its state, the robot's body with the held object, and the
 /// obstacles.
@@ -90,8 +92,25 @@ impl<'w> PlanningScene<'w> {
             opening: None,
             unseen,
         };
+        planning.add_bars(padding);
         planning.permit_start();
         planning
+    }
+
+    /// Adds the handles of what is open, except for those that the robot is at, as after it let go.
+    fn add_bars(&mut self, padding: Padding) {
+        let bars = self.scene.entities.values().zip(0..).filter_map(|(entity, at)| {
+            let opening = self.state.is_open(entity).then(|| Articulation::new(entity, self.state))??;
+            Some(Obstacle::new(at, opening.bar(1.0), padding))
+        });
+        let mut bars: Vec<Obstacle> = bars.collect();
+        if bars.is_empty() {
+            return;
+        }
+        let placed = self.robot_at(&self.state.robot);
+        bars.retain(|bar| placed.iter().all(|own| own.is_farther(&bar.solid, AT_BAR)));
+        let all = self.obstacles.iter().copied().chain(bars);
+        self.obstacles = ObstacleIndex::new(all.collect());
     }
 
     /// Lets the robot begin nearer to an obstacle than the clearance: it then keeps the distance that it has.

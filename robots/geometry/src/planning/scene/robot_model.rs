@@ -6,6 +6,7 @@ use motet_robots::urdf::Urdf;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
+use super::closing::{Closing, FingerContact, GRIP, HoldDepths, SHORT, STAGES};
 use super::configuration::Configuration;
 use super::obstacle::above_floor;
 use crate::collision::{CollisionModel, Shape, Solid};
@@ -59,6 +60,8 @@ pub struct HandModel {
     pub members: Vec<bool>,
     /// Flag of each link: set where a joint of the arm moves it.
     pub carried: Vec<bool>,
+    /// Fingers from open to closed.
+    pub(crate) closing: Closing,
 }
 
 impl RobotModel {
@@ -135,21 +138,37 @@ impl RobotModel {
             ))
         });
         let (mut palm, mut fingers) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        let mut has_fixed_jaw = false;
+        let (mut has_fixed_jaw, mut jaws, mut palms) = (false, vec![], vec![]);
         for (is_palm, solid) in placed {
             let is_jaw = is_palm && is_jaw(&solid, &Vector3::from(card.closes));
             has_fixed_jaw |= is_jaw;
             let end = solid.centre.dot(&points) + solid.extent(&points);
             if is_jaw {
                 fingers = fingers.max(end);
+                jaws.push(solid);
             } else if is_palm {
                 palm = palm.max(front(&solid, &points));
+                palms.push(solid);
             } else {
                 fingers = fingers.max(end);
             }
         }
         let palm = if palm.is_finite() { palm + PALM_GAP } else { 0.0 };
         let fingers = if fingers.is_finite() { fingers } else { 0.02 };
+        let stage = |at: usize| {
+            let share = 1.0 - at as f64 / (STAGES - 1) as f64;
+            let poses = self.tree.root_from_links(&between(&self.rest, &self.rest, &open, share));
+            let moving = self.body.parts().iter().filter(|part| {
+                members.get(part.link) == Some(&true) && !self.body.is_rigidly_attached(tip, part.link)
+            });
+            let tip_from_root = poses.get(tip).map(Isometry3::inverse).unwrap_or_default();
+            let moving =
+                moving.filter_map(|part| Some(part.solid.moved(&(tip_from_root * poses.get(part.link)?))));
+            jaws.iter().copied().chain(moving).collect()
+        };
+        let stages = (0..STAGES).map(stage).collect();
+        let closing =
+            Closing::new([points, Vector3::from(card.closes)], (palms, stages), palm, has_fixed_jaw);
         Some(HandModel {
             name: name.clone(),
             card: card.clone(),
@@ -161,6 +180,7 @@ impl RobotModel {
             open,
             members,
             carried,
+            closing,
         })
     }
 
@@ -323,10 +343,26 @@ impl HandModel {
     #[must_use]
     pub fn around(&self, joints: &[f64], rest: &[f64], width: f64) -> Vec<f64> {
         let share = (width / self.card.opening_m.max(1e-6)).clamp(0.0, 1.0);
-        let closed = |at: usize| rest.get(at).copied().unwrap_or(0.0);
-        let fingers: Vec<(usize, f64)> =
-            self.open.iter().map(|(at, open)| (*at, closed(*at) + (open - closed(*at)) * share)).collect();
-        opened(joints, &fingers)
+        between(joints, rest, &self.open, share)
+    }
+
+    /// Greatest distance of a finger from the tip along their direction, open or closed, in m.
+    pub(crate) fn farthest(&self) -> f64 {
+        self.fingers.abs().max(self.closing.end().map_or(0.0, f64::abs))
+    }
+
+    /// Depths of an object's centre along the fingers at which they hold it, from `from` m on; `None` where
+    /// there are none. Where the shapes of the fingers are unknown, they hold as deep as they reach.
+    pub(crate) fn depths(&self, width: f64, contact: FingerContact, from: f64) -> Option<HoldDepths> {
+        if self.closing.is_known() {
+            return self.closing.depths(width, contact, from);
+        }
+        let most = self.fingers
+            + match contact {
+                FingerContact::Round => SHORT * width / 2.0,
+                FingerContact::Flat(half) => half - GRIP.min(half),
+            };
+        (from <= most).then_some(HoldDepths { least: from, best: from, most })
     }
 
     /// Rotation of the tip in the map with the fingers pointing along `approach` and closing along `along`;
@@ -343,6 +379,13 @@ impl HandModel {
 /// Shift of `far` m against the pointing direction of the hand, in the map.
 pub(crate) fn away(map_from_tip: &Isometry3<f64>, hand: &HandModel, far: f64) -> Vector3<f64> {
     map_from_tip.rotation * -Vector3::from(hand.card.points) * far
+}
+
+/// Joint values with the hand open by a share, from closed at rest.
+fn between(joints: &[f64], rest: &[f64], open: &[(usize, f64)], share: f64) -> Vec<f64> {
+    let closed = |at: usize| rest.get(at).copied().unwrap_or(0.0);
+    let fingers = open.iter().map(|(at, open)| (*at, closed(*at) + (open - closed(*at)) * share));
+    opened(joints, &fingers.collect::<Vec<_>>())
 }
 
 fn opened(joints: &[f64], open: &[(usize, f64)]) -> Vec<f64> {

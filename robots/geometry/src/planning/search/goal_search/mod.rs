@@ -16,7 +16,7 @@ use crate::planning::checking::{CollisionChecker, HandChecker};
 use crate::planning::context::QueryContext;
 use crate::planning::grasp::{GraspCandidate, GraspManifold};
 use crate::planning::query::{ContactTally, MotionAnswer, SearchBudget};
-use crate::planning::scene::{AllowedCollisions, Configuration, HandModel, IkSolver};
+use crate::planning::scene::{AllowedCollisions, Configuration, Contact, HandModel, IkSolver};
 
 /// Number of poses that get a full sample budget each; beyond it they share one. The second is for arms
 /// that do not place the base, where most candidates have no solution.
@@ -38,6 +38,8 @@ pub(crate) struct GoalSpec<'a, 'r, 'w> {
     pub(crate) checker: &'a CollisionChecker<'r, 'w>,
     /// Offsets from a tip pose back to the start of the approach, in m in the map, the best first.
     pub(crate) backs: &'a dyn Fn(&Isometry3<f64>) -> Vec<Vector3<f64>>,
+    /// Contact of the hand that closes at the pose of an index.
+    pub(crate) closes: &'a dyn Fn(usize) -> Option<Contact>,
 }
 
 /// Pose of the hand at the goal.
@@ -167,7 +169,10 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
                 self.tips.iter_mut().skip(at).filter(|(_, _, known)| *known == HandCheckState::Unknown);
             let mut next: Vec<_> = next.take(BATCH).collect();
             let poses: Vec<Isometry3<f64>> = next.iter().map(|(_, tip, _)| *tip).collect();
-            for ((_, _, known), contact) in next.iter_mut().zip(self.hand_checker.contacts(&poses)) {
+            // Of the finer poses the manifold permits only those at which the hand closes.
+            let closes = |at: usize| self.finer.is_none().then(|| (self.goal.closes)(at)).flatten();
+            for ((at, _, known), contact) in next.iter_mut().zip(self.hand_checker.contacts(&poses)) {
+                let contact = contact.or_else(|| closes(*at));
                 *known = if contact.is_some() { HandCheckState::Blocked } else { HandCheckState::Free };
                 contact.iter().for_each(|contact| self.hands.add(contact));
             }

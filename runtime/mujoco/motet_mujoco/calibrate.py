@@ -1,0 +1,161 @@
+"""Calibration: rates of the profile `typical`, measured by trials in physics.
+
+    python -m motet_mujoco.calibrate --robot hsr --trials 20
+
+| rate | trials |
+|---|---|
+| `hand.slip` | grasps of all feasible `reach`, of which the error is within the room between the fingers |
+| `hand.drop` | drives of 1 m and back, with a turn, with what a grasp has held |
+| `hand.short` | all feasible `put` |
+| `hand.stick` | all feasible `pull` and `push` |
+| `camera.miss` | looks at the things on a surface from where `go_to` leaves the robot, by pixels |
+
+The errors of hand and camera, of the room and of friction are those of the profile. Each rate has its interval at 95 %.
+"""
+
+import argparse
+import copy
+import json
+import os
+import sys
+import tempfile
+
+import numpy as np
+
+from .beliefs import Beliefs
+from .camera import NoGraphics
+from .chance import Chance, profile
+from .disorder import displace
+from .eyes import Eyes
+from .judge import DEFAULT, SCENES, SLIPS, disturbed, follow, interval, quoted, carry_out, trials, verdicts
+from .model import Model, ModelError, find_motet, motet
+from .observation import Observer
+from .world import World
+
+
+class Count:
+    """Events among trials, with measured sizes."""
+
+    def __init__(self):
+        self.events, self.of, self.sizes = 0, 0, []
+
+    def add(self, comes, size=None):
+        """Adds a trial."""
+        self.events, self.of = self.events + bool(comes), self.of + 1
+        if size is not None:
+            self.sizes.append(size)
+
+    def line(self, name):
+        """Line of a table."""
+        low, high = interval(self.events, self.of)
+        share = self.events / self.of if self.of else 0.0
+        return "| `%s` | %d of %d | %.3f | %.3f to %.3f |" % (name, self.events, self.of, share, low, high)
+
+
+def hands(command, robot, scene, rates, seeds, found):
+    """Counts what slips, drops, falls short and sticks."""
+    for xml, query, witness in trials(command, robot, scene, {"reach", "put", "pull", "push"}):
+        kind, thing = query.partition("(")[0], query.partition("(")[2].rstrip(")").replace("`", "")
+        for seed in seeds:
+            world, off = disturbed(xml, query, rates, Chance(seed))
+            holds, _, _ = carry_out(world, query.replace("`", ""), witness)
+            if kind == "put":
+                found["hand.short"].add(not holds)
+            elif kind != "reach":
+                found["hand.stick"].add(not holds)
+            elif off <= (world.model.card[3] - witness["grasp"]["width"]) / 2.0:
+                found["hand.slip"].add(not holds)
+                if holds and world.model.drives:
+                    found["hand.drop"].add(not carried(world, thing))
+
+
+def carried(world, thing):
+    """Drives 1 m on and back with a turn. True if the hand still holds what it held, where it held it."""
+    at, start = world.in_hand(thing), world.target.copy()
+    x, y, yaw = start[:3]
+    points = [start.copy() for _ in range(4)]
+    points[1][:3] = [x + np.cos(yaw), y + np.sin(yaw), yaw]
+    points[2][:3] = [*points[1][:2], yaw + 1.5]
+    follow(world, points, 1.0)
+    return world.holds(thing) and np.linalg.norm(world.in_hand(thing) - at) <= SLIPS
+
+
+def looks(command, robot, scene, rates, seeds, found):
+    """Counts the things that pixels do not tell, and measures the errors of the others."""
+    model = Model(motet(command, "robots", "mjcf", "--robot", robot, "--scene", scene))
+    on = {}
+    for entity in model.scene["entities"]:
+        if entity.get("on") in model.entities and entity["id"] in model.free:
+            on.setdefault(entity["on"], []).append(entity["id"])
+    for support, things in on.items():
+        stood = copy.deepcopy(model.scene)
+        if model.drives:
+            way = verdicts(command, robot, scene, "go_to(%s)" % quoted(support))
+            if not way:
+                continue
+            last = way[0][1]["path"][-1]
+            stood["robot"].update(base=last["base"], joints=last["joints"], holding=None)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "stood.json")
+            with open(path, "w", encoding="utf-8") as out:
+                json.dump(stood, out)
+            views = verdicts(command, robot, path, *("look(%s)" % quoted(thing) for thing in things))
+            xml = motet(command, "robots", "mjcf", "--robot", robot, "--scene", path)
+        for query, witness in views:
+            thing = query.partition("(")[2].rstrip(")").replace("`", "")
+            for seed in seeds:
+                look(World(Model(xml)), thing, witness, rates, Chance(seed), found)
+
+
+def look(world, thing, witness, rates, chance, found):
+    """Looks at a thing by pixels, and counts whether it is found."""
+    beliefs = Beliefs(world)
+    displace(world, rates["room"], chance)
+    follow(world, world.targets(witness["path"]), 1.0)
+    eyes = Eyes(world, Observer(world), beliefs)
+    try:
+        seen = [one for one in eyes.detections() if one["id"] == thing]
+        far = float(np.linalg.norm(world.pose(thing)[0] - eyes.eye()))
+        off = np.linalg.norm(np.array(seen[0]["pose"]["xyz"]) - world.pose(thing)[0]) if seen else None
+        found["camera.miss"].add(not seen, off / far if seen else None)
+    finally:
+        eyes.close()
+        if eyes.camera.renderer is not None:
+            eyes.camera.renderer.close()
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--robot", required=True, help="a built-in name, or a folder with a robot.toml")
+    parser.add_argument("--scene", action="append", help="a built-in name, or a JSON file; repeatable")
+    parser.add_argument("--profile", default="typical", metavar="ideal|typical|harsh|FILE", help="errors of the trials")
+    parser.add_argument("--trials", type=int, default=10, help="trials of each motion, with seeds from 0 on")
+    parser.add_argument("--part", action="append", choices=["hand", "camera"], help="what is measured [default: all]")
+    parser.add_argument("--motet", help="the command `motet` [default: from PATH]")
+    args = parser.parse_args(arguments)
+    found = {}
+    parts = {"hand": ["hand.slip", "hand.drop", "hand.short", "hand.stick"], "camera": ["camera.miss"]}
+    for part in args.part or parts:
+        found.update({name: Count() for name in parts[part]})
+    try:
+        command, rates = find_motet(args.motet), profile(args.profile)
+        for scene in args.scene or SCENES.get(args.robot, DEFAULT):
+            if "hand.slip" in found:
+                hands(command, args.robot, scene, rates, range(args.trials), found)
+            if "camera.miss" in found:
+                looks(command, args.robot, scene, rates, range(args.trials), found)
+    except (ModelError, NoGraphics) as error:
+        print("error: %s" % error, file=sys.stderr)
+        return 2
+    print("| rate | events | rate | interval at 95 % |\n|---|---|---|---|")
+    for name, count in found.items():
+        print(count.line(name))
+    sizes = found["camera.miss"].sizes if "camera.miss" in found else []
+    if sizes:
+        print("\nerror of a seen place for each metre: %.4f m (root mean square along an axis)"
+              % np.sqrt(np.mean(np.square(sizes)) / 3.0))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
