@@ -8,8 +8,13 @@ use std::time::{Duration, Instant};
 use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
+use motet_planner::dialogue::Knowledge;
 use motet_planner::runtime_check::Guard;
-use motet_runtime::{Driver, Effect, Engine, Event, Observer, RunControl, RunEnd, Time, Verifier, resume};
+use motet_robots::scene::Scene;
+use motet_runtime::{
+    Answer, Detection, Driver, Effect, Engine, Event, Observer, Query, RunControl, RunEnd, Time, ToldThing,
+    Verifier, resume,
+};
 
 use crate::error::{CliError, Exit};
 use crate::flags::Speed;
@@ -44,17 +49,24 @@ pub(crate) struct PacedView {
     begun: Option<(Instant, Time)>,
     now: Time,
     guard: Option<Guard>,
+    /// The room as the robot knows it, with what it has seen.
+    room: Option<(Scene, Knowledge)>,
 }
 
 impl PacedView {
     /// Observer without a guard.
     pub(crate) fn new(view: Box<dyn View>, speed: Speed) -> Self {
-        Self { view, speed, begun: None, now: Time::ZERO, guard: None }
+        Self { view, speed, begun: None, now: Time::ZERO, guard: None, room: None }
     }
 
     /// The same with a guard, which checks deferred motions.
     pub(crate) fn with_guard(self, guard: Option<Guard>) -> Self {
         Self { guard, ..self }
+    }
+
+    /// The same in a room that changes by what the driver detects.
+    pub(crate) fn with_room(self, scene: Option<Scene>) -> Self {
+        Self { room: scene.map(|scene| (scene, Knowledge::default())), ..self }
     }
 
     /// Takes effects from before this process began.
@@ -111,6 +123,17 @@ impl Observer for PacedView {
         self.view.reached(now);
         // A run stops once nobody watches it.
         if is_interrupted() || self.view.is_closed() { RunControl::Stop } else { RunControl::Continue }
+    }
+
+    fn detected(&mut self, _now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
+        let Some((scene, known)) = &mut self.room else { return Vec::new() };
+        let (news, facts) = known.notice_seen(scene, seen, engine);
+        self.guard.iter_mut().for_each(|guard| guard.saw(news.clone()));
+        facts
+    }
+
+    fn tell(&mut self) -> Option<ToldThing> {
+        self.room.as_mut()?.1.take_untold()
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {

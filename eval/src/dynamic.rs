@@ -6,19 +6,23 @@
 //! A trial succeeds where the goal after the change holds at the end, nothing was dropped, nothing done
 //! twice, and nothing left running.
 
-use std::collections::BTreeMap;
-
 use motet_compiler::CheckOptions;
 use motet_planner::Builtin;
-use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator, Outcome};
-use motet_runtime::{DriverEvent, Effect, Event, GoalId, Outcome as Ending, RunEnd, Time};
-use motet_sim::{Faults, Sim, SimOptions};
+use motet_planner::dialogue::{Conversation, DialogueSetup, NoOperator, Outcome};
+use motet_runtime::Time;
+use motet_sim::Faults;
 use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng as _;
 use serde::Serialize;
 
+use crate::actions::ActionFaults;
+use crate::bench::{Bench, TrialObserver, action_line};
+use crate::outcome::{FailureSort, Rate};
 use crate::setup;
+
+/// The robots of the trials.
+const ROBOTS: [&str; 2] = ["hsr", "anymal_z1"];
 
 /// A task with its change.
 #[derive(Clone, Copy, Debug)]
@@ -77,14 +81,14 @@ pub struct Trial {
     pub robot: String,
     /// Time of the change, in s.
     pub changed_at: f64,
-    /// True if the goal held at the end, and the conversation ended as done.
+    /// True if the goal held at the end by the truth of the world, and the conversation ended as done.
     pub is_reached: bool,
     /// Objects that lay nowhere at the end: not in the hand, on or in anything, or with anybody.
-    pub dropped: Vec<String>,
-    /// Calls that were started although the same one ran or its work was done.
-    pub doubled: Vec<String>,
-    /// Calls that had not ended when their policy had.
-    pub orphaned: Vec<String>,
+    pub fallen: Vec<String>,
+    /// Faults of the actions, counted from the journals.
+    pub faults: ActionFaults,
+    /// Sort of the failure, where the goal was not reached.
+    pub failed_by: Option<FailureSort>,
     /// End of the conversation.
     pub end: String,
 }
@@ -93,74 +97,29 @@ impl Trial {
     /// True if everything went well.
     #[must_use]
     pub fn is_good(&self) -> bool {
-        self.is_reached && self.dropped.is_empty() && self.doubled.is_empty() && self.orphaned.is_empty()
-    }
-}
-
-/// Says something at a time, and follows what is started and what ends.
-struct Observer {
-    says: Option<(Time, &'static str)>,
-    running: BTreeMap<GoalId, String>,
-    /// Last action on the hand: the same one again without another between is one too many.
-    last: Option<String>,
-    doubled: Vec<String>,
-    orphaned: Vec<String>,
-}
-
-impl DialogueObserver for Observer {
-    fn request(&mut self, now: Time) -> Option<String> {
-        self.says.take_if(|(at, _)| *at <= now).map(|(_, says)| says.to_owned())
-    }
-
-    fn at_least_every(&self) -> Time {
-        Time::from_secs(0.05)
-    }
-
-    fn effect(&mut self, _now: Time, effect: &Effect) {
-        if let Effect::Start { goal, command, .. } | Effect::Update { goal, command, .. } = effect {
-            let call = command.to_string();
-            let runs_twice = self.running.iter().any(|(other, running)| other != goal && *running == call);
-            if runs_twice || self.last.as_ref() == Some(&call) {
-                self.doubled.push(call.clone());
-            }
-            self.running.insert(*goal, call);
-        }
-    }
-
-    fn event(&mut self, _now: Time, event: &Event) {
-        let Event::Driver(event) = event else { return };
-        let Some(goal) = event.goal() else { return };
-        let done = match event {
-            DriverEvent::Ended { outcome, .. } => Some(matches!(outcome, Ending::Success(_))),
-            DriverEvent::Refused { .. } | DriverEvent::Stopped { .. } => Some(false),
-            _ => None,
-        };
-        if let Some(succeeded) = done
-            && let Some(call) = self.running.remove(&goal)
-        {
-            let acts =
-                ["pick(", "place(", "handover(", "open(", "close("].iter().any(|name| call.starts_with(name));
-            if acts && succeeded {
-                self.last = Some(call);
-            }
-        }
-    }
-
-    fn ended(&mut self, _now: Time, _end: &RunEnd) {
-        self.orphaned.extend(std::mem::take(&mut self.running).into_values());
+        self.is_reached && self.fallen.is_empty() && self.faults.is_empty()
     }
 }
 
 /// A trial of a task: `draw` in `0 .. 1` says when the change comes, as a part of the time without it.
-#[must_use]
-pub fn run(task: &Task, robot: &str, wording: usize, draw: f64) -> Trial {
-    let (_, whole) = play(task, robot, wording, None);
+///
+/// # Errors
+///
+/// The driver does not start, or a journal cannot be read.
+pub fn run(bench: &Bench, task: &Task, robot: &str, index: usize, draw: f64) -> Result<Trial, String> {
+    let (_, whole) = play(bench, task, robot, index, None)?;
     let at = whole.secs() * draw;
-    play(task, robot, wording, Some(at)).0
+    Ok(play(bench, task, robot, index, Some(at))?.0)
 }
 
-fn play(task: &Task, robot: &str, wording: usize, change_at: Option<f64>) -> (Trial, Time) {
-    let wording = wording % task.wordings.len().max(1);
+fn play(
+    bench: &Bench,
+    task: &Task,
+    robot: &str,
+    index: usize,
+    change_at: Option<f64>,
+) -> Result<(Trial, Time), String> {
+    let wording = index % task.wordings.len().max(1);
     let (request, instead) = task.wordings.get(wording).copied().unwrap_or_default();
     let setting = DialogueSetup {
         robot: setup::robot(robot),
@@ -169,81 +128,93 @@ fn play(task: &Task, robot: &str, wording: usize, change_at: Option<f64>) -> (Tr
         geometry: None,
         options: CheckOptions::default(),
     };
+    // Nobody closes a drawer in physics: there it stays open until the robot comes.
     let world = match (task.done, change_at) {
         (Some(what), Some(at)) => format!(r#"{{"world": [{{"at": {at}, "what": {{"closes": "{what}"}}}}]}}"#),
         _ => "{}".to_owned(),
     };
-    let faults = Faults::from_json(&world).unwrap_or_default();
-    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() });
-    let mut observer = Observer {
-        says: change_at.zip(instead).map(|(at, says)| (Time::from_secs(at), says)),
-        running: BTreeMap::new(),
-        last: None,
-        doubled: Vec::new(),
-        orphaned: Vec::new(),
-    };
+    let faults = Faults::from_json(&world).map_err(|error| error.to_string())?;
+    let mut robot_in = bench.robot(&setting.robot, (&setting.scene, &setting.scene), index as u64, faults)?;
+    let says = change_at.zip(instead).map(|(at, says)| (Time::from_secs(at), says));
+    let mut observer = TrialObserver::new(says)?;
     let mut talk = Conversation::new(&setting);
+    let driver = robot_in.driver();
     let (outcome, end) =
-        talk.carry_out(request, &mut Builtin, &mut sim, &mut NoOperator, &mut observer, Time::ZERO);
+        talk.carry_out(request, &mut Builtin, driver, &mut NoOperator, &mut observer, Time::ZERO);
     let goal = task.goals.get(wording);
-    let is_goal = goal.is_none_or(|(fluent, args, wanted)| sim.holds(fluent, args) == Some(*wanted));
-    let dropped = setting.scene.entities.values().filter(|entity| entity.kind == "Object");
-    let lies = |id: &str| {
-        sim.holds("holding", &[id]) == Some(true)
-            || setting.scene.entities.keys().any(|other| {
-                ["on", "in", "at"].iter().any(|fluent| sim.holds(fluent, &[id, other]) == Some(true))
-            })
-    };
+    let is_goal = goal.is_none_or(|(fluent, args, wanted)| robot_in.holds(end, fluent, args) == *wanted);
+    let is_reached = is_goal && outcome == Outcome::Done;
+    let problem = if let Outcome::Failed(problem) = &outcome { Some(problem.kind) } else { None };
+    let last = observer.failures.0.last().copied().or(problem.map(FailureSort::of_problem));
     let trial = Trial {
         task: task.name,
         robot: robot.to_owned(),
         changed_at: change_at.unwrap_or_default(),
-        is_reached: is_goal && outcome == Outcome::Done,
-        dropped: dropped.filter(|entity| !lies(&entity.id)).map(|entity| entity.id.to_string()).collect(),
-        doubled: observer.doubled,
-        orphaned: observer.orphaned,
+        is_reached,
+        fallen: robot_in.fallen(end, &setting.scene),
+        faults: observer.journals.faults()?,
+        failed_by: (!is_reached).then_some(last.unwrap_or(FailureSort::Planning)),
         end: match outcome {
             Outcome::Failed(problem) => problem.question,
             other => format!("{other:?}"),
         },
     };
-    (trial, end)
+    Ok((trial, end))
 }
 
 /// All trials: so many of each task on each robot, with the same draws for a seed.
-#[must_use]
-pub fn trials(seed: u64, count: usize) -> Vec<Trial> {
+///
+/// # Errors
+///
+/// That of [`run`].
+pub fn trials(bench: &Bench, seed: u64, count: usize) -> Result<Vec<Trial>, String> {
     let mut random = SplitMix64::seed_from_u64(seed);
     let mut drawn = Vec::new();
     for task in TASKS {
-        for robot in ["hsr", "anymal_z1"] {
+        for robot in ROBOTS {
             drawn.extend((0..count).map(|index| (task, robot, index, random.random())));
         }
     }
-    super::spread(drawn, |(task, robot, index, draw)| run(task, robot, index, draw))
+    let trials = super::spread(drawn, |(task, robot, index, draw)| run(bench, task, robot, index, draw));
+    trials.into_iter().collect()
 }
 
-/// The table: a row a task and robot.
+/// The tables: success by task as in VLP's figure 8, and by robot with the shares of failures as in its
+/// figure 9; and what the journals say of the actions.
 #[must_use]
-pub fn table(trials: &[Trial]) -> Vec<String> {
-    let mut lines = vec![format!(
-        "{:<34} {:<10} {:>4} {:>8} {:>8} {:>8} {:>9}",
-        "task", "robot", "n", "success", "dropped", "doubled", "orphaned"
-    )];
+pub fn table(bench: &Bench, trials: &[Trial]) -> Vec<String> {
+    let [perception, planning, execution] = ["perception", "planning", "execution"];
+    let mut lines = vec![
+        format!("world {}, driver {:?}", bench.world, bench.driver),
+        format!("{:<34} {:>4} {:>24} {:>24}", "success (VLP, figure 8)", "n", ROBOTS[0], ROBOTS[1]),
+    ];
+    let of = |task: &'static str, robot: &'static str| {
+        trials.iter().filter(move |trial| trial.task == task && trial.robot == robot)
+    };
+    let rate = |task: &'static str, robot: &'static str, is: &dyn Fn(&Trial) -> bool| Rate {
+        part: of(task, robot).filter(|trial| is(trial)).count(),
+        of: of(task, robot).count(),
+    };
     for task in TASKS {
-        for robot in ["hsr", "anymal_z1"] {
-            let own = || trials.iter().filter(|trial| trial.task == task.name && trial.robot == robot);
-            let count = |is: fn(&Trial) -> bool| own().filter(|trial| is(trial)).count();
-            lines.push(format!(
-                "{:<34} {robot:<10} {:>4} {:>8} {:>8} {:>8} {:>9}",
-                task.name,
-                own().count(),
-                count(|trial| trial.is_reached),
-                count(|trial| !trial.dropped.is_empty()),
-                count(|trial| !trial.doubled.is_empty()),
-                count(|trial| !trial.orphaned.is_empty()),
-            ));
+        let [one, other] = ROBOTS.map(|robot| rate(task.name, robot, &|trial| trial.is_reached));
+        lines.push(format!("{:<34} {:>4} {:>24} {:>24}", task.name, one.of, one.text(), other.text()));
+    }
+    lines.push(format!(
+        "{:<34} {:<10} {:>8} {perception:>10} {planning:>10} {execution:>10}",
+        "share of trials (VLP, figure 9)", "robot", "success"
+    ));
+    for task in TASKS {
+        for robot in ROBOTS {
+            let percent = |rate: Rate| format!("{:.0} %", 100.0 * rate.share());
+            let success = percent(rate(task.name, robot, &|trial| trial.is_reached));
+            let [seen, planned, done] = FailureSort::ALL
+                .map(|sort| percent(rate(task.name, robot, &|trial| trial.failed_by == Some(sort))));
+            let name = task.name;
+            lines.push(format!("{name:<34} {robot:<10} {success:>8} {seen:>10} {planned:>10} {done:>10}"));
         }
     }
+    let fallen: usize = trials.iter().map(|trial| trial.fallen.len()).sum();
+    let actions = action_line(trials.iter().map(|trial| &trial.faults));
+    lines.push(format!("{actions}; objects that fell: {fallen}"));
     lines
 }

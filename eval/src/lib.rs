@@ -1,8 +1,11 @@
 //! Verdicts of the compiler beside verdicts that are not ours, row by row.
 
+pub mod actions;
+pub mod bench;
 pub mod dialogue;
 pub mod dynamic;
 pub mod mutations;
+pub mod outcome;
 pub mod physics;
 pub mod planbench;
 pub mod repairs;

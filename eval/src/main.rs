@@ -5,7 +5,8 @@
 //!
 //! - `saycan --planned` plans the instructions from their text instead, and exits with 0 if at least 60 % of
 //!   them are carried out.
-//! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot.
+//! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot. Both take
+//!   `--world ideal|typical|harsh|FILE` and `--driver kinematic|mujoco`.
 //! - `world` takes the number of runs in a world that can fail, and exits with 0 if none of them ends as done
 //!   without its goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
@@ -20,10 +21,10 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
+use motet_eval::bench::{Bench, DriverKind};
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, spread, summary,
-    world,
+    Judged, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary, world,
 };
 use motet_sim::Profile;
 
@@ -35,8 +36,40 @@ const SUITES: &[(&str, Suite)] = &[
     ("scenarios", |lines| judged(lines, scenarios::judge)),
     ("saycan", |lines| judged(lines, saycan::judge)),
     ("repairs", repaired),
-    ("dialogue", spoken),
 ];
+
+/// Flags and words of the command line.
+#[derive(Default)]
+struct Flags {
+    only_json: bool,
+    is_planned: bool,
+    world: Option<String>,
+    driver: Option<DriverKind>,
+    words: Vec<String>,
+}
+
+impl Flags {
+    fn read(args: &[String]) -> Result<Self, String> {
+        let (mut flags, mut args) = (Self::default(), args.iter());
+        while let Some(arg) = args.next() {
+            let mut value = || args.next().cloned().ok_or_else(|| format!("`{arg}` needs a value"));
+            match arg.as_str() {
+                "--json" => flags.only_json = true,
+                "--planned" => flags.is_planned = true,
+                "--world" => flags.world = Some(value()?),
+                "--driver" => flags.driver = Some(value()?.parse()?),
+                flag if flag.starts_with("--") => return Err(format!("there is no flag `{flag}`")),
+                word => flags.words.push(word.to_owned()),
+            }
+        }
+        Ok(flags)
+    }
+
+    /// World of the trials: `typical` unless another is asked for.
+    fn bench(&self) -> Result<Bench, String> {
+        Bench::new(self.world.as_deref().unwrap_or("typical"), self.driver.unwrap_or_default())
+    }
+}
 
 /// Lines for people, and the summary.
 struct Report {
@@ -74,21 +107,30 @@ fn run() -> Result<bool, String> {
         };
         return shown(&report, args.iter().any(|arg| arg == "--json"));
     }
-    let only_json = args.iter().any(|arg| arg == "--json");
-    let is_planned = args.iter().any(|arg| arg == "--planned");
-    let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| !arg.starts_with("--")).collect();
+    let flags = Flags::read(&args)?;
+    let (only_json, is_planned) = (flags.only_json, flags.is_planned);
+    let words: Vec<&str> = flags.words.iter().map(String::as_str).collect();
     let usage = || {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
-            "usage: eval {} FILE [--json], eval dynamic TRIALS, eval world RUNS, eval mutations, \
+            "usage: eval {} FILE [--json], eval dialogue FILE|dynamic TRIALS [--world PROFILE] [--driver \
+             kinematic|mujoco], eval world RUNS, eval mutations, \
              eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \
              eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
             names.join("|")
         )
     };
-    if let ["dynamic", count] = words.as_slice() {
-        let count = count.parse().map_err(|_| usage())?;
-        return shown(&changed(count)?, only_json);
+    match words.as_slice() {
+        ["dynamic", count] => {
+            let count = count.parse().map_err(|_| usage())?;
+            return shown(&changed(&flags.bench()?, count)?, only_json);
+        }
+        ["dialogue", file] => {
+            let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
+            return shown(&spoken(&flags.bench()?, &text)?, only_json);
+        }
+        _ if flags.world.is_some() || flags.driver.is_some() => return Err(usage()),
+        _ => {}
     }
     if let ["world", count] = words.as_slice() {
         let count = count.parse().map_err(|_| usage())?;
@@ -137,9 +179,8 @@ fn judged(lines: &[(usize, &str)], judge: fn(&str) -> Result<Judged, String>) ->
     })
 }
 
-fn spoken(lines: &[(usize, &str)]) -> Result<Report, String> {
-    let wordings: Vec<&str> = lines.iter().map(|(_, line)| *line).collect();
-    let trials = spread(dialogue::cases(&wordings.join("\n")), dialogue::run);
+fn spoken(bench: &Bench, wordings: &str) -> Result<Report, String> {
+    let trials = dialogue::trials(bench, wordings)?;
     let notes = trials.iter().filter_map(|trial| {
         let case = &trial.case;
         let kinds: Vec<_> = case.failures.iter().map(|kind| kind.name()).collect();
@@ -149,9 +190,12 @@ fn spoken(lines: &[(usize, &str)]) -> Result<Report, String> {
     let (smooth, troubled): (Vec<_>, Vec<_>) =
         trials.iter().partition(|trial| trial.case.failures.is_empty());
     let (smooth, troubled) = (dialogue::sums(smooth.into_iter()), dialogue::sums(troubled.into_iter()));
+    let is_clean = trials.iter().all(|trial| trial.faults.is_empty());
     Ok(Report {
-        lines: notes.chain(dialogue::table(&trials)).collect(),
-        is_good: smooth.success * 100 >= smooth.total * 95 && troubled.success * 100 >= troubled.total * 90,
+        lines: notes.chain(dialogue::table(bench, &trials)).collect(),
+        is_good: is_clean
+            && smooth.success * 100 >= smooth.total * 95
+            && troubled.success * 100 >= troubled.total * 90,
         summary: serde_json::json!({"without_failure": smooth, "with_failure": troubled}),
     })
 }
@@ -159,16 +203,14 @@ fn spoken(lines: &[(usize, &str)]) -> Result<Report, String> {
 /// The seed of the trials whose world changes.
 const SEED: u64 = 7;
 
-fn changed(count: usize) -> Result<Report, String> {
-    let trials = dynamic::trials(SEED, count);
+fn changed(bench: &Bench, count: usize) -> Result<Report, String> {
+    let trials = dynamic::trials(bench, SEED, count)?;
     let good = trials.iter().filter(|trial| trial.is_good()).count();
-    let is_clean = trials
-        .iter()
-        .all(|trial| trial.dropped.is_empty() && trial.doubled.is_empty() && trial.orphaned.is_empty());
+    let is_clean = trials.iter().all(|trial| trial.faults.is_empty() && trial.fallen.is_empty());
     let notes = trials.iter().filter(|trial| !trial.is_good()).map(serde_json::to_string);
     let notes = notes.collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
     Ok(Report {
-        lines: notes.into_iter().chain(dynamic::table(&trials)).collect(),
+        lines: notes.into_iter().chain(dynamic::table(bench, &trials)).collect(),
         is_good: is_clean && good * 100 >= trials.len() * 95,
         summary: serde_json::json!({"total": trials.len(), "good": good}),
     })

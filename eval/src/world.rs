@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_geometry::planning::SearchBudget;
-use motet_graph::{Condition, FactArg, Graph, Term, Value};
+use motet_graph::{Comparison, Condition, FactArg, Graph, Term, Value};
 use motet_planner::Builtin;
 use motet_planner::dialogue::{
     Conversation, DialogueObserver, DialogueSetup, Kind, Outcome, Person, Problem,
@@ -16,13 +16,13 @@ use motet_robots::builtin;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Driver as _, DriverEvent, Engine, Event, Observer, Outcome as Ending, RunEnd, StartState, Time, run,
+    Answer, Driver as _, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run,
 };
 use motet_sim::{Profile, Sim, SimOptions};
-use motet_stdlib::lang::failures;
 use motet_syntax::{FileId, Source, Sources};
 use serde::Serialize;
 
+use crate::outcome::{FailureSort, StepFailures};
 use crate::{dialogue, mutations};
 
 /// Requests in words, by their tasks.
@@ -48,28 +48,6 @@ pub struct WorldRun {
     scene: String,
     seed: u64,
     work: Work,
-}
-
-/// Sort of a failure.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FailureSort {
-    /// A thing was not found, or not told apart.
-    Perception,
-    /// No way, no reach, or something in the way.
-    Planning,
-    /// A hand, a door or a person did not do its part.
-    Execution,
-}
-
-impl FailureSort {
-    fn of(kind: &str) -> Self {
-        match kind {
-            failures::NOT_FOUND | failures::AMBIGUOUS => Self::Perception,
-            failures::UNREACHABLE | failures::BLOCKED => Self::Planning,
-            _ => Self::Execution,
-        }
-    }
 }
 
 /// Result of a run.
@@ -118,27 +96,19 @@ pub fn carry_out(runs: Vec<WorldRun>, profile: &Profile) -> Vec<WorldEnd> {
     super::spread(runs, |run| run.carry_out(profile))
 }
 
-/// The failures of steps that a driver reports, in order.
+/// Notes failures of steps.
 #[derive(Default)]
-struct Failures(Vec<FailureSort>);
-
-impl Failures {
-    fn take(&mut self, event: &Event) {
-        if let Event::Driver(DriverEvent::Ended { outcome: Ending::Failure(failure), .. }) = event {
-            self.0.push(FailureSort::of(&failure.kind));
-        }
-    }
-}
+struct Failures(StepFailures);
 
 impl Observer for Failures {
     fn event(&mut self, _now: Time, event: &Event) {
-        self.take(event);
+        self.0.take(event);
     }
 }
 
 impl DialogueObserver for Failures {
     fn event(&mut self, _now: Time, event: &Event) {
-        self.take(event);
+        self.0.take(event);
     }
 }
 
@@ -167,11 +137,8 @@ impl WorldRun {
             }
             (_, _, _) => (false, false),
         };
-        let mut failures = BTreeMap::new();
-        for sort in &seen.0 {
-            *failures.entry(*sort).or_insert(0) += 1;
-        }
-        let failed_by = seen.0.last().copied().filter(|_| !is_done);
+        let failures = seen.0.counts();
+        let failed_by = seen.0.0.last().copied().filter(|_| !is_done);
         WorldEnd {
             name: self.name,
             robot: self.robot,
@@ -205,7 +172,8 @@ impl WorldRun {
         let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else { return (false, false) };
         let mut engine = engine.with_capabilities(sim.capabilities());
         let end = run(&mut engine, &mut sim, seen, Time::ZERO);
-        let is_true = graph.goal.iter().all(|part| truth(part, &graph, &sim) != Some(false));
+        let judge = Judge { graph: &graph, engine: &engine, sim: &sim };
+        let is_true = graph.goal.iter().all(|part| judge.truth(part) != Some(false));
         (matches!(end, RunEnd::Done { .. }), is_true)
     }
 
@@ -233,28 +201,94 @@ impl WorldRun {
     }
 }
 
-/// Truth of a part of a goal, where it is about entities that the policy names.
-fn truth(part: &Condition, graph: &Graph, sim: &Sim) -> Option<bool> {
-    match part {
-        Condition::Literal(is_true) => Some(*is_true),
-        Condition::Fact(fact) => {
-            let fluent = graph.fluents.get(fact.fluent.index())?;
-            let args = fact.args.iter().map(|arg| match arg {
-                FactArg::Term(Term::Literal(Value::Entity(id) | Value::Case(id))) => Some(id.as_str()),
-                FactArg::Term(_) | FactArg::Any => None,
-            });
-            sim.holds(&fluent.name, &args.collect::<Option<Vec<_>>>()?)
-        }
-        Condition::Not(inner) => truth(inner, graph, sim).map(|is_true| !is_true),
-        Condition::All(parts) => {
-            let parts: Vec<_> = parts.iter().map(|part| truth(part, graph, sim)).collect();
-            if parts.contains(&Some(false)) {
-                Some(false)
-            } else {
-                parts.into_iter().collect::<Option<Vec<_>>>().map(|_| true)
+/// Judge of a goal by the truth of the world, with the bindings at the end of the run.
+struct Judge<'a> {
+    graph: &'a Graph,
+    engine: &'a Engine,
+    sim: &'a Sim,
+}
+
+impl Judge<'_> {
+    /// Truth of a part of a goal; `None` where the world cannot say.
+    fn truth(&self, part: &Condition) -> Option<bool> {
+        match part {
+            Condition::Literal(is_true) => Some(*is_true),
+            Condition::Fact(fact) => {
+                let fluent = self.graph.fluents.get(fact.fluent.index())?.name.clone();
+                let args = fact.args.iter().map(|arg| match arg {
+                    FactArg::Any => Some(Pattern::Any),
+                    FactArg::Term(term) => self.value(term).map(Pattern::Is),
+                });
+                match self.sim.truth(&Query::Fact { fluent, args: args.collect::<Option<_>>()? }) {
+                    Answer::Truth(is_true) => Some(is_true),
+                    Answer::Value(_) | Answer::Unknown => None,
+                }
             }
+            Condition::Not(inner) => self.truth(inner).map(|is_true| !is_true),
+            Condition::All(parts) => decided(parts.iter().map(|part| self.truth(part)), false),
+            Condition::AnyOf(parts) => decided(parts.iter().map(|part| self.truth(part)), true),
+            Condition::Compare(op, left, right) => self.compare(*op, left, right),
         }
-        Condition::Compare(..) | Condition::AnyOf(_) => None,
+    }
+
+    fn compare(&self, op: Comparison, left: &Term, right: &Term) -> Option<bool> {
+        let (left, right) = (self.value(left)?, self.value(right)?);
+        let number = |value: &Value| match value {
+            Value::Number(number) => Some(*number),
+            Value::Int(number) => Some(*number as f64),
+            _ => None,
+        };
+        let order = match (number(&left), number(&right)) {
+            (Some(left), Some(right)) => left.partial_cmp(&right)?,
+            (None, None) => return equal(op, left == right),
+            (_, _) => return None,
+        };
+        Some(match op {
+            Comparison::Less => order.is_lt(),
+            Comparison::AtMost => order.is_le(),
+            Comparison::More => order.is_gt(),
+            Comparison::AtLeast => order.is_ge(),
+            Comparison::Equal => order.is_eq(),
+            Comparison::Unequal => order.is_ne(),
+        })
+    }
+
+    /// Value of a term in the world.
+    fn value(&self, term: &Term) -> Option<Value> {
+        let asked = match term {
+            Term::Literal(value) => return Some(value.clone()),
+            Term::Binding(binding) => return self.engine.binding(*binding).cloned(),
+            Term::Measure(measure, args) => Query::Measure {
+                measure: self.graph.measures.get(measure.index())?.name.clone(),
+                args: args.iter().map(|arg| self.value(arg)).collect::<Option<_>>()?,
+            },
+            Term::Field(entity, field) => {
+                let Value::Entity(entity) = self.value(entity)? else { return None };
+                Query::Field { entity, field: field.clone() }
+            }
+            _ => return None,
+        };
+        match self.sim.truth(&asked) {
+            Answer::Value(value) => Some(value),
+            Answer::Truth(_) | Answer::Unknown => None,
+        }
+    }
+}
+
+/// Truth of several parts, of which one that is `decisive` decides.
+fn decided(parts: impl Iterator<Item = Option<bool>>, decisive: bool) -> Option<bool> {
+    let parts: Vec<Option<bool>> = parts.collect();
+    if parts.contains(&Some(decisive)) {
+        return Some(decisive);
+    }
+    (!parts.contains(&None)).then_some(!decisive)
+}
+
+const fn equal(op: Comparison, is_equal: bool) -> Option<bool> {
+    match op {
+        Comparison::Equal => Some(is_equal),
+        Comparison::Unequal => Some(!is_equal),
+        Comparison::Less | Comparison::AtMost | Comparison::More | Comparison::AtLeast => None,
     }
 }
 

@@ -13,8 +13,8 @@ use motet_project::SavedDriver;
 use motet_robots::scene::Scene;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{
-    Capabilities, Detection, Effect, Engine, EngineSettings, Event, Heard, Moved, Observer, RunControl,
-    StartState, Time, Verifier,
+    Answer, Capabilities, Detection, Effect, Engine, EngineSettings, Event, Heard, Moved, Observer, Query,
+    RunControl, StartState, Time, ToldThing, Verifier,
 };
 
 use crate::Error;
@@ -118,12 +118,20 @@ impl Observer for Guarded<'_> {
         self.observer.reached(now)
     }
 
+    fn wants_telemetry(&self) -> bool {
+        self.observer.wants_telemetry()
+    }
+
     fn moved(&mut self, moved: &Moved) {
         self.observer.moved(moved);
     }
 
-    fn detected(&mut self, now: Time, seen: &[Detection]) {
-        self.observer.detected(now, seen);
+    fn detected(&mut self, now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
+        self.observer.detected(now, seen, engine)
+    }
+
+    fn tell(&mut self) -> Option<ToldThing> {
+        self.observer.tell()
     }
 
     fn heard(&mut self, now: Time, heard: &Heard) {

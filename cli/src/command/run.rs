@@ -133,7 +133,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     };
     let view = view(args.format, engine.graph(), colors, clock);
     // Where the driver keeps the time of the wall clock, the view never waits.
-    let paced = PacedView::new(view, speed).with_guard(guard);
+    let paced = PacedView::new(view, speed).with_guard(guard).with_room(opened.scene.clone());
     let events = vec![Event::Begin];
     Runner { engine, driver: &mut *driver, journal, from: Time::ZERO, events }.run(paced)
 }

@@ -94,6 +94,32 @@ impl Geometry {
         }
     }
 
+    /// The geometry and the world in which things stand where they were seen. The geometry is a new one only
+    /// for things that the scene lacks or that it has on another support.
+    pub(super) fn seeing(
+        this: &Arc<Self>,
+        at: &Fingerprinted,
+        things: impl Iterator<Item = Entity>,
+    ) -> (Arc<Self>, Arc<Fingerprinted>) {
+        let (mut world, mut scene) = (at.world.clone(), None);
+        for thing in things {
+            match this.scene.entities.get(&thing.id) {
+                Some(known) if (&known.on, &known.inside) == (&thing.on, &thing.inside) => {
+                    let there = Entity { pose: thing.pose, ..known.clone() };
+                    world.moved.remove(&thing.id);
+                    world.moved.extend(world.pose(&there).map(|pose| (thing.id.clone(), pose)));
+                }
+                Some(_) | None => {
+                    world.moved.remove(&thing.id);
+                    let scene: &mut Scene = scene.get_or_insert_with(|| this.scene.clone());
+                    scene.entities.insert(thing.id.clone(), thing);
+                }
+            }
+        }
+        let geometry = scene.map_or_else(|| Arc::clone(this), |scene| Arc::new(this.elsewhere(&scene)));
+        (geometry, Arc::new(fingerprinted(world)))
+    }
+
     /// Position of the first camera of the card, in metres in the frame of the base, with the robot in the
     /// posture `start` if it has one. `None` if the card does not name the camera's link.
     #[must_use]

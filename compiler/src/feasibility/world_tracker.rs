@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use motet_geometry::planning::{Infeasible, MapPose, MotionAnswer, MotionQuery, UnknownReason};
 use motet_graph::{Configuration, Manner, Value, Witness};
+use motet_robots::scene::Entity as SceneEntity;
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -27,6 +28,8 @@ pub struct WorldTracker {
     at: Result<Arc<Fingerprinted>, SmolStr>,
     /// Number of active calls that move the robot or a thing.
     moving: u32,
+    /// Things that were seen while something moved: they stand there once that is over.
+    seen: Vec<SceneEntity>,
 }
 
 /// Forecast of a motion.
@@ -62,7 +65,7 @@ struct ExecutedCall<'a> {
 impl WorldTracker {
     pub(crate) fn new(library: Arc<Library>, geometry: Arc<Geometry>) -> Self {
         let at = geometry.start();
-        Self { library, geometry, at, moving: 0 }
+        Self { library, geometry, at, moving: 0, seen: Vec::new() }
     }
 
     /// Forecasts a motion with the arguments `of` for a call of a primitive, in its manner, in the present
@@ -106,6 +109,7 @@ impl WorldTracker {
 
     /// Records the start of a call.
     pub fn began(&mut self, primitive: &str) {
+        self.take_in();
         if self.is_moving(primitive) {
             self.moving += 1;
             if self.moving > 1 {
@@ -120,11 +124,13 @@ impl WorldTracker {
         let Some(def) = primitive_of(&self.library, primitive) else { return };
         let Ok(at) = &self.at else { return };
         self.at = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result });
+        self.take_in();
     }
 
     /// Records that a call was refused before it moved anything.
     pub fn refused(&mut self, primitive: &str) {
         self.over(primitive);
+        self.take_in();
     }
 
     /// Records that a call failed or was interrupted.
@@ -133,6 +139,24 @@ impl WorldTracker {
         if self.is_moving(primitive) {
             self.lose(&format!("where `{primitive}` stopped is not known"));
         }
+    }
+
+    /// Takes in things where they were seen, also those that the scene lacks. What the hand holds stays there.
+    /// While something moves, they are taken in when that is over, because the motion was found without them.
+    pub fn saw(&mut self, things: Vec<SceneEntity>) {
+        self.seen.retain(|known| things.iter().all(|thing| thing.id != known.id));
+        self.seen.extend(things);
+        self.take_in();
+    }
+
+    fn take_in(&mut self) {
+        let Ok(at) = &self.at else { return };
+        if self.moving > 0 || self.seen.is_empty() {
+            return;
+        }
+        let seen = std::mem::take(&mut self.seen).into_iter().filter(|thing| !at.world.holds(&thing.id));
+        let (geometry, at) = Geometry::seeing(&self.geometry, at, seen);
+        (self.geometry, self.at) = (geometry, Ok(at));
     }
 
     /// Records an observation of `holding` or `open`. If it contradicts the tracked world, the world is

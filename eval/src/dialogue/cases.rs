@@ -195,7 +195,7 @@ impl Case {
     }
 
     /// The room as it is, where that is not as the robot was told.
-    pub(super) fn real(&self, told: &Scene) -> Scene {
+    pub(crate) fn real(&self, told: &Scene) -> Scene {
         let mut real = told.clone();
         if let (Some((fluent, spot)), Some(thing)) =
             (&self.hidden, real.entities.get_mut(self.thing.as_str()))
@@ -211,7 +211,7 @@ impl Case {
     }
 
     /// Faults of the steps.
-    pub(super) fn faults(&self) -> String {
+    pub(crate) fn faults(&self) -> String {
         let fails = |nth: u32, kind: &str| {
             format!(r#"{{"primitive": "pick", "nth": {nth}, "then": {{"fails": "{kind}"}}}}"#)
         };

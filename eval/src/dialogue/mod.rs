@@ -14,11 +14,14 @@ use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
 use motet_planner::{Builtin, PlanRequest, Planner};
 use motet_runtime::Time;
-use motet_sim::{Faults, Sim, SimOptions};
+use motet_sim::Faults;
 
 pub use cases::{Case, cases};
 pub use tables::{sums, table};
 
+use crate::actions::ActionFaults;
+use crate::bench::{Bench, DriverKind, TrialObserver};
+use crate::outcome::FailureSort;
 use crate::setup;
 
 /// Result of a case.
@@ -32,6 +35,10 @@ pub struct Trial {
     pub asked: Vec<Kind>,
     /// True if every failure of the case was put to the person as what it is.
     pub is_explained: bool,
+    /// Faults of the actions, counted from the journals.
+    pub faults: ActionFaults,
+    /// Sort of the failure, where the goal was not reached.
+    pub failed_by: Option<FailureSort>,
     /// Its end, where it is not done.
     pub note: Option<String>,
     /// Time for the words: which things are meant.
@@ -86,14 +93,17 @@ impl Planner for Timed {
     }
 }
 
-/// Carries out a case.
-#[must_use]
-pub fn run(case: Case) -> Trial {
+/// Carries out a case with a seed.
+///
+/// # Errors
+///
+/// The driver does not start, or a journal cannot be read.
+pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
     let robot = setup::robot(&case.robot);
     let told = case.told(setup::scene(&case.scene));
     let real = case.real(&told);
-    let faults = Faults::from_json(&case.faults()).unwrap_or_default();
-    let mut sim = Sim::new(&robot, &real, SimOptions { faults, ..SimOptions::default() });
+    let faults = Faults::from_json(&case.faults()).map_err(|error| error.to_string())?;
+    let mut robot_in = bench.robot(&robot, (&told, &real), seed, faults)?;
     let setting = DialogueSetup {
         robot,
         scene: told,
@@ -104,28 +114,49 @@ pub fn run(case: Case) -> Trial {
     let mut talk = Conversation::new(&setting);
     let mut person = Scripted { answers: case.answers(), asked: Vec::new(), questions: Vec::new() };
     let mut planner = Timed::default();
-    let (outcome, _) =
-        talk.carry_out(&case.request, &mut planner, &mut sim, &mut person, &mut (), Time::ZERO);
-    let is_reached = case.goal.iter().all(|(fluent, args)| {
+    let mut observer = TrialObserver::new(None)?;
+    let driver = robot_in.driver();
+    let (outcome, end) =
+        talk.carry_out(&case.request, &mut planner, driver, &mut person, &mut observer, Time::ZERO);
+    let mut holds = |(fluent, args): &(String, Vec<String>)| {
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        sim.holds(fluent, &args) == Some(true)
-    }) && case.undo.iter().all(|(fluent, args)| {
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        sim.holds(fluent, &args) == Some(false)
-    });
+        robot_in.holds(end, fluent, &args)
+    };
+    let is_true = case.goal.iter().all(&mut holds) && !case.undo.iter().any(&mut holds);
+    let is_reached = is_true && outcome == Outcome::Done;
     let is_explained = case.failures.iter().all(|kind| person.asked.contains(kind));
-    let note = (!is_reached || outcome != Outcome::Done).then(|| match &outcome {
+    let note = (!is_reached).then(|| match &outcome {
         Outcome::Failed(problem) => format!("{}: {}", problem.kind.name(), problem.question),
         other => format!("{other:?}, asked {:?}", person.questions),
     });
-    Trial {
-        is_reached: is_reached && outcome == Outcome::Done,
+    let problem = if let Outcome::Failed(problem) = &outcome { Some(problem.kind) } else { None };
+    // The end of the conversation says more than an injected failure before it.
+    let last = problem.map(FailureSort::of_problem).or(observer.failures.0.last().copied());
+    Ok(Trial {
+        is_reached,
         asked: person.asked,
         is_explained,
+        faults: observer.journals.faults()?,
+        failed_by: (!is_reached).then_some(last.unwrap_or(FailureSort::Planning)),
         note,
         vision: planner.words,
         feasibility: planner.check,
         planner: planner.plan,
         case,
+    })
+}
+
+/// All cases of a wordings file that a world can arrange: in physics no failure is injected.
+///
+/// # Errors
+///
+/// That of [`run`].
+pub fn trials(bench: &Bench, wordings: &str) -> Result<Vec<Trial>, String> {
+    let is_injected = |kind: &Kind| matches!(kind, Kind::NotReachable | Kind::ActionFailed);
+    let mut cases = cases(wordings);
+    if bench.driver == DriverKind::Mujoco {
+        cases.retain(|case| !case.failures.iter().any(is_injected));
     }
+    let seeded = cases.into_iter().enumerate().collect();
+    super::spread(seeded, |(index, case)| run(bench, case, index as u64)).into_iter().collect()
 }

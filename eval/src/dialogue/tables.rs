@@ -4,6 +4,8 @@ use motet_planner::dialogue::Kind;
 use serde::Serialize;
 
 use super::Trial;
+use crate::bench::{Bench, action_line};
+use crate::outcome::{FailureSort, Rate};
 
 /// The sums of some trials.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -46,25 +48,42 @@ pub fn sums<'t>(trials: impl Iterator<Item = &'t Trial>) -> Sums {
     }
 }
 
-/// The table.
+/// The tables: success, explanation and recovery as in InteLiPlan's table II and figures 4 and 5, the robots
+/// as in its table V, the shares of failures, the actions by the journals, and times as in its table VI.
 #[must_use]
-pub fn table(trials: &[Trial]) -> Vec<String> {
-    let mut lines =
-        vec![format!("{:<34} {:>5} {:>8} {:>10} {:>9}", "", "n", "success", "explained", "recovered")];
+pub fn table(bench: &Bench, trials: &[Trial]) -> Vec<String> {
+    let mut lines = vec![
+        format!("world {}, driver {:?}", bench.world, bench.driver),
+        format!(
+            "{:<34} {:>5} {:>24} {:>10} {:>9} {:>10} {:>8} {:>9}",
+            "InteLiPlan, table II, figures 4, 5",
+            "n",
+            "success",
+            "explained",
+            "recovered",
+            "perception",
+            "planning",
+            "execution"
+        ),
+    ];
     let mut row = |name: &str, take: &dyn Fn(&Trial) -> bool| {
-        let sums = sums(trials.iter().filter(|trial| take(trial)));
+        let own: Vec<&Trial> = trials.iter().filter(|trial| take(trial)).collect();
+        let sums = sums(own.iter().copied());
         if sums.total == 0 {
             return;
         }
-        let rate = |part: usize, of: usize| {
+        let percent = |part: usize, of: usize| {
             if of == 0 { "-".to_owned() } else { format!("{:.1} %", 100.0 * part as f64 / of as f64) }
         };
+        let [seen, planned, done] = FailureSort::ALL.map(|sort| {
+            percent(own.iter().filter(|trial| trial.failed_by == Some(sort)).count(), sums.total)
+        });
         lines.push(format!(
-            "{name:<34} {:>5} {:>8} {:>10} {:>9}",
+            "{name:<34} {:>5} {:>24} {:>10} {:>9} {seen:>10} {planned:>8} {done:>9}",
             sums.total,
-            rate(sums.success, sums.total),
-            rate(sums.explained, sums.failures),
-            rate(sums.recovered, sums.failures)
+            Rate { part: sums.success, of: sums.total }.text(),
+            percent(sums.explained, sums.failures),
+            percent(sums.recovered, sums.failures)
         ));
     };
     row("without failure", &|trial| trial.case.failures.is_empty());
@@ -82,14 +101,18 @@ pub fn table(trials: &[Trial]) -> Vec<String> {
         row(&format!("  {}", kind.name()), &|trial| trial.case.failures.contains(&kind));
     }
     for robot in ["hsr", "anymal_z1"] {
-        row(robot, &|trial| trial.case.robot == robot);
+        for (rounds, name) in ["without failure", "one round", "two rounds"].into_iter().enumerate() {
+            let is_own = |trial: &Trial| trial.case.robot == robot && trial.case.failures.len() == rounds;
+            row(&format!("{robot}, {name} (table V)"), &is_own);
+        }
     }
     for task in ["bring", "put", "stow", "throw", "pick", "go", "open", "close"] {
         row(task, &|trial| trial.case.task == task);
     }
+    lines.push(action_line(trials.iter().map(|trial| &trial.faults)));
     let [vision, feasibility, planner] = sums(trials.iter()).median_ms;
     lines.push(format!(
-        "median time of a trial: words {vision:.2} ms, check {feasibility:.2} ms, plan {planner:.2} ms"
+        "median time (table VI): words {vision:.2} ms, check {feasibility:.2} ms, plan {planner:.2} ms"
     ));
     lines
 }

@@ -5,7 +5,7 @@ use crate::event::DriverEvent;
 use crate::ids::GoalId;
 use crate::perception::{Detection, RgbdView};
 use crate::query::Query;
-use crate::telemetry::{Heard, Moved};
+use crate::telemetry::{Heard, Moved, ToldThing};
 use crate::time::Time;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -125,6 +125,14 @@ pub trait Driver {
         self.inner().map(|inner| inner.detections(now)).unwrap_or_default()
     }
 
+    /// Takes in where a thing is, for what it does from now on. Called only where [`Driver::capabilities`] says
+    /// so. It believes this until it sees something else.
+    fn told(&mut self, now: Time, thing: &ToldThing) {
+        if let Some(inner) = self.inner() {
+            inner.told(now, thing);
+        }
+    }
+
     /// Carries an effect out by the call that is meant by it. Records, verdicts and the end of the run are
     /// none of its affair.
     fn carry_out(&mut self, now: Time, effect: &Effect) {
@@ -212,6 +220,10 @@ impl<D: Driver> Driver for Rc<RefCell<D>> {
     fn detections(&mut self, now: Time) -> Vec<Detection> {
         self.borrow_mut().detections(now)
     }
+
+    fn told(&mut self, now: Time, thing: &ToldThing) {
+        self.borrow_mut().told(now, thing);
+    }
 }
 
 /// Optional abilities of a driver. What it leaves out has the default; what nobody knows is ignored.
@@ -236,6 +248,9 @@ pub struct Capabilities {
     /// True if it answers [`Driver::detections`].
     #[serde(skip_serializing_if = "is_false")]
     pub detections: bool,
+    /// True if it takes [`Driver::told`].
+    #[serde(skip_serializing_if = "is_false")]
+    pub told: bool,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
@@ -271,6 +286,7 @@ impl Default for Capabilities {
             moved: false,
             look: false,
             detections: false,
+            told: false,
         }
     }
 }

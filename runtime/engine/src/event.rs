@@ -20,6 +20,8 @@ pub enum Event {
     Driver(DriverEvent),
     /// The verdict on a motion, to [`crate::Effect::Verify`].
     Verified { check: CheckId, verdict: Verification },
+    /// The host concludes a fact from what the driver detected. It counts as an observation.
+    Noticed { query: Query, answer: Answer },
     /// A person stops the run: everything is interrupted, and the run ends as [`crate::RunEnd::Interrupted`].
     Stop,
 }

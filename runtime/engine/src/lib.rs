@@ -38,7 +38,7 @@ pub use run_loop::{Observer, RunControl, resume, run};
 pub use snapshot::{LiveGoal, Snapshot};
 pub use start::{EngineSettings, StartState};
 pub use swap::{PreparedSwap, RetiredGraph, RunningGraph, SwapRefusal};
-pub use telemetry::{Heard, Moved, MovedThing};
+pub use telemetry::{Heard, Moved, MovedThing, ToldSupport, ToldThing};
 pub use time::Time;
 pub use trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 pub use verifier::Verifier;

@@ -10,7 +10,8 @@ use std::rc::Rc;
 /// One thing that was seen.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Detection {
-    /// The entity of the scene that it is, where it was recognised.
+    /// The entity of the scene that it is, where it was recognised; or the driver's own name for a thing that
+    /// the scene lacks.
     pub entity: Option<SmolStr>,
     /// Class name such as `mug`; empty if unknown.
     pub class: SmolStr,
@@ -18,6 +19,8 @@ pub struct Detection {
     pub pose: Option<Pose>,
     /// Lengths of its sides along the axes of its pose in m, where they are known.
     pub extent: Option<[f64; 3]>,
+    /// Standard deviation of its position along each axis in m, where the detector knows it.
+    pub error_m: Option<f64>,
     /// Confidence of the detector from 0 to 1.
     pub confidence: f64,
     /// Time at which it was seen.

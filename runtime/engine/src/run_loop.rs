@@ -6,8 +6,9 @@ use crate::engine::Engine;
 use crate::event::{DriverEvent, Event, Verification};
 use crate::ids::CheckId;
 use crate::perception::Detection;
+use crate::query::{Answer, Query};
 use crate::swap::{PreparedSwap, RetiredGraph, SwapRefusal};
-use crate::telemetry::{Heard, Moved};
+use crate::telemetry::{Heard, Moved, ToldThing};
 use crate::time::Time;
 use crate::verifier::Verifier;
 use motet_graph::Graph;
@@ -44,11 +45,24 @@ pub trait Observer {
         RunControl::Continue
     }
 
+    /// True if it wants to hear of every motion. Then the run stops often enough to read telemetry.
+    fn wants_telemetry(&self) -> bool {
+        false
+    }
+
     /// The driver sent telemetry. It may have a time before that of the last event.
     fn moved(&mut self, _moved: &Moved) {}
 
-    /// The driver saw something new.
-    fn detected(&mut self, _now: Time, _seen: &[Detection]) {}
+    /// The driver saw something new. Returns the facts that follow from it, which the engine then takes for
+    /// observed ([`Event::Noticed`]).
+    fn detected(&mut self, _now: Time, _seen: &[Detection], _engine: &Engine) -> Vec<(Query, Answer)> {
+        Vec::new()
+    }
+
+    /// Next thing of which the driver is to be told. Asked before each event, until there is none.
+    fn tell(&mut self) -> Option<ToldThing> {
+        None
+    }
 
     /// A person said something that nobody had asked for.
     fn heard(&mut self, _now: Time, _heard: &Heard) {}
@@ -108,6 +122,7 @@ pub fn resume(
     let mut host = RunLoop { driver, observer, now: from, first, out, asked, capabilities, stopped: false };
     loop {
         host.verify();
+        host.tell();
         if let Some(event) = host.first.pop_front() {
             host.observer.event(host.now, &event);
             if let Some(verifier) = host.observer.verifier() {
@@ -127,7 +142,7 @@ pub fn resume(
                 return host.carry_out().unwrap_or(RunEnd::Fault(Fault::Stalled));
             }
         }
-        host.read_telemetry();
+        host.read_telemetry(engine);
         if !host.stopped && host.observer.reached(host.now) == RunControl::Stop {
             host.stop();
         }
@@ -135,8 +150,8 @@ pub fn resume(
 }
 
 /// Longest span without a look at what is no event; `tick` is the time of the next tick.
-fn glance(capabilities: &Capabilities, tick: Time) -> Time {
-    match (capabilities.clock, capabilities.moved) {
+fn glance(capabilities: &Capabilities, wants_telemetry: bool, tick: Time) -> Time {
+    match (capabilities.clock, capabilities.moved && wants_telemetry) {
         (DriverClock::Driver, false) => REACHED_EVERY,
         (DriverClock::Driver, true) => TELEMETRY_EVERY,
         // A simulator in this process can say that nothing will ever happen, if nothing limits its time.
@@ -175,7 +190,8 @@ impl RunLoop<'_> {
         let is_awaited = self.observer.verifier().is_some_and(|verifier| verifier.is_busy());
         let every = if is_awaited { VERDICT_EVERY } else { Time::NEVER };
         let tick = wake.min(self.now.after(self.observer.at_least_every().min(every)));
-        let until = tick.min(self.now.after(glance(&self.capabilities, tick)));
+        let wants = self.observer.wants_telemetry();
+        let until = tick.min(self.now.after(glance(&self.capabilities, wants, tick)));
         match self.driver.advance(until) {
             Some((at, report)) => {
                 self.now = at.max(self.now);
@@ -189,16 +205,29 @@ impl RunLoop<'_> {
         }
     }
 
-    /// Hands to the observer what the driver reports beside the engine's events.
-    fn read_telemetry(&mut self) {
-        while let Some(moved) = self.driver.telemetry() {
-            self.observer.moved(&moved);
+    /// Hands to the observer what the driver reports beside the engine's events. What follows from detections
+    /// goes to the engine.
+    fn read_telemetry(&mut self, engine: &Engine) {
+        if self.observer.wants_telemetry() {
+            while let Some(moved) = self.driver.telemetry() {
+                self.observer.moved(&moved);
+            }
         }
         while let Some(seen) = self.driver.detected() {
-            self.observer.detected(self.now, &seen);
+            let noticed = self.observer.detected(self.now, &seen, engine).into_iter();
+            self.first.extend(noticed.map(|(query, answer)| Event::Noticed { query, answer }));
         }
         while let Some(heard) = self.driver.heard() {
             self.observer.heard(self.now, &heard);
+        }
+    }
+
+    /// Tells the driver what the observer wants it to know.
+    fn tell(&mut self) {
+        while let Some(thing) = self.observer.tell() {
+            if self.capabilities.told {
+                self.driver.told(self.now, &thing);
+            }
         }
     }
 

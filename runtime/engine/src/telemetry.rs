@@ -2,6 +2,7 @@
 //! nobody asked for. They go to the observer of a run and are kept in no journal.
 
 use crate::time::Time;
+use motet_graph::Pose;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -29,6 +30,33 @@ pub struct MovedThing {
     pub xyz: [f64; 3],
     /// Unit quaternion in the order x, y, z, w.
     pub quaternion: [f64; 4],
+}
+
+/// A thing as the driver is told of it: somebody said where it is, or the host gave a thing a name that the
+/// driver had detected without one.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ToldThing {
+    /// Entity of the scene, or the name that the host gave.
+    pub id: SmolStr,
+    /// Name for what it is, of a thing that is not in the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<SmolStr>,
+    /// Pose of its middle in the frame `map`, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
+    /// What it stands on or lies in, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support: Option<ToldSupport>,
+}
+
+/// Support of a thing.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ToldSupport {
+    On(SmolStr),
+    In(SmolStr),
+    /// With a person, or at a place.
+    At(SmolStr),
 }
 
 /// Words that a person said without being asked.

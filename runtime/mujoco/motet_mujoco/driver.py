@@ -111,6 +111,7 @@ class Driver:
             self.stop_all()
             self.goals, self.watched = {}, []
         self.run, self.protocol = run, version
+        self.declared = {one["name"]: one.get("fails", []) for one in params.get("primitives", [])}
         # The time of a run begins at 0, or goes on where the host says.
         self.offset = self.world.now - float(params.get("at", 0.0))
         self.has_clock = version >= 2
@@ -283,8 +284,6 @@ class Driver:
 
     def kinds(self, primitive):
         """Failure kinds that a primitive declares."""
-        if not self.declared and self.command:
-            self.declared = declared(self.command, self.model.source)
         return self.declared.get(primitive, [])
 
     def running(self, number):
@@ -357,21 +356,6 @@ def alike(now, before):
     except (KeyError, TypeError):
         return False
     return abs(one - other) < 0.005
-
-
-def declared(command, robot):
-    """Failure kinds by primitive, as `motet robots show` prints them."""
-    from .model import motet
-
-    kinds, current = {}, None
-    for line in motet(command, "robots", "show", robot).splitlines():
-        words = line.strip().split(None, 1)
-        if line.startswith(("action ", "perception ")):
-            current = words[1].partition("(")[0]
-            kinds[current] = []
-        elif current and words and words[0] == "fails":
-            kinds[current] = [one.strip() for one in words[1].split(",")]
-    return kinds
 
 
 def serve(driver, read_fd, write, speed=1.0):

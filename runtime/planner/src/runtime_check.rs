@@ -7,6 +7,7 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 
 use motet_compiler::{Forecast, WorldTracker};
 use motet_graph::Value;
+use motet_robots::scene::Entity;
 use motet_runtime::{
     Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, Event, GoalId, Outcome, Pattern, Query,
     Time, Verification, Verifier,
@@ -42,6 +43,7 @@ enum GuardMessage {
     Reported(DriverEvent),
     Began(GoalId, Arc<Command>),
     Asked(CheckId, Arc<DeferredMotion>),
+    Saw(Vec<Entity>),
 }
 
 impl Guard {
@@ -71,6 +73,13 @@ impl Guard {
             }
         });
         Self(Schedule::Beside { thread, verdicts, awaited: 0 })
+    }
+
+    /// Takes in things where they were seen, also those that the scene lacks.
+    pub fn saw(&mut self, things: Vec<Entity>) {
+        if !things.is_empty() {
+            self.tell(GuardMessage::Saw(things));
+        }
     }
 
     fn tell(&mut self, message: GuardMessage) {
@@ -138,6 +147,7 @@ impl RunTracker {
         match message {
             GuardMessage::Reported(event) => self.report(&event),
             GuardMessage::Began(goal, command) => self.began(goal, command),
+            GuardMessage::Saw(things) => self.course.saw(things),
             GuardMessage::Asked(check, motion) => return Some((check, self.motion(&motion))),
         }
         None

@@ -35,6 +35,8 @@ pub struct RequestContext<'a> {
     pub spoken_of: Vec<SmolStr>,
     /// Things with the places that they were last taken from, the latest last.
     pub came_from: Vec<(SmolStr, SmolStr)>,
+    /// Positions of things that a camera saw elsewhere than in the scene, in m in the frame `map`.
+    pub seen_at: Vec<(SmolStr, [f64; 3])>,
     /// Phrases with the things that they mean, as answers to questions told.
     pub meant: Vec<(String, SmolStr)>,
 }
@@ -59,6 +61,7 @@ impl<'a> RequestContext<'a> {
             supports: Vec::new(),
             spoken_of: Vec::new(),
             came_from: Vec::new(),
+            seen_at: Vec::new(),
             meant: Vec::new(),
         }
     }

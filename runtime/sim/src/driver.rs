@@ -11,7 +11,7 @@ use crate::task::{NextStage, Task, TaskStage};
 use motet_graph::{Manner, Waypoint};
 use motet_runtime::{
     Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Moved, Outcome, PrimitiveSet, Query,
-    RgbdView, Time,
+    RgbdView, Time, ToldThing,
 };
 use motet_stdlib::lang::failures;
 use rand::RngExt;
@@ -75,6 +75,7 @@ impl Driver for Sim {
             moved: true,
             look: self.camera.is_some(),
             detections: self.camera.is_some(),
+            told: true,
             ..Capabilities::default()
         }
     }
@@ -183,6 +184,15 @@ impl Driver for Sim {
 
     fn telemetry(&mut self) -> Option<Moved> {
         self.trail.next(&self.world)
+    }
+
+    fn detected(&mut self) -> Option<Vec<Detection>> {
+        (!self.sighted.is_empty()).then(|| self.sighted.drain(..).collect())
+    }
+
+    fn told(&mut self, now: Time, thing: &ToldThing) {
+        self.pass(now);
+        self.hear_of(thing);
     }
 
     fn look(&mut self, now: Time, camera: Option<&str>) -> Option<RgbdView> {

@@ -10,6 +10,7 @@ use crate::sight::ViewDirection;
 use crate::sim::Sim;
 use crate::world::Role;
 use motet_graph::Pose;
+use motet_robots::scene::EntityShape;
 use motet_runtime::{CameraImage, Detection, Perception, RgbdView, Time};
 use smol_str::SmolStr;
 use std::f64::consts::TAU;
@@ -57,23 +58,45 @@ impl Sim {
             let far = self.world.base.distance_to(thing.body.x(), thing.body.y());
             let [dx, dy] = chance.error(rates.error_per_m * far, "detect", id);
             let ([x, y, z], (sin, cos)) = (thing.body.xyz, (thing.body.yaw / 2.0).sin_cos());
-            Some(Detection {
-                // What nobody told it of has no name.
-                entity: self.belief.things.contains_key(id).then(|| id.clone()),
-                class: self
-                    .scene
-                    .entities
-                    .get(id)
-                    .map_or_else(SmolStr::default, |entity| entity.class.clone()),
-                pose: Some(Pose { xyz: [x + dx, y + dy, z], quaternion: [0.0, 0.0, sin, cos] }),
-                extent: None,
-                confidence: (1.0 - miss) * share,
-                at,
-            })
+            let pose = Pose { xyz: [x + dx, y + dy, z], quaternion: [0.0, 0.0, sin, cos] };
+            Some(self.detection(id, pose, rates.error_per_m * far, ((1.0 - miss) * share, at)))
         });
         let mut seen: Vec<Detection> = seen.collect();
         seen.sort_by(|one, other| other.confidence.total_cmp(&one.confidence));
         seen
+    }
+
+    /// Detection of a thing of the world. What the scene of the robot lacks keeps its name in the world: the
+    /// robot knows it again by this.
+    pub(crate) fn detection(
+        &self,
+        id: &SmolStr,
+        pose: Pose,
+        error_m: f64,
+        (confidence, at): (f64, Time),
+    ) -> Detection {
+        let entity = self.scene.entities.get(id);
+        let named = entity.and_then(|entity| entity.names.first().or(Some(&entity.class)));
+        let is_told = self.told.contains_key(id);
+        let class = match entity {
+            Some(entity) if is_told => entity.class.clone(),
+            Some(_) | None => named.cloned().unwrap_or_default(),
+        };
+        let extent = entity.and_then(|entity| match entity.shape.as_ref()? {
+            EntityShape::Box(sides) => Some(*sides),
+            EntityShape::Cylinder { radius, height } => Some([2.0 * radius, 2.0 * radius, *height]),
+            EntityShape::Sphere { radius } => Some([2.0 * radius; 3]),
+            EntityShape::Capsule { .. } | EntityShape::Mesh { .. } => None,
+        });
+        Detection {
+            entity: Some(id.clone()),
+            class,
+            pose: Some(pose),
+            extent,
+            error_m: Some(error_m),
+            confidence,
+            at,
+        }
     }
 
     /// A picture of most of what is visible. There is one camera, the first of the card.

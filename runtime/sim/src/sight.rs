@@ -9,7 +9,9 @@ use crate::chance::Chance;
 use crate::failure::Failure;
 use crate::sim::Sim;
 use crate::world::{Rest, Role, SimWorld, Thing};
+use motet_graph::Pose;
 use motet_robots::scene::{Entity, Palette, colour};
+use motet_runtime::{ToldSupport, ToldThing};
 use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 
@@ -23,6 +25,9 @@ const SAME_M: f64 = 0.01;
 const MISS_RAD: f64 = 0.1;
 /// Greatest probability of a miss.
 const MOST_MISSED: f64 = 0.95;
+/// Difference in m between a belief and what is seen from which on it is news.
+const NEWS_M: f64 = 0.02;
+
 /// Freedom of the robot to turn while it looks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum ViewDirection {
@@ -141,6 +146,40 @@ impl Sim {
             (thing.walk, thing.visible_at_start) = (None, None);
         }
         self.belief.saw(id);
+        let is_news =
+            before.is_none_or(|(known, lost)| lost || distance(known, seen) > NEWS_M.max(2.0 * error_m));
+        if is_news && !truth.fixed {
+            let (sin, cos) = (truth.body.yaw / 2.0).sin_cos();
+            let pose = Pose { xyz: seen, quaternion: [0.0, 0.0, sin, cos] };
+            let seen = self.detection(&id.into(), pose, error_m, (1.0, self.world.now));
+            self.sighted.retain(|known| known.entity != seen.entity);
+            self.sighted.push_back(seen);
+        }
+    }
+
+    /// Takes in what the robot is told of a thing. It believes this until it sees something else; what its
+    /// hand holds it feels.
+    pub(crate) fn hear_of(&mut self, told: &ToldThing) {
+        let id = &told.id;
+        if self.world.holder(id).is_some() {
+            return;
+        }
+        if !self.belief.things.contains_key(id)
+            && let Some(thing) = self.world.thing(id).cloned()
+        {
+            self.belief.things.insert(id.clone(), thing);
+        }
+        match &told.support {
+            Some(ToldSupport::On(place)) => self.belief.lay(id, place, Rest::On(place.clone())),
+            Some(ToldSupport::In(place)) => self.belief.lay(id, place, Rest::In(place.clone())),
+            Some(ToldSupport::At(place)) => self.belief.lay(id, place, Rest::With(place.clone())),
+            None => {}
+        }
+        let Some(thing) = self.belief.things.get_mut(id) else { return };
+        if let Some(pose) = told.pose {
+            thing.body.xyz = pose.xyz;
+        }
+        (thing.lost, thing.seen_at, thing.visible_at_start) = (false, None, None);
     }
 
     /// Compares the belief about a thing with what is in view.

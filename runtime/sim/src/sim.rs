@@ -13,7 +13,7 @@ use indexmap::IndexMap;
 use motet_graph::Value;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::{Answer, DriverEvent, Pattern, Query, Time};
+use motet_runtime::{Answer, Detection, DriverEvent, Pattern, Query, Time};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng;
 use smol_str::SmolStr;
@@ -62,6 +62,8 @@ pub struct Sim {
     pub(crate) watches: Vec<(Query, Answer)>,
     pub(crate) outbox: VecDeque<(Time, DriverEvent)>,
     pub(crate) trail: Trail,
+    /// News that the robot has seen and the host has not read.
+    pub(crate) sighted: VecDeque<Detection>,
     /// The name of the first camera.
     pub(crate) camera: Option<SmolStr>,
     observes: Vec<SmolStr>,
@@ -101,6 +103,7 @@ impl Sim {
             watches: Vec::new(),
             outbox: VecDeque::new(),
             trail: Trail::default(),
+            sighted: VecDeque::new(),
             camera: robot.cameras.keys().next().cloned(),
             observes: robot.observes.clone(),
             initial_facts: options.initial_facts,
@@ -154,6 +157,12 @@ impl Sim {
             }
             (_, _) => self.world.fact(fluent, args, &self.initial_facts),
         }
+    }
+
+    /// The true answer to a query, whatever the robot can observe; unknown where the world does not know.
+    #[must_use]
+    pub fn truth(&self, query: &Query) -> Answer {
+        self.world.answer(query, &self.initial_facts)
     }
 
     /// Utterances of the robot with the times at which they ended.

@@ -29,6 +29,7 @@ mod notations;
 mod oracle;
 mod outcomes;
 mod pddl;
+mod perceived;
 mod physics;
 mod places;
 mod planning;

@@ -205,8 +205,11 @@ impl DriverReplay {
                     return Err(Box::new(ReplayMismatch { at, journal: None, driver: Some(report) }));
                 }
             }
-            // Verdicts are none of the driver's affair.
-            Some(Event::Begin | Event::Tick | Event::Verified { .. } | Event::Stop) | None => {}
+            // Verdicts and conclusions of the host are none of the driver's affair.
+            Some(
+                Event::Begin | Event::Tick | Event::Verified { .. } | Event::Noticed { .. } | Event::Stop,
+            )
+            | None => {}
         }
         self.carry_out(driver, step.at, &step.effects);
         Ok(())

@@ -283,7 +283,7 @@ impl Turn<'_> {
         }
     }
 
-    fn observed(&mut self, query: Query, answer: Answer) {
+    pub(super) fn observed(&mut self, query: Query, answer: Answer) {
         let mut known = self.run.beliefs.find_query(&query);
         if known.is_none()
             && let Query::Fact { fluent, .. } = &query

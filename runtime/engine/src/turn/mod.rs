@@ -57,6 +57,8 @@ impl Turn<'_> {
             Event::Driver(event) if self.run.begun => self.driver(event),
             Event::Driver(_) => {}
             Event::Verified { check, verdict } => self.verified(check, verdict),
+            Event::Noticed { query, answer } if self.run.begun => self.observed(query, answer),
+            Event::Noticed { .. } => {}
             Event::Stop => self.stop_run(),
         }
         self.settle();

@@ -232,6 +232,10 @@ fn wire_form_keeps_its_bytes() {
         Event::Stop,
         Event::Verified { check, verdict },
         Event::Verified { check, verdict: Verification::Unknown { why: "no body".into() } },
+        Event::Noticed {
+            query: Query::Fact { fluent: "clear".into(), args: vec![Pattern::Any] },
+            answer: Answer::Truth(true),
+        },
         driver(DriverEvent::Acknowledged { goal }),
         driver(DriverEvent::Refused { goal, failure: failure.clone() }),
         driver(DriverEvent::Ended { goal, outcome: Outcome::Success(None) }),

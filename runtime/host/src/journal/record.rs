@@ -4,8 +4,8 @@ use super::{JournalError, JournalWriter};
 use motet_graph::Graph;
 use motet_runtime::journal::must_be_durable;
 use motet_runtime::{
-    Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, RetiredGraph, RunControl,
-    SwapRefusal, Time, Verifier,
+    Answer, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query, RetiredGraph,
+    RunControl, SwapRefusal, Time, ToldThing, Verifier,
 };
 use std::sync::Arc;
 
@@ -86,12 +86,20 @@ impl Observer for RunRecorder<'_> {
         if self.error.is_some() { RunControl::Stop } else { inner }
     }
 
+    fn wants_telemetry(&self) -> bool {
+        self.inner.wants_telemetry()
+    }
+
     fn moved(&mut self, moved: &Moved) {
         self.inner.moved(moved);
     }
 
-    fn detected(&mut self, now: Time, seen: &[Detection]) {
-        self.inner.detected(now, seen);
+    fn detected(&mut self, now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
+        self.inner.detected(now, seen, engine)
+    }
+
+    fn tell(&mut self) -> Option<ToldThing> {
+        self.inner.tell()
     }
 
     fn heard(&mut self, now: Time, heard: &Heard) {

@@ -7,7 +7,9 @@ pub(crate) use sight::heard;
 pub use sight::{Camera, DepthMap, DetectedThing, Detections, LookParams, LookResult, MovedParams, PngImage};
 
 use motet_graph::{Graph, Type};
-use motet_runtime::{Answer, Capabilities, Command, FailureReport, GoalId, Heard, Outcome, Query, Time};
+use motet_runtime::{
+    Answer, Capabilities, Command, FailureReport, GoalId, Heard, Outcome, Query, Time, ToldThing,
+};
 use motet_stdlib::lang;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -57,6 +59,8 @@ pub enum DriverCall {
     Look(LookParams),
     /// Say what is in view. Only for a driver that says it can. Answered by [`Detections`].
     Detections(EmptyParams),
+    /// Take in where a thing is. Only for a driver that says it can. Answered by `{}`.
+    Told(ToldParams),
     /// Asks for the state of some goals after a crash. Answered by [`StatusResult`].
     Status(StatusParams),
     /// A sign of life is asked for. Answered by `{}`.
@@ -184,6 +188,12 @@ impl From<&motet_runtime::Query> for QueryParams {
     fn from(query: &motet_runtime::Query) -> Self {
         Self { query: query.clone() }
     }
+}
+
+/// Parameters of `told`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ToldParams {
+    pub thing: ToldThing,
 }
 
 /// The answer to a question.

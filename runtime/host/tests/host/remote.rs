@@ -6,8 +6,8 @@ use motet_graph::arbitrary::{StepSketch, graph};
 use motet_host::remote::protocol::{CalledPrimitive, Hello};
 use motet_host::remote::{DriverAddress, DriverLog, DriverTimeouts, LineFrom, LinkError, RemoteDriver};
 use motet_runtime::{
-    Command, Detection, Driver, DriverClock, DriverEvent, Engine, GoalId, Heard, Moved, Observer, Outcome,
-    RunEnd, StartState, Time, run,
+    Answer, Command, Detection, Driver, DriverClock, DriverEvent, Engine, Event, GoalId, Heard, Moved,
+    Observer, Outcome, Query, RunEnd, StartState, Time, ToldThing, run,
 };
 use serde_json::{Value, json};
 use std::cell::RefCell;
@@ -239,19 +239,30 @@ struct Looker {
     seen: Vec<(Time, Vec<Detection>)>,
     heard: Vec<(Time, Heard)>,
     events: Vec<(Time, String)>,
+    to_tell: Vec<ToldThing>,
 }
 
 impl Observer for Looker {
-    fn event(&mut self, now: Time, event: &motet_runtime::Event) {
-        if let motet_runtime::Event::Driver(event) = event {
-            self.events.push((now, event.to_string()));
+    fn event(&mut self, now: Time, event: &Event) {
+        match event {
+            Event::Driver(event) => self.events.push((now, event.to_string())),
+            Event::Noticed { query, .. } => self.events.push((now, format!("noticed {query}"))),
+            _ => {}
         }
+    }
+    fn wants_telemetry(&self) -> bool {
+        true
     }
     fn moved(&mut self, moved: &Moved) {
         self.moved.push(moved.clone());
     }
-    fn detected(&mut self, now: Time, seen: &[Detection]) {
+    fn detected(&mut self, now: Time, seen: &[Detection], _engine: &Engine) -> Vec<(Query, Answer)> {
         self.seen.push((now, seen.to_vec()));
+        let query = Query::Fact { fluent: "seen".into(), args: Vec::new() };
+        vec![(query, Answer::Truth(true))]
+    }
+    fn tell(&mut self) -> Option<ToldThing> {
+        self.to_tell.pop()
     }
     fn heard(&mut self, now: Time, heard: &Heard) {
         self.heard.push((now, heard.clone()));
@@ -264,7 +275,10 @@ fn world() -> Script {
     Box::new(move |call| {
         let params = &call["params"];
         match call["method"].as_str().unwrap() {
-            "hello" => vec![welcome(call, json!({"clock": "driver", "moved": true}))],
+            "hello" => vec![welcome(call, json!({"clock": "driver", "moved": true, "told": true}))],
+            "told" => {
+                vec![report("heard", json!({"text": params["thing"]["id"]})), answer(call, json!({}))]
+            }
             "start" => {
                 assert!((params["at"].as_f64().unwrap() - now).abs() < 1e-9, "{call}");
                 goal = Some((params["goal"].clone(), now + 0.7));
@@ -303,7 +317,8 @@ fn remote_driver_may_own_the_clock() {
         let (mut driver, told) = connect(driver(world())).unwrap();
         let steps = [StepSketch::say("one"), StepSketch::say("two")];
         let mut engine = Engine::new(graph(&steps), &StartState::default()).unwrap();
-        let mut looker = Looker::default();
+        let rabbit = ToldThing { id: "rabbit".into(), label: None, pose: None, support: None };
+        let mut looker = Looker { to_tell: vec![rabbit], ..Looker::default() };
         let begun = std::time::Instant::now();
         let end = run(&mut engine, &mut driver, &mut looker, Time::ZERO);
         assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {:?}", told.notes);
@@ -319,7 +334,11 @@ fn remote_driver_may_own_the_clock() {
     let detected: Vec<_> = seen.seen.iter().map(|(at, all)| (at.secs(), all.len())).collect();
     assert_eq!(detected, [(0.7, 1), (1.4, 1)]);
     assert_eq!(seen.seen[0].1[0].class, "rabbit");
-    assert_eq!(seen.heard.iter().map(|(at, _)| at.secs()).collect::<Vec<_>>(), [0.7, 1.4]);
+    let heard: Vec<_> = seen.heard.iter().map(|(at, heard)| (at.secs(), heard.text.as_str())).collect();
+    assert_eq!(heard[1..], [(0.7, "stop it"), (1.4, "stop it")]);
+    assert_eq!(heard[0].1, "rabbit", "the driver was told of it before the first step");
+    let noticed = seen.events.iter().filter(|(_, event)| event == "noticed seen()").count();
+    assert_eq!(noticed, 1, "the second one came with the end of the run: {:?}", seen.events);
     let again = go_on();
     assert_eq!((seen.events, seen.moved), (again.events, again.moved), "the same, whatever else goes on");
 }

@@ -11,8 +11,8 @@ use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_runtime::{
-    CameraImage, Capabilities, Driver, Effect, Engine, EngineSettings, Event, Moved, Observer, Perception,
-    RunControl, RunEnd, StartState, SwapRefusal, Time,
+    CameraImage, Capabilities, Detection, Driver, Effect, Engine, EngineSettings, Event, Moved, Observer,
+    Perception, RunControl, RunEnd, StartState, SwapRefusal, Time,
 };
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
@@ -201,6 +201,12 @@ pub trait DialogueObserver {
     fn event(&mut self, _now: Time, _event: &Event) {}
     /// An effect is about to be carried out.
     fn effect(&mut self, _now: Time, _effect: &Effect) {}
+    /// True if it wants to hear of every motion.
+    fn wants_telemetry(&self) -> bool {
+        false
+    }
+    /// The driver saw something new.
+    fn detected(&mut self, _now: Time, _seen: &[Detection]) {}
     /// The driver sent telemetry.
     fn moved(&mut self, _moved: &Moved) {}
     /// Notes that time has passed, and decides if the run continues. An observer that paces the run waits

@@ -6,16 +6,20 @@ use motet_compiler::{InitialFact, InitialState, Session};
 use motet_graph::{Graph, Value};
 use motet_requests::{ReportedLocation, RequestContext};
 use motet_robots::scene::{Entity, Scene};
-use motet_runtime::{Engine, Pattern, PendingCleanup, Query, Snapshot, StartState, Truth};
+use motet_runtime::{
+    Engine, Pattern, PendingCleanup, Query, Snapshot, StartState, ToldSupport, ToldThing, Truth,
+};
 use motet_stdlib::lang::{PLACING, entities, fluents, kinds};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
+
+use crate::vision::Sightings;
 
 /// Knowledge beyond a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Knowledge {
     /// Facts in order: a later fact wins, and a fact with `any` is about every entity.
-    facts: Vec<(Query, Truth)>,
+    pub(super) facts: Vec<(Query, Truth)>,
     some: Vec<Query>,
     /// Cleanups of policies that are over, which have not run to their end.
     pending: Vec<PendingCleanup>,
@@ -23,13 +27,17 @@ pub struct Knowledge {
     pub(super) spoken_of: Vec<SmolStr>,
     /// Earlier locations of moved things, the latest last.
     came_from: Vec<(SmolStr, SmolStr)>,
+    /// Things that were seen elsewhere than in the scene, or that it lacks.
+    pub(super) seen: Sightings,
+    /// Things of which the driver was not told yet.
+    pub(super) untold: Vec<ToldThing>,
 }
 
 impl Knowledge {
     /// True if nothing is known beyond the scene.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.facts.is_empty()
+        self.facts.is_empty() && self.seen.is_empty()
     }
 
     /// Takes over the beliefs at the end of a run. Earlier knowledge stays if the graph has no fluent for
@@ -68,6 +76,7 @@ impl Knowledge {
     /// Known locations of objects.
     #[must_use]
     pub fn places(&self, scene: &Scene) -> Vec<ReportedLocation> {
+        let scene = &self.seen_scene(scene);
         let told = self.situation(scene).supports;
         let objects = scene.entities.values().filter(|entity| entity.kind == kinds::OBJECT);
         let places = objects.filter_map(|entity| {
@@ -82,7 +91,7 @@ impl Knowledge {
     /// The scene without the facts that are known to be different or are no longer known.
     #[must_use]
     pub fn scene(&self, scene: &Scene) -> Scene {
-        let mut scene = scene.clone();
+        let mut scene = self.seen_scene(scene);
         for (query, _) in &self.facts {
             let Query::Fact { fluent, args } = query else { continue };
             let Some(Pattern::Is(Value::Entity(id))) = args.first() else {
@@ -114,6 +123,11 @@ impl Knowledge {
                 entity.pose = None;
             }
         }
+        for id in self.seen.in_view() {
+            if let Some(entity) = scene.entities.get_mut(id) {
+                entity.visible = Some(true);
+            }
+        }
         scene
     }
 
@@ -121,6 +135,7 @@ impl Knowledge {
     /// `map`). `None` if the place of some object is unknown, since it could block any motion.
     #[must_use]
     pub fn placed(&self, scene: &Scene, base: [f64; 3]) -> Option<Scene> {
+        let scene = &self.seen_scene(scene);
         let situation = self.situation(scene);
         let mut placed = scene.clone();
         (placed.robot.base, placed.robot.at) = (base, None);
@@ -230,6 +245,21 @@ impl Knowledge {
     /// Context in which a request is read.
     #[must_use]
     pub fn situation<'s>(&self, scene: &'s Scene) -> RequestContext<'s> {
+        let is_fresh =
+            |(id, _): &(&SmolStr, [f64; 3])| scene.entities.get(*id).is_some_and(|one| one.pose.is_some());
+        let seen_at = self.seen.positions().filter(is_fresh).map(|(id, at)| (id.clone(), at)).collect();
+        RequestContext {
+            holding: self.holding(scene),
+            supports: self.supports().into_iter().collect(),
+            spoken_of: self.spoken_of.clone(),
+            came_from: self.came_from.clone(),
+            seen_at,
+            ..RequestContext::new(scene)
+        }
+    }
+
+    /// Supports of things as the facts tell them; `None` for a thing that is nowhere, or nobody knows where.
+    pub(super) fn supports(&self) -> IndexMap<SmolStr, Option<SmolStr>> {
         let mut supports: IndexMap<SmolStr, Option<SmolStr>> = IndexMap::new();
         for (query, truth) in &self.facts {
             let Query::Fact { fluent, args } = query else { continue };
@@ -252,13 +282,7 @@ impl Knowledge {
                 _ => {}
             }
         }
-        RequestContext {
-            holding: self.holding(scene),
-            supports: supports.into_iter().collect(),
-            spoken_of: self.spoken_of.clone(),
-            came_from: self.came_from.clone(),
-            ..RequestContext::new(scene)
-        }
+        supports
     }
 }
 
@@ -367,5 +391,13 @@ impl Knowledge {
             tell(fluent, vec![thing.clone()], Truth::Unknown);
         }
         self.spoken_of.push(said.thing.clone());
+        let place = said.place.clone();
+        let support = match said.relation {
+            fluents::IN => ToldSupport::In(place),
+            fluents::ON => ToldSupport::On(place),
+            _ => ToldSupport::At(place),
+        };
+        let (id, support) = (said.thing.clone(), Some(support));
+        self.untold.push(ToldThing { id, label: None, pose: None, support });
     }
 }

@@ -8,8 +8,9 @@ use motet_requests::{Intent, ReportedLocation, RequestContext, added, stops};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Answer, Driver, DriverEvent, Effect, Engine, Event, Moved, Observer, Pattern, PreparedSwap, Query,
-    RetiredGraph, RunControl, RunEnd, SwapRefusal, Time, Truth, Verifier,
+    Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Moved, Observer,
+    Outcome as GoalOutcome, Pattern, PreparedSwap, Query, RetiredGraph, RunControl, RunEnd, SwapRefusal,
+    Time, ToldThing, Truth, Verifier,
 };
 use motet_stdlib::lang::{entities, failures, fluents, kinds, primitives};
 use smol_str::SmolStr;
@@ -55,6 +56,10 @@ pub(super) struct LiveRun<'r, 'a> {
     started: Vec<NodeId>,
     /// Checker of motions that the compiler deferred.
     guard: Option<Guard>,
+    /// A question of the policy that is not answered yet.
+    asked: Option<(GoalId, String)>,
+    /// Locations that answers to such questions told.
+    told: Vec<ReportedLocation>,
 }
 
 /// Ending of a run.
@@ -92,6 +97,8 @@ impl<'r, 'a> LiveRun<'r, 'a> {
             first: None,
             started: Vec::new(),
             guard: None,
+            asked: None,
+            told: Vec::new(),
         }
     }
 
@@ -139,6 +146,7 @@ impl<'r, 'a> LiveRun<'r, 'a> {
         let (mut engine, start) =
             self.talk.engine(graph, scene, driver.capabilities(), self.guard.is_some())?;
         self.talk.memory.policy(self.now, 0, shared);
+        self.talk.known.look_away();
         self.first = match self.planner.rest(Wait::Not) {
             RemainingSteps::Nothing => None,
             RemainingSteps::Coming => Some(EarlyStart::new(None, &answered)),
@@ -158,6 +166,7 @@ impl<'r, 'a> LiveRun<'r, 'a> {
         }
         let mut known = std::mem::take(&mut self.talk.known);
         known.learn(&engine, self.talk.base());
+        std::mem::take(&mut self.told).iter().for_each(|one| known.hear(one));
         self.talk.known = known;
         // What was not found is not where it was thought to be.
         if !matches!(&end, RunEnd::Failed { kind, .. } if kind == failures::NOT_FOUND) {
@@ -166,7 +175,8 @@ impl<'r, 'a> LiveRun<'r, 'a> {
         let after = self.talk.known.places(&self.talk.setting.scene);
         self.talk.known.remember_moved(&before, &after);
         if !matches!(end, RunEnd::Done { .. }) {
-            let (felt, now) = sense(driver, &self.talk.setting.robot, &self.talk.setting.scene, self.now);
+            let scene = self.talk.known.seen_scene(&self.talk.setting.scene);
+            let (felt, now) = sense(driver, &self.talk.setting.robot, &scene, self.now);
             self.talk.known.notice(&felt);
             self.now = self.now.max(now);
         }
@@ -181,6 +191,17 @@ impl<'r, 'a> LiveRun<'r, 'a> {
 }
 
 impl LiveRun<'_, '_> {
+    /// Takes in the locations that an answer to a question of the policy tells: the driver hears of them at
+    /// once, and the next plan.
+    fn hear_answer(&mut self, question: &str, said: &str) {
+        let scene = self.talk.known.scene(&self.talk.setting.scene);
+        let situation = self.talk.known.situation(&scene);
+        let spoken_of = motet_requests::named(question, &situation);
+        let told = motet_requests::told(said, &RequestContext { spoken_of, ..situation });
+        told.iter().for_each(|one| self.talk.known.hear(one));
+        self.told.extend(told);
+    }
+
     /// Returns a finished policy that can take over: for a new request, or the rest of an early start.
     fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
         if let Some(request) = self.awaited.take() {
@@ -260,19 +281,47 @@ impl Observer for LiveRun<'_, '_> {
         self.now = self.now.max(now);
         self.talk.memory.event(now, event);
         self.watcher.event(now, event);
+        if let Event::Driver(DriverEvent::Ended {
+            goal,
+            outcome: GoalOutcome::Success(Some(Value::Text(said))),
+        }) = event
+            && let Some((_, question)) = self.asked.take_if(|(asked, _)| asked == goal)
+        {
+            self.hear_answer(&question, said);
+        }
     }
 
     fn effect(&mut self, now: Time, effect: &Effect) {
         self.now = self.now.max(now);
         self.talk.memory.effect(now, effect);
-        if let Effect::Start { node, .. } = effect {
+        if let Effect::Start { node, goal, command, .. } = effect {
             self.started.push(*node);
+            if command.primitive == primitives::ASK
+                && let Some(Value::Text(question)) = command.arg("question")
+            {
+                self.asked = Some((*goal, question.to_string()));
+            }
         }
         self.watcher.effect(now, effect);
     }
 
+    fn wants_telemetry(&self) -> bool {
+        self.watcher.wants_telemetry()
+    }
+
     fn moved(&mut self, moved: &Moved) {
         self.watcher.moved(moved);
+    }
+
+    fn detected(&mut self, now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
+        self.watcher.detected(now, seen);
+        let (news, facts) = self.talk.known.notice_seen(&self.talk.setting.scene, seen, engine);
+        self.guard.iter_mut().for_each(|guard| guard.saw(news.clone()));
+        facts
+    }
+
+    fn tell(&mut self) -> Option<ToldThing> {
+        self.talk.known.take_untold()
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {

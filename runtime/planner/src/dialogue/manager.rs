@@ -121,6 +121,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     pub(super) fn pursue(&mut self, driver: &mut dyn Driver) -> Outcome {
         let mut latest = None;
         for _ in 0..MAX_ROUNDS {
+            self.look(driver);
             let scene = self.talk.known.scene(&self.talk.setting.scene);
             let proposed = match self.ready.take() {
                 Some(answered) => Ok(answered),
@@ -151,6 +152,14 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         }
         let nothing = || Problem::nothing("I have tried as often as I may. What shall I do?");
         Outcome::Failed(latest.unwrap_or_else(nothing))
+    }
+
+    /// Takes in what is in view before a plan.
+    fn look(&mut self, driver: &mut dyn Driver) {
+        if driver.capabilities().detections {
+            let seen = driver.detections(self.now);
+            self.talk.known.look(&self.talk.setting.scene, &seen);
+        }
     }
 
     fn propose(&mut self, scene: &Scene, base: Option<[f64; 3]>) -> Result<PlannedRequest, PlanError> {

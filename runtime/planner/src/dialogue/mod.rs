@@ -11,6 +11,7 @@ mod knowledge;
 mod live_run;
 mod manager;
 mod problem;
+mod sight;
 
 pub use answer::Answer;
 pub use conversation::{Conversation, DialogueSetup, Outcome};

@@ -23,6 +23,7 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
             text.push_str(&format!("; {extent}"));
         }
         let now = situation.supports.iter().find(|(id, _)| *id == entity.id);
+        let seen_at = situation.seen_at.iter().find(|(id, _)| *id == entity.id);
         match now {
             Some((_, Some(support))) => {
                 let holder = situation.scene.entities.get(support).map(|holder| holder.kind.as_str());
@@ -34,7 +35,9 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
                 text.push_str(&format!("; {relation} {support}"));
             }
             // Only what can be carried is ever nowhere.
-            Some((_, None)) if entity.kind == kinds::OBJECT => text.push_str("; it is not known where"),
+            Some((_, None)) if entity.kind == kinds::OBJECT && seen_at.is_none() => {
+                text.push_str("; it is not known where");
+            }
             Some((_, None)) | None => {
                 if let Some(support) = &entity.on {
                     text.push_str(&format!("; on {support}"));
@@ -42,6 +45,9 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
                     text.push_str(&format!("; in {container}"));
                 }
             }
+        }
+        if let Some((_, [x, y, z])) = seen_at {
+            text.push_str(&format!("; the camera saw it at {x:.2}, {y:.2}, {z:.2} m"));
         }
         if entity.kind == kinds::CONTAINER && entity.travel.is_none() {
             text.push_str("; always open");

@@ -5,7 +5,7 @@ use super::common::{hsr, kitchen, session, walled};
 use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_planner::runtime_check::{CheckMode, Guard, WITHIN};
-use motet_robots::scene::Scene;
+use motet_robots::scene::{Entity, Placement, Scene};
 use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead, StepEntry};
 use motet_runtime::{
     CheckId, DeferredMotion, Driver, Effect, Engine, EngineSettings, Event, Observer, RunControl, RunEnd,
@@ -94,6 +94,11 @@ fn play(scene: &Scene, policy: &str) -> (RunEnd, Vec<String>) {
 
 /// The same, where motions are searched for as one likes.
 fn play_with(scene: &Scene, policy: &str, verifies: CheckMode) -> (RunEnd, Vec<String>) {
+    play_seeing(scene, policy, verifies, Vec::new())
+}
+
+/// The same, where things were seen before.
+fn play_seeing(scene: &Scene, policy: &str, verifies: CheckMode, seen: Vec<Entity>) -> (RunEnd, Vec<String>) {
     let session = session(scene);
     let graph = compile(&session, policy);
     let entities = scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
@@ -111,7 +116,8 @@ fn play_with(scene: &Scene, policy: &str, verifies: CheckMode) -> (RunEnd, Vec<S
         capabilities: sim.capabilities(),
         ..JournalHead::new(&graph)
     };
-    let guard = Guard::new(session.world_tracker().unwrap(), verifies);
+    let mut guard = Guard::new(session.world_tracker().unwrap(), verifies);
+    guard.saw(seen);
     let mut host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
     let end = run(&mut engine, &mut sim, &mut host, Time::ZERO);
     let mut replay = EngineReplay::new(&head).unwrap();
@@ -155,6 +161,24 @@ fn runtime_check_beside_the_run_gives_the_same_verdicts() {
         let (end, told) = play_with(&scene, CHOSEN, CheckMode::Beside);
         assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
         assert_eq!(told, play(&scene, CHOSEN).1);
+    }
+}
+
+#[test]
+fn runtime_check_follows_what_was_seen() {
+    for verifies in [CheckMode::AtOnce, CheckMode::Beside] {
+        // Behind the walls by the scene, and seen in front of them.
+        let mug = walled().entities["mug_1"].clone();
+        let floor = Placement { xyz: [0.2, -1.2, 0.05], rpy: [0.0; 3] };
+        let there = Entity { pose: Some(floor), on: None, ..mug };
+        let (_, told) = play_seeing(&walled(), CHOSEN, verifies, vec![there]);
+        assert_eq!(told[2..4], ["verify go_to(mug_1)", "feasible"], "{told:#?}");
+        // Walls that no scene has.
+        let scene = walled();
+        let walls = scene.entities.values().filter(|one| one.id.starts_with("wall_")).cloned().collect();
+        let (_, told) = play_seeing(&kitchen(), CHOSEN, verifies, walls);
+        assert_eq!(told[2], "verify go_to(mug_1)", "{told:#?}");
+        assert!(told[3].starts_with("unreachable: "), "{told:#?}");
     }
 }
 

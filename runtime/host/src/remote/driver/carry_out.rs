@@ -1,11 +1,11 @@
 //! Commands of the engine as calls of the protocol.
 
-use super::super::protocol::{DriverCall, GoalParams, QueryParams, StartParams};
+use super::super::protocol::{DriverCall, GoalParams, QueryParams, StartParams, ToldParams};
 use super::run_time::RunTime;
 use super::{RemoteDriver, failed};
 use motet_runtime::{
     Answer, Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Heard, Moved, Query, RgbdView,
-    Time,
+    Time, ToldThing,
 };
 use std::thread;
 use std::time::Duration;
@@ -30,6 +30,10 @@ impl Driver for RemoteDriver {
 
     fn capabilities(&self) -> Capabilities {
         self.welcome.capabilities.clone()
+    }
+
+    fn base(&self) -> Option<[f64; 3]> {
+        self.telemetry.base
     }
 
     fn update(&mut self, _now: Time, goal: GoalId, command: &Command) {
@@ -118,5 +122,11 @@ impl Driver for RemoteDriver {
 
     fn detections(&mut self, _now: Time) -> Vec<Detection> {
         if self.welcome.capabilities.detections { self.ask_for_detections() } else { Vec::new() }
+    }
+
+    fn told(&mut self, _now: Time, thing: &ToldThing) {
+        if self.welcome.capabilities.told {
+            self.call(DriverCall::Told(ToldParams { thing: thing.clone() }));
+        }
     }
 }

@@ -189,6 +189,7 @@ impl RemoteDriver {
                 | DriverCall::Ping(_)
                 | DriverCall::Look(_)
                 | DriverCall::Detections(_)
+                | DriverCall::Told(_)
                 | DriverCall::Status(_)
                 | DriverCall::Hello(_)
                 | DriverCall::Bye(_),
@@ -248,7 +249,8 @@ impl RemoteDriver {
             | DriverCall::Hold(_)
             | DriverCall::Proceed(_)
             | DriverCall::SafeStop(_)
-            | DriverCall::Unwatch(_) => {}
+            | DriverCall::Unwatch(_)
+            | DriverCall::Told(_) => {}
             DriverCall::Status(_) | DriverCall::Ping(_) | DriverCall::Hello(_) | DriverCall::Bye(_) => {}
             // These are waited for elsewhere.
             DriverCall::Advance(_) | DriverCall::Look(_) | DriverCall::Detections(_) => {}

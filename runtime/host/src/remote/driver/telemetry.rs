@@ -13,10 +13,13 @@ pub(super) struct TelemetryQueue {
     moved: VecDeque<Moved>,
     detected: VecDeque<Vec<Detection>>,
     heard: VecDeque<Heard>,
+    /// Where the base was last.
+    pub(super) base: Option<[f64; 3]>,
 }
 
 impl TelemetryQueue {
     pub(super) fn push_moved(&mut self, moved: Moved) {
+        self.base = Some(moved.base);
         let span = |at: Time| at.nanos() / SPAN.nanos();
         match self.moved.back_mut() {
             Some(last) if span(last.at) == span(moved.at) => merge(last, moved),

@@ -91,7 +91,8 @@ pub struct Detections {
 pub struct DetectedThing {
     /// Name for what it is, such as `mug`.
     pub label: String,
-    /// The entity of the scene that it is, where it was recognised.
+    /// The entity of the scene that it is, where it was recognised; or the driver's own name for a thing that
+    /// the scene lacks, if the driver can act on it by this name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
     /// Pose of its middle in the frame `map`.
@@ -100,6 +101,9 @@ pub struct DetectedThing {
     /// Lengths of its sides along the axes of its pose, in m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub extent: Option<[f64; 3]>,
+    /// Standard deviation of its position along each axis in m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_m: Option<f64>,
     /// Confidence of the detector from 0 to 1.
     pub confidence: f64,
 }
@@ -194,8 +198,10 @@ impl DetectedThing {
             return None;
         }
         let extent = self.extent.filter(|sides| sides.iter().all(|side| (0.0..=FARTHEST).contains(side)));
+        let error_m = self.error_m.filter(|error| (0.0..=FARTHEST).contains(error));
         let entity = self.id.filter(|id| fits(id)).map(SmolStr::from);
-        Some(Detection { entity, class: cut(&self.label), pose, extent, confidence: self.confidence, at })
+        let (class, confidence) = (cut(&self.label), self.confidence);
+        Some(Detection { entity, class, pose, extent, error_m, confidence, at })
     }
 }
 

@@ -1,0 +1,313 @@
+//! Worlds in which trials run: the simulated one with a profile, or physics in another process, through the
+//! same driver as `motet run`.
+
+use std::cell::RefCell;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::str::FromStr;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use motet_host::journal::{JournalWriter, RunRecorder as JournalObserver, read};
+use motet_host::remote::protocol::Hello;
+use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
+use motet_planner::dialogue::{DialogueObserver, RunRecorder};
+use motet_robots::card::Robot;
+use motet_robots::scene::{Scene, write};
+use motet_runtime::journal::JournalHead;
+use motet_runtime::{
+    Answer, Driver, DriverEvent, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run,
+};
+use motet_sim::{Faults, Profile, Sim, SimOptions};
+
+use crate::actions::{ActionFaults, ActionLedger};
+use crate::outcome::StepFailures;
+
+/// Interpreter of the physics driver.
+const PYTHON: &str = "python3";
+/// Time that a driver has to answer a question about the world.
+const ANSWER: Time = Time::from_nanos(1_000_000_000);
+/// Number of folders that this process made.
+static FOLDERS: AtomicU64 = AtomicU64::new(0);
+
+/// Driver that carries trials out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum DriverKind {
+    #[default]
+    Kinematic,
+    Mujoco,
+}
+
+impl FromStr for DriverKind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "kinematic" => Ok(Self::Kinematic),
+            "mujoco" => Ok(Self::Mujoco),
+            other => Err(format!("there is no driver `{other}`: write `kinematic` or `mujoco`")),
+        }
+    }
+}
+
+/// World of trials.
+#[derive(Clone, Debug)]
+pub struct Bench {
+    /// Name or file of the profile.
+    pub world: String,
+    pub profile: Profile,
+    pub driver: DriverKind,
+}
+
+impl Bench {
+    /// A world by the name or the file of its profile.
+    ///
+    /// # Errors
+    ///
+    /// There is no such profile, or the driver knows only the built-in ones.
+    pub fn new(world: &str, driver: DriverKind) -> Result<Self, String> {
+        if driver == DriverKind::Mujoco && Profile::builtin(world).is_none() {
+            return Err(format!("the physics driver has no profile `{world}`, only the built-in ones"));
+        }
+        let profile = motet_project::read_profile(world).map_err(|error| error.to_string())?;
+        Ok(Self { world: world.to_owned(), profile, driver })
+    }
+
+    /// The simulated world without errors of its own.
+    #[must_use]
+    pub fn ideal() -> Self {
+        let world = "ideal".to_owned();
+        Self { world, profile: Profile::default(), driver: DriverKind::Kinematic }
+    }
+
+    /// A robot in a room: it was told the one, and the other is real. In physics it knows the real room.
+    ///
+    /// # Errors
+    ///
+    /// The physics driver does not start.
+    pub fn robot(
+        &self,
+        robot: &Robot,
+        (told, real): (&Scene, &Scene),
+        seed: u64,
+        faults: Faults,
+    ) -> Result<TrialRobot, String> {
+        if self.driver == DriverKind::Kinematic {
+            let world = (told != real).then(|| real.clone());
+            let options =
+                SimOptions { seed, faults, profile: self.profile.clone(), world, ..SimOptions::default() };
+            return Ok(TrialRobot::Kinematic(Box::new(Sim::new(robot, told, options))));
+        }
+        let folder = Folder::new()?;
+        let scene = folder.0.join("scene.json");
+        fs::write(&scene, write(real)).map_err(|error| format!("{}: {error}", scene.display()))?;
+        let (scene, seed) = (scene.display().to_string(), seed.to_string());
+        let motet = motet_program();
+        let words = [PYTHON, "-m", "motet_mujoco", "--robot", &robot.name, "--scene", &scene];
+        let more = ["--seed", &seed, "--profile", &self.world, "--motet", &motet];
+        let words = words.into_iter().chain(more).map(str::to_owned).collect();
+        let hello = Hello { run: format!("eval-{seed}"), robot: robot.name.to_string(), ..Hello::default() };
+        let address = DriverAddress::Command(words);
+        let log = Box::new(|_: &str| {});
+        let driver = RemoteDriver::connect(address, hello, DriverTimeouts::default(), Time::ZERO, log);
+        let driver = driver.map_err(|error| format!("the physics driver does not start: {error}"))?;
+        Ok(TrialRobot::Physics(Box::new(driver), folder))
+    }
+}
+
+/// The command `motet`, beside this program, or by its name.
+fn motet_program() -> String {
+    let own = std::env::current_exe().ok();
+    let folders = own.iter().flat_map(|own| own.ancestors().skip(1).take(2));
+    let found = folders.map(|folder| folder.join("motet")).find(|path| path.is_file());
+    found.map_or_else(|| "motet".to_owned(), |path| path.display().to_string())
+}
+
+/// Robot of a trial.
+pub enum TrialRobot {
+    Kinematic(Box<Sim>),
+    /// Physics, and the folder of its scene.
+    Physics(Box<RemoteDriver>, Folder),
+}
+
+impl TrialRobot {
+    /// The driver.
+    pub fn driver(&mut self) -> &mut dyn Driver {
+        match self {
+            Self::Kinematic(sim) => &mut **sim,
+            Self::Physics(driver, _) => &mut **driver,
+        }
+    }
+
+    /// Truth of a query in the world, which no belief of the robot colours; `None` where nobody can say. In
+    /// physics the driver answers from contacts and poses.
+    pub fn truth(&mut self, now: Time, query: &Query) -> Answer {
+        match self {
+            Self::Kinematic(sim) => sim.truth(query),
+            Self::Physics(driver, _) => {
+                driver.observe(now, query);
+                while let Some((_, event)) = driver.advance(now.after(ANSWER)) {
+                    if let DriverEvent::Observed { query: of, answer } = event
+                        && of == *query
+                    {
+                        return answer;
+                    }
+                }
+                Answer::Unknown
+            }
+        }
+    }
+
+    /// True if a fact holds in the world. `any` stands for some entity.
+    pub fn holds(&mut self, now: Time, fluent: &str, args: &[&str]) -> bool {
+        let arg = |arg: &&str| match *arg {
+            "any" => Pattern::Any,
+            id => Pattern::Is(motet_graph::Value::Entity(id.into())),
+        };
+        let query = Query::Fact { fluent: fluent.into(), args: args.iter().map(arg).collect() };
+        self.truth(now, &query) == Answer::Truth(true)
+    }
+
+    /// Things of a scene that are nowhere: not in the hand, on or in anything, or with anybody.
+    pub fn fallen(&mut self, now: Time, scene: &Scene) -> Vec<String> {
+        let objects = scene.entities.values().filter(|entity| entity.kind == "Object" && !entity.fixed);
+        let ids: Vec<String> = objects.map(|entity| entity.id.to_string()).collect();
+        let lies = |id: &String| {
+            !self.holds(now, "holding", &[id])
+                && !["on", "in", "at"].iter().any(|fluent| self.holds(now, fluent, &[id, "any"]))
+        };
+        ids.into_iter().filter(lies).collect()
+    }
+}
+
+/// Folder of this process, removed at the end.
+pub struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Result<Self, String> {
+        let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("motet-eval-{}-{number}", std::process::id()));
+        fs::create_dir_all(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(Self(path))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Journals of the runs of a trial, in a folder that is removed at its end.
+#[derive(Clone)]
+pub struct Journals(Rc<RefCell<(Folder, u32)>>);
+
+impl Journals {
+    /// # Errors
+    ///
+    /// The folder cannot be made.
+    pub fn new() -> Result<Self, String> {
+        Ok(Self(Rc::new(RefCell::new((Folder::new()?, 0)))))
+    }
+
+    /// Recorder of the next run.
+    #[must_use]
+    pub fn next(&self, engine: &Engine, start: &StartState) -> Box<dyn RunRecorder> {
+        let mut all = self.0.borrow_mut();
+        all.1 += 1;
+        let path = all.0.0.join(format!("run_{}", all.1));
+        Box::new(RunJournal { path, head: motet::run::journal_head("eval", engine, start) })
+    }
+
+    /// Faults of the actions of all runs so far, by their journals.
+    ///
+    /// # Errors
+    ///
+    /// A journal cannot be read.
+    pub fn faults(&self) -> Result<ActionFaults, String> {
+        let all = self.0.borrow();
+        let mut faults = ActionFaults::default();
+        for number in 1..=all.1 {
+            faults.extend(count(&all.0.0.join(format!("run_{number}")))?);
+        }
+        Ok(faults)
+    }
+}
+
+/// Faults of the actions of a run by its journal.
+///
+/// # Errors
+///
+/// The journal cannot be read.
+pub fn count(journal: &Path) -> Result<ActionFaults, String> {
+    let mut ledger = ActionLedger::default();
+    read(journal, &mut |_, entry| ledger.take(&entry)).map_err(|error| error.to_string())?;
+    Ok(ledger.finish())
+}
+
+struct RunJournal {
+    path: PathBuf,
+    head: JournalHead,
+}
+
+impl RunRecorder for RunJournal {
+    fn run(
+        self: Box<Self>,
+        engine: &mut Engine,
+        driver: &mut dyn Driver,
+        onlooker: &mut dyn Observer,
+        from: Time,
+    ) -> RunEnd {
+        // A journal that cannot be written is missed when it is read.
+        match JournalWriter::create(&self.path, JournalHead { from, ..self.head }) {
+            Ok(writer) => run(engine, driver, &mut JournalObserver::new(writer, onlooker), from),
+            Err(_) => run(engine, driver, onlooker, from),
+        }
+    }
+}
+
+/// Observer of a trial: says something at a time, keeps journals, and notes failures of steps.
+pub struct TrialObserver {
+    pub says: Option<(Time, &'static str)>,
+    pub journals: Journals,
+    pub failures: StepFailures,
+}
+
+impl TrialObserver {
+    /// # Errors
+    ///
+    /// The folder of the journals cannot be made.
+    pub fn new(says: Option<(Time, &'static str)>) -> Result<Self, String> {
+        Ok(Self { says, journals: Journals::new()?, failures: StepFailures::default() })
+    }
+}
+
+impl DialogueObserver for TrialObserver {
+    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
+        Some(self.journals.next(engine, start))
+    }
+
+    fn request(&mut self, now: Time) -> Option<String> {
+        self.says.take_if(|(at, _)| *at <= now).map(|(_, says)| says.to_owned())
+    }
+
+    fn at_least_every(&self) -> Time {
+        if self.says.is_some() { Time::from_secs(0.05) } else { Time::NEVER }
+    }
+
+    fn event(&mut self, _now: Time, event: &Event) {
+        self.failures.take(event);
+    }
+}
+
+/// Line of a table about the faults of the actions of some trials.
+#[must_use]
+pub fn action_line<'f>(faults: impl Iterator<Item = &'f ActionFaults>) -> String {
+    let mut sums = [0; 3];
+    for one in faults {
+        let counts = [one.dropped.len(), one.doubled.len(), one.orphaned.len()];
+        sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+    }
+    let [dropped, doubled, orphaned] = sums;
+    format!("actions by the journals: {dropped} dropped, {doubled} doubled, {orphaned} orphaned")
+}

@@ -1,0 +1,113 @@
+//! Perception in a conversation: what the robot sees and is told changes its scene, beliefs and plans.
+use motet_compiler::CheckOptions;
+use motet_planner::Builtin;
+use motet_planner::dialogue::{
+    Conversation, DialogueObserver, DialogueSetup, Kind, Outcome, Person, Problem,
+};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
+use motet_runtime::{Event, Time};
+use motet_sim::{Sim, SimOptions};
+use motet_tests::setup;
+
+/// The kitchen as it is, where a thing stands elsewhere than the robot was told.
+fn with_thing(told: &Scene, id: &str, xyz: [f64; 3], (on, inside): (Option<&str>, Option<&str>)) -> Scene {
+    let mut real = told.clone();
+    let thing = real.entities.get_mut(id).unwrap();
+    thing.pose = Some(Placement { xyz, rpy: [0.0; 3] });
+    (thing.on, thing.inside) = (on.map(Into::into), inside.map(Into::into));
+    real
+}
+
+/// The kitchen with a stapler that nobody told of.
+fn with_stapler(told: &Scene, xyz: [f64; 3], on: &str) -> Scene {
+    let mut real = told.clone();
+    let stapler = Entity {
+        kind: "Object".into(),
+        class: "stapler".into(),
+        names: vec!["blue stapler".into()],
+        shape: Some(EntityShape::Box([0.12, 0.05, 0.06])),
+        on: Some(on.into()),
+        fixed: false,
+        ..Entity::place("stapler".into(), Placement { xyz, rpy: [0.0; 3] })
+    };
+    real.entities.insert("stapler".into(), stapler);
+    real
+}
+
+/// Answers in order, and notes questions and what follows from detections.
+#[derive(Default)]
+struct Beside {
+    answers: Vec<&'static str>,
+    asked: Vec<Kind>,
+    noticed: Vec<String>,
+}
+
+impl Person for Beside {
+    fn ask(&mut self, problem: &Problem) -> Option<String> {
+        self.asked.push(problem.kind);
+        (!self.answers.is_empty()).then(|| self.answers.remove(0).to_owned())
+    }
+}
+
+struct Ears<'a>(&'a mut Vec<String>);
+
+impl DialogueObserver for Ears<'_> {
+    fn event(&mut self, _now: Time, event: &Event) {
+        if let Event::Noticed { query, answer } = event {
+            self.0.push(format!("{query} = {answer}"));
+        }
+    }
+}
+
+/// Carries out a request of the HSR in a kitchen that is otherwise than it was told.
+fn talk(real: impl Fn(&Scene) -> Scene, request: &str, answers: &[&'static str]) -> (Outcome, Beside, Sim) {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let options = SimOptions { world: Some(real(&scene)), ..SimOptions::default() };
+    let mut sim = Sim::new(&robot, &scene, options);
+    let options = CheckOptions::default();
+    let setting = DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options };
+    let mut conversation = Conversation::new(&setting);
+    let mut person = Beside { answers: answers.to_vec(), ..Beside::default() };
+    let mut noticed = Vec::new();
+    let outcome = conversation
+        .carry_out(request, &mut Builtin, &mut sim, &mut person, &mut Ears(&mut noticed), Time::ZERO)
+        .0;
+    person.noticed = noticed;
+    (outcome, person, sim)
+}
+
+#[test]
+fn perception_told_place_reaches_the_driver() {
+    let hidden = |told: &Scene| with_thing(told, "coke", [3.4, -0.6, 0.5], (None, Some("cupboard_1")));
+    let (outcome, person, sim) = talk(hidden, "bring me the coke", &["It is in the cupboard."]);
+    assert_eq!((&outcome, &person.asked[..]), (&Outcome::Done, &[Kind::NotFound][..]));
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+}
+
+#[test]
+fn perception_thing_in_view_elsewhere_is_fetched_without_a_question() {
+    let moved = |told: &Scene| with_thing(told, "coke", [1.96, 0.5, 0.781], (Some("kitchen_table"), None));
+    let (outcome, person, sim) = talk(moved, "bring me the coke", &[]);
+    assert_eq!((&outcome, &person.asked[..]), (&Outcome::Done, &[][..]));
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+}
+
+#[test]
+fn perception_unknown_thing_is_named_by_its_label() {
+    let stapler = |told: &Scene| with_stapler(told, [1.96, 0.5, 0.75], "kitchen_table");
+    for request in ["bring me the blue stapler", "bring me the stapler", "bring me the blue thing"] {
+        let (outcome, person, sim) = talk(stapler, request, &[]);
+        assert_eq!((&outcome, &person.asked[..]), (&Outcome::Done, &[][..]), "{request}");
+        assert_eq!(sim.holds("at", &["stapler", "user"]), Some(true), "{request}");
+    }
+}
+
+#[test]
+fn perception_during_a_run_is_noticed_by_the_engine() {
+    // The shelf is behind the robot at the start.
+    let stapler = |told: &Scene| with_stapler(told, [-1.72, 1.6, 1.03], "shelf");
+    let (outcome, person, sim) = talk(stapler, "bring me the mug on the shelf", &[]);
+    assert_eq!(outcome, Outcome::Done, "{:?}", person.asked);
+    assert_eq!(sim.holds("at", &["mug_2", "user"]), Some(true));
+    assert!(person.noticed.contains(&"on(stapler, shelf) = true".to_owned()), "{:?}", person.noticed);
+}
