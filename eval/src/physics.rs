@@ -1,7 +1,7 @@
 //! Verdicts beside physics: `eval physics --robot NAME` carries every feasible verdict out in MuJoCo.
 //!
-//! The judge is the Python package `runtime/mujoco`. This suite starts it, adds its trials up by kind of motion,
-//! and compares the shares with the aims.
+//! The judge is the Python package `runtime/mujoco`. This suite starts it, adds its trials up by kind of
+//! motion, and compares the shares with the aims.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -168,11 +168,17 @@ impl Judgement {
 mod tests {
     use super::*;
 
-    const PRINTED: &str = r#"
-{"scene": "kitchen", "query": "reach(mug_1)", "seed": 0, "holds": true, "why": "slips by 0.1 mm", "error": [0, 0]}
-{"scene": "kitchen", "query": "reach(pan)", "seed": 0, "holds": false, "why": "falls", "error": [0.0, 0.0]}
-{"robot": "hsr", "shares": {"reach": {"held": 1, "of": 2, "interval": [0.09, 0.91], "aim": 0.95}}, "error": [0.001, 0.0005], "simulated_secs": 30.0, "processor_secs": 1.0}
-"#;
+    const PRINTED: &str = concat!(
+        r#"{"scene": "kitchen", "query": "reach(mug_1)", "seed": 0, "holds": true, "#,
+        r#""why": "slips by 0.1 mm", "error": [0, 0]}"#,
+        "\n",
+        r#"{"scene": "kitchen", "query": "reach(pan)", "seed": 0, "holds": false, "#,
+        r#""why": "falls", "error": [0.0, 0.0]}"#,
+        "\n",
+        r#"{"robot": "hsr", "shares": {"reach": {"held": 1, "of": 2, "interval": [0.09, 0.91], "aim": 0.95}}, "#,
+        r#""error": [0.001, 0.0005], "simulated_secs": 30.0, "processor_secs": 1.0}"#,
+        "\n",
+    );
 
     #[test]
     fn physics_adds_up_what_the_judge_prints() {

@@ -141,8 +141,9 @@ impl WorldTracker {
         }
     }
 
-    /// Takes in things where they were seen, also those that the scene lacks. What the hand holds stays there.
-    /// While something moves, they are taken in when that is over, because the motion was found without them.
+    /// Takes in things where they were seen, also those that the scene lacks. What the hand holds stays
+    /// there. While something moves, they are taken in when that is over, because the motion was found
+    /// without them.
     pub fn saw(&mut self, things: Vec<SceneEntity>) {
         self.seen.retain(|known| things.iter().all(|thing| thing.id != known.id));
         self.seen.extend(things);

@@ -88,8 +88,8 @@ impl Prover<'_> {
         self.narrow(condition, outcome, cause, frame)
     }
 
-    /// Rules out the paths of a join on which `condition` cannot have an outcome; returns false if that is all
-    /// of them.
+    /// Rules out the paths of a join on which `condition` cannot have an outcome; returns false if that is
+    /// all of them.
     fn retrace(
         &mut self,
         partition: &PathPartition,

@@ -277,8 +277,8 @@ impl Prover<'_> {
     }
 
     /// Writes what an observation has shown of a fact. From then on what happens to an entity is felt by
-    /// what is known of a symbol that it may be. What a branch beside this one may change is not learnt: it may
-    /// be otherwise when the next step begins.
+    /// what is known of a symbol that it may be. What a branch beside this one may change is not learnt: it
+    /// may be otherwise when the next step begins.
     pub(super) fn learn(&mut self, fluent: Fluent, key: FactKey, value: TruthSet) {
         if self.is_disturbed(fluent, key) {
             return;

@@ -125,8 +125,8 @@ pub trait Driver {
         self.inner().map(|inner| inner.detections(now)).unwrap_or_default()
     }
 
-    /// Takes in where a thing is, for what it does from now on. Called only where [`Driver::capabilities`] says
-    /// so. It believes this until it sees something else.
+    /// Takes in where a thing is, for what it does from now on. Called only where [`Driver::capabilities`]
+    /// says so. It believes this until it sees something else.
     fn told(&mut self, now: Time, thing: &ToldThing) {
         if let Some(inner) = self.inner() {
             inner.told(now, thing);

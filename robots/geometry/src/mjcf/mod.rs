@@ -234,7 +234,8 @@ fn defaults(xml: &mut XmlText) {
     class(xml, "robot", ROBOT, things, &[density(robot::DENSITY), grey("0.8"), ("group", "2".into())]);
     let arm = [density(robot::DENSITY), grey("0.7"), ("group", "2".into())];
     class(xml, "arm", ROBOT, things | FLOOR, &arm);
-    // Fingers are stiff: at MuJoCo's default the force of a hand would press them centimetres into a light thing.
+    // Fingers are stiff: at MuJoCo's default the force of a hand would press them centimetres into a light
+    // thing.
     let hand = [
         density(robot::DENSITY),
         grey("0.3"),

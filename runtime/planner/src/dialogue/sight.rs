@@ -1,5 +1,5 @@
-//! Perception as knowledge: what the robot saw elsewhere than in the scene, and what the driver is still to be
-//! told.
+//! Perception as knowledge: what the robot saw elsewhere than in the scene, and what the driver is still to
+//! be told.
 
 use indexmap::IndexMap;
 use motet_graph::Value;

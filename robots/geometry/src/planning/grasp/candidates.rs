@@ -1,7 +1,7 @@
 //! Grasp candidates: hand poses from the shape of an object and the opening of the hand.
 //!
-//! The fingers close across the object on a line through its axis or its centre, at the depth at which they hold
-//! it best.
+//! The fingers close across the object on a line through its axis or its centre, at the depth at which they
+//! hold it best.
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
@@ -71,8 +71,8 @@ pub(crate) fn grasp_candidates(
     (holds, least)
 }
 
-/// Depths at which the fingers of a hand hold an object whose near face is before the palm; of a round one the
-/// nearest point.
+/// Depths at which the fingers of a hand hold an object whose near face is before the palm; of a round one
+/// the nearest point.
 pub(crate) fn hold_depths(hand: &HandModel, width: f64, contact: FingerContact) -> Option<HoldDepths> {
     let half = match contact {
         FingerContact::Round => width / 2.0,

@@ -76,8 +76,8 @@ type FoundDepths = ([f64; 2], FingerContact, Option<HoldDepths>);
 const REMEMBERED: usize = 64;
 
 impl Closing {
-    /// Fingers that point and close along unit vectors, before a palm that reaches to `first` m: the solids of the
-    /// palm, and of the fingers from open to closed.
+    /// Fingers that point and close along unit vectors, before a palm that reaches to `first` m: the solids
+    /// of the palm, and of the fingers from open to closed.
     pub(super) fn new(
         [points, closes]: [Vector3<f64>; 2],
         (palm, stages): (Vec<Solid>, Vec<Vec<Solid>>),
@@ -248,8 +248,8 @@ impl Closing {
         })
     }
 
-    /// Lines of a stage on which the fingers meet, with their gaps: those within `half` m of a place, and a step
-    /// more on both sides.
+    /// Lines of a stage on which the fingers meet, with their gaps: those within `half` m of a place, and a
+    /// step more on both sides.
     fn lines<'a>(
         &self,
         gaps: &'a [Option<f64>],
@@ -314,48 +314,4 @@ fn ray(solid: &Solid, from: &Vector3<f64>, way: &Vector3<f64>) -> Option<f64> {
         at += distance;
     }
     None
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-mod tests {
-    use super::{FingerContact, HoldDepths};
-    use crate::planning::scene::{HandModel, RobotModel};
-
-    fn depths(hand: &HandModel, width: f64, contact: FingerContact) -> Option<HoldDepths> {
-        let half = match contact {
-            FingerContact::Round => width / 2.0,
-            FingerContact::Flat(half) => half,
-        };
-        hand.depths(width, contact, (hand.palm + half).max(0.0))
-    }
-
-    #[test]
-    fn closing_of_the_hsr_holds_thin_things_farther_out() {
-        let model = RobotModel::embedded("hsr");
-        let hand = model.hand().unwrap();
-        let best = |width: f64| depths(hand, width, FingerContact::Round).unwrap().best;
-        let [thin, middle, wide] = [0.012, 0.06, 0.12].map(best);
-        assert!(thin > middle && middle > wide, "{thin} {middle} {wide}");
-        // Open, the fingers end nearer than they do around a pen.
-        assert!(thin > hand.fingers, "{thin} {}", hand.fingers);
-    }
-
-    #[test]
-    fn closing_of_the_panda_covers_a_cube() {
-        let model = RobotModel::embedded("panda");
-        let hand = model.hand().unwrap();
-        let cube = depths(hand, 0.05, FingerContact::Flat(0.025)).unwrap();
-        assert!((cube.best - (hand.palm + 0.025)).abs() < 1e-9, "{cube:?}");
-        assert!(cube.most < hand.fingers + 0.025 - 0.005, "{cube:?}");
-    }
-
-    #[test]
-    fn closing_of_the_anymal_holds_nothing_round_in_a_wide_wedge() {
-        let model = RobotModel::embedded("anymal_z1");
-        let hand = model.hand().unwrap();
-        let best = |width: f64| depths(hand, width, FingerContact::Round).map(|depths| depths.best);
-        assert!(best(0.03).unwrap() < best(0.08).unwrap());
-        assert_eq!(best(0.4), None);
-    }
 }
