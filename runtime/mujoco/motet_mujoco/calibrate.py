@@ -52,9 +52,14 @@ class Count:
         return "| `%s` | %d of %d | %.3f | %.3f to %.3f |" % (name, self.events, self.of, share, low, high)
 
 
-def hands(command, robot, scene, rates, seeds, found):
+# Rates by the part of a calibration, and the motions of the trials.
+PARTS = {"grasp": ["hand.slip", "hand.drop"], "put": ["hand.short"], "door": ["hand.stick"], "camera": ["camera.miss"]}
+KINDS = {"grasp": {"reach"}, "put": {"put"}, "door": {"pull", "push"}}
+
+
+def hands(command, robot, scene, kinds, rates, seeds, found):
     """Counts what slips, drops, falls short and sticks."""
-    for xml, query, witness in trials(command, robot, scene, {"reach", "put", "pull", "push"}):
+    for xml, query, witness in trials(command, robot, scene, kinds):
         kind, thing = query.partition("(")[0], query.partition("(")[2].rstrip(")").replace("`", "")
         for seed in seeds:
             world, off = disturbed(xml, query, rates, Chance(seed))
@@ -130,19 +135,18 @@ def main(arguments=None):
     parser.add_argument("--scene", action="append", help="a built-in name, or a JSON file; repeatable")
     parser.add_argument("--profile", default="typical", metavar="ideal|typical|harsh|FILE", help="errors of the trials")
     parser.add_argument("--trials", type=int, default=10, help="trials of each motion, with seeds from 0 on")
-    parser.add_argument("--part", action="append", choices=["hand", "camera"], help="what is measured [default: all]")
+    parser.add_argument("--part", action="append", choices=list(PARTS), help="what is measured; repeatable [default: all]")
     parser.add_argument("--motet", help="the command `motet` [default: from PATH]")
     args = parser.parse_args(arguments)
-    found = {}
-    parts = {"hand": ["hand.slip", "hand.drop", "hand.short", "hand.stick"], "camera": ["camera.miss"]}
-    for part in args.part or parts:
-        found.update({name: Count() for name in parts[part]})
+    parts = args.part or list(PARTS)
+    found = {name: Count() for part in parts for name in PARTS[part]}
+    kinds = set().union(*(KINDS[part] for part in parts if part in KINDS))
     try:
         command, rates = find_motet(args.motet), profile(args.profile)
         for scene in args.scene or SCENES.get(args.robot, DEFAULT):
-            if "hand.slip" in found:
-                hands(command, args.robot, scene, rates, range(args.trials), found)
-            if "camera.miss" in found:
+            if kinds:
+                hands(command, args.robot, scene, kinds, rates, range(args.trials), found)
+            if "camera" in parts:
                 looks(command, args.robot, scene, rates, range(args.trials), found)
     except (ModelError, NoGraphics) as error:
         print("error: %s" % error, file=sys.stderr)

@@ -48,7 +48,7 @@ def detect(picture, solids):
         if label == 0 or counts[label] < SMALLEST:
             continue
         mask = labels == label
-        one = describe(points[mask], picture.colour[mask], mask)
+        one = describe(points[mask], picture.colour[mask], mask, picture.position)
         if one is not None:
             found.append(one)
     return found
@@ -109,13 +109,12 @@ def hues(colour):
     return hue, (most - least < 0.12 * np.maximum(most, 0.2))
 
 
-def describe(points, colours, mask):
-    """The detection of one part of a picture; None for something that is no thing."""
+def describe(points, colours, mask, eye):
+    """The detection of one part of a picture from an eye; None for something that is no thing."""
     low, high = np.percentile(points, [1, 99], axis=0)
     extent = high - low
     if extent.max() > LARGEST or extent.max() < 0.008:
         return None
-    # Of a thing one sees the near half: its middle lies behind what one sees, its height is seen.
     horizontal = max(extent[0], extent[1])
     height = extent[2]
     centre = (low + high) / 2.0
@@ -127,6 +126,8 @@ def describe(points, colours, mask):
     label = "%s %s" % (colour_name(colour), shape)
     seen = min(1.0, mask.sum() / 400.0)
     confidence = (0.5 if is_cut else 0.9) * (0.5 + 0.5 * seen)
+    if shape in ("sphere", "cylinder"):
+        centre[:2] = middle(points, eye)
     if shape == "sphere":
         wide = max(horizontal, height)
         size = np.array([wide] * 3)
@@ -135,6 +136,16 @@ def describe(points, colours, mask):
     else:
         size = np.array([max(extent[0], 0.01), max(extent[1], 0.01), max(height, 0.01)])
     return Detection(label, centre, size, confidence, colour)
+
+
+def middle(points, eye):
+    """Middle of a round thing in the plane: half its width behind the side that one sees, if no more of it shows."""
+    ahead = points[:, :2].mean(axis=0) - eye[:2]
+    ahead /= max(np.linalg.norm(ahead), 1e-9)
+    across = np.array([-ahead[1], ahead[0]])
+    near, far = np.percentile(points[:, :2] @ ahead, [1, 99])
+    left, right = np.percentile(points[:, :2] @ across, [1, 99])
+    return ahead * max(near + (right - left) / 2.0, (near + far) / 2.0) + across * (left + right) / 2.0
 
 
 def shape_of(points, extent, fill):

@@ -251,9 +251,7 @@ ALIKE = {"orange": ("brown", "red", "yellow"), "brown": ("orange", "red"), "purp
 
 
 def centred(one, entity):
-    """Middle of a known thing whose near side was seen. Its height is that of its shape on what it stands on."""
-    position, half = np.array(one["pose"]["xyz"]), extent(entity) / 2.0
-    size = np.array(one["extent"]) / 2.0
-    bottom = position[2] - size[2]
-    position[2] = bottom + half[2]
+    """Middle of a known thing whose near side was seen: its top is seen, and its height is that of its shape."""
+    position = np.array(one["pose"]["xyz"])
+    position[2] += one["extent"][2] / 2.0 - extent(entity)[2] / 2.0
     return [round(float(part), 4) for part in position]

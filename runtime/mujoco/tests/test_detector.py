@@ -35,7 +35,7 @@ def test_things_on_the_table_are_found_by_pixels(kitchen):
     assert {"mug_1", "apple", "glass_1"} <= set(found)
     for thing in ("mug_1", "apple", "glass_1"):
         off = np.array(found[thing]["pose"]["xyz"]) - kitchen.world.pose(thing)[0]
-        assert np.linalg.norm(off) < 0.05, (thing, off)
+        assert np.linalg.norm(off) < 0.01, (thing, off)
     assert "bottle" not in found, "it stands behind the robot"
 
 

@@ -1,7 +1,9 @@
 """Verdicts of each robot borne out by physics: one grasp each, a drawer, a place."""
 
+import json
+
 import pytest
-from motet_mujoco import judge
+from motet_mujoco import calibrate, judge
 from motet_mujoco.model import load
 from motet_mujoco.world import World
 
@@ -40,3 +42,29 @@ def test_a_blocked_way_is_refuted(motet):
     world.data.mocap_pos[world.model.people["user"], :2] = middle[:2]
     holds, why, _ = judge.carry_out(world, query, witness)
     assert not holds and "user" in why
+
+
+def test_trials_with_errors_have_seeds_and_intervals(motet, capsys):
+    """Every verdict once for each seed, the same twice."""
+    flags = ["--robot", "panda", "--kind", "reach", "--profile", "typical", "--seeds", "2", "--format", "json",
+             "--motet", motet]
+    assert judge.main(flags) == 0
+    first = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    *trials, sums = first
+    share = sums["shares"]["reach"]
+    assert share["of"] == len(trials) == 2 * len({one["query"] for one in trials})
+    low, high = share["interval"]
+    assert 0.0 <= low < share["held"] / share["of"] <= high <= 1.0
+    assert judge.main(flags) == 0
+    again = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert again[:-1] == trials
+
+
+def test_what_was_held_is_carried(motet):
+    """A drive with what a grasp holds drops nothing, and one with nothing has nothing to drop."""
+    [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "reach(apple)")
+    world = World(load("hsr", "kitchen", motet))
+    assert judge.carry_out(world, query, witness)[0]
+    assert calibrate.carried(world, "apple")
+    judge.open_hand(world)
+    assert not calibrate.carried(world, "apple")
