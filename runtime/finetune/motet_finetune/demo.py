@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import subprocess
 import time
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -55,12 +56,13 @@ def demo(
         began = time.perf_counter()
         replier = reply.opened(folder, most_tokens=320)
         for is_held in (True, False):
-            found = judge(motet, replier, data, out / name, most=asked, held=is_held)
-            how = "under the grammar" if is_held else "free"
+            how = "held" if is_held else "free"
+            found = judge(motet, replier, data, out / f"{name}_{how}", most=asked, held=is_held)
             say(
-                f"{name}, {how}: {found.can_run} of {found.rows} can run, {found.same} are the row's, {found.whole} ended"
+                f"{name}, {'under the grammar' if is_held else 'free'}: of {found.rows} replies {found.whole} ended, "
+                f"{found.can_run} can run, {found.same_goal} with the row's goal, {found.same} are the row's"
             )
-            report[f"{name}, {how}"] = asdict(found)
+            report[f"{name}_{how}"] = asdict(found)
         say(f"{name}: judged in {time.perf_counter() - began:.0f} s")
 
     judged(base, "before")
@@ -89,25 +91,19 @@ def _texts(known: list[rows.Row]) -> tuple[list[str], list[str]]:
     return said + [row.policy for row in known] + instructions[:20], instructions
 
 
-def _do(motet: str, folder: Path, out: Path, say: Callable[[str], None]) -> dict[str, int]:
+def _do(motet: str, folder: Path, out: Path, say: Callable[[str], None]) -> dict[str, dict[str, int]]:
     """How `motet do` ended for each request, with the model behind a server."""
-    ended = {}
+    ended: dict[str, dict[str, int]] = {}
     with serve.served(reply.opened(folder, most_tokens=320), "tiny") as url:
         for number, request in enumerate(REQUESTS):
             flags = ["--robot", "hsr", "--scene", "kitchen", "--planner", url, "--model", "tiny", "--dialect", "vllm"]
-            flags += [
-                "--ask",
-                "never",
-                "--speed",
-                "max",
-                "--profile",
-                "ideal",
-                "--repair",
-                "1",
-                "--record",
-                str(out / f"do_{number}"),
-            ]
+            talk = out / f"do_{number}"
+            flags += ["--ask", "never", "--speed", "max", "--profile", "ideal", "--repair", "1", "--record", str(talk)]
             ran = subprocess.run([motet, "do", request, *flags], capture_output=True, text=True, check=False)
-            ended[request] = ran.returncode
-            say(f"motet do '{request}': ended with {ran.returncode}")
+            if ran.returncode not in (0, 3):
+                raise RuntimeError(f"motet do ended with {ran.returncode}: {ran.stderr}")
+            lines = (talk / "talk.jsonl").read_text(encoding="utf-8").splitlines()
+            whats = Counter(json.loads(line)["what"] for line in lines)
+            ended[request] = {"exit": ran.returncode, **{what: whats[what] for what in ("taken", "refused", "failed")}}
+            say(f"motet do '{request}': {ended[request]}")
     return ended

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from . import rows
-from .reply import Replier, lark
+from .reply import Replier, Reply, lark
 
 __all__ = ["Judgement", "grammar", "judge"]
 
@@ -30,6 +30,8 @@ class Judgement:
     """Replies that came to an end."""
     can_run: int
     """Policies that pass the check, whose motions are not refuted, and whose simulated run ends in `done`."""
+    same_goal: int
+    """Policies that can run and have the goal of the row in `achieves`, which the check holds them to."""
     same: int
     """Policies that are those of the rows, but for their names."""
     reasons: dict[str, int]
@@ -56,33 +58,34 @@ def judge(
     scenes = (data / "scenes.jsonl").read_text(encoding="utf-8")
     (out / "scenes.jsonl").write_text(scenes, encoding="utf-8")
     grammars = _grammars(motet, [known[at] for at in chosen], scenes, out) if held else {}
-    written, whole, same, asked = [], [], 0, []
+    replied: list[Reply] = []
     for start in range(0, len(chosen), batch):
         part = chosen[start : start + batch]
         of_rows = [known[at] for at in part]
-        for at, reply in zip(
-            part, replier.replies(of_rows, [grammars.get(_world(row)) for row in of_rows]), strict=True
-        ):
-            whole.append(reply.is_whole)
-            same += reply.is_whole and _steps(reply.text) == _steps(known[at].policy)
-            written.append(reply.text)
-            asked.append(lines[at])
-    judged = [_with_reply(line, text) for line, text in zip(asked, written, strict=True)]
+        replied += replier.replies(of_rows, [grammars.get(_world(row)) for row in of_rows])
+    judged = [_with_reply(lines[at], reply.text) for at, reply in zip(chosen, replied, strict=True)]
     path = out / "replies.jsonl"
     path.write_text("".join(line + "\n" for line in judged), encoding="utf-8")
     found = _lint(motet, path)
     # A reply that did not come to its end is no policy, whatever it begins with.
-    fine = [is_whole and number not in found for number, is_whole in enumerate(whole, 1)]
-    reasons = Counter(
-        found.get(number, "it came to no end") if is_whole else "it came to no end"
-        for number, (is_whole, is_fine) in enumerate(zip(whole, fine, strict=True), 1)
-        if not is_fine
+    whys = [found.get(number) if reply.is_whole else "it came to no end" for number, reply in enumerate(replied, 1)]
+    wanted = [known[at].policy for at in chosen]
+    fine = [(reply.text, policy) for reply, policy, why in zip(replied, wanted, whys, strict=True) if why is None]
+    return Judgement(
+        rows=len(replied),
+        whole=sum(reply.is_whole for reply in replied),
+        can_run=len(fine),
+        same_goal=sum(_goal(policy) is not None and _goal(text) == _goal(policy) for text, policy in fine),
+        same=sum(_steps(text) == _steps(policy) for text, policy in fine),
+        reasons=dict(Counter(why for why in whys if why is not None).most_common(12)),
     )
-    return Judgement(len(fine), sum(whole), sum(fine), same, dict(reasons.most_common(12)))
 
 
 def _world(row: rows.Row) -> tuple[str, str]:
-    return row.about["robot"], row.about["scene"]
+    try:
+        return row.about["robot"], row.about["scene"]
+    except KeyError as why:
+        raise JudgeError("a row does not say its robot and scene in `motet`") from why
 
 
 def _spread(count: int, most: int) -> list[int]:
@@ -95,7 +98,10 @@ def _grammars(motet: str, asked: list[rows.Row], scenes: str, out: Path) -> dict
     by_name = {one["name"]: one["scene"] for one in map(json.loads, scenes.splitlines())}
     made = {}
     path = out / "scene.json"
-    for world in sorted({_world(row) for row in asked}):
+    # Lists of actions have no grammar.
+    for world in sorted({_world(row) for row in asked if not isinstance(row.prompt, str)}):
+        if world[1] not in by_name:
+            raise JudgeError(f"scenes.jsonl has no scene `{world[1]}`")
         path.write_text(json.dumps(by_name[world[1]]), encoding="utf-8")
         made[world] = grammar(motet, world[0], path)
     path.unlink(missing_ok=True)
@@ -130,6 +136,14 @@ def _lint(motet: str, path: Path) -> dict[int, str]:
         if finding.get("fault") in ("unreadable", "no_world", "cannot_run"):
             found.setdefault(finding["row"], finding["message"])
     return found
+
+
+def _goal(policy: str) -> Any:
+    """The goal that a policy declares; none if it declares none."""
+    try:
+        return json.loads(policy).get("achieves")
+    except (ValueError, AttributeError):
+        return None
 
 
 def _steps(policy: str) -> Any:
