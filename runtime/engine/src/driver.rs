@@ -7,6 +7,7 @@ use crate::perception::{Detection, RgbdView};
 use crate::query::Query;
 use crate::telemetry::{Heard, Moved, ToldThing};
 use crate::time::Time;
+use motet_graph::Graph;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -41,7 +42,8 @@ use std::rc::Rc;
 /// 8. What it cannot answer for it reports as [`DriverEvent::Lost`], or [`DriverEvent::DriverLost`] for
 ///    everything: an answer that never comes means unknown, not refused. A safe stop of a lost goal is
 ///    answered like any other.
-/// 9. It never reports from within a call: everything goes out through [`Driver::advance`]. Telemetry,
+/// 9. After [`Driver::begin_run`] it says nothing of a goal of an earlier run, and its numbers may come again.
+/// 10. It never reports from within a call: everything goes out through [`Driver::advance`]. Telemetry,
 ///    detections and words are fetched after it.
 pub trait Driver {
     /// Starts a primitive.
@@ -56,6 +58,17 @@ pub trait Driver {
     /// knows.
     fn base(&self) -> Option<[f64; 3]> {
         None
+    }
+    /// Begins a run with an id of its own, of this graph where it is known; `now` is the host's time. Goals are
+    /// counted anew: what still moves for an earlier run comes to a stop, and its goals and watches are
+    /// forgotten. Returns the present time, not before `now`.
+    fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
+        self.inner().map_or(now, |inner| inner.begin_run(now, run, graph))
+    }
+    /// Looks after the driver while no run goes on, however long that takes; `now` is the host's time. Returns
+    /// the present time. What is reported meanwhile is dropped, but for telemetry, detections and words.
+    fn rest(&mut self, now: Time) -> Time {
+        self.inner().map_or(now, |inner| inner.rest(now))
     }
     /// Gives a running goal new arguments of the same primitive. Called only where [`Driver::capabilities`]
     /// says so.
@@ -169,6 +182,14 @@ impl<D: Driver> Driver for Rc<RefCell<D>> {
         self.borrow().base()
     }
 
+    fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
+        self.borrow_mut().begin_run(now, run, graph)
+    }
+
+    fn rest(&mut self, now: Time) -> Time {
+        self.borrow_mut().rest(now)
+    }
+
     fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
         self.borrow_mut().update(now, goal, command);
     }
@@ -251,6 +272,9 @@ pub struct Capabilities {
     /// True if it takes [`Driver::told`].
     #[serde(skip_serializing_if = "is_false")]
     pub told: bool,
+    /// True if it takes the facts at the start that the host knows beside the scene.
+    #[serde(skip_serializing_if = "is_false")]
+    pub state: bool,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
@@ -287,6 +311,7 @@ impl Default for Capabilities {
             look: false,
             detections: false,
             told: false,
+            state: false,
         }
     }
 }

@@ -110,6 +110,12 @@ impl Engine {
         self.turn(out).fault(fault);
     }
 
+    /// True between [`Event::Hold`] and the event or the swap that ends it.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.run.is_held_by_person && !self.run.over
+    }
+
     /// True if [`Effect::Finished`] went out.
     #[must_use]
     pub fn is_over(&self) -> bool {

@@ -22,6 +22,10 @@ pub enum Event {
     Verified { check: CheckId, verdict: Verification },
     /// The host concludes a fact from what the driver detected. It counts as an observation.
     Noticed { query: Query, answer: Answer },
+    /// A person wants everything to keep still until [`Event::Proceed`], or until another policy takes over.
+    Hold,
+    /// A person lets everything go on after [`Event::Hold`].
+    Proceed,
     /// A person stops the run: everything is interrupted, and the run ends as [`crate::RunEnd::Interrupted`].
     Stop,
 }

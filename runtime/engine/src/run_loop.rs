@@ -25,6 +25,9 @@ const TELEMETRY_EVERY: Time = Time::from_nanos(100_000_000);
 /// any speed.
 const REACHED_EVERY: Time = Time::from_nanos(500_000_000);
 
+/// Span of a held run after which it is looked whether it may go on.
+const HELD_EVERY: Time = Time::from_nanos(100_000_000);
+
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
 pub trait Observer {
     /// An event is about to be handled.
@@ -68,7 +71,7 @@ pub trait Observer {
     fn heard(&mut self, _now: Time, _heard: &Heard) {}
 
     /// A policy to take over from the one that runs. Asked after each event, so at least as often as
-    /// [`Observer::at_least_every`] says. Of several the newest should be given: one that was never given was
+    /// [`Observer::at_least_every`] says, and about ten times a second of the run's time while it is held. Of several the newest should be given: one that was never given was
     /// never there.
     fn swap(&mut self, _now: Time, _engine: &Engine) -> Option<PreparedSwap> {
         None
@@ -98,6 +101,10 @@ impl Observer for () {}
 pub enum RunControl {
     /// It goes on.
     Continue,
+    /// A person wants everything to keep still.
+    Hold,
+    /// A person lets everything go on after [`RunControl::Hold`].
+    Proceed,
     /// A person stops it.
     Stop,
 }
@@ -134,8 +141,17 @@ pub fn resume(
             }
             continue;
         }
+        // What a person said meanwhile goes before anything that takes time.
+        if host.reached(engine) {
+            continue;
+        }
         match host.next(engine) {
             Next::Event(event) => host.first.push_back(event),
+            Next::Glance if engine.is_held() => {
+                if let Some(end) = host.swap(engine) {
+                    return end;
+                }
+            }
             Next::Glance => {}
             Next::Nothing => {
                 engine.give_up(&mut host.out);
@@ -143,9 +159,7 @@ pub fn resume(
             }
         }
         host.read_telemetry(engine);
-        if !host.stopped && host.observer.reached(host.now) == RunControl::Stop {
-            host.stop();
-        }
+        host.reached(engine);
     }
 }
 
@@ -191,7 +205,8 @@ impl RunLoop<'_> {
         let every = if is_awaited { VERDICT_EVERY } else { Time::NEVER };
         let tick = wake.min(self.now.after(self.observer.at_least_every().min(every)));
         let wants = self.observer.wants_telemetry();
-        let until = tick.min(self.now.after(glance(&self.capabilities, wants, tick)));
+        let held = if engine.is_held() { HELD_EVERY } else { Time::NEVER };
+        let until = tick.min(self.now.after(held.min(glance(&self.capabilities, wants, tick))));
         match self.driver.advance(until) {
             Some((at, report)) => {
                 self.now = at.max(self.now);
@@ -258,6 +273,24 @@ impl RunLoop<'_> {
         self.carry_out()
     }
 
+    /// Tells the observer the time, and does as it decides. True if an event follows from that.
+    fn reached(&mut self, engine: &Engine) -> bool {
+        if self.stopped {
+            return false;
+        }
+        let event = match (self.observer.reached(self.now), engine.is_held()) {
+            (RunControl::Stop, _) => {
+                self.stop();
+                return true;
+            }
+            (RunControl::Hold, false) => Event::Hold,
+            (RunControl::Proceed, true) => Event::Proceed,
+            (RunControl::Continue | RunControl::Hold | RunControl::Proceed, _) => return false,
+        };
+        self.first.push_back(event);
+        true
+    }
+
     fn stop(&mut self) {
         if !std::mem::replace(&mut self.stopped, true) {
             self.first.push_back(Event::Stop);
@@ -281,7 +314,7 @@ impl RunLoop<'_> {
                     continue;
                 }
                 (Effect::Update { .. }, RunControl::Stop) => continue,
-                (_, RunControl::Stop | RunControl::Continue) => {}
+                (_, RunControl::Stop | RunControl::Continue | RunControl::Hold | RunControl::Proceed) => {}
             }
             self.observer.effect(now, &effect);
             if let Some(verifier) = self.observer.verifier() {

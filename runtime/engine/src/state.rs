@@ -202,6 +202,8 @@ pub(crate) struct Run {
     pub(crate) ending: Option<RunEnd>,
     /// True if a person stopped the run: no cleanup runs any more.
     pub(crate) halted: bool,
+    /// True while a person wants everything to keep still.
+    pub(crate) is_held_by_person: bool,
     /// Cleanups of earlier policies that have not run to their end.
     pub(crate) left: Vec<PendingCleanup>,
     /// Steps whose cleanup did not run, or not to its end.
@@ -278,6 +280,7 @@ impl Run {
             dirty: BinaryHeap::new(),
             ending: None,
             halted: false,
+            is_held_by_person: false,
             is_unproven: false,
             left: Vec::new(),
             uncleaned: Vec::new(),

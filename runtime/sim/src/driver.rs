@@ -8,7 +8,7 @@ use crate::faults::WorldEvent;
 use crate::motion::BaseMotion;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task, TaskStage};
-use motet_graph::{Manner, Waypoint};
+use motet_graph::{Graph, Manner, Waypoint};
 use motet_runtime::{
     Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Moved, Outcome, PrimitiveSet, Query,
     RgbdView, Time, ToldThing,
@@ -25,6 +25,16 @@ impl Driver for Sim {
     fn base(&self) -> Option<[f64; 3]> {
         let at = self.world.base;
         Some([at.x, at.y, at.heading])
+    }
+
+    fn begin_run(&mut self, now: Time, _run: &str, _graph: Option<&Graph>) -> Time {
+        self.pass(now);
+        while let Some(goal) = self.tasks.first().map(|task| task.goal) {
+            self.drop_task(goal);
+        }
+        self.watches.clear();
+        self.outbox.clear();
+        now
     }
 
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {

@@ -49,7 +49,7 @@ pub fn check_scenes(
     told: &mut dyn FnMut(&'static str, &BTreeSet<LawViolation>) -> ControlFlow<()>,
 ) {
     type Scene = fn(&mut DriverBench, &ConformanceSubject<'_>);
-    let scenes: [(&str, Scene); 10] = [
+    let scenes: [(&str, Scene); 11] = [
         ("to the end", to_the_end),
         ("cancelled", cancelled),
         ("stopped safely", stopped),
@@ -60,6 +60,7 @@ pub fn check_scenes(
         ("updated", updated),
         ("observed", observed),
         ("watched", watched),
+        ("begun again", begun_again),
     ];
     for (name, scene) in scenes {
         let mut bench = DriverBench::new((subject.fresh)());
@@ -210,6 +211,24 @@ fn watched(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     bench.until(subject.moment, |_| false);
 }
 
+/// Where another run begins while something runs, that is forgotten, and its number starts anew.
+fn begun_again(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    let goal = bench.start(&subject.command);
+    if !bench.runs(goal, subject.patience) {
+        return;
+    }
+    bench.driver.watch(bench.now, &subject.query);
+    bench.until(Time::ZERO, |_| false);
+    bench.begin_run();
+    if let Some(event) = bench.until(subject.moment, |event| of(event).is_some()) {
+        bench.breach(Law::Anew, format!("`{event}`, which is of the run before"));
+    }
+    let again = bench.start(&subject.command);
+    if bench.runs(again, subject.patience) {
+        end(bench, again, subject.patience, Law::Anew);
+    }
+}
+
 /// Number of times the question is answered within a moment.
 fn answers(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> usize {
     let before = bench.log.len();
@@ -273,6 +292,12 @@ impl DriverBench {
         let goal = GoalId::from_number((self.goals.len() as u64 + 1) << crate::ids::SLOT_BITS);
         self.goals.insert(goal, GoalLog::default());
         goal
+    }
+
+    /// Begins another run: whatever goal is heard of is a new one.
+    fn begin_run(&mut self) {
+        self.now = self.driver.begin_run(self.now, "again", None).max(self.now);
+        self.goals.clear();
     }
 
     pub(super) fn safe_stop(&mut self, goal: GoalId) {

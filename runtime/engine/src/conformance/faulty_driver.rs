@@ -7,6 +7,7 @@ use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
 use motet_stdlib::lang;
+use motet_graph::Graph;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use smol_str::SmolStr;
@@ -42,6 +43,8 @@ pub struct FaultRates {
     pub forgets: u32,
     /// A goal that is updated is interrupted.
     pub gives_up: u32,
+    /// A new run does not reach the driver within, which goes on with the run before.
+    pub remembers: u32,
     /// From a command on, nothing is reported any more.
     pub silence: u32,
     /// A report is of a time before the last.
@@ -123,6 +126,15 @@ impl<D: Driver> Driver for FaultyDriver<D> {
 
     fn capabilities(&self) -> Capabilities {
         self.inner.capabilities()
+    }
+
+    fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
+        if self.happens(self.mischief.remembers) {
+            return now;
+        }
+        self.queue.clear();
+        self.forgotten.clear();
+        self.inner.begin_run(now, run, graph)
     }
 
     fn update(&mut self, now: Time, goal: GoalId, command: &Command) {

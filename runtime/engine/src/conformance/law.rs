@@ -26,6 +26,8 @@ pub enum Law {
     Observed,
     /// A watch is answered at once, and watching twice is watching once.
     Watched,
+    /// A new run has no goal of the run before.
+    Anew,
     /// Time never runs backwards, nor past what was asked for.
     Time,
     /// The same calls at the same times give the same reports.
@@ -54,6 +56,7 @@ impl Law {
             Self::Updated => "an updated goal goes on under its number, and ends by itself",
             Self::Observed => "an observation is answered once",
             Self::Watched => "a watch is answered at once, and watching twice is watching once",
+            Self::Anew => "a new run has no goal of the run before",
             Self::Time => "time never runs backwards, nor past what was asked for",
             Self::Repeatable => "the same calls at the same times give the same reports",
         }

@@ -206,10 +206,8 @@ impl DriverReplay {
                 }
             }
             // Verdicts and conclusions of the host are none of the driver's affair.
-            Some(
-                Event::Begin | Event::Tick | Event::Verified { .. } | Event::Noticed { .. } | Event::Stop,
-            )
-            | None => {}
+            Some(Event::Begin | Event::Tick | Event::Verified { .. } | Event::Noticed { .. }) | None => {}
+            Some(Event::Hold | Event::Proceed | Event::Stop) => {}
         }
         self.carry_out(driver, step.at, &step.effects);
         Ok(())

@@ -21,7 +21,7 @@ use crate::event::Event;
 use crate::prepared_graph::{Dependent, PreparedGraph};
 use crate::schedule::{NodeExit, Transition};
 use crate::start::EngineSettings;
-use crate::state::{Phase, Run};
+use crate::state::{GoalIntent, Phase, Run};
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 use motet_graph::{NodeId, ROOT, RegionId};
@@ -59,6 +59,8 @@ impl Turn<'_> {
             Event::Verified { check, verdict } => self.verified(check, verdict),
             Event::Noticed { query, answer } if self.run.begun => self.observed(query, answer),
             Event::Noticed { .. } => {}
+            Event::Hold => self.hold_run(),
+            Event::Proceed => self.proceed_run(),
             Event::Stop => self.stop_run(),
         }
         self.settle();
@@ -228,6 +230,21 @@ impl Turn<'_> {
         self.out.push(Effect::Finished(Box::new(end)));
     }
 
+    /// A person holds the run.
+    fn hold_run(&mut self) {
+        if self.run.begun && !self.run.is_held_by_person {
+            self.run.is_held_by_person = true;
+            self.suspend(ROOT, GoalIntent::Hold);
+        }
+    }
+
+    /// A person lets a held run go on.
+    fn proceed_run(&mut self) {
+        if std::mem::take(&mut self.run.is_held_by_person) {
+            self.go_on(ROOT);
+        }
+    }
+
     /// A person stops the run.
     fn stop_run(&mut self) {
         if !self.run.begun {
@@ -246,6 +263,8 @@ impl Turn<'_> {
         self.run.halted = true;
         self.run.ending = Some(RunEnd::Interrupted);
         self.stop(ROOT, EndCause::Person);
+        // What is being cancelled does not go on, but what comes behind it is entered.
+        self.proceed_run();
     }
 
     /// The body of the policy is over.

@@ -346,3 +346,76 @@ fn control_person_stops_before_a_cleanup() {
     assert!(matches!(out.last(), Some(Effect::Finished(end)) if **end == RunEnd::Interrupted), "{out:?}");
     assert_eq!(pending(&engine), ["/steps/0 say(\"clean\")"]);
 }
+
+/// Commands and records of a held run, by what stands for them.
+fn words(out: &[Effect]) -> Vec<&'static str> {
+    let word = |effect: &Effect| match effect {
+        Effect::Start { .. } => Some("start"),
+        Effect::Cancel { .. } => Some("cancel"),
+        Effect::Hold { .. } => Some("hold"),
+        Effect::Proceed { .. } => Some("proceed"),
+        Effect::Finished(_) => Some("finished"),
+        _ => None,
+    };
+    out.iter().filter_map(word).collect()
+}
+
+#[test]
+fn control_person_holds_a_run_and_lets_it_go_on() {
+    let steps = [StepSketch::go("table"), StepSketch::say("there"), StepSketch::Delay(2.0)];
+    let mut engine = Engine::new(motet_graph::arbitrary::graph(&steps), &StartState::default()).unwrap();
+    let mut out = Vec::new();
+    let mut at = |engine: &mut Engine, secs: f64, event: Event| {
+        out.clear();
+        engine.handle(Time::from_secs(secs), event, &mut out);
+        let goal = out.iter().find_map(|effect| match effect {
+            Effect::Start { goal, .. } => Some(*goal),
+            _ => None,
+        });
+        (words(&out), goal)
+    };
+    let (said, goal) = at(&mut engine, 0.0, Event::Begin);
+    assert_eq!(said, ["start"]);
+    let goal = goal.unwrap();
+    let driver = Event::Driver;
+    at(&mut engine, 0.0, driver(motet_runtime::DriverEvent::Acknowledged { goal }));
+    assert_eq!(at(&mut engine, 1.0, Event::Hold).0, ["hold"]);
+    assert!(engine.is_held());
+    assert_eq!(at(&mut engine, 2.0, Event::Hold).0, Vec::<&str>::new(), "it is held once");
+    // No deadline runs out meanwhile.
+    assert_eq!(engine.wake_at(), None);
+    assert_eq!(at(&mut engine, 900.0, Event::Proceed).0, ["proceed"]);
+    let ended = motet_runtime::DriverEvent::Ended { goal, outcome: motet_runtime::Outcome::Success(None) };
+    let (said, goal) = at(&mut engine, 901.0, driver(ended));
+    assert_eq!(said, ["start"]);
+    let goal = goal.unwrap();
+    at(&mut engine, 901.0, driver(motet_runtime::DriverEvent::Acknowledged { goal }));
+    let ended = motet_runtime::DriverEvent::Ended { goal, outcome: motet_runtime::Outcome::Success(None) };
+    at(&mut engine, 902.0, driver(ended));
+    // A delay is held, too, and a stop ends what is held.
+    at(&mut engine, 903.0, Event::Hold);
+    assert_eq!(at(&mut engine, 950.0, Event::Tick).0, Vec::<&str>::new());
+    assert_eq!(at(&mut engine, 951.0, Event::Stop).0, ["finished"]);
+    assert!(!engine.is_held());
+}
+
+#[test]
+fn control_person_stops_a_held_run() {
+    let steps = [StepSketch::go("table"), StepSketch::say("there")];
+    let mut engine = Engine::new(motet_graph::arbitrary::graph(&steps), &StartState::default()).unwrap();
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    let goal = out.iter().find_map(|effect| match effect {
+        Effect::Start { goal, .. } => Some(*goal),
+        _ => None,
+    });
+    let goal = goal.unwrap();
+    let driver = |event| Event::Driver(event);
+    engine.handle(Time::ZERO, driver(motet_runtime::DriverEvent::Acknowledged { goal }), &mut out);
+    for event in [Event::Hold, Event::Stop] {
+        engine.handle(Time::from_secs(1.0), event, &mut out);
+    }
+    let ended = motet_runtime::DriverEvent::Ended { goal, outcome: motet_runtime::Outcome::Interrupted };
+    engine.handle(Time::from_secs(2.0), driver(ended), &mut out);
+    assert_eq!(words(&out), ["start", "hold", "cancel", "finished"]);
+}

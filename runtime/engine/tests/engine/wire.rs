@@ -229,6 +229,8 @@ fn wire_form_keeps_its_bytes() {
     for event in [
         Event::Begin,
         Event::Tick,
+        Event::Hold,
+        Event::Proceed,
         Event::Stop,
         Event::Verified { check, verdict },
         Event::Verified { check, verdict: Verification::Unknown { why: "no body".into() } },

@@ -67,6 +67,7 @@ fn sim_what_breaks_a_law_is_named() {
         ("moves on", FaultRates { moves_on: 1_000, ..FaultRates::default() }, &[Law::Held]),
         ("forgets", FaultRates { forgets: 1_000, ..FaultRates::default() }, &[Law::Cancelled]),
         ("gives up", FaultRates { gives_up: 1_000, ..FaultRates::default() }, &[Law::Updated]),
+        ("remembers", FaultRates { remembers: 1_000, ..FaultRates::default() }, &[Law::Anew]),
         // Some reports of a goal come after that of its end.
         (
             "out of order",
