@@ -1,6 +1,6 @@
 //! Position where a driver is: a command to start, or a port of this machine.
 
-use super::link::{Link, LinkError};
+use super::link::{KeepAlive, Link, LinkError};
 use std::fmt;
 use std::io::{BufReader, Write};
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
@@ -95,7 +95,7 @@ fn words(text: &str) -> Result<Vec<String>, DriverAddressError> {
 
 impl DriverAddress {
     /// Starts or calls the driver.
-    pub(super) fn open(&self, within: Duration) -> Result<Link, LinkError> {
+    pub(super) fn open(&self, within: Duration, keep_alive: KeepAlive) -> Result<Link, LinkError> {
         match self {
             Self::Command(words) => {
                 let (program, args) = words.split_first().ok_or(LinkError::Closed)?;
@@ -109,7 +109,7 @@ impl DriverAddress {
                     .stdout(Stdio::piped())
                     .spawn()
                     .map_err(|error| LinkError::NotReached(error.to_string()))?;
-                Link::of_child(child)
+                Link::of_child(child, keep_alive)
             }
             Self::Tcp(socket) => {
                 let stream = TcpStream::connect_timeout(socket, within)
@@ -119,7 +119,8 @@ impl DriverAddress {
                 let own = |error: std::io::Error| LinkError::NotReached(error.to_string());
                 let (reader, closer) = (stream.try_clone().map_err(own)?, stream.try_clone().map_err(own)?);
                 let writer: Box<dyn Write + Send> = Box::new(stream);
-                Ok(Link::new(BufReader::new(reader), writer, super::link::Peer::Socket(closer)))
+                let peer = super::link::Peer::Socket(closer);
+                Ok(Link::new(BufReader::new(reader), writer, peer, keep_alive))
             }
         }
     }

@@ -14,16 +14,19 @@ use self::goals::GoalLedger;
 use self::run_time::RunTime;
 use self::telemetry::TelemetryQueue;
 use super::connect::DriverAddress;
-use super::link::{Clock, Link, LinkError};
+use super::link::{Clock, KeepAlive, Link, LinkError};
 use super::protocol::{
     DriverCall, DriverMessage, DriverTimeouts, EmptyParams, GoalParams, GoalStatus, Hello, MAX_WAITING,
     QueryParams, VERSION, Welcome, hear, say,
 };
+use motet_graph::Graph;
 use motet_runtime::journal::{OpenGoal, OpenGoals};
 use motet_runtime::{Capabilities, Driver, DriverClock, DriverEvent, Effect, Event, GoalId, Query, Time};
 use motet_stdlib::lang;
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 /// The most breaches of promises that are told.
@@ -42,7 +45,8 @@ pub struct RemoteDriver {
     time: RunTime,
     link: Option<Link>,
     welcome: Welcome,
-    next_id: u64,
+    /// Number of the next call, which the link takes one of for each sign of life that it gives by itself.
+    next_id: Arc<AtomicU64>,
     waiting: BTreeMap<u64, Waiting>,
     outbox: VecDeque<(Time, DriverEvent)>,
     telemetry: TelemetryQueue,
@@ -88,7 +92,7 @@ impl RemoteDriver {
             time: RunTime::Own { now: from, stalls: 0 },
             link: None,
             welcome: Welcome { protocol: VERSION, driver, instance, capabilities },
-            next_id: 0,
+            next_id: Arc::default(),
             waiting: BTreeMap::new(),
             outbox: VecDeque::new(),
             telemetry: TelemetryQueue::default(),
@@ -102,10 +106,7 @@ impl RemoteDriver {
             log,
         };
         let early = this.greet()?;
-        this.time = match this.welcome.capabilities.clock {
-            DriverClock::Wall => RunTime::Wall(Clock::new(from)),
-            DriverClock::Driver => RunTime::Own { now: from, stalls: 0 },
-        };
+        this.set_time(from);
         early.iter().for_each(|line| this.hear_line(line));
         Ok(this)
     }
@@ -116,10 +117,29 @@ impl RemoteDriver {
         &self.welcome
     }
 
+    /// It is `now`, by the clock that the driver names.
+    fn set_time(&mut self, now: Time) {
+        self.time = match self.welcome.capabilities.clock {
+            DriverClock::Wall => RunTime::Wall(Clock::new(now)),
+            DriverClock::Driver => RunTime::Own { now, stalls: 0 },
+        };
+    }
+
     /// Opens a connection and greets. Gives the reports that came before the answer: what a driver went on
     /// with may end just then.
     fn greet(&mut self) -> Result<Vec<String>, LinkError> {
-        let link = self.address.open(self.patience.greeting)?;
+        let ids = Arc::clone(&self.next_id);
+        let ping = move || {
+            let id = ids.fetch_add(1, Ordering::SeqCst);
+            say(id, &DriverCall::Ping(EmptyParams {}), None)
+        };
+        let keep_alive = KeepAlive { line: Box::new(ping), after: self.patience.heartbeat * 2 };
+        let link = self.address.open(self.patience.greeting, keep_alive)?;
+        self.greet_on(link)
+    }
+
+    /// Greets on a connection, which is kept if the answer is good.
+    fn greet_on(&mut self, link: Link) -> Result<Vec<String>, LinkError> {
         let id = self.id();
         let said = say(id, &DriverCall::Hello(self.hello.clone()), Some(self.time.now()));
         self.log.line(LineFrom::Host, &said);
@@ -133,9 +153,13 @@ impl RemoteDriver {
             };
             match hear(&line).map_err(|why| nonsense(&line, why))? {
                 DriverMessage::Answer(answered, Ok(welcome)) if answered == id => break (welcome, line),
-                DriverMessage::Answer(_, Err(wrong)) => return Err(LinkError::Greeting(wrong.message)),
+                DriverMessage::Answer(answered, Err(wrong)) if answered == id => {
+                    return Err(LinkError::Greeting(wrong.message));
+                }
                 DriverMessage::Report(_) if early.len() < MAX_WAITING => early.push(line),
-                DriverMessage::Answer(_, Ok(_)) | DriverMessage::Report(_) => {
+                // The answer to a call of the run before, or to a sign of life.
+                DriverMessage::Answer(answered, _) if answered < self.next_id.load(Ordering::SeqCst) => {}
+                DriverMessage::Answer(..) | DriverMessage::Report(_) => {
                     return Err(LinkError::Greeting("it said something else first".to_owned()));
                 }
             }
@@ -156,8 +180,39 @@ impl RemoteDriver {
         // Whoever is called again goes on with the same run.
         self.hello.resumed = true;
         self.heard_at = Instant::now();
+        if self.welcome.capabilities.clock == DriverClock::Wall {
+            link.keep_alive();
+        }
         self.link = Some(link);
         Ok(early)
+    }
+
+    /// Greets for another run, on the same connection or, where that is gone, on a new one. What was asked for
+    /// and reported before counts no more.
+    fn begin(&mut self, run: &str, graph: Option<&Graph>) -> Result<(), LinkError> {
+        let hello = match graph {
+            Some(graph) => Hello::of(graph, run),
+            None => Hello { run: run.to_owned(), ..self.hello.clone() },
+        };
+        self.hello = Hello { protocol: VERSION, resumed: false, state: Vec::new(), ..hello };
+        self.goals = GoalLedger::new(&self.hello.primitives);
+        self.watches.clear();
+        self.waiting.clear();
+        self.outbox.clear();
+        (self.breaches, self.restarts) = (0, self.patience.restarts);
+        // Reports from before the answer are of the run before, but for words and telemetry.
+        let early = match self.link.take() {
+            Some(link) => self.greet_on(link)?,
+            None => self.greet()?,
+        };
+        for line in early {
+            if let Ok(DriverMessage::Report(report)) = hear(&line)
+                && !report.is_of_a_run()
+            {
+                self.hear_line(&line);
+            }
+        }
+        Ok(())
     }
 
     /// Sees to it that there is somebody to speak with.
@@ -186,9 +241,8 @@ impl RemoteDriver {
         self.link.is_some()
     }
 
-    fn id(&mut self) -> u64 {
-        self.next_id += 1;
-        self.next_id - 1
+    fn id(&self) -> u64 {
+        self.next_id.fetch_add(1, Ordering::SeqCst)
     }
 
     fn call(&mut self, call: DriverCall) {
@@ -207,11 +261,11 @@ impl RemoteDriver {
     /// Says a call and gives its number.
     fn say(&mut self, call: &DriverCall) -> Result<u64, LinkError> {
         let link = self.link.as_ref().ok_or(LinkError::Closed)?;
-        let line = say(self.next_id, call, self.time.told());
+        let id = self.next_id.fetch_add(1, Ordering::SeqCst);
+        let line = say(id, call, self.time.told());
         self.log.line(LineFrom::Host, &line);
         let said = link.say(line);
         self.said_at = Instant::now();
-        let id = self.id();
         if let Err(breakage) = &said {
             self.broke(breakage);
         }
@@ -245,7 +299,7 @@ impl RemoteDriver {
 impl Drop for RemoteDriver {
     fn drop(&mut self) {
         if let Some(link) = &mut self.link {
-            let bye = say(self.next_id, &DriverCall::Bye(EmptyParams {}), None);
+            let bye = say(0, &DriverCall::Bye(EmptyParams {}), None);
             self.log.line(LineFrom::Host, &bye);
             let _ = link.say(bye);
             link.end(self.patience.farewell);

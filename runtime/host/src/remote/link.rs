@@ -70,6 +70,15 @@ pub(super) struct Link {
     peer: Peer,
     /// True while a picture is due, whose line may be longer than others.
     awaits_picture: Arc<AtomicBool>,
+    /// True where the link says something by itself while the host is busy.
+    keeps_alive: Arc<AtomicBool>,
+}
+
+/// Sign of life that the link gives by itself: its line, asked for anew each time, and after what silence of
+/// the host.
+pub(super) struct KeepAlive {
+    pub(super) line: Box<dyn Fn() -> String + Send>,
+    pub(super) after: Duration,
 }
 
 impl Link {
@@ -77,14 +86,21 @@ impl Link {
         reader: impl BufRead + Send + 'static,
         writer: Box<dyn Write + Send>,
         peer: Peer,
+        keep_alive: KeepAlive,
     ) -> Self {
         let (tell, heard) = sync_channel(MAX_WAITING);
         let (said, lines) = sync_channel(MAX_WAITING);
         let awaits_picture = Arc::new(AtomicBool::new(false));
-        let picture = Arc::clone(&awaits_picture);
+        let keeps_alive = Arc::new(AtomicBool::new(false));
+        let (picture, is_alive) = (Arc::clone(&awaits_picture), Arc::clone(&keeps_alive));
         thread::spawn(move || listen(reader, &tell, &picture));
-        let speaker = thread::spawn(move || speak(writer, &lines));
-        Self { heard, said, speaker, peer, awaits_picture }
+        let speaker = thread::spawn(move || speak(writer, &lines, &keep_alive, &is_alive));
+        Self { heard, said, speaker, peer, awaits_picture, keeps_alive }
+    }
+
+    /// Lets the link give signs of life by itself from now on.
+    pub(super) fn keep_alive(&self) {
+        self.keeps_alive.store(true, Ordering::SeqCst);
     }
 
     /// Permits or forbids the long line of a picture.
@@ -92,10 +108,10 @@ impl Link {
         self.awaits_picture.store(is_due, Ordering::SeqCst);
     }
 
-    pub(super) fn of_child(mut child: Child) -> Result<Self, LinkError> {
+    pub(super) fn of_child(mut child: Child, keep_alive: KeepAlive) -> Result<Self, LinkError> {
         match (child.stdout.take(), child.stdin.take()) {
             (Some(stdout), Some(stdin)) => {
-                Ok(Self::new(BufReader::new(stdout), Box::new(stdin), Peer::Process(child)))
+                Ok(Self::new(BufReader::new(stdout), Box::new(stdin), Peer::Process(child), keep_alive))
             }
             (_, _) => Err(LinkError::Closed),
         }
@@ -205,8 +221,19 @@ fn read_to(reader: &mut impl BufRead, bytes: &mut Vec<u8>, most: usize) -> Resul
     read.map(|_| ()).map_err(|error: io::Error| LinkError::Read(error.to_string()))
 }
 
-fn speak(mut writer: Box<dyn Write + Send>, lines: &Receiver<String>) {
-    while let Ok(mut line) = lines.recv() {
+fn speak(
+    mut writer: Box<dyn Write + Send>,
+    lines: &Receiver<String>,
+    keep_alive: &KeepAlive,
+    is_alive: &AtomicBool,
+) {
+    loop {
+        let mut line = match lines.recv_timeout(keep_alive.after) {
+            Ok(line) => line,
+            Err(RecvTimeoutError::Timeout) if is_alive.load(Ordering::SeqCst) => (keep_alive.line)(),
+            Err(RecvTimeoutError::Timeout) => continue,
+            Err(RecvTimeoutError::Disconnected) => return,
+        };
         line.push('\n');
         if writer.write_all(line.as_bytes()).and_then(|()| writer.flush()).is_err() {
             // The reader notices.

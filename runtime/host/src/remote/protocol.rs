@@ -93,6 +93,17 @@ pub enum DriverReport {
     Heard(Heard),
 }
 
+impl DriverReport {
+    /// True if it tells of the goals and questions of one run, and means nothing in another.
+    pub(crate) const fn is_of_a_run(&self) -> bool {
+        match self {
+            Self::Ended(_) | Self::NotHeld(_) | Self::Stopped(_) | Self::Lost(_) => true,
+            Self::Observed(_) | Self::Feedback(_) => true,
+            Self::Moved(_) | Self::Detected(_) | Self::Heard(_) => false,
+        }
+    }
+}
+
 /// Parameters of `hello`, the greeting.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Hello {
@@ -108,6 +119,17 @@ pub struct Hello {
     pub policy: String,
     /// The primitives that it calls.
     pub primitives: Vec<CalledPrimitive>,
+    /// Facts at the start, besides those of the scene. Only for a driver that says it takes them, or to find
+    /// out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub state: Vec<StateFact>,
+}
+
+/// A fact at the start.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct StateFact {
+    pub query: Query,
+    pub holds: bool,
 }
 
 /// A primitive that a policy calls.
@@ -414,6 +436,7 @@ impl Hello {
             robot: graph.robot.to_string(),
             policy: graph.policy.to_string(),
             primitives: graph.primitives.iter().map(primitive).collect(),
+            state: Vec::new(),
         }
     }
 }

@@ -86,3 +86,57 @@ fn remote_driver_on_a_port_serves_a_second_run() {
     child.kill().unwrap();
     child.wait().unwrap();
 }
+
+/// Several runs on one connection: each has its goals for itself.
+#[test]
+fn remote_driver_begins_runs_on_one_connection() {
+    if !has_python() {
+        return;
+    }
+    for clock in ["wall", "driver"] {
+        let mut driver = connect(&format!("python3 {ECHO} --seconds 0.2 --clock {clock}"), Hello::default());
+        let instance = driver.welcome().instance.clone();
+        let goal = GoalId::from_number(1 << 24);
+        let mut now = Time::ZERO;
+        for run in ["one", "two", "three"] {
+            now = driver.begin_run(now, run, None);
+            driver.start(now, goal, &go());
+            let until = now.after(Time::from_secs(5.0));
+            let mut events = std::iter::from_fn(|| driver.advance(until));
+            let mut ends = 0;
+            // The last run is left while its goal runs.
+            while let Some((at, event)) = events.next().filter(|_| run != "three") {
+                assert!(at >= now, "{at} is before {now}");
+                now = at;
+                ends += usize::from(matches!(event, DriverEvent::Ended { .. }));
+                if ends > 0 {
+                    break;
+                }
+            }
+            assert_eq!(ends, usize::from(run != "three"), "run {run} on the clock of the {clock}");
+        }
+        now = driver.begin_run(now, "four", None);
+        let until = now.after(Time::from_secs(0.5));
+        assert_eq!(driver.advance(until), None, "the goal of the run before is forgotten");
+        assert_eq!(driver.status(vec![goal]).unwrap().goals[0].state, GoalStatus::Unknown);
+        assert_eq!(driver.welcome().instance, instance);
+    }
+}
+
+/// A driver on the wall's clock hears something also while its host is busy, and waits for the next run.
+#[test]
+fn remote_driver_is_kept_alive_between_runs() {
+    if !has_python() {
+        return;
+    }
+    let mut driver = connect(&format!("python3 {ECHO} --seconds 0.1"), Hello::default());
+    let begun = std::time::Instant::now();
+    // Longer than the driver waits for a word, and longer than the host waits for one.
+    std::thread::sleep(std::time::Duration::from_secs(7));
+    let now = driver.begin_run(Time::ZERO, "late", None);
+    assert!((now.secs() - begun.elapsed().as_secs_f64()).abs() < 1.0, "{now}");
+    driver.start(now, GoalId::from_number(1 << 24), &go());
+    let until = now.after(Time::from_secs(5.0));
+    let mut events = std::iter::from_fn(|| driver.advance(until));
+    assert!(events.any(|(_, event)| matches!(event, DriverEvent::Ended { .. })));
+}

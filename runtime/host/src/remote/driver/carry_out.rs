@@ -3,6 +3,7 @@
 use super::super::protocol::{DriverCall, GoalParams, QueryParams, StartParams, ToldParams};
 use super::run_time::RunTime;
 use super::{RemoteDriver, failed};
+use motet_graph::Graph;
 use motet_runtime::{
     Answer, Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Heard, Moved, Query, RgbdView,
     Time, ToldThing,
@@ -34,6 +35,27 @@ impl Driver for RemoteDriver {
 
     fn base(&self) -> Option<[f64; 3]> {
         self.telemetry.base
+    }
+
+    fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
+        let now = now.max(self.time.now());
+        self.set_time(now);
+        self.last = now;
+        if let Err(breakage) = self.begin(run, graph) {
+            // The next start calls it again.
+            self.link = None;
+            self.log.note(&breakage.to_string());
+        }
+        now
+    }
+
+    fn rest(&mut self, now: Time) -> Time {
+        if !self.time.is_own() {
+            self.listen(Duration::ZERO);
+            self.tend();
+            self.outbox.clear();
+        }
+        now.max(self.time.now())
     }
 
     fn update(&mut self, _now: Time, goal: GoalId, command: &Command) {

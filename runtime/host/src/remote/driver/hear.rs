@@ -9,6 +9,7 @@ use super::{LineFrom, RemoteDriver, Waiting, failed, nonsense};
 use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, Outcome};
 use serde_json::Value;
 use smol_str::SmolStr;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 /// The most reports that wait to be handed on before feedback is dropped.
@@ -43,7 +44,7 @@ impl RemoteDriver {
                 // An answer to what is no longer waited for says nothing new.
                 if let Some(waiting) = self.waiting.remove(&id) {
                     self.answered(waiting.call, answer, line);
-                } else if id >= self.next_id {
+                } else if id >= self.next_id.load(Ordering::SeqCst) {
                     self.broke(&nonsense(line, "nothing with this number was asked".to_owned()));
                 }
             }
