@@ -10,6 +10,7 @@ mod meaning;
 mod parse;
 mod part;
 mod polarity;
+mod question;
 mod reference;
 mod remark;
 mod statement;
@@ -20,7 +21,8 @@ use smol_str::SmolStr;
 pub use answer::{called, choose, encourages, named, pick};
 pub use error::RequestError;
 pub use meaning::{Aim, Certainty, Intent};
-pub use polarity::{Polarity, added, is_wordless, polarity, refuses, stops};
+pub use polarity::{Polarity, added, holds, is_wordless, polarity, proceeds, refuses, stops};
+pub use question::{RoomQuestion, Topic, deed, is_question, question};
 
 /// The context of a request: the scene, and what changed or was said since. Plain data; `Send` and `Sync`.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Yes and no: the polarity of an answer's first words, words that stop a moving robot, and refusals.
 
 use crate::engine::english::{
-    ADDITIONS, ANSWER_COURTESY, ASKED_TO_STOP, HOLDS_STILL, IGNORANT, NO, PLACE_AFTER_STOP, REFUSALS, STOPS,
-    STOPS_ALONE, YES,
+    ADDITIONS, ANSWER_COURTESY, ASKED_TO_STOP, HOLDS_STILL, IGNORANT, MOMENT, NO, PLACE_AFTER_STOP, PROCEEDS,
+    REFUSALS, STOPS, STOPS_ALONE, YES,
 };
 use crate::engine::phrases::Phrases;
 use crate::engine::token::{Token, pieces, tokens};
@@ -62,13 +62,34 @@ pub fn polarity(answer: &str) -> Polarity<'_> {
 /// True if the words ask a moving robot to stop.
 #[must_use]
 pub fn stops(answer: &str) -> bool {
+    match polarity(answer) {
+        Polarity::Stop => true,
+        Polarity::No(left) => is_wordless(left),
+        Polarity::Yes(_) | Polarity::Ignorant | Polarity::Neither => false,
+    }
+}
+
+/// True if the words ask a moving robot to keep still for a while: "wait", "hold on a second".
+#[must_use]
+pub fn holds(answer: &str) -> bool {
+    is_whole(answer, &HOLDS_STILL, &MOMENT)
+}
+
+/// True if the words let a robot go on that keeps still: "go on", "ok, continue".
+#[must_use]
+pub fn proceeds(answer: &str) -> bool {
+    let is_it = |said: &str| is_whole(said, &PROCEEDS, &MOMENT);
+    is_it(answer) || matches!(polarity(answer), Polarity::Yes(rest) if is_it(rest))
+}
+
+/// True if an answer is phrases of one list and then of another, with courtesy around them.
+fn is_whole(answer: &str, phrases: &Phrases, behind: &Phrases) -> bool {
     let said = Said::new(answer);
-    said.skips_no_place(said.skip_all(0, &ANSWER_COURTESY), &HOLDS_STILL)
-        || match polarity(answer) {
-            Polarity::Stop => true,
-            Polarity::No(left) => is_wordless(left),
-            Polarity::Yes(_) | Polarity::Ignorant | Polarity::Neither => false,
-        }
+    let begin = said.skip_all(0, &ANSWER_COURTESY);
+    said.skip(begin, phrases).is_some_and(|end| {
+        let end = said.skip_all(said.skip_all(end, phrases), &ANSWER_COURTESY);
+        said.is_end(said.skip_all(said.skip_all(end, behind), &ANSWER_COURTESY))
+    })
 }
 
 /// Request inside an addition: "also bring me the apple".
@@ -132,7 +153,7 @@ impl<'a> Said<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Polarity, added, polarity, refuses, stops};
+    use super::{Polarity, added, holds, polarity, proceeds, refuses, stops};
 
     #[test]
     fn polarity_is_that_of_the_first_words() {
@@ -187,13 +208,29 @@ mod tests {
 
     #[test]
     fn stops_reads_words_for_a_moving_robot() {
-        for said in
-            ["stop", "Wait!", "never mind", "cancel that", "hold on a second", "no!", "leave it, please"]
-        {
+        for said in ["stop", "never mind", "cancel that", "no!", "leave it, please"] {
             assert!(stops(said), "{said}");
         }
-        for said in ["go on", "wait at the table", "bring me the apple", "no, the blue one", "thanks"] {
+        for said in ["go on", "wait", "wait at the table", "bring me the apple", "no, the blue one", "thanks"]
+        {
             assert!(!stops(said), "{said}");
+        }
+    }
+
+    #[test]
+    fn holds_and_proceeds_read_whole_answers() {
+        for said in ["Wait!", "hold on a second, please", "just wait a moment", "freeze", "wait for me"] {
+            assert!(holds(said) && !proceeds(said), "{said}");
+        }
+        for said in
+            ["go on", "ok, go on please", "Continue.", "carry on", "you can go on now", "well, proceed"]
+        {
+            assert!(proceeds(said) && !holds(said), "{said}");
+        }
+        for said in
+            ["wait at the table", "wait, bring me the apple", "go on the table", "yes", "go to the table", ""]
+        {
+            assert!(!holds(said) && !proceeds(said), "{said}");
         }
     }
 
