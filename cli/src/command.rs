@@ -20,3 +20,4 @@ pub(crate) mod replay;
 pub(crate) mod robots;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod talk;

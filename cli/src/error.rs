@@ -20,6 +20,18 @@ pub(crate) enum Exit {
     Interrupted,
 }
 
+impl Exit {
+    /// The worse of two codes: an interruption before a failure, a failure before success.
+    pub(crate) const fn or_worse(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Success, other) => other,
+            (first, Self::Success) => first,
+            (Self::Interrupted, _) | (_, Self::Interrupted) => Self::Interrupted,
+            (first, _) => first,
+        }
+    }
+}
+
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
         Self::from(match exit {

@@ -1,18 +1,18 @@
-//! Flags that several subcommands share: documents, the robot and its scene, the format of diagnostics, runs
-//! in simulation. The flags of one subcommand are in its own file in `command`.
+//! Flags that several subcommands share: documents, the robot and its scene, the format of diagnostics, the
+//! driver of a run. The flags of one subcommand are in its own file in `command`.
 
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
+mod driver;
+
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, value_parser};
 use motet_decode::export::Dialect;
-use motet_planner::runtime_check::CheckMode;
-use motet_project::{
-    DiagnosticSink, Project, ProjectBuilder, ProjectError, SimulationInputs, read_profile, read_scene,
-};
+use motet_project::{Project, ProjectBuilder};
 use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
+use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
-use motet_syntax::{Sources, Syntax};
+
+pub(crate) use driver::{DriverArgs, Speed};
 
 /// Documents to read.
 #[derive(Args, Debug)]
@@ -197,97 +197,6 @@ impl From<ServerDialect> for Dialect {
             ServerDialect::Ollama => Self::Ollama,
             ServerDialect::Sglang => Self::Sglang,
             ServerDialect::Openai => Self::OpenAi,
-        }
-    }
-}
-
-/// Settings of a simulated run.
-#[derive(Args, Debug)]
-pub(crate) struct SimulationArgs {
-    /// Speed relative to real time: a factor, or `max` for as fast as possible [default: 1]
-    #[arg(long, value_name = "max|FACTOR", allow_negative_numbers = true)]
-    pub(crate) speed: Option<Speed>,
-    /// Seed of all randomness in the simulation [default: 0]
-    #[arg(long, value_name = "NUMBER", value_parser = seed, allow_negative_numbers = true)]
-    pub(crate) seed: Option<u64>,
-    /// JSON file with faults to inject
-    #[arg(long, value_name = "FILE")]
-    pub(crate) faults: Option<PathBuf>,
-    /// Profile of what goes wrong by itself: `ideal`, `typical`, `harsh`, or a TOML file [default: typical]
-    #[arg(long, value_name = "NAME|FILE")]
-    pub(crate) profile: Option<String>,
-    /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON
-    /// file
-    #[arg(long, alias = "real", value_name = "NAME|FILE")]
-    pub(crate) world: Option<String>,
-}
-
-impl SimulationArgs {
-    /// Speed of the run.
-    pub(crate) fn speed(&self) -> Speed {
-        self.speed.unwrap_or(Speed::Times(1.0))
-    }
-
-    /// Seed of the run.
-    pub(crate) fn seed(&self) -> u64 {
-        self.seed.unwrap_or_default()
-    }
-
-    /// Reads the inputs of a simulation. `eye` is the camera's position in the frame of the base, in m.
-    pub(crate) fn inputs(
-        &self,
-        answers: Option<&Path>,
-        eye: Option<[f64; 3]>,
-        sink: &mut dyn DiagnosticSink,
-    ) -> Result<SimulationInputs, ProjectError> {
-        let inputs = SimulationInputs::read(self.seed(), self.faults.as_deref(), answers, sink)?;
-        let world = match &self.world {
-            Some(name) => Some(read_scene(name, &mut Sources::default(), sink)?),
-            None => None,
-        };
-        Ok(inputs
-            .with_profile(read_profile(self.profile.as_deref().unwrap_or("typical"))?)
-            .with_world(world)
-            .with_eye(eye))
-    }
-}
-
-/// Reads a seed.
-pub(crate) fn seed(text: &str) -> Result<u64, String> {
-    text.trim().parse().map_err(|_| format!("write a whole number from 0 to {}, such as 7", u64::MAX))
-}
-
-/// Speed of simulated time.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Speed {
-    /// As fast as possible.
-    Max,
-    /// Factor of real time.
-    Times(f64),
-}
-
-impl Speed {
-    /// Schedule of the checks of deferred motions. A run at full speed checks them in place and so is
-    /// reproducible.
-    pub(crate) const fn verifies(self) -> CheckMode {
-        match self {
-            Self::Max => CheckMode::AtOnce,
-            Self::Times(_) => CheckMode::Beside,
-        }
-    }
-}
-
-impl FromStr for Speed {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "max" {
-            return Ok(Self::Max);
-        }
-        let factor: Option<f64> = text.strip_suffix('x').unwrap_or(text).parse().ok();
-        match factor {
-            Some(factor) if factor.is_finite() && factor > 0.0 => Ok(Self::Times(factor)),
-            _ => Err("write `max`, or a factor above 0 such as 10".to_owned()),
         }
     }
 }

@@ -1,10 +1,12 @@
 //! The `motet` command: reads the command line, calls the subcommand, and turns its result into an exit code.
 
 mod command;
+mod conversation;
 mod documents;
 mod error;
 mod flags;
 mod output;
+mod ready_driver;
 mod report;
 mod run_view;
 mod runner;
@@ -25,7 +27,8 @@ use output::{ColorChoice, Colors, note};
     propagate_version = true,
     disable_help_subcommand = true,
     after_help = "Exit codes: 0 success, 1 errors found (or a file would be reformatted), 2 could not run.\n\
-                  `motet run`: 0 done, 1 refused by the check, 3 failed, 130 interrupted."
+                  `motet run`, `do` and `talk`: 0 only if all that was asked was done, 1 refused by the check,\n\
+                  3 failed, stopped by a word or not answered, 130 interrupted."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -46,8 +49,10 @@ enum Command {
     Compile(command::compile::CompileArgs),
     /// Import files of another planning language
     Import(command::import::ImportArgs),
-    /// Carry out a request in simulation: plan, check, run, ask, and replan
+    /// Carry out a request in words: plan, check, run, ask, and replan
     Do(command::r#do::DoArgs),
+    /// Talk with a robot: requests and questions, one after the other
+    Talk(command::talk::TalkArgs),
     /// Plan a policy for a request or a goal, without a model
     Plan(command::plan::PlanArgs),
     /// Print the prompt that `motet do` sends to a model for a request
@@ -118,6 +123,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Compile(args) => command::compile::run(args, colors),
         Command::Import(args) => command::import::run(args, colors),
         Command::Do(args) => command::r#do::run(args, colors),
+        Command::Talk(args) => command::talk::run(args, colors),
         Command::Prompt(args) => command::prompt::run(args, colors),
         Command::Dialog(args) => command::dialog::run(args, colors),
         Command::Dataset(args) => command::dataset::run(args, colors),

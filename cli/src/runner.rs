@@ -22,7 +22,7 @@ use crate::output::{escape, note};
 use crate::run_view::View;
 
 /// Interval at which a waiting run checks for an interrupt.
-const SLICE: Duration = Duration::from_millis(50);
+pub(crate) const SLICE: Duration = Duration::from_millis(50);
 
 /// Number of presses of Ctrl-C.
 static PRESSED: AtomicU32 = AtomicU32::new(0);

@@ -5,13 +5,12 @@ use std::time::Duration;
 
 use clap::Args;
 use motet_planner::builtin;
-use motet_planner::dialogue::Problem;
+use motet_planner::dialogue::{Knowledge, Problem};
 use motet_planner::inteliplan::actions;
 use motet_planner::inteliplan::exchange::{self, Exchange};
 use motet_planner::prompt;
 use motet_project::files::read_small;
 use motet_project::{DOCUMENT, ProjectSession};
-use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use motet_syntax::{Severity, Source};
 
@@ -76,6 +75,10 @@ fn read(path: &Path, to: SyntaxArg, opened: &ProjectSession, report: &mut Report
         let (name, place) = (format!("exchange_{}", index + 1), format!("exchange {}", index + 1));
         if exchange.asks() {
             note(&format!("{place}: the robot asks: {}", exchange.robot));
+            // The next exchange has the answer.
+            if index + 1 == exchanges.len() {
+                exit = Exit::Findings;
+            }
         } else if plan(&exchange.robot, &name, &place, is_only, to, opened, report) != Exit::Success {
             exit = Exit::Findings;
         }
@@ -94,7 +97,8 @@ fn plan(
     report: &mut Report,
 ) -> Exit {
     let empty = Scene::default();
-    let situation = RequestContext::new(opened.scene.as_ref().unwrap_or(&empty));
+    let known = Knowledge::of(opened.told_facts());
+    let situation = known.situation(opened.scene.as_ref().unwrap_or(&empty));
     let loose = match actions::read(list, name, &opened.session, opened.robot.as_ref(), &situation) {
         Ok(loose) => loose,
         Err(why) => return refuse(place, &why),
@@ -124,12 +128,14 @@ fn write(request: &str, opened: &ProjectSession, report: &mut Report) -> Result<
         return Err(CliError::Message("a plan needs a robot: give --robot NAME".to_owned()));
     };
     let scene = opened.scene.clone().unwrap_or_default();
-    let situation = RequestContext::new(&scene);
+    let known = Knowledge::of(opened.told_facts());
+    let situation = known.situation(&scene);
     let named = motet_requests::named(request, &situation);
     // The texts of the dialect express exactly what the numbers do.
     let seen = prompt::seen(&opened.session, robot, &scene, &named, Duration::ZERO);
     let (vision, feasibility) = exchange::sight(&seen);
     let answer = builtin::answer(&opened.session, Some(robot), request, &situation);
+    let mut exit = Exit::Success;
     let said = match answer {
         Ok(answered) => {
             let policy = answered.planned.parsed.file.policies().next();
@@ -139,12 +145,15 @@ fn write(request: &str, opened: &ProjectSession, report: &mut Report) -> Result<
             }
             list
         }
-        Err(why) => Problem::of_planning(&why, &scene).question,
+        Err(why) => {
+            exit = Exit::Findings;
+            Problem::of_planning(&why, &scene).question
+        }
     };
     let exchange =
         Exchange { history: String::new(), user: request.to_owned(), vision, feasibility, robot: said };
     report.out.line(exchange.write().trim_end());
-    Ok(Exit::Success)
+    Ok(exit)
 }
 
 fn refuse(place: &str, why: &impl std::fmt::Display) -> Exit {

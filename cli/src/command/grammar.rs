@@ -230,7 +230,7 @@ fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliE
 }
 
 /// Reads the server's key from an environment variable.
-pub(super) fn key(variable: &str) -> Result<ApiKey, CliError> {
+pub(crate) fn key(variable: &str) -> Result<ApiKey, CliError> {
     ApiKey::from_variable(variable)
         .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }

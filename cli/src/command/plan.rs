@@ -3,7 +3,8 @@
 use clap::Args;
 use motet_compiler::plan::{Goal, NoPlan, Persistence};
 use motet_planner::builtin::{self, PlanError};
-use motet_requests::{Aim, RequestContext};
+use motet_planner::dialogue::Knowledge;
+use motet_requests::Aim;
 use motet_robots::scene::Scene;
 use motet_syntax::Source;
 
@@ -44,7 +45,8 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
     let planned = match &args.request {
         Some(request) => {
             let empty = Scene::default();
-            let situation = RequestContext::new(opened.scene.as_ref().unwrap_or(&empty));
+            let known = Knowledge::of(opened.told_facts());
+            let situation = known.situation(opened.scene.as_ref().unwrap_or(&empty));
             builtin::answer(&opened.session, robot, request, &situation).map(|answered| {
                 answered.understood.notes.iter().for_each(|text| note(text));
                 answered.planned

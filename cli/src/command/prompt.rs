@@ -1,8 +1,8 @@
 //! `motet prompt`: the prompt that a model would get for a request.
 
 use clap::Args;
+use motet_planner::dialogue::Knowledge;
 use motet_planner::prompt::{self, Prompt, StaticPrompt};
-use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_runtime::memory::{Memory, MemoryLimits};
 
@@ -37,7 +37,8 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, CliError> {
         return Err(CliError::Message("a prompt needs a robot: give --robot NAME".to_owned()));
     };
     let scene = opened.scene.clone().unwrap_or_default();
-    let situation = RequestContext::new(&scene);
+    let known = Knowledge::of(opened.told_facts());
+    let situation = known.situation(&scene);
     let mut memory = Memory::new(MemoryLimits::default());
     memory.instruct(Time::ZERO, &args.request);
     let prompt = Prompt {

@@ -2,36 +2,30 @@
 //! a journal; or checks such a driver.
 
 mod conformance;
-mod driver;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motet::run::{create_journal, engine, run_id, start_state, unix_ns};
-use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
-use motet_host::remote::{DriverAddress, DriverTimeouts};
 use motet_planner::runtime_check::Guard;
-use motet_project::{Project, ProjectSession, SavedDriver, SavedProject, named_robot};
-use motet_robots::card::Robot;
-use motet_robots::scene::Scene;
+use motet_project::{Project, ProjectSession, SavedDriver, SavedProject};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
-use motet_runtime::{Driver, DriverClock, EngineSettings, Event, Time, Verifier as _};
-use motet_sim::Sim;
+use motet_runtime::{Driver, DriverClock, Event, Time, Verifier as _};
 use motet_syntax::{Parsed, Severity};
 
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
-use crate::flags::{OutputFormat, SessionArgs, SimulationArgs, Speed};
+use crate::flags::{DriverArgs, OutputFormat, SessionArgs, Speed};
 use crate::output::{Colors, count, note};
+use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, events, view};
 use crate::runner::{PacedView, Runner, connect, exit_of, journal_error};
-use driver::DriverChoice;
 
 /// Flags of `motet run`.
 #[derive(Args, Debug)]
@@ -53,11 +47,6 @@ pub(crate) struct RunArgs {
     policy: Option<String>,
     #[command(flatten)]
     session: SessionArgs,
-    /// Driver: `kinematic`, the simulator without physics; `mujoco`, physics, for which Python needs the
-    /// package `motet-mujoco`; a command that speaks the driver protocol on its stdin and stdout; or
-    /// tcp://127.0.0.1:PORT
-    #[arg(long, default_value = "kinematic", value_name = "kinematic|mujoco|COMMAND|ADDRESS")]
-    driver: DriverChoice,
     /// Check if a driver in another process keeps the laws of drivers, and print each broken one with its
     /// messages
     #[arg(long, conflicts_with_all = ["record", "speed", "resume"])]
@@ -68,10 +57,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "SECS", requires = "check")]
     patience: Option<f64>,
     #[command(flatten)]
-    simulation: SimulationArgs,
-    /// JSON file with the answers of the simulated person
-    #[arg(long, value_name = "FILE")]
-    answers: Option<PathBuf>,
+    driver: DriverArgs,
     /// Write a journal of the run into this folder, which must be empty or not exist
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
@@ -92,23 +78,13 @@ pub(crate) struct RunArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, CliError> {
-    args.driver.refuse_flags(&args.simulation, args.answers.as_deref())?;
+    args.driver.refuse_flags()?;
     Report::run(args.format.into(), colors, |report| match (&args.resume, &args.file) {
         (None, file) if args.check => conformance::check(file.as_deref(), args, report),
         (Some(folder), _) => resume(folder, args, colors, report),
         (None, Some(file)) => check_and_run(file, args, colors, report),
         (None, None) => Err(CliError::Message("a policy is needed".to_owned())),
     })
-}
-
-impl RunArgs {
-    /// Address of the driver; `None` for the simulator in this process. Robot and scene are those of the
-    /// flags, or the robot that the policy names.
-    fn address(&self, parsed: &Parsed) -> Result<Option<DriverAddress>, CliError> {
-        let given = &self.session.environment;
-        let robot = given.robot.clone().or_else(|| named_robot(&parsed.file));
-        self.driver.address(robot.as_deref(), given.scene.as_deref(), &self.simulation)
-    }
 }
 
 fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
@@ -119,11 +95,9 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
         return Ok(Exit::Findings);
     };
     let run = run_id();
-    let ready = match args.address(&parsed)? {
-        Some(address) => remote(&address, Hello::of(&graph, &run), args, opened)?,
-        None => kinematic((&graph, &parsed), args, opened, report)?,
-    };
-    let ReadyDriver { mut driver, saved, clock, speed, settings } = ready;
+    let wanted = RunSubject { run: &run, policy: Some((&graph, &parsed)), opened };
+    let ReadyDriver { mut driver, saved, clock, speed, settings, .. } =
+        open_driver(&args.driver, &args.session.environment, &wanted, report)?;
     let start = start_state(opened.scene.as_ref());
     let guard = opened.session.world_tracker().map(|course| Guard::new(course, speed.verifies()));
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings)?;
@@ -136,72 +110,6 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let paced = PacedView::new(view, speed).with_guard(guard).with_room(opened.scene.clone());
     let events = vec![Event::Begin];
     Runner { engine, driver: &mut *driver, journal, from: Time::ZERO, events }.run(paced)
-}
-
-/// Driver that is ready for a run.
-struct ReadyDriver {
-    driver: Box<dyn Driver>,
-    /// Description for the journal, if there is one.
-    saved: Option<SavedDriver>,
-    clock: Clock,
-    speed: Speed,
-    settings: EngineSettings,
-}
-
-/// Simulator of a policy.
-fn kinematic(
-    (graph, parsed): (&Graph, &Parsed),
-    args: &RunArgs,
-    opened: &ProjectSession,
-    report: &mut Report,
-) -> Result<ReadyDriver, CliError> {
-    let (Some(robot), Some(files)) = (&opened.robot, &opened.files) else {
-        return Err(no_robot(named_robot(&parsed.file)));
-    };
-    let inputs = args.simulation.inputs(args.answers.as_deref(), None, report)?;
-    inputs.check_names(&opened.session.signatures())?;
-    let declarations: Vec<_> = opened.domains.iter().chain([&parsed.file]).collect();
-    let eye = opened.geometry.as_ref().and_then(|geometry| geometry.eye());
-    let options = inputs.with_eye(eye).for_policy(graph, &declarations);
-    let scene = opened.scene.clone().unwrap_or_default();
-    let saved = args.record.is_some().then(|| {
-        SavedDriver::simulator(files, opened.scene_text.clone(), &options, SavedProject::of(opened))
-    });
-    Ok(ReadyDriver {
-        driver: Box::new(Sim::new(robot, &scene, options)),
-        saved,
-        clock: Clock::Simulated,
-        speed: args.simulation.speed(),
-        settings: EngineSettings::default(),
-    })
-}
-
-/// Driver in another process.
-fn remote(
-    address: &DriverAddress,
-    hello: Hello,
-    args: &RunArgs,
-    opened: &ProjectSession,
-) -> Result<ReadyDriver, CliError> {
-    let driver = connect(address, hello, Time::ZERO)?;
-    let (clock, speed) = match (driver.capabilities().clock, args.simulation.speed) {
-        (DriverClock::Driver, _) => (Clock::Simulated, args.simulation.speed()),
-        (DriverClock::Wall, None) => (Clock::Wall, Speed::Times(1.0)),
-        (DriverClock::Wall, Some(_)) => {
-            let why =
-                "this driver goes by the clock on the wall: `--speed` is for drivers that own the clock";
-            return Err(CliError::Message(why.to_owned()));
-        }
-    };
-    let saved = args
-        .record
-        .is_some()
-        .then(|| SavedDriver::process(address, &driver.welcome().instance, SavedProject::of(opened)));
-    // A safe stop may take as long as it takes to reach a silent driver again.
-    let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
-    let settings =
-        EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() };
-    Ok(ReadyDriver { driver: Box::new(driver), saved, clock, speed, settings })
 }
 
 /// Reads and compiles a policy, and reports the diagnostics. `None` if the check refuses it.
@@ -228,45 +136,6 @@ pub(super) fn compile<'p>(
     Ok(None)
 }
 
-fn no_robot(wanted: Option<String>) -> CliError {
-    match wanted {
-        Some(name) => CliError::Unknown {
-            what: "built-in robot",
-            name,
-            help: "give the folder of its card with --robot FOLDER".to_owned(),
-        },
-        None => CliError::Message(
-            "a run needs a robot: give --robot NAME, or write `for NAME` after the policy's name".to_owned(),
-        ),
-    }
-}
-
-/// Observer that shows and paces the simulated run of a graph.
-pub(super) fn paced_view(
-    format: OutputFormat,
-    graph: &Graph,
-    colors: Colors,
-    simulation: &SimulationArgs,
-) -> PacedView {
-    PacedView::new(view(format, graph, colors, Clock::Simulated), simulation.speed())
-}
-
-/// Simulator for policies that are not known yet. `eye` is the camera's position in the base's frame, in m.
-pub(super) fn simulator(
-    (robot, session): (&Robot, &Session),
-    scene: &Scene,
-    eye: Option<[f64; 3]>,
-    args: &SimulationArgs,
-    report: &mut Report,
-) -> Result<Sim, CliError> {
-    let inputs = args.inputs(None, eye, report)?;
-    if args.faults.is_some() {
-        let there = session.with_scene(Some(scene), None);
-        inputs.check_names(&there.signatures())?;
-    }
-    Ok(Sim::new(robot, scene, inputs.without_policy()))
-}
-
 /// Rebuilds the engine and the simulator from a journal, and continues.
 fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
     let mut entries = Vec::new();
@@ -284,7 +153,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let clock = clock_of(head, &saved);
     let view = view(args.format, replay.engine().graph(), colors, clock);
     let speed = match clock {
-        Clock::Simulated => args.simulation.speed(),
+        Clock::Simulated => args.driver.speed(),
         Clock::Wall => Speed::Times(1.0),
     };
     let mut paced = PacedView::new(view, speed);

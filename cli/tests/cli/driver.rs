@@ -320,14 +320,14 @@ fn a_driver_that_lost_its_host_stops_by_itself() {
 }
 
 /// The example driver on a port of its own.
-struct Echo(Child);
+pub(crate) struct Echo(Child);
 
 impl Echo {
     fn start() -> Self {
         Self::start_with(&["--seconds", "0.4"])
     }
 
-    fn start_with(args: &[&str]) -> Self {
+    pub(crate) fn start_with(args: &[&str]) -> Self {
         let child = Command::new("python3")
             .args([ECHO, "--port", "0"])
             .args(args)
@@ -337,7 +337,7 @@ impl Echo {
         Self(child)
     }
 
-    fn address(&mut self) -> String {
+    pub(crate) fn address(&mut self) -> String {
         let mut line = String::new();
         BufReader::new(self.0.stdout.take().unwrap()).read_line(&mut line).unwrap();
         line.trim().strip_prefix("listening on ").unwrap().to_owned()

@@ -25,3 +25,4 @@ mod journal;
 mod model;
 mod run;
 mod support;
+mod talk;

@@ -9,4 +9,4 @@ pub mod prompt;
 pub mod runtime_check;
 pub mod vision;
 
-pub use planner::{Builtin, PlanRequest, Planner, RemainingSteps, Wait};
+pub use planner::{Builtin, BuiltinBeside, PlanRequest, Planner, RemainingSteps, Wait};

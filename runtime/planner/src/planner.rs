@@ -1,5 +1,7 @@
 //! The planner trait: requests in, policies out.
 
+use std::sync::mpsc::{self, Receiver, TryRecvError};
+
 use motet_compiler::Session;
 use motet_robots::card::Robot;
 use motet_runtime::CameraImage;
@@ -74,6 +76,50 @@ pub struct PlanRequest<'a> {
     pub memory: &'a Memory,
     /// Current camera image, if the robot has a camera.
     pub image: Option<&'a CameraImage>,
+}
+
+/// The built-in planner, which plans for an instruction during a run on a thread of its own: the run goes on
+/// meanwhile. Other requests are planned in place.
+#[derive(Debug, Default)]
+pub struct BuiltinBeside {
+    /// Policy that is being planned, or the reason why there is none.
+    coming: Option<Receiver<Option<String>>>,
+}
+
+impl Planner for BuiltinBeside {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
+        self.coming = None;
+        Builtin.plan(ask)
+    }
+
+    fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
+        let (session, robot, request) = (ask.session.clone(), ask.robot.clone(), ask.request.to_owned());
+        let RequestContext { scene, holding, supports, spoken_of, came_from, meant } = ask.situation.clone();
+        let scene = scene.clone();
+        let (told, coming) = mpsc::channel();
+        std::thread::spawn(move || {
+            let scene = &scene;
+            let situation = RequestContext { scene, holding, supports, spoken_of, came_from, meant };
+            let planned = builtin::answer(&session, Some(&robot), &request, &situation);
+            // Nobody waits for it any more if the run is over.
+            let _ = told.send(planned.ok().map(|answered| answered.planned.text));
+        });
+        self.coming = Some(coming);
+        true
+    }
+
+    fn rest(&mut self, wait: Wait) -> RemainingSteps {
+        let Some(coming) = &self.coming else { return RemainingSteps::Nothing };
+        let planned = match wait {
+            Wait::Not => match coming.try_recv() {
+                Err(TryRecvError::Empty) => return RemainingSteps::Coming,
+                planned => planned.ok().flatten(),
+            },
+            Wait::ToTheEnd => coming.recv().ok().flatten(),
+        };
+        self.coming = None;
+        planned.map_or(RemainingSteps::Broken, RemainingSteps::Whole)
+    }
 }
 
 /// The built-in planner, which needs no model.

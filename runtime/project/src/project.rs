@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use indexmap::IndexMap;
-use motet_compiler::{CheckOptions, Geometry, InitialState, Session};
+use motet_compiler::{CheckOptions, Geometry, InitialFact, InitialState, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_robots::builtin;
 use motet_robots::card::Robot;
 use motet_robots::clearance::ClearanceOverride;
 use motet_robots::scene::{self, Scene};
 use motet_robots::urdf::Urdf;
+use motet_runtime::{Pattern, Query, Truth};
 use motet_syntax::ast::File;
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{FileId, Source, Sources, suggest};
@@ -346,6 +347,18 @@ pub struct ProjectSession {
 }
 
 impl ProjectSession {
+    /// Facts that the state says beside or against the scene, in order. What it makes unknown comes first.
+    #[must_use]
+    pub fn told_facts(&self) -> Vec<(Query, Truth)> {
+        let without = self.session.with_scene(self.scene.as_ref(), None);
+        let facts = |session: &Session| session.initial_facts().map(told_fact).collect::<Vec<_>>();
+        let (with, without) = (facts(&self.session), facts(&without));
+        let is_said = |query: &Query, facts: &[(Query, Truth)]| facts.iter().any(|(known, _)| known == query);
+        let unknown = without.iter().filter(|(query, _)| !is_said(query, &with));
+        let unknown: Vec<_> = unknown.map(|(query, _)| (query.clone(), Truth::Unknown)).collect();
+        unknown.into_iter().chain(with.into_iter().filter(|fact| !without.contains(fact))).collect()
+    }
+
     /// Sources of the project with a document in its place, [`DOCUMENT`]: rendering diagnostics needs them.
     #[must_use]
     pub fn sources(&self, document: Source) -> Sources {
@@ -357,6 +370,11 @@ impl ProjectSession {
         }
         all
     }
+}
+
+fn told_fact(given: InitialFact) -> (Query, Truth) {
+    let args = given.args.into_iter().map(|arg| arg.map_or(Pattern::Any, Pattern::Is)).collect();
+    (Query::Fact { fluent: given.fluent, args }, Truth::from(given.holds))
 }
 
 /// Robot and, if its card names a URDF, its body.

@@ -13,7 +13,7 @@ use indexmap::IndexMap;
 use motet_graph::Value;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::{Answer, Detection, DriverEvent, Pattern, Query, Time};
+use motet_runtime::{Answer, Detection, DriverEvent, Pattern, Query, Time, Truth};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng;
 use smol_str::SmolStr;
@@ -320,6 +320,26 @@ pub struct SimOptions {
     /// Position where the camera is: in the frame of the base on the floor, in m. Above its middle where that
     /// is not said.
     pub eye: Option<[f64; 3]>,
+}
+
+impl SimOptions {
+    /// The same options with further facts at the start. Facts about any entity, and those that are not known,
+    /// are left out: the world is as it is.
+    #[must_use]
+    pub fn with_facts(mut self, facts: impl IntoIterator<Item = (Query, Truth)>) -> Self {
+        for (query, truth) in facts {
+            let Query::Fact { fluent, args } = query else { continue };
+            let name = |arg: &Pattern| match arg {
+                Pattern::Is(Value::Entity(id) | Value::Case(id)) => Some(id.clone()),
+                Pattern::Is(_) | Pattern::Any => None,
+            };
+            let args: Option<Vec<SmolStr>> = args.iter().map(name).collect();
+            if let (Some(args), Truth::True | Truth::False) = (args, truth) {
+                self.initial_facts.insert((fluent, args), truth == Truth::True);
+            }
+        }
+        self
+    }
 }
 
 /// Scripted answers of people.

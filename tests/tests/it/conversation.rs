@@ -1,13 +1,13 @@
 //! The loop around the planner: questions and their answers, tries after a failure, and requests that come
 //! in between.
 use motet_compiler::CheckOptions;
-use motet_graph::{NodeId, NodeKind};
+use motet_graph::{NodeId, NodeKind, Value};
 use motet_planner::Builtin;
 use motet_planner::dialogue::{
-    Conversation, DialogueObserver, DialogueSetup, Kind, NoOperator, Outcome, Person, Problem,
+    Conversation, DialogueObserver, DialogueSetup, Kind, NoOperator, OnInstruction, Outcome, Person, Problem,
 };
 use motet_runtime::memory::Memory;
-use motet_runtime::{Effect, RunEnd, Time};
+use motet_runtime::{Effect, EngineSettings, Pattern, Query, RunControl, RunEnd, Time, Truth};
 use motet_sim::{Faults, Sim, SimOptions};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
@@ -309,7 +309,7 @@ fn says(request: &str, line: &'static str, answers: &[&'static str]) -> (Outcome
 
 #[test]
 fn conversation_who_moves_stops_when_told_to() {
-    for line in ["stop", "never mind", "wait!", "leave it, please"] {
+    for line in ["stop", "never mind", "that is enough", "leave it, please"] {
         let (outcome, asked, sim) = says("bring me the coke", line, &[]);
         assert_eq!((outcome, asked.len()), (Outcome::GivenUp, 0), "{line}");
         assert_eq!(sim.holds("at", &["coke", "user"]), Some(false), "{line}");
@@ -370,4 +370,141 @@ fn conversation_question_that_nobody_answers_is_quoted() {
         RunEnd::Failed { kind: "refused".into(), why: None, node: NodeId(u32::try_from(node).unwrap()) };
     let problem = Problem::of_run(&end, (&graph, &[]), &setting.scene).unwrap();
     assert_eq!(problem.question, "Nobody answered \"Shall I bring it?\". Shall I ask again?");
+}
+
+/// Lines at times, with what was answered and held.
+#[derive(Default)]
+struct Lines {
+    says: Vec<(f64, &'static str)>,
+    answers: Vec<Option<String>>,
+    held: Vec<(f64, bool)>,
+    now: f64,
+    policies: usize,
+}
+
+impl DialogueObserver for Lines {
+    fn reached(&mut self, now: Time) -> RunControl {
+        self.now = now.secs();
+        RunControl::Continue
+    }
+
+    fn at_least_every(&self) -> Time {
+        Time::from_secs(0.1)
+    }
+
+    fn planned(
+        &mut self,
+        _: &motet_planner::builtin::PlannedRequest,
+        _: &std::sync::Arc<motet_graph::Graph>,
+    ) {
+        self.policies += 1;
+    }
+
+    fn held(&mut self, is_held: bool) {
+        self.held.push((self.now, is_held));
+    }
+
+    fn answered(&mut self, _question: &str, answer: Option<&str>) {
+        self.answers.push(answer.map(ToOwned::to_owned));
+    }
+
+    fn request(&mut self, now: Time) -> Option<String> {
+        let is_due = self.says.first().is_some_and(|(at, _)| now >= Time::from_secs(*at));
+        is_due.then(|| self.says.remove(0).1.to_owned())
+    }
+}
+
+/// A request with lines at times: its outcome, the end, and the observer.
+fn carried_out(
+    talk: &mut Conversation<'_>,
+    sim: &mut Sim,
+    request: &str,
+    says: &[(f64, &'static str)],
+) -> (Outcome, f64, Lines) {
+    let mut lines = Lines { says: says.to_vec(), ..Lines::default() };
+    let from = sim.now();
+    let (outcome, end) = talk.carry_out(request, &mut Builtin, sim, &mut NoOperator, &mut lines, from);
+    (outcome, end.secs(), lines)
+}
+
+#[test]
+fn conversation_keeps_still_until_it_may_go_on() {
+    let setting = setting("hsr");
+    let new = || Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let (mut sim, mut talk) = (new(), Conversation::new(&setting));
+    let (outcome, plain, _) = carried_out(&mut talk, &mut sim, "bring me the coke", &[]);
+    assert_eq!(outcome, Outcome::Done);
+    let (mut sim, mut talk) = (new(), Conversation::new(&setting));
+    let says = [(2.0, "wait"), (5.0, "what are you doing?"), (12.0, "go on")];
+    let (outcome, end, lines) = carried_out(&mut talk, &mut sim, "bring me the coke", &says);
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(lines.held.iter().map(|(_, is_held)| *is_held).collect::<Vec<_>>(), [true, false]);
+    assert!((end - plain - 10.0).abs() < 0.5, "{plain} s and {end} s");
+    assert!(lines.answers[0].as_ref().unwrap().starts_with("I am busy with"), "{:?}", lines.answers);
+    // Stopped where it keeps still, it does not move any more.
+    let (mut sim, mut talk) = (new(), Conversation::new(&setting));
+    let (outcome, end, _) =
+        carried_out(&mut talk, &mut sim, "bring me the coke", &[(2.0, "wait"), (6.0, "stop")]);
+    assert_eq!(outcome, Outcome::GivenUp);
+    assert!((6.0..6.5).contains(&end), "{end}");
+}
+
+#[test]
+fn conversation_pauses_for_an_instruction_if_it_shall() {
+    let setting = setting("hsr");
+    for (on_instruction, is_held) in [(OnInstruction::GoOn, false), (OnInstruction::Pause, true)] {
+        let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+        let mut talk =
+            Conversation::new(&setting).with_runs("test", EngineSettings::default(), on_instruction);
+        let says = [(3.0, "where is the apple?"), (4.0, "bring me the apple instead")];
+        let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "bring me the coke", &says);
+        assert_eq!((outcome, lines.policies), (Outcome::Done, 2));
+        assert_eq!(sim.holds("at", &["apple", "user"]), Some(true));
+        let held: Vec<bool> = lines.held.iter().map(|(_, is_held)| *is_held).collect();
+        assert_eq!(held, if is_held { vec![true, false] } else { vec![] });
+        assert_eq!(lines.answers.len(), 1);
+    }
+}
+
+#[test]
+fn conversation_looks_where_it_does_not_know() {
+    let mut setting = setting("hsr");
+    let coke = setting.scene.entities.get_mut("coke").unwrap();
+    let there = coke.clone();
+    (coke.on, coke.pose) = (None, None);
+    let mut world = setting.scene.clone();
+    world.entities.insert("coke".into(), there);
+    let options = SimOptions { world: Some(world), ..SimOptions::default() };
+    let mut sim = Sim::new(&setting.robot, &setting.scene, options);
+    let mut talk = Conversation::new(&setting);
+    let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the coke?", &[]);
+    assert_eq!((outcome, lines.policies), (Outcome::Done, 1), "{:?}", lines.answers);
+    assert!(lines.answers[0].as_ref().unwrap().starts_with("The coke can is"), "{:?}", lines.answers);
+    // What was seen is remembered.
+    let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the coke?", &[]);
+    assert_eq!((outcome, lines.policies), (Outcome::Done, 0), "{:?}", lines.answers);
+}
+
+#[test]
+fn conversation_begins_in_the_state_that_it_was_told() {
+    let setting = setting("hsr");
+    let fact = |fluent: &str, args: &[Value]| Query::Fact {
+        fluent: fluent.into(),
+        args: args.iter().cloned().map(Pattern::Is).collect(),
+    };
+    let coke = Value::Entity("coke".into());
+    let facts = [
+        (fact("on", &[coke.clone(), Value::Entity("counter".into())]), Truth::False),
+        (fact("holding", &[coke]), Truth::True),
+        (fact("free", &[Value::Case("hand".into())]), Truth::False),
+    ];
+    let options = SimOptions::default().with_facts(facts.clone());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, options);
+    let mut talk = Conversation::new(&setting);
+    talk.tell(facts);
+    let (_, _, lines) = carried_out(&mut talk, &mut sim, "what do you hold?", &[]);
+    assert_eq!(lines.answers, [Some("I hold the coke can.".to_owned())]);
+    let (outcome, _, _) = carried_out(&mut talk, &mut sim, "put it on the kitchen table", &[]);
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(sim.holds("on", &["coke", "kitchen_table"]), Some(true));
 }

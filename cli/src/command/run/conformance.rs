@@ -25,6 +25,7 @@ use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
 use crate::output::{count, escape, note};
+use crate::ready_driver::address;
 use crate::report::Report;
 use crate::runner::{catch_interrupts, is_interrupted};
 
@@ -89,7 +90,7 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
     let compiled = compile(&document, args.policy.as_deref(), args.format, &mut project, report)?;
     let Some((graph, parsed, _)) = compiled else { return Ok(Exit::Findings) };
     let (command, query) = (first_call(&graph)?, question());
-    let Some(address) = args.address(&parsed)? else {
+    let Some(address) = address(&args.driver, &args.session.environment, &parsed.file)? else {
         let why = "`--check` leads a driver in another process: name it with `--driver`";
         return Err(CliError::Message(why.to_owned()));
     };

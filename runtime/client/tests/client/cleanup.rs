@@ -77,7 +77,7 @@ fn steps(pending: &[PendingCleanup]) -> Vec<String> {
 }
 
 impl DialogueObserver for Beside {
-    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
+    fn scribe(&mut self, _run: &str, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
         assert_eq!(engine.snapshot().pending, start.pending);
         self.left.push(steps(&start.pending));
         None

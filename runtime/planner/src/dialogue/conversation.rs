@@ -12,7 +12,7 @@ use motet_robots::scene::Scene;
 use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_runtime::{
     CameraImage, Capabilities, Detection, Driver, Effect, Engine, EngineSettings, Event, Moved, Observer,
-    Perception, RunControl, RunEnd, StartState, SwapRefusal, Time,
+    Perception, Query, RunControl, RunEnd, StartState, SwapRefusal, Time, Truth,
 };
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
@@ -64,6 +64,20 @@ pub struct Conversation<'a> {
     /// The library, read once.
     base: OnceCell<Session>,
     eyes: Option<Box<dyn Perception + 'a>>,
+    settings: EngineSettings,
+    pub(super) on_instruction: OnInstruction,
+    /// Id of the conversation, with which those of its runs begin, and the number of runs so far.
+    runs: (String, u32),
+}
+
+/// Behaviour of a moving robot while a new instruction is planned.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum OnInstruction {
+    /// It goes on with what it does.
+    #[default]
+    GoOn,
+    /// It keeps still until the new policy takes over.
+    Pause,
 }
 
 impl<'a> Conversation<'a> {
@@ -71,13 +85,54 @@ impl<'a> Conversation<'a> {
     #[must_use]
     pub fn new(setting: &'a DialogueSetup) -> Self {
         let (known, memory) = (Knowledge::default(), Memory::new(MemoryLimits::default()));
-        Self { setting, known, memory, base: OnceCell::new(), eyes: None }
+        Self {
+            setting,
+            known,
+            memory,
+            base: OnceCell::new(),
+            eyes: None,
+            settings: EngineSettings::default(),
+            on_instruction: OnInstruction::default(),
+            runs: ("run".to_owned(), 0),
+        }
+    }
+
+    /// Sets the settings of the engines, the behaviour on an instruction during a run, and the id with which
+    /// the ids of all runs begin.
+    #[must_use]
+    pub fn with_runs(self, id: &str, settings: EngineSettings, on_instruction: OnInstruction) -> Self {
+        Self { runs: (id.to_owned(), 0), settings, on_instruction, ..self }
+    }
+
+    /// Takes in facts that are known beside the scene, such as those of a state.
+    pub fn tell(&mut self, facts: impl IntoIterator<Item = (Query, Truth)>) {
+        self.known.tell(facts);
+    }
+
+    /// Id for the next run.
+    pub(super) fn next_run(&mut self) -> String {
+        let (id, count) = &mut self.runs;
+        *count += 1;
+        format!("{id}.{count}")
     }
 
     /// Adds a camera: each plan gets a fresh image.
     #[must_use]
     pub fn with_eyes(self, eyes: impl Perception + 'a) -> Self {
         Self { eyes: Some(Box::new(eyes)), ..self }
+    }
+
+    /// Takes in a statement, such as "the coke is in the fridge". False if the line asks for something, or is
+    /// not understood.
+    pub fn note(&mut self, line: &str) -> bool {
+        let scene = self.known.scene(&self.setting.scene);
+        let understood = motet_requests::understand(line, &self.known.situation(&scene));
+        let is_statement =
+            understood.is_ok_and(|intent| intent.aims.is_empty() && !intent.located.is_empty());
+        if is_statement {
+            self.hear(line);
+        }
+        is_statement
     }
 
     /// Takes in the locations that a request states.
@@ -158,8 +213,7 @@ impl<'a> Conversation<'a> {
         verifies: bool,
     ) -> Result<(Engine, StartState), Problem> {
         let session = self.session(scene, &self.known, None);
-        let settings =
-            EngineSettings { verify_within: verifies.then_some(WITHIN), ..EngineSettings::default() };
+        let settings = EngineSettings { verify_within: verifies.then_some(WITHIN), ..self.settings };
         let start = self.known.start(scene, &session);
         let engine = Engine::new(graph, &start);
         let ready = |engine: Engine| (engine.with_settings(settings).with_capabilities(can), start);
@@ -191,8 +245,9 @@ impl Person for NoOperator {
 
 /// Observer of a dialogue, which may also bring new requests.
 pub trait DialogueObserver {
-    /// Recorder of the run that is about to begin, if there is one. The engine has handled no event yet.
-    fn scribe(&mut self, _engine: &Engine, _start: &StartState) -> Option<Box<dyn RunRecorder>> {
+    /// Recorder of the run of this id that is about to begin, if there is one. The engine has handled no event
+    /// yet.
+    fn scribe(&mut self, _run: &str, _engine: &Engine, _start: &StartState) -> Option<Box<dyn RunRecorder>> {
         None
     }
     /// A policy is about to run, or to take over.
@@ -222,6 +277,10 @@ pub trait DialogueObserver {
     fn verifies(&self) -> CheckMode {
         CheckMode::AtOnce
     }
+    /// A person holds the run, or lets it go on.
+    fn held(&mut self, _is_held: bool) {}
+    /// A question was answered, from knowledge or by a look. `None` if nobody knows.
+    fn answered(&mut self, _question: &str, _answer: Option<&str>) {}
     /// Returns a request that somebody made during the run.
     fn request(&mut self, _now: Time) -> Option<String> {
         None

@@ -352,6 +352,50 @@ impl Knowledge {
         }
     }
 
+    /// Knowledge of these facts, in order.
+    #[must_use]
+    pub fn of(facts: impl IntoIterator<Item = (Query, Truth)>) -> Self {
+        Self { facts: facts.into_iter().collect(), ..Self::default() }
+    }
+
+    /// Takes in facts, in order.
+    pub fn tell(&mut self, facts: impl IntoIterator<Item = (Query, Truth)>) {
+        self.facts.extend(facts);
+    }
+
+    /// Truth of a fact about one entity, as far as it was told or learned: the latest word counts.
+    #[must_use]
+    pub fn told(&self, fluent: &str, entity: &SmolStr) -> Option<Truth> {
+        let is_it = |query: &Query| match query {
+            Query::Fact { fluent: name, args } => match args.as_slice() {
+                [Pattern::Is(Value::Entity(id))] => name == fluent && id == entity,
+                [Pattern::Any] => name == fluent,
+                _ => false,
+            },
+            Query::Measure { .. } | Query::Field { .. } => false,
+        };
+        self.facts.iter().rev().find(|(query, _)| is_it(query)).map(|(_, truth)| *truth)
+    }
+
+    /// Entity at which the robot is known to stand.
+    #[must_use]
+    pub fn standing(&self, scene: &Scene) -> Option<SmolStr> {
+        let robot = Pattern::Is(Value::Entity(SmolStr::new_static(entities::ROBOT)));
+        let mut at = scene.robot.at.clone();
+        for (query, truth) in &self.facts {
+            let Query::Fact { fluent, args } = query else { continue };
+            if fluent != fluents::AT || args.first() != Some(&robot) {
+                continue;
+            }
+            match (args.get(1), truth) {
+                (Some(Pattern::Is(Value::Entity(place))), Truth::True) => at = Some(place.clone()),
+                (Some(Pattern::Is(Value::Entity(place))), _) if at.as_ref() != Some(place) => {}
+                (_, _) => at = None,
+            }
+        }
+        at
+    }
+
     /// Forgets the robot's place at an entity, since something could not be reached from there.
     pub fn doubt_standing(&mut self) {
         let robot = Pattern::Is(Value::Entity(SmolStr::new_static(entities::ROBOT)));

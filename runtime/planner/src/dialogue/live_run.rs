@@ -1,26 +1,31 @@
 //! A run with a person beside it: the memory records its events, and a new request takes over in the middle
 //! of it.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, NodeKind, Value};
-use motet_requests::{Intent, ReportedLocation, RequestContext, added, stops};
+use motet_requests::{Intent, ReportedLocation, RequestContext, added, holds, is_question, proceeds, stops};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Moved, Observer,
+    Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Heard, Moved, Observer,
     Outcome as GoalOutcome, Pattern, PreparedSwap, Query, RetiredGraph, RunControl, RunEnd, SwapRefusal,
     Time, ToldThing, Truth, Verifier,
 };
 use motet_stdlib::lang::{entities, failures, fluents, kinds, primitives};
 use smol_str::SmolStr;
 
+use super::early_start::EarlyStart;
 use super::problem::named_entity;
-use super::{Conversation, DialogueObserver, Problem};
+use super::{Conversation, DialogueObserver, OnInstruction, Problem};
 use crate::builtin::PlannedRequest;
-use crate::model::{ReplyVerdict, judge, without_first_step};
+use crate::model::{ReplyVerdict, judge};
 use crate::runtime_check::Guard;
 use crate::{PlanRequest, Planner, RemainingSteps, Wait};
+
+/// The most words that wait to be taken in.
+const MAX_HEARD: usize = 16;
 
 /// Reason to stop a run before its end.
 pub(super) enum StopReason {
@@ -60,6 +65,14 @@ pub(super) struct LiveRun<'r, 'a> {
     asked: Option<(GoalId, String)>,
     /// Locations that answers to such questions told.
     told: Vec<ReportedLocation>,
+    /// Words that the driver heard, the latest last.
+    heard: VecDeque<String>,
+    /// Line that the next swap takes in.
+    said: Option<String>,
+    /// True if the run is held, by a person or for a new instruction.
+    is_held: bool,
+    /// Wish to hold the run, or to let it go on, that the run loop has not heard.
+    wish: Option<RunControl>,
 }
 
 /// Ending of a run.
@@ -99,6 +112,41 @@ impl<'r, 'a> LiveRun<'r, 'a> {
             guard: None,
             asked: None,
             told: Vec::new(),
+            heard: VecDeque::new(),
+            said: None,
+            is_held: false,
+            wish: None,
+        }
+    }
+
+    /// Takes in what people say while the robot moves. Words that stop, hold or let go on count at once;
+    /// everything else is for the swap that is asked for.
+    fn listen(&mut self, now: Time) {
+        if self.said.is_some() {
+            return;
+        }
+        let Some(said) = self.heard.pop_front().or_else(|| self.watcher.request(now)) else { return };
+        if stops(&said) {
+            self.talk.memory.instruct(now, &said);
+            self.pending = Some(StopReason::Stop);
+        } else if holds(&said) {
+            self.hold(true);
+        } else if proceeds(&said) {
+            self.hold(false);
+        } else {
+            if self.talk.on_instruction == OnInstruction::Pause && !is_question(&said) {
+                self.hold(true);
+            }
+            self.said = Some(said);
+        }
+    }
+
+    /// Holds the run, or lets it go on.
+    fn hold(&mut self, is_held: bool) {
+        if self.is_held != is_held {
+            self.is_held = is_held;
+            self.wish = Some(if is_held { RunControl::Hold } else { RunControl::Proceed });
+            self.watcher.held(is_held);
         }
     }
 
@@ -154,12 +202,15 @@ impl<'r, 'a> LiveRun<'r, 'a> {
                 Some(EarlyStart::new(Some(rest), &answered))
             }
         };
+        let run = self.talk.next_run();
+        self.now = driver.begin_run(self.now, &run, Some(engine.graph()));
         let from = self.now;
-        let end = match self.watcher.scribe(&engine, &start) {
+        let end = match self.watcher.scribe(&run, &engine, &start) {
             Some(scribe) => scribe.run(&mut engine, driver, self, from),
             None => motet_runtime::run(&mut engine, driver, self, from),
         };
-        self.pending = self.pending.take().or(self.awaited.take().map(StopReason::Request));
+        let late = self.awaited.take().or_else(|| self.said.take());
+        self.pending = self.pending.take().or(late.map(StopReason::Request));
         // Behind its first step, a policy that is still being written goes on.
         if self.first.is_none() || self.pending.is_some() || !matches!(end, RunEnd::Done { .. }) {
             self.watcher.ended(self.now, &end);
@@ -200,6 +251,17 @@ impl LiveRun<'_, '_> {
         let told = motet_requests::told(said, &RequestContext { spoken_of, ..situation });
         told.iter().for_each(|one| self.talk.known.hear(one));
         self.told.extend(told);
+    }
+
+    /// Answers a question from what is known in the middle of the run. False if the line is none.
+    fn reply(&mut self, said: &str, engine: &Engine) -> bool {
+        let mut known = self.talk.known.clone();
+        known.learn_midway(engine, self.talk.base());
+        let scene = known.scene(&self.talk.setting.scene);
+        let Some(question) = motet_requests::question(said, &known.situation(&scene)) else { return false };
+        let answer = self.talk.known_answer(&question, &known);
+        self.watcher.answered(said, answer.as_deref());
+        true
     }
 
     /// Returns a finished policy that can take over: for a new request, or the rest of an early start.
@@ -332,19 +394,35 @@ impl Observer for LiveRun<'_, '_> {
     fn reached(&mut self, now: Time) -> RunControl {
         self.now = self.now.max(now);
         let control = self.watcher.reached(now);
-        if self.pending.is_some() { RunControl::Stop } else { control }
+        if self.pending.is_some() {
+            return RunControl::Stop;
+        }
+        match control {
+            RunControl::Continue => self.wish.take().unwrap_or(RunControl::Continue),
+            RunControl::Hold | RunControl::Proceed | RunControl::Stop => control,
+        }
+    }
+
+    fn heard(&mut self, _now: Time, heard: &Heard) {
+        if self.heard.len() < MAX_HEARD {
+            self.heard.push_back(heard.text.to_string());
+        }
     }
 
     fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
         if self.pending.is_some() || engine.is_over() {
             return None;
         }
-        let Some(said) = self.watcher.request(now) else { return self.written(engine) };
-        self.talk.memory.instruct(now, &said);
-        if stops(&said) {
-            self.pending = Some(StopReason::Stop);
+        self.listen(now);
+        // The robot stops, or keeps still, before anything is planned.
+        if self.pending.is_some() || self.wish.is_some() {
             return None;
         }
+        let Some(said) = self.said.take() else { return self.written(engine) };
+        if self.reply(&said, engine) {
+            return None;
+        }
+        self.talk.memory.instruct(now, &said);
         let request = match added(&said) {
             Some(more) => format!("{} and {more}", self.task),
             None => said,
@@ -393,6 +471,9 @@ impl Observer for LiveRun<'_, '_> {
         match (result, next) {
             (Ok(retired), Some((answered, request))) => {
                 self.started.clear();
+                self.hold(false);
+                // The new policy goes on by itself.
+                self.wish = None;
                 self.talk.memory.policy(now, retired.revision() + 1, graph.clone());
                 self.watcher.swapped(now, None);
                 self.watcher.planned(&answered, graph);
@@ -414,65 +495,6 @@ impl Observer for LiveRun<'_, '_> {
 
     fn at_least_every(&self) -> Time {
         self.watcher.at_least_every()
-    }
-}
-
-/// The first step of a policy that is still being written.
-pub(super) struct EarlyStart {
-    /// Fate of the remaining steps, once it is known: a whole policy that could not take over at once, or
-    /// none.
-    pub(super) rest: Option<RemainingSteps>,
-    /// Bindings of the first step.
-    pub(super) bound: Vec<(SmolStr, Value)>,
-    pub(super) understood: Intent,
-}
-
-/// Continuation after a first step.
-pub(super) enum Continuation {
-    Done,
-    /// A person stopped the planning.
-    Stopped,
-    /// The rest of the policy.
-    Runs(Box<PlannedRequest>),
-    /// Another policy: the rest cannot be used.
-    PlansAnew,
-}
-
-impl EarlyStart {
-    pub(super) fn new(rest: Option<RemainingSteps>, answered: &PlannedRequest) -> Self {
-        Self { rest, bound: Vec::new(), understood: answered.understood.clone() }
-    }
-}
-
-impl Conversation<'_> {
-    /// Chooses the continuation after the first step of a policy has ended.
-    pub(super) fn after_first(
-        &self,
-        first: EarlyStart,
-        planner: &mut dyn Planner,
-        base: Option<[f64; 3]>,
-    ) -> Continuation {
-        let policy = match first.rest.unwrap_or_else(|| planner.rest(Wait::ToTheEnd)) {
-            RemainingSteps::Whole(policy) => policy,
-            RemainingSteps::Stopped => return Continuation::Stopped,
-            RemainingSteps::Nothing | RemainingSteps::Coming | RemainingSteps::Broken => {
-                return Continuation::PlansAnew;
-            }
-        };
-        let scene = self.known.scene(&self.setting.scene);
-        let session = self.session(&scene, &self.known, base);
-        let rest = without_first_step(&policy, &first.bound, session.library());
-        let Ok(rest) = rest else { return Continuation::PlansAnew };
-        let Some(rest) = rest else { return Continuation::Done };
-        match judge(&session, &rest) {
-            ReplyVerdict::Good { planned, changed, .. } if changed.is_empty() => {
-                Continuation::Runs(Box::new(PlannedRequest {
-                    understood: first.understood,
-                    planned: *planned,
-                }))
-            }
-            ReplyVerdict::Good { .. } | ReplyVerdict::Bad { .. } => Continuation::PlansAnew,
-        }
     }
 }
 
@@ -502,6 +524,17 @@ pub(super) fn sense(
             ask(fluents::AT, vec![is(Value::Entity(SmolStr::new_static(entities::ROBOT))), entity(&one.id)]);
         }
     }
+    self::ask(driver, queries, robot, now)
+}
+
+/// Asks a driver questions. Returns the answers in order, and the time after them, at most the card's
+/// `observe_within` later.
+pub(super) fn ask(
+    driver: &mut dyn Driver,
+    queries: Vec<Query>,
+    robot: &Robot,
+    now: Time,
+) -> (Vec<(Query, Truth)>, Time) {
     for query in &queries {
         driver.observe(now, query);
     }

@@ -8,7 +8,8 @@ use smol_str::SmolStr;
 
 use super::answer::{self, Answer};
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
-use super::live_run::{Continuation, LiveRun, RunResult, StopReason};
+use super::early_start::Continuation;
+use super::live_run::{LiveRun, RunResult, StopReason};
 use super::problem::{Kind, Problem};
 use crate::Planner;
 use crate::builtin::{PlanError, PlannedRequest};
@@ -53,6 +54,10 @@ impl Conversation<'_> {
         watcher: &mut dyn DialogueObserver,
         from: Time,
     ) -> (Outcome, Time) {
+        let scene = self.known.scene(&self.setting.scene);
+        if let Some(question) = motet_requests::question(request, &self.known.situation(&scene)) {
+            return self.reply(request, &question, (planner, person, watcher), driver, from);
+        }
         self.hear(request);
         self.memory.instruct(from, request);
         let mut manager = DialogueManager::new(self, (planner, person, watcher), request, from);
@@ -185,10 +190,12 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             Err(problem) => return RoundResult::Over(Outcome::Failed(problem)),
         };
         match (pending, &end) {
-            (Some(StopReason::Request(request)), _) => {
+            (Some(StopReason::Request(request)), end) => {
                 self.talk.hear(&request);
                 let before = std::mem::take(&mut self.task.request);
-                self.task = Task::new(request, Some(before));
+                // What came as the run ended follows it.
+                let before = Some(before).filter(|_| !matches!(end, RunEnd::Done { .. }));
+                self.task = Task::new(request, before);
                 return RoundResult::Round;
             }
             (Some(StopReason::Statement(located)), _) => {

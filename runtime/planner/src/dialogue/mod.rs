@@ -7,14 +7,16 @@
 
 mod answer;
 mod conversation;
+mod early_start;
 mod knowledge;
 mod live_run;
 mod manager;
 mod problem;
+mod reply;
 mod sight;
 
 pub use answer::Answer;
-pub use conversation::{Conversation, DialogueSetup, Outcome};
+pub use conversation::{Conversation, DialogueSetup, OnInstruction, Outcome};
 pub use conversation::{DialogueObserver, NoOperator, Person, RunRecorder};
 pub use knowledge::Knowledge;
 pub(crate) use problem::called;

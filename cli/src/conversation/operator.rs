@@ -1,9 +1,9 @@
 //! Operator of a conversation: a person at the terminal, a script, or nobody. Answers questions of the
 //! dialogue manager and of `ask` steps.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
-use std::io::{self, BufRead, IsTerminal};
+use std::io::{self, BufRead, IsTerminal, Write as _};
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
@@ -20,7 +20,7 @@ use smol_str::SmolStr;
 
 use super::planner::printable;
 use crate::error::CliError;
-use crate::output::note;
+use crate::output::{escape, note};
 use crate::runner::is_interrupted;
 
 /// Interval at which a waiting question checks for an interrupt.
@@ -31,7 +31,10 @@ pub(super) enum OperatorInput {
     /// A person; a thread reads their lines from stdin.
     Terminal {
         lines: RefCell<Receiver<String>>,
+        /// True if lines count when they come, also while the robot moves.
         is_live: bool,
+        /// True once no more lines can come.
+        is_over: Cell<bool>,
     },
     /// Lines of a file, in order.
     Script(RefCell<VecDeque<String>>),
@@ -40,10 +43,10 @@ pub(super) enum OperatorInput {
 
 impl OperatorInput {
     /// Reads the flag `--ask`.
-    pub(super) fn read(words: &[String]) -> Result<Self, CliError> {
+    pub(super) fn read(words: &[String], is_live: bool) -> Result<Self, CliError> {
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         match words.as_slice() {
-            [] | ["terminal"] => Ok(Self::terminal()),
+            [] | ["terminal"] => Ok(Self::terminal(is_live)),
             ["never"] => Ok(Self::Never),
             ["script", file] => {
                 let text = String::from_utf8_lossy(&read_small(Path::new(file))?).into_owned();
@@ -60,7 +63,7 @@ impl OperatorInput {
         }
     }
 
-    fn terminal() -> Self {
+    fn terminal(is_live: bool) -> Self {
         let (sender, lines) = mpsc::channel();
         thread::spawn(move || {
             for line in io::stdin().lock().lines() {
@@ -70,32 +73,63 @@ impl OperatorInput {
                 }
             }
         });
-        Self::Terminal { lines: RefCell::new(lines), is_live: io::stdin().is_terminal() }
+        let is_live = is_live || io::stdin().is_terminal();
+        Self::Terminal { lines: RefCell::new(lines), is_live, is_over: Cell::new(false) }
     }
 
-    /// Line that was typed without a question.
+    /// Line that was typed while the robot moves.
     pub(super) fn typed(&self) -> Option<String> {
-        let Self::Terminal { lines, is_live: true } = self else { return None };
+        let Self::Terminal { lines, is_live: true, is_over } = self else { return None };
         match lines.borrow().try_recv() {
             Ok(line) => Some(line).filter(|line| !line.trim().is_empty()),
-            Err(TryRecvError::Empty | TryRecvError::Disconnected) => None,
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => {
+                is_over.set(true);
+                None
+            }
         }
     }
 
-    fn answer(&self) -> Option<String> {
+    /// True if nobody can say anything more while the robot moves.
+    pub(super) fn is_over(&self) -> bool {
+        match self {
+            Self::Terminal { is_live, is_over, .. } => !is_live || is_over.get(),
+            Self::Script(_) | Self::Never => true,
+        }
+    }
+
+    /// Next line, which is waited for; `rest` is called meanwhile. `None` at the end, and after Ctrl-C.
+    pub(super) fn line(&self, rest: &mut dyn FnMut() -> Option<String>) -> Option<String> {
         match self {
             Self::Never => None,
-            Self::Script(answers) => answers.borrow_mut().pop_front(),
+            Self::Script(lines) => lines.borrow_mut().pop_front(),
             Self::Terminal { lines, .. } => loop {
                 match lines.borrow().recv_timeout(SLICE) {
                     Ok(line) if line.trim().is_empty() => {}
                     Ok(line) => return Some(line),
                     Err(RecvTimeoutError::Disconnected) => return None,
                     Err(RecvTimeoutError::Timeout) if is_interrupted() => return None,
-                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Timeout) => {
+                        if let Some(line) = rest() {
+                            return Some(line);
+                        }
+                    }
                 }
             },
         }
+    }
+
+    /// Shows a person at a terminal that it is their turn.
+    pub(super) fn prompt(&self) {
+        if self.is_echoed() {
+            // An error of stderr cannot be reported.
+            let _ = write!(io::stderr().lock(), "> ");
+        }
+    }
+
+    /// True if a person sees what they type.
+    pub(super) fn is_echoed(&self) -> bool {
+        matches!(self, Self::Terminal { .. }) && io::stdin().is_terminal()
     }
 }
 
@@ -116,9 +150,9 @@ pub(super) struct OperatorPrompt(pub(super) Rc<OperatorInput>);
 impl Person for OperatorPrompt {
     fn ask(&mut self, problem: &Problem) -> Option<String> {
         note(&question(problem));
-        let answer = self.0.answer();
-        if let (OperatorInput::Script(_), Some(answer)) = (&*self.0, &answer) {
-            note(&format!("> {answer}"));
+        let answer = self.0.line(&mut || None);
+        if let Some(answer) = answer.as_deref().filter(|_| !self.0.is_echoed()) {
+            note(&format!("> {}", escape(answer)));
         }
         answer
     }

@@ -7,21 +7,23 @@ use motet_client::{Client, ClientSettings, EncodedImage, Notation, ServerUrl};
 use motet_decode::export::Dialect;
 use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner, Role, Start};
-use motet_planner::{Builtin, PlanRequest, Planner, RemainingSteps, Wait};
+use motet_planner::runtime_check::CheckMode;
+use motet_planner::{Builtin, BuiltinBeside, PlanRequest, Planner, RemainingSteps, Wait};
 use motet_project::files::read_small;
 use serde_json::json;
 
-use super::flags::{DoArgs, ModelArgs};
+use super::flags::{ConversationArgs, ModelArgs};
 use super::record::ConversationRecord;
 use crate::command::grammar;
 use crate::error::CliError;
-use crate::flags::OutputFormat;
+use crate::flags::{OutputFormat, Speed};
 use crate::output::{Colors, note};
 use crate::runner::is_interrupted;
 
 /// Planner of the flags.
 pub(super) fn planner(
-    args: &DoArgs,
+    args: &ConversationArgs,
+    speed: Speed,
     colors: Colors,
     record: Option<ConversationRecord>,
 ) -> Result<Box<dyn Planner>, CliError> {
@@ -44,7 +46,11 @@ pub(super) fn planner(
             let why = format!("{flag} needs a model: give one with --planner URL, or leave {flag} out");
             return Err(CliError::Message(why));
         }
-        return Ok(Box::new(Builtin));
+        // In virtual time a plan takes no time, so that every run is the same.
+        return Ok(match speed.verifies() {
+            CheckMode::AtOnce => Box::new(Builtin),
+            CheckMode::Beside => Box::new(BuiltinBeside::default()),
+        });
     }
     let client = client(flags)?;
     let log = ModelLog {

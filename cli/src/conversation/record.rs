@@ -7,7 +7,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use motet::run::{journal_head, run_id};
+use motet::run::journal_head;
 use motet_host::journal::{JournalWriter, RunRecorder};
 use motet_planner::dialogue::RunRecorder as DialogueRecorder;
 use motet_runtime::journal::JournalHead;
@@ -104,12 +104,11 @@ pub(super) struct RunJournal {
 impl RunJournal {
     pub(super) fn new(
         record: ConversationRecord,
+        (run, request): (&str, &str),
         engine: &Engine,
         start: &StartState,
-        request: &str,
     ) -> Self {
-        let head =
-            JournalHead { instruction: Some(request.to_owned()), ..journal_head(&run_id(), engine, start) };
+        let head = JournalHead { instruction: Some(request.to_owned()), ..journal_head(run, engine, start) };
         Self { record, head }
     }
 }

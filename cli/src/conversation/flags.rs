@@ -1,4 +1,4 @@
-//! Flags of `motet do`.
+//! Flags of a conversation: those of `motet do` and of `motet talk`.
 
 use std::iter;
 use std::path::PathBuf;
@@ -7,41 +7,58 @@ use std::sync::LazyLock;
 
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum, value_parser};
+use motet_planner::dialogue::OnInstruction;
 use motet_runtime::Time;
 
-use crate::flags::{OutputFormat, ServerDialect, SessionArgs, SimulationArgs, duration};
+use crate::flags::{DriverArgs, OutputFormat, ServerDialect, SessionArgs, duration};
 
-/// Flags of `motet do`.
+/// Flags of a conversation.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  \
-    motet do 'bring me the coke' --robot hsr --scene kitchen\n  \
-    motet do 'bring me the mug' --robot hsr --scene kitchen --ask script answers.txt --speed max\n  \
-    motet do 'bring me the coke' --robot hsr --scene kitchen --planner http://localhost:8000 --model NAME\n\n\
-    A line typed while the robot moves is a new request and takes over at once.\n\
-    `--say '12s: bring me the apple instead'` types one after 12 s of the run.")]
-pub(crate) struct DoArgs {
-    /// Request in English
-    #[arg(value_name = "REQUEST")]
-    pub(super) request: String,
+pub(crate) struct ConversationArgs {
     #[command(flatten)]
     pub(super) session: SessionArgs,
-    /// Source of answers to questions: `terminal`, `never`, or `script FILE` with one answer per line
+    #[command(flatten)]
+    pub(super) driver: DriverArgs,
+    /// Source of a person's lines: `terminal` for stdin, `never`, or `script FILE` with one line each
     #[arg(long, num_args = 1..=2, value_names = ["terminal|script|never", "FILE"])]
     pub(super) ask: Vec<String>,
-    /// Request that is typed during the run, such as `12s: bring me the apple instead`; repeatable
+    /// Take lines of stdin as they come, also while the robot moves, as from a terminal
+    #[arg(long)]
+    pub(super) live: bool,
+    /// Line that is typed during the run, such as `12s: bring me the apple instead`; repeatable
     #[arg(long, value_name = "TIME: TEXT")]
     pub(super) say: Vec<ScheduledRequest>,
+    /// What a moving robot does while a new instruction is planned
+    #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
+    pub(super) on_instruction: InstructionArg,
     /// Write requests, policies, questions, outcomes and the journal of each run into this new folder
     #[arg(long, value_name = "FOLDER")]
     pub(super) record: Option<PathBuf>,
-    #[command(flatten)]
-    pub(super) simulation: SimulationArgs,
     /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(super) format: OutputFormat,
     // Last, since its heading holds for all flags after it.
     #[command(flatten)]
     pub(super) model: ModelArgs,
+}
+
+/// Behaviour of a moving robot while a new instruction is planned.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub(super) enum InstructionArg {
+    /// It goes on with what it does
+    #[default]
+    GoOn,
+    /// It keeps still until the new policy takes over
+    Pause,
+}
+
+impl From<InstructionArg> for OnInstruction {
+    fn from(flag: InstructionArg) -> Self {
+        match flag {
+            InstructionArg::GoOn => Self::GoOn,
+            InstructionArg::Pause => Self::Pause,
+        }
+    }
 }
 
 /// Model that plans.

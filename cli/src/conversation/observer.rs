@@ -15,23 +15,25 @@ use motet_runtime::{
 };
 use serde_json::json;
 
-use super::flags::{DoArgs, ModelArgs, ScheduledRequest};
+use super::flags::{ConversationArgs, ModelArgs, ScheduledRequest};
 use super::operator::OperatorInput;
 use super::planner::{client, printable};
 use super::record::{ConversationRecord, RunJournal};
-use crate::command::run::paced_view;
 use crate::error::CliError;
-use crate::flags::OutputFormat;
-use crate::output::{Colors, note};
-use crate::runner::{PacedView, is_interrupted};
+use crate::flags::{OutputFormat, Speed};
+use crate::output::{Colors, Output, escape, note};
+use crate::run_view::{Clock, view};
+use crate::runner::{PacedView, SLICE, is_interrupted};
 
 /// Interval at which scheduled requests are checked.
 const REQUEST_INTERVAL: Time = Time::from_nanos(100_000_000);
 
 /// Observer of a conversation.
 pub(super) struct RunObserver<'a> {
-    args: &'a DoArgs,
+    args: &'a ConversationArgs,
     colors: Colors,
+    /// Clock of the driver, and speed of the runs.
+    pace: (Clock, Speed),
     operator: Rc<OperatorInput>,
     record: Option<ConversationRecord>,
     request: String,
@@ -45,12 +47,17 @@ pub(super) struct RunObserver<'a> {
     /// View of the policy before.
     older: Option<PacedView>,
     is_swapping: bool,
+    /// True while a person holds the run.
+    is_held: bool,
+    /// Output of answers.
+    out: Output,
 }
 
 impl<'a> RunObserver<'a> {
     pub(super) fn new(
-        args: &'a DoArgs,
+        args: &'a ConversationArgs,
         colors: Colors,
+        pace: (Clock, Speed),
         operator: Rc<OperatorInput>,
         record: Option<ConversationRecord>,
     ) -> Self {
@@ -60,6 +67,7 @@ impl<'a> RunObserver<'a> {
         Self {
             args,
             colors,
+            pace,
             operator,
             record,
             request: String::new(),
@@ -69,6 +77,8 @@ impl<'a> RunObserver<'a> {
             next: None,
             older: None,
             is_swapping: false,
+            is_held: false,
+            out: Output::default(),
         }
     }
 
@@ -83,8 +93,9 @@ impl<'a> RunObserver<'a> {
         if self.args.format == OutputFormat::Human {
             note(&printable(text.trim_end()));
         }
-        let view = paced_view(self.args.format, graph, self.colors, &self.args.simulation);
-        self.older = self.view.replace(view);
+        let (clock, speed) = self.pace;
+        let view = view(self.args.format, graph, self.colors, clock);
+        self.older = self.view.replace(PacedView::new(view, speed));
     }
 
     /// Notes a request.
@@ -93,8 +104,8 @@ impl<'a> RunObserver<'a> {
         request.clone_into(&mut self.request);
     }
 
-    /// Notes the outcome of the conversation.
-    pub(super) fn finish(mut self, outcome: &Outcome) -> Result<(), CliError> {
+    /// Notes the outcome of a request.
+    pub(super) fn outcome(&mut self, outcome: &Outcome) {
         let word = match outcome {
             Outcome::Done => "done",
             Outcome::Declined(_) => "declined",
@@ -103,14 +114,45 @@ impl<'a> RunObserver<'a> {
             Outcome::Failed(_) => "failed",
         };
         self.write("outcome", json!({"outcome": word}));
+    }
+
+    /// Ends the record.
+    pub(super) fn finish(self) -> Result<(), CliError> {
         self.record.map_or(Ok(()), ConversationRecord::finish)
+    }
+
+    /// Says something to the person.
+    pub(super) fn say(&mut self, question: &str, answer: &str) {
+        let line = match self.args.format {
+            OutputFormat::Human => printable(answer),
+            OutputFormat::Json => {
+                json!({"event": "answered", "question": question, "answer": answer}).to_string()
+            }
+        };
+        self.out.line(&line);
     }
 }
 
 impl DialogueObserver for RunObserver<'_> {
-    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
+    fn scribe(&mut self, run: &str, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
         let record = self.record.clone()?;
-        Some(Box::new(RunJournal::new(record, engine, start, &self.request)))
+        Some(Box::new(RunJournal::new(record, (run, &self.request), engine, start)))
+    }
+
+    fn held(&mut self, is_held: bool) {
+        self.is_held = is_held;
+        note(if is_held { "  keeps still; `go on` lets it go on" } else { "  goes on" });
+        self.write(if is_held { "held" } else { "proceeded" }, json!({}));
+    }
+
+    fn answered(&mut self, question: &str, answer: Option<&str>) {
+        self.write("answered", json!({"question": question, "answer": answer}));
+        match answer {
+            Some(answer) => self.say(question, answer),
+            // In the middle of a run nothing else tells that nobody knows.
+            None if self.view.is_some() => self.say(question, "I do not know."),
+            None => {}
+        }
     }
 
     fn planned(&mut self, answered: &PlannedRequest, graph: &Arc<Graph>) {
@@ -145,7 +187,17 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn reached(&mut self, now: Time) -> RunControl {
-        self.view.as_mut().map_or(RunControl::Continue, |view| view.reached(now))
+        let control = self.view.as_mut().map_or(RunControl::Continue, |view| view.reached(now));
+        if self.is_held && self.scheduled.is_empty() && control == RunControl::Continue {
+            if self.operator.is_over() {
+                note("  stopped: nobody is there who could let it go on");
+                return RunControl::Stop;
+            }
+            if self.pace.1 == Speed::Max {
+                std::thread::sleep(SLICE);
+            }
+        }
+        control
     }
 
     fn at_least_every(&self) -> Time {
@@ -154,7 +206,7 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn verifies(&self) -> CheckMode {
-        self.args.simulation.speed().verifies()
+        self.pace.1.verifies()
     }
 
     fn is_stopped(&self) -> bool {
@@ -164,6 +216,9 @@ impl DialogueObserver for RunObserver<'_> {
     fn request(&mut self, now: Time) -> Option<String> {
         let due = self.scheduled.pop_if(|request| request.at <= now).map(|request| request.text);
         let line = due.or_else(|| self.operator.typed())?;
+        if !self.operator.is_echoed() {
+            note(&format!("> {}", escape(&line)));
+        }
         self.requested(&line);
         Some(line)
     }
@@ -179,6 +234,7 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn ended(&mut self, _now: Time, end: &RunEnd) {
+        self.is_held = false;
         if let Some(mut view) = self.view.take() {
             view.finish(end);
         }

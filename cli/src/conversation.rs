@@ -1,0 +1,152 @@
+//! A conversation with a robot on any driver: `motet do` is one of a single request, `motet talk` one of many.
+
+mod flags;
+mod observer;
+mod operator;
+mod planner;
+mod record;
+
+use std::rc::Rc;
+
+use motet::run::run_id;
+use motet_planner::dialogue::{Conversation, DialogueSetup, Outcome};
+use motet_runtime::{Driver, Time};
+
+pub(crate) use flags::ConversationArgs;
+use observer::RunObserver;
+use operator::{AskingDriver, OperatorInput, OperatorPrompt};
+use record::ConversationRecord;
+
+use crate::error::{CliError, Exit};
+use crate::flags::OutputFormat;
+use crate::output::{Colors, escape, note};
+use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
+use crate::report::Report;
+use crate::runner::{catch_interrupts, is_interrupted};
+
+/// Carries out one request, or without one every line of a person until there are no more.
+pub(crate) fn converse(
+    request: Option<&str>,
+    args: &ConversationArgs,
+    colors: Colors,
+    report: &mut Report,
+) -> Result<Exit, CliError> {
+    args.driver.refuse_flags()?;
+    let mut project = args.session.project().open_with(report)?;
+    let opened = project.session(report)?;
+    let Some(robot) = opened.robot.clone() else {
+        return Err(CliError::Message("a request needs a robot: give --robot NAME".to_owned()));
+    };
+    let operator = Rc::new(OperatorInput::read(&args.ask, args.live)?);
+    let record = args.record.as_deref().map(ConversationRecord::create).transpose()?;
+    let run = run_id();
+    let subject = RunSubject { run: &run, policy: None, opened };
+    let ready = open_driver(&args.driver, &args.session.environment, &subject, report)?;
+    if args.model.camera && !ready.driver.capabilities().look {
+        return Err(CliError::Message("--camera needs a driver that takes pictures".to_owned()));
+    }
+    let setting = DialogueSetup {
+        robot,
+        scene: opened.scene.clone().unwrap_or_default(),
+        domains: opened.domains.clone(),
+        geometry: opened.geometry.clone(),
+        options: motet_compiler::CheckOptions { max_duration_secs: args.session.max_duration },
+    };
+    let mut planner = planner::planner(args, ready.speed, colors, record.clone())?;
+    catch_interrupts()?;
+    let ReadyDriver { mut driver, eyes, clock, speed, settings, .. } = ready;
+    let mut talk = Conversation::new(&setting).with_runs(&run, settings, args.on_instruction.into());
+    talk.tell(opened.told_facts());
+    let mut asking;
+    // The simulated person of a script answers the questions of policies.
+    let robot: &mut dyn Driver = if args.driver.answers.is_none() {
+        asking = AskingDriver::new(&mut *driver, Rc::clone(&operator), &setting.scene);
+        &mut asking
+    } else {
+        &mut *driver
+    };
+    let mut sight;
+    let mut pointing;
+    let robot: &mut dyn Driver = if args.model.camera {
+        talk = talk.with_eyes(eyes.clone());
+        sight = eyes;
+        let is_shown = args.format == OutputFormat::Human;
+        let log = observer::PointLog { is_shown, record: record.clone() };
+        pointing = observer::pointing(&args.model, robot, &mut sight, &setting.scene, log)?;
+        &mut pointing
+    } else {
+        robot
+    };
+    let mut observer = RunObserver::new(args, colors, (clock, speed), Rc::clone(&operator), record);
+    let mut prompt = OperatorPrompt(Rc::clone(&operator));
+    let mut now = Time::ZERO;
+    let mut exit = Exit::Success;
+    let mut next = request.map(ToOwned::to_owned);
+    loop {
+        let line = match next.take() {
+            Some(line) => line,
+            None if request.is_some() => break,
+            None => match next_line(&operator, robot, &mut now) {
+                Some(line) => line,
+                None => break,
+            },
+        };
+        observer.requested(&line);
+        if request.is_none() && idle_words(&line, &mut talk, &mut observer) {
+            continue;
+        }
+        let (outcome, after) = talk.carry_out(&line, &mut *planner, robot, &mut prompt, &mut observer, now);
+        now = after;
+        observer.outcome(&outcome);
+        exit = exit.or_worse(exit_of(&outcome));
+    }
+    if is_interrupted() {
+        exit = Exit::Interrupted;
+    }
+    observer.finish()?;
+    Ok(exit)
+}
+
+/// Next line of the person, or words that the driver heard. The driver is looked after meanwhile.
+fn next_line(operator: &OperatorInput, robot: &mut dyn Driver, now: &mut Time) -> Option<String> {
+    operator.prompt();
+    let line = operator.line(&mut || {
+        *now = robot.rest(*now);
+        robot.heard().map(|heard| heard.text.to_string())
+    })?;
+    if !operator.is_echoed() {
+        note(&format!("> {}", escape(&line)));
+    }
+    Some(line)
+}
+
+/// Takes in a line that asks for nothing: a statement, or words for a moving robot while none moves.
+fn idle_words(line: &str, talk: &mut Conversation<'_>, observer: &mut RunObserver<'_>) -> bool {
+    let is_control =
+        motet_requests::stops(line) || motet_requests::holds(line) || motet_requests::proceeds(line);
+    if is_control {
+        observer.say(line, "I am not moving.");
+    } else if talk.note(line) {
+        observer.say(line, "I take note of that.");
+    } else {
+        return false;
+    }
+    true
+}
+
+/// Exit code of an outcome, whose reason is printed.
+fn exit_of(outcome: &Outcome) -> Exit {
+    match outcome {
+        Outcome::Done => return Exit::Success,
+        Outcome::Stopped if is_interrupted() => return Exit::Interrupted,
+        Outcome::Stopped => note("stopped"),
+        Outcome::Declined(why) => {
+            note(&format!("declined{}{}", if why.is_empty() { "" } else { ": " }, escape(why)));
+        }
+        Outcome::GivenUp => note("given up"),
+        Outcome::Failed(problem) => {
+            note(&format!("not done ({}): {}", problem.kind.name(), escape(&problem.question)));
+        }
+    }
+    Exit::Failed
+}

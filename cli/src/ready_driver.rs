@@ -1,0 +1,182 @@
+//! Driver that is ready for runs: the simulator in this process, or a connection to another process.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use motet_graph::Graph;
+use motet_host::remote::protocol::{Hello, StateFact};
+use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
+use motet_project::{ProjectSession, SavedDriver, SavedProject, named_robot};
+use motet_runtime::{CameraImage, Driver, DriverClock, EngineSettings, Perception, RgbdView, Time, Truth};
+use motet_sim::Sim;
+use motet_syntax::Parsed;
+use motet_syntax::ast::File;
+
+use crate::error::CliError;
+use crate::flags::{DriverArgs, EnvironmentArgs, Speed};
+use crate::output::note;
+use crate::report::Report;
+use crate::run_view::Clock;
+use crate::runner::connect;
+
+/// Driver that is ready for runs.
+pub(crate) struct ReadyDriver {
+    pub(crate) driver: Box<dyn Driver>,
+    pub(crate) eyes: Eyes,
+    /// Description for the journal of a run; `None` where no policy was given.
+    pub(crate) saved: Option<SavedDriver>,
+    pub(crate) clock: Clock,
+    pub(crate) speed: Speed,
+    pub(crate) settings: EngineSettings,
+}
+
+/// Subject of the runs.
+pub(crate) struct RunSubject<'a> {
+    /// Id of the first run.
+    pub(crate) run: &'a str,
+    /// Policy of the only run; `None` before a conversation.
+    pub(crate) policy: Option<(&'a Graph, &'a Parsed)>,
+    pub(crate) opened: &'a ProjectSession,
+}
+
+/// Pictures of a driver.
+#[derive(Clone)]
+pub(crate) enum Eyes {
+    Simulator(Rc<RefCell<Sim>>),
+    Process(Rc<RefCell<RemoteDriver>>),
+}
+
+impl Perception for Eyes {
+    fn image(&mut self, now: Time) -> Option<CameraImage> {
+        match self {
+            Self::Simulator(simulator) => simulator.image(now),
+            Self::Process(driver) => Some(driver.look(now, None)?.image),
+        }
+    }
+
+    fn view(&mut self, now: Time, of: &str) -> Option<RgbdView> {
+        match self {
+            Self::Simulator(simulator) => simulator.view(now, of),
+            Self::Process(driver) => driver.look(now, None),
+        }
+    }
+}
+
+/// Opens the driver of the flags.
+pub(crate) fn open_driver(
+    args: &DriverArgs,
+    environment: &EnvironmentArgs,
+    subject: &RunSubject<'_>,
+    report: &mut Report,
+) -> Result<ReadyDriver, CliError> {
+    let none = File::default();
+    let file = subject.policy.map_or(&none, |(_, parsed)| &parsed.file);
+    match address(args, environment, file)? {
+        Some(address) => remote(&address, args, subject),
+        None => kinematic(args, subject, report),
+    }
+}
+
+/// Address of the driver; `None` for the simulator in this process. Robot and scene are those of the flags, or
+/// the robot that the document names.
+pub(crate) fn address(
+    args: &DriverArgs,
+    environment: &EnvironmentArgs,
+    document: &File,
+) -> Result<Option<DriverAddress>, CliError> {
+    let robot = environment.robot.clone().or_else(|| named_robot(document));
+    args.driver.address(robot.as_deref(), environment.scene.as_deref(), args)
+}
+
+/// Simulator in this process. Its world is that of the scene and the state.
+fn kinematic(
+    args: &DriverArgs,
+    subject: &RunSubject<'_>,
+    report: &mut Report,
+) -> Result<ReadyDriver, CliError> {
+    let opened = subject.opened;
+    let named = subject.policy.and_then(|(_, parsed)| named_robot(&parsed.file));
+    let (Some(robot), Some(files)) = (&opened.robot, &opened.files) else { return Err(no_robot(named)) };
+    let eye = opened.geometry.as_ref().and_then(|geometry| geometry.eye());
+    let inputs = args.inputs(eye, report)?;
+    inputs.check_names(&opened.session.signatures())?;
+    let (options, saved) = match subject.policy {
+        Some((graph, parsed)) => {
+            let declarations: Vec<_> = opened.domains.iter().chain([&parsed.file]).collect();
+            let options = inputs.for_policy(graph, &declarations).with_facts(opened.told_facts());
+            let (text, project) = (opened.scene_text.clone(), SavedProject::of(opened));
+            let saved = SavedDriver::simulator(files, text, &options, project);
+            (options, Some(saved))
+        }
+        None => (inputs.without_policy().with_facts(opened.told_facts()), None),
+    };
+    let scene = opened.scene.clone().unwrap_or_default();
+    let simulator = Rc::new(RefCell::new(Sim::new(robot, &scene, options)));
+    Ok(ReadyDriver {
+        driver: Box::new(Rc::clone(&simulator)),
+        eyes: Eyes::Simulator(simulator),
+        saved,
+        clock: Clock::Simulated,
+        speed: args.speed(),
+        settings: EngineSettings::default(),
+    })
+}
+
+/// Driver in another process.
+fn remote(
+    address: &DriverAddress,
+    args: &DriverArgs,
+    subject: &RunSubject<'_>,
+) -> Result<ReadyDriver, CliError> {
+    let RunSubject { run, policy, opened } = subject;
+    let facts = opened.told_facts();
+    let known = facts.into_iter().filter_map(|(query, truth)| match truth {
+        Truth::True => Some(StateFact { query, holds: true }),
+        Truth::False => Some(StateFact { query, holds: false }),
+        Truth::Unknown => None,
+    });
+    let hello = match policy {
+        Some((graph, _)) => Hello::of(graph, run),
+        None => {
+            let robot = opened.robot.as_ref().map(|robot| robot.name.to_string()).unwrap_or_default();
+            Hello { run: (*run).to_owned(), robot, ..Hello::default() }
+        }
+    };
+    let hello = Hello { state: known.collect(), ..hello };
+    let has_state = !hello.state.is_empty();
+    let driver = connect(address, hello, Time::ZERO)?;
+    let (clock, speed) = match (driver.capabilities().clock, args.speed) {
+        (DriverClock::Driver, _) => (Clock::Simulated, args.speed()),
+        (DriverClock::Wall, None) => (Clock::Wall, Speed::Times(1.0)),
+        (DriverClock::Wall, Some(_)) => {
+            let why =
+                "this driver goes by the clock on the wall: `--speed` is for drivers that own the clock";
+            return Err(CliError::Message(why.to_owned()));
+        }
+    };
+    if has_state && !driver.capabilities().state {
+        note("note: the driver does not take `--state`: only the check and the plans begin from it");
+    }
+    let saved =
+        policy.map(|_| SavedDriver::process(address, &driver.welcome().instance, SavedProject::of(opened)));
+    // A safe stop may take as long as it takes to reach a silent driver again.
+    let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
+    let settings =
+        EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() };
+    let driver = Rc::new(RefCell::new(driver));
+    let eyes = Eyes::Process(Rc::clone(&driver));
+    Ok(ReadyDriver { driver: Box::new(driver), eyes, saved, clock, speed, settings })
+}
+
+fn no_robot(wanted: Option<String>) -> CliError {
+    match wanted {
+        Some(name) => CliError::Unknown {
+            what: "built-in robot",
+            name,
+            help: "give the folder of its card with --robot FOLDER".to_owned(),
+        },
+        None => CliError::Message(
+            "a run needs a robot: give --robot NAME, or write `for NAME` after the policy's name".to_owned(),
+        ),
+    }
+}

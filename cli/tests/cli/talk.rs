@@ -1,0 +1,165 @@
+//! `motet talk` and `motet do` on any driver: requests, questions, and words while the robot moves.
+
+use crate::driver::{Echo, has_python};
+use crate::support::{Place, Ran};
+use serde_json::Value;
+
+const WORLD: &str = "--robot hsr --scene kitchen --no-geometry --profile ideal";
+
+/// A session of piped lines.
+fn talk(place: &Place, flags: &str, lines: &[&str]) -> Ran {
+    place.run_with(&format!("talk {WORLD} {flags}"), lines.join("\n").as_bytes(), &[])
+}
+
+/// A request with further words of the command line.
+fn request(place: &Place, request: &str, flags: &[&str]) -> Ran {
+    let mut args: Vec<String> = ["do", request].map(str::to_owned).into();
+    args.extend(WORLD.split(' ').map(str::to_owned));
+    args.extend(flags.iter().map(|flag| (*flag).to_owned()));
+    place.run_args(&args)
+}
+
+#[test]
+fn a_session_remembers_what_was_done_and_answers_questions() {
+    let place = Place::new("talk_session");
+    let lines = [
+        "What do you hold?",
+        "where is the coke?",
+        "what did you do?",
+        "pick up the coke",
+        "what do you hold?",
+        "is the coke on the counter?",
+        "what did you do?",
+        "the apple is on the counter",
+        "where is the apple?",
+        "wait",
+    ];
+    let ran = talk(&place, "--speed max", &lines);
+    ran.check(
+        0,
+        &[
+            "err:> where is the coke?",
+            "out:I hold nothing.",
+            "out:The coke can is on the kitchen counter.",
+            "out:I have done nothing yet.",
+            "out:✓ pick(coke)",
+            "out:I hold the coke can.",
+            "out:No. I hold the coke can.",
+            "out:I looked for the coke can, and then picked up the coke can.",
+            "out:I take note of that.",
+            "out:The green apple is on the kitchen counter.",
+            "out:I am not moving.",
+        ],
+    );
+}
+
+#[test]
+fn a_session_ends_with_its_input_and_says_what_was_not_done() {
+    let place = Place::new("talk_codes").file("lines.txt", "where is the coke?\n");
+    talk(&place, "--speed max", &[]).check(0, &[]);
+    for (line, texts) in [
+        ("where is the teddy?", &["err:not done (not_found): I know of no teddy here."][..]),
+        ("juggle with the coke", &["err:not done (ambiguous_task)"]),
+    ] {
+        talk(&place, "--speed max", &[line]).check(3, texts);
+    }
+    // One failure is enough, whatever follows.
+    talk(&place, "--speed max", &["where is the teddy?", "", "where is the coke?"])
+        .check(3, &["out:The coke can is on the kitchen counter."]);
+    place
+        .run(&format!("talk {WORLD} --ask script lines.txt --format json"))
+        .check(0, &["out:\"answer\":\"The coke can is on the kitchen counter.\""]);
+    request(&place, "is the fridge closed?", &[]).check(0, &["out:Yes, the refrigerator is closed."]);
+    request(&place, "where is the teddy?", &["--ask", "never"]).check(3, &[]);
+}
+
+#[test]
+fn words_stop_and_hold_a_robot_at_every_speed() {
+    let place = Place::new("talk_words");
+    let bring = |flags: &[&str]| request(&place, "bring me the coke", &[&["--ask", "never"], flags].concat());
+    for speed in ["max", "40"] {
+        let ran = bring(&["--speed", speed, "--say", "2s: stop"]);
+        ran.check(3, &["out:interrupted", "err:given up", "err:> stop"]);
+        if speed == "max" {
+            ran.check(3, &["out:\n  2.0 s of simulated time"]);
+        }
+    }
+    let ended = |ran: &Ran| -> f64 {
+        let end =
+            ran.check(0, &[]).stdout.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+        end.last().unwrap()["at"].as_f64().unwrap()
+    };
+    let flags = ["--speed", "max", "--format", "json"];
+    let plain = ended(&bring(&flags));
+    let held = bring(&[&flags[..], &["--say", "2s: wait", "--say", "12s: go on"]].concat());
+    held.check(0, &["err:keeps still", "err:goes on"]);
+    let late = ended(&held) - plain;
+    assert!((9.5..10.6).contains(&late), "{late} s");
+    bring(&["--speed", "max", "--say", "2s: wait"])
+        .check(3, &["err:stopped: nobody is there who could let it go on"]);
+    bring(&["--speed", "max", "--say", "2s: where is the apple?"])
+        .check(0, &["out:The green apple is on the", "out:handover(coke"]);
+    for pause in ["go-on", "pause"] {
+        let flags = ["--speed", "max", "--say", "4s: bring me the apple instead", "--on-instruction", pause];
+        let ran = bring(&flags);
+        ran.check(0, &["out:✓ handover(apple, user)"]);
+        assert_eq!(ran.stderr.contains("keeps still"), pause == "pause", "{ran:#?}");
+    }
+}
+
+#[test]
+fn a_robot_on_a_port_is_talked_with() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("talk_port");
+    for clock in ["wall", "driver"] {
+        let mut echo = Echo::start_with(&["--seconds", "0.05", "--clock", clock]);
+        let driver = format!("--driver {}", echo.address());
+        // Several runs on one connection, then others on connections of their own.
+        let ran =
+            talk(&place, &driver, &["go to the counter", "go to the kitchen table", "what did you do?"]);
+        ran.check(0, &["out:✓ go(counter)", "out:✓ go(kitchen_table)", "out:I went to"]);
+        request(&place, "go to the counter", &driver.split(' ').collect::<Vec<_>>())
+            .check(0, &["out:✓ go(counter)"]);
+        let state = [&driver.split(' ').collect::<Vec<_>>()[..], &["--state", "{\"free(hand)\": true}"]];
+        request(&place, "go to the counter", &state.concat())
+            .check(0, &["err:the driver does not take `--state`"]);
+    }
+    request(&place, "go to the counter", &["--driver", "tcp://127.0.0.1:1"])
+        .check(2, &["err:the driver cannot be reached"]);
+    request(&place, "go to the counter", &["--driver", "cat", "--profile", "harsh"])
+        .check(2, &["err:`--profile`"]);
+}
+
+#[test]
+fn a_state_reaches_plans_and_worlds() {
+    let place = Place::new("talk_state").file(
+        "good.motet",
+        "policy put for hsr {\n    go(counter)\n    \
+        place(coke, counter)\n}\n",
+    );
+    let state = r#"{"holding(coke)": true, "free(hand)": false, "on(coke, counter)": false}"#;
+    let place = place.file("held.json", state);
+    let ran =
+        request(&place, "put the coke on the kitchen table", &["--speed", "max", "--state", "held.json"]);
+    ran.check(0, &["out:✓ place(coke, kitchen_table)"]);
+    assert!(!ran.stdout.contains("pick("), "{ran:#?}");
+    talk(&place, "--speed max --state held.json", &["what do you hold?"])
+        .check(0, &["out:I hold the coke can."]);
+    place.run(&format!("check good.motet {WORLD_CHECK} --state held.json")).check(0, &[]);
+    place
+        .run(&format!("run good.motet {WORLD} --speed max --state held.json"))
+        .check(0, &["out:✓ place(coke"]);
+    let plan = place.run_args(&[
+        "plan".to_owned(),
+        "put it on the kitchen table".to_owned(),
+        "--robot=hsr".to_owned(),
+        "--scene=kitchen".to_owned(),
+        "--no-geometry".to_owned(),
+        "--state=held.json".to_owned(),
+    ]);
+    plan.check(0, &["out:place(coke, kitchen_table)"]);
+}
+
+const WORLD_CHECK: &str = "--robot hsr --scene kitchen --no-geometry";
