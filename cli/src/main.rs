@@ -10,6 +10,7 @@ mod ready_driver;
 mod report;
 mod run_view;
 mod runner;
+mod typed_line;
 
 use std::process::ExitCode;
 

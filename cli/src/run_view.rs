@@ -31,6 +31,8 @@ pub(crate) trait View {
     fn effect(&mut self, now: Time, effect: &Effect);
     /// Takes an effect from before this process began: it updates the state but prints nothing.
     fn past(&mut self, now: Time, effect: &Effect);
+    /// Goes on below what something else has printed.
+    fn go_below(&mut self) {}
     /// Ends the view, since another view shows the policy that takes over.
     fn leave(&mut self, _now: Time) {}
     /// Takes an effect of this view's policy after the view has ended.

@@ -20,6 +20,7 @@ use crate::error::{CliError, Exit};
 use crate::flags::Speed;
 use crate::output::{escape, note};
 use crate::run_view::View;
+use crate::typed_line;
 
 /// Interval at which a waiting run checks for an interrupt.
 pub(crate) const SLICE: Duration = Duration::from_millis(50);
@@ -31,6 +32,7 @@ static PRESSED: AtomicU32 = AtomicU32::new(0);
 pub(crate) fn catch_interrupts() -> Result<(), CliError> {
     ctrlc::set_handler(|| {
         if PRESSED.fetch_add(1, Ordering::SeqCst) > 0 {
+            typed_line::restore();
             std::process::exit(130);
         }
     })
@@ -73,6 +75,11 @@ impl PacedView {
     pub(crate) fn past(&mut self, now: Time, effects: &[Effect]) {
         self.now = now;
         effects.iter().for_each(|effect| self.view.past(now, effect));
+    }
+
+    /// Lets the view go on below what was printed meanwhile.
+    pub(crate) fn go_below(&mut self) {
+        self.view.go_below();
     }
 
     /// Ends the view, since another one shows the policy that takes over.

@@ -216,7 +216,8 @@ impl Motet {
         let graph = policy.graph.clone();
         let mut engine = run::engine(graph, &start, capabilities, guard.as_ref(), EngineSettings::default())?;
         let mut observer = run::Guarded::new(observer, guard);
-        Ok(motet_runtime::run(&mut engine, driver, &mut observer, Time::ZERO))
+        let from = driver.begin_run(Time::ZERO, &run::run_id(), Some(engine.graph()));
+        Ok(motet_runtime::run(&mut engine, driver, &mut observer, from))
     }
 }
 

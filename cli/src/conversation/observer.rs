@@ -130,6 +130,12 @@ impl<'a> RunObserver<'a> {
             }
         };
         self.out.line(&line);
+        self.go_below();
+    }
+
+    /// Lets the view go on below what was printed.
+    fn go_below(&mut self) {
+        self.view.iter_mut().for_each(PacedView::go_below);
     }
 }
 
@@ -142,6 +148,7 @@ impl DialogueObserver for RunObserver<'_> {
     fn held(&mut self, is_held: bool) {
         self.is_held = is_held;
         note(if is_held { "  keeps still; `go on` lets it go on" } else { "  goes on" });
+        self.go_below();
         self.write(if is_held { "held" } else { "proceeded" }, json!({}));
     }
 
@@ -216,9 +223,9 @@ impl DialogueObserver for RunObserver<'_> {
     fn request(&mut self, now: Time) -> Option<String> {
         let due = self.scheduled.pop_if(|request| request.at <= now).map(|request| request.text);
         let line = due.or_else(|| self.operator.typed())?;
-        if !self.operator.is_echoed() {
-            note(&format!("> {}", escape(&line)));
-        }
+        // A line that is typed below a view goes with the next drawing.
+        note(&format!("> {}", escape(&line)));
+        self.go_below();
         self.requested(&line);
         Some(line)
     }

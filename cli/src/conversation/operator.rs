@@ -22,6 +22,7 @@ use super::planner::printable;
 use crate::error::CliError;
 use crate::output::{escape, note};
 use crate::runner::is_interrupted;
+use crate::typed_line::{self, LetterReader};
 
 /// Interval at which a waiting question checks for an interrupt.
 const SLICE: Duration = Duration::from_millis(50);
@@ -35,6 +36,8 @@ pub(super) enum OperatorInput {
         is_live: bool,
         /// True once no more lines can come.
         is_over: Cell<bool>,
+        /// Reader of letters, at a terminal.
+        letters: Option<LetterReader>,
     },
     /// Lines of a file, in order.
     Script(RefCell<VecDeque<String>>),
@@ -65,21 +68,24 @@ impl OperatorInput {
 
     fn terminal(is_live: bool) -> Self {
         let (sender, lines) = mpsc::channel();
-        thread::spawn(move || {
-            for line in io::stdin().lock().lines() {
-                let Ok(line) = line else { return };
-                if sender.send(line).is_err() {
-                    return;
+        let letters = typed_line::read(&sender);
+        if letters.is_none() {
+            thread::spawn(move || {
+                for line in io::stdin().lock().lines() {
+                    let Ok(line) = line else { return };
+                    if sender.send(line).is_err() {
+                        return;
+                    }
                 }
-            }
-        });
+            });
+        }
         let is_live = is_live || io::stdin().is_terminal();
-        Self::Terminal { lines: RefCell::new(lines), is_live, is_over: Cell::new(false) }
+        Self::Terminal { lines: RefCell::new(lines), is_live, is_over: Cell::new(false), letters }
     }
 
     /// Line that was typed while the robot moves.
     pub(super) fn typed(&self) -> Option<String> {
-        let Self::Terminal { lines, is_live: true, is_over } = self else { return None };
+        let Self::Terminal { lines, is_live: true, is_over, .. } = self else { return None };
         match lines.borrow().try_recv() {
             Ok(line) => Some(line).filter(|line| !line.trim().is_empty()),
             Err(TryRecvError::Empty) => None,
@@ -121,9 +127,13 @@ impl OperatorInput {
 
     /// Shows a person at a terminal that it is their turn.
     pub(super) fn prompt(&self) {
-        if self.is_echoed() {
-            // An error of stderr cannot be reported.
-            let _ = write!(io::stderr().lock(), "> ");
+        match self {
+            Self::Terminal { letters: Some(_), .. } => typed_line::show(),
+            Self::Terminal { .. } if self.is_echoed() => {
+                // An error of stderr cannot be reported.
+                let _ = write!(io::stderr().lock(), "> ");
+            }
+            Self::Terminal { .. } | Self::Script(_) | Self::Never => {}
         }
     }
 
@@ -150,6 +160,7 @@ pub(super) struct OperatorPrompt(pub(super) Rc<OperatorInput>);
 impl Person for OperatorPrompt {
     fn ask(&mut self, problem: &Problem) -> Option<String> {
         note(&question(problem));
+        self.0.prompt();
         let answer = self.0.line(&mut || None);
         if let Some(answer) = answer.as_deref().filter(|_| !self.0.is_echoed()) {
             note(&format!("> {}", escape(answer)));

@@ -9,6 +9,7 @@ use motet_runtime::{Effect, Event, NodeEnding, RunEnd, Time, TraceEvent, TraceEv
 use super::tree::{Row, Status, Tree};
 use super::{Clock, View, duration, mark, paint, summary};
 use crate::output::Output;
+use crate::typed_line;
 
 /// Minimum time between two drawings.
 const FRAME: Duration = Duration::from_millis(60);
@@ -56,6 +57,10 @@ impl Screen {
         }
         if after > 0 {
             push(&paint(&format!("  … {after} below"), Status::Pending, self.is_colored));
+        }
+        if let Some(typed) = typed_line::current() {
+            typed_line::set_drawn(true);
+            push(&format!("> {typed}"));
         }
         self.drawn = lines;
         self.out.text(&text);
@@ -114,6 +119,10 @@ impl View for Screen {
         }
     }
 
+    fn go_below(&mut self) {
+        self.drawn = 0;
+    }
+
     fn leave(&mut self, now: Time) {
         self.draw(now);
     }
@@ -134,6 +143,7 @@ impl View for Screen {
 
     fn finish(&mut self, now: Time, end: &RunEnd) {
         self.draw(now);
+        typed_line::set_drawn(false);
         let text = summary(&self.graph, &self.tree, (now, self.clock), end, self.is_colored);
         self.out.line(&format!("\n{text}"));
     }

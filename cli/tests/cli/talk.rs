@@ -6,7 +6,7 @@ use serde_json::Value;
 
 const WORLD: &str = "--robot hsr --scene kitchen --no-geometry --profile ideal";
 
-/// A session of piped lines.
+/// A conversation of piped lines.
 fn talk(place: &Place, flags: &str, lines: &[&str]) -> Ran {
     place.run_with(&format!("talk {WORLD} {flags}"), lines.join("\n").as_bytes(), &[])
 }
@@ -20,8 +20,8 @@ fn request(place: &Place, request: &str, flags: &[&str]) -> Ran {
 }
 
 #[test]
-fn a_session_remembers_what_was_done_and_answers_questions() {
-    let place = Place::new("talk_session");
+fn a_conversation_remembers_what_was_done_and_answers_questions() {
+    let place = Place::new("talk_memory");
     let lines = [
         "What do you hold?",
         "where is the coke?",
@@ -54,7 +54,7 @@ fn a_session_remembers_what_was_done_and_answers_questions() {
 }
 
 #[test]
-fn a_session_ends_with_its_input_and_says_what_was_not_done() {
+fn a_conversation_ends_with_its_input_and_says_what_was_not_done() {
     let place = Place::new("talk_codes").file("lines.txt", "where is the coke?\n");
     talk(&place, "--speed max", &[]).check(0, &[]);
     for (line, texts) in [
@@ -163,3 +163,54 @@ fn a_state_reaches_plans_and_worlds() {
 }
 
 const WORLD_CHECK: &str = "--robot hsr --scene kitchen --no-geometry";
+
+/// A terminal: what is typed while the robot moves is shown, and the terminal is left as it was.
+const TERMINAL: &str = r#"
+import os, pty, select, subprocess, sys, termios, time
+
+main, side = pty.openpty()
+before = termios.tcgetattr(side)
+talk = subprocess.Popen(sys.argv[1:], stdin=side, stdout=side, stderr=side)
+seen = ""
+
+
+def wait(text):
+    global seen
+    due = time.time() + 60
+    while text not in seen:
+        if time.time() > due or not select.select([main], [], [], 60)[0]:
+            sys.exit("no %r in %r" % (text, seen))
+        seen += os.read(main, 65536).decode("utf-8", "replace")
+    seen = seen[seen.index(text) + len(text):]
+
+
+def type(text):
+    os.write(main, text.encode())
+
+
+wait("> ")
+type("go to the counter\n")
+wait("\u25b6 go(counter)")
+type("stx\x7fo")
+wait("> sto")
+type("p\n")
+wait("interrupted")
+wait("> ")
+type("what do you hold?\n")
+wait("I hold nothing.")
+type("\x04")
+code = talk.wait(60)
+same = termios.tcgetattr(side)[3] == before[3]
+print("code", code, "restored" if same else "not restored")
+"#;
+
+#[cfg(unix)]
+#[test]
+fn typed_letters_are_seen_while_the_robot_moves() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("talk_terminal").file("terminal.py", TERMINAL);
+    let line = format!("python3 terminal.py {} talk {WORLD} --speed 0.5", env!("CARGO_BIN_EXE_motet"));
+    place.shell(&line).check(0, &["out:code 3 restored"]);
+}
