@@ -1,4 +1,5 @@
-//! A conversation with a robot on any driver: `motet do` is one of a single request, `motet talk` one of many.
+//! A conversation with a robot on any driver: `motet do` is one of a single request, `motet talk` one of
+//! many.
 
 mod flags;
 mod observer;

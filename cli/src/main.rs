@@ -28,8 +28,8 @@ use output::{ColorChoice, Colors, note};
     propagate_version = true,
     disable_help_subcommand = true,
     after_help = "Exit codes: 0 success, 1 errors found (or a file would be reformatted), 2 could not run.\n\
-                  `motet run`, `do` and `talk`: 0 only if all that was asked was done, 1 refused by the check,\n\
-                  3 failed, stopped by a word or not answered, 130 interrupted."
+                  `motet run`, `do` and `talk`: 0 only if all that was asked was done, 1 refused by the\n\
+                  check, 3 failed, stopped by a word or not answered, 130 interrupted."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

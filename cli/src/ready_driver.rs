@@ -77,8 +77,8 @@ pub(crate) fn open_driver(
     }
 }
 
-/// Address of the driver; `None` for the simulator in this process. Robot and scene are those of the flags, or
-/// the robot that the document names.
+/// Address of the driver; `None` for the simulator in this process. Robot and scene are those of the flags,
+/// or the robot that the document names.
 pub(crate) fn address(
     args: &DriverArgs,
     environment: &EnvironmentArgs,

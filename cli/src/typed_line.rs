@@ -1,6 +1,6 @@
-//! Line that a person types at a terminal while a robot moves. The letters are read as they are typed, so that
-//! a view that redraws the screen can show them below itself. A thread reads; the terminal is as it was before
-//! once the reading has ended.
+//! Line that a person types at a terminal while a robot moves. The letters are read as they are typed, so
+//! that a view that redraws the screen can show them below itself. A thread reads; the terminal is as it was
+//! before once the reading has ended.
 
 use std::io::{self, IsTerminal, Read, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};

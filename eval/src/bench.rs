@@ -283,7 +283,7 @@ impl TrialObserver {
 }
 
 impl DialogueObserver for TrialObserver {
-    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
+    fn scribe(&mut self, _run: &str, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
         Some(self.journals.next(engine, start))
     }
 

@@ -175,7 +175,8 @@ mod tests {
         r#"{"scene": "kitchen", "query": "reach(pan)", "seed": 0, "holds": false, "#,
         r#""why": "falls", "error": [0.0, 0.0]}"#,
         "\n",
-        r#"{"robot": "hsr", "shares": {"reach": {"held": 1, "of": 2, "interval": [0.09, 0.91], "aim": 0.95}}, "#,
+        r#"{"robot": "hsr", "shares": {"reach": {"held": 1, "of": 2, "interval": [0.09, 0.91], "#,
+        r#""aim": 0.95}}, "#,
         r#""error": [0.001, 0.0005], "simulated_secs": 30.0, "processor_secs": 1.0}"#,
         "\n",
     );

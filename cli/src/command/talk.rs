@@ -16,7 +16,8 @@ use crate::report::Report;
     printf 'bring me the coke\\nwhat did you do?\\n' | motet talk --robot hsr --scene kitchen --speed max\n\n\
     Each line is a request (`bring me the coke`), a question (`where is the coke?`, `what do you hold?`,\n\
     `is the fridge open?`, `what did you do?`) or a statement (`the coke is in the fridge`). A line typed\n\
-    while the robot moves counts at once; of a pipe only with --live. The conversation ends with the input.\n\n\
+    while the robot moves counts at once; of a pipe only with --live. The conversation ends with the\n\
+    input.\n\n\
     Exit codes: 0 everything was done or answered, 3 something was not, 130 interrupted.")]
 pub(crate) struct TalkArgs {
     #[command(flatten)]

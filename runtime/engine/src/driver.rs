@@ -42,9 +42,9 @@ use std::rc::Rc;
 /// 8. What it cannot answer for it reports as [`DriverEvent::Lost`], or [`DriverEvent::DriverLost`] for
 ///    everything: an answer that never comes means unknown, not refused. A safe stop of a lost goal is
 ///    answered like any other.
-/// 9. After [`Driver::begin_run`] it says nothing of a goal of an earlier run, and its numbers may come again.
-/// 10. It never reports from within a call: everything goes out through [`Driver::advance`]. Telemetry,
-///    detections and words are fetched after it.
+/// 9. After [`Driver::begin_run`] it says nothing of a goal of an earlier run, and its numbers may come
+/// again. 10. It never reports from within a call: everything goes out through [`Driver::advance`].
+/// Telemetry, detections and words are fetched after it.
 pub trait Driver {
     /// Starts a primitive.
     fn start(&mut self, now: Time, goal: GoalId, command: &Command);
@@ -59,14 +59,15 @@ pub trait Driver {
     fn base(&self) -> Option<[f64; 3]> {
         None
     }
-    /// Begins a run with an id of its own, of this graph where it is known; `now` is the host's time. Goals are
-    /// counted anew: what still moves for an earlier run comes to a stop, and its goals and watches are
+    /// Begins a run with an id of its own, of this graph where it is known; `now` is the host's time. Goals
+    /// are counted anew: what still moves for an earlier run comes to a stop, and its goals and watches are
     /// forgotten. Returns the present time, not before `now`.
     fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
         self.inner().map_or(now, |inner| inner.begin_run(now, run, graph))
     }
-    /// Looks after the driver while no run goes on, however long that takes; `now` is the host's time. Returns
-    /// the present time. What is reported meanwhile is dropped, but for telemetry, detections and words.
+    /// Looks after the driver while no run goes on, however long that takes; `now` is the host's time.
+    /// Returns the present time. What is reported meanwhile is dropped, but for telemetry, detections and
+    /// words.
     fn rest(&mut self, now: Time) -> Time {
         self.inner().map_or(now, |inner| inner.rest(now))
     }

@@ -71,8 +71,8 @@ pub trait Observer {
     fn heard(&mut self, _now: Time, _heard: &Heard) {}
 
     /// A policy to take over from the one that runs. Asked after each event, so at least as often as
-    /// [`Observer::at_least_every`] says, and about ten times a second of the run's time while it is held. Of several the newest should be given: one that was never given was
-    /// never there.
+    /// [`Observer::at_least_every`] says, and about ten times a second of the run's time while it is held. Of
+    /// several the newest should be given: one that was never given was never there.
     fn swap(&mut self, _now: Time, _engine: &Engine) -> Option<PreparedSwap> {
         None
     }

@@ -94,12 +94,12 @@ impl Planner for BuiltinBeside {
 
     fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
         let (session, robot, request) = (ask.session.clone(), ask.robot.clone(), ask.request.to_owned());
-        let RequestContext { scene, holding, supports, spoken_of, came_from, meant } = ask.situation.clone();
-        let scene = scene.clone();
+        let (situation, scene) = (ask.situation.clone(), ask.situation.scene.clone());
+        let RequestContext { holding, supports, spoken_of, came_from, meant, seen_at, .. } = situation;
         let (told, coming) = mpsc::channel();
         std::thread::spawn(move || {
             let scene = &scene;
-            let situation = RequestContext { scene, holding, supports, spoken_of, came_from, meant };
+            let situation = RequestContext { scene, holding, supports, spoken_of, came_from, meant, seen_at };
             let planned = builtin::answer(&session, Some(&robot), &request, &situation);
             // Nobody waits for it any more if the run is over.
             let _ = told.send(planned.ok().map(|answered| answered.planned.text));

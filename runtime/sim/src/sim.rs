@@ -323,8 +323,8 @@ pub struct SimOptions {
 }
 
 impl SimOptions {
-    /// The same options with further facts at the start. Facts about any entity, and those that are not known,
-    /// are left out: the world is as it is.
+    /// The same options with further facts at the start. Facts about any entity, and those that are not
+    /// known, are left out: the world is as it is.
     #[must_use]
     pub fn with_facts(mut self, facts: impl IntoIterator<Item = (Query, Truth)>) -> Self {
         for (query, truth) in facts {

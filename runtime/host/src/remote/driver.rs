@@ -187,8 +187,8 @@ impl RemoteDriver {
         Ok(early)
     }
 
-    /// Greets for another run, on the same connection or, where that is gone, on a new one. What was asked for
-    /// and reported before counts no more.
+    /// Greets for another run, on the same connection or, where that is gone, on a new one. What was asked
+    /// for and reported before counts no more.
     fn begin(&mut self, run: &str, graph: Option<&Graph>) -> Result<(), LinkError> {
         let hello = match graph {
             Some(graph) => Hello::of(graph, run),

@@ -245,8 +245,8 @@ impl Person for NoOperator {
 
 /// Observer of a dialogue, which may also bring new requests.
 pub trait DialogueObserver {
-    /// Recorder of the run of this id that is about to begin, if there is one. The engine has handled no event
-    /// yet.
+    /// Recorder of the run of this id that is about to begin, if there is one. The engine has handled no
+    /// event yet.
     fn scribe(&mut self, _run: &str, _engine: &Engine, _start: &StartState) -> Option<Box<dyn RunRecorder>> {
         None
     }

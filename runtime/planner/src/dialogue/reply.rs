@@ -21,8 +21,8 @@ use crate::Planner;
 const MOST_DEEDS: usize = 12;
 
 impl Conversation<'_> {
-    /// Answers a question at the driver's time `from`. Returns the outcome, done where there is an answer, and
-    /// the time at the end.
+    /// Answers a question at the driver's time `from`. Returns the outcome, done where there is an answer,
+    /// and the time at the end.
     pub(super) fn reply(
         &mut self,
         said: &str,
