@@ -6,11 +6,14 @@ mod driver;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, value_parser};
+use motet_client::ApiKey;
 use motet_decode::export::Dialect;
 use motet_project::{Project, ProjectBuilder};
 use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
 use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
+
+use crate::error::CliError;
 
 pub(crate) use driver::{DriverArgs, Speed};
 
@@ -271,4 +274,10 @@ mod tests {
             assert!(duration(text).is_err(), "{text}");
         }
     }
+}
+
+/// Reads the server's key from an environment variable.
+pub(crate) fn api_key(variable: &str) -> Result<ApiKey, CliError> {
+    ApiKey::from_variable(variable)
+        .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }

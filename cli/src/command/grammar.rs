@@ -3,13 +3,13 @@
 use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
-use motet_client::{ApiKey, Client, ClientSettings, ServerUrl, content};
+use motet_client::{Client, ClientSettings, ServerUrl, content};
 use motet_decode::export::{self, Dialect, Format as Notation, Header, Prompt, probe_body, request_body};
 use motet_decode::{Grammar, Modifiers, Subset};
 use serde_json::Value;
 
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, EnvironmentArgs, ServerDialect, SyntaxArg};
+use crate::flags::{DiagnosticFormat, EnvironmentArgs, ServerDialect, SyntaxArg, api_key};
 use crate::output::{Colors, Output, note};
 use crate::report::Report;
 
@@ -218,7 +218,7 @@ fn is_cut(said: &str, demanded: &Value) -> bool {
 fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliError> {
     let failed = |why: String| CliError::Message(format!("cannot ask `{address}`: {why}"));
     let timeout = Duration::from_secs(args.timeout);
-    let key = args.key_from.as_deref().map(key).transpose()?;
+    let key = args.key_from.as_deref().map(api_key).transpose()?;
     let settings = ClientSettings {
         key,
         timeout,
@@ -227,10 +227,4 @@ fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliE
     };
     let answer = Client::new(settings).and_then(|client| client.once(body));
     answer.map_err(|why| failed(why.to_string()))
-}
-
-/// Reads the server's key from an environment variable.
-pub(crate) fn key(variable: &str) -> Result<ApiKey, CliError> {
-    ApiKey::from_variable(variable)
-        .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }

@@ -14,9 +14,8 @@ use serde_json::json;
 
 use super::flags::{ConversationArgs, ModelArgs};
 use super::record::ConversationRecord;
-use crate::command::grammar;
 use crate::error::CliError;
-use crate::flags::{OutputFormat, Speed};
+use crate::flags::{OutputFormat, Speed, api_key};
 use crate::output::{Colors, note};
 use crate::runner::is_interrupted;
 
@@ -91,7 +90,7 @@ fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
         })?;
         images.push(image);
     }
-    let key = args.key_from.as_deref().map(grammar::key).transpose()?;
+    let key = args.key_from.as_deref().map(api_key).transpose()?;
     let timeout = Duration::from_secs(args.timeout);
     let new = ClientSettings::new(address, &args.model);
     Ok(ClientSettings {
