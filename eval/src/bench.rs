@@ -22,6 +22,7 @@ use motet_sim::{Faults, Profile, Sim, SimOptions};
 
 use crate::actions::{ActionFaults, ActionLedger};
 use crate::outcome::StepFailures;
+use crate::planners::PlannerKind;
 
 /// Interpreter of the physics driver.
 const PYTHON: &str = "python3";
@@ -57,6 +58,7 @@ pub struct Bench {
     pub world: String,
     pub profile: Profile,
     pub driver: DriverKind,
+    pub planner: PlannerKind,
 }
 
 impl Bench {
@@ -70,14 +72,15 @@ impl Bench {
             return Err(format!("the physics driver has no profile `{world}`, only the built-in ones"));
         }
         let profile = motet_project::read_profile(world).map_err(|error| error.to_string())?;
-        Ok(Self { world: world.to_owned(), profile, driver })
+        Ok(Self { world: world.to_owned(), profile, driver, planner: PlannerKind::Builtin })
     }
 
     /// The simulated world without errors of its own.
     #[must_use]
     pub fn ideal() -> Self {
         let world = "ideal".to_owned();
-        Self { world, profile: Profile::default(), driver: DriverKind::Kinematic }
+        let (driver, planner) = (DriverKind::Kinematic, PlannerKind::Builtin);
+        Self { world, profile: Profile::default(), driver, planner }
     }
 
     /// A robot in a room: it was told the one, and the other is real. In physics it knows the real room.
@@ -203,6 +206,8 @@ impl Drop for Folder {
 pub struct Journals(Rc<RefCell<(Folder, u32)>>);
 
 impl Journals {
+    /// No journals yet, in a folder of their own.
+    ///
     /// # Errors
     ///
     /// The folder cannot be made.
@@ -274,6 +279,8 @@ pub struct TrialObserver {
 }
 
 impl TrialObserver {
+    /// An observer at the start of a trial.
+    ///
     /// # Errors
     ///
     /// The folder of the journals cannot be made.

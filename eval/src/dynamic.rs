@@ -7,7 +7,6 @@
 //! twice, and nothing left running.
 
 use motet_compiler::CheckOptions;
-use motet_planner::Builtin;
 use motet_planner::dialogue::{Conversation, DialogueSetup, NoOperator, Outcome};
 use motet_runtime::Time;
 use motet_sim::Faults;
@@ -138,9 +137,9 @@ fn play(
     let says = change_at.zip(instead).map(|(at, says)| (Time::from_secs(at), says));
     let mut observer = TrialObserver::new(says)?;
     let mut talk = Conversation::new(&setting);
-    let driver = robot_in.driver();
+    let (driver, mut planner) = (robot_in.driver(), bench.planner.make()?);
     let (outcome, end) =
-        talk.carry_out(request, &mut Builtin, driver, &mut NoOperator, &mut observer, Time::ZERO);
+        talk.carry_out(request, &mut *planner, driver, &mut NoOperator, &mut observer, Time::ZERO);
     let goal = task.goals.get(wording);
     let is_goal = goal.is_none_or(|(fluent, args, wanted)| robot_in.holds(end, fluent, args) == *wanted);
     let is_reached = is_goal && outcome == Outcome::Done;

@@ -8,10 +8,12 @@ pub mod mutations;
 pub mod outcome;
 pub mod physics;
 pub mod planbench;
+pub mod planners;
 pub mod repairs;
 pub mod saycan;
 pub mod scenarios;
 pub mod setup;
+pub mod tasks;
 pub mod world;
 
 use std::time::Duration;

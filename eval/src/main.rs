@@ -6,7 +6,9 @@
 //! - `saycan --planned` plans the instructions from their text instead, and exits with 0 if at least 60 % of
 //!   them are carried out.
 //! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot. Both take
-//!   `--world ideal|typical|harsh|FILE` and `--driver kinematic|mujoco`.
+//!   `--world ideal|typical|harsh|FILE`, `--driver kinematic|mujoco`, and `--planner builtin|tree|one-shot|
+//!   forgetful|URL` with `--model M`.
+//! - `tasks [FILE…] [--trials N]` plays the tasks of the papers, with the same flags.
 //! - `world` takes the number of runs in a world that can fail, and exits with 0 if none of them ends as done
 //!   without its goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
@@ -22,9 +24,11 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use motet_eval::bench::{Bench, DriverKind};
+use motet_eval::planners::PlannerKind;
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary, world,
+    Judged, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary, tasks,
+    world,
 };
 use motet_sim::Profile;
 
@@ -45,6 +49,9 @@ struct Flags {
     is_planned: bool,
     world: Option<String>,
     driver: Option<DriverKind>,
+    planner: Option<String>,
+    model: Option<String>,
+    trials: Option<usize>,
     words: Vec<String>,
 }
 
@@ -58,6 +65,13 @@ impl Flags {
                 "--planned" => flags.is_planned = true,
                 "--world" => flags.world = Some(value()?),
                 "--driver" => flags.driver = Some(value()?.parse()?),
+                "--planner" => flags.planner = Some(value()?),
+                "--model" => flags.model = Some(value()?),
+                "--trials" => {
+                    let number = value()?;
+                    let wrong = |_| format!("`{number}` is no number of trials");
+                    flags.trials = Some(number.parse().map_err(wrong)?);
+                }
                 flag if flag.starts_with("--") => return Err(format!("there is no flag `{flag}`")),
                 word => flags.words.push(word.to_owned()),
             }
@@ -67,7 +81,15 @@ impl Flags {
 
     /// World of the trials: `typical` unless another is asked for.
     fn bench(&self) -> Result<Bench, String> {
-        Bench::new(self.world.as_deref().unwrap_or("typical"), self.driver.unwrap_or_default())
+        let planner = self.planner.as_deref().unwrap_or("builtin");
+        let planner = PlannerKind::read(planner, self.model.as_deref())?;
+        let world = self.world.as_deref().unwrap_or("typical");
+        Ok(Bench { planner, ..Bench::new(world, self.driver.unwrap_or_default())? })
+    }
+
+    /// True if a world, a driver or a planner is asked for.
+    const fn is_benched(&self) -> bool {
+        self.world.is_some() || self.driver.is_some() || self.planner.is_some() || self.trials.is_some()
     }
 }
 
@@ -114,7 +136,8 @@ fn run() -> Result<bool, String> {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
             "usage: eval {} FILE [--json], eval dialogue FILE|dynamic TRIALS [--world PROFILE] [--driver \
-             kinematic|mujoco], eval world RUNS, eval mutations, \
+             kinematic|mujoco] [--planner PLANNER] [--model M], eval tasks [FILE…] with the same flags and \
+             [--trials N], eval world RUNS, eval mutations, \
              eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \
              eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
             names.join("|")
@@ -129,7 +152,8 @@ fn run() -> Result<bool, String> {
             let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
             return shown(&spoken(&flags.bench()?, &text)?, only_json);
         }
-        _ if flags.world.is_some() || flags.driver.is_some() => return Err(usage()),
+        ["tasks", files @ ..] => return shown(&tasked(&flags, files)?, only_json),
+        _ if flags.is_benched() => return Err(usage()),
         _ => {}
     }
     if let ["world", count] = words.as_slice() {
@@ -213,6 +237,32 @@ fn changed(bench: &Bench, count: usize) -> Result<Report, String> {
         lines: notes.into_iter().chain(dynamic::table(bench, &trials)).collect(),
         is_good: is_clean && good * 100 >= trials.len() * 95,
         summary: serde_json::json!({"total": trials.len(), "good": good}),
+    })
+}
+
+/// Tasks of the papers, where no other files are given.
+const TASKS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tasks/papers.jsonl");
+/// Trials of a task on a robot, where no other number is given.
+const TRIALS: usize = 20;
+
+fn tasked(flags: &Flags, files: &[&str]) -> Result<Report, String> {
+    let (bench, files) = (flags.bench()?, if files.is_empty() { &[TASKS][..] } else { files });
+    let mut tasks = Vec::new();
+    for file in files {
+        let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
+        let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        let lines: Vec<_> = lines.map(|(index, line)| (index + 1, line)).collect();
+        tasks.extend(tasks::read(&lines).map_err(|problem| format!("{file}:{problem}"))?);
+    }
+    let trials = tasks::trials(&bench, &tasks, flags.trials.unwrap_or(TRIALS))?;
+    let notes = trials.iter().filter(|trial| !trial.is_reached);
+    let notes = notes.map(|trial| format!("{} {}: {}", trial.robot, trial.request, trial.end));
+    let good = trials.iter().filter(|trial| trial.is_reached).count();
+    let is_clean = trials.iter().all(|trial| trial.faults.is_empty());
+    Ok(Report {
+        lines: notes.chain(tasks::table(&bench, &trials)).collect(),
+        is_good: is_clean && good * 100 >= trials.len() * 90,
+        summary: serde_json::json!({"total": trials.len(), "success": good}),
     })
 }
 

@@ -7,12 +7,10 @@
 mod cases;
 mod tables;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use motet_compiler::CheckOptions;
-use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
-use motet_planner::{Builtin, PlanRequest, Planner};
 use motet_runtime::Time;
 use motet_sim::Faults;
 
@@ -22,6 +20,7 @@ pub use tables::{sums, table};
 use crate::actions::ActionFaults;
 use crate::bench::{Bench, DriverKind, TrialObserver};
 use crate::outcome::FailureSort;
+use crate::planners::Timed;
 use crate::setup;
 
 /// Result of a case.
@@ -65,34 +64,6 @@ impl Person for Scripted {
     }
 }
 
-/// The planner with a watch.
-#[derive(Default)]
-struct Timed {
-    words: Duration,
-    check: Duration,
-    plan: Duration,
-}
-
-impl Planner for Timed {
-    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
-        let begin = Instant::now();
-        let _ = motet_requests::understand(ask.request, ask.situation);
-        self.words += begin.elapsed();
-        let begin = Instant::now();
-        let answered = Builtin.plan(ask);
-        let took = begin.elapsed();
-        // What the plan took, without the words and the check that come with it.
-        let begin = Instant::now();
-        if let Ok(answered) = &answered {
-            let _ = ask.session.compile(&answered.planned.parsed, None);
-        }
-        let check = begin.elapsed();
-        self.check += check;
-        self.plan += took.saturating_sub(check);
-        answered
-    }
-}
-
 /// Carries out a case with a seed.
 ///
 /// # Errors
@@ -113,7 +84,7 @@ pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
     };
     let mut talk = Conversation::new(&setting);
     let mut person = Scripted { answers: case.answers(), asked: Vec::new(), questions: Vec::new() };
-    let mut planner = Timed::default();
+    let mut planner = Timed::new(bench.planner.make()?);
     let mut observer = TrialObserver::new(None)?;
     let driver = robot_in.driver();
     let (outcome, end) =

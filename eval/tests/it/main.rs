@@ -14,4 +14,5 @@ mod mutations;
 mod planbench;
 mod saycan;
 mod scenarios;
+mod tasks;
 mod world;

@@ -1,9 +1,14 @@
 //! Perception in a conversation: what the robot sees and is told changes its scene, beliefs and plans.
+use std::time::Duration;
+
 use motet_compiler::CheckOptions;
-use motet_planner::Builtin;
+use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::dialogue::{
     Conversation, DialogueObserver, DialogueSetup, Kind, Outcome, Person, Problem,
 };
+use motet_planner::inteliplan::exchange;
+use motet_planner::prompt::{self, Prompt, StaticPrompt, TOKENS};
+use motet_planner::{Builtin, PlanRequest, Planner};
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_runtime::{Event, Time};
 use motet_sim::{Sim, SimOptions};
@@ -110,4 +115,44 @@ fn perception_during_a_run_is_noticed_by_the_engine() {
     assert_eq!(outcome, Outcome::Done, "{:?}", person.asked);
     assert_eq!(sim.holds("at", &["mug_2", "user"]), Some(true));
     assert!(person.noticed.contains(&"on(stapler, shelf) = true".to_owned()), "{:?}", person.noticed);
+}
+
+/// Keeps what a model would be shown, and plans without one.
+struct Shown(Vec<(String, String)>);
+
+impl Planner for Shown {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
+        let scene = ask.situation.scene;
+        let prompt = Prompt {
+            session: ask.session,
+            robot: ask.robot,
+            scene,
+            situation: ask.situation,
+            memory: ask.memory,
+            lasting: &StaticPrompt::new(ask.session, ask.robot, scene),
+            tokens: TOKENS,
+            time: Duration::ZERO,
+        };
+        let named = motet_requests::named(ask.request, ask.situation);
+        let seen = prompt::seen(ask.session, ask.robot, scene, &named, Duration::ZERO);
+        self.0.push((prompt.write(ask.request).user, exchange::sight(&seen).0));
+        Builtin.plan(ask)
+    }
+}
+
+#[test]
+fn perception_is_in_the_prompt_and_in_the_dialect() {
+    let stapler = |told: &Scene| with_stapler(told, [1.96, 0.5, 0.75], "kitchen_table");
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let options = SimOptions { world: Some(stapler(&scene)), ..SimOptions::default() };
+    let mut sim = Sim::new(&robot, &scene, options);
+    let options = CheckOptions::default();
+    let setting = DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options };
+    let (mut planner, mut person) = (Shown(Vec::new()), Beside::default());
+    let mut conversation = Conversation::new(&setting);
+    conversation.carry_out("bring me the stapler", &mut planner, &mut sim, &mut person, &mut (), Time::ZERO);
+    let (prompt, vision) = &planner.0[0];
+    let line = prompt.lines().find(|line| line.starts_with("- stapler (Object)")).unwrap();
+    assert!(line.contains("blue stapler; on kitchen_table; the camera saw it at 1.96, 0.50, 0.75 m"), "{line}");
+    assert_eq!(vision, "stapler: seen");
 }
