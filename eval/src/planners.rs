@@ -26,8 +26,8 @@ pub enum PlannerKind {
 }
 
 impl PlannerKind {
-    /// Planner by the words of the command line: `builtin`, `tree`, `one-shot`, `forgetful`, or the address of
-    /// a server.
+    /// Planner by the words of the command line: `builtin`, `tree`, `one-shot`, `forgetful`, or the address
+    /// of a server.
     ///
     /// # Errors
     ///

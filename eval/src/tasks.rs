@@ -1,6 +1,6 @@
 //! Tasks of the papers, as rows of a file: a request in a room, facts that shall hold at the end, and the
-//! failures on the way with the answers of a person. A failure is real: the thing is elsewhere, or out of reach
-//! by geometry; nothing is injected.
+//! failures on the way with the answers of a person. A failure is real: the thing is elsewhere, or out of
+//! reach by geometry; nothing is injected.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -62,8 +62,10 @@ struct RowFact {
 impl RowFact {
     fn read(text: &str) -> Result<Self, String> {
         let wrong = || format!("`{text}` is no fact such as `on(mug_1, counter)`");
-        let (is_so, atom) = text.trim().strip_prefix("not ").map_or((true, text.trim()), |atom| (false, atom.trim()));
-        let (fluent, args) = atom.strip_suffix(')').and_then(|atom| atom.split_once('(')).ok_or_else(wrong)?;
+        let (is_so, atom) =
+            text.trim().strip_prefix("not ").map_or((true, text.trim()), |atom| (false, atom.trim()));
+        let (fluent, args) =
+            atom.strip_suffix(')').and_then(|atom| atom.split_once('(')).ok_or_else(wrong)?;
         let args: Vec<String> = args.split(',').map(|arg| arg.trim().to_owned()).collect();
         if fluent.is_empty() || args.iter().any(String::is_empty) {
             return Err(wrong());
@@ -101,7 +103,10 @@ pub fn read(lines: &[(usize, &str)]) -> Result<Vec<Task>, String> {
     let read = |(number, line): &(usize, &str)| {
         let task: Task = serde_json::from_str(line).map_err(|error| format!("{number}: {error}"))?;
         let facts = task.goal.iter().chain(&task.hidden).chain(&task.told);
-        facts.map(|fact| RowFact::read(fact)).collect::<Result<Vec<_>, _>>().map_err(|why| format!("{number}: {why}"))?;
+        facts
+            .map(|fact| RowFact::read(fact))
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|why| format!("{number}: {why}"))?;
         let kinds = task.failures.iter().chain(task.answers.keys());
         match kinds.clone().find(|kind| !KINDS.iter().any(|known| known.name() == kind.as_str())) {
             Some(kind) => Err(format!("{number}: there is no failure `{kind}`")),
@@ -112,13 +117,8 @@ pub fn read(lines: &[(usize, &str)]) -> Result<Vec<Task>, String> {
 }
 
 /// Kinds of problems.
-const KINDS: [Kind; 5] = [
-    Kind::NotFound,
-    Kind::NotReachable,
-    Kind::AmbiguousReference,
-    Kind::AmbiguousTask,
-    Kind::ActionFailed,
-];
+const KINDS: [Kind; 5] =
+    [Kind::NotFound, Kind::NotReachable, Kind::AmbiguousReference, Kind::AmbiguousTask, Kind::ActionFailed];
 
 /// Carries out so many trials of each task on each robot.
 ///
@@ -186,7 +186,8 @@ impl Task {
     }
 
     fn carry_out(&self, bench: &Bench, robot: &str, seed: u64) -> Result<TaskTrial, String> {
-        let body = motet_robots::builtin::robot(robot).ok_or_else(|| format!("there is no robot `{robot}`"))?;
+        let body =
+            motet_robots::builtin::robot(robot).ok_or_else(|| format!("there is no robot `{robot}`"))?;
         let (told, real) = self.rooms()?;
         let mut robot_in = bench.robot(&body.robot, (&told, &real), seed, Faults::default())?;
         let geometry = Geometry::new(&body.robot, &body.urdf, &told, None, SearchBudget::default());
@@ -237,7 +238,9 @@ impl Task {
 /// Puts a thing on or in another: its pose follows from that.
 fn put(scene: &mut Scene, place: &str) -> Result<(), String> {
     let RowFact { fluent, args, .. } = RowFact::read(place)?;
-    let [thing, support] = args.as_slice() else { return Err(format!("`{place}` has no thing and no place")) };
+    let [thing, support] = args.as_slice() else {
+        return Err(format!("`{place}` has no thing and no place"));
+    };
     let target = scene.entities.get(support.as_str()).ok_or_else(|| format!("there is no `{support}`"))?;
     let (at, target_half) = (target.pose, half_height(target));
     let thing = scene.entities.get_mut(thing.as_str()).ok_or_else(|| format!("there is no `{thing}`"))?;
@@ -267,7 +270,8 @@ fn half_height(entity: &scene::Entity) -> f64 {
 /// The tables: a row for each cell and robot.
 #[must_use]
 pub fn table(bench: &Bench, trials: &[TaskTrial]) -> Vec<String> {
-    let mut lines = vec![format!("world {}, driver {:?}, planner {:?}", bench.world, bench.driver, bench.planner)];
+    let mut lines =
+        vec![format!("world {}, driver {:?}, planner {:?}", bench.world, bench.driver, bench.planner)];
     let mut cells: Vec<(&str, &str)> = Vec::new();
     for trial in trials {
         if !cells.contains(&(trial.table.as_str(), trial.cell.as_str())) {
@@ -280,7 +284,15 @@ pub fn table(bench: &Bench, trials: &[TaskTrial]) -> Vec<String> {
             open = table;
             lines.push(format!(
                 "{table:<46} {:<10} {:>3} {:>6} {:>22} {:>9} {:>9} {:>10} {:>8} {:>9} {:>17}",
-                "robot", "n", "plan", "success", "explained", "recovered", "perception", "planning", "execution",
+                "robot",
+                "n",
+                "plan",
+                "success",
+                "explained",
+                "recovered",
+                "perception",
+                "planning",
+                "execution",
                 "words/check/plan"
             ));
         }
@@ -301,7 +313,8 @@ pub fn table(bench: &Bench, trials: &[TaskTrial]) -> Vec<String> {
 fn row(cell: &str, robot: &str, own: &[&TaskTrial]) -> String {
     let of = own.len();
     let rate = |is: &dyn Fn(&TaskTrial) -> bool| Rate { part: own.iter().filter(|one| is(one)).count(), of };
-    let percent = |rate: Rate| if rate.of == 0 { "-".to_owned() } else { format!("{:.0} %", 100.0 * rate.share()) };
+    let percent =
+        |rate: Rate| if rate.of == 0 { "-".to_owned() } else { format!("{:.0} %", 100.0 * rate.share()) };
     let troubled: Vec<_> = own.iter().filter(|one| one.is_explained.is_some()).collect();
     let among = |is: &dyn Fn(&TaskTrial) -> bool| {
         percent(Rate { part: troubled.iter().filter(|one| is(one)).count(), of: troubled.len() })
@@ -309,7 +322,8 @@ fn row(cell: &str, robot: &str, own: &[&TaskTrial]) -> String {
     let [seen, planned, done] =
         FailureSort::ALL.map(|sort| percent(rate(&|one: &TaskTrial| one.failed_by == Some(sort))));
     let median = |of: usize| {
-        let mut all: Vec<f64> = own.iter().filter_map(|one| Some(one.times.get(of)?.as_secs_f64() * 1e3)).collect();
+        let mut all: Vec<f64> =
+            own.iter().filter_map(|one| Some(one.times.get(of)?.as_secs_f64() * 1e3)).collect();
         all.sort_by(f64::total_cmp);
         all.get(all.len() / 2).copied().unwrap_or_default()
     };

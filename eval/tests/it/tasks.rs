@@ -36,9 +36,8 @@ fn tasks_baseline_that_plans_once_does_not_recover() {
 
 #[test]
 fn tasks_that_are_wrong_are_told_with_their_line() {
-    let row = |more: &str| {
-        format!(r#"{{"table": "t", "cell": "c", "scene": "kitchen", "request": "go", {more}}}"#)
-    };
+    let row =
+        |more: &str| format!(r#"{{"table": "t", "cell": "c", "scene": "kitchen", "request": "go", {more}}}"#);
     let said = |text: &str| tasks::read(&[(7, text)]).unwrap_err();
     assert!(said("{").starts_with("7: "));
     assert!(said(&row(r#""goal": ["on mug"]"#)).contains("7: `on mug` is no fact"));

@@ -153,6 +153,9 @@ fn perception_is_in_the_prompt_and_in_the_dialect() {
     conversation.carry_out("bring me the stapler", &mut planner, &mut sim, &mut person, &mut (), Time::ZERO);
     let (prompt, vision) = &planner.0[0];
     let line = prompt.lines().find(|line| line.starts_with("- stapler (Object)")).unwrap();
-    assert!(line.contains("blue stapler; on kitchen_table; the camera saw it at 1.96, 0.50, 0.75 m"), "{line}");
+    assert!(
+        line.contains("blue stapler; on kitchen_table; the camera saw it at 1.96, 0.50, 0.75 m"),
+        "{line}"
+    );
     assert_eq!(vision, "stapler: seen");
 }
