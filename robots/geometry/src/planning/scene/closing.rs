@@ -43,6 +43,8 @@ pub(crate) struct HoldDepths {
     /// Depth that holds best, the least of equals.
     pub(crate) best: f64,
     pub(crate) most: f64,
+    /// Reach of the fingers at the best depth until they meet the object; `None` where their shapes are unknown.
+    pub(crate) end: Option<f64>,
 }
 
 /// Fingers from open to closed, in the frame of the tip.
@@ -104,6 +106,12 @@ impl Closing {
         most.is_finite().then_some(most)
     }
 
+    /// Distance in m from an object that the fingers grasp within which they are all the time.
+    pub(crate) fn around(&self) -> f64 {
+        let far = |solid: &Solid| solid.centre.norm() + solid.reach();
+        3.0 * self.stages.iter().flatten().map(far).fold(0.0, f64::max)
+    }
+
     /// Solids of the open hand.
     pub(crate) fn open(&self) -> impl Iterator<Item = &Solid> {
         self.palm.iter().chain(self.stages.first().into_iter().flatten())
@@ -119,12 +127,6 @@ impl Closing {
         let at = self.turns.then(|| self.contact(width, depth, contact)).flatten().map_or(0, |(at, _)| at);
         let stages = [at, at * 2 / 3, at / 3].into_iter().filter(|at| *at > 0);
         stages.filter_map(|at| self.stages.get(at)).flatten()
-    }
-
-    /// Reach of the fingers until they meet an object, in m.
-    pub(crate) fn end_around(&self, width: f64, depth: f64, contact: FingerContact) -> Option<f64> {
-        let (at, _) = self.contact(width, depth, contact)?;
-        self.ends.get(..=at)?.iter().copied().max_by(f64::total_cmp)
     }
 
     /// Depths from `from` m on at which the fingers hold an object of a width; `None` where there are none.
@@ -149,14 +151,18 @@ impl Closing {
         };
         let steps = libm::ceil(((self.end()? + half - from) / STEP).max(0.0)) as u32;
         let mut found: Option<(HoldDepths, f64)> = None;
+        let mut near = STAGES / 2;
         for step in 0..=steps {
             let depth = from + STEP * f64::from(step);
-            let Some(worth) = self.worth(width, depth, contact) else { continue };
+            let Some((at, meets)) = self.contact_near(near, width, depth, contact) else { continue };
+            near = at;
+            let Some(worth) = self.worth(width, depth, contact, (at, meets)) else { continue };
+            let end = self.ends.get(..=at).and_then(|ends| ends.iter().copied().max_by(f64::total_cmp));
             let (depths, best) =
-                found.get_or_insert((HoldDepths { least: depth, best: depth, most: depth }, worth));
+                found.get_or_insert((HoldDepths { least: depth, best: depth, most: depth, end }, worth));
             depths.most = depth;
             if worth > *best + 1e-9 {
-                (depths.best, *best) = (depth, worth);
+                (depths.best, depths.end, *best) = (depth, end, worth);
             }
         }
         found.map(|(depths, _)| depths)
@@ -173,8 +179,13 @@ impl Closing {
     }
 
     /// Quality of a hold, the better the greater; `None` where the fingers do not hold.
-    fn worth(&self, width: f64, depth: f64, contact: FingerContact) -> Option<f64> {
-        let (at, meets) = self.contact(width, depth, contact)?;
+    fn worth(
+        &self,
+        width: f64,
+        depth: f64,
+        contact: FingerContact,
+        (at, meets): (usize, f64),
+    ) -> Option<f64> {
         match contact {
             FingerContact::Round => {
                 let off = (meets - depth).abs();
@@ -206,18 +217,44 @@ impl Closing {
 
     /// Stage in which the closing fingers meet an object, and the place along them.
     fn contact(&self, width: f64, depth: f64, contact: FingerContact) -> Option<(usize, f64)> {
+        self.contact_near(STAGES / 2, width, depth, contact)
+    }
+
+    /// The same, looked for from a stage on: neighbouring depths meet in neighbouring stages.
+    fn contact_near(
+        &self,
+        near: usize,
+        width: f64,
+        depth: f64,
+        contact: FingerContact,
+    ) -> Option<(usize, f64)> {
         let gaps = self.gaps();
-        let meets = |at: usize| self.nearest(gaps.get(at)?, width, depth, contact);
-        let is_met = |at: usize| meets(at).is_some_and(|(left, _)| left <= 0.0);
+        let room = |at: usize| self.nearest(gaps.get(at)?, width, depth, contact);
+        let met = |at: usize| room(at).filter(|(left, _)| *left <= 0.0).map(|(_, place)| place);
         let (mut open, mut closed) = (0, gaps.len().checked_sub(1)?);
-        if !is_met(closed) || meets(open).is_some_and(|(left, _)| left < -STEP) {
+        let mut place = met(closed)?;
+        if room(open).is_some_and(|(left, _)| left < -STEP) {
             return None;
         }
+        let mut middle = near.clamp(open + 1, closed.saturating_sub(1).max(open + 1));
+        let mut stride = 1;
         while closed - open > 1 {
-            let middle = usize::midpoint(open, closed);
-            *(if is_met(middle) { &mut closed } else { &mut open }) = middle;
+            match met(middle) {
+                Some(at) => {
+                    (closed, place) = (middle, at);
+                    middle = middle.saturating_sub(stride);
+                }
+                None => {
+                    open = middle;
+                    middle += stride;
+                }
+            }
+            stride *= 2;
+            if middle <= open || middle >= closed {
+                middle = usize::midpoint(open, closed);
+            }
         }
-        Some((closed, meets(closed)?.1))
+        Some((closed, place))
     }
 
     /// Least room between fingers and object on any line, in m, and the place of the line.
