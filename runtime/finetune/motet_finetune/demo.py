@@ -77,7 +77,7 @@ def demo(
         export.export(merged, out / "model.gguf")
         report["gguf"] = export.compare(merged, out / "model.gguf")
         say(f"GGUF: {report['gguf']}")
-    report["do"] = _do(motet, merged, out, say)
+    report["do"] = _do(motet, merged, out, ["--camera"] if sees else [], say)
     report["seconds"] = round(time.perf_counter() - began)
     (out / "report.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
     return report
@@ -91,12 +91,24 @@ def _texts(known: list[rows.Row]) -> tuple[list[str], list[str]]:
     return said + [row.policy for row in known] + instructions[:20], instructions
 
 
-def _do(motet: str, folder: Path, out: Path, say: Callable[[str], None]) -> dict[str, dict[str, int]]:
+def _do(motet: str, folder: Path, out: Path, sight: list[str], say: Callable[[str], None]) -> dict[str, dict[str, int]]:
     """How `motet do` ended for each request, with the model behind a server."""
     ended: dict[str, dict[str, int]] = {}
     with serve.served(reply.opened(folder, most_tokens=320), "tiny") as url:
         for number, request in enumerate(REQUESTS):
-            flags = ["--robot", "hsr", "--scene", "kitchen", "--planner", url, "--model", "tiny", "--dialect", "vllm"]
+            flags = [
+                "--robot",
+                "hsr",
+                "--scene",
+                "kitchen",
+                "--planner",
+                url,
+                "--model",
+                "tiny",
+                "--dialect",
+                "vllm",
+                *sight,
+            ]
             talk = out / f"do_{number}"
             flags += ["--ask", "never", "--speed", "max", "--profile", "ideal", "--repair", "1", "--record", str(talk)]
             ran = subprocess.run([motet, "do", request, *flags], capture_output=True, text=True, check=False)

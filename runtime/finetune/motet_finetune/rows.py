@@ -101,6 +101,8 @@ def folded(prompt: list[dict[str, str]]) -> list[dict[str, str]]:
 
 def conversation(tokenizer: Any, prompt: list[dict[str, str]]) -> list[dict[str, str]]:
     """A prompt as the chat template of a tokenizer takes it. Training and serving both use it, so that they agree."""
+    if not tokenizer.chat_template:
+        raise RowError("the model has no chat template: take one that follows instructions")
     # Where a template knows the role, its text is in what it makes; Mistral's first ones raise an error instead.
     marker = "\u2020system\u2020"
     probe = [{"role": "system", "content": marker}, {"role": "user", "content": "?"}]
@@ -115,10 +117,13 @@ def table(rows: list[Row], processor: Any) -> Any:
     """The rows as TRL's `SFTTrainer` reads them: columns `prompt`, `completion`, and `images` where rows have pictures."""
     from datasets import Dataset, Image, List
 
+    # The tokenizer of a model that sees takes texts, as its processor does not in each version.
+    tokenizer = getattr(processor, "tokenizer", processor)
+
     def record(row: Row) -> dict[str, Any]:
         if isinstance(row.prompt, str):
             return {"prompt": row.prompt, "completion": row.policy}
-        prompt = conversation(processor, row.prompt)
+        prompt = conversation(tokenizer, row.prompt)
         known: dict[str, Any] = {"prompt": prompt, "completion": [{"role": "assistant", "content": row.policy}]}
         if row.images:
             known["images"] = [str(image) for image in row.images]

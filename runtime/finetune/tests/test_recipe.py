@@ -1,5 +1,8 @@
 """Recipes: the papers' numbers, and mistakes."""
 
+import subprocess
+import sys
+
 import pytest
 
 from motet_finetune import recipe
@@ -61,3 +64,19 @@ def test_a_recipe_without_a_rank_or_a_file_is_an_error(tmp_path):
         recipe.read(path)
     with pytest.raises(recipe.RecipeError, match="there is no recipe `vlp`; built in: inteliplan-mistral, "):
         recipe.find("vlp")
+
+
+def test_the_command_lists_recipes_and_reports_mistakes(tmp_path):
+    def command(*flags):
+        return subprocess.run(
+            [sys.executable, "-m", "motet_finetune", *flags], capture_output=True, text=True, check=False
+        )
+
+    listed = command("recipes")
+    assert listed.returncode == 0
+    assert (
+        "vlp-vision-decoder: Qwen/Qwen2.5-VL-3B-Instruct, rank 16 on the decoder, 8 on the last 6 vision"
+        in listed.stdout
+    )
+    wrong = command("train", "vlp", str(tmp_path), "--out", str(tmp_path / "out"))
+    assert (wrong.returncode, wrong.stderr.splitlines()[-1][:42]) == (1, "motet-finetune: there is no recipe `vlp`; ")

@@ -49,6 +49,8 @@ def test_a_line_that_is_no_row_is_an_error_with_its_place(tmp_path, lines, why):
 
 
 class Template:
+    chat_template = "{{ messages }}"
+
     def __init__(self, knows):
         self.knows = knows
 

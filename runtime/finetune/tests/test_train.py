@@ -50,7 +50,8 @@ def test_the_loss_counts_the_policy_alone(model, kind, source, request, tmp_path
     for ids, labels in zip(batch["input_ids"], batch["labels"], strict=True):
         counted = labels[labels != -100]
         assert tokenizer.decode(counted).removesuffix("<|im_end|>\n") in policies
-        assert "Bring me" in tokenizer.decode(ids)
+        shown = tokenizer.decode(ids)
+        assert shown.startswith("<|im_start|>system\nYou plan for a robot.") and "Bring me" in shown
 
 
 def test_a_training_goes_on_after_its_last_checkpoint(model, data, tmp_path):
