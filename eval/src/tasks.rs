@@ -329,7 +329,8 @@ fn row(cell: &str, robot: &str, own: &[&TaskTrial]) -> String {
     };
     let times = format!("{:.1}/{:.1}/{:.1} ms", median(0), median(1), median(2));
     format!(
-        "{cell:<46} {robot:<10} {of:>3} {:>6} {:>22} {:>9} {:>9} {seen:>10} {planned:>8} {done:>9} {times:>17}",
+        "{cell:<46} {robot:<10} {of:>3} {:>6} {:>22} {:>9} {:>9} \
+         {seen:>10} {planned:>8} {done:>9} {times:>17}",
         percent(rate(&|one| one.is_planned)),
         rate(&|one| one.is_reached).text(),
         among(&|one| one.is_explained == Some(true)),

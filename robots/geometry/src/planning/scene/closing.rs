@@ -43,7 +43,8 @@ pub(crate) struct HoldDepths {
     /// Depth that holds best, the least of equals.
     pub(crate) best: f64,
     pub(crate) most: f64,
-    /// Reach of the fingers at the best depth until they meet the object; `None` where their shapes are unknown.
+    /// Reach of the fingers at the best depth until they meet the object; `None` where their shapes are
+    /// unknown.
     pub(crate) end: Option<f64>,
 }
 
