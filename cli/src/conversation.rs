@@ -101,6 +101,9 @@ pub(crate) fn converse(
         observer.outcome(&outcome);
         exit = exit.or_worse(exit_of(&outcome));
     }
+    if observer.is_unanswered {
+        exit = exit.or_worse(Exit::Failed);
+    }
     if is_interrupted() {
         exit = Exit::Interrupted;
     }

@@ -49,6 +49,8 @@ pub(super) struct RunObserver<'a> {
     is_swapping: bool,
     /// True while a person holds the run.
     is_held: bool,
+    /// True once nobody could answer a question in the middle of a run.
+    pub(super) is_unanswered: bool,
     /// Output of answers.
     out: Output,
 }
@@ -78,6 +80,7 @@ impl<'a> RunObserver<'a> {
             older: None,
             is_swapping: false,
             is_held: false,
+            is_unanswered: false,
             out: Output::default(),
         }
     }
@@ -157,7 +160,10 @@ impl DialogueObserver for RunObserver<'_> {
         match answer {
             Some(answer) => self.say(question, answer),
             // In the middle of a run nothing else tells that nobody knows.
-            None if self.view.is_some() => self.say(question, "I do not know."),
+            None if self.view.is_some() => {
+                self.is_unanswered = true;
+                self.say(question, "I do not know.");
+            }
             None => {}
         }
     }

@@ -256,7 +256,7 @@ impl LiveRun<'_, '_> {
     /// Answers a question from what is known in the middle of the run. False if the line is none.
     fn reply(&mut self, said: &str, engine: &Engine) -> bool {
         let mut known = self.talk.known.clone();
-        known.learn_midway(engine, self.talk.base());
+        known.learn(engine, self.talk.base());
         let scene = known.scene(&self.talk.setting.scene);
         let Some(question) = motet_requests::question(said, &known.situation(&scene)) else { return false };
         let answer = self.talk.known_answer(&question, &known);
