@@ -4,17 +4,22 @@ use crate::driver::{Echo, has_python};
 use crate::support::{Place, Ran};
 use serde_json::Value;
 
-const WORLD: &str = "--robot hsr --scene kitchen --no-geometry --profile ideal";
+/// Robot and room, in which no motion is searched.
+const ROOM: &str = "--robot hsr --scene kitchen --no-geometry";
+/// Flags of the simulated world, in which nothing goes wrong by itself.
+const IDEAL: &str = "--profile ideal";
 
 /// A conversation of piped lines.
 fn talk(place: &Place, flags: &str, lines: &[&str]) -> Ran {
-    place.run_with(&format!("talk {WORLD} {flags}"), lines.join("\n").as_bytes(), &[])
+    let world = if flags.contains("--driver") { "" } else { IDEAL };
+    place.run_with(&format!("talk {ROOM} {world} {flags}"), lines.join("\n").as_bytes(), &[])
 }
 
 /// A request with further words of the command line.
 fn request(place: &Place, request: &str, flags: &[&str]) -> Ran {
     let mut args: Vec<String> = ["do", request].map(str::to_owned).into();
-    args.extend(WORLD.split(' ').map(str::to_owned));
+    let world = if flags.contains(&"--driver") { "" } else { IDEAL };
+    args.extend(ROOM.split(' ').chain(world.split_whitespace()).map(str::to_owned));
     args.extend(flags.iter().map(|flag| (*flag).to_owned()));
     place.run_args(&args)
 }
@@ -67,7 +72,7 @@ fn a_conversation_ends_with_its_input_and_says_what_was_not_done() {
     talk(&place, "--speed max", &["where is the teddy?", "", "where is the coke?"])
         .check(3, &["out:The coke can is on the kitchen counter."]);
     place
-        .run(&format!("talk {WORLD} --ask script lines.txt --format json"))
+        .run(&format!("talk {ROOM} {IDEAL} --ask script lines.txt --format json"))
         .check(0, &["out:\"answer\":\"The coke can is on the kitchen counter.\""]);
     request(&place, "is the fridge closed?", &[]).check(0, &["out:Yes, the refrigerator is closed."]);
     request(&place, "where is the teddy?", &["--ask", "never"]).check(3, &[]);
@@ -147,9 +152,9 @@ fn a_state_reaches_plans_and_worlds() {
     assert!(!ran.stdout.contains("pick("), "{ran:#?}");
     talk(&place, "--speed max --state held.json", &["what do you hold?"])
         .check(0, &["out:I hold the coke can."]);
-    place.run(&format!("check good.motet {WORLD_CHECK} --state held.json")).check(0, &[]);
+    place.run(&format!("check good.motet {ROOM} --state held.json")).check(0, &[]);
     place
-        .run(&format!("run good.motet {WORLD} --speed max --state held.json"))
+        .run(&format!("run good.motet {ROOM} {IDEAL} --speed max --state held.json"))
         .check(0, &["out:✓ place(coke"]);
     let plan = place.run_args(&[
         "plan".to_owned(),
@@ -161,8 +166,6 @@ fn a_state_reaches_plans_and_worlds() {
     ]);
     plan.check(0, &["out:place(coke, kitchen_table)"]);
 }
-
-const WORLD_CHECK: &str = "--robot hsr --scene kitchen --no-geometry";
 
 /// A terminal: what is typed while the robot moves is shown, and the terminal is left as it was.
 const TERMINAL: &str = r#"
@@ -211,6 +214,6 @@ fn typed_letters_are_seen_while_the_robot_moves() {
         return;
     }
     let place = Place::new("talk_terminal").file("terminal.py", TERMINAL);
-    let line = format!("python3 terminal.py {} talk {WORLD} --speed 0.5", env!("CARGO_BIN_EXE_motet"));
+    let line = format!("python3 terminal.py {} talk {ROOM} {IDEAL} --speed 0.5", env!("CARGO_BIN_EXE_motet"));
     place.shell(&line).check(0, &["out:code 3 restored"]);
 }
