@@ -33,6 +33,7 @@ def _recipes(_: argparse.Namespace) -> None:
 
 
 def _train(flags: argparse.Namespace) -> None:
+    from . import rows
     from .train import train
 
     plan = recipe.find(flags.recipe)
@@ -43,6 +44,7 @@ def _train(flags: argparse.Namespace) -> None:
         flags.out,
         evaluate_every=flags.evaluate_every,
         most_steps=flags.updates,
+        without=frozenset().union(*map(rows.requests, flags.without)),
     )
     del report["losses"]
     print(json.dumps(report, indent=1))
@@ -124,6 +126,13 @@ def _parser() -> argparse.ArgumentParser:
         "--evaluate-every", type=int, default=0, help="updates between losses on test.jsonl; 0: only at the ends"
     )
     one.add_argument("--updates", type=int, default=0, help="number of updates instead of the recipe's epochs")
+    folder(
+        one,
+        "--without",
+        "requests of an evaluation, one JSON object with `request` a line: rows with them are left out; repeatable",
+        action="append",
+        default=[],
+    )
 
     one = command("merge", _merge, "Put adapters into the weights of their model.")
     folder(one, "adapters", "folder of the adapters")

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-__all__ = ["ROBOT", "Row", "RowError", "conversation", "folded", "read", "table", "text"]
+__all__ = ["ROBOT", "Row", "RowError", "conversation", "folded", "read", "requests", "table", "text", "without"]
 
 ROBOT = "<robot>"
 
@@ -82,6 +84,30 @@ def _row(value: dict[str, Any], folder: Path) -> Row:
     if not policy.strip():
         raise ValueError("an empty policy")
     return Row(prompt, policy, images, about)
+
+
+def requests(path: Path) -> set[str]:
+    """The requests of an evaluation: the key `request` of each line of a file, such as `eval/tasks/papers.jsonl`."""
+    try:
+        lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line.strip()]
+        return {_plain(json.loads(line)["request"]) for line in lines}
+    except (OSError, KeyError, TypeError, ValueError, AttributeError) as why:
+        raise RowError(f"{path}: no file of requests: {why!r}") from why
+
+
+def without(known: list[Row], asked: AbstractSet[str]) -> list[Row]:
+    """The rows of which no line is one of the requests. Letter case and punctuation do not count."""
+
+    def has_none(row: Row) -> bool:
+        texts = [row.prompt] if isinstance(row.prompt, str) else [one["content"] for one in row.prompt]
+        return not asked & {_plain(line) for text in texts for line in text.splitlines()}
+
+    return [row for row in known if has_none(row)]
+
+
+def _plain(line: str) -> str:
+    words = re.sub(r"[.,!?;]", "", line.lower().removeprefix("<user>"))
+    return " ".join(words.split())
 
 
 def text(content: str | list[dict[str, str]]) -> str:

@@ -21,17 +21,28 @@ class TrainError(ValueError):
 
 
 def train(
-    recipe: Recipe, model: str, data: Path, out: Path, *, evaluate_every: int = 0, most_steps: int = 0
+    recipe: Recipe,
+    model: str,
+    data: Path,
+    out: Path,
+    *,
+    evaluate_every: int = 0,
+    most_steps: int = 0,
+    without: frozenset[str] = frozenset(),
 ) -> dict[str, Any]:
     """Trains adapters of a recipe on `train.jsonl` of a folder, and gives the losses on `test.jsonl` before and after.
+
+    Rows with a request of `without`, which are the requests of an evaluation, are left out of the training.
 
     The folder `out` gets checkpoints and, at the end, the adapters. If it has checkpoints of the same training, the training
     goes on after the last one.
     """
     from transformers.trainer_utils import get_last_checkpoint
 
-    before = _resumed(recipe, model, data, out)
-    trainer, left_out = prepared(recipe, model, data, out, evaluate_every=evaluate_every, most_steps=most_steps)
+    before = _resumed(recipe, model, data, out, without)
+    trainer, left_out = prepared(
+        recipe, model, data, out, evaluate_every=evaluate_every, most_steps=most_steps, without=without
+    )
     last = get_last_checkpoint(str(out)) if before else None
     first = None if last else trainer.evaluate()["eval_loss"]
     trainer.train(resume_from_checkpoint=last)
@@ -63,16 +74,24 @@ def train(
 
 
 def prepared(
-    recipe: Recipe, model: str, data: Path, out: Path, *, evaluate_every: int = 0, most_steps: int = 0
+    recipe: Recipe,
+    model: str,
+    data: Path,
+    out: Path,
+    *,
+    evaluate_every: int = 0,
+    most_steps: int = 0,
+    without: frozenset[str] = frozenset(),
 ) -> tuple[Any, int]:
-    """TRL's trainer for a recipe, and the number of training rows that were left out because they are too long."""
+    """TRL's trainer for a recipe, and the number of training rows that were left out."""
     from trl import SFTTrainer
 
     made = models.processor(model, recipe.most_pixels)
-    trained, left_out = _fitting(rows.read(data / "train.jsonl"), made, recipe.longest)
-    held_out, _ = _fitting(rows.read(data / "test.jsonl"), made, recipe.longest)
+    known = rows.read(data / "train.jsonl")
+    trained = _fitting(rows.without(known, without), made, recipe.longest)
+    held_out = _fitting(rows.read(data / "test.jsonl"), made, recipe.longest)
     if not trained or not held_out:
-        raise TrainError(f"{data}: no row has at most {recipe.longest} tokens")
+        raise TrainError(f"{data}: no row is left that has at most {recipe.longest} tokens")
     loaded = models.load(model, recipe.precision)
     if trained[0].images and not models.has_vision(loaded.config):
         raise TrainError(f"{data}: the rows have pictures, and `{model}` does not see")
@@ -84,12 +103,12 @@ def prepared(
         processing_class=made,
         peft_config=adapters.config(loaded, recipe.lora),
     )
-    return trainer, left_out
+    return trainer, len(known) - len(trained)
 
 
-def _resumed(recipe: Recipe, model: str, data: Path, out: Path) -> bool:
+def _resumed(recipe: Recipe, model: str, data: Path, out: Path, without: frozenset[str]) -> bool:
     """True if the folder has a training that began; an error if that was another one. Otherwise notes this one there."""
-    noted = {"recipe": asdict(recipe), "model": model, "data": str(data.resolve())}
+    noted = {"recipe": asdict(recipe), "model": model, "data": str(data.resolve()), "without": sorted(without)}
     noted = json.loads(json.dumps(noted))
     path = out / RECIPE
     if path.is_file():
@@ -103,8 +122,8 @@ def _resumed(recipe: Recipe, model: str, data: Path, out: Path) -> bool:
     return False
 
 
-def _fitting(known: list[rows.Row], made: Any, longest: int) -> tuple[list[rows.Row], int]:
-    """The rows whose text has at most so many tokens, and the number of the others."""
+def _fitting(known: list[rows.Row], made: Any, longest: int) -> list[rows.Row]:
+    """The rows whose text has at most so many tokens."""
     tokenizer = models.tokenizer_of(made)
 
     def length(row: rows.Row) -> int:
@@ -115,8 +134,7 @@ def _fitting(known: list[rows.Row], made: Any, longest: int) -> tuple[list[rows.
             )
         return len(tokenizer(prompt + row.policy)["input_ids"]) + 2
 
-    fitting = [row for row in known if length(row) <= longest]
-    return fitting, len(known) - len(fitting)
+    return [row for row in known if length(row) <= longest]
 
 
 def _arguments(recipe: Recipe, out: Path, evaluate_every: int, most_steps: int) -> Any:

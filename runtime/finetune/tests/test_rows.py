@@ -64,3 +64,16 @@ def test_the_system_message_goes_to_the_user_where_a_template_has_no_such_role()
     prompt = [{"role": "system", "content": "a"}, {"role": "user", "content": "b"}]
     assert rows.conversation(Template(True), prompt) == prompt
     assert rows.conversation(Template(False), prompt) == [{"role": "user", "content": "a\n\nb"}]
+
+
+def test_rows_with_requests_of_an_evaluation_are_left_out(tmp_path):
+    known = read(tmp_path, trl("coke", "k"), trl("mug", "k"), {**trl("tea", "k"), "motet": {}})
+    path = tmp_path / "papers.jsonl"
+    path.write_text('{"request": "bring me the  Coke", "cell": "x"}\n\n{"request": "Bring me the tea!"}\n')
+    (left,) = rows.without(known, rows.requests(path))
+    assert left.prompt[1]["content"].endswith("Bring me the mug.")
+    (one,) = read(tmp_path, {"text": "<user> Get coke.\n<robot> pick coke"})
+    assert rows.without([one], {"get coke"}) == [] and rows.without([one], {"coke"}) == [one]
+    path.write_text('{"text": "x"}\n')
+    with pytest.raises(rows.RowError, match="no file of requests"):
+        rows.requests(path)

@@ -74,8 +74,8 @@ def test_a_training_goes_on_after_its_last_checkpoint(model, data, tmp_path):
 def test_long_rows_are_left_out_and_never_cut(model, data, tmp_path):
     known = rows.read(data / "train.jsonl")
     tokenizer = models.processor(str(model("qwen2")))
-    assert train._fitting(known, tokenizer, 2048) == (known, 0)
-    with pytest.raises(train.TrainError, match="no row has at most 5 tokens"):
+    assert train._fitting(known, tokenizer, 2048) == known
+    with pytest.raises(train.TrainError, match="no row is left that has at most 5 tokens"):
         train.train(dataclasses.replace(SMALL, longest=5), str(model("qwen2")), data, tmp_path)
 
 
