@@ -68,17 +68,19 @@ pub(crate) fn converse(
     };
     let mut sight;
     let mut pointing;
+    let task = Rc::default();
     let robot: &mut dyn Driver = if args.model.camera {
         talk = talk.with_eyes(eyes.clone());
         sight = eyes;
         let is_shown = args.format == OutputFormat::Human;
         let log = observer::PointLog { is_shown, record: record.clone() };
-        pointing = observer::pointing(&args.model, robot, &mut sight, &setting.scene, log)?;
+        pointing = observer::pointing(&args.model, robot, &mut sight, &setting.scene, (log, Rc::clone(&task)))?;
         &mut pointing
     } else {
         robot
     };
-    let mut observer = RunObserver::new(args, colors, (clock, speed), Rc::clone(&operator), record);
+    let mut observer =
+        RunObserver::new(args, colors, (clock, speed), Rc::clone(&operator), record).with_task(task);
     let mut prompt = OperatorPrompt(Rc::clone(&operator));
     let mut now = Time::ZERO;
     let mut exit = Exit::Success;

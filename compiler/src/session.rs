@@ -211,6 +211,12 @@ impl Session {
         Some(WorldTracker::new(Arc::clone(&self.library), Arc::clone(self.geometry.as_ref()?)))
     }
 
+    /// The scene, if there is one.
+    #[must_use]
+    pub fn scene(&self) -> Option<&Scene> {
+        self.environment.scene()
+    }
+
     /// The declarations in force.
     #[must_use]
     pub fn library(&self) -> &Library {
@@ -265,6 +271,11 @@ impl Session {
     #[must_use]
     pub fn check_motion(&self, name: &str, args: &[(SmolStr, Span)]) -> Vec<Diagnostic> {
         crate::resolve::check_motion(name, args, &self.library, &self.environment)
+    }
+
+    /// The same session with other facts at the start.
+    pub(crate) fn with_environment(&self, environment: Environment) -> Self {
+        Self { environment: Arc::new(environment), ..self.clone() }
     }
 
     /// Library and environment.

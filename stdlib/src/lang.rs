@@ -89,6 +89,7 @@ names! {
         DETECT = "detect"
         DETECT_ALL = "detect_all"
         GO = "go"
+        GRASP = "grasp"
         GROUND = "ground"
         HANDOVER = "handover"
         HOME = "home"
@@ -102,6 +103,7 @@ names! {
         SAY = "say"
         SEARCH = "search"
         START_POSE = "start_pose"
+        TURN = "turn"
         WAKE_UP = "wake_up"
     }
     /// Measures with a meaning for lints.

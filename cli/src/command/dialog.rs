@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
+use motet_compiler::fix::{self, FixLimits};
 use motet_planner::builtin;
 use motet_planner::dialogue::{Knowledge, Problem};
 use motet_planner::inteliplan::actions;
@@ -20,6 +21,9 @@ use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
 use crate::output::{Colors, note};
 use crate::report::Report;
 
+/// Maximum number of fixes to one plan.
+const MOST_FIXES: usize = 32;
+
 /// Flags of `motet dialog`.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
@@ -34,6 +38,9 @@ pub(crate) struct DialogArgs {
     write: Option<String>,
     #[command(flatten)]
     session: SessionArgs,
+    /// Complete each plan with the steps that its actions need, as `motet check --fix --unsafe-fixes` does
+    #[arg(long, conflicts_with = "write")]
+    fix: bool,
     /// Syntax of the printed policy
     #[arg(long, value_enum, default_value = "text", value_name = "SYNTAX", conflicts_with = "write")]
     to: SyntaxArg,
@@ -49,13 +56,13 @@ fn converse(args: &DialogArgs, report: &mut Report) -> Result<Exit, CliError> {
     let opened = project.session(report)?;
     match (&args.write, &args.file) {
         (Some(request), _) => write(request, opened, report),
-        (None, Some(path)) => read(path, args.to, opened, report),
+        (None, Some(path)) => read(path, args, opened, report),
         (None, None) => Err(CliError::Message("give a file or --write REQUEST".to_owned())),
     }
 }
 
 /// Converts each plan of a dialogue to a policy and checks it. Questions of the robot are printed as notes.
-fn read(path: &Path, to: SyntaxArg, opened: &ProjectSession, report: &mut Report) -> Result<Exit, CliError> {
+fn read(path: &Path, args: &DialogArgs, opened: &ProjectSession, report: &mut Report) -> Result<Exit, CliError> {
     let bytes = read_small(path)?;
     let text = String::from_utf8_lossy(&bytes);
     let exchanges = if text.contains('<') {
@@ -67,7 +74,7 @@ fn read(path: &Path, to: SyntaxArg, opened: &ProjectSession, report: &mut Report
         Vec::new()
     };
     if exchanges.is_empty() {
-        return Ok(plan(&text, "plan", "", true, to, opened, report));
+        return Ok(plan(&text, ("plan", ""), true, args, opened, report));
     }
     let is_only = exchanges.len() == 1;
     let mut exit = Exit::Success;
@@ -79,7 +86,7 @@ fn read(path: &Path, to: SyntaxArg, opened: &ProjectSession, report: &mut Report
             if index + 1 == exchanges.len() {
                 exit = Exit::Findings;
             }
-        } else if plan(&exchange.robot, &name, &place, is_only, to, opened, report) != Exit::Success {
+        } else if plan(&exchange.robot, (&name, &place), is_only, args, opened, report) != Exit::Success {
             exit = Exit::Findings;
         }
     }
@@ -89,10 +96,9 @@ fn read(path: &Path, to: SyntaxArg, opened: &ProjectSession, report: &mut Report
 /// Converts one list of actions to a policy. `place` names its exchange for people.
 fn plan(
     list: &str,
-    name: &str,
-    place: &str,
+    (name, place): (&str, &str),
     is_only: bool,
-    to: SyntaxArg,
+    args: &DialogArgs,
     opened: &ProjectSession,
     report: &mut Report,
 ) -> Exit {
@@ -105,7 +111,15 @@ fn plan(
     };
     let comma = if place.is_empty() { "" } else { ", " };
     loose.warnings.iter().for_each(|text| note(&format!("warning: {place}{comma}{text}")));
-    let source = Source::new("dialog.motet", loose.policy.as_str());
+    let to = args.to;
+    let mut source = Source::new("dialog.motet", loose.policy.as_str());
+    if args.fix {
+        let fixed = fix::fix(&opened.session, &source, DOCUMENT, FixLimits::all(MOST_FIXES));
+        for fix in &fixed.applied {
+            note(&format!("completed: {place}{comma}{}", fix.title));
+        }
+        source = Source::new("dialog.motet", fixed.text.as_str());
+    }
     let parsed = motet_syntax::read(&source, DOCUMENT);
     let diagnostics = opened.session.check(&parsed);
     let is_wrong = diagnostics.iter().any(|found| found.severity == Severity::Error);
@@ -131,8 +145,8 @@ fn write(request: &str, opened: &ProjectSession, report: &mut Report) -> Result<
     let known = Knowledge::of(opened.told_facts());
     let situation = known.situation(&scene);
     let named = motet_requests::named(request, &situation);
-    // The texts of the dialect express exactly what the numbers do.
-    let seen = prompt::seen(&opened.session, robot, &scene, &named, Duration::ZERO);
+    // Each search has its own budget, so that the same request gives the same text.
+    let seen = prompt::seen(&opened.session, robot, &scene, &named, Duration::MAX);
     let (vision, feasibility) = exchange::sight(&seen);
     let answer = builtin::answer(&opened.session, Some(robot), request, &situation);
     let mut exit = Exit::Success;

@@ -47,6 +47,7 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, CliError> {
         scene: &scene,
         situation: &situation,
         memory: &memory,
+        bound: &[],
         lasting: &StaticPrompt::new(&opened.session, robot, &scene),
         tokens: args.tokens,
         time: prompt::TIME,

@@ -1,5 +1,6 @@
 //! Observer of a conversation: shows and paces its runs, brings typed requests, and writes the record.
 
+use std::cell::RefCell;
 use std::cmp::Reverse;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -8,7 +9,7 @@ use motet_graph::Graph;
 use motet_planner::builtin::PlannedRequest;
 use motet_planner::dialogue::{DialogueObserver, Outcome, Problem, RunRecorder};
 use motet_planner::runtime_check::CheckMode;
-use motet_planner::vision::{GroundedPoint, GroundingDriver};
+use motet_planner::vision::{GroundedPoint, GroundingDriver, GroundingTask};
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Driver, Effect, Engine, Observer as _, Perception, RunControl, RunEnd, StartState, SwapRefusal, Time,
@@ -37,6 +38,7 @@ pub(super) struct RunObserver<'a> {
     operator: Rc<OperatorInput>,
     record: Option<ConversationRecord>,
     request: String,
+    task: Rc<RefCell<GroundingTask>>,
     /// Scheduled requests, the latest first.
     scheduled: Vec<ScheduledRequest>,
     view: Option<PacedView>,
@@ -73,6 +75,7 @@ impl<'a> RunObserver<'a> {
             operator,
             record,
             request: String::new(),
+            task: Rc::default(),
             scheduled,
             view: None,
             revision: 0,
@@ -83,6 +86,11 @@ impl<'a> RunObserver<'a> {
             is_unanswered: false,
             out: Output::default(),
         }
+    }
+
+    /// Adds the task that is told with questions about points.
+    pub(super) fn with_task(self, task: Rc<RefCell<GroundingTask>>) -> Self {
+        Self { task, ..self }
     }
 
     fn write(&mut self, what: &str, more: serde_json::Value) {
@@ -105,6 +113,7 @@ impl<'a> RunObserver<'a> {
     pub(super) fn requested(&mut self, request: &str) {
         self.write("request", json!({"text": request}));
         request.clone_into(&mut self.request);
+        request.clone_into(&mut self.task.borrow_mut().instruction);
     }
 
     /// Notes the outcome of a request.
@@ -173,6 +182,7 @@ impl DialogueObserver for RunObserver<'_> {
             record.policy(&answered.planned.text);
         }
         answered.understood.notes.iter().for_each(|text| note(text));
+        self.task.borrow_mut().graph = Some(Arc::clone(graph));
         let text = answered.planned.text.clone();
         if std::mem::take(&mut self.is_swapping) {
             self.next = Some((text, Arc::clone(graph)));
@@ -272,10 +282,11 @@ pub(super) fn pointing<'d>(
     driver: &'d mut dyn Driver,
     eyes: &'d mut dyn Perception,
     scene: &'d Scene,
-    log: PointLog,
+    (log, task): (PointLog, Rc<RefCell<GroundingTask>>),
 ) -> Result<GroundingDriver<'d>, CliError> {
     let client = client(model)?;
     Ok(GroundingDriver::new(driver, eyes, scene, Box::new(client))
+        .with_task(task)
         .with_listener(move |pointed| log.add(pointed)))
 }
 

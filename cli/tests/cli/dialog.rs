@@ -45,6 +45,24 @@ fn a_bare_list_becomes_a_policy_in_either_form() {
 }
 
 #[test]
+fn the_plans_of_the_paper_are_completed_and_run() {
+    for (name, list) in [
+        ("pick", "pick coke"),
+        ("go", "go to sink"),
+        ("fetch", "pick coke, go back, place coke"),
+        ("away", "Pick sponge. Go to counter. Place sponge."),
+        ("drawer", "open drawer, pick sponge, place in drawer, close drawer"),
+    ] {
+        println!("{name}: {list}");
+        let list = Place::new(&format!("dialog_fix_{name}")).file("list.txt", list);
+        let ran = list.run(&format!("dialog list.txt --fix {WORLD}"));
+        ran.check(0, &["out:policy plan for hsr {"]);
+        let policy = list.file("plan.motet", &ran.stdout);
+        policy.run(&format!("run plan.motet {WORLD} --profile ideal --speed max")).check(0, &["out:done"]);
+    }
+}
+
+#[test]
 fn what_cannot_be_done_is_said_with_its_place() {
     let place = Place::new("dialog_wrong")
         .file("juggle.txt", "<user> Entertain me.\n<robot> go to counter, juggle coke\n")

@@ -6,6 +6,7 @@ use motet_syntax::{About, Diagnostic, Related, Severity, Span};
 use smol_str::SmolStr;
 
 use super::domain::{MotionChecker, PossibleWorld};
+use super::plain::{plain_reason, target};
 use crate::ir::{StepId, StepKind, Term};
 
 /// Parts of the diagnostic of an infeasible motion.
@@ -24,6 +25,10 @@ pub(crate) struct RefusedMotion {
     pub(crate) is_certified: bool,
     /// Spans of those steps.
     pub(crate) since: Vec<Related>,
+    /// Entity where the motion ends.
+    pub(crate) entity: Option<SmolStr>,
+    /// Reason in a person's words.
+    pub(crate) plain: String,
 }
 
 fn message(told: &RefusedMotion) -> String {
@@ -42,7 +47,8 @@ fn help(told: &RefusedMotion) -> Option<String> {
 }
 
 fn about(told: &RefusedMotion) -> Option<About> {
-    Some(About { primitive: Some(told.callee.clone()), ..About::default() })
+    let (primitive, plain) = (Some(told.callee.clone()), Some(told.plain.clone()));
+    Some(About { primitive, plain, entity: told.entity.clone(), ..About::default() })
 }
 
 /// Declares the diagnostics of infeasible motions, with the choice among them by the reason, and the one of a
@@ -168,6 +174,8 @@ impl MotionChecker<'_> {
             change: why.change.clone().filter(|_| rules.is_none()),
             is_certified: why.certified,
             since,
+            entity: target(query).cloned(),
+            plain: plain_reason(self.geometry.scene(), query, &why.reason),
         };
         let mut diagnostic = refused(&why.reason, span, told);
         if !why.certified {

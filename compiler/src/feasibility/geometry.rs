@@ -1,10 +1,11 @@
 //! Geometry of a robot in a scene: motion queries with a cache of answers.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use motet_geometry::planning::{
-    BaseMapCache, Configuration as Placed, Infeasible, KeptRegion, MotionAnswer, MotionQuery, MotionWitness,
-    PlanningScene, QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason,
+    BaseMapCache, Configuration as Placed, Infeasible, InfeasibleReason, KeptRegion, MotionAnswer, MotionQuery, MotionWitness,
+    PlanningScene, QueryContext, ReachLength, RobotModel, SceneState, SearchBudget, UnknownReason,
 };
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
@@ -13,6 +14,7 @@ use motet_stdlib::lang;
 use rustc_hash::FxHashMap;
 use smol_str::{SmolStr, format_smolstr};
 
+use super::plain::target;
 use crate::declare::Library;
 use crate::environment::InitialState;
 use crate::ir::Fluent;
@@ -29,6 +31,10 @@ pub struct Geometry {
     budget: SearchBudget,
     memo: Mutex<Memo>,
     maps: BaseMapCache,
+    /// Things that are nobody knows exactly where.
+    unplaced: Vec<SmolStr>,
+    /// The scene with one of these at a guessed pose, for queries about it.
+    guessed: BTreeMap<SmolStr, Scene>,
 }
 
 #[derive(Debug, Default)]
@@ -76,7 +82,8 @@ impl Geometry {
         let machine = RobotModel::new(robot, urdf);
         let mut scene = scene.clone();
         let start = begin(&machine, &mut scene, state);
-        Self { machine, scene, start, budget, memo: Mutex::default(), maps: BaseMapCache::default() }
+        let (memo, maps) = (Mutex::default(), BaseMapCache::default());
+        Self { machine, scene, start, budget, memo, maps, unplaced: Vec::new(), guessed: BTreeMap::new() }
     }
 
     /// The same robot in another scene, without an initial state.
@@ -91,6 +98,8 @@ impl Geometry {
             budget: self.budget,
             memo: Mutex::default(),
             maps: BaseMapCache::default(),
+            unplaced: Vec::new(),
+            guessed: BTreeMap::new(),
         }
     }
 
@@ -118,6 +127,28 @@ impl Geometry {
         }
         let geometry = scene.map_or_else(|| Arc::clone(this), |scene| Arc::new(this.elsewhere(&scene)));
         (geometry, Arc::new(fingerprinted(world)))
+    }
+
+    /// The same geometry, in which some things have no exact pose, as the scene leaves it out: they may be in
+    /// the way of any motion, so no motion counts as feasible before it is tried, and a thing itself is refused
+    /// only for what holds wherever it stands near the guess, such as its height.
+    #[must_use]
+    pub fn with_unplaced(mut self, things: Vec<(SmolStr, Option<Placement>)>) -> Self {
+        for (id, guess) in things {
+            if let Some(pose) = guess {
+                let mut scene = self.scene.clone();
+                scene.entities.get_mut(&id).into_iter().for_each(|thing| thing.pose = Some(pose));
+                self.guessed.insert(id.clone(), scene);
+            }
+            self.unplaced.push(id);
+        }
+        self
+    }
+
+    /// Reason for which no motion is certain, if a thing has no exact pose.
+    pub(super) fn unplaced(&self) -> Option<SmolStr> {
+        let first = self.unplaced.first()?;
+        Some(format_smolstr!("it is not known exactly where `{first}` is"))
     }
 
     /// Position of the first camera of the card, in metres in the frame of the base, with the robot in the
@@ -173,7 +204,12 @@ impl Geometry {
         if let Some(known) = self.memo().as_ref().and_then(|memo| memo.answers.get(&key).cloned()) {
             return known;
         }
-        let answer = Arc::new(self.room(&at.world).answer(query, self.budget));
+        let is_guessed = |id: &&SmolStr| self.guessed.contains_key(*id) && !at.world.moved.contains_key(*id);
+        let answer = match target(query).filter(is_guessed) {
+            Some(id) => self.guessed_answer(&at.world, query, id),
+            None => self.room(&at.world).answer(query, self.budget),
+        };
+        let answer = Arc::new(answer);
         if let Some(mut memo) = self.memo() {
             if memo.answers.len() >= MOST_ANSWERS {
                 *memo = Memo::default();
@@ -181,6 +217,29 @@ impl Geometry {
             memo.answers.insert(key, Arc::clone(&answer));
         }
         answer
+    }
+
+    /// Answer about a thing at a guessed pose: only what does not depend on where exactly it stands.
+    fn guessed_answer(&self, world: &SceneState, query: &MotionQuery, id: &SmolStr) -> MotionAnswer {
+        let unknown = || {
+            let why = format!("it is not known exactly where `{id}` is");
+            MotionAnswer::Unknown(UnknownReason::Because(why))
+        };
+        let Some(scene) = self.guessed.get(id) else { return unknown() };
+        let answer = QueryContext::new(&self.machine, scene, world).answer(query, self.budget);
+        let lasts = |why: &Infeasible| {
+            why.certified
+                && matches!(
+                    why.reason,
+                    InfeasibleReason::OutOfReach { length: ReachLength::Height, .. }
+                        | InfeasibleReason::TooHeavy { .. }
+                        | InfeasibleReason::TooWide { .. }
+                )
+        };
+        match answer {
+            MotionAnswer::Infeasible(why) if lasts(&why) => MotionAnswer::Infeasible(why),
+            MotionAnswer::Feasible(_) | MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => unknown(),
+        }
     }
 
     /// The world with these regions, which the robot may not enter, in place of its own.

@@ -13,6 +13,7 @@ pub(crate) mod errors;
 mod geometry;
 mod keep;
 mod motion;
+mod plain;
 mod sight;
 mod transfer;
 mod verdict;

@@ -51,7 +51,9 @@ impl MotionChecker<'_> {
         let stopped = || Worlds::lost(format_smolstr!("the pose in which `{}` stopped is unknown", def.name));
         self.throw_in(if moves { stopped() } else { before.clone() }, &def.fails);
         let mut after = Worlds { known: Vec::new(), lost: before.lost.clone() };
-        let (mut witness, mut unknown, mut refused, mut is_refused) = (None, before.lost.clone(), None, true);
+        let unplaced = || self.geometry.unplaced();
+        let unknown = before.lost.clone().or_else(unplaced);
+        let (mut witness, mut unknown, mut refused, mut is_refused) = (None, unknown, None, true);
         let (mut warned, mut is_all_caught) = (None, before.lost.is_none());
         for mut possible in before.known {
             let (regions, unplaced) = self.kept(id, call, &possible);

@@ -69,8 +69,8 @@ impl<'a> Prover<'a> {
                 let calls = match def.result {
                     Some(_) => self.perceive(primitive, def, args, result),
                     None => {
-                        let all = self.fill(def, args).into_iter();
-                        all.map(|args| CandidateCall { primitive, args, result: None, again: None }).collect()
+                        let all = self.meeting(def, effect, (subgoal.1, args)).into_iter();
+                        all.flat_map(|args| self.fill(def, args)).map(|args| CandidateCall { primitive, args, result: None, again: None }).collect()
                     }
                 };
                 for call in calls {
@@ -164,6 +164,38 @@ impl<'a> Prover<'a> {
         });
         let call = calls.filter(|call| call.primitive == primitive).find(|call| call.binds == Some(again))?;
         Some(CandidateCall { primitive, args: call.args.to_vec(), result: Some(found), again: Some(again) })
+    }
+
+    /// Arguments that meet the condition of an effect: `pick` makes a table clear of what stands on it. One
+    /// choice with the arguments as they are where nothing is known to meet it.
+    fn meeting(
+        &self,
+        def: &PrimitiveDef,
+        effect: &EffectDef,
+        (key, args): (FactKey, Vec<Option<Term>>),
+    ) -> Vec<Vec<Option<Term>>> {
+        let each = effect.fact.args.iter().position(|arg| *arg == Some(Term::Each));
+        let (Some(Condition::Fact(fact)), Some(each)) = (&effect.when, each) else { return vec![args] };
+        let open = |term: &Option<Term>| {
+            matches!(term, Some(Term::Param(at)) if args.get(usize::from(*at)).is_some_and(Option::is_none))
+        };
+        let holes: Vec<usize> = (0..fact.args.len()).filter(|at| fact.args.get(*at).is_some_and(open)).collect();
+        let ([hole], true) = (holes.as_slice(), fact.args.contains(&Some(Term::Each))) else {
+            return vec![args];
+        };
+        let Some(Some(Term::Param(param))) = fact.args.get(*hole) else { return vec![args] };
+        let values = fact.args.iter().map(|term| match term {
+            Some(Term::Each) => key.arg(each),
+            _ => ANY,
+        });
+        let held = self.may_hold(fact.fluent, FactKey::new(values));
+        let held = held.into_iter().filter(|(_, value)| value.is_true()).filter_map(|(known, _)| {
+            let mut args = args.clone();
+            self.bind_arg(def, &mut args, *param, known.arg(*hole))?;
+            Some(args)
+        });
+        let found: Vec<_> = held.take(MAX_CANDIDATES).collect();
+        if found.is_empty() { vec![args] } else { found }
     }
 
     /// Unifies an effect with a fact.

@@ -5,8 +5,8 @@
 use rustc_hash::FxHashMap;
 
 use crate::declare::{MAX_FLUENT_PARAMS, NeedDef, PrimitiveDef};
-use crate::facts::TruthSet;
-use crate::ir::{Condition, Fact, Kind, Term};
+use crate::facts::{ANY, FactKey, TruthSet, arg};
+use crate::ir::{Condition, Fact, Kind, MotionKind, Term};
 use crate::plan::achievers::{Achiever, CandidateCall, Subgoal, entity_of};
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
@@ -206,6 +206,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
             .saturating_add(self.general(def, call))
             .saturating_add(guesses(def, call))
             .saturating_add(self.bothers(call, *subgoal))
+            .saturating_add(self.shut_in(def, call))
             .saturating_add(found);
         if before.calls == 0 && !self.ready.iter().any(|ready| ready.call == *call) {
             self.ready.push(Ready { call: call.clone(), cost: own.saturating_add(before.guards) });
@@ -258,6 +259,19 @@ impl<'p, 'a> Estimate<'p, 'a> {
             u32::try_from(above.take_while(|kind| *kind != wanted).count()).ok()
         });
         args.sum::<u32>().saturating_mul(GENERAL)
+    }
+
+    /// Cost of driving to a thing that lies in a container: it is only seen once the robot is there.
+    fn shut_in(&self, def: &PrimitiveDef, call: &CandidateCall) -> u32 {
+        let goes = def.motion.as_ref().is_some_and(|(query, _)| *query == MotionKind::GoTo);
+        let (Some(inside), true) = (self.prover.library.lang_items.inside, goes) else { return 0 };
+        let targets = call.args.iter().filter_map(entity_of);
+        let mut lies_in = targets.map(|target| FactKey::new([arg(target), ANY].into_iter()));
+        let is_in = |key: FactKey| {
+            let held = self.prover.may_hold(inside, key);
+            held.iter().any(|(_, value)| value.is_true())
+        };
+        if lies_in.any(is_in) { GENERAL } else { 0 }
     }
 
     /// Cost of involving people.

@@ -130,6 +130,31 @@ impl Session {
     }
 }
 
+impl Session {
+    /// The same session in an environment where a condition holds, as far as it is made of facts. Unchanged where
+    /// the condition has an error.
+    #[must_use]
+    pub fn supposing(&self, condition: &Expr) -> Self {
+        let Ok(condition) = resolve(condition, self.library(), self.environment()) else {
+            return self.clone();
+        };
+        let mut environment = self.environment().clone();
+        suppose(&condition, true, &mut environment);
+        self.with_environment(environment)
+    }
+}
+
+fn suppose(condition: &Condition, truth: bool, environment: &mut Environment) {
+    match condition {
+        Condition::Fact(fact) => environment.assert_fact(fact.clone(), truth),
+        Condition::Not(inner) => suppose(inner, !truth, environment),
+        Condition::All(parts) if truth => parts.iter().for_each(|part| suppose(part, true, environment)),
+        Condition::AnyOf(parts) if !truth => parts.iter().for_each(|part| suppose(part, false, environment)),
+        Condition::All(_) | Condition::AnyOf(_) | Condition::Literal(_) | Condition::Compare(..) => {}
+        Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) | Condition::Unknown => {}
+    }
+}
+
 /// Goals that are reached one after the other: the parts of a conjunction that must hold at the end.
 fn parts(condition: &Condition, persistence: Persistence) -> &[Condition] {
     match (condition, persistence) {

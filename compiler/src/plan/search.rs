@@ -6,6 +6,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::hash::{Hash, Hasher};
 
+use motet_syntax::ast::PrimitiveKind;
 use rustc_hash::{FxHashSet, FxHasher};
 
 use super::NoPlan;
@@ -117,6 +118,12 @@ pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &CandidateCall)
     let (mut makes, mut unsettles): (Vec<FactChange>, Vec<FactChange>) = Default::default();
     prover.changes(&def.makes, frame, &mut makes);
     prover.changes(&def.unsettles, frame, &mut unsettles);
+    // A look changes nothing: what is false stays so, and a plan does not make it unknown to rely on a guard.
+    let only_looks = def.form == PrimitiveKind::Perception
+        && def.motion.as_ref().is_some_and(|(motion, _)| !motion.moves());
+    if only_looks {
+        unsettles.retain(|change| !prover.state.facts.get(change.fluent, change.key).is_false());
+    }
     prover.make_stale(id, def, frame);
     prover.unsettle(&unsettles, cause);
     prover.make(&makes, cause);

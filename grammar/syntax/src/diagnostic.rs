@@ -95,6 +95,10 @@ pub struct About {
     pub subject: Option<SmolStr>,
     /// Truth value of the subject that the condition asks for.
     pub wanted: Option<bool>,
+    /// The entity where a motion ends.
+    pub entity: Option<SmolStr>,
+    /// The reason in a person's words: a clause with names and numbers, without ids.
+    pub plain: Option<String>,
 }
 
 impl About {

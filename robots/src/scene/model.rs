@@ -24,6 +24,15 @@ pub struct Scene {
     pub views: Vec<CameraView>,
 }
 
+impl Scene {
+    /// Name of an entity in speech: its first other name, or its id in words.
+    #[must_use]
+    pub fn called(&self, id: &str) -> String {
+        let name = self.entities.get(id).and_then(|entity| entity.names.first());
+        name.map_or_else(|| id.replace(['_', '-'], " "), ToString::to_string)
+    }
+}
+
 /// State of the robot at the start.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct RobotState {

@@ -5,10 +5,14 @@ use motet_compiler::plan::{Goal, NoPlan, PLAN_BUDGET, Persistence, Plan, Planned
 use motet_compiler::{Compiled, Session};
 use motet_requests::{Aim, Intent, RequestContext, RequestError};
 use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
 use motet_stdlib::lang::{fluents, measures};
-use motet_syntax::ast::Expr;
-use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Syntax, print};
+use motet_syntax::ast::{Expr, ExprKind};
+use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
 use thiserror::Error;
+
+use crate::deed;
+use crate::model::{ReplyVerdict, judge};
 
 /// A policy that reaches the requested goals.
 #[derive(Clone, Debug)]
@@ -85,19 +89,31 @@ pub fn plan(
     aims: &[Aim],
 ) -> Result<Planned, PlanError> {
     let goals: Vec<Goal> = aims.iter().map(|aim| aim.goal.clone()).collect();
-    let plan = match session.plan(&goals, PLAN_BUDGET) {
-        Err(NoPlan::Budget { .. }) => session.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
+    // What is waited for will be so.
+    let awaited = aims.iter().filter_map(|aim| aim.awaits.as_ref());
+    let supposed = awaited.fold(session.clone(), |session, condition| session.supposing(condition));
+    let plan = match supposed.plan(&goals, PLAN_BUDGET) {
+        Err(NoPlan::Budget { .. }) => supposed.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
         found => found?,
     };
-    let text = policy(name, robot, aims, &plan);
+    if let Some(deed) = aims.iter().filter_map(|aim| aim.deed.as_ref()).find(|deed| !deed::has(deed, session)) {
+        return Err(RequestError::Unfit { why: format!("I cannot {}", deed::words(deed)) }.into());
+    }
+    let text = policy(name, robot, aims, &plan, session.scene());
     let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
     let text = motet_syntax::print::text(&parsed.file);
     let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
     let compiled = session.compile(&parsed, None);
-    if compiled.graph.is_none() {
-        return Err(PlanError::Refused { text, diagnostics: compiled.diagnostics });
+    if compiled.graph.is_some() {
+        return Ok(Planned { text, parsed, compiled, looked_at: plan.expanded_states });
     }
-    Ok(Planned { text, parsed, compiled, looked_at: plan.expanded_states })
+    // A step that is asked for by its name has needs that no goal says.
+    if aims.iter().any(|aim| aim.deed.is_some() || aim.awaits.is_some())
+        && let ReplyVerdict::Good { planned, .. } = judge(session, &text)
+    {
+        return Ok(*planned);
+    }
+    Err(PlanError::Refused { text, diagnostics: compiled.diagnostics })
 }
 
 /// Reads a request in English and plans for it.
@@ -121,17 +137,30 @@ pub fn answer(
     Ok(PlannedRequest { understood, planned })
 }
 
+/// A text as it is written in a policy.
+pub(crate) fn quoted(text: &str) -> String {
+    print::expression(&Expr { kind: ExprKind::Text(text.into()), span: Span::default() })
+}
+
 fn first(diagnostics: &[Diagnostic]) -> &str {
     let mut errors = diagnostics.iter().filter(|said| said.severity == Severity::Error);
     errors.next().map_or("", |said| said.message.as_str())
 }
 
+/// Longest time in min for which the robot waits until something happens.
+const PATIENCE_MIN: u32 = 30;
 /// Distance in m below which a monitor pauses a moving base in front of a person. Smaller than the distance
 /// of a handover, so that the robot can leave afterwards.
 const CLEARANCE_M: f64 = 0.3;
 
 /// The policy as text, not yet in its canonical layout.
-pub(super) fn policy(name: &str, robot: Option<&Robot>, aims: &[Aim], plan: &Plan) -> String {
+pub(super) fn policy(
+    name: &str,
+    robot: Option<&Robot>,
+    aims: &[Aim],
+    plan: &Plan,
+    scene: Option<&Scene>,
+) -> String {
     let mut text = format!("policy {}", print::identifier(name));
     if let Some(robot) = robot {
         text.push_str(&format!(" for {}", print::identifier(&robot.name)));
@@ -146,38 +175,43 @@ pub(super) fn policy(name: &str, robot: Option<&Robot>, aims: &[Aim], plan: &Pla
     }
     text.push_str(" {\n");
     let is_grouped = aims.len() > 1 || aims.iter().any(|aim| aim.only_if.is_some());
-    let mut open = None;
-    for step in &plan.steps {
-        if is_grouped && open != Some(step.goal) {
-            text.push_str(close(open, aims));
-            let name = aims.get(step.goal).map_or("put_right", |aim| aim.name.as_str());
-            text.push_str(&format!("sequence {} {{\n", print::identifier(name)));
-            if let Some(condition) = aims.get(step.goal).and_then(|aim| aim.only_if.as_ref()) {
-                text.push_str(&format!("if {} {{\n", print::expression(condition)));
-            }
-            open = Some(step.goal);
+    for index in 0..=aims.len() {
+        let aim = aims.get(index);
+        let steps: Vec<String> = plan.steps.iter().filter(|step| step.goal == index)
+            .map(|step| watched(step, robot))
+            .collect();
+        let deed = aim.and_then(|aim| aim.deed.as_ref()).map(|deed| deed::steps(deed, robot, scene));
+        let awaits = aim.and_then(|aim| aim.awaits.as_ref());
+        if steps.is_empty() && deed.is_none() && awaits.is_none() {
+            continue;
         }
-        text.push_str(&watched(step, robot));
-        text.push('\n');
+        if is_grouped {
+            let name = aim.map_or("put_right", |aim| aim.name.as_str());
+            text.push_str(&format!("sequence {} {{\n", print::identifier(name)));
+        }
+        let only_if = aim.and_then(|aim| aim.only_if.as_ref()).filter(|_| is_grouped);
+        if let Some(condition) = only_if {
+            text.push_str(&format!("if {} {{\n", print::expression(condition)));
+        }
+        if let Some(condition) = awaits {
+            let condition = print::expression(condition);
+            text.push_str(&format!("wait until {condition} within {PATIENCE_MIN} min\n"));
+        }
+        for step in steps.iter().chain(&deed) {
+            text.push_str(step);
+            text.push('\n');
+        }
+        text.push_str(if only_if.is_some() { "}\n" } else { "" });
+        text.push_str(if is_grouped { "}\n" } else { "" });
     }
-    text.push_str(close(open, aims));
     text.push_str("}\n");
     text
-}
-
-/// Ending of an aim's steps, as text.
-fn close(open: Option<usize>, aims: &[Aim]) -> &'static str {
-    match open.map(|index| aims.get(index).is_some_and(|aim| aim.only_if.is_some())) {
-        Some(true) => "}\n}\n",
-        Some(false) => "}\n",
-        None => "",
-    }
 }
 
 /// Part of a conjunction, in parentheses if necessary.
 fn part(condition: &Expr) -> String {
     let text = print::expression(condition);
-    if matches!(condition.kind, motet_syntax::ast::ExprKind::AnyOf(_)) { format!("({text})") } else { text }
+    if matches!(condition.kind, ExprKind::AnyOf(_)) { format!("({text})") } else { text }
 }
 
 /// A step, with a monitor around it if the base moves to a person or with an object in the hand, and the

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod builtin;
+mod deed;
 pub mod dialogue;
 pub mod inteliplan;
 pub mod model;

@@ -3,9 +3,11 @@
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 
 use motet_compiler::Session;
+use motet_graph::Value;
 use motet_robots::card::Robot;
 use motet_runtime::CameraImage;
 use motet_runtime::memory::Memory;
+use smol_str::SmolStr;
 
 use crate::builtin::{self, PlanError, PlannedRequest};
 use motet_requests::RequestContext;
@@ -74,6 +76,8 @@ pub struct PlanRequest<'a> {
     pub situation: &'a RequestContext<'a>,
     /// Earlier requests and their endings.
     pub memory: &'a Memory,
+    /// Results of the steps of the latest policy, by name.
+    pub bound: &'a [(SmolStr, Value)],
     /// Current camera image, if the robot has a camera.
     pub image: Option<&'a CameraImage>,
 }
@@ -95,11 +99,12 @@ impl Planner for BuiltinBeside {
     fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
         let (session, robot, request) = (ask.session.clone(), ask.robot.clone(), ask.request.to_owned());
         let (situation, scene) = (ask.situation.clone(), ask.situation.scene.clone());
-        let RequestContext { holding, supports, spoken_of, came_from, meant, seen_at, .. } = situation;
+        let RequestContext { holding, supports, spoken_of, came_from, meant, seen_at, prefers, .. } = situation;
         let (told, coming) = mpsc::channel();
         std::thread::spawn(move || {
             let scene = &scene;
-            let situation = RequestContext { scene, holding, supports, spoken_of, came_from, meant, seen_at };
+            let context = RequestContext { holding, supports, spoken_of, came_from, ..RequestContext::new(scene) };
+            let situation = RequestContext { meant, seen_at, prefers, ..context };
             let planned = builtin::answer(&session, Some(&robot), &request, &situation);
             // Nobody waits for it any more if the run is over.
             let _ = told.send(planned.ok().map(|answered| answered.planned.text));

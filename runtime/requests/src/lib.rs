@@ -3,6 +3,7 @@
 mod answer;
 mod carry;
 mod command;
+mod deed;
 mod engine;
 mod errand;
 mod error;
@@ -18,10 +19,13 @@ mod statement;
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
+use engine::token::Token;
+
 pub use answer::{called, choose, encourages, named, pick};
+pub use deed::Deed;
 pub use error::RequestError;
 pub use meaning::{Aim, Certainty, Intent};
-pub use polarity::{Polarity, added, holds, is_wordless, polarity, proceeds, refuses, stops};
+pub use polarity::{Polarity, added, holds, is_wordless, polarity, proceeds, refuses, stops, withdrawn};
 pub use question::{RoomQuestion, Topic, deed, is_question, question};
 
 /// The context of a request: the scene, and what changed or was said since. Plain data; `Send` and `Sync`.
@@ -41,6 +45,15 @@ pub struct RequestContext<'a> {
     pub seen_at: Vec<(SmolStr, [f64; 3])>,
     /// Phrases with the things that they mean, as answers to questions told.
     pub meant: Vec<(String, SmolStr)>,
+    /// What somebody would rather have, the latest last.
+    pub prefers: Vec<Preference>,
+}
+
+/// Things that somebody would rather have than others.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Preference {
+    pub liked: Vec<SmolStr>,
+    pub over: Vec<SmolStr>,
 }
 
 /// A location of a thing, as a person reported it.
@@ -65,6 +78,7 @@ impl<'a> RequestContext<'a> {
             came_from: Vec::new(),
             seen_at: Vec::new(),
             meant: Vec::new(),
+            prefers: Vec::new(),
         }
     }
 }
@@ -72,11 +86,35 @@ impl<'a> RequestContext<'a> {
 /// Reads reported locations from an answer: "it should be in the cupboard" tells a place to whom asked for
 /// one, where in a request it says what shall be done. Empty where it says nothing of the kind.
 #[must_use]
-pub fn told(answer: &str, situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
+pub fn told(answer: &str, asked: Asked, situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
     if answer.len() > MAX_REQUEST {
         return Vec::new();
     }
-    meaning::told(&engine::frame::without_courtesy(&engine::token::tokens(answer)), situation)
+    meaning::told(&engine::frame::without_courtesy(&engine::token::tokens(answer)), asked, situation)
+}
+
+/// Question that an answer is given to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Asked {
+    /// Where a thing is: a place to open or to go to is where it may be.
+    Where,
+    /// What to do about a thing that could not be taken.
+    What,
+}
+
+/// Angle of an answer that names a direction to look in, in degrees to the left: `turn left`, `look behind you`.
+#[must_use]
+pub fn turn(answer: &str) -> Option<i32> {
+    if answer.len() > MAX_REQUEST {
+        return None;
+    }
+    let mut tokens = engine::frame::without_courtesy(&engine::token::tokens(answer));
+    tokens.retain(|token| !token.word().is_empty());
+    let begin = engine::asking::skip_leads(&tokens, 0);
+    let valued = |list: &engine::phrases::Phrases| list.valued(&tokens, begin);
+    let (count, degrees) =
+        valued(&engine::english::TURNS_BY).or_else(|| valued(&engine::english::LOOKS_ASIDE))?;
+    (begin + count == tokens.len()).then(|| degrees.parse().ok()).flatten()
 }
 
 /// True if an answer is a bare noun or place, such as completes a request: "the cupboard", "on the
@@ -102,7 +140,34 @@ pub fn understand(request: &str, situation: &RequestContext<'_>) -> Result<Inten
         let why = format!("a request may have at most {MAX_REQUEST} bytes; this one has {}", request.len());
         return Err(RequestError::Unfit { why });
     }
-    let tokens = engine::frame::plain(&engine::token::tokens(request));
-    let spoken = parse::parse(&tokens).map_err(|part| RequestError::NotUnderstood { part })?;
-    meaning::understood(&spoken, request, situation)
+    understand_tokens(&engine::token::tokens(request), request, situation)
+}
+
+fn understand_tokens(
+    tokens: &[Token],
+    request: &str,
+    situation: &RequestContext<'_>,
+) -> Result<Intent, RequestError> {
+    if let Some((preference, rest)) = deed::preference(tokens, situation) {
+        let mut prefers = situation.prefers.clone();
+        prefers.push(preference);
+        let context = RequestContext { prefers: prefers.clone(), ..situation.clone() };
+        let is_all = rest.iter().all(|token| token.word().is_empty());
+        let intent = if is_all { Ok(Intent::default()) } else { understand_tokens(&rest, request, &context) };
+        return intent.map(|intent| Intent { prefers, ..intent });
+    }
+    let again = |tokens: &[Token]| understand_tokens(tokens, request, situation);
+    if let Some(found) = deed::excluding(tokens, situation, again) {
+        return found;
+    }
+    let plain = |tokens: &[Token]| {
+        let tokens = engine::frame::plain(tokens);
+        let spoken = parse::parse(&tokens).map_err(|part| RequestError::NotUnderstood { part })?;
+        meaning::understood(&spoken, request, situation)
+    };
+    let found = plain(tokens);
+    if found.as_ref().is_ok_and(|intent| !intent.aims.is_empty() || !intent.located.is_empty()) {
+        return found;
+    }
+    deed::understood(tokens, request, situation).unwrap_or(found)
 }

@@ -12,7 +12,8 @@ use crate::engine::token::{Token, singular, tokens};
 use crate::engine::verb::Act;
 use crate::engine::vocabulary::{Role, Vocabulary};
 use crate::parse::Spoken;
-use crate::{ReportedLocation, RequestContext, RequestError};
+use crate::deed::Deed;
+use crate::{Asked, Preference, ReportedLocation, RequestContext, RequestError};
 
 /// Roles of the things that can be carried.
 pub(super) const OBJECTS: &[Role] = &[Role::Object];
@@ -33,6 +34,8 @@ pub struct Intent {
     pub notes: Vec<String>,
     /// Things that were spoken of, the latest last.
     pub spoken_of: Vec<SmolStr>,
+    /// What the person would rather have, if they told it.
+    pub prefers: Vec<Preference>,
     /// Confidence in the goals.
     pub certainty: Certainty,
 }
@@ -105,8 +108,12 @@ pub(super) fn understood(
 }
 
 /// Finds where somebody says that things are, in words that would otherwise ask for something.
-pub(super) fn told(tokens: &[Token], situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
-    Reader::new(situation).told(tokens)
+pub(super) fn told(
+    tokens: &[Token],
+    asked: Asked,
+    situation: &RequestContext<'_>,
+) -> Vec<ReportedLocation> {
+    Reader::new(situation).told(tokens, asked)
 }
 
 impl Command {
@@ -208,7 +215,7 @@ impl Reader<'_> {
     pub(super) fn aim(&mut self, name: String, condition: Expr, lasts: Persistence) {
         let name =
             name.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
-        let is_known = self
+        let is_known = !matches!(&condition.kind, ExprKind::All(parts) if parts.is_empty()) && self
             .said
             .aims
             .iter()
@@ -216,7 +223,8 @@ impl Reader<'_> {
         if is_known {
             return;
         }
-        self.said.aims.push(Aim { goal: Goal { condition, persistence: lasts }, name, only_if: None });
+        let goal = Goal { condition, persistence: lasts };
+        self.said.aims.push(Aim { goal, name, only_if: None, awaits: None, deed: None });
     }
 
     pub(super) fn ask(&self, question: &str, roles: &[Role]) -> RequestError {
@@ -240,6 +248,26 @@ pub struct Aim {
     pub name: String,
     /// Condition that must hold when the aim's turn comes; otherwise its steps are skipped.
     pub only_if: Option<Expr>,
+    /// Condition that is waited for before the aim's turn.
+    pub awaits: Option<Expr>,
+    /// Step that the request names, behind the steps of the goal.
+    pub deed: Option<Deed>,
+}
+
+impl Aim {
+    /// True if the goal names an entity.
+    #[must_use]
+    pub fn mentions(&self, id: &str) -> bool {
+        entities(&self.goal.condition).iter().any(|named| named == id)
+    }
+}
+
+impl Aim {
+    /// True if the goal is that a thing is somewhere.
+    #[must_use]
+    pub fn places(&self, id: &str) -> bool {
+        matches!(simple(&self.goal.condition), Some(Simple::Placed(thing, _)) if thing == id)
+    }
 }
 
 /// A goal that says one thing of one thing.

@@ -2,7 +2,7 @@
 
 use crate::engine::english::{
     ADDITIONS, ANSWER_COURTESY, ASKED_TO_STOP, HOLDS_STILL, IGNORANT, MOMENT, NO, PLACE_AFTER_STOP, PROCEEDS,
-    REFUSALS, STOPS, STOPS_ALONE, YES,
+    REFUSALS, STOPS, STOPS_ALONE, WITHDRAWALS, YES,
 };
 use crate::engine::phrases::Phrases;
 use crate::engine::token::{Token, pieces, tokens};
@@ -97,6 +97,15 @@ fn is_whole(answer: &str, phrases: &Phrases, behind: &Phrases) -> bool {
 pub fn added(answer: &str) -> Option<&str> {
     let said = Said::new(answer);
     let rest = said.from(said.skip(0, &ADDITIONS)?).trim_start_matches([',', ' ']);
+    (!rest.is_empty()).then_some(rest)
+}
+
+/// Things inside a withdrawal: "without the apple".
+#[must_use]
+pub fn withdrawn(answer: &str) -> Option<&str> {
+    let said = Said::new(answer);
+    let rest = said.from(said.skip(said.skip_all(0, &ANSWER_COURTESY), &WITHDRAWALS)?);
+    let rest = rest.trim_start_matches([',', ' ']).trim_end_matches(['.', '!', ' ']);
     (!rest.is_empty()).then_some(rest)
 }
 

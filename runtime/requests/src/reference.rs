@@ -4,7 +4,7 @@ use motet_stdlib::lang::entities;
 use smol_str::SmolStr;
 
 use crate::RequestError;
-use crate::engine::english::CANDIDATES_OPEN;
+use crate::engine::english::{CANDIDATES_OPEN, REFUSE};
 use crate::engine::noun::{Noun, Phrase, Which};
 use crate::engine::vocabulary::Role;
 use crate::meaning::{OBJECTS, Reader};
@@ -47,7 +47,14 @@ impl Reader<'_> {
             return Ok(self.things(noun, OBJECTS, from)?.into_iter().map(|id| vec![id]).collect());
         };
         let found = self.candidates(phrase, OBJECTS, from)?;
+        let found = self.preferred(found);
+        // Of what is good for something several may fit, and a person cares which.
+        if phrase.good_for.is_some() && matches!(phrase.which, Which::Any) && found.len() > 1 {
+            return Err(ambiguous(phrase, found));
+        }
+        let is_refuse = phrase.words.last().is_some_and(|word| REFUSE.has(word));
         Ok(match phrase.which {
+            Which::The if is_refuse => found.into_iter().map(|id| vec![id]).collect(),
             Which::The if found.len() > 1 && !phrase.is_plural && !self.is_settled(phrase) => {
                 return Err(ambiguous(phrase, found));
             }
@@ -62,6 +69,20 @@ impl Reader<'_> {
             Which::Count(1) | Which::Any => vec![found],
             Which::Count(count) => found.into_iter().take(count).map(|id| vec![id]).collect(),
         })
+    }
+
+    /// Of several things the one that the person would rather have.
+    fn preferred(&self, found: Vec<SmolStr>) -> Vec<SmolStr> {
+        let wins = |id: &&SmolStr| {
+            let others = || found.iter().filter(move |other| other != id);
+            self.situation.prefers.iter().any(|known| {
+                known.liked.contains(id) && others().all(|other| known.over.contains(other))
+            })
+        };
+        match found.iter().find(wins) {
+            Some(one) => vec![one.clone()],
+            None => found,
+        }
     }
 
     /// The things that are meant; of a single noun the one.
@@ -134,6 +155,11 @@ impl Reader<'_> {
         // What someone says of a thing that they opened or emptied tells nothing about which it is.
         words.retain(|word| !CANDIDATES_OPEN.has(word.as_str()));
         let found = self.named(&words, roles);
+        let found = match (found.as_slice(), roles, words.as_slice()) {
+            // `dispose of the trash`: what is thrown away, and not the bin.
+            ([], [Role::Object], [word]) if REFUSE.has(word) => self.named(&["rubbish".to_owned()], roles),
+            _ => found,
+        };
         if found.is_empty()
             && let Some(other) = self.vocabulary.meant(&words, ALL).first()
         {

@@ -6,7 +6,7 @@
 use motet_stdlib::lang::fluents;
 use smol_str::SmolStr;
 
-use crate::ReportedLocation;
+use crate::{Asked, ReportedLocation};
 use crate::engine::english::{
     ADVICE, BEFORE_REPORT, BEHIND_REPORT, IS_HABIT_ALWAYS, LIKES, LOOK_THERE, NEEDS_TO, REPORT_DENIALS,
     TELLING_BE, TOLD_THERE,
@@ -151,7 +151,7 @@ pub(super) enum Clause {
 impl Reader<'_> {
     /// Reads what an answer says of where things are. Of the same thing more than one place is where to look
     /// first, then next.
-    pub(super) fn told(&mut self, tokens: &[Token]) -> Vec<ReportedLocation> {
+    pub(super) fn told(&mut self, tokens: &[Token], asked: Asked) -> Vec<ReportedLocation> {
         let mut told = Vec::new();
         for sentence in tokens.split(|token| *token == Token::Stop) {
             let mut here = Vec::new();
@@ -160,7 +160,7 @@ impl Reader<'_> {
                 if denies(clause) && clause.iter().any(|token| TOLD_THERE.has(token.word())) {
                     here.clear();
                 }
-                here.extend(self.whereabouts(clause, Clause::Answer));
+                here.extend(self.whereabouts(&guided(clause, asked), Clause::Answer));
             }
             told.extend(here);
         }
@@ -220,6 +220,17 @@ impl Reader<'_> {
             relation,
             place: place.clone(),
         })
+    }
+}
+
+/// An answer that says where to take the thing from, or where to look, as one that says where it is.
+fn guided(clause: &[Token], asked: Asked) -> Vec<Token> {
+    let begin = leading(clause, 0, Clause::Answer);
+    let found = Rules("guidance").at(clause, 0).or_else(|| Rules("guidance").at(clause, begin));
+    let search = || Rules("guided_search").at(clause, begin).filter(|_| asked == Asked::Where);
+    match found.or_else(search) {
+        Some(found) => [&found.words, clause.get(found.end..).unwrap_or_default()].concat(),
+        None => clause.to_vec(),
     }
 }
 

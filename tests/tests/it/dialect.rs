@@ -44,6 +44,54 @@ fn dialect_lists_of_actions_become_policies() {
     );
 }
 
+/// The calls of a list, which need not pass the check.
+#[track_caller]
+fn reads(list: &str, calls: &[&str]) {
+    let loose = read(list).unwrap_or_else(|why| panic!("{list}: {why}"));
+    let found: Vec<&str> = loose.policy.lines().filter(|line| line.ends_with(')')).collect();
+    assert_eq!(found, calls, "{list}");
+}
+
+#[test]
+fn dialect_all_seven_actions_in_their_forms() {
+    reads("search coke", &["search(\"coke can\", [counter])"]);
+    reads("search for the coke on the table", &["search(\"coke can\", [kitchen_table])"]);
+    reads("turn left, turn right", &["turn(90 deg)", "turn(-90 deg)"]);
+    reads("turn 45 degrees, turn around", &["turn(45 deg)", "turn(180 deg)"]);
+    reads("pick coke, go back, place coke", &["pick(coke)", "go(user)", "handover(coke, user)"]);
+    reads("Pick coke. Go to sink. Place coke.", &["pick(coke)", "go(sink)", "place(coke, sink)"]);
+    reads("pick coke from the counter", &["go(counter)", "pick(coke)"]);
+    reads(
+        "Open drawer, Pick sponge, Place in drawer, Close drawer",
+        &["open(drawer_1)", "pick(sponge)", "place(sponge, drawer_1)", "close(drawer_1)"],
+    );
+}
+
+#[test]
+fn dialect_nothing_is_dropped() {
+    for (list, number) in [("go to counter. juggle coke", 2), ("pick coke. whatever", 2), ("turn somewhere", 1)] {
+        let why = read(list).unwrap_err();
+        let at = match &why {
+            NoPolicy::Unknown { number, .. } | NoPolicy::Lacking { number, .. } => *number,
+            NoPolicy::Unclear { number, .. } => *number,
+            NoPolicy::Empty => 0,
+        };
+        assert_eq!(at, number, "{list}: {why}");
+    }
+    assert!(matches!(read("place coke"), Err(NoPolicy::Unclear { .. })), "where to is not said");
+}
+
+#[test]
+fn dialect_name_with_a_comma_is_one_name() {
+    let robot = setup::robot("hsr");
+    let mut scene = setup::scene("kitchen");
+    scene.entities.get_mut("coke").unwrap().names.push("can, red".into());
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    let loose =
+        actions::read("pick can, red", "plan", &session, Some(&robot), &RequestContext::new(&scene)).unwrap();
+    assert!(loose.policy.contains("pick(coke)"), "{}", loose.policy);
+}
+
 #[test]
 fn dialect_what_is_read_otherwise_is_said() {
     let warnings = read("go to table, pick up coke").unwrap().warnings.join("\n");

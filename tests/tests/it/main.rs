@@ -36,6 +36,7 @@ mod planning;
 mod promises;
 mod prompt;
 mod proofs;
+mod recovery;
 mod replies;
 mod request;
 mod scopes;

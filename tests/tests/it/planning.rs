@@ -17,6 +17,8 @@ fn plan(robot: &str, scene: &str, goals: &[&str]) -> Result<Planned, PlanError> 
             goal: Goal::read(goal, Persistence::ToTheEnd).unwrap(),
             name: format!("goal_{index}"),
             only_if: None,
+            awaits: None,
+            deed: None,
         })
         .collect();
     builtin::plan(&session, Some(&robot), "plan", &aims)

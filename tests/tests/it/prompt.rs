@@ -17,6 +17,7 @@ fn write(session: &Session, robot: &Robot, situation: &RequestContext<'_>) -> Wr
         scene,
         situation,
         memory: &Memory::new(MemoryLimits::default()),
+        bound: &[],
         lasting: &StaticPrompt::new(session, robot, scene),
         tokens: TOKENS,
         time: Duration::ZERO,

@@ -1,7 +1,7 @@
 //! What is seen: the laws of the simulator's eyes, detections as things of a scene, and points of an image
 //! lifted into the room.
 use motet_graph::Pose;
-use motet_planner::vision::{NoPoint, Pointer, Sightings, ground, lift, point};
+use motet_planner::vision::{NoPoint, Pointer, Purpose, Sightings, ground, lift, point};
 use motet_requests::RequestContext;
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::conformance::check_perception;
@@ -200,7 +200,7 @@ fn vision_model_is_asked_for_the_point() {
     impl Pointer for Says {
         fn ask(&mut self, _image: &CameraImage, question: &str) -> Result<String, String> {
             assert!(
-                question.contains("on the drawer is the handle") && question.contains("100 x 80"),
+                question.contains("the place on the drawer for: the handle") && question.contains("100 x 80"),
                 "{question}"
             );
             self.0.map(ToOwned::to_owned).map_err(ToOwned::to_owned)
@@ -213,7 +213,14 @@ fn vision_model_is_asked_for_the_point() {
         at: Time::ZERO,
     };
     let view = RgbdView { image, depth: depth(), camera: camera() };
-    let ask = |says| ground(&mut Says(says), &view, "drawer", "the handle");
+    let ask = |says| {
+        let purpose = Purpose {
+            object: "drawer".to_owned(),
+            used_for: "the handle".to_owned(),
+            ..Purpose::default()
+        };
+        ground(&mut Says(says), &view, &purpose)
+    };
     assert!(ask(Ok("{\"point\": [50, 40]}")).is_ok());
     assert!(matches!(ask(Ok("{\"point\": [500, 40]}")), Err(NoPoint::Outside { .. })));
     assert!(matches!(ask(Err("time-out")), Err(NoPoint::Silent(_))));

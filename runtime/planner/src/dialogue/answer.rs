@@ -1,11 +1,11 @@
 //! Meaning of an answer to a question, for the task at hand.
 
-use motet_requests::{Polarity, ReportedLocation, RequestContext, RequestError, is_wordless, polarity};
+use motet_requests::{Aim, Asked, Polarity, ReportedLocation, RequestContext, RequestError, is_wordless, polarity};
 use motet_robots::scene::Entity;
-use motet_stdlib::lang::fluents;
+use motet_stdlib::lang::{fluents, kinds};
 use smol_str::SmolStr;
 
-use super::problem::{Kind, Problem, called};
+use super::problem::{Kind, Problem, holders};
 
 /// Meaning of an answer.
 #[derive(Clone, PartialEq, Debug)]
@@ -21,6 +21,8 @@ pub enum Answer {
     /// Locations of objects that are elsewhere than believed.
     ReportedLocation(Vec<ReportedLocation>),
     Request(String),
+    /// Another direction to look in: the robot turns by this angle, in degrees to the left, and looks again.
+    Look { degrees: i32 },
     /// Nothing useful: the question is asked again.
     NotUnderstood,
 }
@@ -35,7 +37,7 @@ pub(super) fn read(answer: &str, problem: &Problem, request: &str, situation: &R
     if retries
         && motet_requests::encourages(answer)
             .is_some_and(|beside| motet_requests::named(&beside, situation).is_empty())
-        && motet_requests::told(answer, &about).is_empty()
+        && motet_requests::told(answer, asked(problem), &about).is_empty()
     {
         return Answer::Again;
     }
@@ -86,18 +88,25 @@ fn meaning(answer: &str, problem: &Problem, request: &str, situation: &RequestCo
         && let Some(held) = &situation.holding
         && problem.options.iter().any(|option| situation.scene.entities.contains_key(option))
         && let Some(request) =
-            completed(&format!("put the {}", called(situation.scene, held)), answer, situation)
+            completed(&format!("put the {}", situation.scene.called(held)), answer, situation)
     {
         return Answer::Request(format!("{} instead", request.trim_end_matches(['.', '!', '?', ' '])));
     }
     let about = RequestContext { spoken_of: spoken(problem, situation), ..situation.clone() };
-    if problem.kind == Kind::NotFound {
-        let told = motet_requests::told(answer, &about);
-        if !told.is_empty() {
+    let understood = motet_requests::understand(answer, &about);
+    // `take it from the table` tells where it is, `put it on the table` asks for something.
+    let takes = |aim: &Aim| problem.about.as_ref().is_some_and(|thing| aim.places(thing));
+    let asks = understood.as_ref().is_ok_and(|understood| understood.aims.iter().any(takes));
+    if problem.kind == Kind::NotFound || is_of_object(problem, situation) {
+        let told = motet_requests::told(answer, asked(problem), &about);
+        if !told.is_empty() && (problem.kind == Kind::NotFound || !asks) {
             return Answer::ReportedLocation(told);
         }
+        if let Some(degrees) = motet_requests::turn(answer) {
+            return Answer::Look { degrees };
+        }
     }
-    match motet_requests::understand(answer, &about) {
+    match understood {
         Ok(understood) if understood.aims.is_empty() => Answer::ReportedLocation(understood.located),
         Ok(_) => Answer::Request(answer.to_owned()),
         Err(RequestError::AmbiguousReference { .. } | RequestError::NotFound { .. })
@@ -117,6 +126,18 @@ fn meaning(answer: &str, problem: &Problem, request: &str, situation: &RequestCo
     }
 }
 
+/// True if a problem is that an object is missing, out of reach or not taken, so that a place is an answer.
+fn is_of_object(problem: &Problem, situation: &RequestContext<'_>) -> bool {
+    let about = problem.about.as_ref().and_then(|id| situation.scene.entities.get(id));
+    matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed)
+        && about.is_some_and(|entity| entity.kind == kinds::OBJECT)
+}
+
+/// Meaning of the question behind a problem.
+fn asked(problem: &Problem) -> Asked {
+    if problem.kind == Kind::NotFound { Asked::Where } else { Asked::What }
+}
+
 /// Names of the problem's subject, as antecedents of `it`.
 fn spoken(problem: &Problem, situation: &RequestContext<'_>) -> Vec<SmolStr> {
     situation.spoken_of.iter().cloned().chain(problem.about.clone()).collect()
@@ -124,8 +145,11 @@ fn spoken(problem: &Problem, situation: &RequestContext<'_>) -> Vec<SmolStr> {
 
 /// Reads a bare place, such as `the cupboard`, as the answer to a question for an object's location.
 fn place(answer: &str, problem: &Problem, situation: &RequestContext<'_>) -> Answer {
-    let (Some(thing), Kind::NotFound) = (&problem.about, problem.kind) else { return Answer::NotUnderstood };
-    let Some(place) = motet_requests::pick(answer, &problem.options, situation) else {
+    let Some(thing) = problem.about.as_ref().filter(|_| is_of_object(problem, situation)) else {
+        return Answer::NotUnderstood;
+    };
+    let options = holders(situation.scene);
+    let Some(place) = motet_requests::pick(answer, &options, situation) else {
         return Answer::NotUnderstood;
     };
     let relation = situation.scene.entities.get(&place).map_or(fluents::ON, Entity::relation);

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 
 use motet_compiler::{CheckOptions, Geometry, Session};
-use motet_graph::Graph;
+use motet_graph::{Graph, Value};
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -32,8 +32,8 @@ pub struct DialogueSetup {
     pub scene: Scene,
     /// Declarations on top of the library.
     pub domains: Vec<File>,
-    /// The robot's body in the scene; with it, motions are checked before a run as long as every object is
-    /// at its place in the scene.
+    /// The robot's body in the scene; with it, motions are checked before a run, as far as it is known where
+    /// things are.
     pub geometry: Option<Arc<Geometry>>,
     /// Settings of the check.
     pub options: CheckOptions,
@@ -61,6 +61,8 @@ pub struct Conversation<'a> {
     pub known: Knowledge,
     /// Earlier requests and their endings.
     pub memory: Memory,
+    /// Results of the steps of the latest policy, by name.
+    pub(super) bound: Vec<(SmolStr, Value)>,
     /// The library, read once.
     base: OnceCell<Session>,
     eyes: Option<Box<dyn Perception + 'a>>,
@@ -89,6 +91,7 @@ impl<'a> Conversation<'a> {
             setting,
             known,
             memory,
+            bound: Vec::new(),
             base: OnceCell::new(),
             eyes: None,
             settings: EngineSettings::default(),
@@ -140,6 +143,9 @@ impl<'a> Conversation<'a> {
         let scene = self.known.scene(&self.setting.scene);
         if let Ok(understood) = motet_requests::understand(request, &self.known.situation(&scene)) {
             understood.located.iter().for_each(|one| self.known.hear(one));
+            if !understood.prefers.is_empty() {
+                self.known.prefers = understood.prefers;
+            }
             if understood.aims.is_empty() {
                 self.known.spoken_of = understood.spoken_of;
             }
@@ -151,7 +157,8 @@ impl<'a> Conversation<'a> {
         self.eyes.as_mut()?.image(now)
     }
 
-    /// A session in the known state; with motions if the place of every object is known.
+    /// A session in the known state, with the motions in it. A thing whose place is not known has none, and the
+    /// others have theirs.
     pub(super) fn session(&self, scene: &Scene, known: &Knowledge, base: Option<[f64; 3]>) -> Session {
         let session = self.base().with_scene(Some(scene), Some(&known.state()));
         let Some(geometry) = &self.setting.geometry else { return session };
@@ -159,7 +166,9 @@ impl<'a> Conversation<'a> {
             return session.with_geometry(Arc::clone(geometry));
         }
         match base.and_then(|base| known.placed(&self.setting.scene, base)) {
-            Some(placed) => session.with_geometry(Arc::new(geometry.elsewhere(&placed))),
+            Some((placed, unplaced)) => {
+                session.with_geometry(Arc::new(geometry.elsewhere(&placed).with_unplaced(unplaced)))
+            }
             None => session,
         }
     }
@@ -200,6 +209,7 @@ impl<'a> Conversation<'a> {
             request,
             situation,
             memory: &self.memory,
+            bound: &self.bound,
             image: None,
         }
     }

@@ -4,8 +4,8 @@
 use indexmap::IndexMap;
 use motet_compiler::{InitialFact, InitialState, Session};
 use motet_graph::{Graph, Value};
-use motet_requests::{ReportedLocation, RequestContext};
-use motet_robots::scene::{Entity, Scene};
+use motet_requests::{Preference, ReportedLocation, RequestContext};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_runtime::{
     Engine, Pattern, PendingCleanup, Query, Snapshot, StartState, ToldSupport, ToldThing, Truth,
 };
@@ -31,6 +31,8 @@ pub struct Knowledge {
     pub(super) seen: Sightings,
     /// Things of which the driver was not told yet.
     pub(super) untold: Vec<ToldThing>,
+    /// What the person would rather have.
+    pub(super) prefers: Vec<Preference>,
 }
 
 impl Knowledge {
@@ -65,6 +67,24 @@ impl Knowledge {
         self.some.extend(snapshot.some);
         self.pending = snapshot.pending;
     }
+}
+
+/// An object without an exact pose, with a guess.
+pub type UnplacedThing = (SmolStr, Option<Placement>);
+
+/// Pose of a thing in the middle of a surface. `None` where a shape or a pose is not known.
+fn on_top(scene: &Scene, thing: &str, support: &str) -> Option<Placement> {
+    let support = scene.entities.get(support).filter(|entity| entity.kind == kinds::SURFACE)?;
+    let half_height = |entity: &Entity| match entity.shape.as_ref()? {
+        EntityShape::Box([_, _, z]) => Some(z / 2.0),
+        EntityShape::Cylinder { height, .. } => Some(height / 2.0),
+        EntityShape::Sphere { radius } => Some(*radius),
+        EntityShape::Capsule { .. } | EntityShape::Mesh { .. } => None,
+    };
+    let below = support.pose.filter(|pose| pose.rpy[0] == 0.0 && pose.rpy[1] == 0.0)?;
+    let [x, y, z] = below.xyz;
+    let z = z + half_height(support)? + half_height(scene.entities.get(thing)?)?;
+    Some(Placement { xyz: [x, y, z], rpy: [0.0; 3] })
 }
 
 fn query(given: InitialFact) -> Query {
@@ -132,9 +152,10 @@ impl Knowledge {
     }
 
     /// The scene at present, for motion searches, with the base at a pose (x, y, heading in the frame
-    /// `map`). `None` if the place of some object is unknown, since it could block any motion.
+    /// `map`), and the objects whose exact pose is not known, each with a guess if it stands on something.
+    /// `None` if it is not known which doors are open.
     #[must_use]
-    pub fn placed(&self, scene: &Scene, base: [f64; 3]) -> Option<Scene> {
+    pub fn placed(&self, scene: &Scene, base: [f64; 3]) -> Option<(Scene, Vec<UnplacedThing>)> {
         let scene = &self.seen_scene(scene);
         let situation = self.situation(scene);
         let mut placed = scene.clone();
@@ -142,14 +163,17 @@ impl Knowledge {
         // What the scene says of the joints was said of the start.
         placed.robot.joints = IndexMap::new();
         placed.robot.holding = Some(situation.holding.clone());
+        let mut unplaced = Vec::new();
         for (id, support) in &situation.supports {
+            let guess = support.as_ref().and_then(|support| on_top(scene, id, support));
             let Some(entity) = placed.entities.get_mut(id).filter(|entity| entity.kind == kinds::OBJECT)
             else {
                 continue;
             };
             let before = entity.on.as_ref().or(entity.inside.as_ref());
             if situation.holding.as_ref() != Some(id) && support.as_ref() != before {
-                return None;
+                (entity.pose, entity.on, entity.inside) = (None, None, None);
+                unplaced.push((id.clone(), guess));
             }
         }
         for (query, truth) in &self.facts {
@@ -166,7 +190,7 @@ impl Knowledge {
                 };
             }
         }
-        Some(placed)
+        Some((placed, unplaced))
     }
 
     /// Objects that are known to be elsewhere than in the scene, or not known to be there.
@@ -254,6 +278,7 @@ impl Knowledge {
             spoken_of: self.spoken_of.clone(),
             came_from: self.came_from.clone(),
             seen_at,
+            prefers: self.prefers.clone(),
             ..RequestContext::new(scene)
         }
     }
@@ -321,6 +346,38 @@ impl Knowledge {
                 let args = vec![thing.clone(), place.clone()];
                 self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::True));
             }
+        }
+    }
+
+    /// An object that the robot took and no longer holds, while nobody put it anywhere: it fell.
+    #[must_use]
+    pub(in crate::dialogue) fn fallen(&self, scene: &Scene) -> Option<SmolStr> {
+        let situation = self.situation(scene);
+        let nowhere = situation.supports.into_iter().filter(|(_, place)| place.is_none());
+        let mut things = nowhere.map(|(id, _)| id).filter(|id| situation.holding.as_ref() != Some(id));
+        things.find(|id| {
+            let is_object = scene.entities.get(id).is_some_and(|entity| entity.kind == kinds::OBJECT);
+            is_object && self.latest(fluents::AT, id) == Some(Truth::False)
+        })
+    }
+
+    /// Latest truth of a fact about one entity and any other.
+    fn latest(&self, fluent: &str, id: &SmolStr) -> Option<Truth> {
+        let subject = Pattern::Is(Value::Entity(id.clone()));
+        self.facts.iter().rev().find_map(|(query, truth)| match query {
+            Query::Fact { fluent: known, args } if known == fluent && args.first() == Some(&subject) => {
+                Some(*truth)
+            }
+            _ => None,
+        })
+    }
+
+    /// Forgets where an object is.
+    pub(in crate::dialogue) fn forget_place(&mut self, id: &SmolStr) {
+        let subject = Pattern::Is(Value::Entity(id.clone()));
+        for fluent in PLACING {
+            let args = vec![subject.clone(), Pattern::Any];
+            self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::Unknown));
         }
     }
 

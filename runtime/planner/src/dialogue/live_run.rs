@@ -5,7 +5,9 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, NodeKind, Value};
-use motet_requests::{Intent, ReportedLocation, RequestContext, added, holds, is_question, proceeds, stops};
+use motet_requests::{
+    Asked, Intent, ReportedLocation, RequestContext, added, holds, is_question, proceeds, stops, withdrawn,
+};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
@@ -232,6 +234,7 @@ impl<'r, 'a> LiveRun<'r, 'a> {
             self.now = self.now.max(now);
         }
         let bound = engine.snapshot().bindings;
+        self.talk.bound.clone_from(&bound);
         if let Some(first) = &mut self.first {
             first.bound.clone_from(&bound);
         }
@@ -248,7 +251,7 @@ impl LiveRun<'_, '_> {
         let scene = self.talk.known.scene(&self.talk.setting.scene);
         let situation = self.talk.known.situation(&scene);
         let spoken_of = motet_requests::named(question, &situation);
-        let told = motet_requests::told(said, &RequestContext { spoken_of, ..situation });
+        let told = motet_requests::told(said, Asked::Where, &RequestContext { spoken_of, ..situation });
         told.iter().for_each(|one| self.talk.known.hear(one));
         self.told.extend(told);
     }
@@ -262,6 +265,22 @@ impl LiveRun<'_, '_> {
         let answer = self.talk.known_answer(&question, &known);
         self.watcher.answered(said, answer.as_deref());
         true
+    }
+
+    /// The request after an addition, `also bring the apple`, or a withdrawal, `without the apple`.
+    fn changed(&self, said: String) -> String {
+        let task = self.task.trim_end_matches(['.', '!', ' ']);
+        let names = |words: &str| {
+            let scene = &self.talk.setting.scene;
+            !motet_requests::named(words, &RequestContext::new(scene)).is_empty()
+        };
+        if let Some(more) = added(&said) {
+            return format!("{task} and {more}");
+        }
+        match withdrawn(&said).filter(|rest| names(rest)) {
+            Some(rest) => format!("{task}, but without {rest}"),
+            None => said,
+        }
     }
 
     /// Returns a finished policy that can take over: for a new request, or the rest of an early start.
@@ -423,14 +442,12 @@ impl Observer for LiveRun<'_, '_> {
             return None;
         }
         self.talk.memory.instruct(now, &said);
-        let request = match added(&said) {
-            Some(more) => format!("{} and {more}", self.task),
-            None => said,
-        };
+        let request = self.changed(said);
         let mut known = self.talk.known.clone();
         let before = known.places(&self.talk.setting.scene);
         known.learn_midway(engine, self.talk.base());
         known.presume(&before);
+        self.talk.bound = engine.snapshot().bindings;
         let scene = known.scene(&self.talk.setting.scene);
         if !self.planner.reads_answers()
             && let Some(told) = statement(&request, &known.situation(&scene))

@@ -4,6 +4,8 @@
 use motet_requests::{Intent, Polarity, ReportedLocation, RequestError, polarity};
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, RunEnd, Time};
+use motet_stdlib::lang::{entities, failures, primitives};
+use motet_syntax::print;
 use smol_str::SmolStr;
 
 use super::answer::{self, Answer};
@@ -12,7 +14,8 @@ use super::early_start::Continuation;
 use super::live_run::{LiveRun, RunResult, StopReason};
 use super::problem::{Kind, Problem};
 use crate::Planner;
-use crate::builtin::{PlanError, PlannedRequest};
+use crate::builtin::{PlanError, PlannedRequest, quoted};
+use crate::model::{ReplyVerdict, judge};
 
 /// The most policies for one request.
 const MAX_ROUNDS: usize = 12;
@@ -71,6 +74,10 @@ struct Task {
     request: String,
     /// The request that this one replaced, if that is still open.
     before: Option<String>,
+    /// True for a request that helps with the one before, which then goes on without a question.
+    helps: bool,
+    /// True while the robot only looks where a person said, before it goes on.
+    looks: bool,
     /// Resolved meanings of ambiguous words.
     meant: Vec<(String, SmolStr)>,
     /// Further places to look for an object, the next one first.
@@ -84,7 +91,8 @@ impl Task {
         // Who says so replaces what was asked for before.
         let is_other = request.contains("instead") || matches!(polarity(&request), Polarity::No(_));
         let before = before.filter(|before| !is_other && !request.contains(before.as_str()));
-        Self { request, before, meant: Vec::new(), elsewhere: Vec::new(), questions: 0, tries: 0 }
+        let (meant, elsewhere) = (Vec::new(), Vec::new());
+        Self { request, before, helps: false, looks: false, meant, elsewhere, questions: 0, tries: 0 }
     }
 }
 
@@ -92,8 +100,18 @@ impl Task {
 enum RoundResult {
     Round,
     Over(Outcome),
-    /// A problem. The flag is set if a guard or the robot's place caused it, which another plan may avoid.
-    Problem(Problem, bool),
+    Problem(Problem, Retry),
+}
+
+/// Chance of another try before somebody is asked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Retry {
+    /// A guard or the robot's place caused the problem, which another plan may avoid.
+    Promising,
+    /// As the kind of the problem says.
+    Usual,
+    /// A person decided, and does so again when asked.
+    Pointless,
 }
 
 /// A request in progress, with its planner, person and observer.
@@ -136,14 +154,19 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 Ok(answered) => self.run(answered, driver, &scene),
                 Err(why) => self.unplanned(why, &scene),
             };
-            let (problem, was_refused) = match next {
+            let (problem, retry) = match next {
                 RoundResult::Round => continue,
                 RoundResult::Over(outcome) => return outcome,
-                RoundResult::Problem(problem, was_refused) => (problem, was_refused),
+                RoundResult::Problem(problem, retry) => (problem, retry),
             };
             // What merely did not work, or was not as it was believed, is tried again before somebody is
             // troubled.
-            if (problem.kind == Kind::ActionFailed || was_refused) && self.task.tries < TRIES {
+            let is_tried = match retry {
+                Retry::Promising => true,
+                Retry::Usual => problem.kind == Kind::ActionFailed,
+                Retry::Pointless => false,
+            };
+            if is_tried && self.task.tries < TRIES {
                 self.task.tries += 1;
                 continue;
             }
@@ -177,6 +200,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     /// Runs a policy and evaluates its ending.
     fn run(&mut self, answered: PlannedRequest, driver: &mut dyn Driver, scene: &Scene) -> RoundResult {
         let told = (self.task.request.clone(), self.task.meant.clone());
+        let looks = std::mem::take(&mut self.task.looks);
         let mut live = LiveRun::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
         let ran = live.run(answered, driver, scene);
         self.now = live.now;
@@ -221,10 +245,51 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         if stood_wrong {
             self.talk.known.doubt_standing();
         }
+        // What fell lies where the robot is: it looks there before it asks.
+        if let Some(thing) = self.talk.known.fallen(&self.talk.setting.scene).filter(|_| !looks)
+            && !matches!(end, RunEnd::Done { .. })
+        {
+            self.talk.known.forget_place(&thing);
+            self.ready = self.looking(None, &thing, scene);
+            if self.ready.is_some() {
+                self.task.looks = true;
+                return RoundResult::Round;
+            }
+        }
         match Problem::of_run(&end, (&graph, &bound), scene) {
-            Some(problem) => RoundResult::Problem(problem, was_refused || stood_wrong),
+            Some(problem) => {
+                let is_of_person = matches!(&end, RunEnd::Failed { kind, .. } if kind == failures::REFUSED);
+                let retry = if was_refused || stood_wrong {
+                    Retry::Promising
+                } else if is_of_person {
+                    Retry::Pointless
+                } else {
+                    Retry::Usual
+                };
+                RoundResult::Problem(problem, retry)
+            }
+            None if looks => RoundResult::Round,
             None => self.done(),
         }
+    }
+
+    /// True if a request readies something, and brings a person nothing instead of what was asked for before.
+    fn prepares(&self, request: &str, scene: &Scene) -> bool {
+        let understood = motet_requests::understand(request, &self.talk.known.situation(scene));
+        understood.is_ok_and(|understood| !understood.aims.iter().any(|aim| aim.mentions(entities::USER)))
+    }
+
+    /// Policy that turns by some degrees, if any, and looks for an object there. `None` if it does not pass the check.
+    fn looking(&self, degrees: Option<i32>, thing: &SmolStr, scene: &Scene) -> Option<PlannedRequest> {
+        let name = self.talk.setting.scene.entities.get(thing).map(motet_requests::called)?;
+        let robot = print::identifier(&self.talk.setting.robot.name);
+        let turn = degrees.map(|degrees| format!("{}({degrees} deg) ", primitives::TURN)).unwrap_or_default();
+        let detect = format!("{}({})", primitives::DETECT, quoted(&name));
+        let text = format!("policy look for {robot} {{ {turn}{detect} }}");
+        let session = self.talk.session(scene, &self.talk.known, None);
+        let ReplyVerdict::Good { planned, .. } = judge(&session, &text) else { return None };
+        let understood = Intent { spoken_of: vec![thing.clone()], ..Intent::default() };
+        Some(PlannedRequest { understood, planned: *planned })
     }
 
     /// Takes in the first place of each object; returns the others in order.
@@ -254,6 +319,10 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     /// Ends a request, and continues with the request that it replaced.
     fn done(&mut self) -> RoundResult {
         let Some(before) = self.task.before.take() else { return RoundResult::Over(Outcome::Done) };
+        if self.task.helps {
+            self.task = Task { questions: self.task.questions, ..Task::new(before, None) };
+            return RoundResult::Round;
+        }
         self.goes_on(&Problem::half_done(&before), before, Outcome::Done)
     }
 
@@ -265,7 +334,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 let spoken_of = self.talk.known.spoken_of.clone();
                 let understood = Intent { spoken_of, ..Intent::default() };
                 self.doubtful = Some(PlannedRequest { understood, planned: *planned });
-                RoundResult::Problem(problem, false)
+                RoundResult::Problem(problem, Retry::Usual)
             }
             (PlanError::Stopped, _) => RoundResult::Over(Outcome::Stopped),
             // No answer of a person brings a model back.
@@ -275,7 +344,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 let question = Problem::interrupted(&self.task.request, &before);
                 self.goes_on(&question, before, Outcome::GivenUp)
             }
-            (_, _) => RoundResult::Problem(problem, false),
+            (_, _) => RoundResult::Problem(problem, Retry::Usual),
         }
     }
 
@@ -283,7 +352,8 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> RoundResult {
         let answer = self.person.ask(question);
         self.watcher.asked(question, answer.as_deref());
-        if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
+        let Some(answer) = answer else { return RoundResult::Over(Outcome::Failed(question.clone())) };
+        if !matches!(polarity(&answer), Polarity::Yes(_)) {
             return RoundResult::Over(or);
         }
         self.task = Task::new(before, None);
@@ -324,8 +394,14 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 let helps = matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
                 let earlier = std::mem::take(&mut self.task.request);
                 let before = helps.then_some(earlier).or(self.task.before.take());
-                self.task = Task { questions: self.task.questions, ..Task::new(request, before) };
+                let helps = helps && self.prepares(&request, scene);
+                let task = Task::new(request, before);
+                self.task = Task { questions: self.task.questions, helps, ..task };
                 return None;
+            }
+            Answer::Look { degrees } => {
+                self.ready = problem.about.as_ref().and_then(|thing| self.looking(Some(degrees), thing, scene));
+                self.task.looks = self.ready.is_some();
             }
             Answer::Again => {
                 self.task.tries = 0;

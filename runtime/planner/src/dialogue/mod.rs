@@ -12,6 +12,7 @@ mod knowledge;
 mod live_run;
 mod manager;
 mod problem;
+mod reason;
 mod reply;
 mod sight;
 
@@ -19,5 +20,4 @@ pub use answer::Answer;
 pub use conversation::{Conversation, DialogueSetup, OnInstruction, Outcome};
 pub use conversation::{DialogueObserver, NoOperator, Person, RunRecorder};
 pub use knowledge::Knowledge;
-pub(crate) use problem::called;
 pub use problem::{Kind, Problem};

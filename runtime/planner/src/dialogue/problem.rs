@@ -8,8 +8,9 @@ use motet_stdlib::lang::{ASKING, failures, kinds, primitives};
 use motet_syntax::render::capital;
 use smol_str::SmolStr;
 
+use super::reason::{self, Reason};
 use crate::builtin::PlanError;
-use motet_requests::RequestError;
+use motet_requests::{RequestContext, RequestError};
 
 /// The kinds of failure.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -106,10 +107,15 @@ impl Problem {
                 bare(Kind::NotReachable, format!("{words}{stop} What shall I do instead?"))
             }
             PlanError::NoModel { .. } | PlanError::Stopped => bare(Kind::ActionFailed, why.to_string()),
-            PlanError::NoPlan(_) | PlanError::Refused { .. } => {
-                bare(Kind::NotReachable, format!("I cannot do that: {why}. What shall I do instead?"))
-            }
+            PlanError::NoPlan(why) => Self::unplanned(reason::no_plan(why, scene)),
+            PlanError::Refused { diagnostics, .. } => Self::unplanned(reason::refused(diagnostics, scene)),
         }
+    }
+
+    /// Problem of a request that no plan carries out, for a reason.
+    fn unplanned(Reason { about, says }: Reason) -> Self {
+        let question = format!("{}. What shall I do instead?", capital(&says));
+        Self { kind: Kind::NotReachable, question, options: Vec::new(), about, said: None }
     }
 
     /// Problem behind the ending of a run, named with its bindings. `None` if the run is done or declined, or
@@ -164,17 +170,17 @@ fn failed(
     let about = match (kind, args().next()) {
         (failures::UNREACHABLE | failures::BLOCKED, _) => args().filter_map(entity).next_back(),
         // Who looks for a thing by words names it first.
-        (_, Some(Term::Literal(Value::Text(text)))) => Some(SmolStr::from(text.as_str())),
+        (_, Some(Term::Literal(Value::Text(text)))) => Some(described_object(scene, text)),
         (_, _) => args().find_map(entity),
     };
     let words = args().find_map(|arg| match arg {
         Term::Literal(Value::Text(text)) => Some(text.as_str()),
         _ => None,
     });
-    let thing =
-        about.as_ref().map_or_else(|| "what I need".to_owned(), |id| format!("the {}", called(scene, id)));
-    let doing =
-        primitive.map_or_else(|| "a step".to_owned(), |primitive| format!("{}({thing})", primitive.name));
+    let thing = about.as_ref().map_or_else(|| "what I need".to_owned(), |id| reason::named(scene, id));
+    let name = primitive.map_or("do", |primitive| primitive.name.as_str());
+    let doing = reason::deed(scene, name, about.as_ref());
+    let why = why.map(|why| reason::in_words(why, scene));
     let (kind, question, options): (Kind, String, Vec<SmolStr>) = match kind {
         failures::NOT_FOUND => (
             Kind::NotFound,
@@ -188,7 +194,7 @@ fn failed(
         ),
         failures::BLOCKED if primitive.is_some_and(|primitive| primitive.name == primitives::PLACE) => {
             let held = args().find_map(entity).filter(|held| Some(held) != about.as_ref());
-            let held = held.map_or_else(|| "it".to_owned(), |id| format!("the {}", called(scene, &id)));
+            let held = held.map_or_else(|| "it".to_owned(), |id| format!("the {}", scene.called(&id)));
             let others = holders(scene).into_iter().filter(|id| Some(id) != about.as_ref()).collect();
             let question = format!(
                 "I find no room on {thing} from where I can reach it. Where else shall I put {held}?"
@@ -197,9 +203,20 @@ fn failed(
         }
         failures::UNREACHABLE | failures::BLOCKED => (
             Kind::NotReachable,
-            format!("I cannot reach {thing}: {doing} is {kind}. What shall I do?"),
+            format!("I cannot {doing}: {}. What shall I do?", why.unwrap_or_else(|| no_way(kind).to_owned())),
             vec!["try again".into(), "leave it".into()],
         ),
+        failures::REFUSED if name == primitives::HANDOVER => {
+            let held = args().find_map(entity).map_or_else(|| "it".to_owned(), |id| reason::named(scene, &id));
+            let whom = args().filter_map(entity).next_back();
+            let who = whom.map_or_else(|| "nobody".to_owned(), |id| reason::named(scene, &id));
+            let who = capital(&who);
+            (
+                Kind::ActionFailed,
+                format!("{who} did not take {held}. Shall I offer it again?"),
+                vec!["yes".into(), "no".into()],
+            )
+        }
         failures::TOO_HEAVY => (
             Kind::NotReachable,
             format!("I cannot lift {thing}, it is too heavy. What shall I do?"),
@@ -218,8 +235,8 @@ fn failed(
         _ => (
             Kind::ActionFailed,
             format!(
-                "{doing} did not work: {}. Shall I try again?",
-                why.map_or_else(|| kind.replace('_', " "), ToOwned::to_owned)
+                "I could not {doing}: {}. Shall I try again?",
+                why.unwrap_or_else(|| happened(kind))
             ),
             vec!["yes".into(), "no".into()],
         ),
@@ -227,8 +244,30 @@ fn failed(
     Problem { kind, question, options, about, said: None }
 }
 
+/// The one object that a description fits, else the description.
+fn described_object(scene: &Scene, text: &str) -> SmolStr {
+    let named = motet_requests::named(text, &RequestContext::new(scene)).into_iter();
+    let is_object = |id: &SmolStr| scene.entities.get(id).is_some_and(|one| one.kind == kinds::OBJECT);
+    let objects: Vec<SmolStr> = named.filter(is_object).collect();
+    <[SmolStr; 1]>::try_from(objects).map_or_else(|_| text.into(), |[only]| only)
+}
+
+/// Words for a motion that ended early.
+fn no_way(kind: &str) -> &'static str {
+    if kind == failures::BLOCKED { "something is in the way" } else { "I find no way" }
+}
+
+/// Words for another failure.
+fn happened(kind: &str) -> String {
+    match kind {
+        failures::SLIPPED => "it slipped out of my hand".to_owned(),
+        failures::REFUSED => "it was refused".to_owned(),
+        other => other.replace('_', " "),
+    }
+}
+
 /// Surfaces and containers that can hold a thing.
-fn holders(scene: &Scene) -> Vec<SmolStr> {
+pub(super) fn holders(scene: &Scene) -> Vec<SmolStr> {
     let holds = scene
         .entities
         .values()
@@ -240,23 +279,15 @@ fn holders(scene: &Scene) -> Vec<SmolStr> {
 fn believed(scene: &Scene, id: Option<&SmolStr>) -> String {
     let entity = id.and_then(|id| scene.entities.get(id));
     match entity.map(|entity| (&entity.on, &entity.inside)) {
-        Some((Some(support), _)) => format!(" on the {}", called(scene, support)),
-        Some((None, Some(container))) => format!(" in the {}", called(scene, container)),
+        Some((Some(support), _)) => format!(" on the {}", scene.called(support)),
+        Some((None, Some(container))) => format!(" in the {}", scene.called(container)),
         Some((None, None)) | None => String::new(),
     }
 }
 
-/// Name of a thing in speech: its first other name, or its id in words.
-#[must_use]
-pub(crate) fn called(scene: &Scene, id: &str) -> String {
-    let entity = scene.entities.get(id);
-    let name = entity.and_then(|entity| entity.names.first());
-    name.map_or_else(|| id.replace(['_', '-'], " "), ToString::to_string)
-}
-
 /// Name with article and place, such as `the red mug on the table`.
 fn described(scene: &Scene, id: &SmolStr) -> String {
-    format!("the {}{}", called(scene, id), believed(scene, Some(id)))
+    format!("the {}{}", scene.called(id), believed(scene, Some(id)))
 }
 
 fn bare_noun(said: &str) -> &str {

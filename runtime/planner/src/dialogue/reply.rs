@@ -14,7 +14,7 @@ use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::knowledge::Knowledge;
 use super::live_run::{ask, sense};
 use super::manager::DialogueManager;
-use super::problem::{Kind, Problem, called, join};
+use super::problem::{Kind, Problem, join};
 use crate::Planner;
 
 /// The most steps that an answer tells.
@@ -102,7 +102,7 @@ impl Conversation<'_> {
     /// Request whose run may answer a question; `None` if no look helps.
     fn look_request(&self, question: &RoomQuestion) -> Option<String> {
         let thing = question.things.first()?;
-        let name = &called(&self.setting.scene, thing);
+        let name = &self.setting.scene.called(thing);
         match question.topic {
             Topic::Location | Topic::Placed => Some(format!("find the {name}")),
             Topic::Open | Topic::Closed => Some(format!("go to the {name}")),
@@ -289,8 +289,8 @@ fn parts(call: &str) -> (&str, Vec<SmolStr>) {
 fn the(scene: &Scene, id: &SmolStr) -> String {
     match scene.entities.get(id).map(|entity| entity.kind.as_str()) {
         Some(kinds::PERSON) if id == entities::USER => "you".to_owned(),
-        Some(kinds::PERSON) => called(scene, id),
-        Some(_) | None => format!("the {}", called(scene, id)),
+        Some(kinds::PERSON) => scene.called(id),
+        Some(_) | None => format!("the {}", scene.called(id)),
     }
 }
 

@@ -10,6 +10,8 @@ use motet_syntax::print;
 use smol_str::SmolStr;
 use thiserror::Error;
 
+use crate::builtin::quoted;
+
 /// A policy from a list of actions, with the interpretations that the reader made.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Loose {
@@ -60,7 +62,9 @@ const WORDS: &[(&str, &[&str])] = &[
     (primitives::HANDOVER, &["hand over", "handover", "give", "hand"]),
     (primitives::OPEN, &["open"]),
     (primitives::CLOSE, &["close", "shut"]),
-    (primitives::DETECT, &["detect", "find", "look for"]),
+    (primitives::SEARCH, &["search", "search for", "look for"]),
+    (primitives::DETECT, &["detect", "find"]),
+    (primitives::TURN, &["turn", "rotate"]),
     (primitives::INSPECT, &["inspect", "look at"]),
     (primitives::PUSH, &["push"]),
     (primitives::LIFT, &["lift"]),
@@ -70,6 +74,9 @@ const WORDS: &[(&str, &[&str])] = &[
     (primitives::SAY, &["say"]),
     (primitives::ASK, &["ask"]),
 ];
+/// Kinds of what a robot can go to.
+const ANYWHERE: &[&str] =
+    &[kinds::SURFACE, kinds::CONTAINER, kinds::PLACE, kinds::PERSON, kinds::OBJECT];
 /// Prepositions between an object and its destination.
 const BETWEEN: &[&str] =
     &[" on top of ", " onto ", " into ", " inside ", " on ", " in ", " at ", " to ", ", "];
@@ -101,7 +108,7 @@ pub fn read(
     robot: Option<&Robot>,
     situation: &RequestContext<'_>,
 ) -> Result<Loose, NoPolicy> {
-    let items = items(text);
+    let items = items(text, situation.scene);
     if items.is_empty() {
         return Err(NoPolicy::Empty);
     }
@@ -140,7 +147,7 @@ impl Reader<'_> {
             (rest.is_empty() || rest.starts_with(' ')).then_some((words, primitive, rest.trim()))
         });
         let found = fits.max_by_key(|(words, _, _)| words.len());
-        let action = || item.to_owned();
+        let action = || shown(item, self.situation.scene);
         let Some((words, primitive, rest)) = found else {
             return Err(NoPolicy::Unknown { number, action: action() });
         };
@@ -151,11 +158,8 @@ impl Reader<'_> {
         if words != usual && words != primitive.replace('_', " ") {
             self.warnings.push(format!("action {number}: read `{words}` as `{usual}`"));
         }
-        self.call(number, primitive, rest).map_err(|what| NoPolicy::Unclear {
-            number,
-            action: action(),
-            what,
-        })
+        let action = action();
+        self.call(number, primitive, rest).map_err(|what| NoPolicy::Unclear { number, action, what })
     }
 
     /// The call as text. The error names the unclear part.
@@ -163,23 +167,42 @@ impl Reader<'_> {
         let id = print::identifier;
         Ok(match primitive {
             primitives::GO => {
-                let place = self.thing(
-                    number,
-                    rest,
-                    &[kinds::SURFACE, kinds::CONTAINER, kinds::PLACE, kinds::PERSON, kinds::OBJECT],
-                )?;
+                let place = match rest {
+                    // Who fetches something goes back to the person.
+                    "back" | "back to me" | "back to user" => SmolStr::new_static(entities::USER),
+                    rest => self.thing(number, rest.strip_prefix("back to ").unwrap_or(rest), ANYWHERE)?,
+                };
                 self.at = Some(place.clone());
                 format!("go({})", id(&place))
             }
             primitives::PICK => {
-                let (what, _) = halves(rest).unwrap_or((rest, ""));
+                let padded = format!(" {}", rest.replace(" from ", " at "));
+                let (what, place) = halves(&padded).unwrap_or((rest, ""));
                 let what = self.thing(number, what, &[kinds::OBJECT])?;
+                let mut steps = String::new();
+                if !place.is_empty() {
+                    let place = self.thing(number, place, &[kinds::SURFACE, kinds::CONTAINER])?;
+                    if self.at.as_ref() != Some(&place) {
+                        self.warnings.push(format!("action {number}: goes to `{place}` first"));
+                        steps = format!("go({})\n", id(&place));
+                    }
+                    self.at = Some(place);
+                }
                 self.held = Some(what.clone());
-                format!("pick({})", id(&what))
+                format!("{steps}pick({})", id(&what))
+            }
+            primitives::SEARCH => self.search(number, rest)?,
+            primitives::TURN => {
+                let degrees = turn(rest).ok_or("by how much is not said, such as `left` or `90 degrees`")?;
+                format!("turn({degrees} deg)")
             }
             primitives::PLACE => {
                 let (what, to) = self.placed(number, rest)?;
                 self.held = None;
+                if self.is_person(&to) {
+                    self.warnings.push(format!("action {number}: hands it to `{to}`, where the robot is then"));
+                    return Ok(format!("handover({}, {})", id(&what), id(&to)));
+                }
                 format!("place({}, {})", id(&what), id(&to))
             }
             primitives::HANDOVER => {
@@ -211,6 +234,32 @@ impl Reader<'_> {
         })
     }
 
+    /// A search where the thing is taken to be, else on every surface.
+    fn search(&mut self, number: usize, rest: &str) -> Result<String, String> {
+        let padded = format!(" {rest}");
+        let (what, place) = halves(&padded).unwrap_or((rest, ""));
+        if what.is_empty() {
+            return Err("of what is not said".to_owned());
+        }
+        let scene = self.situation.scene;
+        let known = self.thing(number, what, &[kinds::OBJECT]).ok();
+        let moved = known.as_ref().and_then(|id| self.situation.supports.iter().find(|(one, _)| one == id));
+        let stands = known.as_ref().and_then(|id| scene.entities.get(id));
+        let stands = stands.and_then(|entity| entity.on.clone().or_else(|| entity.inside.clone()));
+        let places = match (place, moved.map_or(stands, |(_, place)| place.clone())) {
+            ("", Some(place)) => vec![place],
+            ("", None) => {
+                let surfaces = scene.entities.values().filter(|entity| entity.kind == kinds::SURFACE);
+                surfaces.map(|entity| entity.id.clone()).collect()
+            }
+            (place, _) => vec![self.thing(number, place, ANYWHERE)?],
+        };
+        self.at = places.first().cloned();
+        let name = known.and_then(|id| scene.entities.get(&id)).map(motet_requests::called);
+        let places: Vec<String> = places.iter().map(|place| print::identifier(place).to_string()).collect();
+        Ok(format!("search({}, [{}])", quoted(&name.unwrap_or_else(|| what.to_owned())), places.join(", ")))
+    }
+
     /// Object and destination of a `place`: `coke on table`, `on table`, `coke`, `table`.
     fn placed(&mut self, number: usize, rest: &str) -> Result<(SmolStr, SmolStr), String> {
         const HOLDERS: &[&str] = &[kinds::SURFACE, kinds::CONTAINER, kinds::OBJECT];
@@ -227,11 +276,19 @@ impl Reader<'_> {
             (Ok(to), _) if !what.is_empty() => Ok((self.held_or(number, "")?, to)),
             (_, Some(at)) => {
                 let at = at.clone();
+                if self.is_person(&at) {
+                    return Ok((self.held_or(number, what)?, at));
+                }
                 self.warnings.push(format!("action {number}: put it at `{at}`, where the robot is then"));
                 Ok((self.held_or(number, what)?, at))
             }
             (_, None) => Err("where to is not said".to_owned()),
         }
+    }
+
+    fn is_person(&self, id: &SmolStr) -> bool {
+        let entity = self.situation.scene.entities.get(id);
+        id == entities::USER || entity.is_some_and(|entity| entity.kind == kinds::PERSON)
     }
 
     fn held_or(&mut self, number: usize, what: &str) -> Result<SmolStr, String> {
@@ -245,14 +302,22 @@ impl Reader<'_> {
     /// The only entity of some kinds that the words mean.
     fn thing(&mut self, number: usize, words: &str, kinds: &[&str]) -> Result<SmolStr, String> {
         let scene = self.situation.scene;
-        if let Some(entity) = scene.entities.get(words.replace(' ', "_").as_str()) {
-            return Ok(entity.id.clone());
-        }
-        if matches!(words, entities::USER | "me" | "the user") {
-            return Ok(SmolStr::new_static(entities::USER));
-        }
         let of_kind =
             |id: &SmolStr| scene.entities.get(id).is_some_and(|entity| kinds.contains(&entity.kind.as_str()));
+        let number_of = words.strip_prefix(NUMBERED).and_then(|index| index.parse::<usize>().ok());
+        if let Some((id, _)) = number_of.and_then(|index| scene.entities.get_index(index)) {
+            return if of_kind(id) { Ok(id.clone()) } else { Err(format!("`{id}` is of another kind")) };
+        }
+        let spelt = |id: &SmolStr| id.to_lowercase().replace(['_', '(', ')'], " ").trim() == words;
+        if let Some(id) = scene.entities.keys().find(|id| of_kind(id) && spelt(id)) {
+            return Ok(id.clone());
+        }
+        if matches!(words, entities::USER | "me" | "the user") && kinds.contains(&kinds::PERSON) {
+            return Ok(SmolStr::new_static(entities::USER));
+        }
+        if words == entities::START && kinds.contains(&kinds::PLACE) {
+            return Ok(SmolStr::new_static(entities::START));
+        }
         let options: Vec<SmolStr> = scene.entities.keys().filter(|id| of_kind(id)).cloned().collect();
         let found = motet_requests::pick(words, &options, self.situation).or_else(|| {
             // `coke` is the can that was put somewhere by that name.
@@ -277,6 +342,15 @@ impl Reader<'_> {
     }
 }
 
+/// An item with the names that its numbers stand for.
+fn shown(item: &str, scene: &Scene) -> String {
+    let words = item.split(' ').map(|word| {
+        let number = word.strip_prefix(NUMBERED).and_then(|index| index.parse().ok());
+        number.and_then(|index| scene.entities.get_index(index)).map_or(word, |(id, _)| id.as_str())
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
 /// The two halves around the first preposition between an object and a place.
 fn halves(text: &str) -> Option<(&str, &str)> {
     let found = BETWEEN.iter().filter_map(|between| Some((text.find(between)?, *between)));
@@ -285,14 +359,21 @@ fn halves(text: &str) -> Option<(&str, &str)> {
     Some((what.trim(), to.trim()))
 }
 
+/// Angle to the left of `left`, `around`, `90 degrees to the right`, in degrees.
+fn turn(rest: &str) -> Option<i32> {
+    let number = rest.trim_start_matches("by ").split_once(' ').map_or(rest, |(number, _)| number);
+    let number = number.trim_end_matches(['°', 'g', 'e', 'd']);
+    match number.parse::<i32>() {
+        Ok(degrees) if rest.ends_with("right") => Some(-degrees),
+        Ok(degrees) => Some(degrees),
+        Err(_) => motet_requests::turn(&format!("turn {rest}")),
+    }
+}
+
 /// The first words of a primitive.
 fn written(primitive: &str) -> &str {
     let words = WORDS.iter().find(|(known, _)| *known == primitive);
     words.and_then(|(_, words)| words.first().copied()).unwrap_or(primitive)
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
 /// A policy as a list of actions, and the parts that the list leaves out: conditions, monitors, handlers.
@@ -391,19 +472,41 @@ impl Writer<'_> {
     }
 }
 
-/// Items of a list of actions in order: separated by lines, commas, semicolons, numbers and `then`; commas
-/// in parentheses do not count. O(bytes).
-pub(super) fn items(text: &str) -> Vec<String> {
+/// Mark before the number of an entity that stands for its name, where the name has marks in it.
+const NUMBERED: char = '\u{1}';
+
+/// Items of a list of actions in order: separated by lines, commas, full stops, semicolons, numbers and
+/// `then`. Commas in parentheses and in the names of a scene do not count. O(bytes · names).
+pub(super) fn items(text: &str, scene: &Scene) -> Vec<String> {
     let text = without_numbers(text);
+    let names = scene.entities.values().enumerate().flat_map(|(index, entity)| {
+        entity.names.iter().chain([&entity.id]).map(move |name| (name.as_str(), index))
+    });
+    let marked: Vec<(&str, usize)> = names.filter(|(name, _)| name.contains([',', ';', '.'])).collect();
     let mut items = vec![String::new()];
     let mut depth = 0_usize;
-    for letter in text.chars() {
+    let mut letters = text.char_indices();
+    while let Some((at, letter)) = letters.next() {
+        let (before, rest) = text.split_at_checked(at).unwrap_or_default();
+        let begins = !before.ends_with(char::is_alphanumeric);
+        let starts = |(name, _): &&(&str, usize)| {
+            begins && rest.get(..name.len()).is_some_and(|start| start.eq_ignore_ascii_case(name))
+        };
+        if let Some((name, index)) = marked.iter().filter(starts).max_by_key(|(name, _)| name.len()) {
+            if let Some(item) = items.last_mut() {
+                item.push_str(&format!("{NUMBERED}{index}"));
+            }
+            name.chars().skip(1).for_each(|_| drop(letters.next()));
+            continue;
+        }
         match letter {
             '(' => depth += 1,
             ')' => depth = depth.saturating_sub(1),
             _ => {}
         }
-        let ends = matches!(letter, '\n' | ';' | '\u{2192}') || (letter == ',' && depth == 0);
+        let after = rest.chars().nth(1);
+        let stops = matches!(letter, '.' | '!') && after.is_none_or(char::is_whitespace);
+        let ends = matches!(letter, '\n' | ';' | '\u{2192}') || (depth == 0 && (letter == ',' || stops));
         if ends {
             items.push(String::new());
         } else if let Some(item) = items.last_mut() {
@@ -459,6 +562,8 @@ fn bare(item: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use motet_robots::scene::Scene;
+
     use super::items;
 
     #[test]
@@ -472,9 +577,11 @@ mod tests {
             "go to table; pick coke; then place coke on 2nd shelf",
             "[\"go to table\", \"pick coke\", \"place coke on 2nd shelf\"]",
         ] {
-            assert_eq!(items(text), wanted, "{text}");
+            assert_eq!(items(text, &Scene::default()), wanted, "{text}");
         }
+        let items = |text| items(text, &Scene::default());
         assert_eq!(items("pick(coke), place(coke, table)"), ["pick(coke)", "place(coke, table)"]);
+        assert_eq!(items("Pick coke. Go to counter. Place coke."), ["pick coke", "go to counter", "place coke"]);
         assert!(items(" ,;\n").is_empty());
     }
 }

@@ -369,6 +369,7 @@ fn written(ask: &PlanRequest<'_>, lasting: &StaticPrompt, (tokens, time): (usize
         scene: ask.situation.scene,
         situation: ask.situation,
         memory: ask.memory,
+        bound: ask.bound,
         lasting,
         tokens,
         time,

@@ -4,7 +4,7 @@ use motet_compiler::fix::{AppliedFix, FixLimits};
 use motet_compiler::plan::Persistence;
 use motet_compiler::{Session, fix, make_explicit};
 use motet_graph::NodeKind;
-use motet_requests::{Certainty, RequestContext};
+use motet_requests::{Aim, Certainty, RequestContext};
 use motet_stdlib::lang::{entities, primitives};
 use motet_syntax::ast::{Clause, Expr, ExprKind, File, Item};
 use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
@@ -119,7 +119,8 @@ impl RequestGoal {
     /// Goal of a request that does not depend on a condition. `None` if the request cannot be read.
     pub(super) fn new(request: &str, situation: &RequestContext<'_>) -> Option<Self> {
         let understood = motet_requests::understand(request, situation).ok()?;
-        if understood.aims.iter().any(|aim| aim.only_if.is_some()) {
+        let depends = |aim: &Aim| aim.only_if.is_some() || aim.awaits.is_some();
+        if understood.aims.iter().any(depends) {
             return None;
         }
         let certainty = understood.certainty;

@@ -8,6 +8,7 @@ mod scene;
 use std::time::Duration;
 
 use motet_compiler::Session;
+use motet_graph::Value;
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -39,6 +40,8 @@ pub struct Prompt<'a> {
     pub situation: &'a RequestContext<'a>,
     /// Earlier requests and their endings.
     pub memory: &'a Memory,
+    /// Results of the steps of the latest policy, by name.
+    pub bound: &'a [(SmolStr, Value)],
     /// Parts that all prompts of a robot in a scene share.
     pub lasting: &'a StaticPrompt,
     /// Maximum number of tokens, estimated from bytes.
@@ -79,7 +82,7 @@ impl Prompt<'_> {
         let fixed = [
             self.lasting.rules.clone(),
             listed(&|id| named.contains(id)),
-            scene::now(self.situation, (self.session, self.robot), self.memory),
+            scene::now(self.situation, (self.session, self.robot), self.memory) + &scene::bound(self.bound),
             told(&seen(self.session, self.robot, self.scene, &named, self.time)),
             format!("# Request\n{}\n", request.trim()),
         ];

@@ -124,6 +124,15 @@ pub(super) fn now(
     text
 }
 
+/// Results of the steps of the latest policy, which a new policy cannot name but the request may mean.
+pub(super) fn bound(bound: &[(SmolStr, Value)]) -> String {
+    let known: Vec<String> = bound
+        .iter()
+        .map(|(name, value)| format!("{name} = {}", value.to_string().chars().take(SHOWN).collect::<String>()))
+        .collect();
+    if known.is_empty() { String::new() } else { format!("Results of the last policy: {}.\n", known.join(", ")) }
+}
+
 /// Posture of the arm in a scene: one of the card, or that of all joints at rest.
 fn posture(card: &Robot, scene: &Scene) -> Option<String> {
     let at = |joint: &SmolStr| scene.robot.joints.get(joint).copied().unwrap_or(0.0);
@@ -138,6 +147,8 @@ fn posture(card: &Robot, scene: &Scene) -> Option<String> {
     }
 }
 
+/// Characters of a result that are shown.
+const SHOWN: usize = 80;
 /// Greatest difference of a joint from its value in a posture, in rad or m.
 const SAME_JOINT: f64 = 1e-3;
 /// Beginning of the fact that a hand is free.
@@ -205,11 +216,18 @@ pub fn seen(
         let left = time.saturating_sub(begun.elapsed());
         Some(Sighting {
             id: id.clone(),
-            seen: entity.visible,
+            seen: visible(session, id).or(entity.visible),
             feasible: feasible(session, robot, entity, left),
         })
     });
     seen.collect()
+}
+
+/// Latest known visibility of an entity.
+fn visible(session: &Session, id: &SmolStr) -> Option<bool> {
+    let is_it = |arg: &Option<Value>| matches!(arg, Some(Value::Entity(known)) if known == id);
+    let facts = session.initial_facts().filter(|fact| fact.fluent == fluents::VISIBLE);
+    facts.filter(|fact| fact.args.iter().all(is_it)).last().map(|fact| fact.holds)
 }
 
 fn feasible(session: &Session, robot: &Robot, entity: &Entity, left: Duration) -> Reachability {

@@ -8,6 +8,8 @@ use thiserror::Error;
 
 /// Maximum length of an answer, in bytes: a point takes twenty.
 const MAX_REPLY: usize = 4_096;
+/// Characters of an answer that are quoted to the model.
+const QUOTED: usize = 200;
 /// Radius in pixels of the search for a depth value, since depth cameras leave holes along edges.
 const NEIGHBOURHOOD: i64 = 3;
 /// Range of depth that a robot's camera can measure, in m.
@@ -61,26 +63,83 @@ impl NoPoint {
     }
 }
 
-/// Asks where to act on an object for a purpose. Returns the pose at the point, with the camera's
-/// orientation.
+/// Purpose of a point.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Purpose {
+    /// Name of the object.
+    pub object: String,
+    /// Part or use of the object, such as `grasping`.
+    pub used_for: String,
+    /// The request that the robot carries out; empty if it is not known.
+    pub instruction: String,
+    /// The step behind the question; empty if it is not known.
+    pub next: String,
+}
+
+impl Purpose {
+    fn question(&self, view: &RgbdView) -> String {
+        let Self { object, used_for, instruction, next } = self;
+        let mut text = format!("The image has {} x {} pixels.", view.depth.width, view.depth.height);
+        if !instruction.is_empty() {
+            text.push_str(&format!(" The robot was asked: \"{instruction}\"."));
+        }
+        if !next.is_empty() {
+            text.push_str(&format!(" Its next action is {next}."));
+        }
+        text.push_str(&format!(
+            " Point at the place on the {object} for: {used_for}. Answer with one point in pixels from the top \
+             left corner, as JSON and nothing else: {{\"point\": [u, v]}}"
+        ));
+        text
+    }
+}
+
+/// Asks where to act on an object for a purpose. A point that cannot be used is asked for once more, with the
+/// reason. Returns the pose at the point, with the camera's orientation.
 ///
 /// # Errors
 ///
-/// The mistake in the answer, the depth image or the camera.
-pub fn ground(
-    pointer: &mut dyn Pointer,
-    view: &RgbdView,
-    object: &str,
-    used_for: &str,
-) -> Result<Pose, NoPoint> {
-    let question = format!(
-        "The image has {} x {} pixels. Where on the {object} is {used_for}? Answer with one point in pixels \
-            from \
-         the top left corner, as JSON and nothing else: {{\"point\": [u, v]}}",
-        view.depth.width, view.depth.height
-    );
-    let reply = pointer.ask(&view.image, &question).map_err(NoPoint::Silent)?;
-    lift(point(&reply)?, &view.depth, &view.camera)
+/// The mistake in the second answer, the depth image or the camera.
+pub fn ground(pointer: &mut dyn Pointer, view: &RgbdView, purpose: &Purpose) -> Result<Pose, NoPoint> {
+    let question = purpose.question(view);
+    let mut ask = |question: &str| {
+        let reply = pointer.ask(&view.image, question).map_err(|why| Told::from(NoPoint::Silent(why)))?;
+        let found = point(&reply).and_then(|point| lift(point, &view.depth, &view.camera));
+        found.map_err(|why| why.of(&reply))
+    };
+    match ask(&question) {
+        Err(Told { why, reply: Some(reply) }) if why.is_of_answer() => {
+            let again = format!("{question}\nYou answered `{reply}`, which cannot be used: {why}. Answer again.");
+            ask(&again).map_err(|told| told.why)
+        }
+        found => found.map_err(|told| told.why),
+    }
+}
+
+/// A mistake with the answer that has it.
+struct Told {
+    why: NoPoint,
+    reply: Option<String>,
+}
+
+impl From<NoPoint> for Told {
+    fn from(why: NoPoint) -> Self {
+        Self { why, reply: None }
+    }
+}
+
+impl NoPoint {
+    fn of(self, reply: &str) -> Told {
+        Told { why: self, reply: Some(reply.trim().chars().take(QUOTED).collect()) }
+    }
+
+    /// True if another answer may be better.
+    const fn is_of_answer(&self) -> bool {
+        match self {
+            Self::Unreadable(_) | Self::Several | Self::Outside { .. } | Self::NoDepth { .. } => true,
+            Self::Unseen | Self::Silent(_) | Self::Camera(_) => false,
+        }
+    }
 }
 
 /// Reads `{"point": [u, v]}`, with any sentence or fence around it.

@@ -1,13 +1,15 @@
 //! Driver whose `ground` asks a model. The question runs on a thread of its own: the engine and the
 //! simulation continue, and simulated time is no faster than the clock while an answer is awaited.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
-use motet_graph::{Pose, Value};
+use motet_graph::{CallNode, Graph, NodeKind, Pose, Term, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Capabilities, Command, Driver, DriverEvent, FailureReport, GoalId, Outcome, Perception, Query, RgbdView,
@@ -16,8 +18,7 @@ use motet_runtime::{
 use motet_stdlib::lang::{failures, primitives};
 use smol_str::SmolStr;
 
-use super::ground::{NoPoint, Pointer, ground};
-use crate::dialogue::called;
+use super::ground::{NoPoint, Pointer, Purpose, ground};
 
 /// Primitive that this driver answers itself.
 const GROUND: &str = primitives::GROUND;
@@ -43,6 +44,7 @@ pub struct GroundingDriver<'d> {
     listener: Box<dyn FnMut(GroundedPoint<'_>) + 'd>,
     questions: Sender<Question>,
     answers: Receiver<(u64, Result<Pose, NoPoint>)>,
+    task: Rc<RefCell<GroundingTask>>,
     /// Open questions by goal.
     asked: BTreeMap<GoalId, Asked>,
     /// Goals that the inner driver never saw.
@@ -53,12 +55,51 @@ pub struct GroundingDriver<'d> {
     now: Time,
 }
 
+/// Task of the robot, for the questions about points.
+#[derive(Clone, Debug, Default)]
+pub struct GroundingTask {
+    /// The request that it carries out.
+    pub instruction: String,
+    /// The policy that runs.
+    pub graph: Option<Arc<Graph>>,
+}
+
+impl GroundingTask {
+    fn purpose(&self, name: String, object: &SmolStr, used_for: &str) -> Purpose {
+        let next = self.graph.as_ref().and_then(|graph| next_call(graph, object)).unwrap_or_default();
+        let instruction = self.instruction.clone();
+        Purpose { object: name, used_for: used_for.to_owned(), instruction, next }
+    }
+}
+
+/// Call behind the first `ground` of an object, in the order of the policy.
+fn next_call(graph: &Graph, object: &SmolStr) -> Option<String> {
+    let mut calls = graph.nodes.iter().filter_map(|node| match &node.kind {
+        NodeKind::Call(call) => Some(call),
+        _ => None,
+    });
+    let name = |call: &CallNode| graph.primitives.get(call.primitive.index()).map(|primitive| &primitive.name);
+    let is_object = |arg: &Term| match arg {
+        Term::Literal(Value::Entity(id)) => id == object,
+        // A binding may stand for it.
+        Term::Binding(_) => true,
+        _ => false,
+    };
+    calls.find(|call| name(call).is_some_and(|name| name == GROUND) && call.args.iter().any(is_object))?;
+    let next = calls.next()?;
+    let args = next.args.iter().filter_map(|arg| match arg {
+        Term::Literal(value) => Some(value.to_string()),
+        Term::Binding(id) => graph.bindings.get(id.index()).map(|binding| binding.name.to_string()),
+        _ => None,
+    });
+    Some(format!("{}({})", name(next)?, args.collect::<Vec<_>>().join(", ")))
+}
+
 /// A question in transit.
 struct Question {
     number: u64,
     view: RgbdView,
-    object: String,
-    used_for: String,
+    purpose: Purpose,
     is_wanted: Arc<AtomicBool>,
 }
 
@@ -92,12 +133,12 @@ impl<'d> GroundingDriver<'d> {
         let (questions, inbox) = mpsc::channel::<Question>();
         let (replies, answers) = mpsc::channel();
         std::thread::spawn(move || {
-            for Question { number, view, object, used_for, is_wanted } in inbox {
+            for Question { number, view, purpose, is_wanted } in inbox {
                 // It was cancelled before its turn came.
                 if !is_wanted.load(Ordering::Relaxed) {
                     continue;
                 }
-                let found = ground(&mut *pointer, &view, &object, &used_for);
+                let found = ground(&mut *pointer, &view, &purpose);
                 if replies.send((number, found)).is_err() {
                     return;
                 }
@@ -110,12 +151,19 @@ impl<'d> GroundingDriver<'d> {
             listener: Box::new(|_| {}),
             questions,
             answers,
+            task: Rc::default(),
             asked: BTreeMap::new(),
             own: BTreeSet::new(),
             count: 0,
             outbox: VecDeque::new(),
             now: Time::ZERO,
         }
+    }
+
+    /// Adds the task that the questions tell, which its owner keeps up to date.
+    #[must_use]
+    pub fn with_task(self, task: Rc<RefCell<GroundingTask>>) -> Self {
+        Self { task, ..self }
     }
 
     /// Adds a listener for the result of each awaited question.
@@ -140,8 +188,7 @@ impl<'d> GroundingDriver<'d> {
         let question = Question {
             number: self.count,
             view,
-            object: called(self.scene, object),
-            used_for: used_for.to_string(),
+            purpose: self.task.borrow().purpose(self.scene.called(object), object, used_for),
             is_wanted: Arc::clone(&is_wanted),
         };
         let (object, used_for) = (object.clone(), used_for.clone());

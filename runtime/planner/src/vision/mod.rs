@@ -4,6 +4,6 @@ mod ground;
 mod grounding_driver;
 mod sightings;
 
-pub use ground::{NoPoint, Pointer, ground, lift, point};
-pub use grounding_driver::{GroundedPoint, GroundingDriver};
+pub use ground::{NoPoint, Pointer, Purpose, ground, lift, point};
+pub use grounding_driver::{GroundedPoint, GroundingDriver, GroundingTask};
 pub use sightings::{Sightings, lies_on_floor};

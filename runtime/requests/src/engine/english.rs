@@ -7,6 +7,7 @@ pub(crate) const FILES: &[(&str, &str)] = &[
     ("answers", include_str!("../../english/answers.phrases")),
     ("asking", include_str!("../../english/asking.phrases")),
     ("commands", include_str!("../../english/commands.phrases")),
+    ("deeds", include_str!("../../english/deeds.phrases")),
     ("courtesy", include_str!("../../english/courtesy.phrases")),
     ("frames", include_str!("../../english/frames.phrases")),
     ("knowledge", include_str!("../../english/knowledge.phrases")),
@@ -41,10 +42,11 @@ lists! {
     NO_THING NUMBERED_THE NUMBERS OFFERS OF_IT ONE_OF_THEM ONTO OPEN_NOUNS ORDINALS ORDINARY_WORDS
     OVERTURES PACKAGES PARTICIPLES PARTS_OF_THINGS PART_FOLLOWS_OVER PART_GO PASTS PHRASE_SOMETHING
     PLACE_AFTER_STOP PLAIN_AND PLAIN_WORDS PLURALS PREDICATES PREPOSITIONS_OF_DIRECTION
-    PREPOSITIONS_OF_PLACE PROCEEDS PRONOUNS REFUSALS REPORT_DENIALS REPORT_WORDS RETRY_WORDS SAME SAYS_WHERE
-    SERIES SIDES SIDE_THE SKIP_SOFT_SOFT SOFTENERS SOUNDS SPEAKERS SPOKEN_I_MEAN SPOTS_GOES_ON STOPS
-    STOPS_ALONE TAKE_HOLD TELLING_BE THANKS THAT_IS THE_OTHER THINGS TOLD_THERE TRIES_AGAIN TURNS
-    USES USE_ENDS VAGUE_VERBS VERB WANTED_LATER WHERE_IT_BELONGS WISH WISH_HAVE YES
+    PREPOSITIONS_OF_PLACE PROCEEDS PRONOUNS REFUSALS REFUSE REPORT_DENIALS REPORT_WORDS RETRY_WORDS SAME
+    SAYS_WHERE SERIES SIDES SIDE_THE SKIP_SOFT_SOFT SOFTENERS SOUNDS SPEAKERS SPOKEN_I_MEAN SPOTS_GOES_ON
+    STATES STOPS STOPS_ALONE TAKE_HOLD TELLING_BE THANKS THAT_IS THE_OTHER THINGS TOLD_THERE TRIES_AGAIN
+    TURNS TURNS_BY LOOKS_ASIDE USES USE_ENDS VAGUE_VERBS VERB WANTED_LATER WHERE_IT_BELONGS WISH WISH_HAVE
+    WITHDRAWALS YES
 }
 
 /// The names of the lists of rules that the reader begins with.
@@ -60,12 +62,16 @@ pub(crate) const RULES: &[&str] = &[
     "carrying",
     "caution",
     "clauses",
+    "conditions",
     "courtesy",
     "dropped",
     "elliptic",
+    "excluded",
     "favours",
     "fetch",
     "go",
+    "guidance",
+    "guided_search",
     "hearsay",
     "hedged",
     "in_another_form",
@@ -75,6 +81,7 @@ pub(crate) const RULES: &[&str] = &[
     "onto",
     "parts",
     "possessed",
+    "prefers",
     "proves_it",
     "questions",
     "remarks",
@@ -85,9 +92,11 @@ pub(crate) const RULES: &[&str] = &[
     "sets_out",
     "speaker",
     "stays_put",
+    "steps_by_name",
     "task",
     "unwrapped",
     "verb",
+    "watches",
     "wants_state",
     "whereto",
     "wish",
