@@ -74,7 +74,8 @@ pub(crate) fn converse(
         sight = eyes;
         let is_shown = args.format == OutputFormat::Human;
         let log = observer::PointLog { is_shown, record: record.clone() };
-        pointing = observer::pointing(&args.model, robot, &mut sight, &setting.scene, (log, Rc::clone(&task)))?;
+        pointing =
+            observer::pointing(&args.model, robot, &mut sight, &setting.scene, (log, Rc::clone(&task)))?;
         &mut pointing
     } else {
         robot

@@ -62,7 +62,12 @@ fn converse(args: &DialogArgs, report: &mut Report) -> Result<Exit, CliError> {
 }
 
 /// Converts each plan of a dialogue to a policy and checks it. Questions of the robot are printed as notes.
-fn read(path: &Path, args: &DialogArgs, opened: &ProjectSession, report: &mut Report) -> Result<Exit, CliError> {
+fn read(
+    path: &Path,
+    args: &DialogArgs,
+    opened: &ProjectSession,
+    report: &mut Report,
+) -> Result<Exit, CliError> {
     let bytes = read_small(path)?;
     let text = String::from_utf8_lossy(&bytes);
     let exchanges = if text.contains('<') {

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use motet_geometry::planning::{
-    BaseMapCache, Configuration as Placed, Infeasible, InfeasibleReason, KeptRegion, MotionAnswer, MotionQuery, MotionWitness,
-    PlanningScene, QueryContext, ReachLength, RobotModel, SceneState, SearchBudget, UnknownReason,
+    BaseMapCache, Configuration as Placed, Infeasible, InfeasibleReason, KeptRegion, MotionAnswer,
+    MotionQuery, MotionWitness, PlanningScene, QueryContext, ReachLength, RobotModel, SceneState,
+    SearchBudget, UnknownReason,
 };
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
@@ -130,8 +131,8 @@ impl Geometry {
     }
 
     /// The same geometry, in which some things have no exact pose, as the scene leaves it out: they may be in
-    /// the way of any motion, so no motion counts as feasible before it is tried, and a thing itself is refused
-    /// only for what holds wherever it stands near the guess, such as its height.
+    /// the way of any motion, so no motion counts as feasible before it is tried, and a thing itself is
+    /// refused only for what holds wherever it stands near the guess, such as its height.
     #[must_use]
     pub fn with_unplaced(mut self, things: Vec<(SmolStr, Option<Placement>)>) -> Self {
         for (id, guess) in things {

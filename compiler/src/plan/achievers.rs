@@ -70,7 +70,9 @@ impl<'a> Prover<'a> {
                     Some(_) => self.perceive(primitive, def, args, result),
                     None => {
                         let all = self.meeting(def, effect, (subgoal.1, args)).into_iter();
-                        all.flat_map(|args| self.fill(def, args)).map(|args| CandidateCall { primitive, args, result: None, again: None }).collect()
+                        all.flat_map(|args| self.fill(def, args))
+                            .map(|args| CandidateCall { primitive, args, result: None, again: None })
+                            .collect()
                     }
                 };
                 for call in calls {
@@ -176,10 +178,9 @@ impl<'a> Prover<'a> {
     ) -> Vec<Vec<Option<Term>>> {
         let each = effect.fact.args.iter().position(|arg| *arg == Some(Term::Each));
         let (Some(Condition::Fact(fact)), Some(each)) = (&effect.when, each) else { return vec![args] };
-        let open = |term: &Option<Term>| {
-            matches!(term, Some(Term::Param(at)) if args.get(usize::from(*at)).is_some_and(Option::is_none))
-        };
-        let holes: Vec<usize> = (0..fact.args.len()).filter(|at| fact.args.get(*at).is_some_and(open)).collect();
+        let open = |term: &Option<Term>| matches!(term, Some(Term::Param(at)) if args.get(usize::from(*at)).is_some_and(Option::is_none));
+        let holes: Vec<usize> =
+            (0..fact.args.len()).filter(|at| fact.args.get(*at).is_some_and(open)).collect();
         let ([hole], true) = (holes.as_slice(), fact.args.contains(&Some(Term::Each))) else {
             return vec![args];
         };

@@ -131,8 +131,8 @@ impl Session {
 }
 
 impl Session {
-    /// The same session in an environment where a condition holds, as far as it is made of facts. Unchanged where
-    /// the condition has an error.
+    /// The same session in an environment where a condition holds, as far as it is made of facts. Unchanged
+    /// where the condition has an error.
     #[must_use]
     pub fn supposing(&self, condition: &Expr) -> Self {
         let Ok(condition) = resolve(condition, self.library(), self.environment()) else {

@@ -96,7 +96,8 @@ pub fn plan(
         Err(NoPlan::Budget { .. }) => supposed.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
         found => found?,
     };
-    if let Some(deed) = aims.iter().filter_map(|aim| aim.deed.as_ref()).find(|deed| !deed::has(deed, session)) {
+    if let Some(deed) = aims.iter().filter_map(|aim| aim.deed.as_ref()).find(|deed| !deed::has(deed, session))
+    {
         return Err(RequestError::Unfit { why: format!("I cannot {}", deed::words(deed)) }.into());
     }
     let text = policy(name, robot, aims, &plan, session.scene());
@@ -177,9 +178,8 @@ pub(super) fn policy(
     let is_grouped = aims.len() > 1 || aims.iter().any(|aim| aim.only_if.is_some());
     for index in 0..=aims.len() {
         let aim = aims.get(index);
-        let steps: Vec<String> = plan.steps.iter().filter(|step| step.goal == index)
-            .map(|step| watched(step, robot))
-            .collect();
+        let steps: Vec<String> =
+            plan.steps.iter().filter(|step| step.goal == index).map(|step| watched(step, robot)).collect();
         let deed = aim.and_then(|aim| aim.deed.as_ref()).map(|deed| deed::steps(deed, robot, scene));
         let awaits = aim.and_then(|aim| aim.awaits.as_ref());
         if steps.is_empty() && deed.is_none() && awaits.is_none() {

@@ -49,9 +49,11 @@ pub(crate) fn steps(deed: &Deed, robot: Option<&Robot>, scene: Option<&Scene>) -
     }
 }
 
-/// Steps that tell what the robot sees of a thing: where it is, whether it is open, whether something lies on it.
+/// Steps that tell what the robot sees of a thing: where it is, whether it is open, whether something lies on
+/// it.
 fn report(thing: &SmolStr, robot: Option<&Robot>, scene: Option<&Scene>) -> String {
-    let observes = |fluent: &str| robot.is_some_and(|robot| robot.observes.iter().any(|known| known == fluent));
+    let observes =
+        |fluent: &str| robot.is_some_and(|robot| robot.observes.iter().any(|known| known == fluent));
     let entity = scene.and_then(|scene| scene.entities.get(thing));
     let called = |id: &str| scene.map_or_else(|| id.replace('_', " "), |scene| scene.called(id));
     let (id, the) = (print::identifier(thing), format!("The {}", called(thing)));
@@ -60,7 +62,8 @@ fn report(thing: &SmolStr, robot: Option<&Robot>, scene: Option<&Scene>) -> Stri
         format!("if {condition} {{ {say}({yes}) }} else {{ {say}({no}) }}\n")
     };
     let mut steps = String::new();
-    let support = entity.and_then(|entity| entity.on.as_ref()).filter(|_| observes(fluents::ON));
+    let support = entity.filter(|entity| !entity.fixed).and_then(|entity| entity.on.as_ref());
+    let support = support.filter(|_| observes(fluents::ON));
     if let Some(support) = support {
         let place = called(support);
         let is = [format!("{the} is on the {place}."), format!("{the} is not on the {place}.")];

@@ -99,11 +99,13 @@ impl Planner for BuiltinBeside {
     fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
         let (session, robot, request) = (ask.session.clone(), ask.robot.clone(), ask.request.to_owned());
         let (situation, scene) = (ask.situation.clone(), ask.situation.scene.clone());
-        let RequestContext { holding, supports, spoken_of, came_from, meant, seen_at, prefers, .. } = situation;
+        let RequestContext { holding, supports, spoken_of, came_from, meant, seen_at, prefers, .. } =
+            situation;
         let (told, coming) = mpsc::channel();
         std::thread::spawn(move || {
             let scene = &scene;
-            let context = RequestContext { holding, supports, spoken_of, came_from, ..RequestContext::new(scene) };
+            let context =
+                RequestContext { holding, supports, spoken_of, came_from, ..RequestContext::new(scene) };
             let situation = RequestContext { meant, seen_at, prefers, ..context };
             let planned = builtin::answer(&session, Some(&robot), &request, &situation);
             // Nobody waits for it any more if the run is over.

@@ -1,5 +1,5 @@
-//! Requests beside goals: steps by their name, conditions that a request waits for or depends on, what stays out
-//! of it, and preferences. They are read where a request has no other reading.
+//! Requests beside goals: steps by their name, conditions that a request waits for or depends on, what stays
+//! out of it, and preferences. They are read where a request has no other reading.
 
 use motet_compiler::plan::{Persistence, fact};
 use motet_stdlib::lang::{entities, fluents};
@@ -166,8 +166,9 @@ fn pieces(tokens: &[Token]) -> Vec<Piece> {
 
 /// Adds the words between two steps, without what joins them.
 fn push(pieces: &mut Vec<Piece>, words: &[Token]) {
-    let is_joint =
-        |token: &&Token| matches!(token, Token::Comma | Token::Stop) || matches!(token.word(), "and" | "then");
+    let is_joint = |token: &&Token| {
+        matches!(token, Token::Comma | Token::Stop) || matches!(token.word(), "and" | "then")
+    };
     let begin = words.iter().take_while(is_joint).count();
     let end = words.len() - words.iter().rev().take_while(is_joint).count();
     if let Some(words) = words.get(begin..end).filter(|words| !words.is_empty()) {
@@ -185,11 +186,10 @@ impl Reader<'_> {
                 self.commands(&spoken)?;
             }
             Piece::Step(said) => {
-                let (name, about) = said.split_first().map_or(("", said.as_slice()), |(name, about)| {
-                    (name.word(), about)
-                });
+                let (name, about) =
+                    said.split_first().map_or(("", said.as_slice()), |(name, about)| (name.word(), about));
                 match name {
-                    "wake_up" => self.deed("wake_up", Deed::WakeUp),
+                    "wake_up" => self.deed("stand_up", Deed::WakeUp),
                     "home" => self.deed("fold_arm", Deed::Home),
                     "start" => {
                         let goal = fact(fluents::AT, &[entities::ROBOT, entities::START]);
@@ -364,6 +364,7 @@ pub(super) fn preference(
     };
     let liked = one(found.words.get(..middle)?)?;
     let over = one(found.words.get(middle + 1..)?)?;
-    let rest = [tokens.get(..begin).unwrap_or_default(), tokens.get(found.end..).unwrap_or_default()].concat();
+    let rest =
+        [tokens.get(..begin).unwrap_or_default(), tokens.get(found.end..).unwrap_or_default()].concat();
     Some((Preference { liked, over }, rest))
 }

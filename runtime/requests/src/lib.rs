@@ -102,7 +102,8 @@ pub enum Asked {
     What,
 }
 
-/// Angle of an answer that names a direction to look in, in degrees to the left: `turn left`, `look behind you`.
+/// Angle of an answer that names a direction to look in, in degrees to the left: `turn left`, `look behind
+/// you`.
 #[must_use]
 pub fn turn(answer: &str) -> Option<i32> {
     if answer.len() > MAX_REQUEST {

@@ -7,12 +7,12 @@ use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
 use crate::command::Command;
+use crate::deed::Deed;
 use crate::engine::noun::{Noun, Phrase};
 use crate::engine::token::{Token, singular, tokens};
 use crate::engine::verb::Act;
 use crate::engine::vocabulary::{Role, Vocabulary};
 use crate::parse::Spoken;
-use crate::deed::Deed;
 use crate::{Asked, Preference, ReportedLocation, RequestContext, RequestError};
 
 /// Roles of the things that can be carried.
@@ -108,11 +108,7 @@ pub(super) fn understood(
 }
 
 /// Finds where somebody says that things are, in words that would otherwise ask for something.
-pub(super) fn told(
-    tokens: &[Token],
-    asked: Asked,
-    situation: &RequestContext<'_>,
-) -> Vec<ReportedLocation> {
+pub(super) fn told(tokens: &[Token], asked: Asked, situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
     Reader::new(situation).told(tokens, asked)
 }
 
@@ -215,11 +211,12 @@ impl Reader<'_> {
     pub(super) fn aim(&mut self, name: String, condition: Expr, lasts: Persistence) {
         let name =
             name.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
-        let is_known = !matches!(&condition.kind, ExprKind::All(parts) if parts.is_empty()) && self
-            .said
-            .aims
-            .iter()
-            .any(|aim| aim.goal.persistence == lasts && same(&aim.goal.condition, &condition));
+        let is_known = !matches!(&condition.kind, ExprKind::All(parts) if parts.is_empty())
+            && self
+                .said
+                .aims
+                .iter()
+                .any(|aim| aim.goal.persistence == lasts && same(&aim.goal.condition, &condition));
         if is_known {
             return;
         }

@@ -75,9 +75,10 @@ impl Reader<'_> {
     fn preferred(&self, found: Vec<SmolStr>) -> Vec<SmolStr> {
         let wins = |id: &&SmolStr| {
             let others = || found.iter().filter(move |other| other != id);
-            self.situation.prefers.iter().any(|known| {
-                known.liked.contains(id) && others().all(|other| known.over.contains(other))
-            })
+            self.situation
+                .prefers
+                .iter()
+                .any(|known| known.liked.contains(id) && others().all(|other| known.over.contains(other)))
         };
         match found.iter().find(wins) {
             Some(one) => vec![one.clone()],

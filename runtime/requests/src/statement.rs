@@ -6,7 +6,6 @@
 use motet_stdlib::lang::fluents;
 use smol_str::SmolStr;
 
-use crate::{Asked, ReportedLocation};
 use crate::engine::english::{
     ADVICE, BEFORE_REPORT, BEHIND_REPORT, IS_HABIT_ALWAYS, LIKES, LOOK_THERE, NEEDS_TO, REPORT_DENIALS,
     TELLING_BE, TOLD_THERE,
@@ -17,6 +16,7 @@ use crate::engine::token::{Token, stands};
 use crate::engine::vocabulary::{Role, good_for};
 use crate::meaning::{ANYWHERE, OBJECTS, Reader};
 use crate::parse::{Spoken, Statement};
+use crate::{Asked, ReportedLocation};
 
 impl Reader<'_> {
     /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things

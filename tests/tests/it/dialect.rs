@@ -69,7 +69,9 @@ fn dialect_all_seven_actions_in_their_forms() {
 
 #[test]
 fn dialect_nothing_is_dropped() {
-    for (list, number) in [("go to counter. juggle coke", 2), ("pick coke. whatever", 2), ("turn somewhere", 1)] {
+    for (list, number) in
+        [("go to counter. juggle coke", 2), ("pick coke. whatever", 2), ("turn somewhere", 1)]
+    {
         let why = read(list).unwrap_err();
         let at = match &why {
             NoPolicy::Unknown { number, .. } | NoPolicy::Lacking { number, .. } => *number,

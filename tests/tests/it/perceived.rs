@@ -129,6 +129,7 @@ impl Planner for Shown {
             scene,
             situation: ask.situation,
             memory: ask.memory,
+            bound: &[],
             lasting: &StaticPrompt::new(ask.session, ask.robot, scene),
             tokens: TOKENS,
             time: Duration::ZERO,

@@ -214,11 +214,8 @@ fn vision_model_is_asked_for_the_point() {
     };
     let view = RgbdView { image, depth: depth(), camera: camera() };
     let ask = |says| {
-        let purpose = Purpose {
-            object: "drawer".to_owned(),
-            used_for: "the handle".to_owned(),
-            ..Purpose::default()
-        };
+        let purpose =
+            Purpose { object: "drawer".to_owned(), used_for: "the handle".to_owned(), ..Purpose::default() };
         ground(&mut Says(says), &view, &purpose)
     };
     assert!(ask(Ok("{\"point\": [50, 40]}")).is_ok());

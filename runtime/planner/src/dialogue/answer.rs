@@ -1,6 +1,8 @@
 //! Meaning of an answer to a question, for the task at hand.
 
-use motet_requests::{Aim, Asked, Polarity, ReportedLocation, RequestContext, RequestError, is_wordless, polarity};
+use motet_requests::{
+    Aim, Asked, Polarity, ReportedLocation, RequestContext, RequestError, is_wordless, polarity,
+};
 use motet_robots::scene::Entity;
 use motet_stdlib::lang::{fluents, kinds};
 use smol_str::SmolStr;
@@ -22,7 +24,9 @@ pub enum Answer {
     ReportedLocation(Vec<ReportedLocation>),
     Request(String),
     /// Another direction to look in: the robot turns by this angle, in degrees to the left, and looks again.
-    Look { degrees: i32 },
+    Look {
+        degrees: i32,
+    },
     /// Nothing useful: the question is asked again.
     NotUnderstood,
 }

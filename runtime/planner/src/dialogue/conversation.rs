@@ -157,8 +157,8 @@ impl<'a> Conversation<'a> {
         self.eyes.as_mut()?.image(now)
     }
 
-    /// A session in the known state, with the motions in it. A thing whose place is not known has none, and the
-    /// others have theirs.
+    /// A session in the known state, with the motions in it. A thing whose place is not known has none, and
+    /// the others have theirs.
     pub(super) fn session(&self, scene: &Scene, known: &Knowledge, base: Option<[f64; 3]>) -> Session {
         let session = self.base().with_scene(Some(scene), Some(&known.state()));
         let Some(geometry) = &self.setting.geometry else { return session };

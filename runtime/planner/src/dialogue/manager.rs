@@ -279,7 +279,8 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         understood.is_ok_and(|understood| !understood.aims.iter().any(|aim| aim.mentions(entities::USER)))
     }
 
-    /// Policy that turns by some degrees, if any, and looks for an object there. `None` if it does not pass the check.
+    /// Policy that turns by some degrees, if any, and looks for an object there. `None` if it does not pass
+    /// the check.
     fn looking(&self, degrees: Option<i32>, thing: &SmolStr, scene: &Scene) -> Option<PlannedRequest> {
         let name = self.talk.setting.scene.entities.get(thing).map(motet_requests::called)?;
         let robot = print::identifier(&self.talk.setting.robot.name);
@@ -400,7 +401,8 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 return None;
             }
             Answer::Look { degrees } => {
-                self.ready = problem.about.as_ref().and_then(|thing| self.looking(Some(degrees), thing, scene));
+                self.ready =
+                    problem.about.as_ref().and_then(|thing| self.looking(Some(degrees), thing, scene));
                 self.task.looks = self.ready.is_some();
             }
             Answer::Again => {

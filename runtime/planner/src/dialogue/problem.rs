@@ -207,7 +207,8 @@ fn failed(
             vec!["try again".into(), "leave it".into()],
         ),
         failures::REFUSED if name == primitives::HANDOVER => {
-            let held = args().find_map(entity).map_or_else(|| "it".to_owned(), |id| reason::named(scene, &id));
+            let held =
+                args().find_map(entity).map_or_else(|| "it".to_owned(), |id| reason::named(scene, &id));
             let whom = args().filter_map(entity).next_back();
             let who = whom.map_or_else(|| "nobody".to_owned(), |id| reason::named(scene, &id));
             let who = capital(&who);
@@ -234,10 +235,7 @@ fn failed(
         }
         _ => (
             Kind::ActionFailed,
-            format!(
-                "I could not {doing}: {}. Shall I try again?",
-                why.unwrap_or_else(|| happened(kind))
-            ),
+            format!("I could not {doing}: {}. Shall I try again?", why.unwrap_or_else(|| happened(kind))),
             vec!["yes".into(), "no".into()],
         ),
     };

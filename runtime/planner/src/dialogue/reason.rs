@@ -1,5 +1,5 @@
-//! Reasons of problems in a person's words: who cannot do what, and the number that matters. Ids become names,
-//! and nothing is quoted from a policy.
+//! Reasons of problems in a person's words: who cannot do what, and the number that matters. Ids become
+//! names, and nothing is quoted from a policy.
 
 use motet_compiler::plan::NoPlan;
 use motet_robots::scene::Scene;

@@ -75,8 +75,7 @@ const WORDS: &[(&str, &[&str])] = &[
     (primitives::ASK, &["ask"]),
 ];
 /// Kinds of what a robot can go to.
-const ANYWHERE: &[&str] =
-    &[kinds::SURFACE, kinds::CONTAINER, kinds::PLACE, kinds::PERSON, kinds::OBJECT];
+const ANYWHERE: &[&str] = &[kinds::SURFACE, kinds::CONTAINER, kinds::PLACE, kinds::PERSON, kinds::OBJECT];
 /// Prepositions between an object and its destination.
 const BETWEEN: &[&str] =
     &[" on top of ", " onto ", " into ", " inside ", " on ", " in ", " at ", " to ", ", "];
@@ -200,7 +199,8 @@ impl Reader<'_> {
                 let (what, to) = self.placed(number, rest)?;
                 self.held = None;
                 if self.is_person(&to) {
-                    self.warnings.push(format!("action {number}: hands it to `{to}`, where the robot is then"));
+                    self.warnings
+                        .push(format!("action {number}: hands it to `{to}`, where the robot is then"));
                     return Ok(format!("handover({}, {})", id(&what), id(&to)));
                 }
                 format!("place({}, {})", id(&what), id(&to))
@@ -581,7 +581,10 @@ mod tests {
         }
         let items = |text| items(text, &Scene::default());
         assert_eq!(items("pick(coke), place(coke, table)"), ["pick(coke)", "place(coke, table)"]);
-        assert_eq!(items("Pick coke. Go to counter. Place coke."), ["pick coke", "go to counter", "place coke"]);
+        assert_eq!(
+            items("Pick coke. Go to counter. Place coke."),
+            ["pick coke", "go to counter", "place coke"]
+        );
         assert!(items(" ,;\n").is_empty());
     }
 }

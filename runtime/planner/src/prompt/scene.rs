@@ -128,9 +128,15 @@ pub(super) fn now(
 pub(super) fn bound(bound: &[(SmolStr, Value)]) -> String {
     let known: Vec<String> = bound
         .iter()
-        .map(|(name, value)| format!("{name} = {}", value.to_string().chars().take(SHOWN).collect::<String>()))
+        .map(|(name, value)| {
+            format!("{name} = {}", value.to_string().chars().take(SHOWN).collect::<String>())
+        })
         .collect();
-    if known.is_empty() { String::new() } else { format!("Results of the last policy: {}.\n", known.join(", ")) }
+    if known.is_empty() {
+        String::new()
+    } else {
+        format!("Results of the last policy: {}.\n", known.join(", "))
+    }
 }
 
 /// Posture of the arm in a scene: one of the card, or that of all joints at rest.

@@ -109,7 +109,8 @@ pub fn ground(pointer: &mut dyn Pointer, view: &RgbdView, purpose: &Purpose) -> 
     };
     match ask(&question) {
         Err(Told { why, reply: Some(reply) }) if why.is_of_answer() => {
-            let again = format!("{question}\nYou answered `{reply}`, which cannot be used: {why}. Answer again.");
+            let again =
+                format!("{question}\nYou answered `{reply}`, which cannot be used: {why}. Answer again.");
             ask(&again).map_err(|told| told.why)
         }
         found => found.map_err(|told| told.why),

@@ -78,7 +78,8 @@ fn next_call(graph: &Graph, object: &SmolStr) -> Option<String> {
         NodeKind::Call(call) => Some(call),
         _ => None,
     });
-    let name = |call: &CallNode| graph.primitives.get(call.primitive.index()).map(|primitive| &primitive.name);
+    let name =
+        |call: &CallNode| graph.primitives.get(call.primitive.index()).map(|primitive| &primitive.name);
     let is_object = |arg: &Term| match arg {
         Term::Literal(Value::Entity(id)) => id == object,
         // A binding may stand for it.
