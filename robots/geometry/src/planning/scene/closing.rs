@@ -152,11 +152,9 @@ impl Closing {
         };
         let steps = libm::ceil(((self.end()? + half - from) / STEP).max(0.0)) as u32;
         let mut found: Option<(HoldDepths, f64)> = None;
-        let mut near = STAGES / 2;
         for step in 0..=steps {
             let depth = from + STEP * f64::from(step);
-            let Some((at, meets)) = self.contact_near(near, width, depth, contact) else { continue };
-            near = at;
+            let Some((at, meets)) = self.contact(width, depth, contact) else { continue };
             let Some(worth) = self.worth(width, depth, contact, (at, meets)) else { continue };
             let end = self.ends.get(..=at).and_then(|ends| ends.iter().copied().max_by(f64::total_cmp));
             let (depths, best) =
@@ -218,17 +216,6 @@ impl Closing {
 
     /// Stage in which the closing fingers meet an object, and the place along them.
     fn contact(&self, width: f64, depth: f64, contact: FingerContact) -> Option<(usize, f64)> {
-        self.contact_near(STAGES / 2, width, depth, contact)
-    }
-
-    /// The same, looked for from a stage on: neighbouring depths meet in neighbouring stages.
-    fn contact_near(
-        &self,
-        near: usize,
-        width: f64,
-        depth: f64,
-        contact: FingerContact,
-    ) -> Option<(usize, f64)> {
         let gaps = self.gaps();
         let room = |at: usize| self.nearest(gaps.get(at)?, width, depth, contact);
         let met = |at: usize| room(at).filter(|(left, _)| *left <= 0.0).map(|(_, place)| place);
@@ -237,22 +224,12 @@ impl Closing {
         if room(open).is_some_and(|(left, _)| left < -STEP) {
             return None;
         }
-        let mut middle = near.clamp(open + 1, closed.saturating_sub(1).max(open + 1));
-        let mut stride = 1;
+        // In halves, always the same ones: fingers that turn may meet, leave and meet an object again.
         while closed - open > 1 {
+            let middle = usize::midpoint(open, closed);
             match met(middle) {
-                Some(at) => {
-                    (closed, place) = (middle, at);
-                    middle = middle.saturating_sub(stride);
-                }
-                None => {
-                    open = middle;
-                    middle += stride;
-                }
-            }
-            stride *= 2;
-            if middle <= open || middle >= closed {
-                middle = usize::midpoint(open, closed);
+                Some(at) => (closed, place) = (middle, at),
+                None => open = middle,
             }
         }
         Some((closed, place))
