@@ -178,7 +178,8 @@ impl<'a> Prover<'a> {
     ) -> Vec<Vec<Option<Term>>> {
         let each = effect.fact.args.iter().position(|arg| *arg == Some(Term::Each));
         let (Some(Condition::Fact(fact)), Some(each)) = (&effect.when, each) else { return vec![args] };
-        let open = |term: &Option<Term>| matches!(term, Some(Term::Param(at)) if args.get(usize::from(*at)).is_some_and(Option::is_none));
+        let is_open = |at: u16| args.get(usize::from(at)).is_some_and(Option::is_none);
+        let open = |term: &Option<Term>| matches!(term, Some(Term::Param(at)) if is_open(*at));
         let holes: Vec<usize> =
             (0..fact.args.len()).filter(|at| fact.args.get(*at).is_some_and(open)).collect();
         let ([hole], true) = (holes.as_slice(), fact.args.contains(&Some(Term::Each))) else {

@@ -1,77 +1,18 @@
 //! The built-in planner, which needs no model. The compiler checks every policy before the planner returns
 //! it.
 
+use motet_compiler::Session;
 use motet_compiler::plan::{Goal, NoPlan, PLAN_BUDGET, Persistence, Plan, PlannedStep};
-use motet_compiler::{Compiled, Session};
-use motet_requests::{Aim, Intent, RequestContext, RequestError};
+use motet_requests::{Aim, RequestContext, RequestError};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_stdlib::lang::{fluents, measures};
 use motet_syntax::ast::{Expr, ExprKind};
-use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
-use thiserror::Error;
+use motet_syntax::{FileId, Source, Syntax, print};
 
 use crate::deed;
-use crate::model::{ReplyVerdict, judge};
-
-/// A policy that reaches the requested goals.
-#[derive(Clone, Debug)]
-pub struct Planned {
-    /// The policy in the canonical text syntax.
-    pub text: String,
-    /// The same policy, parsed.
-    pub parsed: Parsed,
-    /// Result of compiling the policy: a graph, and no error.
-    pub compiled: Compiled,
-    /// Number of states that the search expanded.
-    pub looked_at: usize,
-}
-
-/// A request that was understood, with its policy.
-#[derive(Clone, Debug)]
-pub struct PlannedRequest {
-    /// Intent that the request was read as.
-    pub understood: Intent,
-    pub planned: Planned,
-}
-
-/// Reasons for which a request gets no policy.
-#[derive(Error, Clone, Debug)]
-pub enum PlanError {
-    /// The request is unclear.
-    #[error(transparent)]
-    RequestError(#[from] RequestError),
-    /// The search found nothing.
-    #[error(transparent)]
-    NoPlan(#[from] NoPlan),
-    /// The plan does not pass the check: a contract needs more than the planner can establish.
-    #[error("the plan does not pass the check: {}", first(diagnostics))]
-    Refused {
-        text: String,
-        /// Diagnostics of the compiler.
-        diagnostics: Vec<Diagnostic>,
-    },
-    /// The model keeps to a policy that passes the check, but that does not do what was asked, or that is not
-    /// as the model wrote it. A person decides.
-    #[error("the plan is in doubt: {}", first(diagnostics))]
-    Doubtful {
-        planned: Box<Planned>,
-        /// Diagnostics that the model did not heed.
-        diagnostics: Vec<Diagnostic>,
-    },
-    /// The model answered in words: a question, or a refusal.
-    #[error("{words}")]
-    Said { words: String },
-    /// The model gave no reply, and another attempt cannot succeed.
-    #[error("{why}")]
-    NoModel {
-        /// Name of the model, and the reason.
-        why: String,
-    },
-    /// A person stopped the planning.
-    #[error("it was stopped")]
-    Stopped,
-}
+pub use crate::planned::{PlanError, Planned, PlannedRequest};
+use crate::reply_verdict::{ReplyVerdict, judge};
 
 /// Factor on the state budget of a second search, after the first one used up its budget.
 const LAST_RESORT: usize = 6;
@@ -136,16 +77,6 @@ pub fn answer(
     let name = understood.aims.first().map_or("plan", |aim| aim.name.as_str());
     let planned = plan(session, robot, name, &understood.aims)?;
     Ok(PlannedRequest { understood, planned })
-}
-
-/// A text as it is written in a policy.
-pub(crate) fn quoted(text: &str) -> String {
-    print::expression(&Expr { kind: ExprKind::Text(text.into()), span: Span::default() })
-}
-
-fn first(diagnostics: &[Diagnostic]) -> &str {
-    let mut errors = diagnostics.iter().filter(|said| said.severity == Severity::Error);
-    errors.next().map_or("", |said| said.message.as_str())
 }
 
 /// Longest time in min for which the robot waits until something happens.

@@ -8,7 +8,7 @@ use motet_stdlib::lang::{fluents, kinds, primitives};
 use motet_syntax::print;
 use smol_str::SmolStr;
 
-use crate::builtin::quoted;
+use crate::planned::quoted;
 
 /// Primitive of a deed.
 const fn primitive(deed: &Deed) -> &'static str {

@@ -5,8 +5,10 @@ mod deed;
 pub mod dialogue;
 pub mod inteliplan;
 pub mod model;
+mod planned;
 mod planner;
 pub mod prompt;
+mod reply_verdict;
 pub mod runtime_check;
 pub mod vision;
 

@@ -18,24 +18,7 @@ use crate::engine::vocabulary::Role;
 use crate::errand::{all_of, not};
 use crate::meaning::{HOLDERS, OBJECTS, Reader};
 use crate::parse::{self, Spoken};
-use crate::{Aim, Intent, Preference, RequestContext, RequestError};
-
-/// A step that a request asks for by its name.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Deed {
-    /// Turns on the spot, by degrees to the left.
-    Turn { degrees: i32 },
-    /// Gets on its feet.
-    WakeUp,
-    /// Folds the arm.
-    Home,
-    /// Looks at a thing closely, and tells about it if somebody asked.
-    Inspect {
-        thing: SmolStr,
-        /// True if the robot says what it saw.
-        tells: bool,
-    },
-}
+use crate::{Aim, Deed, Intent, Preference, RequestContext, RequestError};
 
 /// Pieces of a request, in order.
 enum Piece {
@@ -358,7 +341,7 @@ pub(super) fn preference(
     })?;
     let found = Rules("prefers").at(tokens, begin)?;
     let middle = found.words.iter().position(|token| token.word() == "over")?;
-    let mut one = |said: &[Token]| -> Option<Vec<SmolStr>> {
+    let one = |said: &[Token]| -> Option<Vec<SmolStr>> {
         let (noun, _) = noun(said, 0)?;
         Reader::new(situation).choices(&noun, None).ok().map(|found| found.concat())
     };

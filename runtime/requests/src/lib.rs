@@ -22,11 +22,27 @@ use smol_str::SmolStr;
 use engine::token::Token;
 
 pub use answer::{called, choose, encourages, named, pick};
-pub use deed::Deed;
 pub use error::RequestError;
 pub use meaning::{Aim, Certainty, Intent};
 pub use polarity::{Polarity, added, holds, is_wordless, polarity, proceeds, refuses, stops, withdrawn};
 pub use question::{RoomQuestion, Topic, deed, is_question, question};
+
+/// A step that a request asks for by its name.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Deed {
+    /// Turns on the spot, by degrees to the left.
+    Turn { degrees: i32 },
+    /// Gets on its feet.
+    WakeUp,
+    /// Folds the arm.
+    Home,
+    /// Looks at a thing closely, and tells about it if somebody asked.
+    Inspect {
+        thing: SmolStr,
+        /// True if the robot says what it saw.
+        tells: bool,
+    },
+}
 
 /// The context of a request: the scene, and what changed or was said since. Plain data; `Send` and `Sync`.
 #[derive(Clone, Debug)]

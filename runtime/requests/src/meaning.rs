@@ -6,8 +6,8 @@ use motet_stdlib::lang::{entities, fluents};
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
+use crate::Deed;
 use crate::command::Command;
-use crate::deed::Deed;
 use crate::engine::noun::{Noun, Phrase};
 use crate::engine::token::{Token, singular, tokens};
 use crate::engine::verb::Act;

@@ -70,7 +70,7 @@ impl Knowledge {
 }
 
 /// An object without an exact pose, with a guess.
-pub type UnplacedThing = (SmolStr, Option<Placement>);
+pub(super) type UnplacedThing = (SmolStr, Option<Placement>);
 
 /// Pose of a thing in the middle of a surface. `None` where a shape or a pose is not known.
 fn on_top(scene: &Scene, thing: &str, support: &str) -> Option<Placement> {

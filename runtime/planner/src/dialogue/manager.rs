@@ -14,8 +14,8 @@ use super::early_start::Continuation;
 use super::live_run::{LiveRun, RunResult, StopReason};
 use super::problem::{Kind, Problem};
 use crate::Planner;
-use crate::builtin::{PlanError, PlannedRequest, quoted};
 use crate::model::{ReplyVerdict, judge};
+use crate::planned::{PlanError, PlannedRequest, quoted};
 
 /// The most policies for one request.
 const MAX_ROUNDS: usize = 12;

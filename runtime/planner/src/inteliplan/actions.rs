@@ -10,7 +10,7 @@ use motet_syntax::print;
 use smol_str::SmolStr;
 use thiserror::Error;
 
-use crate::builtin::quoted;
+use crate::planned::quoted;
 
 /// A policy from a list of actions, with the interpretations that the reader made.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -496,7 +496,9 @@ pub(super) fn items(text: &str, scene: &Scene) -> Vec<String> {
             if let Some(item) = items.last_mut() {
                 item.push_str(&format!("{NUMBERED}{index}"));
             }
-            name.chars().skip(1).for_each(|_| drop(letters.next()));
+            for _ in name.chars().skip(1) {
+                let _ = letters.next();
+            }
             continue;
         }
         match letter {

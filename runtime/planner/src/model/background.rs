@@ -13,9 +13,9 @@ use serde_json::{Map, Value as Json};
 use smol_str::SmolStr;
 
 use super::chat::{Finish, ModelError, News, Reply};
-use super::reply_verdict::{ReplyVerdict, errors, judge, read};
 use super::stream_reader::{StreamReader, StreamVerdict};
-use crate::builtin::Planned;
+use crate::planned::Planned;
+use crate::reply_verdict::{ReplyVerdict, errors, judge, read};
 
 /// The rest of a policy whose first step was returned.
 pub(super) struct PendingRest {

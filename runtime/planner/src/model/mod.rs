@@ -10,12 +10,11 @@ mod background;
 mod chat;
 mod planner;
 mod prose;
-mod reply_verdict;
 mod stream_reader;
 
+pub use crate::reply_verdict::{ReplyVerdict, judge};
 pub use background::without_first_step;
 pub use chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 pub use chat::{ModelEvent, ModelObserver};
 pub use planner::{ModelPlanner, Settings, Start, chat};
-pub use reply_verdict::{ReplyVerdict, judge};
 pub use stream_reader::{StreamReader, StreamVerdict, Wrong};

@@ -11,11 +11,11 @@ use super::background::{PendingRest, RestProgress, first_step};
 use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 use super::chat::{ModelEvent, ModelObserver};
 use super::prose;
-use super::reply_verdict::{ReplyVerdict, RequestGoal, judge};
 use super::stream_reader::{StreamReader, StreamVerdict};
-use crate::builtin::{PlanError, Planned, PlannedRequest};
+use crate::planned::{PlanError, Planned, PlannedRequest};
 use crate::planner::{PlanRequest, Planner, RemainingSteps, Wait};
 use crate::prompt::{self, Prompt, StaticPrompt};
+use crate::reply_verdict::{ReplyVerdict, RequestGoal, judge};
 use motet_requests::{Certainty, Intent};
 
 /// Waiting time for a piece of a reply between two looks at the stop request.

@@ -6,7 +6,7 @@ const MAX_CHARS: usize = 1_000;
 /// The words of a reply that asks something or refuses, without thoughts. `None` for a reply that has a
 /// policy, or that says neither.
 pub(super) fn for_person(reply: &str) -> Option<String> {
-    let words = super::reply_verdict::without_thoughts(reply).trim();
+    let words = crate::reply_verdict::without_thoughts(reply).trim();
     let opens = |line: &str| line.trim_start().starts_with("policy ");
     if words.contains(['{', '}']) || words.lines().any(opens) || words.chars().count() > MAX_CHARS {
         return None;

@@ -11,7 +11,7 @@ use motet_compiler::Session;
 use motet_decode::Acceptor;
 use motet_syntax::Diagnostic;
 
-use super::reply_verdict::{errors, mend, read};
+use crate::reply_verdict::{errors, mend, read};
 
 /// End of an incomplete policy during a check: no goal is missed and nothing is left undone.
 const UNFINISHED: &str = r#"{"end":"fail","why":"unfinished"}"#;

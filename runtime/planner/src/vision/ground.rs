@@ -87,8 +87,8 @@ impl Purpose {
             text.push_str(&format!(" Its next action is {next}."));
         }
         text.push_str(&format!(
-            " Point at the place on the {object} for: {used_for}. Answer with one point in pixels from the top \
-             left corner, as JSON and nothing else: {{\"point\": [u, v]}}"
+            " Point at the place on the {object} for: {used_for}. Answer with one point in pixels from the \
+             top left corner, as JSON and nothing else: {{\"point\": [u, v]}}"
         ));
         text
     }

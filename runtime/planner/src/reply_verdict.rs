@@ -10,7 +10,7 @@ use motet_syntax::ast::{Clause, Expr, ExprKind, File, Item};
 use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
 use smol_str::SmolStr;
 
-use crate::builtin::Planned;
+use crate::planned::Planned;
 
 /// Maximum number of fixes to one reply.
 const MOST_FIXES: usize = 8;
@@ -79,7 +79,7 @@ fn is_spelling(fix: &AppliedFix) -> bool {
 }
 
 /// A document after known fixes, with these fixes; `None` if errors remain.
-pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<AppliedFix>)> {
+pub(crate) fn mend(session: &Session, document: &str) -> Option<(String, Vec<AppliedFix>)> {
     let source = Source::new(name(document), document);
     let fixed = fix::fix(session, &source, FileId(0), FixLimits::safe(MOST_FIXES));
     if fixed.applied.is_empty() || !errors(fixed.diagnostics).is_empty() {
@@ -88,11 +88,11 @@ pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<App
     Some((fixed.text, fixed.applied))
 }
 
-pub(super) fn read(document: &str) -> Parsed {
+pub(crate) fn read(document: &str) -> Parsed {
     motet_syntax::read(&Source::new(name(document), document), FileId(0))
 }
 
-pub(super) fn errors(diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+pub(crate) fn errors(diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     diagnostics.into_iter().filter(|said| said.severity == Severity::Error).collect()
 }
 
@@ -101,7 +101,7 @@ fn name(document: &str) -> &'static str {
 }
 
 /// Strips the thoughts that some models write before the reply.
-pub(super) fn without_thoughts(reply: &str) -> &str {
+pub(crate) fn without_thoughts(reply: &str) -> &str {
     if !reply.trim_start().starts_with("<think>") {
         return reply;
     }
@@ -110,14 +110,14 @@ pub(super) fn without_thoughts(reply: &str) -> &str {
 
 /// Goal of a request, as the built-in reader of requests reads it.
 #[derive(Clone, Debug)]
-pub(super) struct RequestGoal {
-    pub(super) condition: Expr,
-    pub(super) certainty: Certainty,
+pub(crate) struct RequestGoal {
+    pub(crate) condition: Expr,
+    pub(crate) certainty: Certainty,
 }
 
 impl RequestGoal {
     /// Goal of a request that does not depend on a condition. `None` if the request cannot be read.
-    pub(super) fn new(request: &str, situation: &RequestContext<'_>) -> Option<Self> {
+    pub(crate) fn new(request: &str, situation: &RequestContext<'_>) -> Option<Self> {
         let understood = motet_requests::understand(request, situation).ok()?;
         let depends = |aim: &Aim| aim.only_if.is_some() || aim.awaits.is_some();
         if understood.aims.iter().any(depends) {
@@ -135,7 +135,7 @@ impl RequestGoal {
 
     /// The finding about a policy that passes the check, acts, and reaches the goal on none of its ways.
     /// `None` for a policy that asks, says something or declines: the goal does not bind it.
-    pub(super) fn missed(&self, session: &Session, planned: &Planned) -> Option<Diagnostic> {
+    pub(crate) fn missed(&self, session: &Session, planned: &Planned) -> Option<Diagnostic> {
         if !self.is_acted_on(session, planned) {
             return None;
         }

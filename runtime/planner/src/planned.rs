@@ -1,0 +1,77 @@
+//! Results of planning: a policy that passed the check, or the reason why there is none.
+
+use motet_compiler::Compiled;
+use motet_compiler::plan::NoPlan;
+use motet_requests::{Intent, RequestError};
+use motet_syntax::ast::{Expr, ExprKind};
+use motet_syntax::{Diagnostic, Parsed, Severity, Span, print};
+use thiserror::Error;
+
+/// A policy that reaches the requested goals.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// The policy in the canonical text syntax.
+    pub text: String,
+    /// The same policy, parsed.
+    pub parsed: Parsed,
+    /// Result of compiling the policy: a graph, and no error.
+    pub compiled: Compiled,
+    /// Number of states that the search expanded.
+    pub looked_at: usize,
+}
+
+/// A request that was understood, with its policy.
+#[derive(Clone, Debug)]
+pub struct PlannedRequest {
+    /// Intent that the request was read as.
+    pub understood: Intent,
+    pub planned: Planned,
+}
+
+/// Reasons for which a request gets no policy.
+#[derive(Error, Clone, Debug)]
+pub enum PlanError {
+    /// The request is unclear.
+    #[error(transparent)]
+    RequestError(#[from] RequestError),
+    /// The search found nothing.
+    #[error(transparent)]
+    NoPlan(#[from] NoPlan),
+    /// The plan does not pass the check: a contract needs more than the planner can establish.
+    #[error("the plan does not pass the check: {}", first(diagnostics))]
+    Refused {
+        text: String,
+        /// Diagnostics of the compiler.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// The model keeps to a policy that passes the check, but that does not do what was asked, or that is not
+    /// as the model wrote it. A person decides.
+    #[error("the plan is in doubt: {}", first(diagnostics))]
+    Doubtful {
+        planned: Box<Planned>,
+        /// Diagnostics that the model did not heed.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// The model answered in words: a question, or a refusal.
+    #[error("{words}")]
+    Said { words: String },
+    /// The model gave no reply, and another attempt cannot succeed.
+    #[error("{why}")]
+    NoModel {
+        /// Name of the model, and the reason.
+        why: String,
+    },
+    /// A person stopped the planning.
+    #[error("it was stopped")]
+    Stopped,
+}
+
+/// A text as it is written in a policy.
+pub(crate) fn quoted(text: &str) -> String {
+    print::expression(&Expr { kind: ExprKind::Text(text.into()), span: Span::default() })
+}
+
+fn first(diagnostics: &[Diagnostic]) -> &str {
+    let mut errors = diagnostics.iter().filter(|said| said.severity == Severity::Error);
+    errors.next().map_or("", |said| said.message.as_str())
+}
