@@ -37,10 +37,10 @@ pub(super) fn plain_reason(scene: &Scene, query: &MotionQuery, reason: &Infeasib
         InfeasibleReason::OutOfReach { length: ReachLength::Sight, needs, reach } => {
             format!("it is {needs:.1} m away, I see {reach:.1} m far")
         }
-        InfeasibleReason::NoFreePose { by: Some(by), .. } => {
+        InfeasibleReason::NoFreePose { by: Some(by), .. } if target(query) != Some(by) => {
             format!("{} is in the way of my arm{}", named(by), height(scene, query))
         }
-        InfeasibleReason::NoFreePose { by: None, .. } => {
+        InfeasibleReason::NoFreePose { .. } => {
             format!("my arm does not get there{}", height(scene, query))
         }
         InfeasibleReason::BlockedPath { by: Some(by) } => format!("{} is in the way", named(by)),

@@ -4,7 +4,7 @@ use motet_requests::{
     Aim, Asked, Polarity, ReportedLocation, RequestContext, RequestError, is_wordless, polarity,
 };
 use motet_robots::scene::Entity;
-use motet_stdlib::lang::{fluents, kinds};
+use motet_stdlib::lang::{entities, fluents, kinds};
 use smol_str::SmolStr;
 
 use super::problem::{Kind, Problem, holders};
@@ -99,7 +99,10 @@ fn meaning(answer: &str, problem: &Problem, request: &str, situation: &RequestCo
     let about = RequestContext { spoken_of: spoken(problem, situation), ..situation.clone() };
     let understood = motet_requests::understand(answer, &about);
     // `take it from the table` tells where it is, `put it on the table` asks for something.
-    let takes = |aim: &Aim| problem.about.as_ref().is_some_and(|thing| aim.places(thing));
+    let takes = |aim: &Aim| {
+        let places = problem.about.as_ref().is_some_and(|thing| aim.places(thing));
+        places && !aim.mentions(entities::USER)
+    };
     let asks = understood.as_ref().is_ok_and(|understood| understood.aims.iter().any(takes));
     if problem.kind == Kind::NotFound || is_of_object(problem, situation) {
         let told = motet_requests::told(answer, asked(problem), &about);

@@ -353,8 +353,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> RoundResult {
         let answer = self.person.ask(question);
         self.watcher.asked(question, answer.as_deref());
-        let Some(answer) = answer else { return RoundResult::Over(Outcome::Failed(question.clone())) };
-        if !matches!(polarity(&answer), Polarity::Yes(_)) {
+        if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
             return RoundResult::Over(or);
         }
         self.task = Task::new(before, None);
