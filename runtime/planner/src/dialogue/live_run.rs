@@ -412,13 +412,12 @@ impl Observer for LiveRun<'_, '_> {
 
     fn reached(&mut self, now: Time) -> RunControl {
         self.now = self.now.max(now);
-        let control = self.watcher.reached(now);
         if self.pending.is_some() {
             return RunControl::Stop;
         }
-        match control {
+        match self.watcher.reached(now) {
             RunControl::Continue => self.wish.take().unwrap_or(RunControl::Continue),
-            RunControl::Hold | RunControl::Proceed | RunControl::Stop => control,
+            control @ (RunControl::Hold | RunControl::Proceed | RunControl::Stop) => control,
         }
     }
 
