@@ -34,7 +34,8 @@ fn pointed(name: &str, answer: &str) -> (Option<i32>, String, Vec<Value>, Vec<Va
     let policy =
         "policy touch for hsr {\n    let handle = ground(mug_1, \"the handle\")\n    go(counter)\n}\n";
     let says = |text: &str| json!({"choices": [{"message": {"content": text}}]}).to_string();
-    let (url, heard) = scripted("200 OK", vec![says(policy), says(answer)]);
+    // A point that cannot be used is asked for once more.
+    let (url, heard) = scripted("200 OK", vec![says(policy), says(answer), says(answer)]);
     let place = Place::new(name);
     let ran = place.run(&format!("{DO} --planner {url} --model m --camera --record kept"));
     let kept = place.read("kept/talk.jsonl");

@@ -127,7 +127,8 @@ fn a_robot_on_a_port_is_talked_with() {
         ran.check(0, &["out:✓ go(counter)", "out:✓ go(kitchen_table)", "out:I went to"]);
         request(&place, "go to the counter", &driver.split(' ').collect::<Vec<_>>())
             .check(0, &["out:✓ go(counter)"]);
-        let state = [&driver.split(' ').collect::<Vec<_>>()[..], &["--state", "{\"free(hand)\": true}"]];
+        let state =
+            [&driver.split(' ').collect::<Vec<_>>()[..], &["--state", "{\"on(coke, counter)\": false}"]];
         request(&place, "go to the counter", &state.concat())
             .check(0, &["err:the driver does not take `--state`"]);
     }
