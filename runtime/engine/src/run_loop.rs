@@ -43,7 +43,8 @@ pub trait Observer {
     /// An effect is about to be carried out.
     fn effect(&mut self, _now: Time, _effect: &Effect) {}
 
-    /// The run has reached a time. To pace it against a clock, wait here until it is that late.
+    /// The run has reached a time; called before anything takes time, and after. To pace it against a clock,
+    /// wait here until it is that late.
     fn reached(&mut self, _now: Time) -> RunControl {
         RunControl::Continue
     }

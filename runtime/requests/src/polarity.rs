@@ -79,7 +79,14 @@ pub fn holds(answer: &str) -> bool {
 #[must_use]
 pub fn proceeds(answer: &str) -> bool {
     let is_it = |said: &str| is_whole(said, &PROCEEDS, &MOMENT);
-    is_it(answer) || matches!(polarity(answer), Polarity::Yes(rest) if is_it(rest))
+    // `ok, go on` agrees first.
+    let agreed = answer.split_once(',').filter(|(first, _)| match polarity(first) {
+        Polarity::Yes(rest) => is_wordless(rest),
+        _ => false,
+    });
+    is_it(answer)
+        || agreed.is_some_and(|(_, rest)| is_it(rest))
+        || matches!(polarity(answer), Polarity::Yes(rest) if is_it(rest))
 }
 
 /// True if an answer is phrases of one list and then of another, with courtesy around them.

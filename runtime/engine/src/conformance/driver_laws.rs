@@ -220,7 +220,8 @@ fn begun_again(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     bench.driver.watch(bench.now, &subject.query);
     bench.until(Time::ZERO, |_| false);
     bench.begin_run();
-    if let Some(event) = bench.until(subject.moment, |event| of(event).is_some()) {
+    // What runs on ends within this time, and tells it.
+    if let Some(event) = bench.until(subject.patience, |event| of(event).is_some()) {
         bench.breach(Law::Anew, format!("`{event}`, which is of the run before"));
     }
     let again = bench.start(&subject.command);

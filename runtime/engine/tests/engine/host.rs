@@ -78,18 +78,18 @@ fn check(stop_at: f64, every: f64, expected: RunEnd, ended_at: f64, reached: u32
 
 #[test]
 fn run_ends_by_itself() {
-    check(100.0, f64::INFINITY, RunEnd::Done { why: None, result: None }, 4.0, 2);
+    check(100.0, f64::INFINITY, RunEnd::Done { why: None, result: None }, 4.0, 4);
 }
 
 #[test]
 fn run_onlooker_is_called_in_between() {
-    check(100.0, 0.5, RunEnd::Done { why: None, result: None }, 4.0, 8);
+    check(100.0, 0.5, RunEnd::Done { why: None, result: None }, 4.0, 16);
 }
 
 #[test]
 fn run_onlooker_stops_the_run() {
     // The first goal was not acknowledged, so it runs to its end, and then nothing else starts.
-    check(1.0, 0.5, RunEnd::Interrupted, 2.0, 2);
+    check(1.0, 0.5, RunEnd::Interrupted, 2.0, 4);
 }
 
 #[test]

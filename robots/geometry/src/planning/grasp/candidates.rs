@@ -214,7 +214,7 @@ impl CandidateList<'_> {
         } else {
             (FingerContact::Flat(half), half)
         };
-        let HoldDepths { best, most, end, .. } = self.depths(width, contact)?;
+        let HoldDepths { best, most, .. } = self.depths(width, contact)?;
         let depth = best.max(self.hand.palm + half);
         if depth > most {
             return None;
@@ -222,6 +222,7 @@ impl CandidateList<'_> {
         let side = if approach.z < TOP { GraspSide::Top } else { GraspSide::Side };
         // From above, the finger tips may have to stay above the support.
         let is_shallow = |at: &f64| side == GraspSide::Top && *at > depth + NEXT;
+        let end = self.hand.closing.end_around(width, best, contact);
         let above = end.map(|end| end - self.object.extent(approach) + ABOVE).filter(|at| *at < most - NEXT);
         let shallow = [above, Some(most)].map(|at| at.filter(is_shallow));
         let rotation = self.hand.turned(approach, along);

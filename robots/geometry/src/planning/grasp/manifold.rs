@@ -125,7 +125,7 @@ impl<'a> GraspManifold<'a> {
             high: [about, 0.0, 1.0, 0.0],
             is_top: None,
             contact: FingerContact::Round,
-            depths: HoldDepths { least: depth, best: depth, most: depth, end: None },
+            depths: HoldDepths { least: depth, best: depth, most: depth },
         };
         let slots = vec![slot(1.0), slot(-1.0)];
         Self { hand, object: *bar, side: None, ahead: [0.0; 2], slots, permits: None }
@@ -312,7 +312,7 @@ impl<'a> GraspManifold<'a> {
         [deep, deeps]: [f64; 2],
     ) -> Option<(f64, f64)> {
         let [near, far] = self.extents(slot, approach, bend, bends);
-        let HoldDepths { least, best, most, .. } = slot.depths;
+        let HoldDepths { least, best, most } = slot.depths;
         // From the side as well as possible; from above, the finger tips may have to stay above the support.
         let first = if slot.is_top == Some(false) { best } else { least };
         let palm = |half: f64| (self.hand.palm + half).max(first);

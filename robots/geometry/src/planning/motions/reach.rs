@@ -52,11 +52,8 @@ pub(crate) fn reach(
     if all.is_empty() && side.is_none() {
         return unknown(format!("no grasp by `{}` is known for its shape", hand.name));
     }
-    let around = 2.0 * object.reach() + hand.closing.around() + Padding::new(context.clearance).most();
-    let near = context.obstacles.near([object.centre.x, object.centre.y], around);
-    let near = near.map(|(_, obstacle)| *obstacle).collect();
-    let allowed = AllowedCollisions::of_grasp(context, index);
-    let target = ReachTarget { id, entity, pose, object, hand, allowed, near };
+    let target =
+        ReachTarget { id, entity, pose, object, hand, allowed: AllowedCollisions::of_grasp(context, index) };
     let (mut all, envelope) = (all, context.reach_envelope(hand));
     let closes = |hold: &GraspCandidate| context.closing_contact(&target, hold).is_none();
     let manifold = GraspManifold::new(hand, &target.object, side, context.state.robot.base);
@@ -139,12 +136,14 @@ impl PlanningScene<'_> {
             if above_floor(&finger) <= MIN_CLEARANCE {
                 return met("floor".into());
             }
-            let touched = target.near.iter().find(|other| {
+            let around = finger.reach() + Padding::new(self.clearance).most();
+            let mut near = self.obstacles.near([finger.centre.x, finger.centre.y], around);
+            let touched = near.find(|(_, other)| {
                 let is_near = target.allowed.is_near(other.entity);
                 let pad = if is_near { MIN_CLEARANCE } else { other.padding.arm };
                 !target.allowed.touches(other.entity, false) && touches(&finger, other, pad)
             });
-            if let Some(other) = touched {
+            if let Some((_, other)) = touched {
                 return met(self.name(other.entity));
             }
         }
@@ -180,6 +179,4 @@ struct ReachTarget<'a> {
     object: Solid,
     hand: &'a HandModel,
     allowed: AllowedCollisions,
-    /// Obstacles that the closing fingers might touch.
-    near: Vec<Obstacle>,
 }

@@ -43,9 +43,6 @@ pub(crate) struct HoldDepths {
     /// Depth that holds best, the least of equals.
     pub(crate) best: f64,
     pub(crate) most: f64,
-    /// Reach of the fingers at the best depth until they meet the object; `None` where their shapes are
-    /// unknown.
-    pub(crate) end: Option<f64>,
 }
 
 /// Fingers from open to closed, in the frame of the tip.
@@ -107,12 +104,6 @@ impl Closing {
         most.is_finite().then_some(most)
     }
 
-    /// Distance in m from an object that the fingers grasp within which they are all the time.
-    pub(crate) fn around(&self) -> f64 {
-        let far = |solid: &Solid| solid.centre.norm() + solid.reach();
-        3.0 * self.stages.iter().flatten().map(far).fold(0.0, f64::max)
-    }
-
     /// Solids of the open hand.
     pub(crate) fn open(&self) -> impl Iterator<Item = &Solid> {
         self.palm.iter().chain(self.stages.first().into_iter().flatten())
@@ -128,6 +119,12 @@ impl Closing {
         let at = self.turns.then(|| self.contact(width, depth, contact)).flatten().map_or(0, |(at, _)| at);
         let stages = [at, at * 2 / 3, at / 3].into_iter().filter(|at| *at > 0);
         stages.filter_map(|at| self.stages.get(at)).flatten()
+    }
+
+    /// Reach of the fingers until they meet an object, in m.
+    pub(crate) fn end_around(&self, width: f64, depth: f64, contact: FingerContact) -> Option<f64> {
+        let (at, _) = self.contact(width, depth, contact)?;
+        self.ends.get(..=at)?.iter().copied().max_by(f64::total_cmp)
     }
 
     /// Depths from `from` m on at which the fingers hold an object of a width; `None` where there are none.
@@ -154,14 +151,12 @@ impl Closing {
         let mut found: Option<(HoldDepths, f64)> = None;
         for step in 0..=steps {
             let depth = from + STEP * f64::from(step);
-            let Some((at, meets)) = self.contact(width, depth, contact) else { continue };
-            let Some(worth) = self.worth(width, depth, contact, (at, meets)) else { continue };
-            let end = self.ends.get(..=at).and_then(|ends| ends.iter().copied().max_by(f64::total_cmp));
+            let Some(worth) = self.worth(width, depth, contact) else { continue };
             let (depths, best) =
-                found.get_or_insert((HoldDepths { least: depth, best: depth, most: depth, end }, worth));
+                found.get_or_insert((HoldDepths { least: depth, best: depth, most: depth }, worth));
             depths.most = depth;
             if worth > *best + 1e-9 {
-                (depths.best, depths.end, *best) = (depth, end, worth);
+                (depths.best, *best) = (depth, worth);
             }
         }
         found.map(|(depths, _)| depths)
@@ -178,13 +173,8 @@ impl Closing {
     }
 
     /// Quality of a hold, the better the greater; `None` where the fingers do not hold.
-    fn worth(
-        &self,
-        width: f64,
-        depth: f64,
-        contact: FingerContact,
-        (at, meets): (usize, f64),
-    ) -> Option<f64> {
+    fn worth(&self, width: f64, depth: f64, contact: FingerContact) -> Option<f64> {
+        let (at, meets) = self.contact(width, depth, contact)?;
         match contact {
             FingerContact::Round => {
                 let off = (meets - depth).abs();
@@ -217,22 +207,17 @@ impl Closing {
     /// Stage in which the closing fingers meet an object, and the place along them.
     fn contact(&self, width: f64, depth: f64, contact: FingerContact) -> Option<(usize, f64)> {
         let gaps = self.gaps();
-        let room = |at: usize| self.nearest(gaps.get(at)?, width, depth, contact);
-        let met = |at: usize| room(at).filter(|(left, _)| *left <= 0.0).map(|(_, place)| place);
+        let meets = |at: usize| self.nearest(gaps.get(at)?, width, depth, contact);
+        let is_met = |at: usize| meets(at).is_some_and(|(left, _)| left <= 0.0);
         let (mut open, mut closed) = (0, gaps.len().checked_sub(1)?);
-        let mut place = met(closed)?;
-        if room(open).is_some_and(|(left, _)| left < -STEP) {
+        if !is_met(closed) || meets(open).is_some_and(|(left, _)| left < -STEP) {
             return None;
         }
-        // In halves, always the same ones: fingers that turn may meet, leave and meet an object again.
         while closed - open > 1 {
             let middle = usize::midpoint(open, closed);
-            match met(middle) {
-                Some(at) => (closed, place) = (middle, at),
-                None => open = middle,
-            }
+            *(if is_met(middle) { &mut closed } else { &mut open }) = middle;
         }
-        Some((closed, place))
+        Some((closed, meets(closed)?.1))
     }
 
     /// Least room between fingers and object on any line, in m, and the place of the line.

@@ -362,7 +362,7 @@ impl HandModel {
                 FingerContact::Round => SHORT * width / 2.0,
                 FingerContact::Flat(half) => half - GRIP.min(half),
             };
-        (from <= most).then_some(HoldDepths { least: from, best: from, most, end: None })
+        (from <= most).then_some(HoldDepths { least: from, best: from, most })
     }
 
     /// Rotation of the tip in the map with the fingers pointing along `approach` and closing along `along`;
