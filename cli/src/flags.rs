@@ -248,6 +248,12 @@ pub(crate) fn duration(text: &str) -> Result<f64, String> {
     if secs.is_finite() && secs > 0.0 { Ok(secs) } else { Err("a duration is longer than 0 s".to_owned()) }
 }
 
+/// Reads the server's key from an environment variable.
+pub(crate) fn api_key(variable: &str) -> Result<ApiKey, CliError> {
+    ApiKey::from_variable(variable)
+        .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
+}
+
 #[cfg(test)]
 mod tests {
     use motet_robots::clearance::ClearanceOverride;
@@ -274,10 +280,4 @@ mod tests {
             assert!(duration(text).is_err(), "{text}");
         }
     }
-}
-
-/// Reads the server's key from an environment variable.
-pub(crate) fn api_key(variable: &str) -> Result<ApiKey, CliError> {
-    ApiKey::from_variable(variable)
-        .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }

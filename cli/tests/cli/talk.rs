@@ -90,9 +90,9 @@ fn words_stop_and_hold_a_robot_at_every_speed() {
         }
     }
     let ended = |ran: &Ran| -> f64 {
-        let end =
+        let mut end =
             ran.check(0, &[]).stdout.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
-        end.last().unwrap()["at"].as_f64().unwrap()
+        end.next_back().unwrap()["at"].as_f64().unwrap()
     };
     let flags = ["--speed", "max", "--format", "json"];
     let plain = ended(&bring(&flags));

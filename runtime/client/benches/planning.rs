@@ -145,6 +145,7 @@ fn once(setting: &DialogueSetup, kept: &Kept, request: &str, reply: &str) -> Vec
         scene: &setting.scene,
         situation: &situation,
         memory: &memory,
+        bound: &[],
         lasting: &kept.lasting,
         tokens: TOKENS,
         time: TIME,

@@ -43,8 +43,9 @@ use std::rc::Rc;
 ///    everything: an answer that never comes means unknown, not refused. A safe stop of a lost goal is
 ///    answered like any other.
 /// 9. After [`Driver::begin_run`] it says nothing of a goal of an earlier run, and its numbers may come
-/// again. 10. It never reports from within a call: everything goes out through [`Driver::advance`].
-/// Telemetry, detections and words are fetched after it.
+///    again.
+/// 10. It never reports from within a call: everything goes out through [`Driver::advance`]. Telemetry,
+///     detections and words are fetched after it.
 pub trait Driver {
     /// Starts a primitive.
     fn start(&mut self, now: Time, goal: GoalId, command: &Command);

@@ -37,11 +37,11 @@ fn verdicts(callee: &str, policy: &str) -> Vec<Verdict> {
     let checked = session.check_document(&motet_syntax::read(&source, FileId(99)));
     let graph = checked.policies.iter().find_map(|policy| policy.graph.as_ref());
     let graph = graph.unwrap_or_else(|| panic!("{policy}: {:#?}", checked.diagnostics));
-    let calls = graph.nodes.iter().filter_map(|node| match &node.kind {
+    let mut calls = graph.nodes.iter().filter_map(|node| match &node.kind {
         NodeKind::Call(call) if graph.primitives[call.primitive.index()].name == callee => Some(call),
         _ => None,
     });
-    calls.last().unwrap().needs.iter().map(|need| need.verdict).collect()
+    calls.next_back().unwrap().needs.iter().map(|need| need.verdict).collect()
 }
 
 #[test]

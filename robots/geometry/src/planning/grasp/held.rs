@@ -66,7 +66,7 @@ impl PlanningScene<'_> {
         );
         let why =
             format!("no grasp by `{}` of `{}` is known, and the scene gives none", held.hand.name, held.id);
-        (!is_given && grasps.is_empty()).then(|| MotionAnswer::Unknown(UnknownReason::Because(why)))
+        (!is_given && grasps.is_empty()).then_some(MotionAnswer::Unknown(UnknownReason::Because(why)))
     }
 }
 

@@ -185,7 +185,7 @@ impl Closing {
                 let inside = |at: f64| (at - depth).abs() <= half.max(STEP / 2.0);
                 let covers = |(at, gap): &(f64, f64)| inside(*at) && *gap <= width + COVERS;
                 let covered = self.lines(gaps, depth, half).filter(covers).count() as f64 * STEP;
-                let apart = half.min(2.0 * STEP).max(STEP);
+                let apart = half.clamp(STEP, 2.0 * STEP);
                 // At an edge of the object the finger must not slope away from it.
                 let inwards = match meets {
                     _ if meets - STEP < depth - half => Some(apart),
