@@ -10,12 +10,13 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::thread;
 use std::time::Duration;
 
-use motet_graph::Value;
+use motet_graph::{Graph, Value};
 use motet_planner::dialogue::{Kind, Person, Problem};
 use motet_project::files::read_small;
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
+use motet_stdlib::lang::{failures, primitives};
 use smol_str::SmolStr;
 
 use super::planner::printable;
@@ -193,23 +194,24 @@ impl<'a> AskingDriver<'a> {
         let mut chosen = chosen.unwrap_or_default();
         chosen.retain(|thing| problem.options.contains(thing));
         match chosen.as_slice() {
-            [] => Outcome::Failure("refused".into()),
+            [] => Outcome::Failure(failures::REFUSED.into()),
             [only] => Outcome::Success(Some(Value::Entity(only.clone()))),
-            [_, _, ..] => Outcome::Failure("ambiguous".into()),
+            [_, _, ..] => Outcome::Failure(failures::AMBIGUOUS.into()),
         }
     }
 
     fn ask(&mut self, problem: &Problem) -> Outcome {
         match self.operator.ask(problem) {
             Some(answer) => Outcome::Success(Some(Value::Text(answer.into()))),
-            None => Outcome::Failure("refused".into()),
+            None => Outcome::Failure(failures::REFUSED.into()),
         }
     }
 }
 
 /// Things among which a command lets a person choose; none for other commands.
 fn options(command: &Command) -> Option<Vec<SmolStr>> {
-    let Some(Value::List(among)) = command.arg("among").filter(|_| command.primitive == "choose") else {
+    let Some(Value::List(among)) = command.arg("among").filter(|_| command.primitive == primitives::CHOOSE)
+    else {
         return None;
     };
     let id = |value: &Value| if let Value::Entity(id) = value { Some(id.clone()) } else { None };
@@ -231,13 +233,19 @@ impl Driver for AskingDriver<'_> {
         let outcome = if let Some(options) = options(command) {
             problem.options = options;
             self.choose(&problem)
-        } else if command.primitive == "ask" {
+        } else if command.primitive == primitives::ASK {
             self.ask(&problem)
         } else {
             return self.driver.start(now, goal, command);
         };
         self.outbox.push_back((now, DriverEvent::Acknowledged { goal }));
         self.outbox.push_back((now, DriverEvent::Ended { goal, outcome }));
+    }
+
+    fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
+        // Goals of the run before have the same numbers.
+        self.outbox.clear();
+        self.driver.begin_run(now, run, graph)
     }
 
     fn cancel(&mut self, now: Time, goal: GoalId) {

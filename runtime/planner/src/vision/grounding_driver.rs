@@ -258,6 +258,14 @@ impl Driver for GroundingDriver<'_> {
         }
     }
 
+    fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
+        // Goals of the run before have the same numbers; an answer to one of its questions is dropped.
+        self.asked.clear();
+        self.own.clear();
+        self.outbox.clear();
+        self.driver.begin_run(now, run, graph)
+    }
+
     fn cancel(&mut self, now: Time, goal: GoalId) {
         if self.asked.contains_key(&goal) {
             self.end(now, goal, Outcome::Interrupted);
