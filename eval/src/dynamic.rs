@@ -165,7 +165,7 @@ fn play(
 ///
 /// # Errors
 ///
-/// That of [`run`].
+/// The reason of [`run`].
 pub fn trials(bench: &Bench, seed: u64, count: usize) -> Result<Vec<Trial>, String> {
     let mut random = SplitMix64::seed_from_u64(seed);
     let mut drawn = Vec::new();

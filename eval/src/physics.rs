@@ -56,7 +56,7 @@ pub struct Sums {
     pub processor_secs: f64,
 }
 
-/// What the judge found.
+/// Verdicts of the judge.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Judgement {
     /// Trials in order.

@@ -28,7 +28,7 @@ pub(crate) struct ConversationArgs {
     /// Line that is typed during the run, such as `12s: bring me the apple instead`; repeatable
     #[arg(long, value_name = "TIME: TEXT")]
     pub(super) say: Vec<ScheduledRequest>,
-    /// What a moving robot does while a new instruction is planned
+    /// Behaviour of a moving robot while a new instruction is planned
     #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
     pub(super) on_instruction: InstructionArg,
     /// Write requests, policies, questions, outcomes and the journal of each run into this new folder

@@ -306,16 +306,16 @@ impl<'a> Prover<'a> {
             return false;
         }
         self.back_to(here);
-        let makers = std::cell::RefCell::new(Vec::new());
-        condition.any(&|part| {
+        let (mut makers, mut rest) = (Vec::new(), vec![condition]);
+        while let Some(part) = rest.pop() {
+            rest.extend(part.parts());
             if let Condition::Fact(_) = part {
                 let known = self.evaluate(part, CallFrame::default());
-                makers.borrow_mut().extend(known.yes.as_step().into_iter().chain(known.no.as_step()));
+                makers.extend(known.yes.as_step().into_iter().chain(known.no.as_step()));
             }
-            false
-        });
+        }
         let (cause, program) = (Cause::step(id), self.program);
-        for maker in makers.into_inner() {
+        for maker in makers {
             let Some(StepKind::Call(call)) = program.step(maker).map(|step| &step.kind) else { continue };
             let Some(def) = self.library.primitive(call.primitive) else { continue };
             let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));

@@ -121,7 +121,7 @@ pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
 ///
 /// # Errors
 ///
-/// That of [`run`].
+/// The reason of [`run`].
 pub fn trials(bench: &Bench, wordings: &str) -> Result<Vec<Trial>, String> {
     let is_injected = |kind: &Kind| matches!(kind, Kind::NotReachable | Kind::ActionFailed);
     let mut cases = cases(wordings);

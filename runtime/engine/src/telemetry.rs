@@ -44,7 +44,7 @@ pub struct ToldThing {
     /// Pose of its middle in the frame `map`, where it is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<Pose>,
-    /// What it stands on or lies in, where it is known.
+    /// Its support or container, if it is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support: Option<ToldSupport>,
 }

@@ -61,7 +61,7 @@ pub struct RequestContext<'a> {
     pub seen_at: Vec<(SmolStr, [f64; 3])>,
     /// Phrases with the things that they mean, as answers to questions told.
     pub meant: Vec<(String, SmolStr)>,
-    /// What somebody would rather have, the latest last.
+    /// Preferences that somebody told, the latest last.
     pub prefers: Vec<Preference>,
 }
 
@@ -112,9 +112,9 @@ pub fn told(answer: &str, asked: Asked, situation: &RequestContext<'_>) -> Vec<R
 /// Question that an answer is given to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Asked {
-    /// Where a thing is: a place to open or to go to is where it may be.
+    /// The place of a thing: a place to open or to go to is where it may be.
     Where,
-    /// What to do about a thing that could not be taken.
+    /// An act for a thing that could not be taken.
     What,
 }
 

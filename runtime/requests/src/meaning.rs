@@ -34,7 +34,7 @@ pub struct Intent {
     pub notes: Vec<String>,
     /// Things that were spoken of, the latest last.
     pub spoken_of: Vec<SmolStr>,
-    /// What the person would rather have, if they told it.
+    /// Preference that the person told.
     pub prefers: Vec<Preference>,
     /// Confidence in the goals.
     pub certainty: Certainty,

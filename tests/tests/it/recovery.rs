@@ -60,7 +60,7 @@ const FIND: [(&str, Led); 19] = [
     ("the coke can is inside the refrigerator", Led::Done),
 ];
 
-/// What an answer leads to.
+/// Result to which an answer leads.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Led {
     /// The thing is brought.

@@ -1,4 +1,4 @@
-//! What is seen: the laws of the simulator's eyes, detections as things of a scene, and points of an image
+//! Perception: the laws of the simulator's eyes, detections as things of a scene, and points of an image
 //! lifted into the room.
 use motet_graph::Pose;
 use motet_planner::vision::{NoPoint, Pointer, Purpose, Sightings, ground, lift, point};

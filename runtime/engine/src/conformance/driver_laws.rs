@@ -211,7 +211,7 @@ fn watched(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     bench.until(subject.moment, |_| false);
 }
 
-/// Where another run begins while something runs, that is forgotten, and its number starts anew.
+/// A run that begins while something runs forgets it, and its number starts anew.
 fn begun_again(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     let goal = bench.start(&subject.command);
     if !bench.runs(goal, subject.patience) {

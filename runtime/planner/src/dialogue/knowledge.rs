@@ -31,7 +31,7 @@ pub struct Knowledge {
     pub(super) seen: Sightings,
     /// Things of which the driver was not told yet.
     pub(super) untold: Vec<ToldThing>,
-    /// What the person would rather have.
+    /// Preferences of the person.
     pub(super) prefers: Vec<Preference>,
 }
 

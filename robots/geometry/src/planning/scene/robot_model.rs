@@ -541,9 +541,12 @@ mod tests {
     fn closing_of_the_hsr_holds_slim_things_farther_out() {
         let model = RobotModel::embedded("hsr");
         let hand = model.hand().unwrap();
-        let best = |width: f64| depths(hand, width, FingerContact::Round).unwrap().best;
-        let [slim, wide] = [0.06, 0.12].map(best);
-        assert!(slim > wide, "{slim} {wide}");
+        let of = |width: f64| depths(hand, width, FingerContact::Round).unwrap();
+        let [thin, middle, wide] = [0.012, 0.06, 0.12].map(of);
+        assert!(middle.best > wide.best, "{middle:?} {wide:?}");
+        assert!(thin.most > wide.most, "{thin:?} {wide:?}");
+        // Open, the fingers end nearer than they do around a pen.
+        assert!(thin.most > hand.fingers, "{thin:?} {}", hand.fingers);
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub(super) struct TelemetryQueue {
     moved: VecDeque<Moved>,
     detected: VecDeque<Vec<Detection>>,
     heard: VecDeque<Heard>,
-    /// Where the base was last.
+    /// Latest pose of the base.
     pub(super) base: Option<[f64; 3]>,
 }
 
