@@ -15,7 +15,7 @@ use motet_syntax::unit::{Dimension, Unit};
 
 use crate::error::CliError;
 
-pub(crate) use driver::{DriverArgs, Speed};
+pub(crate) use driver::{DriverArgs, DriverChoice, Speed};
 
 /// Documents to read.
 #[derive(Args, Debug)]

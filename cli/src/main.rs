@@ -16,6 +16,7 @@ use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
+use motet_syntax::render::escaped;
 
 use error::{CliError, Exit};
 use output::{ColorChoice, Colors, note};
@@ -144,8 +145,8 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
 
 fn print_error(error: &CliError, colors: Colors) {
     let label = if colors.stderr { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };
-    note(&format!("{label}: {error}"));
+    note(&format!("{label}: {}", escaped(&error.to_string())));
     if let Some(help) = error.help() {
-        note(&format!("  help: {help}"));
+        note(&format!("  help: {}", escaped(help)));
     }
 }

@@ -1,8 +1,13 @@
 //! Stdout and stderr. A closed pipe is no error: the rest of the output is dropped.
 
+use std::fs::{self, File};
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 
 use clap::ValueEnum;
+use motet_syntax::render::is_steering;
+
+use crate::error::CliError;
 
 /// Colours of the output.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
@@ -79,6 +84,39 @@ impl Output {
     }
 }
 
+/// Writes a file beside the old one and then puts it in its place: a full disk or an interruption leaves the
+/// old one whole. A pipe or a device is written to directly.
+pub(crate) fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    try_replace(path, bytes).map_err(|source| CliError::Write { path: path.to_owned(), source })
+}
+
+fn try_replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // A link stays a link.
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let old = fs::metadata(&target).ok();
+    if old.as_ref().is_some_and(|old| !old.is_file()) {
+        return fs::write(path, bytes);
+    }
+    if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    let mut beside = target.clone().into_os_string();
+    beside.push(format!(".{}.partial", std::process::id()));
+    let written = File::create_new(&beside).and_then(|mut file| {
+        file.write_all(bytes)?;
+        if let Some(old) = old {
+            file.set_permissions(old.permissions())?;
+        }
+        file.sync_all()?;
+        fs::rename(&beside, &target)
+    });
+    written.inspect_err(|error| {
+        if error.kind() != io::ErrorKind::AlreadyExists {
+            let _ = fs::remove_file(&beside);
+        }
+    })
+}
+
 /// Writes a line to stderr. Errors are ignored: nobody is left to read of them.
 pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
@@ -90,17 +128,13 @@ const MAX_SHOWN_CHARS: usize = 500;
 /// Text from another process as one line for a terminal. Control and bidirectional characters are escaped
 /// (`\u{1b}`), and a long text is cut.
 pub(crate) fn escape(text: &str) -> String {
-    let is_unsafe = |letter: char| {
-        letter.is_control()
-            || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-    };
     let mut shown = String::new();
     for (index, letter) in text.chars().enumerate() {
         if index == MAX_SHOWN_CHARS {
             shown.push('…');
             break;
         }
-        if is_unsafe(letter) { shown.extend(letter.escape_default()) } else { shown.push(letter) }
+        if is_steering(letter) { shown.extend(letter.escape_default()) } else { shown.push(letter) }
     }
     shown
 }

@@ -1,7 +1,9 @@
 //! Runs an engine on a driver, in this process or another: paced by the wall clock, shown by a view,
 //! recorded in a journal, stopped by Ctrl-C.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -12,8 +14,8 @@ use motet_planner::dialogue::Knowledge;
 use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Answer, Detection, Driver, Effect, Engine, Event, Observer, Query, RunControl, RunEnd, Time, ToldThing,
-    Verifier, resume,
+    Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Observer, Query, RunControl,
+    RunEnd, Time, ToldThing, Verifier, resume,
 };
 
 use crate::error::{CliError, Exit};
@@ -25,23 +27,63 @@ use crate::typed_line;
 /// Interval at which a waiting run checks for an interrupt.
 pub(crate) const SLICE: Duration = Duration::from_millis(50);
 
-/// Number of presses of Ctrl-C.
-static PRESSED: AtomicU32 = AtomicU32::new(0);
+/// Number of requests to stop: presses of Ctrl-C, SIGTERM, and SIGHUP, which a closed terminal sends.
+static REQUESTS: AtomicU32 = AtomicU32::new(0);
 
-/// Turns Ctrl-C into a request to stop; the second one ends the process.
+/// Commands that may move the robot, by their goals. They stay until the driver has said that they ended or
+/// stand still, or the run has given up waiting for that.
+static MOVING: Mutex<BTreeMap<GoalId, String>> = Mutex::new(BTreeMap::new());
+
+/// Turns a signal to end into a request to stop. The second one ends the process where nothing can move;
+/// otherwise it says what may move, and the process ends with the safe stop.
 pub(crate) fn catch_interrupts() -> Result<(), CliError> {
     ctrlc::set_handler(|| {
-        if PRESSED.fetch_add(1, Ordering::SeqCst) > 0 {
+        if REQUESTS.fetch_add(1, Ordering::SeqCst) == 0 {
+            return;
+        }
+        let moving = moving();
+        if moving.is_empty() {
             typed_line::restore();
             std::process::exit(130);
         }
+        let commands: Vec<&str> = moving.values().map(String::as_str).collect();
+        note(&format!(
+            "stopping: these commands may still move the robot: {}. The run ends once the driver has \
+             confirmed the stop, or has not answered in time.",
+            commands.join(", ")
+        ));
     })
     .map_err(|error| CliError::Message(format!("cannot handle Ctrl-C: {error}")))
 }
 
-/// Is `true` after Ctrl-C.
+fn moving() -> MutexGuard<'static, BTreeMap<GoalId, String>> {
+    MOVING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps in mind what an effect lets move.
+fn note_effect(effect: &Effect) {
+    match effect {
+        Effect::Start { goal, command, .. } => {
+            moving().insert(*goal, escape(&command.to_string()));
+        }
+        Effect::Finished(_) => moving().clear(),
+        _ => {}
+    }
+}
+
+/// Keeps in mind what an event says to stand still.
+fn note_event(event: &Event) {
+    if let Event::Driver(
+        DriverEvent::Ended { goal, .. } | DriverEvent::Refused { goal, .. } | DriverEvent::Stopped { goal },
+    ) = event
+    {
+        moving().remove(goal);
+    }
+}
+
+/// Is `true` after Ctrl-C and after another signal to end.
 pub(crate) fn is_interrupted() -> bool {
-    PRESSED.load(Ordering::SeqCst) > 0
+    REQUESTS.load(Ordering::SeqCst) > 0
 }
 
 /// Observer that shows a run, keeps it in step with the wall clock, and checks deferred motions.
@@ -113,10 +155,12 @@ impl PacedView {
 
 impl Observer for PacedView {
     fn event(&mut self, _now: Time, event: &Event) {
+        note_event(event);
         self.view.event(event);
     }
 
     fn effect(&mut self, now: Time, effect: &Effect) {
+        note_effect(effect);
         self.now = now;
         if self.begun.is_none() {
             self.begun = Some((Instant::now(), now));

@@ -11,7 +11,7 @@ use motet_project::{DOCUMENT, Project, named_robot};
 use crate::documents::{self, Document, Flow, is_reply};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, FormatArgs, SessionArgs};
-use crate::output::{Colors, count, count_irregular, note};
+use crate::output::{Colors, count, count_irregular, note, replace_file};
 use crate::report::Progress;
 use crate::report::Report;
 
@@ -172,8 +172,7 @@ impl Tally {
             }
             if !fixed.applied.is_empty() {
                 if let Some(path) = &found.path {
-                    let fail = |source| CliError::Write { path: path.clone(), source };
-                    std::fs::write(path, &fixed.text).map_err(fail)?;
+                    replace_file(path, fixed.text.as_bytes())?;
                 }
                 found.bytes = Bytes::All(fixed.text.into_bytes());
             }

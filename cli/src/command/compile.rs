@@ -9,7 +9,7 @@ use motet_syntax::Syntax;
 use crate::documents::{self, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::{FormatArgs, SessionArgs};
-use crate::output::{Colors, note};
+use crate::output::{Colors, note, replace_file};
 use crate::report::Report;
 
 /// Flags of `motet compile`.
@@ -102,5 +102,5 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), CliError> {
-    std::fs::write(path, text).map_err(|source| CliError::Write { path: path.to_owned(), source })
+    replace_file(path, text.as_bytes())
 }

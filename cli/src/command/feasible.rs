@@ -23,7 +23,7 @@ use smol_str::SmolStr;
 
 use crate::error::{CliError, Exit};
 use crate::flags::{ClearanceArgs, OutputFormat};
-use crate::output::{Colors, count};
+use crate::output::{Colors, count, replace_file};
 use crate::report::Report;
 
 /// Flags of `motet feasible`.
@@ -114,7 +114,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
     }
     if let Some(path) = &args.svg {
         let drawing = drawing::top_view(&room, &scene, &world, &answers);
-        std::fs::write(path, drawing).map_err(|source| CliError::Write { path: path.clone(), source })?;
+        replace_file(path, drawing.as_bytes())?;
     }
     Ok(exit)
 }

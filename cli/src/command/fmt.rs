@@ -11,7 +11,7 @@ use motet_syntax::{Parsed, Severity};
 use crate::documents::{self, Document, Flow, Input, is_reply};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, SyntaxArg};
-use crate::output::{Colors, count, note};
+use crate::output::{Colors, count, note, replace_file};
 use crate::report::Report;
 
 /// Flags of `motet fmt`.
@@ -203,5 +203,5 @@ fn one_line(text: &str) -> String {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), CliError> {
-    std::fs::write(path, text).map_err(|source| CliError::Write { path: path.to_owned(), source })
+    replace_file(path, text.as_bytes())
 }

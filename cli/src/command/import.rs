@@ -9,7 +9,7 @@ use motet_syntax::{Diagnostic, FileId, Source, Sources};
 
 use crate::error::{CliError, Exit};
 use crate::flags::FormatArgs;
-use crate::output::Colors;
+use crate::output::{Colors, replace_file};
 use crate::report::Report;
 
 /// Flags of `motet import`.
@@ -77,9 +77,7 @@ fn pddl(args: &PddlArgs, report: &mut Report) -> Result<Exit, CliError> {
     let Some(imported) = imported else { return Ok(Exit::Findings) };
     let text = if args.plan.is_some() { imported.policy_text() } else { imported.declarations_text() };
     match &args.output {
-        Some(path) if path.as_os_str() != "-" => {
-            std::fs::write(path, &text).map_err(|source| CliError::Write { path: path.clone(), source })?
-        }
+        Some(path) if path.as_os_str() != "-" => replace_file(path, text.as_bytes())?,
         Some(_) | None => report.out.text(&text),
     }
     Ok(Exit::Success)

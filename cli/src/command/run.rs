@@ -9,9 +9,10 @@ use clap::Args;
 use motet::run::{create_journal, engine, run_id, start_state, unix_ns};
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
+use motet_host::remote::DriverAddress;
 use motet_host::remote::protocol::Hello;
 use motet_planner::runtime_check::Guard;
-use motet_project::{Project, ProjectSession, SavedDriver, SavedProject};
+use motet_project::{Project, ProjectSession, SavedAddress, SavedDriver, SavedProject};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
@@ -20,8 +21,8 @@ use motet_syntax::{Parsed, Severity};
 
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
-use crate::flags::{DriverArgs, OutputFormat, SessionArgs, Speed};
-use crate::output::{Colors, count, note};
+use crate::flags::{DriverArgs, DriverChoice, OutputFormat, SessionArgs, Speed};
+use crate::output::{Colors, count, escape, note};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, events, view};
@@ -34,6 +35,7 @@ use crate::runner::{PacedView, Runner, connect, exit_of, journal_error};
     motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json\n  \
     motet run fetch_mug.motet --scene kitchen --record run/    write a journal for `motet replay run/`\n  \
     motet run --resume run/                                    continue after a crash\n  \
+    motet run --resume run/ --driver 'python3 my_driver.py'    the same on a driver\n  \
     motet run fetch_mug.motet --scene kitchen --driver 'python3 examples/drivers/echo.py'\n  \
     motet run fetch_mug.motet --scene kitchen --driver tcp://127.0.0.1:4711\n  \
     motet run fetch_mug.motet --scene kitchen --driver mujoco  run in physics\n  \
@@ -61,13 +63,14 @@ pub(crate) struct RunArgs {
     /// Write a journal of the run into this folder, which must be empty or not exist
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
-    /// Continue the run whose journal is in this folder
+    /// Continue the run whose journal is in this folder; a driver in another process is given again with
+    /// `--driver`
     #[arg(
         long,
         value_name = "FOLDER",
         conflicts_with_all = [
             "file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain",
-            "profile", "world", "driver",
+            "profile", "world",
         ]
     )]
     resume: Option<PathBuf>,
@@ -146,6 +149,14 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     };
     let mut replay = EngineReplay::new(head).map_err(|error| CliError::Message(error.to_string()))?;
     let saved = SavedDriver::from_json(&head.driver)?;
+    let address = match &saved {
+        SavedDriver::Simulator(_) if args.driver.driver == DriverChoice::Kinematic => None,
+        SavedDriver::Simulator(_) => {
+            let why = "the run was in the simulator: `--driver` cannot take it over";
+            return Err(CliError::Message(why.to_owned()));
+        }
+        SavedDriver::Process { address, .. } => Some(given_again(address, args)?),
+    };
     let mut simulator = match &saved {
         SavedDriver::Simulator(saved) => Some(saved.open()?),
         SavedDriver::Process { .. } => None,
@@ -208,20 +219,37 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let goals = count(ledger.goals.len(), "goal");
     note(&format!("resumed at {} after {} entries, {goals} open{cut}", replay.now(), entries.len()));
     let paced = paced.with_guard(guard);
-    let driver: Box<dyn Driver> = match (saved, simulator) {
-        (SavedDriver::Process { address, instance, .. }, _) => {
+    let driver: Box<dyn Driver> = match (saved, simulator, address) {
+        (SavedDriver::Process { instance, .. }, _, Some(address)) => {
             let hello = Hello { resumed: true, ..Hello::of(replay.engine().graph(), &run) };
-            let mut driver = connect(&address.into(), hello, from)?;
+            let mut driver = connect(&address, hello, from)?;
             let caught_up = driver.catch_up(&ledger, &instance, from);
             events.extend(caught_up.map_err(|breakage| CliError::Message(breakage.to_string()))?);
             Box::new(driver)
         }
-        (SavedDriver::Simulator(_), Some(simulator)) => Box::new(simulator),
-        (SavedDriver::Simulator(saved), None) => Box::new(saved.open()?),
+        (_, Some(simulator), _) => Box::new(simulator),
+        (SavedDriver::Simulator(saved), None, _) => Box::new(saved.open()?),
+        (SavedDriver::Process { .. }, None, None) => {
+            return Err(CliError::Message("a driver is needed".to_owned()));
+        }
     };
     let mut driver = driver;
     let engine = replay.into_engine();
     Runner { engine, driver: &mut *driver, journal: Some(writer), from, events }.run(paced)
+}
+
+/// Address of the driver of a journal, as the flags give it again. A journal is data, and its author may be
+/// anybody: it starts no command by itself.
+fn given_again(saved: &SavedAddress, args: &RunArgs) -> Result<DriverAddress, CliError> {
+    let saved = DriverAddress::from(saved.clone());
+    if let Some(address) = args.driver.driver.again(&saved) {
+        return Ok(address);
+    }
+    Err(CliError::Advised {
+        problem: "the journal names a driver in another process, and a journal starts none by itself"
+            .to_owned(),
+        help: format!("give it again, if you trust it: {}", escape(&DriverChoice::flag_for(&saved))),
+    })
 }
 
 /// Clock of the run of a journal.

@@ -190,13 +190,62 @@ impl DriverChoice {
                 if let Some(profile) = &simulation.profile {
                     words.extend(["--profile".to_owned(), profile.clone()]);
                 }
-                // The driver reads the model from this very program.
-                if let Some(own) = std::env::current_exe().ok().as_deref().and_then(Path::to_str) {
-                    words.extend(["--motet".to_owned(), own.to_owned()]);
-                }
+                words.extend(own_program());
                 Ok(Some(DriverAddress::Command(words)))
             }
         }
+    }
+
+    /// Address of the driver of a journal, where this choice gives it again. The program to start is always
+    /// that of the choice: a journal is data, and its author may be anybody.
+    pub(crate) fn again(&self, saved: &DriverAddress) -> Option<DriverAddress> {
+        match (self, saved) {
+            (Self::Process(address), _) => Some(address.clone()),
+            (Self::Mujoco, DriverAddress::Command(words)) => {
+                let [python, flag, package, arguments @ ..] = words.as_slice() else { return None };
+                if python != PYTHON || flag != "-m" || package != PACKAGE {
+                    return None;
+                }
+                let arguments = arguments.iter().take_while(|word| *word != OWN_PROGRAM).cloned();
+                let start = [python, flag, package].map(Clone::clone).into_iter();
+                Some(DriverAddress::Command(start.chain(arguments).chain(own_program()).collect()))
+            }
+            (Self::Kinematic | Self::Mujoco, _) => None,
+        }
+    }
+
+    /// Flag that gives the driver of a journal again, as a shell takes it.
+    pub(crate) fn flag_for(saved: &DriverAddress) -> String {
+        if Self::Mujoco.again(saved).is_some() {
+            return "--driver mujoco".to_owned();
+        }
+        let words = match saved {
+            DriverAddress::Tcp(_) => saved.to_string(),
+            DriverAddress::Command(words) => {
+                words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+            }
+        };
+        format!("--driver {}", quoted(&words))
+    }
+}
+
+/// Flag of the physics driver for the program that writes its model.
+const OWN_PROGRAM: &str = "--motet";
+
+/// Arguments of the physics driver that let it read the model from this very program.
+fn own_program() -> Vec<String> {
+    let own = std::env::current_exe().ok();
+    let own = own.as_deref().and_then(Path::to_str);
+    own.map_or_else(Vec::new, |own| vec![OWN_PROGRAM.to_owned(), own.to_owned()])
+}
+
+/// Word as `--driver` and a shell take it.
+fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=,@+%".contains(letter);
+    match word {
+        _ if !word.is_empty() && word.chars().all(is_plain) => word.to_owned(),
+        _ if word.contains('\'') => format!("\"{word}\""),
+        _ => format!("'{word}'"),
     }
 }
 
@@ -236,6 +285,12 @@ mod tests {
         assert_eq!(" mujoco ".parse(), Ok(DriverChoice::Mujoco));
         let command = DriverAddress::Command(vec!["./mujoco".to_owned(), "-x".to_owned()]);
         assert_eq!("./mujoco -x".parse(), Ok(DriverChoice::Process(command)));
+        let flag = |words: &[&str]| {
+            let saved = DriverAddress::Command(words.iter().map(|word| (*word).to_owned()).collect());
+            DriverChoice::flag_for(&saved)
+        };
+        assert_eq!(flag(&["python3", "my driver.py"]), "--driver \"python3 'my driver.py'\"");
+        assert_eq!(flag(&["python3", "-m", "motet_mujoco", "--robot", "hsr"]), "--driver mujoco");
         assert!("".parse::<DriverChoice>().is_err());
         assert!("tcp://192.0.2.1:1".parse::<DriverChoice>().is_err());
     }

@@ -50,7 +50,8 @@ fn a_safe_stop_is_asked_for_again_after_a_crash() {
     first.kill().unwrap();
     first.wait().unwrap();
     let place = place.file("good", "");
-    place.run("run --resume run").check(3, &["out:failed with `timeout`"]);
+    let again = ["run", "--resume", "run", "--driver", "python3 driver.py"].map(str::to_owned);
+    place.run_args(&again).check(3, &["out:failed with `timeout`"]);
     place.run("replay run").check(0, &["out:identical"]);
 }
 
@@ -86,6 +87,47 @@ fn an_interrupt_at_the_terminal_leaves_the_driver_alive() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{said}");
     assert!(!said.contains("calling the driver again"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn signals_to_end_stop_the_robot_first() {
+    if !has_python() {
+        return;
+    }
+    let place = place(
+        "crash_signals",
+        "    if 'id' in m: say({'id': m['id'], 'result': {}})\n    if m['method'] == 'cancel':\n        \
+         time.sleep(1.5)\n        open('stands', 'w').close()\n        say({'method': 'ended', \
+         'params': {'goal': m['params']['goal'], 'outcome': 'interrupted'}})\n",
+    );
+    let host = drive(&place);
+    assert!(eventually(|| place.says(JOURNAL, "\"acknowledged\"")));
+    for (signal, pause) in [("-TERM", 500), ("-HUP", 300), ("-INT", 0)] {
+        assert!(Command::new("kill").args([signal, &host.id().to_string()]).status().unwrap().success());
+        std::thread::sleep(std::time::Duration::from_millis(pause));
+    }
+    let output = host.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(place.path("stands").exists(), "it left while the robot moved");
+    assert_eq!(said.matches("may still move the robot: go(to: kitchen_table)").count(), 2, "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_driver_behind_a_shell_ends_with_its_host() {
+    if !has_python() {
+        return;
+    }
+    let moves = "while True:\n    print('moves', file=open('moves', 'a'))\n    time.sleep(0.02)\n";
+    let driver = format!("{}{moves}", odd(AT_ONCE));
+    let place = Place::new("crash_shell").file("away.motet", AWAY).file("driver.py", driver);
+    place.run_args(&recorded("away.motet", "sh -c 'python3 driver.py; true'")).check(0, &[]);
+    let moved = place.read("moves").len();
+    assert!(moved > 0, "the driver does not notice that its host is gone");
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    assert_eq!(place.read("moves").len(), moved);
 }
 
 #[test]

@@ -112,3 +112,15 @@ fn leaves_a_reply_with_text_beside_the_policy_alone() {
         .check(1, &["out:M0201", "err:--fix skipped replies", "err:applied 0 fixes"]);
     assert_eq!(place.read("reply.motet"), wrong);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_file_is_replaced_as_a_whole() {
+    let place = Place::new("fmt_replaces").file("loose.motet", "policy a { say(\"x\")   done }");
+    place.shell("ln -s loose.motet link.motet && chmod 640 loose.motet").check(0, &[]);
+    place.run("fmt link.motet").check(0, &[]);
+    place.shell("test -L link.motet && stat -c %a loose.motet && ls").check(0, &["out:640"]);
+    assert!(place.read("loose.motet").contains('\n'));
+    let shown = place.shell("ls");
+    assert!(!shown.stdout.contains("partial"), "{shown:#?}");
+}

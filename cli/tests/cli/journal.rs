@@ -94,6 +94,17 @@ fn an_export_that_fails_leaves_what_was_there() {
 }
 
 #[test]
+fn a_run_that_was_killed_before_its_first_entry_is_begun_again() {
+    let place =
+        Place::new("journal_unbegun").file("good.motet", GOOD).file("run/000000000000.journal", "{\"v");
+    place.run("run --resume run").check(2, &["err:no run has begun in it"]);
+    place.run("run good.motet --scene kitchen --speed max --record run").check(0, &[]);
+    place.run("replay run").check(0, &["out:identical"]);
+    let again = "run good.motet --scene kitchen --speed max --record run";
+    place.run(again).check(2, &["err:`run` is not empty"]);
+}
+
+#[test]
 fn a_changed_journal_is_refused() {
     let place = Place::new("journal_changed").file("good.motet", GOOD);
     place.run("run good.motet --scene kitchen --speed max --record run").check(0, &[]);

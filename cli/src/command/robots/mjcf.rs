@@ -10,6 +10,7 @@ use motet_robots::scene;
 use motet_syntax::Sources;
 
 use crate::error::{CliError, Exit};
+use crate::output::replace_file;
 use crate::report::Report;
 
 /// Flags of `motet robots mjcf`.
@@ -42,9 +43,7 @@ pub(crate) fn run(args: &MjcfArgs, report: &mut Report) -> Result<Exit, CliError
     let model = mjcf::write(&RobotModel::new(&robot, &urdf), &urdf, &room)
         .map_err(|error| CliError::Message(error.to_string()))?;
     match &args.output {
-        Some(path) => {
-            std::fs::write(path, model).map_err(|source| CliError::Write { path: path.clone(), source })?
-        }
+        Some(path) => replace_file(path, model.as_bytes())?,
         None => report.out.text(&model),
     }
     Ok(Exit::Success)

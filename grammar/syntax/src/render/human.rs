@@ -12,7 +12,7 @@ use miette::{
     SourceCode, SourceSpan, SpanContents,
 };
 
-use super::source;
+use super::{escaped, masked, source};
 use crate::diagnostic::{Diagnostic, Related, Severity};
 use crate::source::{Sources, Span};
 
@@ -65,8 +65,8 @@ impl Report {
         let mut report = Self::at(span, sources);
         report.code = diagnostic.code.0;
         report.severity = diagnostic.severity;
-        report.message.clone_from(&diagnostic.message);
-        report.help.clone_from(&diagnostic.help);
+        report.message = escaped(&diagnostic.message);
+        report.help = diagnostic.help.as_deref().map(escaped);
         let inner = diagnostic.related.iter().filter_map(|related| related.span);
         let inner = inner
             .filter(|inner| inner.file == span.file && span.contains(*inner) && !is_cut(*inner, sources));
@@ -97,7 +97,8 @@ impl Report {
             severity: Severity::Note,
             message: String::new(),
             help: None,
-            source: source.map(|source| NamedSource::new(&source.name, Excerpt(Arc::clone(&source.text)))),
+            source: source
+                .map(|source| NamedSource::new(escaped(&source.name), Excerpt(masked(&source.text)))),
             labels: Vec::new(),
             elsewhere: Vec::new(),
         }
@@ -107,17 +108,17 @@ impl Report {
     fn relate(&mut self, related: &Related, main: Span, sources: &Sources) {
         match related.span {
             Some(span) if span.file == main.file && !is_cut(main, sources) && !is_cut(span, sources) => {
-                self.labels.extend(label(span, Some(related.message.clone()), sources));
+                self.labels.extend(label(span, Some(escaped(&related.message)), sources));
             }
             Some(span) => {
                 let mut report = Self::at(span, sources);
-                report.message.clone_from(&related.message);
+                report.message = escaped(&related.message);
                 report.labels.extend(label(span, None, sources));
                 self.elsewhere.push(report);
             }
             None => {
                 let mut report = Self::at(main, &Sources::default());
-                report.message.clone_from(&related.message);
+                report.message = escaped(&related.message);
                 self.elsewhere.push(report);
             }
         }

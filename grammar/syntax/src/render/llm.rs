@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use indexmap::IndexMap;
 
+use super::escaped;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::Sources;
 
@@ -32,7 +33,7 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
     for ((severity, message, advice, _), places) in told {
         line(&mut text, severity, message, advice, &places);
     }
-    text
+    escaped(&text)
 }
 
 /// Severity, message and advice of a finding, and the kind of its place.

@@ -11,7 +11,56 @@ pub use json::{DiagnosticRecord, EditRecord, FixRecord, RelatedRecord, SpanRecor
 pub use llm::{MAX_CHARS, capital, llm};
 pub use sarif::{CodePage, github, sarif};
 
+use std::sync::Arc;
+
 use crate::source::{Source, Sources, Span};
+
+/// Is `true` for a character that steers a terminal or turns the direction of a text, instead of being shown.
+#[must_use]
+pub fn is_steering(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// Text for a terminal: what would steer it is escaped (`\u{1b}`), but for line breaks and tabs.
+#[must_use]
+pub fn escaped(text: &str) -> String {
+    if !text.chars().any(is_steering) {
+        return text.to_owned();
+    }
+    let mut shown = String::new();
+    for letter in text.chars() {
+        match letter {
+            '\n' | '\t' => shown.push(letter),
+            _ if is_steering(letter) => shown.extend(letter.escape_default()),
+            _ => shown.push(letter),
+        }
+    }
+    shown
+}
+
+/// Text in which each character that would steer a terminal is `?`, once for each of its bytes: places in it
+/// stay where they were. Line breaks and tabs stay.
+fn masked(text: &Arc<str>) -> Arc<str> {
+    if text.chars().all(|letter| !is_steering(letter) || matches!(letter, '\n' | '\t')) {
+        return Arc::clone(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let is_shown = match letter {
+            '\n' | '\t' => true,
+            '\r' => letters.peek() == Some(&'\n'),
+            _ => !is_steering(letter),
+        };
+        if is_shown {
+            shown.push(letter);
+        } else {
+            shown.extend(std::iter::repeat_n('?', letter.len_utf8()));
+        }
+    }
+    shown.into()
+}
 
 /// The file of a span, where there is one.
 fn source(sources: &Sources, span: Span) -> Option<&Source> {
@@ -42,4 +91,20 @@ fn region(sources: &Sources, span: Span) -> [(usize, usize); 2] {
 /// The name of the file that tools open; empty where there is none.
 fn tool_file(sources: &Sources, span: Span) -> &str {
     source(sources, span).map_or("", |source| source.file().0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{escaped, masked};
+
+    #[test]
+    fn escaped_leaves_nothing_that_steers_a_terminal() {
+        assert_eq!(escaped("a\u{1b}[2J\r\u{9b}b\n\tc\u{202e}"), "a\\u{1b}[2J\\r\\u{9b}b\n\tc\\u{202e}");
+    }
+
+    #[test]
+    fn masked_keeps_places_and_line_breaks() {
+        let text = "pick(\u{1b}[2J)\r\n\u{202e}x\ry".into();
+        assert_eq!(&*masked(&text), "pick(?[2J)\r\n???x?y");
+    }
 }

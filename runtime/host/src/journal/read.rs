@@ -95,7 +95,7 @@ pub enum JournalError {
     #[error("`{}` is not empty: a journal needs a folder of its own", path.display())]
     NotEmpty { path: PathBuf },
     /// There is no journal in a folder, or not even its first line was written.
-    #[error("`{}` holds no journal", path.display())]
+    #[error("`{}` holds no journal: no run has begun in it", path.display())]
     None { path: PathBuf },
     /// Another process writes it.
     #[error("another process writes the journal in `{}`", path.display())]

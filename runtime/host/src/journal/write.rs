@@ -69,8 +69,13 @@ impl JournalWriter {
         fs::create_dir_all(folder).map_err(JournalError::io("cannot make", folder))?;
         let lock = lock(folder)?;
         let others = fs::read_dir(folder).map_err(JournalError::io("cannot read", folder))?;
-        if others.flatten().any(|entry| entry.file_name() != LOCK) {
-            return Err(JournalError::NotEmpty { path: folder.to_owned() });
+        let mut others = others.flatten().filter(|entry| entry.file_name() != LOCK);
+        match (others.next(), others.next()) {
+            (None, _) => {}
+            (Some(only), None) if has_no_entry(&only.path()) => {
+                fs::remove_file(only.path()).map_err(JournalError::io("cannot remove", &only.path()))?;
+            }
+            (Some(_), _) => return Err(JournalError::NotEmpty { path: folder.to_owned() }),
         }
         let (path, file) = new_segment(folder, 0)?;
         let chain = LineChain::default();
@@ -195,6 +200,13 @@ impl Drop for JournalWriter {
     fn drop(&mut self) {
         let _ = self.sync();
     }
+}
+
+/// True for the first segment of a journal whose process ended before the head was on disk: nothing has run.
+fn has_no_entry(path: &Path) -> bool {
+    let is_first = path.file_name().is_some_and(|name| name == segment_name(0).as_str());
+    let is_small = fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() <= SEGMENT_BYTES);
+    is_first && is_small && fs::read(path).is_ok_and(|bytes| !bytes.contains(&b'\n'))
 }
 
 fn lock(folder: &Path) -> Result<Lock, JournalError> {

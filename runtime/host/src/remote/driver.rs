@@ -11,13 +11,14 @@ mod telemetry;
 pub use self::log::{DriverLog, LineFrom};
 
 use self::goals::GoalLedger;
+use self::hear::LineRate;
 use self::run_time::RunTime;
 use self::telemetry::TelemetryQueue;
 use super::connect::DriverAddress;
 use super::link::{Clock, KeepAlive, Link, LinkError};
 use super::protocol::{
-    DriverCall, DriverMessage, DriverTimeouts, EmptyParams, GoalParams, GoalStatus, Hello, MAX_WAITING,
-    QueryParams, VERSION, Welcome, hear, say,
+    DriverCall, DriverMessage, DriverTimeouts, EmptyParams, GoalParams, GoalStatus, Hello, MAX_BREACHES,
+    MAX_WAITING, QueryParams, VERSION, Welcome, hear, say,
 };
 use motet_graph::Graph;
 use motet_runtime::journal::{OpenGoal, OpenGoals};
@@ -54,6 +55,7 @@ pub struct RemoteDriver {
     goals: GoalLedger,
     breaches: u32,
     heard_at: Instant,
+    rate: LineRate,
     said_at: Instant,
     restarts: u32,
     last: Time,
@@ -100,6 +102,7 @@ impl RemoteDriver {
             goals,
             breaches: 0,
             heard_at: Instant::now(),
+            rate: LineRate::default(),
             said_at: Instant::now(),
             restarts: patience.restarts,
             last: from,
@@ -282,6 +285,7 @@ impl RemoteDriver {
         match self.breaches {
             ..MOST_BREACHES => self.log.breach(text),
             MOST_BREACHES => self.log.breach(&format!("{text}; further broken promises are not told")),
+            MAX_BREACHES.. => self.broke(&LinkError::Faithless),
             _ => {}
         }
     }

@@ -1,7 +1,7 @@
 //! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
 //! nobody.
 
-use super::protocol::{MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING};
+use super::protocol::{MAX_BREACHES, MAX_LINE_BYTES, MAX_LINES_A_SECOND, MAX_LOOK_BYTES, MAX_WAITING};
 use motet_runtime::Time;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -27,6 +27,10 @@ pub enum LinkError {
     Deaf,
     /// It said a line that is too long.
     Flood,
+    /// It said more lines in a second than are read.
+    Hasty,
+    /// It broke more promises than are borne.
+    Faithless,
     /// It said a line that is no message; the beginning of the line, and why.
     Nonsense(String, String),
     /// It did not answer the greeting, or otherwise than it should.
@@ -48,6 +52,8 @@ impl fmt::Display for LinkError {
             Self::Flood => {
                 write!(f, "the driver said a line of more than {MAX_LINE_BYTES} bytes, or a larger picture")
             }
+            Self::Hasty => write!(f, "the driver said more than {MAX_LINES_A_SECOND} lines in a second"),
+            Self::Faithless => write!(f, "the driver broke its promises more than {MAX_BREACHES} times"),
             Self::Nonsense(line, why) => write!(f, "the driver said `{line}`, which is no message: {why}"),
             Self::Greeting(why) => write!(f, "the driver did not answer the greeting: {why}"),
             Self::Refused(why) => write!(f, "the driver says: {why}"),
@@ -153,7 +159,9 @@ impl Link {
         wait_for(due, || self.speaker.is_finished());
         match &mut self.peer {
             Peer::Process(child) => {
-                if !wait_for(due, || matches!(child.try_wait(), Ok(Some(_)))) {
+                let is_over = wait_for(due, || matches!(child.try_wait(), Ok(Some(_))));
+                kill_group(child);
+                if !is_over {
                     let _ = child.kill();
                     let _ = child.wait();
                 }
@@ -164,6 +172,21 @@ impl Link {
         }
     }
 }
+
+/// Ends all processes of a driver, also those that it has started: behind `sh -c` it is one of them that moves
+/// the robot.
+#[cfg(unix)]
+fn kill_group(child: &Child) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    let leader = i32::try_from(child.id()).ok().and_then(Pid::from_raw);
+    if let Some(leader) = leader {
+        // Mostly nobody is left.
+        let _ = kill_process_group(leader, Signal::KILL);
+    }
+}
+
+#[cfg(not(unix))]
+fn kill_group(_child: &Child) {}
 
 /// True if something came true in time.
 fn wait_for(due: Instant, mut is_true: impl FnMut() -> bool) -> bool {
