@@ -6,7 +6,7 @@ mod driver;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, value_parser};
-use motet_client::ApiKey;
+use motet_client::{ApiKey, ServerUrl};
 use motet_decode::export::Dialect;
 use motet_project::{Project, ProjectBuilder};
 use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
@@ -249,7 +249,23 @@ pub(crate) fn duration(text: &str) -> Result<f64, String> {
 }
 
 /// Reads the server's key from an environment variable.
-pub(crate) fn api_key(variable: &str) -> Result<ApiKey, CliError> {
+pub(crate) fn api_key(variable: &str, server: &ServerUrl, may_go_in_clear: bool) -> Result<ApiKey, CliError> {
+    let is_name = variable.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    if !is_name {
+        // It may be the key itself, which is not shown.
+        return Err(CliError::Advised {
+            problem: "what `--key-from` gives is no name of an environment variable".to_owned(),
+            help: "put the key into a variable and name that: --key-from API_KEY".to_owned(),
+        });
+    }
+    if server.is_in_clear() && !may_go_in_clear {
+        return Err(CliError::Advised {
+            problem: format!("the key would go to `{server}` without encryption"),
+            help:
+                "give an address that begins with https://, or `--key-in-clear` in a network that you trust"
+                    .to_owned(),
+        });
+    }
     ApiKey::from_variable(variable)
         .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }

@@ -82,6 +82,9 @@ struct ProbeArgs {
     /// Environment variable with the server's key
     #[arg(long, value_name = "VARIABLE")]
     key_from: Option<String>,
+    /// Send the key to another machine also without encryption
+    #[arg(long, requires = "key_from")]
+    key_in_clear: bool,
     /// Maximum time to wait for an answer, in seconds
     #[arg(long, default_value_t = 120, value_name = "SECONDS")]
     timeout: u64,
@@ -218,7 +221,7 @@ fn is_cut(said: &str, demanded: &Value) -> bool {
 fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliError> {
     let failed = |why: String| CliError::Message(format!("cannot ask `{address}`: {why}"));
     let timeout = Duration::from_secs(args.timeout);
-    let key = args.key_from.as_deref().map(api_key).transpose()?;
+    let key = args.key_from.as_deref().map(|name| api_key(name, &address, args.key_in_clear)).transpose()?;
     let settings = ClientSettings {
         key,
         timeout,

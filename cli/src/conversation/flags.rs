@@ -86,6 +86,9 @@ pub(super) struct ModelArgs {
     /// Environment variable that holds the server's API key
     #[arg(long, value_name = "VARIABLE")]
     pub(super) key_from: Option<String>,
+    /// Send the key to another machine also without encryption
+    #[arg(long, requires = "key_from")]
+    pub(super) key_in_clear: bool,
     /// Maximum time to wait for a reply, in seconds
     #[arg(long, default_value_t = 120, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..))]
     pub(super) timeout: u64,

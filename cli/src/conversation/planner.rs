@@ -90,7 +90,7 @@ fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
         })?;
         images.push(image);
     }
-    let key = args.key_from.as_deref().map(api_key).transpose()?;
+    let key = args.key_from.as_deref().map(|name| api_key(name, &address, args.key_in_clear)).transpose()?;
     let timeout = Duration::from_secs(args.timeout);
     let new = ClientSettings::new(address, &args.model);
     Ok(ClientSettings {

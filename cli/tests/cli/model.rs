@@ -117,10 +117,14 @@ fn what_cannot_be_used_is_said_before_anything_is_asked() {
         ("--planner localhost", "address"),
         ("--planner http://localhost --image room.txt", "no PNG"),
         ("--planner http://localhost --key-from NO_SUCH_KEY", "NO_SUCH_KEY"),
+        ("--planner http://localhost --key-from sk-0123", "no name of an environment variable"),
+        ("--planner http://models.example --key-from PATH", "without encryption"),
+        ("--planner http://0.0.0.0 --key-from NO_SUCH_KEY", "NO_SUCH_KEY"),
         ("--camera", "--planner URL"),
         ("--planner http://localhost --dialect ollama --lark", "--dialect vllm"),
     ] {
         let ran = place.run(&format!("{DO} {flags}"));
         assert_eq!((ran.code, ran.stderr.contains(words)), (Some(2), true), "{flags}: {}", ran.stderr);
+        assert!(!ran.stderr.contains("sk-0123"), "{}", ran.stderr);
     }
 }

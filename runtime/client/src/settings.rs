@@ -1,6 +1,7 @@
 //! Settings of a client: the address of a server, its key, times and sizes.
 
 use std::fmt;
+use std::net::IpAddr;
 use std::time::Duration;
 
 use motet_decode::export::Dialect;
@@ -120,7 +121,28 @@ impl ServerUrl {
     /// True if it is this machine.
     #[must_use]
     pub fn is_loopback(&self) -> bool {
-        matches!(self.0.host_str(), Some("localhost" | "127.0.0.1" | "[::1]"))
+        let Some(host) = self.0.host_str() else { return false };
+        let address = host.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
+        address.map_or_else(
+            |_| host.trim_end_matches('.') == "localhost",
+            // The system takes the unspecified address for this machine.
+            |address| address.is_loopback() || address.is_unspecified(),
+        )
+    }
+
+    /// True if whoever is on the way can read what is sent: it goes to another machine without encryption.
+    ///
+    /// ```
+    /// use motet_client::ServerUrl;
+    ///
+    /// assert!(ServerUrl::new("http://models.example", None)?.is_in_clear());
+    /// assert!(!ServerUrl::new("https://models.example", None)?.is_in_clear());
+    /// assert!(!ServerUrl::new("http://localhost.:8000", None)?.is_in_clear());
+    /// # Ok::<(), String>(())
+    /// ```
+    #[must_use]
+    pub fn is_in_clear(&self) -> bool {
+        self.0.scheme() == "http" && !self.is_loopback()
     }
 
     pub(crate) fn url(&self) -> Url {

@@ -1,6 +1,7 @@
 //! The entities that the engine has heard of, and of which kind they are.
 
 use motet_graph::{Graph, KindId, Type, Value};
+use motet_stdlib::lang;
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
@@ -81,7 +82,8 @@ impl Entities {
     }
 
     /// Returns whether a value fits a type, also by the kinds of the entities in it: one that is known to be
-    /// of another kind does not. An entity that nobody has heard of is new, and fits.
+    /// of another kind does not. An entity that nobody has heard of is new, and fits. The robot is of no narrower
+    /// kind than the root, and an id is never empty.
     pub(crate) fn fits(&self, graph: &Graph, value: &Value, ty: &Type) -> bool {
         let is_foreign = |id: &SmolStr, wanted: KindId| {
             let known = self.index.get(id).and_then(|index| self.list.get(*index as usize));
@@ -90,7 +92,10 @@ impl Entities {
             kind.is_some_and(|kind| !is_kind(graph, kind, wanted) && !is_kind(graph, wanted, kind))
         };
         match (value, ty) {
-            (Value::Entity(id), Type::Entity(wanted)) => !is_foreign(id, *wanted),
+            (Value::Entity(id), Type::Entity(wanted)) => {
+                let is_robot = id == lang::entities::ROBOT && of_none(graph, *wanted) != OfKind::Surely;
+                !id.is_empty() && !is_robot && !is_foreign(id, *wanted)
+            }
             (Value::List(items), Type::List(inner)) => items.iter().all(|item| self.fits(graph, item, inner)),
             (value, ty) => value.fits(ty),
         }

@@ -4,8 +4,9 @@ use super::EXTENSION;
 use motet_runtime::journal::{
     JournalDamage, JournalEntry, JournalReader, LineChain, MAX_SEGMENTS, SegmentEnd, SegmentPosition,
 };
+use std::fs::{self, File};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 use thiserror::Error;
 
 /// The end of a journal, to append to.
@@ -38,7 +39,11 @@ pub fn read(folder: &Path, take: &mut dyn FnMut(u64, JournalEntry)) -> Result<Jo
             let what = format!("the segment that begins with line {entries} is missing");
             return Err(JournalError::Segments { path: folder.to_owned(), what });
         }
-        let bytes = fs::read(path).map_err(JournalError::io("cannot read", path))?;
+        let (bytes, size) = read_segment(path).map_err(JournalError::io("cannot read", path))?;
+        if size > MAX_SEGMENT_BYTES && place == SegmentPosition::Middle {
+            let what = format!("`{}` is larger than {} MiB", path.display(), MAX_SEGMENT_BYTES >> 20);
+            return Err(JournalError::Segments { path: folder.to_owned(), what });
+        }
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         let ending = reader.segment(&name, &bytes, place, &mut |seq, entry| {
             entries = seq + 1;
@@ -46,8 +51,8 @@ pub fn read(folder: &Path, take: &mut dyn FnMut(u64, JournalEntry)) -> Result<Jo
         });
         let ending = ending.map_err(|damage| JournalError::Damaged { path: folder.to_owned(), damage })?;
         let (good_bytes, torn_bytes) = match ending {
-            SegmentEnd::Whole => (bytes.len() as u64, 0),
-            SegmentEnd::Torn { good_bytes, torn_bytes } => (good_bytes, torn_bytes),
+            SegmentEnd::Whole => (bytes.len() as u64, size.saturating_sub(bytes.len() as u64)),
+            SegmentEnd::Torn { good_bytes, .. } => (good_bytes, size.saturating_sub(good_bytes)),
         };
         tail = Some((path.clone(), good_bytes, torn_bytes));
     }
@@ -57,6 +62,20 @@ pub fn read(folder: &Path, take: &mut dyn FnMut(u64, JournalEntry)) -> Result<Jo
         }
         None => Err(JournalError::None { path: folder.to_owned() }),
     }
+}
+
+/// The most bytes of a segment that are read. No writer makes one that large; what follows in the last one
+/// counts as torn.
+const MAX_SEGMENT_BYTES: u64 = 256 * 1024 * 1024;
+
+/// Beginning of a segment, and the size of all of it.
+fn read_segment(path: &Path) -> io::Result<(Vec<u8>, u64)> {
+    let file = File::open(path)?;
+    let size = file.metadata()?.len();
+    let mut bytes = Vec::new();
+    file.take(MAX_SEGMENT_BYTES).read_to_end(&mut bytes)?;
+    let size = size.max(bytes.len() as u64);
+    Ok((bytes, size))
 }
 
 /// The segments of a folder with the number of their first line, in order.
