@@ -16,35 +16,35 @@ use crate::format::{Read, Target};
 /// Part of the language that a policy uses or does not use.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Construct {
-    /// `if`.
+    /// Steps written as `if`.
     Condition,
     /// `repeat` or `each`.
     Loop,
-    /// `monitor`.
+    /// Steps written as `monitor`.
     Monitor,
-    /// `catch`.
+    /// Steps written as `catch`.
     Handler,
-    /// `finally`.
+    /// Steps written as `finally`.
     Cleanup,
     /// `within`, of a block or of a call.
     Deadline,
-    /// `wait`.
+    /// Steps written as `wait`.
     Wait,
-    /// `parallel`.
+    /// Steps written as `parallel`.
     Parallel,
-    /// `keep`.
+    /// Steps written as `keep`.
     Keep,
     /// A name for a result or a value.
     Binding,
-    /// `say`.
+    /// Steps written as `say`.
     Say,
     /// `ask` or `choose`.
     Ask,
-    /// `ground`.
+    /// Steps written as `ground`.
     Ground,
-    /// `replan`.
+    /// Steps written as `replan`.
     Replan,
-    /// `cannot`.
+    /// Steps written as `cannot`.
     Cannot,
 }
 
