@@ -32,7 +32,8 @@ pub const PAGES: &[CodePage] = pages! {
     "M0437" "M0438" "M0439" "M0440" "M0441" "M0442" "M0443" "M0444" "M0445" "M0446" "M0447" "M0448"
     "M0449" "M0450" "M0451" "M0452" "M0453" "M0454" "M0455" "M0456" "M0457" "M0458" "M0459" "M0460"
     "M0461" "M0462" "M0463" "M0464" "M0465" "M0466" "M0467" "M0468" "M0469" "M0470" "M0471" "M0472"
-    "M0473" "M0474" "M0475" "M0476" "M0477" "M0478" "M0479" "M0480" "M0481" "M0482" "M0483"
+    "M0473" "M0474" "M0475" "M0476" "M0477" "M0478" "M0479" "M0480" "M0481" "M0482" "M0483" "M0484"
+    "M0485" "M0486" "M0487" "M0488"
     "M0501" "M0502" "M0503" "M0504" "M0505" "M0506"
     "M0601" "M0602" "M0603" "M0604" "M0605" "M0606" "M0607" "M0608" "M0609"
     "M0701" "M0702"
@@ -62,6 +63,7 @@ pub fn all() -> Vec<Code> {
         crate::declare::CARD_CODES,
         motet_robots::card::CODES,
         motet_robots::mesh::CODES,
+        motet_robots::import::CODES,
         motet_robots::scene::CODES,
         motet_robots::urdf::CODES,
         motet_robots::srdf::CODES,

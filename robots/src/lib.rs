@@ -3,6 +3,7 @@
 pub mod builtin;
 pub mod card;
 pub mod clearance;
+pub mod import;
 pub mod mesh;
 pub mod quaternion;
 pub mod scene;

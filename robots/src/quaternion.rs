@@ -47,6 +47,27 @@ pub fn rotate(by: Quaternion, [x, y, z]: [f64; 3]) -> [f64; 3] {
     [x, y, z]
 }
 
+/// Roll, pitch and yaw in rad about fixed axes, of a unit quaternion. Where the pitch is a right angle, only
+/// the sum or the difference of the others counts, and the roll is 0.
+///
+/// ```
+/// use motet_robots::quaternion::{from_axis_angle, to_rpy};
+///
+/// let [roll, pitch, yaw] = to_rpy(from_axis_angle(2, 0.5));
+/// assert!(roll == 0.0 && pitch == 0.0 && (yaw - 0.5).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn to_rpy([x, y, z, w]: Quaternion) -> [f64; 3] {
+    let sin = 2.0 * (w * y - z * x);
+    if sin.abs() > 1.0 - 1e-12 {
+        let yaw = -2.0 * sin.signum() * libm::atan2(x, w);
+        return [0.0, sin.signum() * std::f64::consts::FRAC_PI_2, yaw];
+    }
+    let roll = libm::atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y));
+    let yaw = libm::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z));
+    [roll, libm::asin(sin), yaw]
+}
+
 /// Composes poses: the pose of `c` in `a` from that of `b` in `a` and that of `c` in `b`.
 #[must_use]
 pub fn compose(a_from_b: &Pose, b_from_c: &Pose) -> Pose {

@@ -108,6 +108,12 @@ struct LintArgs {
     scene: Option<String>,
     #[command(flatten)]
     motions: MotionArgs,
+    /// Print the share of the rows that have each construct, failure and recovery
+    #[arg(long)]
+    shares: bool,
+    /// Report constructs in less than 3 % of the rows, and kinds of failure in less than 8 %
+    #[arg(long)]
+    minimums: bool,
     /// Format of the findings
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     format: OutputFormat,

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use motet_compiler::{CheckOptions, Geometry, InitialState, Session, explain_pages};
-use motet_robots::{builtin, card, mesh, scene, srdf, urdf};
+use motet_robots::{builtin, card, import, mesh, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 
@@ -77,6 +77,10 @@ fn generated(words: &[&str]) -> Option<Vec<u8>> {
             let n = count(n)?;
             Some(format!("<robot>{}{}</robot>", "<a>".repeat(n), "</a>".repeat(n)).into_bytes())
         }
+        ["dots", n] => {
+            let n = count(n)?;
+            Some(format!("P2 {} 1 1{}", 2 * n, " 0 1".repeat(n)).into_bytes())
+        }
         ["latin1"] => Some(b"policy cafe { go(caf\xe9) }\n".to_vec()),
         ["scene", n] => {
             let things: Vec<_> =
@@ -100,6 +104,8 @@ struct Case {
     card: Option<(Source, FileId)>,
     urdf: Option<urdf::Urdf>,
     scene: Option<scene::Scene>,
+    /// YAML of a map, to which an image comes.
+    map: Option<import::MapFile>,
     state: Option<InitialState>,
     options: CheckOptions,
     /// Files of meshes, by name.
@@ -163,6 +169,26 @@ impl Case {
         }
     }
 
+    fn map(&mut self, text: &[u8]) {
+        if let Some((source, file)) = self.add(text) {
+            let (map, said) = import::read_map(&source, file);
+            self.said.extend(said);
+            self.map = map;
+        }
+    }
+
+    fn map_image(&mut self, image: &[u8]) {
+        let options = import::MapOptions::default();
+        let scene = self.map.as_ref().map(|map| map.scene(image, &options));
+        self.said.extend(scene.and_then(Result::err).map(|problem| *problem));
+    }
+
+    fn sdf(&mut self, text: &[u8]) {
+        if let Some((source, file)) = self.add(text) {
+            self.said.extend(import::read_sdf(&source, file).1);
+        }
+    }
+
     fn scene(&mut self, text: &[u8]) {
         if let Some((source, file)) = self.add(text) {
             let (scene, said) = scene::read(&source, file);
@@ -209,7 +235,11 @@ impl Case {
                         let rest: Vec<_> = words.by_ref().collect();
                         bytes = generated(&rest).ok_or_else(|| format!("cannot generate {rest:?}"))?;
                     }
-                    None if ["card", "urdf", "srdf", "scene", "state", "domain", "pddl"].contains(&word) => {
+                    None if [
+                        "card", "urdf", "srdf", "scene", "state", "domain", "pddl", "map", "image", "sdf",
+                    ]
+                    .contains(&word) =>
+                    {
                         role = word
                     }
                     Some(_) | None => return Err(format!("what is `{word}`?")),
@@ -221,6 +251,9 @@ impl Case {
                 "srdf" => self.srdf(&bytes),
                 "mesh" => {}
                 "scene" => self.scene(&bytes),
+                "map" => self.map(&bytes),
+                "image" => self.map_image(&bytes),
+                "sdf" => self.sdf(&bytes),
                 "state" => self.state(&bytes),
                 "pddl" => {
                     let added = self.add(&bytes);

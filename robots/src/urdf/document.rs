@@ -277,7 +277,7 @@ impl UrdfReader {
 
 /// Rotation from roll about x, then pitch about y, then yaw about z, about fixed axes, in rad, as a unit
 /// quaternion x, y, z, w.
-fn from_rpy([roll, pitch, yaw]: [f64; 3]) -> [f64; 4] {
+pub(crate) fn from_rpy([roll, pitch, yaw]: [f64; 3]) -> [f64; 4] {
     let ((sr, cr), (sp, cp), (sy, cy)) =
         (libm::sincos(roll / 2.0), libm::sincos(pitch / 2.0), libm::sincos(yaw / 2.0));
     [

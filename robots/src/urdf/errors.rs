@@ -12,6 +12,8 @@ pub(crate) enum XmlDialect {
     Urdf,
     /// Semantic description beside a URDF.
     Srdf,
+    /// World or model of a simulator.
+    Sdf,
 }
 
 /// Kind of a missing part.
@@ -31,8 +33,10 @@ motet_syntax::mistakes! {
         let what = match m.dialect {
             XmlDialect::Urdf => "a URDF",
             XmlDialect::Srdf => "an SRDF",
+            XmlDialect::Sdf => "an SDF",
         };
-        Some(format!("{what} is an XML document whose root element is `<robot>`"))
+        let root = if m.dialect == XmlDialect::Sdf { "sdf" } else { "robot" };
+        Some(format!("{what} is an XML document whose root element is `<{root}>`"))
     }
 
     /// More elements, or more levels of them, than a description may have.

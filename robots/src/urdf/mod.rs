@@ -23,9 +23,9 @@ mod read;
 mod surplus;
 mod tree;
 
-pub(crate) use document::{XmlDocument, XmlSpans, children, is_own};
+pub(crate) use document::{XmlDocument, XmlSpans, child, children, from_rpy, is_own};
 pub use errors::CODES;
-pub(crate) use errors::XmlDialect;
+pub(crate) use errors::{BadNumber, ImpossibleNumber, XmlDialect, XmlPart};
 pub use model::*;
 pub use read::read;
 pub(crate) use surplus::unknown;

@@ -182,6 +182,10 @@ pub struct Read {
     pub robot: Option<SmolStr>,
     /// The scene, where the row says.
     pub scene: Option<SmolStr>,
+    /// Failures in its conversation by name, in their order, where the row says.
+    pub failures: Vec<SmolStr>,
+    /// Turn of its conversation, from 0; 0 where the row does not say.
+    pub turn: usize,
     /// Everything that the model is shown, of pictures where they are.
     pub input: String,
     /// The paths of its pictures, as seen from the folder of its file.
@@ -246,7 +250,11 @@ pub fn read(line: &str) -> Result<Read, String> {
     let images = images(&row)?;
     let places = places(&row, &input);
     let input = images.iter().fold(input, |input, image| format!("{input}\n{image}"));
-    Ok(Read { robot: about("robot"), scene: about("scene"), input, images, places, target })
+    let failures = about("failures").unwrap_or_default();
+    let failures = failures.split(',').filter(|name| !name.is_empty()).map(SmolStr::from).collect();
+    let turn = about("turn").and_then(|turn| turn.parse().ok()).unwrap_or_default();
+    let (robot, scene) = (about("robot"), about("scene"));
+    Ok(Read { robot, scene, failures, turn, input, images, places, target })
 }
 
 /// The pictures that a row names: a path, or a list of them.

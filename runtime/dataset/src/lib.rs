@@ -8,6 +8,7 @@ pub mod picture;
 mod play;
 mod random;
 pub mod scenery;
+pub mod share;
 mod stage;
 pub mod wordings;
 

@@ -13,6 +13,7 @@ use motet_dataset::format::{self, RowFormat};
 use motet_dataset::generate::{self, Dataset, Order};
 use motet_dataset::lint::{Finding, Linter, RowFault, Shelf, Worlds, family};
 use motet_dataset::picture::{self, Pictures};
+use motet_dataset::share::{Construct, Counts, Subject};
 use motet_dataset::{Body, Row, scenery, wordings};
 use motet_geometry::planning::SearchBudget;
 use motet_robots::builtin::{self, RobotWithBody};
@@ -371,4 +372,71 @@ fn dataset_pictures_that_are_wrong_are_found() {
             "{found:?}"
         );
     }
+}
+
+/// Shares above 0 of one row with a policy, as `group name`.
+fn shares_of(policy: &str, failures: &str, turn: &str) -> Vec<String> {
+    let about = json!({"robot": "hsr", "scene": "kitchen", "failures": failures, "turn": turn});
+    let row = json!({"prompt": "Do it.", "completion": policy, "motet": about});
+    let mut counts = Counts::default();
+    counts.add(&format::read(&row.to_string()).unwrap());
+    let shares = counts.shares();
+    let is_used = shares.iter().filter(|share| share.rows > 0);
+    is_used.map(|share| format!("{} {}", share.subject.group(), share.subject.name())).collect()
+}
+
+#[test]
+fn shares_find_each_construct_also_inside_others() {
+    let inside = [
+        ("if near(user) { home() }", vec![Construct::Condition]),
+        ("repeat 2 { wait 5 s }", vec![Construct::Loop, Construct::Wait]),
+        ("each x in things at most 3 { home() }", vec![Construct::Loop]),
+        ("try { home() } catch any { say(\"No.\") }", vec![Construct::Handler, Construct::Say]),
+        ("sequence a { home() } finally { home() }", vec![Construct::Cleanup]),
+        ("within 9 s { home() }", vec![Construct::Deadline]),
+        ("home() within 9 s", vec![Construct::Deadline]),
+        (
+            "parallel { { home() } { let m = detect(\"mug\") } }",
+            vec![Construct::Parallel, Construct::Binding],
+        ),
+        ("keep out of stairs { home() }", vec![Construct::Keep]),
+        ("let a = ask(\"Which?\") replan a", vec![Construct::Binding, Construct::Ask, Construct::Replan]),
+        ("cannot \"No.\"", vec![Construct::Cannot]),
+        (
+            "monitor { when near(user) then replan \"Why?\" } during { home() }",
+            vec![Construct::Monitor, Construct::Replan],
+        ),
+    ];
+    for (steps, constructs) in inside {
+        let wanted: Vec<String> =
+            constructs.iter().map(|construct| format!("construct {}", construct.name())).collect();
+        assert_eq!(shares_of(&format!("policy p for hsr {{ {steps} }}"), "", "0"), wanted, "{steps}");
+    }
+}
+
+#[test]
+fn shares_count_a_recovery_right_after_its_failure() {
+    let of = |turn: &str| shares_of("policy p for hsr { home() }", "not_found,action_failed", turn);
+    let failures = ["failure not_found", "failure action_failed"];
+    assert_eq!(of("0"), failures);
+    assert_eq!(of("1"), [&failures[..], &["recovery not_found"]].concat());
+    assert_eq!(of("2"), [&failures[..], &["recovery action_failed"]].concat());
+    assert_eq!(of("3"), failures);
+}
+
+#[test]
+fn shares_are_of_the_rows_that_can_have_them() {
+    let mut counts = Counts::default();
+    assert!(counts.shares().iter().all(|share| share.ratio() == 0.0 && !share.is_low()));
+    counts.add(&format::read(r#"{"text": "<user> Go. <robot> go to sink"}"#).unwrap());
+    // A list of actions has no constructs.
+    assert!(!counts.shares().iter().any(|share| matches!(share.subject, Subject::Construct(_))));
+    let row = json!({"prompt": "Go.", "completion": "policy p { if near(user) { home() } }"});
+    counts.add(&format::read(&row.to_string()).unwrap());
+    let low = |construct| {
+        let shares = counts.shares();
+        let share = shares.iter().find(|share| share.subject == Subject::Construct(construct)).unwrap();
+        (share.rows, share.of, share.is_low())
+    };
+    assert_eq!((low(Construct::Condition), low(Construct::Loop)), ((1, 1, false), (0, 1, true)));
 }

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use motet_dataset::lint::{Finding, Linter, Place, RowFault, Shelf, Worlds};
+use motet_dataset::share::{Counts, Share};
 use motet_dataset::{format, picture};
 use motet_project::files::Bytes;
 use motet_project::{read_scene, robot_names};
@@ -29,11 +30,15 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliErro
     let worlds = worlds(args, report)?;
     let mut shelf = Images::default();
     let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);
-    let (mut rows, mut wrong) = (0, BTreeSet::new());
+    let (mut rows, mut wrong, mut counts) = (0, BTreeSet::new(), Counts::default());
     for path in &args.files {
         let file = path.display().to_string();
         lines(path, &mut |number, line| {
             rows += 1;
+            // A line that is no row is a finding below.
+            if let Ok(row) = format::read(line) {
+                counts.add(&row);
+            }
             for finding in linter.line(&file, number, line) {
                 wrong.insert((file.clone(), number));
                 report.out.line(&shown(&finding, args.format));
@@ -49,8 +54,29 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliErro
         note("the files hold no rows");
         return Ok(Exit::Findings);
     }
+    let shares = counts.shares();
+    for share in shares.iter().filter(|share| args.shares || (args.minimums && share.is_low())) {
+        report.out.line(&shown_share(*share, args));
+    }
     note(&format!("{}, {} with findings", count(rows, "row"), wrong.len()));
-    Ok(if wrong.is_empty() && unused.is_empty() { Exit::Success } else { Exit::Findings })
+    let is_low = args.minimums && shares.iter().any(|share| share.is_low());
+    Ok(if wrong.is_empty() && unused.is_empty() && !is_low { Exit::Success } else { Exit::Findings })
+}
+
+fn shown_share(share: Share, args: &LintArgs) -> String {
+    let (group, name, percent) = (share.subject.group(), share.subject.name(), 100.0 * share.ratio());
+    let least = share.subject.least().filter(|_| args.minimums && share.is_low()).map(|least| 100.0 * least);
+    match args.format {
+        OutputFormat::Human => {
+            let least = least.map(|least| format!(", less than {least:.0} %")).unwrap_or_default();
+            format!("{group} {name}: {percent:.1} %, {} of {}{least}", share.rows, share.of)
+        }
+        OutputFormat::Json => {
+            let is_low = least.is_some();
+            json!({"group": group, "name": name, "rows": share.rows, "of": share.of, "low": is_low})
+                .to_string()
+        }
+    }
 }
 
 fn shown(finding: &Finding, format: OutputFormat) -> String {
