@@ -76,6 +76,7 @@ async def _listen(session: Session, server: socket.socket, grace: float) -> None
         if not done:
             await session.stop_all()
         connection, _ = await accepted
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         alone = not await serve_connection(session, connection)
         if alone and session.driver.owns_clock:
             await session.stop_all()
@@ -85,7 +86,6 @@ async def serve_connection(session: Session, connection: socket.socket) -> bool:
     """Serves one connection. Answers whether its host said goodbye."""
     with connection:
         connection.setblocking(True)
-        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         # A host that reads nothing any more is as good as gone.
         connection.settimeout(SILENCE)
         read = lambda: connection.recv(65536)  # noqa: E731
