@@ -12,7 +12,7 @@ from transformers import GPT2Config, GPT2LMHeadModel, PreTrainedTokenizerFast
 import motet
 from motet.transformers import MotetLogitsProcessor
 
-sys.path.insert(0, str(Path(__file__).parents[3] / "runtime/decode/python/tests"))
+sys.path.insert(0, str(Path(__file__).parents[3] / "python/tests"))
 from small_tokenizer import END, tokenizer_json  # noqa: E402
 
 TOKENS = 400

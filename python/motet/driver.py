@@ -1,0 +1,278 @@
+"""Drivers in Python: one coroutine for each primitive of a robot.
+
+    class MyRobot(motet.Driver):
+        async def go(self, goal, to):
+            for waypoint in goal.motion.path:
+                await self.base.move(waypoint["base"])
+                if goal.cancelled():
+                    return await self.base.brake()
+                await goal.feedback("on the way")
+
+        def holding(self, object):
+            return self.hand.holds(object)
+
+    motet.serve(MyRobot())
+
+The base class keeps the promises of the driver protocol. It needs the standard library of Python alone.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from .values import Text, decode, encode, python_name
+
+if TYPE_CHECKING:
+    from .protocol import Session
+
+__all__ = ["Driver", "Failed", "Goal", "Motion", "Refused", "observes"]
+
+Method = TypeVar("Method", bound=Callable[..., Any])
+
+
+class Failed(Exception):
+    """The end of a goal in a failure that its primitive declares, such as `slipped`, with a clause for people.
+
+    >>> str(Failed("slipped", "the mug is wet"))
+    'slipped: the mug is wet'
+    """
+
+    def __init__(self, kind: str, text: str = "") -> None:
+        super().__init__(f"{kind}: {text}" if text else kind)
+        self.kind, self.text = kind, text
+
+    def _wire(self) -> Any:
+        return {"kind": self.kind, "text": self.text} if self.text else self.kind
+
+
+class Refused(Failed):
+    """The refusal of a goal, raised before the first `await` of its coroutine: nothing has moved."""
+
+    def __init__(self, kind: str = "refused", text: str = "") -> None:
+        super().__init__(kind, text)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A motion of a goal. `verdict` is `proven`, `verified` or `open`; `path` is empty if nobody found a motion.
+
+    A waypoint is a mapping with `base` ([x, y, yaw] in m and rad, in the frame `map`), `joints` (m or rad, in the order of
+    `joints` here), `at` (s since the start) and perhaps `ramp` (s).
+    """
+
+    query: str = ""
+    verdict: str = "open"
+    why: str = ""
+    joints: tuple[str, ...] = ()
+    path: tuple[dict[str, Any], ...] = ()
+    grasp: dict[str, Any] | None = None
+    clearance: float | None = None
+
+    @classmethod
+    def _of(cls, command: dict[str, Any]) -> Motion:
+        motions = command.get("motions") or [{}]
+        motion = motions[0]
+        witness = motion.get("witness") or {}
+        return cls(
+            motion.get("query", ""), motion.get("verdict", "open"), motion.get("why") or "",
+            tuple(witness.get("joints", ())), tuple(witness.get("path", ())), witness.get("grasp"), witness.get("clearance"),
+        )
+
+
+@dataclass
+class Goal:
+    """One call that the robot carries out.
+
+    `args` are the arguments by name, `command` is the call as the protocol has it, `result_type` the type of the result or
+    None, `fails` the failures that the primitive declares, `deadline_secs` its deadline in s.
+    """
+
+    number: int
+    command: dict[str, Any]
+    result_type: str | None = None
+    fails: tuple[str, ...] = ()
+    is_held: bool = False
+    _session: Session | None = field(default=None, repr=False)
+    _is_cancelled: bool = False
+    _polls: bool = False
+    _saw_cancel: bool = False
+    _holding: asyncio.Event = field(default_factory=asyncio.Event, repr=False)
+    _proceeding: asyncio.Event = field(default_factory=asyncio.Event, repr=False)
+
+    def __post_init__(self) -> None:
+        self._proceeding.set()
+
+    @property
+    def primitive(self) -> str:
+        return str(self.command["primitive"])
+
+    @property
+    def args(self) -> dict[str, Any]:
+        return {python_name(name): decode(value) for name, value in self.command.get("args", ())}
+
+    @property
+    def motion(self) -> Motion:
+        return Motion._of(self.command)
+
+    @property
+    def deadline_secs(self) -> float:
+        return float(self.command.get("deadline_secs", 0.0))
+
+    def cancelled(self) -> bool:
+        """True once the host asks for an early end: brake, and return.
+
+        Who calls this is left to end by itself. In any other coroutine the next `await` raises `asyncio.CancelledError`.
+        """
+        self._polls = True
+        self._saw_cancel = self._is_cancelled
+        return self._is_cancelled
+
+    async def feedback(self, text: str) -> None:
+        """Says something to people and the journal; the host keeps at most 1,000 characters. Gives other goals a turn."""
+        if self._session is not None:
+            self._session.report("feedback", {"goal": self.number, "text": text})
+        await asyncio.sleep(0)
+
+    async def sleep(self, seconds: float) -> None:
+        """Waits for so long, not counting the time in which the goal is held."""
+        loop = asyncio.get_running_loop()
+        left = seconds
+        while left > 0.0:
+            await self.proceeding()
+            begun = loop.time()
+            try:
+                await asyncio.wait_for(self._holding.wait(), left)
+            except asyncio.TimeoutError:
+                return
+            left -= loop.time() - begun
+
+    async def proceeding(self) -> None:
+        """Waits while the goal is held."""
+        await self._proceeding.wait()
+
+    def _hold(self) -> None:
+        self.is_held = True
+        self._holding.set()
+        self._proceeding.clear()
+
+    def _proceed(self) -> None:
+        self.is_held = False
+        self._holding.clear()
+        self._proceeding.set()
+
+
+def observes(name: str) -> Callable[[Method], Method]:
+    """Marks a method that answers the fact or the measure `name`, where its own name must be another one.
+
+    >>> class Robot(Driver):
+    ...     @observes("open")
+    ...     def is_open(self, container): return True
+    >>> Robot()._observer("open") is not None
+    True
+    """
+
+    def mark(method: Method) -> Method:
+        method._motet_observes = name  # type: ignore[attr-defined]
+        return method
+
+    return mark
+
+
+class Driver:
+    """A robot. A subclass has one `async def` for each primitive, and a method for each fact or measure that it observes.
+
+    A coroutine gets the goal and the arguments of the primitive by name; a name that is a keyword of Python has an underscore at
+    its end, such as `from_`. What it returns is the result. It raises `Failed` to end in a failure, and `Refused`, before its
+    first `await`, to refuse. An observation returns a bool for a fact, a number in SI units for a measure, None for unknown.
+
+    `can_hold` and `can_update` are "all" or the primitives whose goals can be held, or take new arguments while they run.
+    Hold with `goal.sleep` or `goal.proceeding`. `owns_clock` is for simulators: time passes only in `asyncio.sleep`.
+    """
+
+    name: str = ""
+    can_hold: str | tuple[str, ...] = ()
+    can_update: str | tuple[str, ...] = ()
+    owns_clock: bool = False
+    #: Seconds between two looks at what the host watches.
+    watch_period: float = 0.1
+
+    _session: Session | None = None
+
+    async def perform(self, goal: Goal, **args: Any) -> Any:
+        """Carries out a primitive that has no coroutine of its own. Refuses it, if no subclass says otherwise."""
+        raise Refused(text=f"the driver has no `{goal.primitive}`")
+
+    def observe(self, query: dict[str, Any]) -> Any:
+        """Answers a query that has no method of its own: unknown, if no subclass says otherwise."""
+        return None
+
+    async def stop(self, goal: Goal) -> None:
+        """Brings everything that the goal uses to a stand. Returns only when it stands still."""
+
+    def begin_run(self, run: dict[str, Any]) -> None:
+        """Learns of a run that begins: `run` has `robot`, `policy`, `primitives` and perhaps `state`."""
+
+    def close(self) -> None:
+        """Called once at the end, when no host comes back."""
+
+    def report_moved(self, base: Any = None, joints: dict[str, float] | None = None, things: Any = ()) -> None:
+        """Says where the robot is, for people: `base` is [x, y, yaw] in m and rad, `joints` m or rad by name."""
+        if self._session is not None:
+            parts = {"base": base, "joints": joints, "things": list(things)}
+            self._session.report("moved", {name: part for name, part in parts.items() if part})
+
+    def report_heard(self, text: str, by: str | None = None) -> None:
+        """Says that a person said something that nobody had asked for."""
+        if self._session is not None:
+            self._session.report("heard", {"text": text} | ({} if by is None else {"from": by}))
+
+    def check_watched(self) -> None:
+        """Looks at what the host watches now, instead of within `watch_period`."""
+        if self._session is not None:
+            self._session.look_at_watched()
+
+    def _capabilities(self) -> dict[str, Any]:
+        which = lambda names: names if names == "all" else {"only": list(names)}  # noqa: E731
+        capabilities = {"hold": which(self.can_hold), "update": which(self.can_update), "moved": True}
+        for name in ("look", "detections", "told"):
+            capabilities[name] = callable(getattr(self, name, None))
+        return capabilities | ({"clock": "driver"} if self.owns_clock else {})
+
+    def _performer(self, primitive: str) -> Callable[..., Any]:
+        method = getattr(self, python_name(primitive), None)
+        own = getattr(Driver, python_name(primitive), None)
+        is_own = own is not None and getattr(method, "__func__", None) is own
+        return method if inspect.iscoroutinefunction(method) and not is_own else self.perform
+
+    def _observer(self, name: str) -> Callable[..., Any] | None:
+        for key in dir(type(self)):
+            if getattr(getattr(type(self), key), "_motet_observes", None) == name:
+                return getattr(self, key)  # type: ignore[no-any-return]
+        method = getattr(self, python_name(name), None)
+        is_base = hasattr(Driver, python_name(name))
+        return method if callable(method) and not inspect.iscoroutinefunction(method) and not is_base else None
+
+    async def _answer(self, query: dict[str, Any]) -> Any:
+        """The answer to a query in the words of the protocol."""
+        if "field" in query:
+            asked, kind, method = query["field"], "field", self._observer("field")
+            args = [asked["entity"], asked["field"]]
+        else:
+            kind = "fact" if "fact" in query else "measure"
+            asked = query[kind]
+            method = self._observer(asked.get("fluent") or asked.get("measure"))
+            args = [decode(arg) for arg in asked.get("args", ())]
+        said = self.observe(query) if method is None else method(*args)
+        if inspect.isawaitable(said):
+            said = await said
+        if said is None or isinstance(said, dict):
+            return "unknown" if said is None else said
+        if kind == "fact":
+            return {"truth": bool(said)}
+        if isinstance(said, bool) or not isinstance(said, (int, float)):
+            return {"value": encode(said, "Text" if isinstance(said, Text) else None)}
+        return {"value": {"number": float(said)}}
