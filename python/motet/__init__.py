@@ -1,7 +1,10 @@
 """Motet: policies for robots, checked before anything moves.
 
-    report = motet.check("policy p for hsr { go(kitchen_table) done }", robot="hsr", scene="kitchen")
-    report.raise_if_errors()
+    class MyRobot(motet.Driver):
+        async def go(self, goal, to):
+            await self.base.drive(to)
+
+    motet.serve(MyRobot())
 
 `Driver`, `serve` and their like need the standard library of Python alone. The other names need the compiled part of the package,
 which is loaded when the first of them is used.

@@ -82,8 +82,8 @@ impl Entities {
     }
 
     /// Returns whether a value fits a type, also by the kinds of the entities in it: one that is known to be
-    /// of another kind does not. An entity that nobody has heard of is new, and fits. The robot is of no narrower
-    /// kind than the root, and an id is never empty.
+    /// of another kind does not. An entity that nobody has heard of is new, and fits. The robot is of no
+    /// narrower kind than the root, and an id is never empty.
     pub(crate) fn fits(&self, graph: &Graph, value: &Value, ty: &Type) -> bool {
         let is_foreign = |id: &SmolStr, wanted: KindId| {
             let known = self.index.get(id).and_then(|index| self.list.get(*index as usize));

@@ -5,13 +5,14 @@ mod carry_out;
 mod goals;
 mod hear;
 mod log;
+mod rate;
 mod run_time;
 mod telemetry;
 
 pub use self::log::{DriverLog, LineFrom};
 
 use self::goals::GoalLedger;
-use self::hear::LineRate;
+use self::rate::LineRate;
 use self::run_time::RunTime;
 use self::telemetry::TelemetryQueue;
 use super::connect::DriverAddress;

@@ -173,8 +173,8 @@ impl Link {
     }
 }
 
-/// Ends all processes of a driver, also those that it has started: behind `sh -c` it is one of them that moves
-/// the robot.
+/// Ends all processes of a driver, also those that it has started: behind `sh -c` it is one of them that
+/// moves the robot.
 #[cfg(unix)]
 fn kill_group(child: &Child) {
     use rustix::process::{Pid, Signal, kill_process_group};

@@ -3,8 +3,7 @@
 use super::super::link::LinkError;
 use super::super::protocol::{
     DriverCall, DriverMessage, DriverReport, EmptyParams, GoalParams, MAX_FEEDBACK, MAX_KIND_BYTES,
-    MAX_LINES_A_SECOND, MAX_WAITING, QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear,
-    heard,
+    MAX_WAITING, QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear, heard,
 };
 use super::{LineFrom, RemoteDriver, Waiting, failed, nonsense};
 use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, Outcome};
@@ -17,25 +16,6 @@ use std::time::{Duration, Instant};
 const MOST_WORDS: usize = 256;
 /// The most lines that are heard before what they say is handed on.
 const BATCH: usize = 64;
-
-/// Counter of the lines of one second.
-#[derive(Default)]
-pub(super) struct LineRate {
-    begun: Option<Instant>,
-    lines: u32,
-}
-
-impl LineRate {
-    /// Counts a line that was heard now. True if there were too many in this second.
-    fn exceeds(&mut self, now: Instant) -> bool {
-        let is_over = |begun: Instant| now.saturating_duration_since(begun) >= Duration::from_secs(1);
-        if self.begun.is_none_or(is_over) {
-            (self.begun, self.lines) = (Some(now), 0);
-        }
-        self.lines = self.lines.saturating_add(1);
-        self.lines > MAX_LINES_A_SECOND
-    }
-}
 
 impl RemoteDriver {
     /// Hears what is said, for so long at most until something is.
@@ -279,18 +259,5 @@ impl RemoteDriver {
             // These are waited for elsewhere.
             DriverCall::Advance(_) | DriverCall::Look(_) | DriverCall::Detections(_) => {}
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Duration, Instant, LineRate, MAX_LINES_A_SECOND};
-
-    #[test]
-    fn line_rate_is_that_of_one_second() {
-        let (mut rate, begun) = (LineRate::default(), Instant::now());
-        assert!((0..MAX_LINES_A_SECOND).all(|_| !rate.exceeds(begun)));
-        assert!(rate.exceeds(begun + Duration::from_millis(999)));
-        assert!(!rate.exceeds(begun + Duration::from_secs(1)));
     }
 }
