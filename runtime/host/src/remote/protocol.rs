@@ -467,8 +467,8 @@ pub(crate) const PIECE: Time = Time::from_nanos(500_000_000);
 /// The longest failure kind in bytes that a driver may name. Another one, or one that is no name, counts as
 /// `failed`.
 pub(crate) const MAX_KIND_BYTES: usize = 64;
-/// The most lines that a driver may say in a second of the wall clock. One that says more counts as gone: what
-/// is important would come too late.
+/// The most lines that a driver may say in a second of the wall clock. One that says more counts as gone:
+/// what is important would come too late.
 pub(crate) const MAX_LINES_A_SECOND: u32 = 20_000;
 /// The most promises that a driver may break in a run before it counts as gone.
 pub(crate) const MAX_BREACHES: u32 = 1_000;
