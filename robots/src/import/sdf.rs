@@ -232,7 +232,8 @@ impl Reader {
             self.found.push(BadNumber { span, key, text, wanted }.into());
             return None;
         };
-        if let Some(actual) = numbers.into_iter().find(|number| !(number.abs() <= FURTHEST_M)) {
+        if let Some(actual) = numbers.into_iter().find(|number| number.is_nan() || number.abs() > FURTHEST_M)
+        {
             self.found.push(ImpossibleNumber { span, key, actual, wanted: "at most 1000" }.into());
             return None;
         }
