@@ -10,8 +10,7 @@
 //!   my_robot/robot.toml -->`.
 //!
 //! `<!-- not run: REASON -->` before a block keeps it from running. All blocks of a page share a folder,
-//! which begins with a
-//! copy of `examples/`.
+//! which begins with a copy of `examples/` and a link to `python/`.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -204,6 +203,10 @@ fn run_blocks(
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).map_err(fail)?;
     copy_folder(&root.join("examples"), &folder.join("examples"))?;
+    // The examples look for the package of Python beside them.
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(root.join("python"), folder.join("python"))
+        .map_err(|error| format!("{}: {error}", folder.display()))?;
     let (mut ran, mut skipped, mut failed) = (0, 0, Vec::new());
     for block in blocks(text) {
         let place = format!("{page}:{}", block.line);
