@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from ._motet import __version__
     from .decoder import Decoder
     from .environment import Environment
-    from .vocabulary import Vocabulary, vocabulary
+    from .vocabularies import Vocabulary, vocabulary
 
 _COMPILED = {
     "__version__": "_motet",
     "Decoder": "decoder",
     "Environment": "environment",
-    "Vocabulary": "vocabulary",
-    "vocabulary": "vocabulary",
+    "Vocabulary": "vocabularies",
+    "vocabulary": "vocabularies",
 }
 
 __all__ = [

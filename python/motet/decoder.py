@@ -1,7 +1,7 @@
 """Decoders: token masks for one policy that is being written."""
 
 from .environment import Environment, _objects
-from .vocabulary import vocabulary as _vocabulary
+from .vocabularies import vocabulary as _vocabulary
 
 __all__ = ["Decoder"]
 
