@@ -13,6 +13,7 @@ use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::dialogue::Knowledge;
 use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
+use motet_runtime::journal::OpenGoals;
 use motet_runtime::{
     Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Observer, Query, RunControl,
     RunEnd, Time, ToldThing, Verifier, resume,
@@ -71,8 +72,14 @@ fn note_effect(effect: &Effect) {
     }
 }
 
+/// Keeps in mind what a run that goes on had let move.
+pub(crate) fn note_open(ledger: &OpenGoals) {
+    let open = ledger.goals.iter().map(|(goal, open)| (*goal, escape(&open.command.to_string())));
+    moving().extend(open);
+}
+
 /// Keeps in mind what an event says to stand still.
-fn note_event(event: &Event) {
+pub(crate) fn note_event(event: &Event) {
     if let Event::Driver(
         DriverEvent::Ended { goal, .. } | DriverEvent::Refused { goal, .. } | DriverEvent::Stopped { goal },
     ) = event

@@ -12,7 +12,7 @@ use motet_host::journal::JournalWriter;
 use motet_host::remote::DriverAddress;
 use motet_host::remote::protocol::Hello;
 use motet_planner::runtime_check::Guard;
-use motet_project::{Project, ProjectSession, SavedAddress, SavedDriver, SavedProject};
+use motet_project::{Project, ProjectSession, SavedDriver, SavedProject};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
@@ -26,7 +26,7 @@ use crate::output::{Colors, count, escape, note};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, events, view};
-use crate::runner::{PacedView, Runner, connect, exit_of, journal_error};
+use crate::runner::{PacedView, Runner, connect, exit_of, journal_error, note_open};
 
 /// Flags of `motet run`.
 #[derive(Args, Debug)]
@@ -148,15 +148,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         return Err(CliError::Message("the journal has no head".to_owned()));
     };
     let mut replay = EngineReplay::new(head).map_err(|error| CliError::Message(error.to_string()))?;
-    let saved = SavedDriver::from_json(&head.driver)?;
-    let address = match &saved {
-        SavedDriver::Simulator(_) if args.driver.driver == DriverChoice::Kinematic => None,
-        SavedDriver::Simulator(_) => {
-            let why = "the run was in the simulator: `--driver` cannot take it over";
-            return Err(CliError::Message(why.to_owned()));
-        }
-        SavedDriver::Process { address, .. } => Some(given_again(address, args)?),
-    };
+    let saved = given_again(SavedDriver::from_json(&head.driver)?, args)?;
     let mut simulator = match &saved {
         SavedDriver::Simulator(saved) => Some(saved.open()?),
         SavedDriver::Process { .. } => None,
@@ -216,40 +208,46 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         0 => String::new(),
         bytes => format!("; cut off {bytes} bytes of an unfinished entry"),
     };
+    note_open(&ledger);
     let goals = count(ledger.goals.len(), "goal");
     note(&format!("resumed at {} after {} entries, {goals} open{cut}", replay.now(), entries.len()));
     let paced = paced.with_guard(guard);
-    let driver: Box<dyn Driver> = match (saved, simulator, address) {
-        (SavedDriver::Process { instance, .. }, _, Some(address)) => {
+    let driver: Box<dyn Driver> = match (saved, simulator) {
+        (SavedDriver::Process { address, instance, .. }, _) => {
             let hello = Hello { resumed: true, ..Hello::of(replay.engine().graph(), &run) };
-            let mut driver = connect(&address, hello, from)?;
+            let mut driver = connect(&address.into(), hello, from)?;
             let caught_up = driver.catch_up(&ledger, &instance, from);
             events.extend(caught_up.map_err(|breakage| CliError::Message(breakage.to_string()))?);
             Box::new(driver)
         }
-        (_, Some(simulator), _) => Box::new(simulator),
-        (SavedDriver::Simulator(saved), None, _) => Box::new(saved.open()?),
-        (SavedDriver::Process { .. }, None, None) => {
-            return Err(CliError::Message("a driver is needed".to_owned()));
-        }
+        (SavedDriver::Simulator(_), Some(simulator)) => Box::new(simulator),
+        (SavedDriver::Simulator(saved), None) => Box::new(saved.open()?),
     };
     let mut driver = driver;
     let engine = replay.into_engine();
     Runner { engine, driver: &mut *driver, journal: Some(writer), from, events }.run(paced)
 }
 
-/// Address of the driver of a journal, as the flags give it again. A journal is data, and its author may be
+/// Driver of a journal at the address that the flags give again. A journal is data, and its author may be
 /// anybody: it starts no command by itself.
-fn given_again(saved: &SavedAddress, args: &RunArgs) -> Result<DriverAddress, CliError> {
-    let saved = DriverAddress::from(saved.clone());
-    if let Some(address) = args.driver.driver.again(&saved) {
-        return Ok(address);
+fn given_again(saved: SavedDriver, args: &RunArgs) -> Result<SavedDriver, CliError> {
+    let choice = &args.driver.driver;
+    match saved {
+        SavedDriver::Simulator(_) if *choice == DriverChoice::Kinematic => Ok(saved),
+        SavedDriver::Simulator(_) => {
+            let why = "the run was in the simulator: `--driver` cannot take it over";
+            Err(CliError::Message(why.to_owned()))
+        }
+        SavedDriver::Process { address, instance, guard } => {
+            let named = DriverAddress::from(address);
+            let given = choice.again(&named).ok_or_else(|| CliError::Advised {
+                problem: "the journal names a driver in another process, and a journal starts none by itself"
+                    .to_owned(),
+                help: format!("give it again, if you trust it: {}", escape(&DriverChoice::flag_for(&named))),
+            })?;
+            Ok(SavedDriver::process(&given, &instance, guard.map(|guard| *guard)))
+        }
     }
-    Err(CliError::Advised {
-        problem: "the journal names a driver in another process, and a journal starts none by itself"
-            .to_owned(),
-        help: format!("give it again, if you trust it: {}", escape(&DriverChoice::flag_for(&saved))),
-    })
 }
 
 /// Clock of the run of a journal.

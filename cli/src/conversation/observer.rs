@@ -12,7 +12,8 @@ use motet_planner::runtime_check::CheckMode;
 use motet_planner::vision::{GroundedPoint, GroundingDriver, GroundingTask};
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Driver, Effect, Engine, Observer as _, Perception, RunControl, RunEnd, StartState, SwapRefusal, Time,
+    Driver, Effect, Engine, Event, Observer as _, Perception, RunControl, RunEnd, StartState, SwapRefusal,
+    Time,
 };
 use serde_json::json;
 
@@ -24,7 +25,7 @@ use crate::error::CliError;
 use crate::flags::{OutputFormat, Speed};
 use crate::output::{Colors, Output, escape, note};
 use crate::run_view::{Clock, view};
-use crate::runner::{PacedView, SLICE, is_interrupted};
+use crate::runner::{PacedView, SLICE, is_interrupted, note_event};
 
 /// Interval at which scheduled requests are checked.
 const REQUEST_INTERVAL: Time = Time::from_nanos(100_000_000);
@@ -190,6 +191,10 @@ impl DialogueObserver for RunObserver<'_> {
             (self.revision, self.view, self.older) = (0, None, None);
             self.show(&text, graph);
         }
+    }
+
+    fn event(&mut self, _now: Time, event: &Event) {
+        note_event(event);
     }
 
     fn effect(&mut self, now: Time, effect: &Effect) {

@@ -116,6 +116,45 @@ fn signals_to_end_stop_the_robot_first() {
 
 #[cfg(unix)]
 #[test]
+fn signals_to_end_name_what_still_runs_in_a_conversation() {
+    if !has_python() {
+        return;
+    }
+    // The first command ends at once, the second only some time after it is cancelled.
+    let place = place(
+        "crash_conversation",
+        "    goal = {'goal': m['params'].get('goal')}\n    \
+         if m['method'] in ('observe', 'watch'):\n        \
+         say({'id': m['id'], 'result': {'answer': 'unknown'}})\n    \
+         elif 'id' in m: say({'id': m['id'], 'result': {}})\n    \
+         if m['method'] == 'start' and 'kitchen_table' in line: \
+         say({'method': 'ended', 'params': dict(goal, outcome={'success': None})})\n    \
+         elif m['method'] == 'start': open('moves', 'w').close()\n    \
+         if m['method'] == 'cancel':\n        time.sleep(1.5)\n        \
+         say({'method': 'ended', 'params': dict(goal, outcome='interrupted')})\n",
+    );
+    let request = "go to the kitchen table and then go to the counter";
+    let host = Command::new(env!("CARGO_BIN_EXE_motet"))
+        .args(["do", request, "--robot", "hsr", "--scene", "kitchen", "--driver", "python3 driver.py"])
+        .current_dir(place.path(""))
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    assert!(eventually(|| place.path("moves").exists()));
+    for pause in [500, 0] {
+        assert!(Command::new("kill").args(["-TERM", &host.id().to_string()]).status().unwrap().success());
+        std::thread::sleep(std::time::Duration::from_millis(pause));
+    }
+    let output = host.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("may still move the robot: go(to: counter). The run"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
 fn a_driver_behind_a_shell_ends_with_its_host() {
     if !has_python() {
         return;
