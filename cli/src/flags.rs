@@ -248,8 +248,30 @@ pub(crate) fn duration(text: &str) -> Result<f64, String> {
     if secs.is_finite() && secs > 0.0 { Ok(secs) } else { Err("a duration is longer than 0 s".to_owned()) }
 }
 
+/// Key of a model server.
+#[derive(Args, Debug)]
+pub(crate) struct KeyArgs {
+    /// Environment variable that holds the server's API key
+    #[arg(long, value_name = "VARIABLE")]
+    key_from: Option<String>,
+    /// Send the key to another machine also without encryption
+    #[arg(long, requires = "key_from")]
+    key_in_clear: bool,
+}
+
+impl KeyArgs {
+    pub(crate) fn is_given(&self) -> bool {
+        self.key_from.is_some()
+    }
+
+    /// Key for a server; `None` if none is given.
+    pub(crate) fn key(&self, server: &ServerUrl) -> Result<Option<ApiKey>, CliError> {
+        self.key_from.as_deref().map(|variable| api_key(variable, server, self.key_in_clear)).transpose()
+    }
+}
+
 /// Reads the server's key from an environment variable.
-pub(crate) fn api_key(variable: &str, server: &ServerUrl, may_go_in_clear: bool) -> Result<ApiKey, CliError> {
+fn api_key(variable: &str, server: &ServerUrl, may_go_in_clear: bool) -> Result<ApiKey, CliError> {
     let is_name = variable.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
     if !is_name {
         // It may be the key itself, which is not shown.

@@ -63,6 +63,17 @@ impl Output {
         }
     }
 
+    /// Writes a text to a file, or to stdout without one or for `-`.
+    pub(crate) fn file(&mut self, path: Option<&Path>, text: &str) -> Result<(), CliError> {
+        match path {
+            Some(path) if path.as_os_str() != "-" => replace_file(path, text),
+            Some(_) | None => {
+                self.text(text);
+                Ok(())
+            }
+        }
+    }
+
     /// Writes a text and a line break.
     pub(crate) fn line(&mut self, text: &str) {
         self.text(&format!("{text}\n"));
@@ -86,34 +97,36 @@ impl Output {
 
 /// Writes a file beside the old one and then puts it in its place: a full disk or an interruption leaves the
 /// old one whole. A pipe or a device is written to directly.
-pub(crate) fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    try_replace(path, bytes).map_err(|source| CliError::Write { path: path.to_owned(), source })
+pub(crate) fn replace_file(path: &Path, text: &str) -> Result<(), CliError> {
+    let cannot = |source| CliError::Write { path: path.to_owned(), source };
+    replace_with(path, |mut file| file.write_all(text.as_bytes()).map_err(cannot))
 }
 
-fn try_replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Replaces a file by what `write` writes, as [`replace_file`] does.
+pub(crate) fn replace_with<T>(
+    path: &Path,
+    write: impl FnOnce(&File) -> Result<T, CliError>,
+) -> Result<T, CliError> {
+    let cannot = |source| CliError::Write { path: path.to_owned(), source };
     // A link stays a link.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let old = fs::metadata(&target).ok();
     if old.as_ref().is_some_and(|old| !old.is_file()) {
-        return fs::write(path, bytes);
+        return write(&File::create(path).map_err(cannot)?);
     }
     if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
-        return Err(io::ErrorKind::PermissionDenied.into());
+        return Err(cannot(io::ErrorKind::PermissionDenied.into()));
     }
     let mut beside = target.clone().into_os_string();
     beside.push(format!(".{}.partial", std::process::id()));
-    let written = File::create_new(&beside).and_then(|mut file| {
-        file.write_all(bytes)?;
-        if let Some(old) = old {
-            file.set_permissions(old.permissions())?;
-        }
-        file.sync_all()?;
-        fs::rename(&beside, &target)
+    let file = File::create_new(&beside).map_err(cannot)?;
+    let written = write(&file).and_then(|written| {
+        let permissions = old.map_or(Ok(()), |old| file.set_permissions(old.permissions()));
+        let replaced = permissions.and_then(|()| file.sync_all()).and_then(|()| fs::rename(&beside, &target));
+        replaced.map(|()| written).map_err(cannot)
     });
-    written.inspect_err(|error| {
-        if error.kind() != io::ErrorKind::AlreadyExists {
-            let _ = fs::remove_file(&beside);
-        }
+    written.inspect_err(|_| {
+        let _ = fs::remove_file(&beside);
     })
 }
 

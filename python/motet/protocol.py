@@ -171,9 +171,7 @@ class Session:
 
     async def carry_out(self, goal: Goal) -> None:
         """Runs the coroutine of a goal to its end, and says how it ended."""
-        before = None
         try:
-            before = self.states[goal.number]
             method = self.driver._performer(goal.primitive)
             try:
                 value = encode(await method(goal, **goal.args), goal.result_type)
@@ -189,7 +187,7 @@ class Session:
         except Exception as error:
             traceback.print_exc(file=sys.stderr)
             outcome = {"failure": self.declared(goal, Failed("failed", f"{type(error).__name__}: {error}"))}
-        if self.states.get(goal.number) == before == "running":
+        if self.states.get(goal.number) == "running":
             self.states[goal.number] = {"ended": outcome}
             self.report("ended", {"goal": goal.number, "outcome": outcome})
             self.look_at_watched()

@@ -172,7 +172,7 @@ impl Tally {
             }
             if !fixed.applied.is_empty() {
                 if let Some(path) = &found.path {
-                    replace_file(path, fixed.text.as_bytes())?;
+                    replace_file(path, &fixed.text)?;
                 }
                 found.bytes = Bytes::All(fixed.text.into_bytes());
             }

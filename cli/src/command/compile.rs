@@ -1,6 +1,6 @@
 //! `motet compile`: the execution graph of a policy, a drawing of it, or the policy in either syntax.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use motet_graph::draw;
@@ -9,7 +9,7 @@ use motet_syntax::Syntax;
 use crate::documents::{self, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::{FormatArgs, SessionArgs};
-use crate::output::{Colors, note, replace_file};
+use crate::output::{Colors, note};
 use crate::report::Report;
 
 /// Flags of `motet compile`.
@@ -94,13 +94,6 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
     if !text.ends_with('\n') {
         text.push('\n');
     }
-    match &args.output {
-        Some(path) if path.as_os_str() != "-" => write(path, &text)?,
-        Some(_) | None => report.out.text(&text),
-    }
+    report.out.file(args.output.as_deref(), &text)?;
     Ok(Exit::Success)
-}
-
-fn write(path: &Path, text: &str) -> Result<(), CliError> {
-    replace_file(path, text.as_bytes())
 }

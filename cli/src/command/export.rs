@@ -1,7 +1,7 @@
 //! `motet export`: the journal of a run as an MCAP file, with the simulated scene if the run was a
 //! simulation.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ use motet_stdlib::lang;
 use motet_stdlib::lang::kinds;
 
 use crate::error::{CliError, Exit};
-use crate::output::note;
+use crate::output::{note, replace_with};
 use crate::runner::journal_error;
 
 /// Flags of `motet export`.
@@ -48,24 +48,13 @@ struct McapArgs {
 pub(crate) fn run(args: &ExportArgs) -> Result<Exit, CliError> {
     let ExportCommand::Mcap(args) = &args.command;
     // An earlier file, which may be the journal itself, stays until the new one is complete.
-    let mut partial = args.output.clone().into_os_string();
-    partial.push(".partial");
-    let partial = PathBuf::from(partial);
-    let written = write(&args.folder, &partial);
-    let renamed = written.and_then(|entries| match fs::rename(&partial, &args.output) {
-        Ok(()) => Ok(entries),
-        Err(source) => Err(CliError::Write { path: args.output.clone(), source }),
-    });
-    if renamed.is_err() {
-        let _ = fs::remove_file(&partial);
-    }
-    note(&format!("wrote {} entries to {}", renamed?, args.output.display()));
+    let entries = replace_with(&args.output, |file| write(&args.folder, file))?;
+    note(&format!("wrote {entries} entries to {}", args.output.display()));
     Ok(Exit::Success)
 }
 
 /// Writes a journal as MCAP. Returns the number of its entries.
-fn write(folder: &Path, path: &Path) -> Result<u64, CliError> {
-    let file = File::create(path).map_err(|source| CliError::Write { path: path.to_owned(), source })?;
+fn write(folder: &Path, file: &File) -> Result<u64, CliError> {
     let wrong = |error: motet_host::mcap::ExportError| CliError::Message(error.to_string());
     let mut exporter = McapExporter::new(BufWriter::new(file)).map_err(wrong)?;
     let mut replay = None;

@@ -114,7 +114,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
     }
     if let Some(path) = &args.svg {
         let drawing = drawing::top_view(&room, &scene, &world, &answers);
-        replace_file(path, drawing.as_bytes())?;
+        replace_file(path, &drawing)?;
     }
     Ok(exit)
 }

@@ -1,7 +1,7 @@
 //! `motet fmt`: formats policies in the canonical layout, or converts them between text and JSON. Comments
 //! of a text stay.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use motet_project::Project;
@@ -164,7 +164,7 @@ impl Tally {
                     report.out.line(&format!("would reformat {}", found.name));
                 }
             }
-            Some(path) if !is_same => write(path, &text)?,
+            Some(path) if !is_same => replace_file(path, &text)?,
             Some(_) => {}
             None => report.out.text(&text),
         }
@@ -200,8 +200,4 @@ fn is_broken(parsed: &Parsed) -> bool {
 fn one_line(text: &str) -> String {
     serde_json::from_str::<serde_json::Value>(text)
         .map_or_else(|_| text.to_owned(), |value| value.to_string())
-}
-
-fn write(path: &Path, text: &str) -> Result<(), CliError> {
-    replace_file(path, text.as_bytes())
 }

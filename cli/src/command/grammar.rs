@@ -9,7 +9,7 @@ use motet_decode::{Grammar, Modifiers, Subset};
 use serde_json::Value;
 
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, EnvironmentArgs, ServerDialect, SyntaxArg, api_key};
+use crate::flags::{DiagnosticFormat, EnvironmentArgs, KeyArgs, ServerDialect, SyntaxArg};
 use crate::output::{Colors, Output, note};
 use crate::report::Report;
 
@@ -79,12 +79,8 @@ struct ProbeArgs {
     /// Model to ask
     #[arg(long, default_value = "default", value_name = "NAME")]
     model: String,
-    /// Environment variable with the server's key
-    #[arg(long, value_name = "VARIABLE")]
-    key_from: Option<String>,
-    /// Send the key to another machine also without encryption
-    #[arg(long, requires = "key_from")]
-    key_in_clear: bool,
+    #[command(flatten)]
+    key: KeyArgs,
     /// Maximum time to wait for an answer, in seconds
     #[arg(long, default_value_t = 120, value_name = "SECONDS")]
     timeout: u64,
@@ -221,7 +217,7 @@ fn is_cut(said: &str, demanded: &Value) -> bool {
 fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliError> {
     let failed = |why: String| CliError::Message(format!("cannot ask `{address}`: {why}"));
     let timeout = Duration::from_secs(args.timeout);
-    let key = args.key_from.as_deref().map(|name| api_key(name, &address, args.key_in_clear)).transpose()?;
+    let key = args.key.key(&address)?;
     let settings = ClientSettings {
         key,
         timeout,

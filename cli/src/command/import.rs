@@ -13,7 +13,7 @@ use motet_syntax::{Diagnostic, FileId, Source, Sources};
 
 use crate::error::{CliError, Exit};
 use crate::flags::FormatArgs;
-use crate::output::{Colors, replace_file};
+use crate::output::Colors;
 use crate::report::Report;
 
 /// Flags of `motet import`.
@@ -176,10 +176,7 @@ fn read_image(path: &Path) -> Result<Vec<u8>, CliError> {
 }
 
 fn write(text: &str, output: Option<&Path>, report: &mut Report) -> Result<Exit, CliError> {
-    match output {
-        Some(path) if path.as_os_str() != "-" => replace_file(path, text.as_bytes())?,
-        Some(_) | None => report.out.text(text),
-    }
+    report.out.file(output, text)?;
     Ok(Exit::Success)
 }
 

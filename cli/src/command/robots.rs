@@ -358,7 +358,7 @@ fn add(path: &Path, to: Option<&Path>, srdf: Option<&Path>, report: &mut Report)
     let text = card::draft(&robot, &file, &beside);
     let write = |source| CliError::Write { path: target.clone(), source };
     std::fs::create_dir_all(folder).map_err(write)?;
-    replace_file(&target, text.as_bytes())?;
+    replace_file(&target, &text)?;
     let guesses = text.lines().filter(|line| line.contains("guessed")).count();
     report.out.line(&format!("wrote {}, with {guesses} guesses to review", target.display()));
     if let Some((_, name)) = &srdf_read {

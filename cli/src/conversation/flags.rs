@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum, value_parser};
 use motet_planner::dialogue::OnInstruction;
 use motet_runtime::Time;
 
-use crate::flags::{DriverArgs, OutputFormat, ServerDialect, SessionArgs, duration};
+use crate::flags::{DriverArgs, KeyArgs, OutputFormat, ServerDialect, SessionArgs, duration};
 
 /// Flags of a conversation.
 #[derive(Args, Debug)]
@@ -83,12 +83,8 @@ pub(super) struct ModelArgs {
     /// Show the model a camera image with each request, and ask it for the points of `ground`
     #[arg(long)]
     pub(super) camera: bool,
-    /// Environment variable that holds the server's API key
-    #[arg(long, value_name = "VARIABLE")]
-    pub(super) key_from: Option<String>,
-    /// Send the key to another machine also without encryption
-    #[arg(long, requires = "key_from")]
-    pub(super) key_in_clear: bool,
+    #[command(flatten)]
+    pub(super) key: KeyArgs,
     /// Maximum time to wait for a reply, in seconds
     #[arg(long, default_value_t = 120, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..))]
     pub(super) timeout: u64,

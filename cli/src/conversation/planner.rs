@@ -15,7 +15,7 @@ use serde_json::json;
 use super::flags::{ConversationArgs, ModelArgs};
 use super::record::ConversationRecord;
 use crate::error::CliError;
-use crate::flags::{OutputFormat, Speed, api_key};
+use crate::flags::{OutputFormat, Speed};
 use crate::output::{Colors, note};
 use crate::runner::is_interrupted;
 
@@ -36,7 +36,7 @@ pub(super) fn planner(
             ("--model", flags.model != "default"),
             ("--dialect", flags.dialect.0.is_some()),
             ("--image", !flags.image.is_empty()),
-            ("--key-from", flags.key_from.is_some()),
+            ("--key-from", flags.key.is_given()),
             ("--eager", flags.eager),
             ("--lark", flags.lark),
             ("--fallback", flags.fallback),
@@ -90,7 +90,7 @@ fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
         })?;
         images.push(image);
     }
-    let key = args.key_from.as_deref().map(|name| api_key(name, &address, args.key_in_clear)).transpose()?;
+    let key = args.key.key(&address)?;
     let timeout = Duration::from_secs(args.timeout);
     let new = ClientSettings::new(address, &args.model);
     Ok(ClientSettings {

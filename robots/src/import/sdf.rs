@@ -14,6 +14,7 @@ use crate::quaternion::{compose, to_rpy};
 use crate::scene::{EntityShape, Placement, Scene};
 use crate::urdf::{
     BadNumber, ImpossibleNumber, Pose, XmlDialect, XmlDocument, XmlPart, XmlSpans, child, children, from_rpy,
+    numbers,
 };
 
 /// Greatest coordinate or length in m.
@@ -221,8 +222,7 @@ impl Reader {
 
     fn numbers<const N: usize>(&mut self, node: Node<'_, '_>, key: &'static str) -> Option<[f64; N]> {
         let (span, text) = (self.spans.tag(node), node.text().unwrap_or_default());
-        let words: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
-        let Some(numbers) = words.and_then(|words| <[f64; N]>::try_from(words).ok()) else {
+        let Some(numbers) = numbers::<N>(text) else {
             let wanted = match N {
                 1 => "one number",
                 3 => "three numbers",

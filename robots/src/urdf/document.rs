@@ -177,8 +177,7 @@ impl UrdfReader {
     /// Reads exactly `N` finite numbers; `None` if the attribute is missing or wrong.
     fn vector<const N: usize>(&mut self, node: Node<'_, '_>, key: &'static str) -> Option<([f64; N], Span)> {
         let (text, span) = self.spans.attribute(node, key)?;
-        let words: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
-        let Some(values) = words.and_then(|words| <[f64; N]>::try_from(words).ok()) else {
+        let Some(values) = numbers::<N>(text) else {
             let wanted = match N {
                 1 => "one number",
                 3 => "three numbers",
@@ -273,6 +272,12 @@ impl UrdfReader {
         }
         values.map(|value| value / norm)
     }
+}
+
+/// Exactly `N` numbers, with white space between them.
+pub(crate) fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let words: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
+    <[f64; N]>::try_from(words?).ok()
 }
 
 /// Rotation from roll about x, then pitch about y, then yaw about z, about fixed axes, in rad, as a unit

@@ -23,7 +23,7 @@ mod read;
 mod surplus;
 mod tree;
 
-pub(crate) use document::{XmlDocument, XmlSpans, child, children, from_rpy, is_own};
+pub(crate) use document::{XmlDocument, XmlSpans, child, children, from_rpy, is_own, numbers};
 pub use errors::CODES;
 pub(crate) use errors::{BadNumber, ImpossibleNumber, XmlDialect, XmlPart};
 pub use model::*;

@@ -36,7 +36,7 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliErro
         lines(path, &mut |number, line| {
             rows += 1;
             // A line that is no row is a finding below.
-            if let Ok(row) = format::read(line) {
+            if let Some(Ok(row)) = (args.shares || args.minimums).then(|| format::read(line)) {
                 counts.add(&row);
             }
             for finding in linter.line(&file, number, line) {

@@ -43,7 +43,7 @@ pub(crate) fn run(args: &MjcfArgs, report: &mut Report) -> Result<Exit, CliError
     let model = mjcf::write(&RobotModel::new(&robot, &urdf), &urdf, &room)
         .map_err(|error| CliError::Message(error.to_string()))?;
     match &args.output {
-        Some(path) => replace_file(path, model.as_bytes())?,
+        Some(path) => replace_file(path, &model)?,
         None => report.out.text(&model),
     }
     Ok(Exit::Success)

@@ -72,7 +72,7 @@ const MAX_SEGMENT_BYTES: u64 = 256 * 1024 * 1024;
 fn read_segment(path: &Path) -> io::Result<(Vec<u8>, u64)> {
     let file = File::open(path)?;
     let size = file.metadata()?.len();
-    let mut bytes = Vec::new();
+    let mut bytes = Vec::with_capacity(usize::try_from(size.min(MAX_SEGMENT_BYTES)).unwrap_or_default());
     file.take(MAX_SEGMENT_BYTES).read_to_end(&mut bytes)?;
     let size = size.max(bytes.len() as u64);
     Ok((bytes, size))
