@@ -15,7 +15,7 @@ use motet_syntax::unit::{Dimension, Unit};
 
 use crate::error::CliError;
 
-pub(crate) use driver::{DriverArgs, DriverChoice, Speed};
+pub(crate) use driver::{DriverArgs, DriverChoice, Speed, seed};
 
 /// Documents to read.
 #[derive(Args, Debug)]

@@ -5,6 +5,7 @@ mod conversation;
 mod documents;
 mod error;
 mod flags;
+mod mcp;
 mod output;
 mod ready_driver;
 mod report;
@@ -73,6 +74,8 @@ enum Command {
     Feasible(command::feasible::FeasibleArgs),
     /// List, show and check robots, or write the card of a new one
     Robots(command::robots::RobotsArgs),
+    /// Serve agents over the Model Context Protocol: check, plan, simulate, and run policies
+    Mcp(Box<command::mcp::McpArgs>),
     /// Explain a diagnostic code
     Explain(command::explain::ExplainArgs),
     /// Print the grammar of policies for constrained decoding, or a request that uses it
@@ -135,6 +138,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Export(args) => command::export::run(args),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
+        Command::Mcp(args) => command::mcp::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Grammar(args) => command::grammar::run(args, colors),
         Command::Decode(args) => command::decode::run(args, colors),

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use motet_graph::Graph;
 use motet_host::remote::protocol::{Hello, StateFact};
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
-use motet_project::{ProjectSession, SavedDriver, SavedProject, named_robot};
+use motet_project::{DiagnosticSink, ProjectSession, SavedDriver, SavedProject, named_robot};
 use motet_runtime::{CameraImage, Driver, DriverClock, EngineSettings, Perception, RgbdView, Time, Truth};
 use motet_sim::Sim;
 use motet_syntax::Parsed;
@@ -15,7 +15,6 @@ use motet_syntax::ast::File;
 use crate::error::CliError;
 use crate::flags::{DriverArgs, EnvironmentArgs, Speed};
 use crate::output::note;
-use crate::report::Report;
 use crate::run_view::Clock;
 use crate::runner::connect;
 
@@ -67,7 +66,7 @@ pub(crate) fn open_driver(
     args: &DriverArgs,
     environment: &EnvironmentArgs,
     subject: &RunSubject<'_>,
-    report: &mut Report,
+    report: &mut dyn DiagnosticSink,
 ) -> Result<ReadyDriver, CliError> {
     let none = File::default();
     let file = subject.policy.map_or(&none, |(_, parsed)| &parsed.file);
@@ -92,7 +91,7 @@ pub(crate) fn address(
 fn kinematic(
     args: &DriverArgs,
     subject: &RunSubject<'_>,
-    report: &mut Report,
+    report: &mut dyn DiagnosticSink,
 ) -> Result<ReadyDriver, CliError> {
     let opened = subject.opened;
     let named = subject.policy.and_then(|(_, parsed)| named_robot(&parsed.file));

@@ -1,6 +1,6 @@
 //! `motet feasible`: decides which motions are feasible for a robot in a scene, with the path or the reason.
 
-mod drawing;
+pub(crate) mod drawing;
 
 use std::path::PathBuf;
 
@@ -105,7 +105,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
         }
         match args.format {
             OutputFormat::Human => report.out.text(&describe(&query, &answer)),
-            OutputFormat::Json => report.out.line(&json_line(&machine, &query, &answer)),
+            OutputFormat::Json => report.out.line(&json_of(&machine, &query, &answer).to_string()),
         }
         if !args.all && !matches!(answer, MotionAnswer::Feasible(_)) {
             exit = Exit::Findings;
@@ -119,7 +119,8 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
     Ok(exit)
 }
 
-fn parse_motions(
+/// Parses motions, and requires that their names are known.
+pub(crate) fn parse_motions(
     motions: &[String],
     machine: &RobotModel,
     scene: &Scene,
@@ -233,7 +234,7 @@ fn parse_call(motion: &str, file: FileId) -> Option<(SmolStr, Vec<(SmolStr, Span
 }
 
 /// Type-checks the entities of a motion.
-fn check_kinds(motion: &str, session: &Session, sources: &mut Sources) -> Vec<Diagnostic> {
+pub(crate) fn check_kinds(motion: &str, session: &Session, sources: &mut Sources) -> Vec<Diagnostic> {
     let file = FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX));
     sources.add(Source::new("--for", motion));
     let Some((name, mut args)) = parse_call(motion, file) else { return vec![] };
@@ -262,7 +263,7 @@ fn require_known<'a, I: Iterator<Item = &'a str>>(
 }
 
 /// All motions of a scene.
-fn all_motions(machine: &RobotModel, scene: &Scene) -> Vec<MotionQuery> {
+pub(crate) fn all_motions(machine: &RobotModel, scene: &Scene) -> Vec<MotionQuery> {
     let drives = scene.entities.keys().filter(|_| machine.drives()).cloned().map(MotionQuery::GoTo);
     let objects = scene.entities.iter().filter(|(_, entity)| entity.kind == lang::kinds::OBJECT);
     let reaches = objects.map(|(id, _)| MotionQuery::Reach(id.clone(), None));
@@ -274,7 +275,8 @@ fn all_motions(machine: &RobotModel, scene: &Scene) -> Vec<MotionQuery> {
     drives.chain(reaches).chain(doors).chain(postures).collect()
 }
 
-fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
+/// Answer in a line for people, and the help behind it.
+pub(crate) fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
     match answer {
         MotionAnswer::Feasible(witness) => {
             let [x, y, yaw] = witness.path.last().map_or([0.0; 3], |state| state.base);
@@ -339,8 +341,8 @@ fn numbers(reason: &InfeasibleReason) -> Vec<(&'static str, f64)> {
     }
 }
 
-/// MotionAnswer as a line of JSON.
-fn json_line(machine: &RobotModel, query: &MotionQuery, answer: &MotionAnswer) -> String {
+/// Answer as JSON.
+pub(crate) fn json_of(machine: &RobotModel, query: &MotionQuery, answer: &MotionAnswer) -> Value {
     let mut object = Map::new();
     object.insert("query".into(), query.to_string().into());
     match answer {
@@ -367,7 +369,7 @@ fn json_line(machine: &RobotModel, query: &MotionQuery, answer: &MotionAnswer) -
             object.insert("says".into(), why.into());
         }
     }
-    Value::Object(object).to_string()
+    Value::Object(object)
 }
 
 fn witness_json(machine: &RobotModel, witness: &MotionWitness) -> Value {

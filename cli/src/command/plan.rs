@@ -76,7 +76,8 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
     }
 }
 
-fn goals(texts: &[String]) -> Result<Vec<Aim>, NoPlan> {
+/// Reads conditions as goals, one after the other.
+pub(crate) fn goals(texts: &[String]) -> Result<Vec<Aim>, NoPlan> {
     let aim = |(index, text): (usize, &String)| {
         let goal = Goal::read(text, Persistence::ToTheEnd)?;
         Ok(Aim { goal, name: format!("goal_{}", index + 1), only_if: None, awaits: None, deed: None })

@@ -138,7 +138,7 @@ fn body(robot: &Robot, report: &mut Report) {
 }
 
 /// Declarations of primitives with their texts; a later one overrides an earlier one.
-fn signatures(robot: &Robot) -> Vec<(PrimitiveDecl, String)> {
+pub(crate) fn signatures(robot: &Robot) -> Vec<(PrimitiveDecl, String)> {
     let own = ("primitives.motet", robot.declarations.as_str());
     let files = motet_stdlib::FILES.iter().copied().chain([own]);
     let mut found = Vec::new();
@@ -154,7 +154,8 @@ fn signatures(robot: &Robot) -> Vec<(PrimitiveDecl, String)> {
     found
 }
 
-fn signature(
+/// Declaration of a primitive with its documentation and the bounds of the robot.
+pub(crate) fn signature(
     decl: &PrimitiveDecl,
     text: &str,
     bounds: &indexmap::IndexMap<smol_str::SmolStr, Range>,

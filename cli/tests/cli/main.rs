@@ -22,6 +22,7 @@ mod fmt;
 mod grammar;
 mod import;
 mod journal;
+mod mcp;
 mod model;
 mod run;
 mod support;

@@ -54,7 +54,7 @@ impl Ink {
 
 /// Draws the scene as SVG: 120 pixels per metre, x to the right, y up, answers numbered from 1 in their
 /// order.
-pub(super) fn top_view(
+pub(crate) fn top_view(
     room: &QueryContext<'_>,
     scene: &Scene,
     world: &SceneState,

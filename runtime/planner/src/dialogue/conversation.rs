@@ -214,8 +214,13 @@ impl<'a> Conversation<'a> {
         }
     }
 
-    /// Engine for a policy in the known state, and its start state.
-    pub(super) fn engine(
+    /// Engine for a policy in the known state, and its start state. With `verifies` it asks for a verdict on
+    /// every motion that the compiler deferred.
+    ///
+    /// # Errors
+    ///
+    /// The graph is not valid; one of the compiler always is.
+    pub fn engine(
         &self,
         graph: Graph,
         scene: &Scene,

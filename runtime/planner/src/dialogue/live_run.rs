@@ -217,22 +217,8 @@ impl<'r, 'a> LiveRun<'r, 'a> {
         if self.first.is_none() || self.pending.is_some() || !matches!(end, RunEnd::Done { .. }) {
             self.watcher.ended(self.now, &end);
         }
-        let mut known = std::mem::take(&mut self.talk.known);
-        known.learn(&engine, self.talk.base());
-        std::mem::take(&mut self.told).iter().for_each(|one| known.hear(one));
-        self.talk.known = known;
-        // What was not found is not where it was thought to be.
-        if !matches!(&end, RunEnd::Failed { kind, .. } if kind == failures::NOT_FOUND) {
-            self.talk.known.presume(&before);
-        }
-        let after = self.talk.known.places(&self.talk.setting.scene);
-        self.talk.known.remember_moved(&before, &after);
-        if !matches!(end, RunEnd::Done { .. }) {
-            let scene = self.talk.known.seen_scene(&self.talk.setting.scene);
-            let (felt, now) = sense(driver, &self.talk.setting.robot, &scene, self.now);
-            self.talk.known.notice(&felt);
-            self.now = self.now.max(now);
-        }
+        let told = std::mem::take(&mut self.told);
+        self.now = self.talk.learn((&engine, &end), (&before, &told), driver, self.now);
         let bound = engine.snapshot().bindings;
         self.talk.bound.clone_from(&bound);
         if let Some(first) = &mut self.first {

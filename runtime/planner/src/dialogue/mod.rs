@@ -15,6 +15,7 @@ mod problem;
 mod reason;
 mod reply;
 mod sight;
+mod world;
 
 pub use answer::Answer;
 pub use conversation::{Conversation, DialogueSetup, OnInstruction, Outcome};
