@@ -115,7 +115,7 @@ impl ToolAnswer {
 }
 
 /// Value in which no text steers a terminal or turns the direction of a text.
-fn shown(value: Value) -> Value {
+pub(crate) fn shown(value: Value) -> Value {
     match value {
         Value::String(text) => Value::String(escaped(&text)),
         Value::Array(items) => items.into_iter().map(shown).collect(),

@@ -140,15 +140,28 @@ pub(super) fn plan(
         Ok(planned) => {
             let sources = situation.project.sources(Source::new("plan", planned.text.as_str()));
             let warnings = render::llm(&planned.compiled.diagnostics, &sources);
-            Ok(json!({"policy": planned.text, "notes": notes, "warnings": warnings}))
+            let left = planned.compiled.graph.as_ref().map_or(0, deferred);
+            let left = json!({"motions": left});
+            Ok(json!({"policy": planned.text, "notes": notes, "warnings": warnings, "left_to_run": left}))
         }
-        Err(why) => {
-            let refusal = Refusal::new(format!("no plan: {why}"));
-            Err(match why {
-                PlanError::RequestError(_) => refusal
-                    .with_help("name things as `scene` names them, or give `goals` such as on(mug_1, shelf)"),
-                _ => refusal.with_help("write a policy yourself, and let `check_policy` check it"),
-            })
+        Err(why) => Err(no_plan(situation, &why)),
+    }
+}
+
+/// Refusal of a request or a goal; with the policy that nearly is one.
+fn no_plan(situation: &Situation, why: &PlanError) -> Refusal {
+    let refusal = Refusal::new(format!("no plan: {why}"));
+    match why {
+        PlanError::RequestError(_) => refusal.with_help(
+            "ask for one thing at a time, named as `scene` names it, or give `goals` such as \
+             on(mug_1, shelf)",
+        ),
+        PlanError::Refused { text, diagnostics } => {
+            let found = findings(diagnostics, &situation.project.sources(Source::new("plan", text.as_str())));
+            refusal
+                .with_help("change the policy that does not check, or ask for less")
+                .with(json!({"policy": text, "says": found.get("says")}))
         }
+        _ => refusal.with_help("write a policy yourself, and let `check_policy` check it"),
     }
 }

@@ -68,7 +68,9 @@ impl BearerToken {
         };
         if !is_name {
             // It may be the token itself, which is not shown.
-            return Err(advised("what `--token-from` gives is no name of an environment variable".to_owned()));
+            return Err(advised(
+                "what `--token-from` gives is no name of an environment variable".to_owned(),
+            ));
         }
         let token = std::env::var(variable).unwrap_or_default();
         let token = token.trim();
@@ -103,9 +105,8 @@ pub(crate) struct HttpAccess {
 
 /// Serves clients until the future is dropped.
 pub(crate) async fn serve(server: MotetServer, access: HttpAccess) -> Result<(), CliError> {
-    let cannot = |error: std::io::Error| {
-        CliError::Message(format!("cannot listen on {}: {error}", access.address.0))
-    };
+    let cannot =
+        |error: std::io::Error| CliError::Message(format!("cannot listen on {}: {error}", access.address.0));
     let listener = TcpListener::bind(access.address.0).await.map_err(cannot)?;
     let own = listener.local_addr().map_err(cannot)?;
     let mut hosts: Vec<String> = ["localhost", "127.0.0.1", "::1"].map(str::to_owned).to_vec();
@@ -182,9 +183,8 @@ mod tests {
     #[test]
     fn bearer_token_is_compared_whole() {
         let token = BearerToken("abcdefgh12345678".into());
-        let given = |value: &str| {
-            token.is_in(&Request::builder().header("Authorization", value).body(()).unwrap())
-        };
+        let given =
+            |value: &str| token.is_in(&Request::builder().header("Authorization", value).body(()).unwrap());
         assert!(given("Bearer abcdefgh12345678"));
         for value in ["", "Bearer ", "abcdefgh12345678", "Bearer abcdefgh1234567", "Basic abcdefgh12345678"] {
             assert!(!given(value), "{value}");

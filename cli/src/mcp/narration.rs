@@ -50,9 +50,12 @@ fn report(graph: &Graph, record: &TraceEvent) -> Option<Line> {
         TraceEventKind::Started { node, attempt, .. } => {
             event(format!("starts {}, attempt {attempt}", step(node)))
         }
-        TraceEventKind::GoalEnded { node, ending: NodeEnding::Failure(_), cause, .. }
-        | TraceEventKind::Ended { node, ending: NodeEnding::Failure(_), cause } => {
-            event(format!("{} failed ({cause})", step(node)))
+        TraceEventKind::Ended { node, ending: NodeEnding::Failure(kind), cause } if is_call(graph, *node) => {
+            // A driver may fail in ways that the graph does not name.
+            let is_named = kind.index() < graph.failures.len();
+            let kind =
+                is_named.then(|| format!(" with `{}`", Names(graph).failure(*kind))).unwrap_or_default();
+            event(format!("{} failed{kind} ({cause})", step(node)))
         }
         TraceEventKind::Ended { node, ending: NodeEnding::Interrupted, cause } if is_call(graph, *node) => {
             event(format!("{} was interrupted ({cause})", step(node)))
@@ -115,9 +118,7 @@ pub(super) fn ending(graph: &Arc<Graph>, end: &RunEnd, now: Time) -> RunEnding {
     let reason = |why: &Option<String>| why.as_ref().map_or_else(String::new, |why| format!(": {why}"));
     let (outcome, says) = match end {
         RunEnd::Done { why, result: None } => ("done", format!("done{}", reason(why))),
-        RunEnd::Done { why, result: Some(result) } => {
-            ("done", format!("done, gave {result}{}", reason(why)))
-        }
+        RunEnd::Done { why, result: Some(result) } => ("done", format!("done, gave {result}{}", reason(why))),
         RunEnd::Failed { kind, why, node } => {
             ("failed", format!("{} failed with `{kind}`{}", step(graph, *node), reason(why)))
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-use motet_graph::{Graph, Value};
+use motet_graph::Value;
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
 use motet_stdlib::lang::{failures, primitives};
 use smol_str::SmolStr;
@@ -37,9 +37,15 @@ pub(super) struct QuestionDriver<'a> {
 }
 
 impl<'a> QuestionDriver<'a> {
-    pub(super) fn new(driver: &'a mut dyn Driver, runs: Arc<RunTable>, run: &str, jumps: bool) -> Self {
-        let (now, outbox) = (Time::ZERO, VecDeque::new());
-        Self { driver, runs, run: run.to_owned(), jumps, now, open: None, outbox }
+    /// Driver for a run that begins at a time.
+    pub(super) fn new(
+        driver: &'a mut dyn Driver,
+        (runs, run): (&Arc<RunTable>, &str),
+        now: Time,
+        jumps: bool,
+    ) -> Self {
+        let (runs, run, outbox) = (Arc::clone(runs), run.to_owned(), VecDeque::new());
+        Self { driver, runs, run, jumps, now, open: None, outbox }
     }
 
     fn at(&mut self, now: Time) {
@@ -99,12 +105,6 @@ impl Driver for QuestionDriver<'_> {
         self.runs.ask(&self.run, &question, &options.unwrap_or_default());
         self.open = Some(OpenGoal { goal, is_choice, is_held: false });
         self.outbox.push_back(DriverEvent::Acknowledged { goal });
-    }
-
-    fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
-        let now = self.driver.begin_run(now, run, graph);
-        self.at(now);
-        now
     }
 
     fn cancel(&mut self, now: Time, goal: GoalId) {

@@ -5,7 +5,7 @@ use std::path::Path;
 use motet_host::journal;
 use rmcp::model::{Resource, ResourceContents, ResourceTemplate};
 
-use super::answer::Refusal;
+use super::answer::{Refusal, shown};
 use super::robot::journal_folder;
 use crate::output::escape;
 
@@ -29,9 +29,13 @@ fn fixed() -> impl Iterator<Item = (String, &'static str, String, &'static str)>
         ("skill://motet/SKILL.md", MARKDOWN, "How an agent works with these tools", SKILL),
     ];
     let library = motet_stdlib::FILES.iter().map(|(name, text)| {
+        let name = name.trim_start_matches("stdlib/");
         (format!("motet://stdlib/{name}"), TEXT, format!("Standard library: {name}"), *text)
     });
-    pages.into_iter().map(|(uri, kind, title, text)| (uri.to_owned(), kind, title.to_owned(), text)).chain(library)
+    pages
+        .into_iter()
+        .map(|(uri, kind, title, text)| (uri.to_owned(), kind, title.to_owned(), text))
+        .chain(library)
 }
 
 /// Lists the resources.
@@ -56,8 +60,7 @@ pub(super) fn templates(journals: Option<&Path>) -> Vec<ResourceTemplate> {
 fn runs(journals: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(journals).into_iter().flatten().flatten();
     let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-    let mut runs: Vec<String> =
-        names.filter(|name| journal_folder(journals, name).is_some()).collect();
+    let mut runs: Vec<String> = names.filter(|name| journal_folder(journals, name).is_some()).collect();
     runs.sort();
     runs.split_off(runs.len().saturating_sub(MAX_JOURNALS))
 }
@@ -72,7 +75,7 @@ pub(super) fn read(uri: &str, journals: Option<&Path>) -> Result<ResourceContent
     let folder = journals.and_then(|journals| journal_folder(journals, run)).ok_or_else(unknown)?;
     let (mut text, mut left) = (String::new(), 0_usize);
     let read = journal::read(&folder, &mut |_, entry| {
-        let line = serde_json::to_string(&entry).unwrap_or_default();
+        let line = shown(serde_json::to_value(&entry).unwrap_or_default()).to_string();
         if text.len() + line.len() < MAX_JOURNAL_BYTES && left == 0 {
             text.push_str(&line);
             text.push('\n');

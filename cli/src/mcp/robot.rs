@@ -4,33 +4,33 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::thread;
 use std::time::Duration;
 
 use motet::run::journal_head;
+use motet_compiler::Session;
 use motet_host::journal::JournalWriter;
 use motet_planner::dialogue::{Conversation, DialogueSetup, OnInstruction};
 use motet_planner::runtime_check::Guard;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Driver, Time};
-use serde_json::Value;
-use tokio::sync::oneshot;
 
 use super::answer::Refusal;
+use super::checker::{Checked, Checker};
 use super::narration;
 use super::question::QuestionDriver;
-use super::run_table::{RunEnding, RunTable};
+use super::run_table::{ReplySender, RunEnding, RunTable};
 use super::situation::{Situation, Situations, StderrSink};
-use super::watch::{RunWatch, compile};
+use super::watch::RunWatch;
 use crate::error::CliError;
 use crate::flags::{DriverArgs, EnvironmentArgs, Speed};
-use crate::output::escape;
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 
 /// Interval at which the driver is looked after between runs.
 const REST: Duration = Duration::from_millis(50);
 
-/// Sender of the findings of a check, or of the reason why it refuses.
-type ReplySender = oneshot::Sender<Result<Value, Refusal>>;
+/// Interval at which it is looked whether a check is over.
+const CHECK_EVERY: Duration = Duration::from_millis(5);
 
 /// Order to run a policy whose run was reserved.
 pub(crate) struct RunOrder {
@@ -78,11 +78,11 @@ pub(crate) fn serve(
             return;
         }
     };
-    let mut talk =
-        Conversation::new(&setup).with_runs(&id, driver.settings, OnInstruction::default());
+    let mut talk = Conversation::new(&setup).with_runs(&id, driver.settings, OnInstruction::default());
     talk.tell(project.told_facts());
     let ReadyDriver { driver, speed, .. } = driver;
-    let mut robot = Robot { inputs, opened: &opened, talk, driver, speed, now: Time::ZERO };
+    let checker = Checker::new(project);
+    let mut robot = Robot { inputs, opened: &opened, checker, talk, driver, speed, now: Time::ZERO };
     if ready.send(Ok(())).is_err() {
         return;
     }
@@ -99,6 +99,7 @@ pub(crate) fn serve(
 struct Robot<'r, 'a> {
     inputs: &'r RobotInputs<'r>,
     opened: &'r Situation,
+    checker: Checker,
     talk: Conversation<'a>,
     driver: Box<dyn Driver>,
     speed: Speed,
@@ -124,22 +125,21 @@ impl Robot<'_, '_> {
         }
         self.look();
         let session = self.talk.present(self.driver.base());
+        let checked = self.check(session.clone(), run, policy, &reply);
         let guard = session.world_tracker().map(|course| Guard::new(course, self.speed.verifies()));
-        let capabilities = self.driver.capabilities();
         let scene = self.talk.scene();
-        let folder = self.inputs.journals.join(run);
-        let prepared = compile(&session, project, policy).and_then(|(graph, found)| {
+        let capabilities = self.driver.capabilities();
+        let prepared = checked.and_then(|(graph, found)| {
             let engine = self.talk.engine(graph, &scene, capabilities, guard.is_some());
-            let (engine, start) =
-                engine.map_err(|problem| Refusal::new(escape(&problem.question)))?;
-            let head = journal_head(run, &engine, &start);
+            let (engine, start) = engine.map_err(|problem| Refusal::new(problem.question))?;
+            let from = self.driver.begin_run(self.now, run, Some(engine.graph()));
             let instruction = Some("run_policy of an MCP client".to_owned());
-            let head = JournalHead { instruction, from: self.now, ..head };
-            let journal = JournalWriter::create(&folder, head)
+            let head = JournalHead { instruction, from, ..journal_head(run, &engine, &start) };
+            let journal = JournalWriter::create(&self.inputs.journals.join(run), head)
                 .map_err(|error| Refusal::new(format!("no journal, so nothing starts: {error}")))?;
-            Ok((engine, journal, found))
+            Ok((engine, journal, from, found))
         });
-        let (mut engine, journal, found) = match prepared {
+        let (mut engine, journal, from, found) = match prepared {
             Ok(prepared) => prepared,
             Err(refusal) => return Err((reply, refusal)),
         };
@@ -154,9 +154,9 @@ impl Robot<'_, '_> {
         }
         let before = self.talk.begin();
         let jumps = self.speed == Speed::Max;
-        let mut driver = QuestionDriver::new(&mut *self.driver, Arc::clone(runs), run, jumps);
-        let from = driver.begin_run(self.now, run, Some(engine.graph()));
-        let mut watch = RunWatch::new(&mut self.talk, project, (runs, run), guard, self.speed);
+        let mut driver = QuestionDriver::new(&mut *self.driver, (runs, run), from, jumps);
+        let mut watch =
+            RunWatch::new(&mut self.talk, (project, &self.checker), (runs, run), guard, self.speed);
         let (end, error) = watch.run(&mut engine, &mut driver, journal, from);
         let now = watch.now;
         let ending = watch.graph().map(|graph| narration::ending(graph, &end, now));
@@ -168,6 +168,21 @@ impl Robot<'_, '_> {
         self.publish();
         runs.end(run, ending);
         Ok(())
+    }
+
+    /// Checks a policy, and looks after the driver meanwhile.
+    fn check(&mut self, session: Session, run: &str, policy: &str, reply: &ReplySender) -> Checked {
+        let pending = self.checker.begin(session, policy.to_owned())?;
+        loop {
+            if let Some(checked) = pending.result() {
+                return checked;
+            }
+            if self.inputs.runs.is_stopped(run) || reply.is_closed() {
+                return Err(Refusal::new("stopped before it began"));
+            }
+            thread::sleep(CHECK_EVERY);
+            self.now = self.driver.rest(self.now);
+        }
     }
 
     /// Takes in what is in view.

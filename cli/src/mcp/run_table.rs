@@ -31,11 +31,14 @@ pub(super) struct OpenQuestion {
 /// Answer to a question; `None` if it is declined.
 pub(super) type GivenAnswer = Option<String>;
 
+/// Sender of the findings of a check, or of the reason why it refuses.
+pub(super) type ReplySender = oneshot::Sender<Result<Value, Refusal>>;
+
 /// Policy that shall take over from the one that runs.
 #[derive(Debug)]
 pub(super) struct SwapOrder {
     pub(super) policy: String,
-    pub(super) reply: oneshot::Sender<Result<Value, Refusal>>,
+    pub(super) reply: ReplySender,
 }
 
 /// Ending of a run.
@@ -337,11 +340,7 @@ impl RunTable {
     }
 
     /// Reads a run; without an id, the one that goes on or else the latest.
-    pub(super) fn read<T>(
-        &self,
-        id: Option<&str>,
-        read: impl FnOnce(&RunRecord) -> T,
-    ) -> Result<T, Refusal> {
+    pub(super) fn read<T>(&self, id: Option<&str>, read: impl FnOnce(&RunRecord) -> T) -> Result<T, Refusal> {
         let state = self.state();
         let found = match id {
             Some(id) => state.runs.get(id).ok_or_else(|| unknown(id)),

@@ -13,9 +13,9 @@ use serde_json::{Value, json};
 
 use super::answer::Refusal;
 use super::check::{read, within};
+use super::checker::compile;
 use super::narration::{Line, ending, narrate};
 use super::situation::Situation;
-use super::watch::compile;
 
 /// Time after which a simulation is stopped.
 const PATIENCE: Duration = Duration::from_secs(20);

@@ -228,8 +228,8 @@ impl ToolName {
     const fn description(self) -> &'static str {
         match self {
             Self::Robots => {
-                "Lists the built-in robots and scenes, names the robot of this server, and says if it can run \
-                 policies."
+                "Lists the built-in robots and scenes, names the robot of this server, and says if it can \
+                 run policies."
             }
             Self::Scene => "Lists the entities of the scene with their places, and the facts that hold now.",
             Self::Primitives => {
@@ -245,8 +245,8 @@ impl ToolName {
                  from above (SVG)."
             }
             Self::Plan => {
-                "Plans a policy for a request in English or for conditions, without a model. The policy passes \
-                 the check."
+                "Plans a policy for a request in English or for conditions, without a model. The policy \
+                 passes the check."
             }
             Self::SimulatePolicy => {
                 "Checks a policy and runs it in a simulation in virtual time. The robot of this server does \
@@ -257,8 +257,8 @@ impl ToolName {
                  findings unless it has no error. One run at a time."
             }
             Self::SwapPolicy => {
-                "Replaces the policy of the run that goes on by another one, which is checked in the state of \
-                 this moment. If it is refused, the one before goes on."
+                "Replaces the policy of the run that goes on by another one, which is checked in the state \
+                 of this moment. If it is refused, the one before goes on."
             }
             Self::Stop => "Stops the run safely, and waits until the robot stands still.",
             Self::RunStatus => "Shows a run: its status, events, the open question, and how it ended.",

@@ -13,33 +13,17 @@ use motet_runtime::{
     RunControl, RunEnd, SwapRefusal, Time, ToldThing, Verifier,
 };
 use serde_json::{Value, json};
-use tokio::sync::oneshot;
 
 use super::answer::Refusal;
-use super::check::{findings, read};
+use super::checker::{Checker, PendingCheck};
 use super::narration::{Line, narrate};
-use super::run_table::RunTable;
+use super::run_table::{ReplySender, RunTable};
 use crate::flags::Speed;
-use crate::runner::PacedView;
 use crate::run_view::View;
+use crate::runner::PacedView;
 
-/// Longest span without a look at the answer to an open question.
-const QUESTION_EVERY: Time = Time::from_nanos(100_000_000);
-
-/// Compiles a policy in a session. Refuses it unless it has no error.
-pub(super) fn compile(
-    session: &motet_compiler::Session,
-    project: &ProjectSession,
-    policy: &str,
-) -> Result<(Graph, Value), Refusal> {
-    let (source, parsed) = read(policy)?;
-    let compiled = session.compile(&parsed, None);
-    let found = findings(&compiled.diagnostics, &project.sources(source));
-    match compiled.graph {
-        Some(graph) => Ok((graph, found)),
-        None => Err(Refusal::new("the check refuses the policy: nothing has moved for it").with(found)),
-    }
-}
+/// Longest span without a look at the answer to an open question, or at the check of a swap.
+const LOOK_EVERY: Time = Time::from_nanos(100_000_000);
 
 /// View that only tells the pace when to stop.
 struct StopView {
@@ -71,8 +55,11 @@ pub(super) struct RunWatch<'r, 'a> {
     pace: PacedView,
     /// Graphs of the run by revision.
     graphs: Vec<Arc<Graph>>,
+    checker: Checker,
+    /// Check of a policy that is to take over, with the client that waits.
+    checking: Option<(PendingCheck, ReplySender)>,
     /// Client that waits for the result of a swap, with the findings of its policy.
-    swapping: Option<(oneshot::Sender<Result<Value, Refusal>>, Value)>,
+    swapping: Option<(ReplySender, Value)>,
     /// The latest time.
     pub(super) now: Time,
 }
@@ -80,7 +67,7 @@ pub(super) struct RunWatch<'r, 'a> {
 impl<'r, 'a> RunWatch<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
-        project: &'r ProjectSession,
+        (project, checker): (&'r ProjectSession, &Checker),
         (runs, run): (&Arc<RunTable>, &str),
         guard: Option<Guard>,
         speed: Speed,
@@ -94,12 +81,15 @@ impl<'r, 'a> RunWatch<'r, 'a> {
             guard,
             pace: PacedView::new(Box::new(view), speed),
             graphs: Vec::new(),
+            checker: checker.clone(),
+            checking: None,
             swapping: None,
             now: Time::ZERO,
         }
     }
 
-    /// Runs an engine to its end with a journal. An error is one of the journal, without which nothing starts.
+    /// Runs an engine to its end with a journal. An error is one of the journal, without which nothing
+    /// starts.
     pub(super) fn run(
         &mut self,
         engine: &mut Engine,
@@ -120,10 +110,19 @@ impl<'r, 'a> RunWatch<'r, 'a> {
         self.graphs.last()
     }
 
-    fn prepare(&self, policy: &str, engine: &Engine) -> Result<(PreparedSwap, Value), Refusal> {
-        let (graph, found) = compile(&self.talk.midway(engine), self.project, policy)?;
-        let prepared = PreparedSwap::new(graph, &engine.running()).map_err(|refusal| refused(&refusal))?;
-        Ok((prepared, found))
+    /// Begins the check of a policy that was offered.
+    fn begin_check(&mut self, engine: &Engine) {
+        let Some(order) = self.runs.take_offer(&self.run) else { return };
+        match self.checker.begin(self.talk.midway(engine), order.policy) {
+            Ok(pending) => self.checking = Some((pending, order.reply)),
+            Err(refusal) => self.refuse(order.reply, refusal),
+        }
+    }
+
+    fn refuse(&mut self, reply: ReplySender, refusal: Refusal) {
+        self.runs.line(&self.run, &format!("a swap was refused: {}", refusal.problem()));
+        // Who offered it may be gone.
+        let _ = reply.send(Err(refusal));
     }
 }
 
@@ -174,20 +173,27 @@ impl Observer for RunWatch<'_, '_> {
     }
 
     fn swap(&mut self, _now: Time, engine: &Engine) -> Option<PreparedSwap> {
-        let order = self.runs.take_offer(&self.run)?;
+        if self.checking.is_none() {
+            self.begin_check(engine);
+        }
+        let checked = self.checking.as_ref()?.0.result()?;
+        let (_, reply) = self.checking.take()?;
         if engine.is_over() || self.runs.is_stopped(&self.run) {
-            // Who offered it may be gone.
-            let _ = order.reply.send(Err(Refusal::new("the run ends")));
+            self.refuse(reply, Refusal::new("the run ends"));
             return None;
         }
-        match self.prepare(&order.policy, engine) {
+        // The engine refuses a policy that was proved from facts that have changed since.
+        let prepared = checked.and_then(|(graph, found)| {
+            let prepared = PreparedSwap::new(graph, &engine.running());
+            Ok((prepared.map_err(|refusal| refused(&refusal))?, found))
+        });
+        match prepared {
             Ok((prepared, found)) => {
-                self.swapping = Some((order.reply, found));
+                self.swapping = Some((reply, found));
                 Some(prepared)
             }
             Err(refusal) => {
-                self.runs.line(&self.run, &format!("a swap was refused: {}", refusal.problem()));
-                let _ = order.reply.send(Err(refusal));
+                self.refuse(reply, refusal);
                 None
             }
         }
@@ -207,7 +213,7 @@ impl Observer for RunWatch<'_, '_> {
     }
 
     fn at_least_every(&self) -> Time {
-        let asking = if self.runs.is_asking(&self.run) { QUESTION_EVERY } else { Time::NEVER };
-        self.pace.at_least_every().min(asking)
+        let looks = self.runs.is_asking(&self.run) || self.checking.is_some();
+        self.pace.at_least_every().min(if looks { LOOK_EVERY } else { Time::NEVER })
     }
 }

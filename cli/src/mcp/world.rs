@@ -1,5 +1,6 @@
 //! Tools that describe the world: robots, primitives, and the scene at present.
 
+use motet_compiler::InitialFact;
 use motet_project::{RobotFiles, robot_names};
 use motet_robots::scene::{Entity, Scene};
 use motet_syntax::Sources;
@@ -51,18 +52,35 @@ pub(super) fn primitives(situation: &Situation, name: Option<&str>) -> Result<Va
 pub(super) fn scene(situation: &Situation) -> Value {
     let scene = &situation.scene;
     let entities: Vec<Value> = scene.entities.values().map(entity).collect();
-    let facts = situation.session.initial_facts().map(|fact| {
+    json!({
+        "robot": situation.robot_name(),
+        "robot_pose": pose_of_base(scene),
+        "entities": entities,
+        "facts": facts(situation),
+        "about_facts": "what is not listed does not hold, or is not known",
+    })
+}
+
+/// Facts that hold, and those about one thing that are known not to hold.
+fn facts(situation: &Situation) -> Vec<String> {
+    let mut known: Vec<InitialFact> = Vec::new();
+    for fact in situation.session.initial_facts() {
+        let is_about = |other: &InitialFact| {
+            let fits = |(arg, given): (&Option<_>, &Option<_>)| arg.is_none() || arg == given;
+            other.fluent == fact.fluent && fact.args.iter().zip(&other.args).all(fits)
+        };
+        // A later fact overrides, and one about anything all those before it.
+        known.retain(|other| !is_about(other));
+        known.push(fact);
+    }
+    let is_told = |fact: &&InitialFact| fact.holds || fact.args.iter().all(Option::is_some);
+    let shown = known.iter().filter(is_told).map(|fact| {
         let args: Vec<String> =
             fact.args.iter().map(|arg| arg.as_ref().map_or("any".to_owned(), ToString::to_string)).collect();
         let not = if fact.holds { "" } else { "not " };
         format!("{not}{}({})", fact.fluent, args.join(", "))
     });
-    json!({
-        "robot": situation.robot_name(),
-        "robot_pose": pose_of_base(scene),
-        "entities": entities,
-        "facts": facts.collect::<Vec<_>>(),
-    })
+    shown.collect()
 }
 
 fn pose_of_base(scene: &Scene) -> Value {

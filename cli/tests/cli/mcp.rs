@@ -135,7 +135,8 @@ impl Drop for Client {
 }
 
 fn assert_plain(value: &Value) {
-    let steers = |letter: char| letter.is_control() && letter != '\n' && letter != '\t' || letter == '\u{202e}';
+    let steers =
+        |letter: char| letter.is_control() && letter != '\n' && letter != '\t' || letter == '\u{202e}';
     match value {
         Value::String(text) => assert!(!text.chars().any(steers), "{text:?}"),
         Value::Array(items) => items.iter().for_each(assert_plain),
@@ -161,7 +162,8 @@ fn attempts() -> Vec<(&'static str, Value, &'static str)> {
     let deep = format!("policy deep for hsr {}{}", "{ if true ".repeat(20_000), "}".repeat(20_000));
     let long = format!("policy long for hsr {{ say(\"{}\") }}", "x".repeat(200_000));
     let mut all = Vec::new();
-    let mut add = |(method, params): (&'static str, Value), why: &'static str| all.push((method, params, why));
+    let mut add =
+        |(method, params): (&'static str, Value), why: &'static str| all.push((method, params, why));
     // Policies that do not check.
     for policy in [
         "",
@@ -187,8 +189,9 @@ fn attempts() -> Vec<(&'static str, Value, &'static str)> {
         "policy \u{1b}[2Jp for hsr { fly() }",
         "policy p for hsr { go(kitchen_table)\0 fly() }",
         "```motet\npolicy p for hsr { fly() }\n```",
-        "Sure! ```json\n{\"motet\": 1, \"policy\": \"p\", \"robot\": \"hsr\", \"steps\": [{\"do\": \"fly\"}]}\n```",
-        "{\"motet\": 1, \"policy\": \"p\", \"robot\": \"panda\", \"steps\": [{\"do\": \"go\", \"to\": \"user\"}]}",
+        "Sure!\n```json\n{'motet': 1, 'policy': 'p', 'robot': 'hsr', 'steps': [{'do': 'fly'}]}\n```",
+        r#"{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{"do": "fly"}]}"#,
+        r#"{"motet": 1, "policy": "p", "robot": "panda", "steps": [{"do": "go", "to": "user"}]}"#,
         "{\"motet\": 99, \"policy\": \"p\", \"robot\": \"hsr\", \"steps\": []}",
         "{\"method\": \"start\", \"params\": {\"goal\": 1, \"primitive\": \"go\"}}",
         "include \"/etc/passwd\"",
@@ -215,6 +218,12 @@ fn attempts() -> Vec<(&'static str, Value, &'static str)> {
         add(tool("stop", json!({"run": run})), "no run");
         add(tool("run_status", json!({"run": run})), "no run");
         add(tool("answer_question", json!({"run": run, "answer": "yes"})), "no run");
+    }
+    for state in ["", "18-1", "../x"] {
+        let yes = json!({"action": "accept", "content": {"answer": "yes"}});
+        let call = json!({"name": "run_policy", "arguments": {"policy": AWAY}, "requestState": state,
+                          "inputResponses": {"question-1": yes}});
+        add(("tools/call", call), "no run");
     }
     // Names of files where names of robots, scenes and profiles belong.
     for name in ["/etc/passwd", "../hsr", "hsr/../../x", "\u{1b}]0;x\u{7}", "kitchen.json"] {
@@ -277,8 +286,10 @@ fn nothing_moves_without_a_driver() {
     let place = Place::new("mcp_no_driver");
     let mut client = Client::new(&place, &[]);
     let listed = client.request("tools/list", &json!({}))["result"]["tools"].clone();
-    let names: Vec<&str> = listed.as_array().unwrap().iter().map(|tool| tool["name"].as_str().unwrap()).collect();
-    let read_only = ["robots", "scene", "primitives", "check_policy", "explain", "feasible", "plan", "simulate_policy"];
+    let names: Vec<&str> =
+        listed.as_array().unwrap().iter().map(|tool| tool["name"].as_str().unwrap()).collect();
+    let read_only =
+        ["robots", "scene", "primitives", "check_policy", "explain", "feasible", "plan", "simulate_policy"];
     assert_eq!(names, read_only);
     for tool in listed.as_array().unwrap() {
         assert_eq!(tool["annotations"]["readOnlyHint"], true, "{tool}");

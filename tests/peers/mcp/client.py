@@ -14,7 +14,7 @@ from mcp import Client, MCPError
 from mcp.client.extension import ClientExtension, ResultClaim
 from mcp.client.stdio import StdioServerParameters
 from mcp.client.streamable_http import streamable_http_client
-from mcp_types import CallToolResult, Request, RequestParams, Result
+from mcp_types import CallToolResult, ElicitResult, Request, RequestParams, Result
 
 MOTET = os.path.abspath(sys.argv[1])
 HERE = ["mcp", "--robot", "hsr", "--scene", "kitchen"]
@@ -71,6 +71,17 @@ class Tasks(ClientExtension):
             await asyncio.sleep(0.02)
 
 
+class Person:
+    """A person who answers yes to a question that comes in place of a result."""
+
+    def __init__(self):
+        self.asked = []
+
+    async def __call__(self, context, question):
+        self.asked.append(question.message)
+        return ElicitResult(action="accept", content={"answer": "yes"})
+
+
 async def send(session, method, **params):
     """A request of the extension."""
     result = await session.send_request(TaskRequest(method=method, params=TaskParams(**params)), TaskResult)
@@ -120,7 +131,7 @@ async def looks(client):
     assert "no driver" in await refuse(client, "run_policy", policy=policy)
 
 
-async def drives(client, tasks):
+async def drives(client, tasks, person):
     """What a client with a robot does."""
     for tool in (await client.list_tools()).tools:
         assert tool.annotations.read_only_hint == (tool.name in READ_ONLY), tool
@@ -135,6 +146,9 @@ async def drives(client, tasks):
             raise AssertionError("a forged task was read")
         except MCPError as error:
             assert "no run" in str(error), error
+    elif person:
+        ran = await call(client, "run_policy", policy=ASK)
+        assert person.asked == ["Shall I go?"], person.asked
     else:
         asked = await call(client, "run_policy", policy=ASK)
         assert asked["status"] == "input_required" and asked["question"]["question"] == "Shall I go?", asked
@@ -157,10 +171,11 @@ async def on_stdio(folder):
         async with Client(parameters, mode=mode) as client:
             assert client.session.protocol_version == version
             await looks(client)
-        tasks = Tasks() if version == "2026-07-28" else None
+        tasks, person = Tasks() if mode == "2026-07-28" else None, Person() if mode == "auto" else None
         parameters = StdioServerParameters(command=MOTET, args=HERE + DRIVE, cwd=folder)
-        async with Client(parameters, mode=mode, extensions=[tasks] if tasks else None) as client:
-            await drives(client, tasks)
+        more = {"extensions": [tasks] if tasks else None, "elicitation_callback": person}
+        async with Client(parameters, mode=mode, **more) as client:
+            await drives(client, tasks, person)
         print(f"stdio, {mode}: {version}")
 
 

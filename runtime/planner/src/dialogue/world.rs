@@ -35,13 +35,14 @@ impl Conversation<'_> {
 
     /// Begins a run: returns the places of things before it, for [`Conversation::learn`].
     pub fn begin(&mut self) -> Vec<ReportedLocation> {
+        let before = self.known.places(&self.scene());
         self.known.look_away();
-        self.known.places(&self.scene())
+        before
     }
 
     /// Takes over what a run has left behind. `told` are the places that people told meanwhile, and `before`
-    /// comes from [`Conversation::begin`]. After a run that was not done, the driver is asked for the state of
-    /// the robot. Returns the time after that.
+    /// comes from [`Conversation::begin`]. After a run that was not done, the driver is asked for the state
+    /// of the robot. Returns the time after that.
     pub fn learn(
         &mut self,
         (engine, end): (&Engine, &RunEnd),
