@@ -21,3 +21,4 @@ pub(crate) mod robots;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod talk;
+pub(crate) mod view;
