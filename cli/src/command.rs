@@ -22,3 +22,4 @@ pub(crate) mod robots;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod talk;
+pub(crate) mod view;

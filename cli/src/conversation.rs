@@ -3,7 +3,7 @@
 
 mod flags;
 mod observer;
-mod operator;
+pub(crate) mod operator;
 mod planner;
 mod record;
 
@@ -24,6 +24,7 @@ use crate::output::{Colors, escape, note};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::runner::{catch_interrupts, is_interrupted};
+use crate::view::live::LivePage;
 
 /// Carries out one request, or without one every line of a person until there are no more.
 pub(crate) fn converse(
@@ -38,7 +39,13 @@ pub(crate) fn converse(
     let Some(robot) = opened.robot.clone() else {
         return Err(CliError::Message("a request needs a robot: give --robot NAME".to_owned()));
     };
-    let operator = Rc::new(OperatorInput::read(&args.ask, args.live)?);
+    let takes: &[&str] = match args.ask.first().map(String::as_str) {
+        None | Some("terminal") => &["stop", "hold", "answer", "say"],
+        Some(_) => &["stop", "hold"],
+    };
+    let page = LivePage::shared(args.page, opened, takes)?;
+    let operator = Rc::new(OperatorInput::read(&args.ask, args.live, page.as_ref())?);
+    let mut prompt = OperatorPrompt { input: Rc::clone(&operator), page: page.clone() };
     let record = args.record.as_deref().map(ConversationRecord::create).transpose()?;
     let run = run_id();
     let subject = RunSubject { run: &run, policy: None, opened };
@@ -61,7 +68,7 @@ pub(crate) fn converse(
     let mut asking;
     // The simulated person of a script answers the questions of policies.
     let robot: &mut dyn Driver = if args.driver.answers.is_none() {
-        asking = AskingDriver::new(&mut *driver, Rc::clone(&operator), &setting.scene);
+        asking = AskingDriver::new(&mut *driver, prompt.clone(), &setting.scene);
         &mut asking
     } else {
         &mut *driver
@@ -82,7 +89,7 @@ pub(crate) fn converse(
     };
     let mut observer =
         RunObserver::new(args, colors, (clock, speed), Rc::clone(&operator), record).with_task(task);
-    let mut prompt = OperatorPrompt(Rc::clone(&operator));
+    observer.page.clone_from(&page);
     let mut now = Time::ZERO;
     let mut exit = Exit::Success;
     let mut next = request.map(ToOwned::to_owned);
@@ -111,6 +118,7 @@ pub(crate) fn converse(
         exit = Exit::Interrupted;
     }
     observer.finish()?;
+    page.iter().for_each(|page| page.borrow_mut().finish());
     Ok(exit)
 }
 

@@ -3,6 +3,7 @@
 
 mod driver;
 
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, value_parser};
@@ -248,6 +249,29 @@ pub(crate) fn duration(text: &str) -> Result<f64, String> {
     if secs.is_finite() && secs > 0.0 { Ok(secs) } else { Err("a duration is longer than 0 s".to_owned()) }
 }
 
+/// Live page of a run.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct PageArgs {
+    /// Show the run on a page in a browser, which can answer, pause and stop it; at a port or an address
+    /// [default: a free port of 127.0.0.1]
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true, default_missing_value = "",
+          value_parser = address)]
+    pub(crate) view: Option<SocketAddr>,
+}
+
+/// Reads the address of a page: a port, an address, or both. Without one, a free port of this machine.
+pub(crate) fn address(text: &str) -> Result<SocketAddr, String> {
+    let local = IpAddr::V4(Ipv4Addr::LOCALHOST);
+    if text.is_empty() {
+        return Ok(SocketAddr::new(local, 0));
+    }
+    if let Ok(port) = text.parse() {
+        return Ok(SocketAddr::new(local, port));
+    }
+    let address = text.parse().or_else(|_| text.parse().map(|ip: IpAddr| SocketAddr::new(ip, 0)));
+    address.map_err(|_| "write a port such as 8080, or an address such as 127.0.0.1:8080".to_owned())
+}
+
 /// Key of a model server.
 #[derive(Args, Debug)]
 pub(crate) struct KeyArgs {
@@ -296,7 +320,7 @@ fn api_key(variable: &str, server: &ServerUrl, may_go_in_clear: bool) -> Result<
 mod tests {
     use motet_robots::clearance::ClearanceOverride;
 
-    use super::{clearance, duration};
+    use super::{address, clearance, duration};
 
     #[test]
     fn clearance_reads_lengths_of_base_and_arm() {
@@ -316,6 +340,22 @@ mod tests {
         }
         for text in ["", "10", "s", "-5s", "0s", "1e9s", "10 weeks", "1.2.3s", "∞ s"] {
             assert!(duration(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn address_is_local_unless_told_otherwise() {
+        for (text, is) in [
+            ("", "127.0.0.1:0"),
+            ("8080", "127.0.0.1:8080"),
+            ("0.0.0.0", "0.0.0.0:0"),
+            ("[::1]:9", "[::1]:9"),
+            ("10.0.0.1:80", "10.0.0.1:80"),
+        ] {
+            assert_eq!(address(text), Ok(is.parse().unwrap()), "{text}");
+        }
+        for wrong in ["localhost", "70000", "example.org:80", "1.2.3.4:x", "-1"] {
+            assert!(address(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -12,6 +12,7 @@ mod report;
 mod run_view;
 mod runner;
 mod typed_line;
+mod view;
 
 use std::process::ExitCode;
 
@@ -68,6 +69,8 @@ enum Command {
     Run(command::run::RunArgs),
     /// Replay the journal of a run and report the first difference
     Replay(command::replay::ReplayArgs),
+    /// Show the journal of a run on a page in a browser, or write the page to a file
+    View(command::view::ViewArgs),
     /// Export the journal of a run to another format
     Export(command::export::ExportArgs),
     /// Decide which motions are feasible for a robot in a scene
@@ -135,6 +138,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Plan(args) => command::plan::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
         Command::Replay(args) => command::replay::run(args),
+        Command::View(args) => command::view::run(args, colors),
         Command::Export(args) => command::export::run(args),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),

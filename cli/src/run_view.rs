@@ -2,7 +2,7 @@
 
 pub(crate) mod events;
 mod screen;
-mod tree;
+pub(crate) mod tree;
 
 use std::io::{self, IsTerminal};
 use std::sync::Arc;

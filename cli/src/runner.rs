@@ -2,6 +2,7 @@
 //! recorded in a journal, stopped by Ctrl-C.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -13,7 +14,7 @@ use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::dialogue::Knowledge;
 use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
-use motet_runtime::journal::OpenGoals;
+use motet_runtime::journal::{JournalHead, OpenGoals};
 use motet_runtime::{
     Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Observer, Query, RunControl,
     RunEnd, Time, ToldThing, Verifier, resume,
@@ -24,6 +25,8 @@ use crate::flags::Speed;
 use crate::output::{escape, note};
 use crate::run_view::View;
 use crate::typed_line;
+use crate::view::live::SharedPage;
+use crate::view::onlooker::PageObserver;
 
 /// Interval at which a waiting run checks for an interrupt.
 pub(crate) const SLICE: Duration = Duration::from_millis(50);
@@ -218,20 +221,43 @@ pub(crate) struct Runner<'a> {
     pub(crate) events: Vec<Event>,
 }
 
+/// Start of a run for its page: a head, or the number of the next entry where it goes on.
+pub(crate) enum Beginning {
+    Head(Box<JournalHead>),
+    Entry(u64),
+}
+
 impl Runner<'_> {
     /// Runs to the end.
-    pub(crate) fn run(mut self, mut paced: PacedView) -> Result<Exit, CliError> {
+    pub(crate) fn run(
+        mut self,
+        mut paced: PacedView,
+        page: Option<(SharedPage, Beginning)>,
+    ) -> Result<Exit, CliError> {
         catch_interrupts()?;
+        let shared = page.as_ref().map(|(page, _)| Rc::clone(page));
+        let mut shown;
+        let onlooker: &mut dyn Observer = match page {
+            None => &mut paced,
+            Some((page, beginning)) => {
+                shown = match beginning {
+                    Beginning::Head(head) => PageObserver::new(page, &mut paced, *head),
+                    Beginning::Entry(seq) => PageObserver::resumed(page, &mut paced, seq),
+                };
+                &mut shown
+            }
+        };
         let end = match self.journal {
-            None => resume(&mut self.engine, self.driver, &mut paced, self.from, self.events),
+            None => resume(&mut self.engine, self.driver, onlooker, self.from, self.events),
             Some(writer) => {
-                let mut recorder = RunRecorder::new(writer, &mut paced);
+                let mut recorder = RunRecorder::new(writer, onlooker);
                 let end = resume(&mut self.engine, self.driver, &mut recorder, self.from, self.events);
                 recorder.finish().map_err(journal_error)?;
                 end
             }
         };
         paced.finish(&end);
+        shared.iter().for_each(|page| page.borrow_mut().finish());
         Ok(exit_of(&end))
     }
 }

@@ -3,30 +3,40 @@
 
 mod conformance;
 
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use clap::Args;
-use motet::run::{create_journal, engine, run_id, start_state, unix_ns};
+use motet::run::{create_journal, engine, journal_head, run_id, start_state, unix_ns};
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::DriverAddress;
 use motet_host::remote::protocol::Hello;
 use motet_planner::runtime_check::Guard;
 use motet_project::{Project, ProjectSession, SavedDriver, SavedProject};
+use motet_robots::scene::Scene;
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
 use motet_runtime::{Driver, DriverClock, Event, Time, Verifier as _};
-use motet_syntax::{Parsed, Severity};
+use motet_syntax::{Parsed, Severity, Syntax};
 
+use crate::conversation::operator::{AskingDriver, OperatorInput, OperatorPrompt};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
-use crate::flags::{DriverArgs, DriverChoice, OutputFormat, SessionArgs, Speed};
-use crate::output::{Colors, count, escape, note};
+use crate::flags::{DriverArgs, DriverChoice, OutputFormat, PageArgs, SessionArgs, Speed};
+use crate::output::{Colors, count, escape, note, replace_file};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, events, view};
-use crate::runner::{PacedView, Runner, connect, exit_of, journal_error, note_open};
+use crate::runner::{Beginning, PacedView, Runner, connect, exit_of, journal_error, note_open};
+use crate::view::journal::{recorded_text, session};
+use crate::view::live::{LivePage, SharedPage};
+use crate::view::source::PolicyText;
+
+/// Commands of a page's operator.
+const TAKES: &[&str] = &["stop", "hold", "answer"];
 
 /// Flags of `motet run`.
 #[derive(Args, Debug)]
@@ -74,6 +84,8 @@ pub(crate) struct RunArgs {
         ]
     )]
     resume: Option<PathBuf>,
+    #[command(flatten)]
+    page: PageArgs,
     /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     format: OutputFormat,
@@ -94,25 +106,57 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let mut project = args.session.project().open_with(report)?;
     let policy = args.policy.as_deref();
     let document = one_document(file)?;
-    let Some((graph, parsed, opened)) = compile(&document, policy, args.format, &mut project, report)? else {
+    let Some(compiled) = compile(&document, policy, args.format, &mut project, report)? else {
         return Ok(Exit::Findings);
     };
+    let CompiledPolicy { graph, parsed, opened, text } = compiled;
     let run = run_id();
     let wanted = RunSubject { run: &run, policy: Some((&graph, &parsed)), opened };
     let ReadyDriver { mut driver, saved, clock, speed, settings, .. } =
         open_driver(&args.driver, &args.session.environment, &wanted, report)?;
+    let page = LivePage::shared(args.page, opened, TAKES)?;
+    let written = (text.text.clone(), parsed.syntax);
+    page.iter().for_each(|page| page.borrow_mut().text(text.clone()));
     let start = start_state(opened.scene.as_ref());
     let guard = opened.session.world_tracker().map(|course| Guard::new(course, speed.verifies()));
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings)?;
     let journal = match args.record.as_deref().zip(saved) {
-        Some((folder, saved)) => Some(create_journal(folder, &run, (&engine, &start), &saved)?),
+        Some((folder, saved)) => {
+            let journal = create_journal(folder, &run, (&engine, &start), &saved)?;
+            let name = if written.1 == Syntax::Json { "policy.json" } else { "policy.motet" };
+            replace_file(&folder.join(name), &written.0)?;
+            Some(journal)
+        }
         None => None,
+    };
+    let head = journal_head(&run, &engine, &start);
+    let beginning = page.clone().map(|page| (page, Beginning::Head(Box::new(head))));
+    let empty = Scene::default();
+    let mut asking;
+    let driver: &mut dyn Driver = match &page {
+        // The simulated person of a script answers the questions of policies.
+        Some(page) if args.driver.answers.is_none() => {
+            let input = Rc::new(OperatorInput::of_page(page));
+            let prompt = OperatorPrompt { input, page: Some(Rc::clone(page)) };
+            asking = AskingDriver::new(&mut *driver, prompt, opened.scene.as_ref().unwrap_or(&empty));
+            &mut asking
+        }
+        Some(_) | None => &mut *driver,
     };
     let view = view(args.format, engine.graph(), colors, clock);
     // Where the driver keeps the time of the wall clock, the view never waits.
     let paced = PacedView::new(view, speed).with_guard(guard).with_room(opened.scene.clone());
     let events = vec![Event::Begin];
-    Runner { engine, driver: &mut *driver, journal, from: Time::ZERO, events }.run(paced)
+    Runner { engine, driver, journal, from: Time::ZERO, events }.run(paced, beginning)
+}
+
+/// Policy that passed the check.
+pub(super) struct CompiledPolicy<'p> {
+    pub(super) graph: Graph,
+    pub(super) parsed: Parsed,
+    pub(super) opened: &'p ProjectSession,
+    /// Text with the findings of the check.
+    pub(super) text: PolicyText,
 }
 
 /// Reads and compiles a policy, and reports the diagnostics. `None` if the check refuses it.
@@ -122,17 +166,19 @@ pub(super) fn compile<'p>(
     format: OutputFormat,
     project: &'p mut Project,
     report: &mut Report,
-) -> Result<Option<(Graph, Parsed, &'p ProjectSession)>, CliError> {
+) -> Result<Option<CompiledPolicy<'p>>, CliError> {
     let (source, parsed) = document.parse();
     let opened = project.session_for(&parsed.file, report)?;
     let compiled = opened.session.compile(&parsed, policy);
-    let sources = opened.sources(source);
+    let sources = opened.sources(source.clone());
     match format {
         OutputFormat::Human => report.print(&compiled.diagnostics, &sources),
         OutputFormat::Json => events::diagnostics(&compiled.diagnostics, &sources, &mut report.out),
     }
     if let Some(graph) = compiled.graph {
-        return Ok(Some((graph, parsed, opened)));
+        let text = PolicyText::of(&source, &parsed.file, &graph.policy);
+        let text = text.with_findings(&compiled.diagnostics, &sources);
+        return Ok(Some(CompiledPolicy { graph, parsed, opened, text }));
     }
     let errors = compiled.diagnostics.iter().filter(|found| found.severity == Severity::Error).count();
     note(&format!("refused: {}; nothing has moved", count(errors, "error")));
@@ -154,6 +200,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         SavedDriver::Process { .. } => None,
     };
     let clock = clock_of(head, &saved);
+    let page = resumed_page(folder, args, &entries, report)?;
     let view = view(args.format, replay.engine().graph(), colors, clock);
     let speed = match clock {
         Clock::Simulated => args.driver.speed(),
@@ -225,7 +272,8 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     };
     let mut driver = driver;
     let engine = replay.into_engine();
-    Runner { engine, driver: &mut *driver, journal: Some(writer), from, events }.run(paced)
+    let beginning = page.map(|page| (page, Beginning::Entry(entries.len() as u64 + 1)));
+    Runner { engine, driver: &mut *driver, journal: Some(writer), from, events }.run(paced, beginning)
 }
 
 /// Driver of a journal at the address that the flags give again. A journal is data, and its author may be
@@ -248,6 +296,25 @@ fn given_again(saved: SavedDriver, args: &RunArgs) -> Result<SavedDriver, CliErr
             Ok(SavedDriver::process(&given, &instance, guard.map(|guard| *guard)))
         }
     }
+}
+
+/// Page of a run that goes on, with what happened before.
+fn resumed_page(
+    folder: &Path,
+    args: &RunArgs,
+    entries: &[JournalEntry],
+    report: &mut Report,
+) -> Result<Option<SharedPage>, CliError> {
+    let Some(address) = args.page.view else { return Ok(None) };
+    let opened = session(folder, report);
+    let mut page = LivePage::start(address, opened.as_ref(), TAKES)?;
+    if let Some(text) = recorded_text(folder) {
+        page.text(text);
+    }
+    for (entry, seq) in entries.iter().zip(0..) {
+        page.entry(seq, entry);
+    }
+    Ok(Some(Rc::new(RefCell::new(page))))
 }
 
 /// Clock of the run of a journal.

@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum, value_parser};
 use motet_planner::dialogue::OnInstruction;
 use motet_runtime::Time;
 
-use crate::flags::{DriverArgs, KeyArgs, OutputFormat, ServerDialect, SessionArgs, duration};
+use crate::flags::{DriverArgs, KeyArgs, OutputFormat, PageArgs, ServerDialect, SessionArgs, duration};
 
 /// Flags of a conversation.
 #[derive(Args, Debug)]
@@ -34,6 +34,8 @@ pub(crate) struct ConversationArgs {
     /// Write requests, policies, questions, outcomes and the journal of each run into this new folder
     #[arg(long, value_name = "FOLDER")]
     pub(super) record: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) page: PageArgs,
     /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(super) format: OutputFormat,

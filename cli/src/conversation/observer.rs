@@ -26,6 +26,8 @@ use crate::flags::{OutputFormat, Speed};
 use crate::output::{Colors, Output, escape, note};
 use crate::run_view::{Clock, view};
 use crate::runner::{PacedView, SLICE, is_interrupted, note_event};
+use crate::view::live::SharedPage;
+use crate::view::source::PolicyText;
 
 /// Interval at which scheduled requests are checked.
 const REQUEST_INTERVAL: Time = Time::from_nanos(100_000_000);
@@ -38,6 +40,8 @@ pub(super) struct RunObserver<'a> {
     pace: (Clock, Speed),
     operator: Rc<OperatorInput>,
     record: Option<ConversationRecord>,
+    /// Page that shows the conversation.
+    pub(super) page: Option<SharedPage>,
     request: String,
     task: Rc<RefCell<GroundingTask>>,
     /// Scheduled requests, the latest first.
@@ -75,6 +79,7 @@ impl<'a> RunObserver<'a> {
             pace,
             operator,
             record,
+            page: None,
             request: String::new(),
             task: Rc::default(),
             scheduled,
@@ -100,6 +105,11 @@ impl<'a> RunObserver<'a> {
         }
     }
 
+    /// Adds an item to the page.
+    fn tell_page(&self, item: &serde_json::Value) {
+        self.page.iter().for_each(|page| page.borrow_mut().item(item));
+    }
+
     /// Shows a policy from now on.
     fn show(&mut self, text: &str, graph: &Graph) {
         if self.args.format == OutputFormat::Human {
@@ -113,6 +123,7 @@ impl<'a> RunObserver<'a> {
     /// Notes a request.
     pub(super) fn requested(&mut self, request: &str) {
         self.write("request", json!({"text": request}));
+        self.tell_page(&json!({"t": "say", "who": "person", "text": escape(request)}));
         request.clone_into(&mut self.request);
         request.clone_into(&mut self.task.borrow_mut().instruction);
     }
@@ -127,6 +138,7 @@ impl<'a> RunObserver<'a> {
             Outcome::Failed(_) => "failed",
         };
         self.write("outcome", json!({"outcome": word}));
+        self.tell_page(&json!({"t": "outcome", "is": word}));
     }
 
     /// Ends the record.
@@ -143,6 +155,7 @@ impl<'a> RunObserver<'a> {
             }
         };
         self.out.line(&line);
+        self.tell_page(&json!({"t": "say", "who": "robot", "text": escape(answer)}));
         self.go_below();
     }
 
@@ -154,8 +167,11 @@ impl<'a> RunObserver<'a> {
 
 impl DialogueObserver for RunObserver<'_> {
     fn scribe(&mut self, run: &str, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
-        let record = self.record.clone()?;
-        Some(Box::new(RunJournal::new(record, (run, &self.request), engine, start)))
+        if self.record.is_none() && self.page.is_none() {
+            return None;
+        }
+        let outputs = (self.record.clone(), self.page.clone());
+        Some(Box::new(RunJournal::new(outputs, (run, &self.request), engine, start)))
     }
 
     fn held(&mut self, is_held: bool) {
@@ -184,6 +200,9 @@ impl DialogueObserver for RunObserver<'_> {
         }
         answered.understood.notes.iter().for_each(|text| note(text));
         self.task.borrow_mut().graph = Some(Arc::clone(graph));
+        if let Some(page) = &self.page {
+            page.borrow_mut().text(PolicyText::read("policy", &answered.planned.text));
+        }
         let text = answered.planned.text.clone();
         if std::mem::take(&mut self.is_swapping) {
             self.next = Some((text, Arc::clone(graph)));
@@ -238,7 +257,7 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn is_stopped(&self) -> bool {
-        is_interrupted()
+        is_interrupted() || self.page.as_ref().is_some_and(|page| page.borrow().hub().is_stopped())
     }
 
     fn request(&mut self, now: Time) -> Option<String> {
@@ -257,7 +276,11 @@ impl DialogueObserver for RunObserver<'_> {
                 self.is_swapping = true;
                 self.write("swap", json!({}));
             }
-            Some(refusal) => self.write("swap_refused", json!({"why": refusal.to_string()})),
+            Some(refusal) => {
+                let why = refusal.to_string();
+                self.tell_page(&json!({"t": "say", "who": "host", "text": escape(&why)}));
+                self.write("swap_refused", json!({"why": why}));
+            }
         }
     }
 

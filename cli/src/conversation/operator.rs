@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use std::io::{self, BufRead, IsTerminal, Write as _};
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::thread;
 use std::time::Duration;
@@ -24,12 +25,14 @@ use crate::error::CliError;
 use crate::output::{escape, note};
 use crate::runner::is_interrupted;
 use crate::typed_line::{self, LetterReader};
+use crate::view::hub::Hub;
+use crate::view::live::SharedPage;
 
 /// Interval at which a waiting question checks for an interrupt.
 const SLICE: Duration = Duration::from_millis(50);
 
 /// Source of answers.
-pub(super) enum OperatorInput {
+pub(crate) enum OperatorInput {
     /// A person; a thread reads their lines from stdin.
     Terminal {
         lines: RefCell<Receiver<String>>,
@@ -39,6 +42,10 @@ pub(super) enum OperatorInput {
         is_over: Cell<bool>,
         /// Reader of letters, at a terminal.
         letters: Option<LetterReader>,
+        /// True if lines come from stdin too, not from a page alone.
+        reads_stdin: bool,
+        /// Page whose operator may type lines.
+        hub: Option<Arc<Hub>>,
     },
     /// Lines of a file, in order.
     Script(RefCell<VecDeque<String>>),
@@ -47,10 +54,10 @@ pub(super) enum OperatorInput {
 
 impl OperatorInput {
     /// Reads the flag `--ask`.
-    pub(super) fn read(words: &[String], is_live: bool) -> Result<Self, CliError> {
+    pub(crate) fn read(words: &[String], is_live: bool, page: Option<&SharedPage>) -> Result<Self, CliError> {
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         match words.as_slice() {
-            [] | ["terminal"] => Ok(Self::terminal(is_live)),
+            [] | ["terminal"] => Ok(Self::terminal(is_live, page)),
             ["never"] => Ok(Self::Never),
             ["script", file] => {
                 let text = String::from_utf8_lossy(&read_small(Path::new(file))?).into_owned();
@@ -67,8 +74,25 @@ impl OperatorInput {
         }
     }
 
-    fn terminal(is_live: bool) -> Self {
+    /// Person at a page alone.
+    pub(crate) fn of_page(page: &SharedPage) -> Self {
         let (sender, lines) = mpsc::channel();
+        let hub = page.borrow().hub();
+        hub.take_lines(sender);
+        Self::Terminal {
+            lines: RefCell::new(lines),
+            is_live: true,
+            is_over: Cell::new(false),
+            letters: None,
+            reads_stdin: false,
+            hub: Some(hub),
+        }
+    }
+
+    fn terminal(is_live: bool, page: Option<&SharedPage>) -> Self {
+        let (sender, lines) = mpsc::channel();
+        let hub = page.map(|page| page.borrow().hub());
+        hub.iter().for_each(|hub| hub.take_lines(sender.clone()));
         let letters = typed_line::read(&sender);
         if letters.is_none() {
             thread::spawn(move || {
@@ -80,12 +104,19 @@ impl OperatorInput {
                 }
             });
         }
-        let is_live = is_live || io::stdin().is_terminal();
-        Self::Terminal { lines: RefCell::new(lines), is_live, is_over: Cell::new(false), letters }
+        let is_live = is_live || hub.is_some() || io::stdin().is_terminal();
+        Self::Terminal {
+            lines: RefCell::new(lines),
+            is_live,
+            is_over: Cell::new(false),
+            letters,
+            reads_stdin: true,
+            hub,
+        }
     }
 
     /// Line that was typed while the robot moves.
-    pub(super) fn typed(&self) -> Option<String> {
+    pub(crate) fn typed(&self) -> Option<String> {
         let Self::Terminal { lines, is_live: true, is_over, .. } = self else { return None };
         match lines.borrow().try_recv() {
             Ok(line) => Some(line).filter(|line| !line.trim().is_empty()),
@@ -98,7 +129,7 @@ impl OperatorInput {
     }
 
     /// True if nobody can say anything more while the robot moves.
-    pub(super) fn is_over(&self) -> bool {
+    pub(crate) fn is_over(&self) -> bool {
         match self {
             Self::Terminal { is_live, is_over, .. } => !is_live || is_over.get(),
             Self::Script(_) | Self::Never => true,
@@ -106,16 +137,19 @@ impl OperatorInput {
     }
 
     /// Next line, which is waited for; `rest` is called meanwhile. `None` at the end, and after Ctrl-C.
-    pub(super) fn line(&self, rest: &mut dyn FnMut() -> Option<String>) -> Option<String> {
+    pub(crate) fn line(&self, rest: &mut dyn FnMut() -> Option<String>) -> Option<String> {
         match self {
             Self::Never => None,
             Self::Script(lines) => lines.borrow_mut().pop_front(),
-            Self::Terminal { lines, .. } => loop {
+            Self::Terminal { lines, hub, .. } => loop {
                 match lines.borrow().recv_timeout(SLICE) {
                     Ok(line) if line.trim().is_empty() => {}
                     Ok(line) => return Some(line),
                     Err(RecvTimeoutError::Disconnected) => return None,
                     Err(RecvTimeoutError::Timeout) if is_interrupted() => return None,
+                    Err(RecvTimeoutError::Timeout) if hub.as_ref().is_some_and(|hub| hub.is_stopped()) => {
+                        return None;
+                    }
                     Err(RecvTimeoutError::Timeout) => {
                         if let Some(line) = rest() {
                             return Some(line);
@@ -127,7 +161,7 @@ impl OperatorInput {
     }
 
     /// Shows a person at a terminal that it is their turn.
-    pub(super) fn prompt(&self) {
+    pub(crate) fn prompt(&self) {
         match self {
             Self::Terminal { letters: Some(_), .. } => typed_line::show(),
             Self::Terminal { .. } if self.is_echoed() => {
@@ -139,8 +173,8 @@ impl OperatorInput {
     }
 
     /// True if a person sees what they type.
-    pub(super) fn is_echoed(&self) -> bool {
-        matches!(self, Self::Terminal { .. }) && io::stdin().is_terminal()
+    pub(crate) fn is_echoed(&self) -> bool {
+        matches!(self, Self::Terminal { reads_stdin: true, .. }) && io::stdin().is_terminal()
     }
 }
 
@@ -156,22 +190,44 @@ fn question(problem: &Problem) -> String {
 }
 
 /// Prompt that shows questions to the operator.
-pub(super) struct OperatorPrompt(pub(super) Rc<OperatorInput>);
+#[derive(Clone)]
+pub(crate) struct OperatorPrompt {
+    pub(crate) input: Rc<OperatorInput>,
+    /// Page that shows them too.
+    pub(crate) page: Option<SharedPage>,
+}
 
-impl Person for OperatorPrompt {
-    fn ask(&mut self, problem: &Problem) -> Option<String> {
+impl OperatorPrompt {
+    /// Asks a question that the page knows by an id.
+    fn ask_as(&self, id: Option<&str>, problem: &Problem) -> Option<String> {
         note(&question(problem));
-        self.0.prompt();
-        let answer = self.0.line(&mut || None);
-        if let Some(answer) = answer.as_deref().filter(|_| !self.0.is_echoed()) {
+        let hub = self.page.as_ref().map(|page| page.borrow().hub());
+        hub.iter().for_each(|hub| hub.ask(id));
+        self.input.prompt();
+        let answer = self.input.line(&mut || None);
+        hub.iter().for_each(|hub| hub.ask(None));
+        if let Some(answer) = answer.as_deref().filter(|_| !self.input.is_echoed()) {
             note(&format!("> {}", escape(answer)));
         }
         answer
     }
 }
 
+impl Person for OperatorPrompt {
+    fn ask(&mut self, problem: &Problem) -> Option<String> {
+        let id = self.page.as_ref().map(|page| {
+            page.borrow_mut().question(&printable(&problem.question), &problem.options)
+        });
+        let answer = self.ask_as(id.as_deref(), problem);
+        if let (Some(page), Some(id)) = (&self.page, &id) {
+            page.borrow_mut().answered(id, answer.as_deref());
+        }
+        answer
+    }
+}
+
 /// Driver that answers `ask` and `choose` by the operator, and leaves everything else to the robot's driver.
-pub(super) struct AskingDriver<'a> {
+pub(crate) struct AskingDriver<'a> {
     driver: &'a mut dyn Driver,
     operator: OperatorPrompt,
     /// Things that a choice may name.
@@ -181,14 +237,19 @@ pub(super) struct AskingDriver<'a> {
 }
 
 impl<'a> AskingDriver<'a> {
-    pub(super) fn new(driver: &'a mut dyn Driver, operator: Rc<OperatorInput>, scene: &'a Scene) -> Self {
-        Self { driver, operator: OperatorPrompt(operator), scene, outbox: VecDeque::new() }
+    pub(crate) fn new(driver: &'a mut dyn Driver, operator: OperatorPrompt, scene: &'a Scene) -> Self {
+        Self { driver, operator, scene, outbox: VecDeque::new() }
+    }
+
+    /// Id of the question of a goal on the page.
+    fn id(&self, goal: GoalId) -> Option<String> {
+        self.operator.page.as_ref().map(|page| format!("{}:{goal}", page.borrow().run()))
     }
 
     /// Asks for one of several things. Fails with `refused` if the answer names none of them, and with
     /// `ambiguous` if it names several.
-    fn choose(&mut self, problem: &Problem) -> Outcome {
-        let answer = self.operator.ask(problem);
+    fn choose(&mut self, goal: GoalId, problem: &Problem) -> Outcome {
+        let answer = self.operator.ask_as(self.id(goal).as_deref(), problem);
         let situation = RequestContext::new(self.scene);
         let chosen = answer.map(|answer| motet_requests::choose(&answer, &problem.options, &situation));
         let mut chosen = chosen.unwrap_or_default();
@@ -200,8 +261,8 @@ impl<'a> AskingDriver<'a> {
         }
     }
 
-    fn ask(&mut self, problem: &Problem) -> Outcome {
-        match self.operator.ask(problem) {
+    fn ask(&mut self, goal: GoalId, problem: &Problem) -> Outcome {
+        match self.operator.ask_as(self.id(goal).as_deref(), problem) {
             Some(answer) => Outcome::Success(Some(Value::Text(answer.into()))),
             None => Outcome::Failure(failures::REFUSED.into()),
         }
@@ -232,9 +293,9 @@ impl Driver for AskingDriver<'_> {
         };
         let outcome = if let Some(options) = options(command) {
             problem.options = options;
-            self.choose(&problem)
+            self.choose(goal, &problem)
         } else if command.primitive == primitives::ASK {
-            self.ask(&problem)
+            self.ask(goal, &problem)
         } else {
             return self.driver.start(now, goal, command);
         };

@@ -16,6 +16,8 @@ use serde_json::{Value, json};
 
 use crate::error::CliError;
 use crate::runner::journal_error;
+use crate::view::live::SharedPage;
+use crate::view::onlooker::PageObserver;
 
 /// Shared writer of a record. It keeps the first error until the end.
 #[derive(Clone)]
@@ -95,21 +97,22 @@ impl RecordFiles {
     }
 }
 
-/// Journal of one run, which `motet replay` reads.
+/// Journal of one run, which `motet replay` reads, or its page, or both.
 pub(super) struct RunJournal {
-    record: ConversationRecord,
+    record: Option<ConversationRecord>,
+    page: Option<SharedPage>,
     head: JournalHead,
 }
 
 impl RunJournal {
     pub(super) fn new(
-        record: ConversationRecord,
+        (record, page): (Option<ConversationRecord>, Option<SharedPage>),
         (run, request): (&str, &str),
         engine: &Engine,
         start: &StartState,
     ) -> Self {
         let head = JournalHead { instruction: Some(request.to_owned()), ..journal_head(run, engine, start) };
-        Self { record, head }
+        Self { record, page, head }
     }
 }
 
@@ -121,8 +124,17 @@ impl DialogueRecorder for RunJournal {
         onlooker: &mut dyn Observer,
         from: Time,
     ) -> RunEnd {
-        let Self { record, head } = *self;
+        let Self { record, page, head } = *self;
         let head = JournalHead { from, ..head };
+        let mut shown;
+        let onlooker: &mut dyn Observer = match page {
+            Some(page) => {
+                shown = PageObserver::new(page, onlooker, head.clone());
+                &mut shown
+            }
+            None => onlooker,
+        };
+        let Some(record) = record else { return motet_runtime::run(engine, driver, onlooker, from) };
         let writer = match JournalWriter::create(&record.run(), head) {
             Ok(writer) => writer,
             Err(error) => {

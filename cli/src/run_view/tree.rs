@@ -14,7 +14,7 @@ use crate::output::escape;
 
 /// Status of a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Status {
+pub(crate) enum Status {
     Pending,
     Running,
     Done,
@@ -24,38 +24,38 @@ pub(super) enum Status {
 
 /// Row of the tree: a step, or the heading of a branch.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
+pub(crate) struct Row {
     /// Step of the row; `None` for a heading.
-    pub(super) node: Option<NodeId>,
+    pub(crate) node: Option<NodeId>,
     /// Indentation, in levels.
-    pub(super) depth: usize,
+    pub(crate) depth: usize,
     /// Step in one line.
-    pub(super) label: String,
-    pub(super) status: Status,
+    pub(crate) label: String,
+    pub(crate) status: Status,
     /// Remark behind the label, such as a failure.
-    pub(super) note: String,
+    pub(crate) note: String,
     /// Time of the last entry.
-    pub(super) since: Time,
+    pub(crate) since: Time,
     /// Duration of the last execution.
-    pub(super) took: Option<Time>,
+    pub(crate) took: Option<Time>,
 }
 
 /// All rows in order; a parent precedes its children.
 #[derive(Debug)]
-pub(super) struct Tree {
+pub(crate) struct Tree {
     graph: Arc<Graph>,
-    pub(super) rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
     /// Row of each node.
     row_of: Vec<Option<usize>>,
     /// Number of calls that succeeded and failed, with every iteration of a loop.
-    pub(super) done: usize,
-    pub(super) failed: usize,
+    pub(crate) done: usize,
+    pub(crate) failed: usize,
     failures: FailureNames,
 }
 
 impl Tree {
     /// Tree of a graph, in O(nodes). Iterative, since sub-policies may nest deeply.
-    pub(super) fn new(graph: Arc<Graph>) -> Self {
+    pub(crate) fn new(graph: Arc<Graph>) -> Self {
         let row_of = vec![None; graph.nodes.len()];
         let mut tree = Self {
             graph: Arc::clone(&graph),
@@ -98,7 +98,7 @@ impl Tree {
     }
 
     /// Row of a node.
-    pub(super) fn row(&self, node: NodeId) -> Option<&Row> {
+    pub(crate) fn row(&self, node: NodeId) -> Option<&Row> {
         self.place(node).and_then(|place| self.rows.get(place))
     }
 
@@ -107,7 +107,7 @@ impl Tree {
     }
 
     /// Updates the tree by a trace event. Returns the node of the event.
-    pub(super) fn take(&mut self, record: &TraceEvent) -> Option<NodeId> {
+    pub(crate) fn take(&mut self, record: &TraceEvent) -> Option<NodeId> {
         let graph = Arc::clone(&self.graph);
         let (node, note) = match &record.what {
             TraceEventKind::Entered { node } => {
@@ -174,13 +174,13 @@ impl Tree {
     }
 
     /// Takes an event before the engine handles it.
-    pub(super) fn event(&mut self, event: &Event) {
+    pub(crate) fn event(&mut self, event: &Event) {
         self.failures.event(event);
     }
 
     /// Puts the texts of a command that have values, as they go to the driver, into the label of its step.
     /// Returns true if there are any.
-    pub(super) fn start(&mut self, node: NodeId, command: &Command) -> bool {
+    pub(crate) fn start(&mut self, node: NodeId, command: &Command) -> bool {
         let Some(NodeKind::Call(call)) = self.graph.nodes.get(node.index()).map(|node| &node.kind) else {
             return false;
         };
@@ -277,7 +277,7 @@ fn needed(graph: &Graph, node: NodeId, need: u32) -> String {
 }
 
 /// Condition of a watch.
-pub(super) fn watched(graph: &Graph, node: NodeId, watch: u32) -> String {
+pub(crate) fn watched(graph: &Graph, node: NodeId, watch: u32) -> String {
     match graph.nodes.get(node.index()).map(|node| &node.kind) {
         Some(NodeKind::Monitor { watches, .. }) => watches
             .get(watch as usize)
@@ -351,14 +351,14 @@ fn branches(graph: &Graph, kind: &NodeKind, depth: usize, open: &mut Vec<Open>) 
 /// Names of the failure kinds that a driver invented: neither the graph nor the trace has them, but the
 /// events of the driver.
 #[derive(Debug, Default)]
-pub(super) struct FailureNames {
+pub(crate) struct FailureNames {
     last: Option<String>,
     known: BTreeMap<usize, String>,
 }
 
 impl FailureNames {
     /// Takes an event before the engine handles it.
-    pub(super) fn event(&mut self, event: &Event) {
+    pub(crate) fn event(&mut self, event: &Event) {
         self.last = match event {
             Event::Driver(
                 DriverEvent::Ended { outcome: Outcome::Failure(failure), .. }
@@ -369,7 +369,7 @@ impl FailureNames {
     }
 
     /// Name of a failure kind: that of the graph, or the driver's when its number first appeared.
-    pub(super) fn name(&mut self, graph: &Graph, kind: FailureId) -> String {
+    pub(crate) fn name(&mut self, graph: &Graph, kind: FailureId) -> String {
         if kind.index() < graph.failures.len() {
             return Names(graph).failure(kind).to_owned();
         }

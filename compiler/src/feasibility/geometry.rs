@@ -169,7 +169,9 @@ impl Geometry {
         self.start.clone()
     }
 
-    pub(super) fn machine(&self) -> &RobotModel {
+    /// Model of the robot.
+    #[must_use]
+    pub fn machine(&self) -> &RobotModel {
         &self.machine
     }
 

@@ -239,6 +239,15 @@ impl SavedProject {
     ///
     /// A file is gone, or has errors now.
     pub fn open(&self, sink: &mut dyn DiagnosticSink) -> Result<Option<WorldTracker>, ProjectError> {
+        Ok(self.session(sink)?.and_then(|opened| opened.session.world_tracker()))
+    }
+
+    /// Session at the beginning of the run; `None` if the scene has changed since then.
+    ///
+    /// # Errors
+    ///
+    /// A file is gone, or has errors now.
+    pub fn session(&self, sink: &mut dyn DiagnosticSink) -> Result<Option<ProjectSession>, ProjectError> {
         let inputs = ProjectBuilder {
             robot: Some(self.robot.clone()),
             scene: Some(self.scene.clone()),
@@ -248,8 +257,8 @@ impl SavedProject {
             clearance: self.clearance,
             ..ProjectBuilder::default()
         };
-        let mut project: Project = inputs.open_with(sink)?;
-        let opened = project.session(sink)?;
-        Ok(opened.session.world_tracker().filter(|_| opened.scene_text == self.scene_text))
+        let project: Project = inputs.open_with(sink)?;
+        let opened = project.into_session(sink)?;
+        Ok(Some(opened).filter(|opened| opened.scene_text == self.scene_text))
     }
 }

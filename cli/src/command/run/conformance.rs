@@ -20,7 +20,7 @@ use motet_stdlib::lang;
 use serde_json::json;
 use smol_str::SmolStr;
 
-use super::{RunArgs, compile};
+use super::{CompiledPolicy, RunArgs, compile};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
@@ -88,7 +88,7 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
         None => test_policy(args.session.environment.robot.is_some()),
     };
     let compiled = compile(&document, args.policy.as_deref(), args.format, &mut project, report)?;
-    let Some((graph, parsed, _)) = compiled else { return Ok(Exit::Findings) };
+    let Some(CompiledPolicy { graph, parsed, .. }) = compiled else { return Ok(Exit::Findings) };
     let (command, query) = (first_call(&graph)?, question());
     let Some(address) = address(&args.driver, &args.session.environment, &parsed.file)? else {
         let why = "`--check` leads a driver in another process: name it with `--driver`";

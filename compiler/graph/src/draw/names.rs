@@ -156,12 +156,15 @@ impl<'a> Names<'a> {
     }
 
     /// A need with its quantifier and its failure.
-    pub(super) fn need(&self, need: &Need) -> String {
+    #[must_use]
+    pub fn need(&self, need: &Need) -> String {
         let condition = self.quantified(self.condition(&need.condition), need.each, need.when.as_ref());
         format!("{condition}, else {}", self.failure(need.failure))
     }
 
-    pub(super) fn motion(&self, motion: &Motion) -> String {
+    /// A motion query with its arguments.
+    #[must_use]
+    pub fn motion(&self, motion: &Motion) -> String {
         format!("{}({})", motion.query, self.terms(&motion.args))
     }
 
@@ -186,7 +189,8 @@ impl<'a> Names<'a> {
     }
 
     /// A watch with its reaction.
-    pub(super) fn watch(&self, watch: &Watch) -> String {
+    #[must_use]
+    pub fn watch(&self, watch: &Watch) -> String {
         let hold = if watch.hold_secs > 0.0 { format!(" for {} s", watch.hold_secs) } else { String::new() };
         let reaction = match &watch.reaction {
             Reaction::Pause { within_secs: 0.0 } => "fail with timeout".to_owned(),
@@ -273,7 +277,9 @@ impl<'a> Names<'a> {
         terms.iter().map(|term| self.term(term)).collect::<Vec<_>>().join(", ")
     }
 
-    fn term(&self, term: &Term) -> String {
+    /// A term, a text with values as its template.
+    #[must_use]
+    pub fn term(&self, term: &Term) -> String {
         match term {
             Term::Literal(value) => value.to_string(),
             Term::Binding(id) => self.binding(*id).to_owned(),

@@ -1,0 +1,173 @@
+//! Journal of a run for the page, also while another process writes it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use motet_host::journal::JournalError;
+use motet_project::{DiagnosticSink, ProjectSession, SavedDriver};
+use motet_runtime::journal::{DriverReplay, JournalEntry};
+use motet_runtime::{Driver as _, Time};
+use motet_sim::Sim;
+
+use super::live::LivePage;
+use super::source::PolicyText;
+use crate::error::CliError;
+use crate::output::note;
+use crate::runner::journal_error;
+
+/// Span of simulated time between two looks at a replayed simulation.
+const LOOK_EVERY: Time = Time::from_nanos(100_000_000);
+/// Greatest number of such looks from one entry to the next: a long wait shows nothing new.
+const LOOKS: u64 = 600;
+/// Names of the file that `--record` writes the policy to.
+const TEXTS: [&str; 2] = ["policy.motet", "policy.json"];
+
+/// Folder with the journal of one run.
+pub(crate) struct JournalFolder {
+    folder: PathBuf,
+    /// Number of the next entry.
+    next: u64,
+    /// Bytes of the folder when it was read last.
+    bytes: u64,
+    simulation: Option<Simulation>,
+}
+
+/// Simulation along the journal, for motion.
+struct Simulation {
+    sim: Box<Sim>,
+    retrace: DriverReplay,
+    now: Time,
+}
+
+impl JournalFolder {
+    /// Journal in a folder of which nothing is read yet.
+    pub(crate) fn new(folder: &Path) -> Self {
+        Self { folder: folder.to_owned(), next: 0, bytes: 0, simulation: None }
+    }
+
+    /// Reads what is new, and gives each entry to the page after `before` has seen it. False if nothing is.
+    pub(crate) fn news(
+        &mut self,
+        page: &mut LivePage,
+        before: &mut dyn FnMut(&mut LivePage, &JournalEntry),
+    ) -> Result<bool, CliError> {
+        let bytes = size(&self.folder);
+        if bytes == self.bytes {
+            return Ok(false);
+        }
+        let folder = self.folder.clone();
+        let read = motet_host::journal::read(&folder, &mut |seq, entry| {
+            if seq < self.next {
+                return;
+            }
+            self.next = seq + 1;
+            before(page, &entry);
+            if let JournalEntry::Head(head) = &entry {
+                self.simulation = Simulation::of(&head.driver);
+                if let Some(text) = recorded_text(&folder) {
+                    page.text(text);
+                }
+            }
+            self.simulate(&entry, page);
+            page.entry(seq, &entry);
+        });
+        self.bytes = bytes;
+        match read {
+            Ok(_) => Ok(true),
+            // Its first line is not written yet.
+            Err(JournalError::None { .. }) if self.next == 0 => Ok(false),
+            Err(error) => Err(journal_error(error)),
+        }
+    }
+
+    /// Is `true` once an entry was read.
+    pub(crate) fn has_begun(&self) -> bool {
+        self.next > 0
+    }
+
+    fn simulate(&mut self, entry: &JournalEntry, page: &mut LivePage) {
+        if let Some(simulation) = &mut self.simulation
+            && !simulation.follow(entry, page)
+        {
+            note("from here on the simulation differs from the journal: the page shows no motion");
+            self.simulation = None;
+        }
+    }
+}
+
+impl Simulation {
+    /// Simulation of a run; `None` where the run was none.
+    fn of(driver: &serde_json::Value) -> Option<Self> {
+        match SavedDriver::from_json(driver).ok()? {
+            SavedDriver::Simulator(saved) => {
+                let sim = Box::new(saved.open().ok()?);
+                Some(Self { sim, retrace: DriverReplay::default(), now: Time::ZERO })
+            }
+            SavedDriver::Process { .. } => None,
+        }
+    }
+
+    /// Goes on to an entry, and shows the motion until then. False if the simulation does not do the same.
+    fn follow(&mut self, entry: &JournalEntry, page: &mut LivePage) -> bool {
+        let Some((at, _)) = entry.happened() else { return true };
+        let span = at.since(self.now).nanos();
+        let every = LOOK_EVERY.nanos().max(span / LOOKS);
+        let mut look = self.now.after(Time::from_nanos(every));
+        while look < at {
+            if self.sim.advance(look).is_some() {
+                return false;
+            }
+            self.show(page);
+            look = look.after(Time::from_nanos(every));
+        }
+        if self.retrace.take(&mut *self.sim, entry).is_err() {
+            return false;
+        }
+        self.now = at.max(self.now);
+        self.show(page);
+        true
+    }
+
+    fn show(&mut self, page: &mut LivePage) {
+        while let Some(moved) = self.sim.telemetry() {
+            page.moved(&moved);
+        }
+    }
+}
+
+/// Session of the run whose journal is in a folder, for its robot and its room; `None` where it names none or
+/// they have changed since.
+pub(crate) fn session(folder: &Path, sink: &mut dyn DiagnosticSink) -> Option<ProjectSession> {
+    let mut head = None;
+    let _ = motet_host::journal::read(folder, &mut |_, entry| {
+        if let JournalEntry::Head(found) = entry {
+            head.get_or_insert(found);
+        }
+    });
+    let saved = SavedDriver::from_json(&head?.driver).ok()?;
+    match saved.project()?.session(sink) {
+        Ok(Some(opened)) => Some(opened),
+        Ok(None) => {
+            note("the scene has changed since the run: the page shows no room");
+            None
+        }
+        Err(error) => {
+            note(&format!("the page shows no room: {}", CliError::from(error)));
+            None
+        }
+    }
+}
+
+/// Policy that `--record` has written beside a journal.
+pub(crate) fn recorded_text(folder: &Path) -> Option<PolicyText> {
+    TEXTS.iter().find_map(|name| {
+        let bytes = motet_project::files::read_small(&folder.join(name)).ok()?;
+        Some(PolicyText::read(name, &String::from_utf8_lossy(&bytes)))
+    })
+}
+
+/// Bytes of the files in a folder.
+fn size(folder: &Path) -> u64 {
+    let files = fs::read_dir(folder).into_iter().flatten().flatten();
+    files.filter_map(|file| file.metadata().ok()).map(|file| file.len()).sum()
+}

@@ -1,0 +1,150 @@
+//! Page of a run that goes on: its feed, its hub and its server.
+
+use std::cell::RefCell;
+use std::io::{self, IsTerminal as _};
+use std::net::SocketAddr;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use motet_project::ProjectSession;
+use motet_runtime::journal::JournalEntry;
+use motet_runtime::Moved;
+use serde_json::{Value, json};
+use smol_str::SmolStr;
+
+use super::feed::Feed;
+use super::hub::Hub;
+use super::server::Server;
+use super::source::PolicyText;
+use super::world::World;
+use crate::error::CliError;
+use crate::flags::PageArgs;
+use crate::output::note;
+use crate::runner::{SLICE, is_interrupted};
+
+/// Page that the observer of a run and its operator share.
+pub(crate) type SharedPage = Rc<RefCell<LivePage>>;
+
+/// Page of a run.
+pub(crate) struct LivePage {
+    feed: Feed,
+    hub: Arc<Hub>,
+    server: Option<Server>,
+    /// Number of the entry that came last, and of the items that followed it.
+    last: (u64, u32),
+    /// Motion since the last report that went out.
+    unsent: Moved,
+    /// Number of questions of the dialogue.
+    questions: u32,
+}
+
+impl LivePage {
+    /// Serves a page at an address, and says where. `takes` names the commands of its operator.
+    pub(crate) fn start(
+        address: SocketAddr,
+        opened: Option<&ProjectSession>,
+        takes: &[&str],
+    ) -> Result<Self, CliError> {
+        let hub = Arc::new(Hub::default());
+        let server = Server::start(address, Arc::clone(&hub))?;
+        note(&format!("the page is at {}", server.url()));
+        let mut page = Self::silent(hub, opened, takes);
+        page.server = Some(server);
+        Ok(page)
+    }
+
+    /// Page of the flags, if they ask for one.
+    pub(crate) fn shared(
+        args: PageArgs,
+        opened: &ProjectSession,
+        takes: &[&str],
+    ) -> Result<Option<SharedPage>, CliError> {
+        let page = args.view.map(|address| Self::start(address, Some(opened), takes));
+        Ok(page.transpose()?.map(|page| Rc::new(RefCell::new(page))))
+    }
+
+    /// Page that nobody serves yet.
+    pub(crate) fn silent(hub: Arc<Hub>, opened: Option<&ProjectSession>, takes: &[&str]) -> Self {
+        let mut world = opened.and_then(World::of);
+        hub.push("0-0", &json!({"t": "hello", "takes": takes}));
+        if let Some(world) = &mut world {
+            hub.push("0-1", &world.item());
+        }
+        let feed = Feed::new(world);
+        Self { feed, hub, server: None, last: (0, 0), unsent: Moved::default(), questions: 0 }
+    }
+
+    /// Hub of the page.
+    pub(crate) fn hub(&self) -> Arc<Hub> {
+        Arc::clone(&self.hub)
+    }
+
+    /// Sets the text of the policy that begins or takes over next.
+    pub(crate) fn text(&mut self, text: PolicyText) {
+        self.feed.text = Some(text);
+    }
+
+    /// Number of the run, from 1; 0 before the first.
+    pub(crate) fn run(&self) -> u32 {
+        self.feed.run
+    }
+
+    /// Asks a question of the dialogue, which no step asks. Returns its id.
+    pub(crate) fn question(&mut self, text: &str, options: &[SmolStr]) -> String {
+        self.questions += 1;
+        let id = format!("talk-{}", self.questions);
+        self.item(&json!({"t": "question", "q": id, "text": text, "options": options}));
+        id
+    }
+
+    /// Notes the answer to a question of the dialogue.
+    pub(crate) fn answered(&mut self, question: &str, answer: Option<&str>) {
+        self.item(&json!({"t": "answered", "q": question, "text": answer}));
+    }
+
+    /// Takes in the head of a run.
+    pub(crate) fn begin(&mut self, head: JournalEntry) {
+        self.hub.begin();
+        self.entry(0, &head);
+    }
+
+    /// Takes in an entry.
+    pub(crate) fn entry(&mut self, seq: u64, entry: &JournalEntry) {
+        self.last = (seq, 0);
+        if let Some((id, item)) = self.feed.entry(seq, entry) {
+            self.hub.push(&id, &item);
+        }
+    }
+
+    /// Adds an item that is no entry: a request, a question of the dialogue, an answer.
+    pub(crate) fn item(&mut self, item: &Value) {
+        self.last.1 += 1;
+        let id = format!("{}.{}", self.feed.id(self.last.0), self.last.1);
+        self.hub.push(&id, item);
+    }
+
+    /// Takes in a report of motion.
+    pub(crate) fn moved(&mut self, moved: &Moved) {
+        let Some(world) = &mut self.feed.world else { return };
+        let Moved { at, base, joints, things } = &mut self.unsent;
+        (*at, *base) = (moved.at, moved.base);
+        joints.extend(moved.joints.clone());
+        things.retain(|known| moved.things.iter().all(|thing| thing.id != known.id));
+        things.extend(moved.things.iter().cloned());
+        if self.hub.wants_motion(moved.at) {
+            self.hub.moved(&world.moved(&std::mem::take(&mut self.unsent)));
+        }
+    }
+
+    /// Lets a person at a terminal look at a run that is over, and ends the server.
+    pub(crate) fn finish(&mut self) {
+        let Some(server) = self.server.take() else { return };
+        if io::stdin().is_terminal() && !is_interrupted() {
+            note("the page stays until Ctrl-C");
+            while !is_interrupted() {
+                std::thread::sleep(SLICE);
+            }
+        }
+        server.finish();
+    }
+}

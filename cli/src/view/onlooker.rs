@@ -1,0 +1,131 @@
+//! Observer of a run that goes on: it hands entries and motion to the page, and the wishes of the page's
+//! operator to the run.
+
+use std::sync::Arc;
+
+use motet_graph::Graph;
+use motet_runtime::journal::{JournalEntry, JournalHead, StepEntry, SwapEntry};
+use motet_runtime::{
+    Answer, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query, RetiredGraph,
+    RunControl, SwapRefusal, Time, ToldThing, Verifier,
+};
+
+use super::live::SharedPage;
+use crate::runner::SLICE;
+
+/// Observer that shows a run on a page, and lets another one look on.
+pub(crate) struct PageObserver<'a> {
+    page: SharedPage,
+    inner: &'a mut dyn Observer,
+    /// Number of the next entry of the journal.
+    seq: u64,
+    cause: Option<Cause>,
+}
+
+/// Cause of the next effects.
+enum Cause {
+    Event(Event),
+    Swap(Arc<Graph>),
+    /// Nothing follows from it.
+    RefusedSwap,
+}
+
+impl<'a> PageObserver<'a> {
+    /// Observer of a run with this head.
+    pub(crate) fn new(page: SharedPage, inner: &'a mut dyn Observer, head: JournalHead) -> Self {
+        page.borrow_mut().begin(JournalEntry::Head(Box::new(head)));
+        Self { page, inner, seq: 1, cause: None }
+    }
+
+    /// Observer of a run whose earlier entries the page has.
+    pub(crate) fn resumed(page: SharedPage, inner: &'a mut dyn Observer, seq: u64) -> Self {
+        Self { page, inner, seq, cause: None }
+    }
+
+    fn add(&mut self, entry: &JournalEntry) {
+        self.page.borrow_mut().entry(self.seq, entry);
+        self.seq += 1;
+    }
+}
+
+impl Observer for PageObserver<'_> {
+    fn event(&mut self, now: Time, event: &Event) {
+        self.cause = Some(Cause::Event(event.clone()));
+        self.inner.event(now, event);
+    }
+
+    fn commit(&mut self, now: Time, effects: &[Effect]) -> RunControl {
+        let effects = effects.to_vec();
+        match self.cause.take() {
+            Some(Cause::RefusedSwap) => {}
+            Some(Cause::Swap(graph)) => {
+                let graph = motet_graph::encode::document(&graph);
+                self.add(&JournalEntry::Swap(Box::new(SwapEntry { at: now, graph, effects: effects.clone() })));
+            }
+            Some(Cause::Event(event)) => {
+                let step = StepEntry { at: now, event: Some(event), effects: effects.clone() };
+                self.add(&JournalEntry::Step(step));
+            }
+            None => {
+                self.add(&JournalEntry::GaveUp(StepEntry { at: now, event: None, effects: effects.clone() }))
+            }
+        }
+        self.inner.commit(now, &effects)
+    }
+
+    fn effect(&mut self, now: Time, effect: &Effect) {
+        self.inner.effect(now, effect);
+    }
+
+    fn reached(&mut self, now: Time) -> RunControl {
+        let inner = self.inner.reached(now);
+        if inner != RunControl::Continue {
+            return inner;
+        }
+        let hub = self.page.borrow().hub();
+        if hub.is_held() {
+            // Time of a simulation may pass at any speed, and a person needs a moment.
+            std::thread::sleep(SLICE);
+        }
+        hub.wish()
+    }
+
+    fn wants_telemetry(&self) -> bool {
+        true
+    }
+
+    fn moved(&mut self, moved: &Moved) {
+        self.page.borrow_mut().moved(moved);
+        self.inner.moved(moved);
+    }
+
+    fn detected(&mut self, now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
+        self.inner.detected(now, seen, engine)
+    }
+
+    fn tell(&mut self) -> Option<ToldThing> {
+        self.inner.tell()
+    }
+
+    fn heard(&mut self, now: Time, heard: &Heard) {
+        self.inner.heard(now, heard);
+    }
+
+    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
+        self.inner.swap(now, engine)
+    }
+
+    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
+        let cause = if result.is_ok() { Cause::Swap(Arc::clone(graph)) } else { Cause::RefusedSwap };
+        self.cause = Some(cause);
+        self.inner.swapped(now, graph, result);
+    }
+
+    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
+        self.inner.verifier()
+    }
+
+    fn at_least_every(&self) -> Time {
+        self.inner.at_least_every()
+    }
+}

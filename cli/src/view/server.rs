@@ -1,0 +1,304 @@
+//! Server of a page: its files, its items as server-sent events, and the commands of its operator.
+//!
+//! The id of an event is the number of the run and of its journal's entry. A page that connects again sends
+//! the last one that it got, and gets what follows.
+
+use std::convert::Infallible;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use axum::extract::{DefaultBodyLimit, Query, Request, State};
+use axum::http::header::{CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName};
+use axum::http::{HeaderMap, HeaderValue, StatusCode};
+use axum::middleware::{self, Next};
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router};
+use futures_util::stream::{self, Stream};
+use motet_runtime::RunControl;
+use serde::Deserialize;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
+
+use super::access::{Refusal, Token, check_headers};
+use super::file;
+use super::hub::{Hub, Item, NotTaken};
+use crate::error::CliError;
+
+/// Most pages that are served at a time.
+const MOST_PAGES: usize = 32;
+/// Most bytes of a command.
+const MOST_BYTES: usize = 16 * 1024;
+/// Most letters of a line.
+const MOST_LETTERS: usize = 2_000;
+/// Items that go out together.
+const BATCH: usize = 256;
+/// Header of a command with the token.
+const TOKEN: &str = "x-motet-token";
+/// Time in which pages get the last items of a run that is over.
+const FAREWELL: Duration = Duration::from_secs(2);
+/// The page loads nothing from elsewhere, runs no script in its text, and is shown in no frame.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; \
+                      connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// Part of the server that its handlers share.
+#[derive(Debug)]
+struct Shared {
+    hub: Arc<Hub>,
+    token: Token,
+    pages: Arc<Semaphore>,
+    /// Number of pages that are connected now.
+    connected: AtomicUsize,
+    is_over: AtomicBool,
+    over: watch::Sender<bool>,
+}
+
+/// Running server. Dropped, it stays until the process ends.
+#[derive(Debug)]
+pub(crate) struct Server {
+    shared: Arc<Shared>,
+    address: SocketAddr,
+    thread: JoinHandle<()>,
+}
+
+impl Server {
+    /// Listens at an address, and serves pages on a thread of its own.
+    pub(crate) fn start(address: SocketAddr, hub: Arc<Hub>) -> Result<Self, CliError> {
+        let cannot = |error: &dyn std::fmt::Display| {
+            CliError::Message(format!("cannot serve the page at {address}: {error}"))
+        };
+        let token = Token::new().map_err(|error| cannot(&error))?;
+        let listener = std::net::TcpListener::bind(address).map_err(|error| cannot(&error))?;
+        listener.set_nonblocking(true).map_err(|error| cannot(&error))?;
+        let bound = listener.local_addr().map_err(|error| cannot(&error))?;
+        let (over, _) = watch::channel(false);
+        let shared = Arc::new(Shared {
+            hub,
+            token,
+            pages: Arc::new(Semaphore::new(MOST_PAGES)),
+            connected: AtomicUsize::new(0),
+            is_over: AtomicBool::new(false),
+            over,
+        });
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+        let runtime = runtime.map_err(|error| cannot(&error))?;
+        let router = router(Arc::clone(&shared));
+        let mut ends = shared.over.subscribe();
+        let thread = std::thread::spawn(move || {
+            runtime.block_on(async {
+                let Ok(listener) = tokio::net::TcpListener::from_std(listener) else { return };
+                let served = axum::serve(listener, router).into_future();
+                tokio::select! {
+                    _ = served => {}
+                    _ = ends.wait_for(|is_over| *is_over) => {}
+                }
+            });
+        });
+        Ok(Self { shared, address: bound, thread })
+    }
+
+    /// Address of the page, with its token.
+    pub(crate) fn url(&self) -> String {
+        format!("http://{}/#{}", self.address, self.shared.token.as_str())
+    }
+
+    /// Lets the connected pages get the last items, and ends the server.
+    pub(crate) fn finish(self) {
+        self.shared.is_over.store(true, Ordering::SeqCst);
+        // Wakes the pages that wait for an item.
+        self.shared.hub.push("over", &serde_json::json!({"t": "over"}));
+        let slice = Duration::from_millis(20);
+        let mut left = FAREWELL;
+        while self.shared.connected.load(Ordering::SeqCst) > 0 && !left.is_zero() {
+            std::thread::sleep(slice);
+            left = left.saturating_sub(slice);
+        }
+        self.shared.over.send_replace(true);
+        // A thread that panicked has nothing more to serve.
+        let _ = self.thread.join();
+    }
+}
+
+fn router(shared: Arc<Shared>) -> Router {
+    Router::new()
+        .route("/", get(|| async { page("text/html; charset=utf-8", file::HTML) }))
+        .route("/view.js", get(|| async { page("text/javascript; charset=utf-8", file::SCRIPT) }))
+        .route("/view.css", get(|| async { page("text/css; charset=utf-8", file::STYLE) }))
+        .route("/licenses.txt", get(|| async { page("text/plain; charset=utf-8", file::LICENSES) }))
+        .route("/events", get(events))
+        .route("/say", post(say))
+        .route("/answer", post(answer))
+        .route("/stop", post(async |shared, headers| control(shared, &headers, RunControl::Stop)))
+        .route("/hold", post(async |shared, headers| control(shared, &headers, RunControl::Hold)))
+        .route("/proceed", post(async |shared, headers| control(shared, &headers, RunControl::Proceed)))
+        .layer(DefaultBodyLimit::max(MOST_BYTES))
+        .layer(middleware::from_fn(guard))
+        .with_state(shared)
+}
+
+/// Checks the headers of every request, and sets those of every reply.
+async fn guard(request: Request, next: Next) -> Response {
+    let mut reply = match check_headers(request.headers()) {
+        Ok(()) => next.run(request).await,
+        Err(refusal) => refused(refusal),
+    };
+    let headers = reply.headers_mut();
+    headers.insert(CONTENT_SECURITY_POLICY, HeaderValue::from_static(POLICY));
+    for (name, value) in [
+        (HeaderName::from_static("x-content-type-options"), "nosniff"),
+        (HeaderName::from_static("referrer-policy"), "no-referrer"),
+        (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+        (CACHE_CONTROL, "no-store"),
+    ] {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    reply
+}
+
+fn page(kind: &'static str, text: &'static str) -> Response {
+    ([(CONTENT_TYPE, kind)], text).into_response()
+}
+
+fn refused(refusal: Refusal) -> Response {
+    (StatusCode::FORBIDDEN, refusal.says()).into_response()
+}
+
+/// Query of the stream of events: a browser sends no header of ours with it.
+#[derive(Debug, Deserialize)]
+struct Access {
+    #[serde(default)]
+    token: String,
+    /// Id of the last item that the page has.
+    #[serde(default)]
+    after: String,
+}
+
+async fn events(
+    State(shared): State<Arc<Shared>>,
+    headers: HeaderMap,
+    Query(access): Query<Access>,
+) -> Response {
+    if !shared.token.is(&access.token) {
+        return refused(Refusal::Token);
+    }
+    let Ok(permit) = Arc::clone(&shared.pages).try_acquire_owned() else {
+        return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open").into_response();
+    };
+    let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()).unwrap_or(&access.after);
+    let position = shared.hub.after(last);
+    let cursor = Cursor::new(shared, permit, position);
+    let keep = KeepAlive::new().interval(Duration::from_secs(10));
+    Sse::new(items(cursor)).keep_alive(keep).into_response()
+}
+
+/// Place of a page in the items.
+struct Cursor {
+    shared: Arc<Shared>,
+    news: watch::Receiver<usize>,
+    position: usize,
+    batch: std::vec::IntoIter<Item>,
+    _permit: OwnedSemaphorePermit,
+}
+
+impl Cursor {
+    fn new(shared: Arc<Shared>, permit: OwnedSemaphorePermit, position: usize) -> Self {
+        shared.connected.fetch_add(1, Ordering::SeqCst);
+        let news = shared.hub.news();
+        Self { shared, news, position, batch: Vec::new().into_iter(), _permit: permit }
+    }
+}
+
+impl Drop for Cursor {
+    fn drop(&mut self) {
+        self.shared.connected.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+/// Items from the place of a page on, as they come; the end once the run is over.
+fn items(cursor: Cursor) -> impl Stream<Item = Result<Event, Infallible>> {
+    stream::unfold(cursor, |mut cursor| async {
+        loop {
+            if let Some(item) = cursor.batch.next() {
+                let event = Event::default().data(&item.json);
+                let event = match &item.id {
+                    Some(id) => event.id(id),
+                    None => event,
+                };
+                return Some((Ok(event), cursor));
+            }
+            let _ = *cursor.news.borrow_and_update();
+            let batch = cursor.shared.hub.from(cursor.position, BATCH);
+            if batch.is_empty() {
+                if cursor.shared.is_over.load(Ordering::SeqCst) || cursor.news.changed().await.is_err() {
+                    return None;
+                }
+                continue;
+            }
+            cursor.position += batch.len();
+            cursor.batch = batch.into_iter();
+        }
+    })
+}
+
+/// Line for the run.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    text: String,
+    /// Question that it answers.
+    #[serde(default)]
+    question: String,
+}
+
+impl Line {
+    /// One line of text; `None` if nothing is in it, or too much.
+    fn checked(&self) -> Option<String> {
+        let text: String = self.text.chars().map(|one| if one.is_control() { ' ' } else { one }).collect();
+        let text = text.trim();
+        (!text.is_empty() && text.chars().count() <= MOST_LETTERS).then(|| text.to_owned())
+    }
+}
+
+fn allowed(shared: &Shared, headers: &HeaderMap) -> bool {
+    let given = headers.get(TOKEN).and_then(|token| token.to_str().ok());
+    given.is_some_and(|given| shared.token.is(given))
+}
+
+async fn say(State(shared): State<Arc<Shared>>, headers: HeaderMap, Json(line): Json<Line>) -> Response {
+    take(&shared, &headers, &line, |hub, text| hub.say(text))
+}
+
+async fn answer(State(shared): State<Arc<Shared>>, headers: HeaderMap, Json(line): Json<Line>) -> Response {
+    take(&shared, &headers, &line, |hub, text| hub.answer(&line.question, text))
+}
+
+fn take(
+    shared: &Shared,
+    headers: &HeaderMap,
+    line: &Line,
+    give: impl FnOnce(&Hub, String) -> Result<(), NotTaken>,
+) -> Response {
+    if !allowed(shared, headers) {
+        return refused(Refusal::Token);
+    }
+    let Some(text) = line.checked() else {
+        let why = format!("a line has 1 to {MOST_LETTERS} letters");
+        return (StatusCode::UNPROCESSABLE_ENTITY, why).into_response();
+    };
+    match give(&shared.hub, text) {
+        Ok(()) => StatusCode::NO_CONTENT.into_response(),
+        Err(NotTaken::Nobody) => (StatusCode::CONFLICT, "this run takes no lines").into_response(),
+        Err(NotTaken::Answered) => (StatusCode::CONFLICT, "this question waits no longer").into_response(),
+    }
+}
+
+fn control(State(shared): State<Arc<Shared>>, headers: &HeaderMap, wish: RunControl) -> Response {
+    if !allowed(&shared, headers) {
+        return refused(Refusal::Token);
+    }
+    shared.hub.control(wish);
+    StatusCode::NO_CONTENT.into_response()
+}

@@ -1,0 +1,38 @@
+// Link of the page to the program that serves it, or to the items in its own file.
+
+const TOKEN = location.hash.slice(1);
+
+/** Reads the items in the file of the page, or connects. Calls `add` with each, and `is` with the state of the link. */
+export function connect(add, is) {
+  const inside = document.getElementById("items");
+  if (inside) {
+    for (const item of JSON.parse(inside.textContent)) add(item);
+    is("file");
+    return;
+  }
+  is("connecting");
+  const source = new EventSource(`events?token=${encodeURIComponent(TOKEN)}`);
+  source.onopen = () => is("live");
+  source.onmessage = (event) => {
+    const item = JSON.parse(event.data);
+    if (item.t === "over") {
+      source.close();
+      is("over");
+    } else add(item);
+  };
+  source.onerror = () => is(source.readyState === EventSource.CLOSED ? "refused" : "reconnecting");
+}
+
+/** Sends a command. Gives the reason if it is not taken. */
+export async function send(command, body = {}) {
+  try {
+    const reply = await fetch(command, {
+      method: "POST",
+      headers: { "content-type": "application/json", "x-motet-token": TOKEN },
+      body: JSON.stringify(body),
+    });
+    return reply.ok ? null : await reply.text();
+  } catch (error) {
+    return String(error.message);
+  }
+}
