@@ -5,56 +5,118 @@ import numpy as np
 
 # Cosine above which a path goes on through a waypoint without a stop.
 STRAIGHT = 0.97
+# Shares of the longest overlap of two legs that are tried.
+SHARES = (1.0, 0.75, 0.5, 0.25)
 
 
 class Path:
-    """Targets of the actuators over time: straight between waypoints, from rest to rest."""
+    """Targets of the actuators over time: straight legs, each from rest to rest with an even acceleration.
 
-    def __init__(self, points, times):
+    `legs` has the duration and the ramp of each leg in s. A leg begins before the one ahead of it has ended by its
+    overlap: without one the path stops at each waypoint, and with one it goes by it.
+    """
+
+    def __init__(self, points, legs, overlaps=None):
         self.points = [np.asarray(point, dtype=float) for point in points]
-        self.times = np.asarray(times, dtype=float)
-        # The speed along the path at each waypoint, in legs per second: where it turns, it stops.
-        count = len(self.points)
-        self.rates = np.zeros(count)
-        for at in range(1, count - 1):
-            before, after = self.points[at] - self.points[at - 1], self.points[at + 1] - self.points[at]
-            sizes = np.linalg.norm(before) * np.linalg.norm(after)
-            if sizes > 1e-12 and before @ after / sizes > STRAIGHT:
-                # In the units of the target, so that a leg of another length has the same speed.
-                first = np.linalg.norm(before) / max(self.times[at] - self.times[at - 1], 1e-9)
-                second = np.linalg.norm(after) / max(self.times[at + 1] - self.times[at], 1e-9)
-                self.rates[at] = 2.0 * first * second / max(first + second, 1e-12)
-
-    @property
-    def end(self):
-        """Time at which the path ends."""
-        return float(self.times[-1])
+        self.legs = [(float(span), min(float(ramp), float(span) / 2.0)) for span, ramp in legs]
+        self.ways = [after - before for before, after in zip(self.points, self.points[1:])]
+        self.overlaps = list(overlaps) if overlaps is not None else [0.0] * max(len(self.legs) - 1, 0)
+        self.starts, now = [], 0.0
+        for (span, _), overlap in zip(self.legs, [*self.overlaps, 0.0]):
+            self.starts.append(now)
+            now += span - overlap
+        self.end = now  # time at which the path ends, in s
 
     def at(self, time):
         """Targets and their rates at a time."""
-        if time >= self.times[-1]:
-            return self.points[-1], np.zeros_like(self.points[-1])
-        leg = max(int(np.searchsorted(self.times, time, side="right")) - 1, 0)
-        start, end = self.points[leg], self.points[leg + 1]
-        span = self.times[leg + 1] - self.times[leg]
-        size = np.linalg.norm(end - start)
-        if span <= 1e-9 or size < 1e-12:
-            return end, np.zeros_like(end)
-        # A cubic from the speed before to the speed after.
-        u = min(max((time - self.times[leg]) / span, 0.0), 1.0)
-        a, b = self.rates[leg] * span / size, self.rates[leg + 1] * span / size
-        share = u * (a + u * (3.0 - 2.0 * a - b + u * (a + b - 2.0)))
-        rate = (a + u * (2.0 * (3.0 - 2.0 * a - b) + 3.0 * u * (a + b - 2.0))) / span
-        return start + (end - start) * share, (end - start) * rate
+        target, rate = self.points[0].copy(), np.zeros_like(self.points[0])
+        for start, (span, ramp), way in zip(self.starts, self.legs, self.ways):
+            if time >= start + span:
+                target += way
+            elif time > start:
+                share, speed = trapezoid(time - start, span, ramp)
+                target += way * share
+                rate += way * speed
+        return target, rate
+
+    def blended(self, model, is_free=None):
+        """The path with overlaps within the accelerations of a model, where a leg goes on in the direction of the one
+        before, and where `is_free` says that targets may be passed: (start of the first leg, corner, targets) → bool."""
+        overlaps, before = [], 0.0
+        for at in range(len(self.legs) - 1):
+            most = self.longest(at, before, model)
+            found = 0.0
+            for share in SHARES if most > 0.02 else ():
+                trial = Path(self.points, self.legs, [*overlaps, most * share, *[0.0] * (len(self.legs) - 2 - at)])
+                start = trial.starts[at + 1]
+                times = np.linspace(start, start + most * share, max(int(most * share / 0.1), 3))
+                targets = [trial.at(time)[0] for time in times]
+                if self.goes_on(at) or is_free is not None and is_free(self.points[at], self.points[at + 1], targets):
+                    found = most * share
+                    break
+            overlaps.append(found)
+            before = found
+        return Path(self.points, self.legs, overlaps)
+
+    def goes_on(self, at):
+        """True if a leg goes on in the direction of the one before: the path between them is not left."""
+        before, after = self.ways[at], self.ways[at + 1]
+        sizes = np.linalg.norm(before) * np.linalg.norm(after)
+        return bool(sizes > 1e-12 and before @ after / sizes > STRAIGHT)
+
+    def longest(self, at, taken, model):
+        """Longest overlap in s of a leg with the next that exceeds no speed and no acceleration."""
+        (span, ramp), (span_after, ramp_after) = self.legs[at], self.legs[at + 1]
+        before, after = self.ways[at], self.ways[at + 1]
+        shared = (np.abs(before) > 1e-6) & (np.abs(after) > 1e-6)
+        if not shared.any():
+            return max(min(span - taken, span_after), 0.0)
+        # It brakes for the one and accelerates for the other at once.
+        braking, rising = before / max(ramp * (span - ramp), 1e-9), after / max(ramp_after * (span_after - ramp_after), 1e-9)
+        most = np.maximum(model.speeds / model.ramps, np.maximum(np.abs(braking), np.abs(rising)))
+        if np.any(np.abs(rising - braking)[shared] > 1.01 * most[shared]):
+            return 0.0
+        return max(min(ramp, ramp_after, span - taken, span_after), 0.0)
+
+    def slower(self, factor):
+        """The path in a multiple of its time."""
+        legs = [(span * factor, ramp * factor) for span, ramp in self.legs]
+        return Path(self.points, legs, [overlap * factor for overlap in self.overlaps])
 
 
-def timed(points, speeds, share=1.0):
-    """A path at a share of the greatest speeds, leg by leg: its slowest part half as fast again as on average."""
-    times = [0.0]
+def trapezoid(time, span, ramp):
+    """Share of a leg that is done at a time, and its rate: even acceleration, even speed, even braking."""
+    fastest = 1.0 / max(span - ramp, 1e-9)
+    left = span - time
+    if time < ramp:
+        return fastest * time * time / (2.0 * ramp), fastest * time / ramp
+    if left < ramp:
+        return 1.0 - fastest * left * left / (2.0 * ramp), fastest * left / ramp
+    return fastest * (time - ramp / 2.0), fastest
+
+
+def timed(points, model, share=1.0):
+    """A path at a share of the greatest speeds and accelerations of a model, which stops at its waypoints."""
+    speeds, legs = np.maximum(model.speeds * share, 1e-6), []
     for before, after in zip(points, points[1:]):
-        needed = np.max(np.abs(np.asarray(after) - before) / np.maximum(speeds * share, 1e-6))
-        times.append(times[-1] + max(1.5 * float(needed), 0.0 if needed < 1e-9 else 0.1))
-    return Path(points, times)
+        far = np.abs(np.asarray(after) - before)
+        moves = far > 1e-9
+        if not moves.any():
+            legs.append((0.0, 0.0))
+            continue
+        fastest = np.min(speeds[moves] / far[moves])
+        strongest = np.min(speeds[moves] / model.ramps[moves] / far[moves])
+        cruise = max(1.0 / fastest, 1.0 / np.sqrt(strongest))
+        ramp = min(1.0 / (strongest * cruise), cruise)
+        legs.append((cruise + ramp, ramp))
+    return Path(points, legs)
+
+
+def witnessed(points, path):
+    """A path at the times of a witness, whose waypoints have `at` and `ramp`."""
+    ats = [one["at"] for one in path]
+    legs = [(after - before, one.get("ramp", 0.0)) for before, after, one in zip(ats, ats[1:], path[1:])]
+    return Path(points, legs)
 
 
 def near_turn(angle, to):
