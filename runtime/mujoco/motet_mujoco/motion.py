@@ -10,78 +10,124 @@ SHARES = (1.0, 0.75, 0.5, 0.25)
 
 
 class Path:
-    """Targets of the actuators over time: straight legs, each from rest to rest with an even acceleration.
+    """Targets of the actuators over time, in strokes: polylines from rest to rest, with an even acceleration.
 
-    `legs` has the duration and the ramp of each leg in s. A leg begins before the one ahead of it has ended by its
-    overlap: without one the path stops at each waypoint, and with one it goes by it.
+    A stroke begins before the one ahead of it has ended by its overlap: without one the path stops where two strokes
+    meet, and with one it goes by that corner.
     """
 
-    def __init__(self, points, legs, overlaps=None):
-        self.points = [np.asarray(point, dtype=float) for point in points]
-        self.legs = [(float(span), min(float(ramp), float(span) / 2.0)) for span, ramp in legs]
-        self.ways = [after - before for before, after in zip(self.points, self.points[1:])]
-        self.overlaps = list(overlaps) if overlaps is not None else [0.0] * max(len(self.legs) - 1, 0)
+    def __init__(self, strokes, overlaps=None):
+        self.strokes = strokes
+        self.overlaps = list(overlaps) if overlaps is not None else [0.0] * max(len(strokes) - 1, 0)
         self.starts, now = [], 0.0
-        for (span, _), overlap in zip(self.legs, [*self.overlaps, 0.0]):
+        for stroke, overlap in zip(strokes, [*self.overlaps, 0.0]):
             self.starts.append(now)
-            now += span - overlap
+            now += stroke.span - overlap
         self.end = now  # time at which the path ends, in s
+
+    @property
+    def points(self):
+        """All waypoints."""
+        return [self.strokes[0].points[0], *[point for stroke in self.strokes for point in stroke.points[1:]]]
 
     def at(self, time):
         """Targets and their rates at a time."""
-        target, rate = self.points[0].copy(), np.zeros_like(self.points[0])
-        for start, (span, ramp), way in zip(self.starts, self.legs, self.ways):
-            if time >= start + span:
-                target += way
-            elif time > start:
-                share, speed = trapezoid(time - start, span, ramp)
-                target += way * share
-                rate += way * speed
+        target, rate = self.strokes[0].points[0].copy(), np.zeros_like(self.strokes[0].points[0])
+        for start, stroke in zip(self.starts, self.strokes):
+            if time > start:
+                moved, moves = stroke.at(time - start)
+                target += moved
+                rate += moves
         return target, rate
 
-    def blended(self, model, is_free=None):
-        """The path with overlaps within the accelerations of a model, where a leg goes on in the direction of the one
-        before, and where `is_free` says that targets may be passed: (start of the first leg, corner, targets) → bool."""
-        overlaps, before = [], 0.0
-        for at in range(len(self.legs) - 1):
-            most = self.longest(at, before, model)
-            found = 0.0
+    def blended(self, model, is_free):
+        """The path with overlaps within the accelerations of a model, where `is_free` says that the targets on the way
+        may be passed: (start of the first stroke, corner, targets) → bool."""
+        overlaps, before, rest = [], 0.0, len(self.strokes) - 2
+        for at, (one, other) in enumerate(zip(self.strokes, self.strokes[1:])):
+            most, found = longest(one, other, before, model), 0.0
             for share in SHARES if most > 0.02 else ():
-                trial = Path(self.points, self.legs, [*overlaps, most * share, *[0.0] * (len(self.legs) - 2 - at)])
+                trial = Path(self.strokes, [*overlaps, most * share, *[0.0] * (rest - at)])
                 start = trial.starts[at + 1]
                 times = np.linspace(start, start + most * share, max(int(most * share / 0.1), 3))
-                targets = [trial.at(time)[0] for time in times]
-                if self.goes_on(at) or is_free is not None and is_free(self.points[at], self.points[at + 1], targets):
+                if is_free(one.points[0], one.points[-1], [trial.at(time)[0] for time in times]):
                     found = most * share
                     break
             overlaps.append(found)
             before = found
-        return Path(self.points, self.legs, overlaps)
-
-    def goes_on(self, at):
-        """True if a leg goes on in the direction of the one before: the path between them is not left."""
-        before, after = self.ways[at], self.ways[at + 1]
-        sizes = np.linalg.norm(before) * np.linalg.norm(after)
-        return bool(sizes > 1e-12 and before @ after / sizes > STRAIGHT)
-
-    def longest(self, at, taken, model):
-        """Longest overlap in s of a leg with the next that exceeds no speed and no acceleration."""
-        (span, ramp), (span_after, ramp_after) = self.legs[at], self.legs[at + 1]
-        before, after = self.ways[at], self.ways[at + 1]
-        shared = (np.abs(before) > 1e-6) & (np.abs(after) > 1e-6)
-        if not shared.any():
-            return max(min(span - taken, span_after), 0.0)
-        # It brakes for the one and accelerates for the other at once.
-        braking, rising = before / max(ramp * (span - ramp), 1e-9), after / max(ramp_after * (span_after - ramp_after), 1e-9)
-        most = np.maximum(model.speeds / model.ramps, np.maximum(np.abs(braking), np.abs(rising)))
-        if np.any(np.abs(rising - braking)[shared] > 1.01 * most[shared]):
-            return 0.0
-        return max(min(ramp, ramp_after, span - taken, span_after), 0.0)
+        return Path(self.strokes, overlaps)
 
     def slower(self, factor):
         """The path in a multiple of its time."""
-        legs = [(span * factor, ramp * factor) for span, ramp in self.legs]
-        return Path(self.points, legs, [overlap * factor for overlap in self.overlaps])
+        strokes = [Stroke(one.points, one.cruise, one.span * factor, one.ramp * factor) for one in self.strokes]
+        return Path(strokes, [overlap * factor for overlap in self.overlaps])
+
+    def to(self, points):
+        """A path through other points, as many, at the same times."""
+        strokes, first = [], 0
+        for one in self.strokes:
+            last = first + len(one.points) - 1
+            strokes.append(Stroke(points[first : last + 1], one.cruise, one.span, one.ramp))
+            first = last
+        return Path(strokes)
+
+    def until(self, points):
+        """A path through the first of other points, at the same times."""
+        return self.to([*points, *self.points[len(points) :]]).cut(len(points))
+
+    def cut(self, count):
+        """The path up to a number of waypoints. The last stroke takes the time that it would take as a whole."""
+        strokes, left = [], count - 1
+        for one in self.strokes:
+            legs = min(left, len(one.cruise))
+            if legs > 0:
+                strokes.append(Stroke(one.points[: legs + 1], one.cruise[:legs], one.span, one.ramp))
+            left -= legs
+        return Path(strokes)
+
+
+class Stroke:
+    """A polyline from rest to rest: even acceleration for the time `ramp`, even speed, even braking.
+
+    `cruise` has the seconds that each leg would take at the greatest speed of all its actuators.
+    """
+
+    def __init__(self, points, cruise, span, ramp):
+        self.points = [np.array(point, dtype=float) for point in points]
+        self.cruise, self.span = [float(one) for one in cruise], float(span)
+        self.ramp = min(float(ramp), self.span / 2.0)
+        self.passed = np.concatenate([[0.0], np.cumsum(self.cruise)])
+
+    def at(self, time):
+        """How far the targets have moved since the start, and their rates."""
+        if time >= self.span or self.passed[-1] < 1e-9:
+            return self.points[-1] - self.points[0], np.zeros_like(self.points[0])
+        share, speed = trapezoid(time, self.span, self.ramp)
+        done = share * self.passed[-1]
+        leg = min(int(np.searchsorted(self.passed, done, side="right")) - 1, len(self.cruise) - 1)
+        way = (self.points[leg + 1] - self.points[leg]) / max(self.cruise[leg], 1e-9)
+        return self.points[leg] - self.points[0] + way * (done - self.passed[leg]), way * speed * self.passed[-1]
+
+    def reversed(self):
+        """The same stroke from its end to its start."""
+        return Stroke(self.points[::-1], self.cruise[::-1], self.span, self.ramp)
+
+
+def longest(one, other, taken, model):
+    """Longest overlap in s of a stroke with the next that exceeds no speed and no acceleration of a model."""
+    if min(one.span, other.span) < 1e-6:
+        return 0.0
+    moves = [np.ptp(np.array(stroke.points), axis=0) > 1e-6 for stroke in (one, other)]
+    shared = moves[0] & moves[1]
+    if not shared.any():
+        return max(min(one.span - taken, other.span), 0.0)
+    # It brakes for the one and accelerates for the other at once.
+    braking = one.at(one.span - one.ramp - 1e-6)[1] / max(one.ramp, 1e-9)
+    rising = other.at(other.ramp + 1e-6)[1] / max(other.ramp, 1e-9)
+    most = np.maximum(model.speeds / model.ramps, np.maximum(np.abs(braking), np.abs(rising)))
+    if np.any(np.abs(rising - braking)[shared] > 1.01 * most[shared]):
+        return 0.0
+    return max(min(one.ramp, other.ramp, one.span - taken, other.span), 0.0)
 
 
 def trapezoid(time, span, ramp):
@@ -96,27 +142,57 @@ def trapezoid(time, span, ramp):
 
 
 def timed(points, model, share=1.0):
-    """A path at a share of the greatest speeds and accelerations of a model, which stops at its waypoints."""
-    speeds, legs = np.maximum(model.speeds * share, 1e-6), []
+    """A path at a share of the greatest speeds and accelerations of a model. It stops where its direction changes."""
+    return Path([stroke(part, model, share) for part in straight_parts(points)])
+
+
+def straight_parts(points):
+    """Parts of a polyline that go on in about a direction. Two parts have the point in common where they meet."""
+    points = [np.asarray(point, dtype=float) for point in points]
+    parts = [points[:2]]
+    for point in points[2:]:
+        before, after = parts[-1][-1] - parts[-1][-2], point - parts[-1][-1]
+        sizes = np.linalg.norm(before) * np.linalg.norm(after)
+        if sizes > 1e-12 and before @ after / sizes > STRAIGHT:
+            parts[-1].append(point)
+        else:
+            parts.append([parts[-1][-1], point])
+    return parts
+
+
+def stroke(points, model, share):
+    """A stroke at a share of the greatest speeds and accelerations of a model."""
+    speeds, cruise, hardest = np.maximum(model.speeds * share, 1e-6), [], 1e-6
     for before, after in zip(points, points[1:]):
         far = np.abs(np.asarray(after) - before)
-        moves = far > 1e-9
-        if not moves.any():
-            legs.append((0.0, 0.0))
-            continue
-        fastest = np.min(speeds[moves] / far[moves])
-        strongest = np.min(speeds[moves] / model.ramps[moves] / far[moves])
-        cruise = max(1.0 / fastest, 1.0 / np.sqrt(strongest))
-        ramp = min(1.0 / (strongest * cruise), cruise)
-        legs.append((cruise + ramp, ramp))
-    return Path(points, legs)
+        if model.drives:
+            far[:2] = np.hypot(far[0], far[1])
+        needed = far / speeds
+        cruise.append(float(np.max(needed)))
+        if cruise[-1] > 1e-9:
+            # Time to the speed at which the leg takes so long.
+            hardest = max(hardest, float(np.max(needed / cruise[-1] * model.ramps)))
+    length = sum(cruise)
+    if length < 1e-9:
+        return Stroke(points, cruise, 0.0, 0.0)
+    fast = max(length, np.sqrt(length * hardest))
+    ramp = min(length * hardest / fast, fast)
+    return Stroke(points, cruise, fast + ramp, ramp)
 
 
-def witnessed(points, path):
-    """A path at the times of a witness, whose waypoints have `at` and `ramp`."""
-    ats = [one["at"] for one in path]
-    legs = [(after - before, one.get("ramp", 0.0)) for before, after, one in zip(ats, ats[1:], path[1:])]
-    return Path(points, legs)
+def witnessed(points, path, model, share):
+    """A path at the times of a witness, whose waypoints have `at` and `ramp`. Parts that go on in a direction take the
+    time of the model instead: a witness stops at each of its waypoints."""
+    strokes, first = [], 0
+    for part in straight_parts(points):
+        last = first + len(part) - 1
+        if len(part) == 2:
+            span = path[last]["at"] - path[first]["at"]
+            strokes.append(Stroke(part, [1.0 if span > 0.0 else 0.0], span, path[last].get("ramp", 0.0)))
+        else:
+            strokes.append(stroke(part, model, share))
+        first = last
+    return Path(strokes)
 
 
 def near_turn(angle, to):

@@ -6,7 +6,7 @@ Its parts are generators that aim the actuators once a tick; a task is made of t
 import numpy as np
 
 from .clearance import Clearance
-from .motion import Path, near_turn, rotation_vector, set_targets, timed, witnessed
+from .motion import Path, Stroke, near_turn, rotation_vector, set_targets, timed, witnessed
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
 BEGINS = 0.05
@@ -55,8 +55,11 @@ class Mover:
         mask = np.any(np.abs(np.array(points) - points[0]) > 1e-9, axis=0)
         if not mask.any():
             return
-        path = Path(points, self.gentle(points, path.legs) if world.held() else path.legs)
-        path = path.blended(model, Clearance(world, self.beliefs, keeps).is_free)
+        path = path.to(points)
+        if world.held():
+            path = Path([self.gentle(stroke) for stroke in path.strokes])
+        if len(path.strokes) > 1:
+            path = path.blended(model, Clearance(world, self.beliefs, keeps).is_free)
         elapsed, behind = 0.0, 0
         while elapsed < path.end:
             self.aim(path, elapsed, mask)
@@ -74,17 +77,18 @@ class Mover:
                 watch()
         self.goal[mask] = points[-1][mask]
 
-    def gentle(self, points, legs):
-        """Durations and ramps of legs on which the hand accelerates no more than a thing in it bears."""
-        gentle = []
-        for before, after, (span, ramp) in zip(points, points[1:], legs):
-            frames = [self.frame(point) for point in (before, (before + after) / 2.0, after)]
-            far = sum(np.linalg.norm(one[0] - other[0]) for one, other in zip(frames, frames[1:]))
-            turn = sum(np.linalg.norm(rotation_vector(other[1] @ one[1].T)) for one, other in zip(frames, frames[1:]))
-            pace = max(far / HELD[0], turn / HELD[1]) / max(ramp * (span - ramp), 1e-9)
-            factor = max(1.0, np.sqrt(pace)) if span > 1e-9 else 1.0
-            gentle.append((span * factor, ramp * factor))
-        return gentle
+    def gentle(self, stroke):
+        """A stroke on which the hand accelerates no more than a thing in it bears."""
+        if stroke.span < 1e-6:
+            return stroke
+        middles = [(before + after) / 2.0 for before, after in zip(stroke.points, stroke.points[1:])]
+        between = [point for pair in zip(stroke.points, middles) for point in pair]
+        frames = [self.frame(point) for point in [*between, stroke.points[-1]]]
+        far = sum(np.linalg.norm(one[0] - other[0]) for one, other in zip(frames, frames[1:]))
+        turn = sum(np.linalg.norm(rotation_vector(other[1] @ one[1].T)) for one, other in zip(frames, frames[1:]))
+        pace = max(far / HELD[0], turn / HELD[1]) / (stroke.ramp * (stroke.span - stroke.ramp))
+        factor = max(1.0, np.sqrt(pace))
+        return Stroke(stroke.points, stroke.cruise, stroke.span * factor, stroke.ramp * factor)
 
     def frame(self, target):
         """Position and rotation of the hand at targets of the actuators."""
@@ -139,7 +143,7 @@ class Mover:
         """A path at the times of a witness, or without them at a share of the greatest speeds."""
         times = [one.get("at") for one in path]
         has_times = None not in times and all(b >= a for a, b in zip(times, times[1:]))
-        return witnessed(points, path) if has_times else self.path(points, speed)
+        return witnessed(points, path, self.world.model, speed) if has_times else self.path(points, speed)
 
     def own(self, witness, motion):
         """Path of a witness that was not made for the manner of the command."""
@@ -163,23 +167,22 @@ class Mover:
 
     def way_back(self, path, begun, motion, thing):
         """Goes back the way it came with what it holds, and on to where the command leaves the robot."""
-        start = self.goal.copy()
-        back = [start] + [point.copy() for point in reversed(path.points[:-1])]
-        legs = list(reversed(path.legs))
-        for point in back:
-            for at in self.world.model.grips:
-                point[at] = start[at]
+        start, strokes = self.goal.copy(), [stroke.reversed() for stroke in reversed(path.strokes)]
+        for stroke in strokes:
+            for point in stroke.points:
+                point[list(self.world.model.grips)] = start[list(self.world.model.grips)]
         # The last approach again, higher: the thing still stands low.
-        if len(back) > 2:
-            lifted = self.raised(back[1], 0.06)
-            if lifted is not None:
-                back[1] = lifted
-                legs[:2] = self.path(back[:3], motion.speed).legs
-        leaves = self.leaves(motion, begun)
-        if leaves is not None and np.abs(leaves - back[-1])[self.arm_and_base()].max() > 1e-3:
-            legs.extend(self.path([back[-1], leaves], motion.speed).legs)
-            back.append(leaves)
-        yield from self.follow(Path(back, legs), watch=self.keeps(thing, "fell on the way back"))
+        points = strokes[0].points
+        lifted = self.raised(points[1], 0.06) if len(points) > 2 or len(strokes) > 1 else None
+        points[0] = start
+        if lifted is not None:
+            after = points[2] if len(points) > 2 else strokes[1].points[1]
+            first = self.path([start, lifted, after, *points[3:]], motion.speed).strokes
+            strokes[: 1 if len(points) > 2 else 2] = first
+        last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
+        if leaves is not None and np.abs(leaves - last)[self.arm_and_base()].max() > 1e-3:
+            strokes.extend(self.path([last, leaves], motion.speed).strokes)
+        yield from self.follow(Path(strokes), watch=self.keeps(thing, "fell on the way back"))
         yield from self.pause(0.2)
 
     def keeps(self, thing, how="slipped out of the hand"):

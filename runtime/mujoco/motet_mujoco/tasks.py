@@ -6,7 +6,7 @@ A task that is not resumed holds still, since the targets stay where they are.
 import numpy as np
 
 from .camera import NoGraphics
-from .motion import Path, phases
+from .motion import phases
 from .moving import Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted
@@ -41,8 +41,8 @@ class Tasks(Mover):
     def drive(self, path, to):
         held = self.world.held()
         if self.world.model.drives:
-            path.points[-1] = path.points[-1].copy()
-            path.points[-1][:2] += self.options.chance.error(self.options.rates["base"]["error_m"], "base")
+            last = path.strokes[-1].points[-1] = path.strokes[-1].points[-1].copy()
+            last[:2] += self.options.chance.error(self.options.rates["base"]["error_m"], "base")
 
         def watch():
             met = self.world.bumped(held)
@@ -145,7 +145,7 @@ class Tasks(Mover):
             if points is None:
                 raise Failed("unreachable", "the hand does not reach the point on %s" % thing)
         dx, dy = self.options.chance.error(self.options.rates["hand"]["error_m"], "hand", thing)
-        path = Path(self.aside(points, np.array([dx, dy, 0.0])) or points, path.legs)
+        path = path.to(self.aside(points, np.array([dx, dy, 0.0])) or points)
         yield from self.follow(path, thing)
         yield from self.grip(True, 0.8)
         if not self.world.holds(thing):
@@ -196,7 +196,7 @@ class Tasks(Mover):
             raise Failed("slipped", "the hand does not hold %s" % thing)
         path = self.motion(motion, query)
         approach = phases(path.points, world.model.grips, "draw")[0][1]
-        path = Path(approach, path.legs[: len(approach) - 1])
+        path = path.until(approach)
         yield from self.follow(path, on, self.keeps(thing))
         # Where it is let go is felt; where it comes to rest is for the next look.
         released = world.pose(thing)

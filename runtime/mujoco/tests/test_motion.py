@@ -31,7 +31,7 @@ def rates(path):
 
 def test_a_path_has_the_times_of_its_witness():
     points = [np.array([0.0, 0.0]), np.array([1.0, 0.0]), np.array([1.0, 2.0])]
-    path = witnessed(points, [{"at": 0.0}, {"at": 3.0, "ramp": 1.0}, {"at": 5.0, "ramp": 1.0}])
+    path = witnessed(points, [{"at": 0.0}, {"at": 3.0, "ramp": 1.0}, {"at": 5.0, "ramp": 1.0}], None, 1.0)
     assert path.end == 5.0
     # Even speed of 1 / (3 - 1), after even acceleration for 1 s.
     assert np.allclose(path.at(1.5)[1], [0.5, 0.0]) and np.allclose(path.at(0.5)[1], [0.25, 0.0])
@@ -59,9 +59,11 @@ def test_a_path_straight_on_does_not_stop(hsr):
     for at, point in enumerate(points):
         point[0] += 0.3 * at
     path = timed(points, hsr.model)
-    through = path.blended(hsr.model)
-    assert through.end < path.end - 1.5
-    assert np.all(rates(through) <= hsr.model.speeds * 1.001)
+    legs = [timed([one, other], hsr.model) for one, other in zip(points, points[1:])]
+    assert path.end < sum(leg.end for leg in legs) - 1.5
+    assert np.all(rates(path) <= hsr.model.speeds * 1.001)
+    for point in points:
+        assert min(np.abs(path.at(time)[0] - point).max() for time in np.arange(0.0, path.end + 0.01, 0.01)) < 3e-3
 
 
 def test_a_path_turns_round_only_at_rest(hsr):
@@ -93,7 +95,7 @@ def test_a_thing_in_the_hand_is_carried_gently(motet):
     out[world.model.controls["joint2"]] += 1.5
     out[world.model.controls["joint6"]] += 1.5
     quick = mover.path([start, out])
-    slow = Path(quick.points, mover.gentle(quick.points, quick.legs))
+    slow = Path([mover.gentle(stroke) for stroke in quick.strokes])
 
     def strongest(path):
         places = np.array([mover.frame(path.at(time)[0])[0] for time in np.arange(0.0, path.end, 0.02)])
