@@ -28,6 +28,8 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="motet_mujoco", description=__doc__)
     parser.add_argument("--robot", required=True, help="a built-in name, or a folder with a robot.toml")
     parser.add_argument("--scene", required=True, help="a built-in name, or a JSON file")
+    parser.add_argument("--told", metavar="SCENE",
+                        help="the scene as the robot was told of it [default: the real one]")
     parser.add_argument("--motet", help="the command `motet` [default: from PATH]")
     parser.add_argument("--seed", type=int, default=0, help="seed of all that is drawn at random")
     parser.add_argument("--profile", default="ideal", metavar="ideal|typical|harsh|FILE",
@@ -45,13 +47,15 @@ def main(arguments=None):
         command = find_motet(args.motet)
         rates = profile(args.profile)
         model = load(args.robot, args.scene, command)
+        told = load(args.robot, args.told, command).scene if args.told else None
         unknown = [one[0] for one in args.walk + args.says if one[0] not in model.people]
         if unknown:
             raise ModelError("the scene has no person `%s`" % unknown[0])
     except ModelError as error:
         print("error: %s" % error, file=sys.stderr)
         return 2
-    driver = Driver(model, command, Options(rates, args.seed, args.answers), args.oracle, args.walk, args.says)
+    driver = Driver(model, command, Options(rates, args.seed, args.answers), args.oracle, args.walk, args.says,
+                    told)
     stdio(driver, args.speed)
     return 0
 

@@ -68,8 +68,8 @@ class Goal:
 class Driver:
     """Keeps goals, answers calls, and lets the world go on."""
 
-    def __init__(self, model, command, options, oracle=False, walks=(), says=()):
-        self.model, self.command, self.options = model, command, options
+    def __init__(self, model, command, options, oracle=False, walks=(), says=(), told=None):
+        self.model, self.command, self.options, self.room = model, command, options, told
         self.oracle, self.walks, self.says = oracle, list(walks), list(says)
         self.instance = "%d-%d" % (os.getpid(), time.time_ns())
         self.say = lambda message: None
@@ -83,7 +83,7 @@ class Driver:
         rates, chance = self.options.rates, self.options.chance
         self.model.mj.geom_friction[:, 0] = self.options.friction()
         self.observer = Observer(self.world)
-        self.beliefs = Beliefs(self.world)
+        self.beliefs = Beliefs(self.world, self.room)
         displace(self.world, rates["room"], chance)
         self.people = People(self.world, self.walks, self.says, rates["people"]["walk_per_min"], Chance(chance.seed))
         self.eyes = Eyes(self.world, self.observer, self.beliefs, self.oracle, rates["camera"], chance)
@@ -117,7 +117,7 @@ class Driver:
         self.has_clock = version >= 2
         capabilities = {"hold": "all", "update": {"only": []}}
         if version >= 2:
-            capabilities.update({"clock": "driver", "moved": True, "look": True, "detections": True})
+            capabilities.update({"clock": "driver", "moved": True, "look": True, "detections": True, "told": True})
         return {"protocol": version, "driver": "motet_mujoco 0.1.0", "instance": self.instance,
                 "capabilities": capabilities}
 
@@ -205,6 +205,14 @@ class Driver:
         except NoGraphics as error:
             raise Error(INTERNAL, str(error)) from None
 
+    def told(self, params):
+        """Takes in where a thing is, for what the robot does from now on."""
+        thing = params["thing"]
+        position = (thing.get("pose") or {}).get("xyz")
+        self.beliefs.told(thing["id"], thing.get("support"), position)
+        self.eyes.take(thing["id"], position)
+        return {}
+
     def advance(self, params):
         """Lets the world go on until the first report, or until a time."""
         until, reports = float(params["until"]) + self.offset, []
@@ -220,7 +228,7 @@ class Driver:
         return {"now": round((self.world.now if is_over else max(self.world.now, until)) - self.offset, 6)}
 
     METHODS = ("hello start update cancel hold proceed safe_stop observe watch unwatch status ping look detections "
-               "advance").split()
+               "told advance").split()
 
     # The world.
 

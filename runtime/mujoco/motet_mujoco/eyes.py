@@ -9,13 +9,23 @@ import os
 import subprocess
 import sys
 
+import mujoco
 import numpy as np
 
+from .beliefs import turned
 from .camera import Camera, NoGraphics
 from .chance import Chance
+from .world import OPENED
 
 # Distance in m within which a detection may be a known thing, and the part of its size by which it may differ.
 ABOUT, UNLIKE = 0.3, 0.75
+# The same part for a thing that may be anywhere.
+UNLIKE_ANYWHERE = 0.3
+# Every which row and column of a depth picture is looked at, for what is known; the distance in m up to which a point
+# is on it, and the number of points that show it.
+GRID, ON, ENOUGH = 6, 0.02, 8
+# Parts of the travel of a drawer or door that are told apart.
+STEPS = 5
 # Distance in m from which a thing counts as being elsewhere.
 ELSEWHERE = 0.08
 
@@ -30,7 +40,7 @@ class Eyes:
         self.told = {}  # where the host was told that something is
         self.camera = Camera(world)
         self.command = command or [sys.executable, "-m", "motet_mujoco.detector"]
-        self.process, self.last, self.at, self.sure = None, [], -1.0, set()
+        self.process, self.last, self.at, self.sure, self.pictures = None, [], -1.0, set(), []
 
     def look(self, name=None):
         """A picture of a camera; of the first without a name."""
@@ -98,26 +108,68 @@ class Eyes:
             else:
                 was = self.told.get(one["id"])
                 if was is None:
-                    was = np.array(self.world.model.entities[one["id"]]["pose"]["xyz"])
+                    # As the host was told, in the room that it knows.
+                    was = np.array(self.beliefs.first.get(one["id"], (1e3, 1e3, 1e3)))
                 if np.linalg.norm(place - was) < ELSEWHERE:
                     continue
                 self.told[one["id"]] = place
             new.append(one)
         return new
 
+    def take(self, thing, position):
+        """Notes that the host was told of a thing, and that what is in view is to be matched anew."""
+        self.at = -1.0
+        self.told.pop(thing, None)
+        if position is not None:
+            self.told[thing] = np.array(position, dtype=float)
+
     def known(self, wanted):
         """Ids among those wanted that are in view now."""
         self.detections()
         fixed = [one for one in wanted if one not in self.world.model.free and one in self.world.model.body_of]
-        return {one for one in wanted if one in self.sure} | {one for one in fixed if self.observer.is_visible(one)}
+        return {one for one in wanted if one in self.sure} | {one for one in fixed if self.shows(one)}
+
+    def shows(self, one):
+        """True if furniture or a person is in view: the depth pictures have points where it should be."""
+        if self.oracle:
+            return self.observer.is_visible(one)
+        return any(np.count_nonzero(gaps <= ON) >= ENOUGH for gaps in self.gaps(one))
+
+    def gaps(self, one):
+        """Distances in m of the points of the depth pictures from where an entity is believed to be."""
+        for picture in self.pictures:
+            gaps = self.beliefs.gaps(one, picture.points()[::GRID, ::GRID][picture.depth[::GRID, ::GRID] > 0.0])
+            if gaps is not None:
+                yield gaps
+
+    def sees_open(self, container):
+        """True if a drawer or a door is seen to be open, False if it is seen to be closed; None if it is not seen."""
+        model = self.world.model
+        if self.oracle or container not in model.doors:
+            return self.world.is_open(container) if self.oracle else None
+        joint, opened, _ = model.doors[container]
+        leaf = [at for at in range(model.mj.ngeom) if model.mj.geom_bodyid[at] == model.body_of[container + "/door"]]
+        points = [one.points()[::GRID, ::GRID][one.depth[::GRID, ::GRID] > 0.0] for one in self.pictures]
+        data, counts = mujoco.MjData(model.mj), []
+        for step in range(STEPS + 1):
+            data.qpos[:], data.mocap_pos[:] = self.world.data.qpos, self.world.data.mocap_pos
+            data.qpos[joint] = opened * step / STEPS
+            mujoco.mj_kinematics(model.mj, data)
+            counts.append(sum(np.count_nonzero(within(model.mj, data, leaf, one)) for one in points))
+        best = int(np.argmax(counts))
+        return None if counts[best] < ENOUGH else best / STEPS > OPENED
 
     def pose(self, one):
-        """Position and rotation of an entity as it was last seen."""
+        """Position and rotation of an entity as it was last seen, or else as it is believed to be; None if nothing
+        is known of it."""
         for found in self.last:
             if found["id"] == one:
                 x, y, z, w = found["pose"]["quaternion"]
                 return np.array(found["pose"]["xyz"]), np.array([w, x, y, z])
-        return self.world.pose(one)
+        if self.oracle:
+            return self.world.pose(one)
+        pose = self.beliefs.entities.get(one, {}).get("pose")
+        return None if pose is None else (np.array(pose["xyz"], dtype=float), turned(pose))
 
     def truth(self):
         """What the simulator knows to be in view."""
@@ -136,9 +188,10 @@ class Eyes:
 
     def matched(self):
         """What the detector finds in the pictures of all cameras, with the ids of known things."""
-        found = []
+        found, self.pictures = [], []
         for name in self.world.model.cameras:
             picture = self.camera.look(name)
+            self.pictures.append(picture)
             found.extend(self.ask(dict(picture.message(), solids=self.solids())))
         taken = set()
         for one in found:
@@ -155,18 +208,25 @@ class Eyes:
         position, size = np.array(one["pose"]["xyz"]), np.array(one["extent"])
         best = None
         for thing in self.world.model.free:
-            entity = self.beliefs.entities[thing]
-            pose = entity.get("pose")
-            if thing in taken or pose is None:
+            entity = self.beliefs.entities.get(thing)
+            if entity is None or thing in taken or not painted(entity, one["label"]):
                 continue
-            off = float(np.linalg.norm(position - np.array(pose["xyz"])))
-            like = unlike(size, extent(entity))
-            colour = 0.0 if painted(entity, one["label"]) else 0.3
-            if off <= ABOUT and like <= UNLIKE and colour == 0.0:
-                worth = off / ABOUT + like
+            off, like = self.off(entity, position), unlike(size, extent(entity))
+            if off is not None and off <= ABOUT and like <= UNLIKE or off is None and like <= UNLIKE_ANYWHERE:
+                # What is known to be about there comes before what may be anywhere.
+                worth = (2.0 if off is None else off / ABOUT) + like
                 if best is None or worth < best[0]:
                     best = (worth, thing)
         return best[1] if best else None
+
+    def off(self, entity, position):
+        """Distance in m from where a thing is believed to be, or from what it is on or in; None if it may be
+        anywhere."""
+        pose = entity.get("pose")
+        if pose is not None:
+            return float(np.linalg.norm(position - np.array(pose["xyz"])))
+        support = entity.get("on") or entity.get("in")
+        return None if support is None else self.beliefs.gap(support, position)
 
     def ask(self, message):
         """The answer of the detector."""
@@ -212,6 +272,16 @@ class Eyes:
         if self.process is not None:
             self.process.stdin.close()
             self.process.wait(timeout=5)
+
+
+def within(mj, data, geoms, points):
+    """Points, as rows, that are on or in one of some boxes."""
+    found = np.zeros(len(points), dtype=bool)
+    for at in geoms:
+        if mj.geom_type[at] == mujoco.mjtGeom.mjGEOM_BOX:
+            local = (points - data.geom_xpos[at]) @ data.geom_xmat[at].reshape(3, 3)
+            found |= np.all(np.abs(local) <= mj.geom_size[at] + 0.01, axis=1)
+    return found
 
 
 def extent(entity):

@@ -60,7 +60,7 @@ def carry_out(world, query, witness, share=1.0):
 def follow(world, points, share):
     """Follows points, and measures the error of base and joints at the end of each leg."""
     greatest = np.zeros(2)
-    path = timed(points, world.model.speeds, share)
+    path = timed(points, world.model, share)
     start = world.now
     while world.now - start < path.end:
         world.step(*path.at(world.now - start + world.tick / 2.0))
@@ -149,7 +149,7 @@ def support_gone(world, thing):
 
 
 def go_to(world, _arguments, points, _witness, share):
-    path = timed(points, world.model.speeds, share)
+    path = timed(points, world.model, share)
     met = []
     start = world.now
     while world.now - start < path.end and not met:

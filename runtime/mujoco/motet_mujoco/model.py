@@ -10,6 +10,10 @@ import mujoco
 import numpy as np
 
 
+# Seconds within which the base and a joint reach their greatest speed, as in the time parametrisation of witnesses.
+RAMPS = (1.0, 0.5)
+
+
 class ModelError(Exception):
     """The model of a robot in a scene cannot be made; the text is for people."""
 
@@ -71,6 +75,7 @@ class Model:
         for name_ in actuators[len(speeds) :]:
             speeds.append(float(numbers[name_.replace("robot/", "speed/", 1)][0]))
         self.speeds = np.array(speeds)
+        self.ramps = np.array([RAMPS[0] if at < 3 and self.drives else RAMPS[1] for at in range(m.nu)])
         grips = {key.removeprefix("hand/"): value for key, value in numbers.items() if key.startswith("hand/")}
         self.grips = {self.controls[unquote(key)]: value for key, value in grips.items()}
         # Bodies: who is an entity, a door, or the robot.

@@ -5,56 +5,194 @@ import numpy as np
 
 # Cosine above which a path goes on through a waypoint without a stop.
 STRAIGHT = 0.97
+# Shares of the longest overlap of two legs that are tried.
+SHARES = (1.0, 0.75, 0.5, 0.25)
 
 
 class Path:
-    """Targets of the actuators over time: straight between waypoints, from rest to rest."""
+    """Targets of the actuators over time, in strokes: polylines from rest to rest, with an even acceleration.
 
-    def __init__(self, points, times):
-        self.points = [np.asarray(point, dtype=float) for point in points]
-        self.times = np.asarray(times, dtype=float)
-        # The speed along the path at each waypoint, in legs per second: where it turns, it stops.
-        count = len(self.points)
-        self.rates = np.zeros(count)
-        for at in range(1, count - 1):
-            before, after = self.points[at] - self.points[at - 1], self.points[at + 1] - self.points[at]
-            sizes = np.linalg.norm(before) * np.linalg.norm(after)
-            if sizes > 1e-12 and before @ after / sizes > STRAIGHT:
-                # In the units of the target, so that a leg of another length has the same speed.
-                first = np.linalg.norm(before) / max(self.times[at] - self.times[at - 1], 1e-9)
-                second = np.linalg.norm(after) / max(self.times[at + 1] - self.times[at], 1e-9)
-                self.rates[at] = 2.0 * first * second / max(first + second, 1e-12)
+    A stroke begins before the one ahead of it has ended by its overlap: without one the path stops where two strokes
+    meet, and with one it goes by that corner.
+    """
+
+    def __init__(self, strokes, overlaps=None):
+        self.strokes = strokes
+        self.overlaps = list(overlaps) if overlaps is not None else [0.0] * max(len(strokes) - 1, 0)
+        self.starts, now = [], 0.0
+        for stroke, overlap in zip(strokes, [*self.overlaps, 0.0]):
+            self.starts.append(now)
+            now += stroke.span - overlap
+        self.end = now  # time at which the path ends, in s
 
     @property
-    def end(self):
-        """Time at which the path ends."""
-        return float(self.times[-1])
+    def points(self):
+        """All waypoints."""
+        return [self.strokes[0].points[0], *[point for stroke in self.strokes for point in stroke.points[1:]]]
 
     def at(self, time):
         """Targets and their rates at a time."""
-        if time >= self.times[-1]:
-            return self.points[-1], np.zeros_like(self.points[-1])
-        leg = max(int(np.searchsorted(self.times, time, side="right")) - 1, 0)
-        start, end = self.points[leg], self.points[leg + 1]
-        span = self.times[leg + 1] - self.times[leg]
-        size = np.linalg.norm(end - start)
-        if span <= 1e-9 or size < 1e-12:
-            return end, np.zeros_like(end)
-        # A cubic from the speed before to the speed after.
-        u = min(max((time - self.times[leg]) / span, 0.0), 1.0)
-        a, b = self.rates[leg] * span / size, self.rates[leg + 1] * span / size
-        share = u * (a + u * (3.0 - 2.0 * a - b + u * (a + b - 2.0)))
-        rate = (a + u * (2.0 * (3.0 - 2.0 * a - b) + 3.0 * u * (a + b - 2.0))) / span
-        return start + (end - start) * share, (end - start) * rate
+        target, rate = self.strokes[0].points[0].copy(), np.zeros_like(self.strokes[0].points[0])
+        for start, stroke in zip(self.starts, self.strokes):
+            if time > start:
+                moved, moves = stroke.at(time - start)
+                target += moved
+                rate += moves
+        return target, rate
+
+    def blended(self, model, is_free):
+        """The path with overlaps within the accelerations of a model, where `is_free` says that the targets on the way
+        may be passed: (start of the first stroke, corner, targets) → bool."""
+        overlaps, before, rest = [], 0.0, len(self.strokes) - 2
+        for at, (one, other) in enumerate(zip(self.strokes, self.strokes[1:])):
+            most, found = longest(one, other, before, model), 0.0
+            for share in SHARES if most > 0.02 else ():
+                trial = Path(self.strokes, [*overlaps, most * share, *[0.0] * (rest - at)])
+                start = trial.starts[at + 1]
+                times = np.linspace(start, start + most * share, max(int(most * share / 0.1), 3))
+                if is_free(one.points[0], one.points[-1], [trial.at(time)[0] for time in times]):
+                    found = most * share
+                    break
+            overlaps.append(found)
+            before = found
+        return Path(self.strokes, overlaps)
+
+    def slower(self, factor):
+        """The path in a multiple of its time."""
+        strokes = [Stroke(one.points, one.cruise, one.span * factor, one.ramp * factor) for one in self.strokes]
+        return Path(strokes, [overlap * factor for overlap in self.overlaps])
+
+    def to(self, points):
+        """A path through other points, as many, at the same times."""
+        strokes, first = [], 0
+        for one in self.strokes:
+            last = first + len(one.points) - 1
+            strokes.append(Stroke(points[first : last + 1], one.cruise, one.span, one.ramp))
+            first = last
+        return Path(strokes)
+
+    def until(self, points):
+        """A path through the first of other points, at the same times."""
+        return self.to([*points, *self.points[len(points) :]]).cut(len(points))
+
+    def cut(self, count):
+        """The path up to a number of waypoints. The last stroke takes the time that it would take as a whole."""
+        strokes, left = [], count - 1
+        for one in self.strokes:
+            legs = min(left, len(one.cruise))
+            if legs > 0:
+                strokes.append(Stroke(one.points[: legs + 1], one.cruise[:legs], one.span, one.ramp))
+            left -= legs
+        return Path(strokes)
 
 
-def timed(points, speeds, share=1.0):
-    """A path at a share of the greatest speeds, leg by leg: its slowest part half as fast again as on average."""
-    times = [0.0]
+class Stroke:
+    """A polyline from rest to rest: even acceleration for the time `ramp`, even speed, even braking.
+
+    `cruise` has the seconds that each leg would take at the greatest speed of all its actuators.
+    """
+
+    def __init__(self, points, cruise, span, ramp):
+        self.points = [np.array(point, dtype=float) for point in points]
+        self.cruise, self.span = [float(one) for one in cruise], float(span)
+        self.ramp = min(float(ramp), self.span / 2.0)
+        self.passed = np.concatenate([[0.0], np.cumsum(self.cruise)])
+
+    def at(self, time):
+        """How far the targets have moved since the start, and their rates."""
+        if time >= self.span or self.passed[-1] < 1e-9:
+            return self.points[-1] - self.points[0], np.zeros_like(self.points[0])
+        share, speed = trapezoid(time, self.span, self.ramp)
+        done = share * self.passed[-1]
+        leg = min(int(np.searchsorted(self.passed, done, side="right")) - 1, len(self.cruise) - 1)
+        way = (self.points[leg + 1] - self.points[leg]) / max(self.cruise[leg], 1e-9)
+        return self.points[leg] - self.points[0] + way * (done - self.passed[leg]), way * speed * self.passed[-1]
+
+    def reversed(self):
+        """The same stroke from its end to its start."""
+        return Stroke(self.points[::-1], self.cruise[::-1], self.span, self.ramp)
+
+
+def longest(one, other, taken, model):
+    """Longest overlap in s of a stroke with the next that exceeds no speed and no acceleration of a model."""
+    if min(one.span, other.span) < 1e-6:
+        return 0.0
+    moves = [np.ptp(np.array(stroke.points), axis=0) > 1e-6 for stroke in (one, other)]
+    shared = moves[0] & moves[1]
+    if not shared.any():
+        return max(min(one.span - taken, other.span), 0.0)
+    # It brakes for the one and accelerates for the other at once.
+    braking = one.at(one.span - one.ramp - 1e-6)[1] / max(one.ramp, 1e-9)
+    rising = other.at(other.ramp + 1e-6)[1] / max(other.ramp, 1e-9)
+    most = np.maximum(model.speeds / model.ramps, np.maximum(np.abs(braking), np.abs(rising)))
+    if np.any(np.abs(rising - braking)[shared] > 1.01 * most[shared]):
+        return 0.0
+    return max(min(one.ramp, other.ramp, one.span - taken, other.span), 0.0)
+
+
+def trapezoid(time, span, ramp):
+    """Share of a leg that is done at a time, and its rate: even acceleration, even speed, even braking."""
+    fastest = 1.0 / max(span - ramp, 1e-9)
+    left = span - time
+    if time < ramp:
+        return fastest * time * time / (2.0 * ramp), fastest * time / ramp
+    if left < ramp:
+        return 1.0 - fastest * left * left / (2.0 * ramp), fastest * left / ramp
+    return fastest * (time - ramp / 2.0), fastest
+
+
+def timed(points, model, share=1.0):
+    """A path at a share of the greatest speeds and accelerations of a model. It stops where its direction changes."""
+    return Path([stroke(part, model, share) for part in straight_parts(points)])
+
+
+def straight_parts(points):
+    """Parts of a polyline that go on in about a direction. Two parts have the point in common where they meet."""
+    points = [np.asarray(point, dtype=float) for point in points]
+    parts = [points[:2]]
+    for point in points[2:]:
+        before, after = parts[-1][-1] - parts[-1][-2], point - parts[-1][-1]
+        sizes = np.linalg.norm(before) * np.linalg.norm(after)
+        if sizes > 1e-12 and before @ after / sizes > STRAIGHT:
+            parts[-1].append(point)
+        else:
+            parts.append([parts[-1][-1], point])
+    return parts
+
+
+def stroke(points, model, share):
+    """A stroke at a share of the greatest speeds and accelerations of a model."""
+    speeds, cruise, hardest = np.maximum(model.speeds * share, 1e-6), [], 1e-6
     for before, after in zip(points, points[1:]):
-        needed = np.max(np.abs(np.asarray(after) - before) / np.maximum(speeds * share, 1e-6))
-        times.append(times[-1] + max(1.5 * float(needed), 0.0 if needed < 1e-9 else 0.1))
-    return Path(points, times)
+        far = np.abs(np.asarray(after) - before)
+        if model.drives:
+            far[:2] = np.hypot(far[0], far[1])
+        needed = far / speeds
+        cruise.append(float(np.max(needed)))
+        if cruise[-1] > 1e-9:
+            # Time to the speed at which the leg takes so long.
+            hardest = max(hardest, float(np.max(needed / cruise[-1] * model.ramps)))
+    length = sum(cruise)
+    if length < 1e-9:
+        return Stroke(points, cruise, 0.0, 0.0)
+    fast = max(length, np.sqrt(length * hardest))
+    ramp = min(length * hardest / fast, fast)
+    return Stroke(points, cruise, fast + ramp, ramp)
+
+
+def witnessed(points, path, model, share):
+    """A path at the times of a witness, whose waypoints have `at` and `ramp`. Parts that go on in a direction take the
+    time of the model instead: a witness stops at each of its waypoints."""
+    strokes, first = [], 0
+    for part in straight_parts(points):
+        last = first + len(part) - 1
+        if len(part) == 2:
+            span = path[last]["at"] - path[first]["at"]
+            strokes.append(Stroke(part, [1.0 if span > 0.0 else 0.0], span, path[last].get("ramp", 0.0)))
+        else:
+            strokes.append(stroke(part, model, share))
+        first = last
+    return Path(strokes)
 
 
 def near_turn(angle, to):

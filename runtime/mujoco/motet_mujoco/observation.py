@@ -232,7 +232,17 @@ class Observer:
         if field == "mass":
             return self.model.mass(entity) if entity in self.model.free else known.get("mass")
         value = known.get(field, known.get("fields", {}).get(field))
+        if field == "width" and value is None:
+            value = width(known.get("shape", {}))
         return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
+
+
+def width(shape):
+    """Opening in m that a hand needs for a shape: its smallest horizontal extent, or None."""
+    if "box" in shape:
+        return min(shape["box"][:2])
+    round_ = next((part for part in shape.values() if isinstance(part, dict) and "radius" in part), None)
+    return None if round_ is None else 2.0 * round_["radius"]
 
 
 def points_of(world, one, pose):

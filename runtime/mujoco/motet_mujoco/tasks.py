@@ -6,40 +6,21 @@ A task that is not resumed holds still, since the targets stay where they are.
 import numpy as np
 
 from .camera import NoGraphics
-from .motion import Path, near_turn, phases, set_targets, timed
+from .motion import phases
+from .moving import Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted
 
-# Differences in m or rad up to which the robot stands at the beginning of a path.
-BEGINS = 0.05
 # Distance in m from a thing up to which a given point counts as being at it.
 NEAR_GRASP = 0.05
-# Error in m or rad of a servo above which something is in the way.
-BLOCKED = 0.12
 
 
-class Failed(Exception):
-    """A failure of a primitive: its kind, and what happened, in words."""
-
-    def __init__(self, kind, text):
-        super().__init__(text)
-        self.kind, self.text = kind, text
-
-
-# Failure kinds by the reasons of geometry.
-KINDS = {"blocked_path": "blocked", "no_free_pose": "unreachable", "out_of_reach": "unreachable",
-         "too_heavy": "too_heavy", "not_in_view": "not_found"}
-
-
-class Tasks:
+class Tasks(Mover):
     """Carries out commands in a world."""
 
     def __init__(self, world, observer, beliefs, planner, eyes, options):
-        self.world, self.observer, self.beliefs = world, observer, beliefs
-        self.planner, self.eyes, self.options = planner, eyes, options
-        self.goal = world.target.copy()  # targets that the tasks aim at
-        self.rate = np.zeros_like(self.goal)
-        self.said = []
+        super().__init__(world, observer, beliefs, planner, options)
+        self.eyes, self.said = eyes, []
         self.answers = list(options.answers)
 
     def task(self, command):
@@ -49,131 +30,39 @@ class Tasks:
             return None
         return run({name: value for name, value in command["args"]}, Motion(command))
 
-    # Parts of tasks.
-
-    def aim(self, path, elapsed, mask):
-        """Aims the actuators of a mask at a path."""
-        target, rate = path.at(elapsed + self.world.tick / 2.0)
-        self.goal[mask], self.rate[mask] = target[mask], rate[mask]
-
-    def follow(self, points, times, speed, what=None, watch=None):
-        """Follows points. Fails with `blocked` where the robot meets something, or falls behind."""
-        world, model = self.world, self.world.model
-        points = [np.array(point) for point in points]
-        points[0] = self.goal.copy()
-        mask = np.any(np.abs(np.array(points) - points[0]) > 1e-9, axis=0)
-        if not mask.any():
-            return
-        path = Path(points, times) if times is not None else timed(points, model.speeds, speed)
-        elapsed, behind = 0.0, 0
-        while elapsed < path.end:
-            self.aim(path, elapsed, mask)
-            elapsed += world.tick
-            yield
-            off = np.abs(world.data.qpos[model.control_qpos] - self.goal)
-            off[list(model.grips)] = 0.0
-            behind = behind + 1 if off[mask].max() > BLOCKED else 0
-            if behind > 25:
-                met = world.bumped() or what or "something"
-                # What pushes on would push for ever.
-                self.goal[mask] = world.data.qpos[model.control_qpos][mask]
-                raise Failed("blocked", "%s is in the way" % met)
-            if watch is not None:
-                watch()
-        self.goal[mask] = points[-1][mask]
-
-    def grip(self, closed, seconds):
-        """Closes or opens the hand over a time, from where its fingers are."""
-        world, model = self.world, self.world.model
-        start = {at: world.data.qpos[model.control_qpos[at]] for at in model.grips}
-        ticks = int(seconds / world.tick)
-        for tick in range(ticks):
-            for at, (opened, shut) in model.grips.items():
-                to = shut if closed else opened
-                self.goal[at] = start[at] + (to - start[at]) * min(2.0 * (tick + 1) / ticks, 1.0)
-            yield
-
-    def pause(self, seconds):
-        """Waits."""
-        for _ in range(max(1, int(round(seconds / self.world.tick)))):
-            yield
-
-    def straight(self, way, share=0.4):
-        """Moves the hand along a straight line in the map, as far as it goes."""
-        world = self.world
-        place, rotation = world.tip()
-        points = [self.goal.copy()]
-        for step in range(1, 5):
-            target = world.reacher.solve(world.data.qpos, points[-1], place + way * step / 4.0, rotation)
-            if target is None:
-                break
-            for at in world.model.grips:
-                target[at] = self.goal[at]
-            points.append(target)
-        if len(points) > 1:
-            yield from self.follow(points, None, share)
-
-    def motion(self, motion, query, fail="unreachable"):
-        """Points and times of the motion of a command, from where the robot stands; else of one of its own."""
-        witness = motion.witness
-        if witness is not None:
-            points = self.points(witness)
-            if np.abs(points[0] - self.goal)[self.arm_and_base()].max() <= BEGINS:
-                return points, motion.times, witness
-        witness, why = self.planner.plan(self.beliefs.now(), query)
-        if witness is None:
-            raise Failed(KINDS.get(why[0], fail), why[1])
-        return self.points(witness), None, witness
-
-    def points(self, witness):
-        """Targets of the waypoints of a witness."""
-        names = witness.get("joints")
-        path = witness["path"]
-        if names is not None:
-            path = [{"base": one["base"], "joints": dict(zip(names, one["joints"]))} for one in path]
-        saved, self.world.target = self.world.target, self.goal.copy()
-        points = self.world.targets(path)
-        self.world.target = saved
-        return points
-
-    def arm_and_base(self):
-        """Actuators but for those of the hand."""
-        return [at for at in range(len(self.goal)) if at not in self.world.model.grips]
-
     # Moving.
 
     def do_go(self, args, motion):
         to = entity(args["to"])
-        points, times, _ = self.motion(motion, "go_to(%s)" % quoted(to))
-        yield from self.drive(points, times, motion.speed, to)
+        yield from self.drive(self.motion(motion, "go_to(%s)" % quoted(to)), to)
         self.observer.visited.add(to)
         self.observer.visited.update(self.world.bearers(to) if to in self.world.model.free else [])
 
-    def drive(self, points, times, speed, to):
+    def drive(self, path, to):
         held = self.world.held()
         if self.world.model.drives:
-            points = [np.array(point) for point in points]
-            points[-1][:2] += self.options.chance.error(self.options.rates["base"]["error_m"], "base")
+            last = path.strokes[-1].points[-1] = path.strokes[-1].points[-1].copy()
+            last[:2] += self.options.chance.error(self.options.rates["base"]["error_m"], "base")
 
         def watch():
             met = self.world.bumped(held)
             if met is not None and met != to:
                 raise Failed("blocked", "%s is in the way" % met)
 
-        yield from self.follow(points, times, speed, watch=watch)
+        yield from self.follow(path, watch=watch)
         yield from self.pause(0.2)
 
     def do_go_to_pose(self, args, motion):
         pose = args["to"]["pose"]
         x, y, _ = pose["xyz"]
         yaw = yaw_of(pose["quaternion"])
-        points, times, _ = self.motion(motion, "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw))
-        yield from self.drive(points, times, motion.speed, None)
+        path = self.motion(motion, "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw))
+        yield from self.drive(path, None)
 
     def do_turn(self, args, motion):
         target = self.goal.copy()
         target[2] += number(args["by"])
-        yield from self.drive([self.goal.copy(), target], None, motion.speed, None)
+        yield from self.drive(self.path([self.goal.copy(), target], motion.speed), None)
 
     def do_home(self, _args, motion):
         yield from self.take_posture("home", motion)
@@ -182,8 +71,7 @@ class Tasks:
         yield from self.take_posture("start", motion)
 
     def take_posture(self, posture, motion):
-        points, times, _ = self.motion(motion, "posture(%s)" % posture, "blocked")
-        yield from self.follow(points, times, motion.speed)
+        yield from self.follow(self.motion(motion, "posture(%s)" % posture, "blocked"))
         self.observer.posture = {"home": "home", "start": "ready"}[posture]
 
     def do_wake_up(self, _args, _motion):
@@ -197,11 +85,12 @@ class Tasks:
         side = args.get("from", {}).get("case", "auto")
         query = "reach(%s)" % quoted(thing) if side == "auto" else "reach(%s, %s)" % (quoted(thing), side)
         begun = self.goal.copy()
-        points = yield from self.grasp(thing, query, motion)
+        path = yield from self.grasp(thing, query, motion)
         yield from self.straight(np.array([0.0, 0.0, 0.06]))
         if not self.world.holds(thing):
+            self.beliefs.forget(thing)
             raise Failed("slipped", "%s slipped out of the hand" % thing)
-        yield from self.way_back(points, begun, motion, thing)
+        yield from self.way_back(path, begun, motion, thing)
         self.beliefs.rests(thing, None, None)
         self.observer.moved.add(thing)
 
@@ -232,8 +121,7 @@ class Tasks:
             return points
         moved = [np.array(point) for point in points]
         for at in range(max(1, len(points) - 2), len(points)):
-            set_targets(model, world.reacher.data, world.data.qpos.copy(), points[at])
-            place, rotation = world.reacher.pose(world.reacher.data.qpos.copy())
+            place, rotation = self.frame(points[at])
             target = world.reacher.solve(world.data.qpos, moved[at], place + off, rotation)
             if target is None:
                 return None
@@ -244,88 +132,31 @@ class Tasks:
 
     def to_point(self, points, place):
         """Points of a way on which the fingers close in the plane across them through a point."""
-        world = self.world
-        set_targets(world.model, world.reacher.data, world.data.qpos.copy(), points[-1])
-        tip, rotation = world.reacher.pose(world.reacher.data.qpos.copy())
+        tip, rotation = self.frame(points[-1])
         across = rotation[:, 0]
         return self.aside(points, across * float(across @ (place - tip)))
 
     def grasp(self, thing, query, motion, place=None):
-        """Reaches a thing and closes the hand around it. Gives the points of the way there."""
-        points, times, _ = self.motion(motion, query)
+        """Reaches a thing and closes the hand around it. Gives the path of the way there."""
+        path = self.motion(motion, query)
+        points = path.points
         if place is not None:
             points = self.to_point(points, place)
             if points is None:
                 raise Failed("unreachable", "the hand does not reach the point on %s" % thing)
         dx, dy = self.options.chance.error(self.options.rates["hand"]["error_m"], "hand", thing)
-        points = self.aside(points, np.array([dx, dy, 0.0])) or points
-        yield from self.follow(points, times, motion.speed, thing)
-        yield from self.grip(True, 1.0)
-        held = self.world.held()
-        if thing not in held:
-            near = np.linalg.norm(self.world.pose(thing)[0] - self.world.tip()[0]) if self.world.pose(thing) else 9.0
-            kind, text = ("slipped", "%s is not between the fingers") if near < 0.25 else (
+        path = path.to(self.aside(points, np.array([dx, dy, 0.0])) or points)
+        yield from self.follow(path, thing)
+        yield from self.grip(True, 0.8)
+        if not self.world.holds(thing):
+            # A hand feels if it closes around nothing.
+            kind, text = ("slipped", "%s is not between the fingers") if self.world.is_touched(thing) else (
                 "not_found", "%s is not where it was expected")
+            self.beliefs.forget(thing)
             yield from self.grip(False, 0.6)
             yield from self.straight(-0.08 * self.world.tip()[1][:, 2])
             raise Failed(kind, text % thing)
-        return points
-
-    def way_back(self, points, begun, motion, thing):
-        """Goes back the way it came with what it holds, and on to where the command leaves the robot."""
-        start = self.goal.copy()
-        back = [start] + [point.copy() for point in reversed(points[:-1])]
-        for point in back:
-            for at in self.world.model.grips:
-                point[at] = start[at]
-        # The last approach again, higher: the thing still stands low.
-        if len(back) > 2:
-            lifted = self.raised(back[1], 0.06)
-            if lifted is not None:
-                back[1] = lifted
-        leaves = self.leaves(motion, begun)
-        if leaves is not None and np.abs(leaves - back[-1])[self.arm_and_base()].max() > 1e-3:
-            back.append(leaves)
-
-        def watch():
-            if thing is not None and not self.world.holds(thing):
-                self.lost += 1
-                if self.lost > 12:
-                    raise Failed("slipped", "%s fell on the way back" % thing)
-            else:
-                self.lost = 0
-
-        self.lost = 0
-        yield from self.follow(back, None, motion.speed, watch=watch)
-        yield from self.pause(0.2)
-
-    def raised(self, point, height):
-        """Targets near to others with the hand higher."""
-        world = self.world
-        set_targets(world.model, world.reacher.data, world.data.qpos.copy(), point)
-        place, rotation = world.reacher.pose(world.reacher.data.qpos.copy())
-        raised = world.reacher.solve(world.data.qpos, point, place + np.array([0.0, 0.0, height]), rotation)
-        if raised is not None:
-            for at in world.model.grips:
-                raised[at] = point[at]
-        return raised
-
-    def leaves(self, motion, begun):
-        """Targets where a command leaves the robot, as far as it says; else where it began."""
-        if motion.leaves is None:
-            return begun
-        target = begun.copy()
-        if self.world.model.drives and motion.leaves.get("base") is not None:
-            x, y, yaw = motion.leaves["base"]
-            target[:3] = [x, y, near_turn(yaw, self.goal[2])]
-        joints = motion.leaves.get("joints") or {}
-        for joint, value in (joints.items() if isinstance(joints, dict) else []):
-            at = self.world.model.controls.get(joint)
-            if at is not None:
-                target[at] = value
-        for at in self.world.model.grips:
-            target[at] = self.goal[at]
-        return target
+        return path
 
     def do_lift(self, args, motion):
         held = self.world.held()
@@ -333,6 +164,7 @@ class Tasks:
         before = self.world.tip()[0][2]
         yield from self.straight(np.array([0.0, 0.0, by]))
         if held and not self.world.holds(held[0]):
+            self.beliefs.forget(held[0])
             raise Failed("slipped", "%s slipped out of the hand" % held[0])
         if self.world.tip()[0][2] - before < 0.5 * by:
             raise Failed("blocked", "the hand does not get higher from here")
@@ -362,31 +194,24 @@ class Tasks:
         world, begun = self.world, self.goal.copy()
         if not world.holds(thing):
             raise Failed("slipped", "the hand does not hold %s" % thing)
-        points, times, _ = self.motion(motion, query)
-        parts = phases(points, world.model.grips, "draw")
-        approach = parts[0][1]
-        yield from self.follow(approach, times[: len(approach)] if times else None, motion.speed, on,
-                               self.keeps(thing))
+        path = self.motion(motion, query)
+        approach = phases(path.points, world.model.grips, "draw")[0][1]
+        path = path.until(approach)
+        yield from self.follow(path, on, self.keeps(thing))
+        # Where it is let go is felt; where it comes to rest is for the next look.
+        released = world.pose(thing)
         yield from self.grip(False, 0.8)
         yield from self.straight(-0.08 * world.tip()[1][:, 2])
-        yield from self.way_back(approach, begun, motion, None)
+        yield from self.way_back(path, begun, motion, None)
         where = "in" if world.is_in(thing, on) else "on" if world.is_on(thing, on) else None
         self.beliefs.rests(thing, where, on)
-        self.beliefs.saw(thing, *world.pose(thing))
+        if where is None:
+            self.beliefs.forget(thing)
+        else:
+            self.beliefs.saw(thing, *released)
         self.observer.moved.add(thing)
         if where is None:
             raise Failed("slipped", "%s does not rest on %s" % (thing, on))
-
-    def keeps(self, thing):
-        """A check that fails where a thing is lost from the hand."""
-        self.lost = 0
-
-        def watch():
-            self.lost = 0 if self.world.holds(thing) else self.lost + 1
-            if self.lost > 12:
-                raise Failed("slipped", "%s slipped out of the hand" % thing)
-
-        return watch
 
     def do_handover(self, args, motion):
         world = self.world
@@ -394,18 +219,20 @@ class Tasks:
         begun = self.goal.copy()
         if not world.holds(thing):
             raise Failed("slipped", "the hand does not hold %s" % thing)
-        points, times, _ = self.motion(motion, "offer(%s, %s)" % (quoted(thing), quoted(person)))
-        yield from self.follow(points, times, motion.speed, person, self.keeps(thing))
+        path = self.motion(motion, "offer(%s, %s)" % (quoted(thing), quoted(person)))
+        yield from self.follow(path, person, self.keeps(thing))
         yield from self.pause(self.options.reaction())
         if self.options.refuses(person):
             raise Failed("refused", "%s does not take it" % person)
         at = world.model.people[person]
         world.carried_by[thing] = (person, world.pose(thing)[0] - world.data.mocap_pos[at])
+        released = world.pose(thing)
         yield from self.grip(False, 0.8)
         self.beliefs.rests(thing, None, None)
+        self.beliefs.saw(thing, *released)
         self.observer.moved.add(thing)
         yield from self.straight(-0.05 * world.tip()[1][:, 2])
-        yield from self.way_back(points, begun, motion, None)
+        yield from self.way_back(path, begun, motion, None)
 
     def do_open(self, args, motion):
         yield from self.swing(entity(args["what"]), "pull", True, motion)
@@ -418,8 +245,8 @@ class Tasks:
         world, begun = self.world, self.goal.copy()
         if world.is_open(what) is opens:
             return
-        points, times, _ = self.motion(motion, "%s(%s)" % (query, quoted(what)))
-        parts, at = phases(points, world.model.grips), 0
+        path = self.motion(motion, "%s(%s)" % (query, quoted(what)))
+        parts = phases(path.points, world.model.grips)
         for deed, part in parts:
             if deed == "grip":
                 yield from self.grip(True, 1.0)
@@ -427,7 +254,7 @@ class Tasks:
                 yield from self.grip(False, 0.6)
             else:
                 share = motion.speed * (0.5 if deed == "draw" else 1.0)
-                yield from self.follow(part, None, share, None if deed == "draw" else what)
+                yield from self.follow(self.path(part, share), None if deed == "draw" else what)
         if not any(deed == "release" for deed, _ in parts) and any(deed == "grip" for deed, _ in parts):
             yield from self.grip(False, 0.6)
             yield from self.straight(-0.08 * world.tip()[1][:, 2])
@@ -439,27 +266,18 @@ class Tasks:
                 raise Failed("blocked", "%s is locked" % what)
             raise Failed("slipped" if opens else "blocked", "%s is %s" % (what, "open" if is_open else "closed"))
 
-    def home_again(self, begun, motion):
-        """Brings the arm to where the command leaves it, by a way of its own."""
-        if motion.leaves is None or np.abs(self.goal - self.leaves(motion, begun))[self.arm_and_base()].max() > 0.02:
-            witness, _ = self.planner.plan(self.beliefs.now(), "posture(home)")
-            if witness is not None:
-                yield from self.follow(self.points(witness), None, motion.speed)
-                self.observer.posture = "home"
-
     def do_push(self, args, motion):
         what, begun = entity(args["what"]), self.goal.copy()
-        points, times, _ = self.motion(motion, "push(%s)" % quoted(what))
-        yield from self.follow(points, times, motion.speed)
-        yield from self.way_back(points, begun, motion, None)
+        path = self.motion(motion, "push(%s)" % quoted(what))
+        yield from self.follow(path)
+        yield from self.way_back(path, begun, motion, None)
         self.observer.moved.add(what)
 
     # Looking.
 
     def look(self, one, motion):
         """Turns the camera to an entity. Fails with `not_found` where it does not come into view."""
-        points, times, _ = self.motion(motion, "look(%s)" % quoted(one), "not_found")
-        yield from self.follow(points, times, motion.speed)
+        yield from self.follow(self.motion(motion, "look(%s)" % quoted(one), "not_found"))
         yield from self.pause(0.1)
 
     def seen(self, wanted, motion):
@@ -476,6 +294,11 @@ class Tasks:
             except Failed:
                 continue
             found |= self.eyes.known(wanted)
+            if one not in found and one in self.world.model.free and not self.world.holds(one):
+                # It is not where it should be: anything alike in view is it.
+                self.beliefs.forget(one)
+                self.eyes.at = -1.0
+                found |= self.eyes.known(wanted)
         return [one for one in wanted if one in found]
 
     def objects(self, what):
@@ -525,7 +348,10 @@ class Tasks:
         found = yield from self.seen([one], motion)
         if not found:
             raise Failed("not_found", "%s is not in view" % one)
-        position, quaternion = self.eyes.pose(one)
+        seen = self.eyes.pose(one)
+        if seen is None:
+            raise Failed("not_found", "nobody knows where %s is" % one)
+        position, quaternion = seen
         w, x, y, z = (float(part) for part in quaternion)
         return {"pose": {"xyz": [float(part) for part in position], "quaternion": [x, y, z, w]}}
 
@@ -536,10 +362,12 @@ class Tasks:
         one = entity(args["what"])
         if one in self.world.model.body_of:
             found = yield from self.seen([one], motion)
-            if not found and not self.observer.is_visible(one):
+            if not found:
                 raise Failed("not_found", "%s is not in view" % one)
         self.observer.moved.add(one)
-        self.beliefs.opened(one, self.world.is_open(one))
+        is_open = self.eyes.sees_open(one)
+        if is_open is not None:
+            self.beliefs.opened(one, is_open)
 
     # Talking.
 
@@ -563,22 +391,6 @@ class Tasks:
         answer = self.answers.pop(0) if self.answers else None
         fitting = self.beliefs.matches(answer) if answer else []
         return next((one for one in listed if entity(one) in fitting), listed[0])
-
-
-class Motion:
-    """What a command says about its motion: a witness with times, the speed, and where it leaves the robot."""
-
-    def __init__(self, command):
-        command = command or {}
-        motions = command.get("motions") or ([command["motion"]] if command.get("motion") else [])
-        self.witness = motions[0].get("witness") if motions else None
-        self.leaves = command.get("leaves")
-        self.speed = float((command.get("manner") or {}).get("speed", 1.0))
-        path = self.witness["path"] if self.witness else []
-        times = [point.get("at") for point in path]
-        increasing = all(times) if len(times) < 2 else all(a is not None and b is not None and b >= a
-                                                           for a, b in zip(times, times[1:]))
-        self.times = times if path and None not in times and increasing else None
 
 
 def entity(value):

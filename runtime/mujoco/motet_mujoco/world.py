@@ -224,6 +224,10 @@ class World:
         """True if the hand holds a thing."""
         return thing in self.held()
 
+    def is_touched(self, thing):
+        """True if a part of the hand touches a thing."""
+        return any(geom in self.model.hand_geoms and force > 0.0 for geom, _, force in self.touching(thing))
+
     def bearers(self, thing):
         """What a thing rests on, apart from the hand: ids, or `floor`."""
         model, found = self.model, []

@@ -1,0 +1,82 @@
+"""Clearance of configurations in the room as the robot believes it to be: may a path cut a corner there?
+
+The witness of a motion is free of collisions along its legs. Between two legs the robot may go by their corner only
+where this check finds nothing within the distances that the witness keeps.
+"""
+
+import mujoco
+import numpy as np
+
+from .motion import set_targets
+
+# Distances in m that base and arm keep where a witness says nothing.
+KEEPS = {"base": 0.04, "arm": 0.01}
+
+
+class Clearance:
+    """Checks configurations on data of its own, with things where they are believed to be."""
+
+    def __init__(self, world, beliefs, keeps=None):
+        self.world, self.model = world, world.model
+        self.data = mujoco.MjData(self.model.mj)
+        self.data.qpos[:] = world.data.qpos
+        self.data.mocap_pos[:], self.data.mocap_quat[:] = world.data.mocap_pos, world.data.mocap_quat
+        held = world.held()
+        self.held = held[0] if held else None
+        beliefs.lay(self.data, self.held)
+        self.start = self.data.qpos.copy()
+        if self.held:
+            # How the hand holds it.
+            place, rotation = world.tip_frame()
+            position, quaternion = world.pose(self.held)
+            self.grip = rotation.T @ (position - place), rotation.T @ matrix(quaternion)
+        self.margins = self.margins_of({**KEEPS, **(keeps or {})})
+
+    def margins_of(self, keeps):
+        """Margin of each geom: that of the base or of the arm, and none of things."""
+        mj, margins = self.model.mj, np.zeros(self.model.mj.ngeom)
+        for at in range(mj.ngeom):
+            owner = self.model.geom_owner[at]
+            if owner == "robot":
+                is_base = mj.body(mj.geom_bodyid[at]).name == "robot"
+                margins[at] = keeps["base" if is_base else "arm"]
+            elif owner is not None and owner == self.held:
+                margins[at] = keeps["arm"]
+        return margins
+
+    def near(self, target):
+        """Pairs of bodies nearer to each other than they may be, at targets of the actuators."""
+        mj, data = self.model.mj, self.data
+        set_targets(self.model, data, self.start, target)
+        if self.held:
+            mujoco.mj_kinematics(mj, data)
+            at, body = self.model.free[self.held][0], mj.site_bodyid[self.model.tip]
+            place, rotation = data.xpos[body], data.xmat[body].reshape(3, 3)
+            turned = np.zeros(4)
+            mujoco.mju_mat2Quat(turned, np.ascontiguousarray(rotation @ self.grip[1]).ravel())
+            data.qpos[at : at + 3], data.qpos[at + 3 : at + 7] = place + rotation @ self.grip[0], turned
+        before, flags = mj.geom_margin.copy(), mj.opt.enableflags
+        mj.geom_margin[:], mj.opt.enableflags = np.maximum(before, self.margins), 0
+        mujoco.mj_fwdPosition(mj, data)
+        mj.geom_margin[:], mj.opt.enableflags = before, flags
+        owner, mine = self.model.geom_owner, ("robot", self.held)
+        found = set()
+        for at in range(data.ncon):
+            one, other = data.contact[at].geom
+            pair = (owner[one], owner[other])
+            is_floor = self.model.floor in (one, other)
+            if not is_floor and (pair[0] in mine) != (pair[1] in mine):
+                found.add((mj.geom_bodyid[one], mj.geom_bodyid[other]))
+        return found
+
+    def is_free(self, start, corner, targets):
+        """True if at all targets nothing is too near that is not so at the start and at the corner anyway."""
+        permitted = self.near(start) | self.near(corner)
+        return all(self.near(target) <= permitted for target in targets)
+
+
+def matrix(quaternion):
+    """Rotation of a quaternion w, x, y, z."""
+    rotation = np.zeros(9)
+    mujoco.mju_quat2Mat(rotation, quaternion)
+    return rotation.reshape(3, 3)

@@ -1,0 +1,249 @@
+"""Moving: what primitives have in common. A mover finds the motion of a command, follows it and brings it back.
+
+Its parts are generators that aim the actuators once a tick; a task is made of them.
+"""
+
+import numpy as np
+
+from .clearance import Clearance
+from .motion import Path, Stroke, near_turn, rotation_vector, set_targets, timed, witnessed
+
+# Differences in m or rad up to which the robot stands at the beginning of a path.
+BEGINS = 0.05
+# Error in m or rad of a servo above which something is in the way.
+BLOCKED = 0.12
+# Greatest acceleration of the hand while it holds something, in m/s² and rad/s².
+HELD = (1.0, 3.0)
+
+
+class Failed(Exception):
+    """A failure of a primitive: its kind, and what happened, in words."""
+
+    def __init__(self, kind, text):
+        super().__init__(text)
+        self.kind, self.text = kind, text
+
+
+# Failure kinds by the reasons of geometry.
+KINDS = {"blocked_path": "blocked", "no_free_pose": "unreachable", "out_of_reach": "unreachable",
+         "too_heavy": "too_heavy", "not_in_view": "not_found"}
+
+
+class Mover:
+    """Moves the robot of a world along paths."""
+
+    def __init__(self, world, observer, beliefs, planner, options):
+        self.world, self.observer, self.beliefs = world, observer, beliefs
+        self.planner, self.options = planner, options
+        self.goal = world.target.copy()  # targets that the tasks aim at
+        self.rate = np.zeros_like(self.goal)
+        self.lost = 0
+
+    def aim(self, path, elapsed, mask):
+        """Aims the actuators of a mask at a path."""
+        target, rate = path.at(elapsed + self.world.tick / 2.0)
+        self.goal[mask], self.rate[mask] = target[mask], rate[mask]
+
+    def path(self, points, speed=1.0):
+        """A path through points at a share of the greatest speeds."""
+        return timed(points, self.world.model, speed)
+
+    def follow(self, path, what=None, watch=None, keeps=None):
+        """Follows a path. Fails with `blocked` where the robot meets something, or falls behind."""
+        world, model = self.world, self.world.model
+        points = [self.goal.copy(), *path.points[1:]]
+        mask = np.any(np.abs(np.array(points) - points[0]) > 1e-9, axis=0)
+        if not mask.any():
+            return
+        path = path.to(points)
+        if world.held():
+            path = Path([self.gentle(stroke) for stroke in path.strokes])
+        if len(path.strokes) > 1:
+            path = path.blended(model, Clearance(world, self.beliefs, keeps).is_free)
+        elapsed, behind = 0.0, 0
+        while elapsed < path.end:
+            self.aim(path, elapsed, mask)
+            elapsed += world.tick
+            yield
+            off = np.abs(world.data.qpos[model.control_qpos] - self.goal)
+            off[list(model.grips)] = 0.0
+            behind = behind + 1 if off[mask].max() > BLOCKED else 0
+            if behind > 25:
+                met = world.bumped() or what or "something"
+                # What pushes on would push for ever.
+                self.goal[mask] = world.data.qpos[model.control_qpos][mask]
+                raise Failed("blocked", "%s is in the way" % met)
+            if watch is not None:
+                watch()
+        self.goal[mask] = points[-1][mask]
+
+    def gentle(self, stroke):
+        """A stroke on which the hand accelerates no more than a thing in it bears."""
+        if stroke.span < 1e-6:
+            return stroke
+        middles = [(before + after) / 2.0 for before, after in zip(stroke.points, stroke.points[1:])]
+        between = [point for pair in zip(stroke.points, middles) for point in pair]
+        frames = [self.frame(point) for point in [*between, stroke.points[-1]]]
+        far = sum(np.linalg.norm(one[0] - other[0]) for one, other in zip(frames, frames[1:]))
+        turn = sum(np.linalg.norm(rotation_vector(other[1] @ one[1].T)) for one, other in zip(frames, frames[1:]))
+        pace = max(far / HELD[0], turn / HELD[1]) / (stroke.ramp * (stroke.span - stroke.ramp))
+        factor = max(1.0, np.sqrt(pace))
+        return Stroke(stroke.points, stroke.cruise, stroke.span * factor, stroke.ramp * factor)
+
+    def frame(self, target):
+        """Position and rotation of the hand at targets of the actuators."""
+        world = self.world
+        set_targets(world.model, world.reacher.data, world.data.qpos.copy(), target)
+        return world.reacher.pose(world.reacher.data.qpos.copy())
+
+    def grip(self, closed, seconds):
+        """Closes or opens the hand over a time, from where its fingers are."""
+        world, model = self.world, self.world.model
+        start = {at: world.data.qpos[model.control_qpos[at]] for at in model.grips}
+        ticks = int(seconds / world.tick)
+        for tick in range(ticks):
+            for at, (opened, shut) in model.grips.items():
+                to = shut if closed else opened
+                self.goal[at] = start[at] + (to - start[at]) * min(2.0 * (tick + 1) / ticks, 1.0)
+            yield
+
+    def pause(self, seconds):
+        """Waits."""
+        for _ in range(max(1, int(round(seconds / self.world.tick)))):
+            yield
+
+    def straight(self, way, share=0.8):
+        """Moves the hand along a short straight line in the map, as far as it goes."""
+        world = self.world
+        place, rotation = world.tip()
+        target = self.goal
+        for step in range(1, 5):
+            further = world.reacher.solve(world.data.qpos, target, place + way * step / 4.0, rotation)
+            if further is None:
+                break
+            target = further
+        target = target.copy()
+        for at in world.model.grips:
+            target[at] = self.goal[at]
+        yield from self.follow(self.path([self.goal.copy(), target], share))
+
+    def motion(self, motion, query, fail="unreachable"):
+        """Path of the motion of a command, from where the robot stands; else of one of its own."""
+        witness = motion.witness
+        if witness is not None:
+            points = self.points(witness)
+            if np.abs(points[0] - self.goal)[self.arm_and_base()].max() <= BEGINS:
+                return self.timed(points, witness["path"], motion.speed)
+        witness, why = self.planner.plan(self.beliefs.now(), query)
+        if witness is None:
+            raise Failed(KINDS.get(why[0], fail), why[1])
+        return self.own(witness, motion)
+
+    def timed(self, points, path, speed):
+        """A path at the times of a witness, or without them at a share of the greatest speeds."""
+        times = [one.get("at") for one in path]
+        has_times = None not in times and all(b >= a for a, b in zip(times, times[1:]))
+        return witnessed(points, path, self.world.model, speed) if has_times else self.path(points, speed)
+
+    def own(self, witness, motion):
+        """Path of a witness that was not made for the manner of the command."""
+        path = self.timed(self.points(witness), witness["path"], 1.0)
+        return path.slower(motion.stretch)
+
+    def points(self, witness):
+        """Targets of the waypoints of a witness."""
+        names = witness.get("joints")
+        path = witness["path"]
+        if names is not None:
+            path = [{"base": one["base"], "joints": dict(zip(names, one["joints"]))} for one in path]
+        saved, self.world.target = self.world.target, self.goal.copy()
+        points = self.world.targets(path)
+        self.world.target = saved
+        return points
+
+    def arm_and_base(self):
+        """Actuators but for those of the hand."""
+        return [at for at in range(len(self.goal)) if at not in self.world.model.grips]
+
+    def way_back(self, path, begun, motion, thing):
+        """Goes back the way it came with what it holds, and on to where the command leaves the robot."""
+        start, strokes = self.goal.copy(), [stroke.reversed() for stroke in reversed(path.strokes)]
+        for stroke in strokes:
+            for point in stroke.points:
+                point[list(self.world.model.grips)] = start[list(self.world.model.grips)]
+        # The last approach again, higher: the thing still stands low.
+        points = strokes[0].points
+        lifted = self.raised(points[1], 0.06) if len(points) > 2 or len(strokes) > 1 else None
+        points[0] = start
+        if lifted is not None:
+            after = points[2] if len(points) > 2 else strokes[1].points[1]
+            first = self.path([start, lifted, after, *points[3:]], motion.speed).strokes
+            strokes[: 1 if len(points) > 2 else 2] = first
+        last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
+        if leaves is not None and np.abs(leaves - last)[self.arm_and_base()].max() > 1e-3:
+            strokes.extend(self.path([last, leaves], motion.speed).strokes)
+        yield from self.follow(Path(strokes), watch=self.keeps(thing, "fell on the way back"))
+        yield from self.pause(0.2)
+
+    def keeps(self, thing, how="slipped out of the hand"):
+        """A check that fails where a thing is lost from the hand; None without a thing."""
+        if thing is None:
+            return None
+        self.lost = 0
+
+        def watch():
+            self.lost = 0 if self.world.holds(thing) else self.lost + 1
+            if self.lost > 12:
+                self.beliefs.forget(thing)
+                raise Failed("slipped", "%s %s" % (thing, how))
+
+        return watch
+
+    def raised(self, point, height):
+        """Targets near to others with the hand higher."""
+        world = self.world
+        place, rotation = self.frame(point)
+        raised = world.reacher.solve(world.data.qpos, point, place + np.array([0.0, 0.0, height]), rotation)
+        if raised is not None:
+            for at in world.model.grips:
+                raised[at] = point[at]
+        return raised
+
+    def leaves(self, motion, begun):
+        """Targets where a command leaves the robot, as far as it says; else where it began."""
+        if motion.leaves is None:
+            return begun
+        target = begun.copy()
+        if self.world.model.drives and motion.leaves.get("base") is not None:
+            x, y, yaw = motion.leaves["base"]
+            target[:3] = [x, y, near_turn(yaw, self.goal[2])]
+        joints = motion.leaves.get("joints") or {}
+        for joint, value in (joints.items() if isinstance(joints, dict) else []):
+            at = self.world.model.controls.get(joint)
+            if at is not None:
+                target[at] = value
+        for at in self.world.model.grips:
+            target[at] = self.goal[at]
+        return target
+
+    def home_again(self, begun, motion):
+        """Brings the arm to where the command leaves it, by a way of its own."""
+        if motion.leaves is None or np.abs(self.goal - self.leaves(motion, begun))[self.arm_and_base()].max() > 0.02:
+            witness, _ = self.planner.plan(self.beliefs.now(), "posture(home)")
+            if witness is not None:
+                yield from self.follow(self.own(witness, motion))
+                self.observer.posture = "home"
+
+
+class Motion:
+    """What a command says about its motion: a witness with times, the manner, and where it leaves the robot."""
+
+    def __init__(self, command):
+        command = command or {}
+        motions = command.get("motions") or ([command["motion"]] if command.get("motion") else [])
+        self.witness = motions[0].get("witness") if motions else None
+        self.leaves = command.get("leaves")
+        manner = command.get("manner") or {}
+        self.speed = float(manner.get("speed", 1.0))
+        # Times of a path as a multiple of the shortest.
+        self.stretch = max(1.0 / self.speed, float(manner.get("acceleration", 1.0)) ** -0.5)

@@ -1,0 +1,114 @@
+"""Paths: times of witnesses, corners that are passed by, and what the hand bears."""
+
+import numpy as np
+import pytest
+from motet_mujoco.beliefs import Beliefs
+from motet_mujoco.chance import Chance, profile
+from motet_mujoco.driver import Options
+from motet_mujoco.model import load
+from motet_mujoco.motion import Path, timed, witnessed
+from motet_mujoco.moving import HELD, Failed, Mover
+from motet_mujoco.observation import Observer
+from motet_mujoco.world import World
+
+
+@pytest.fixture(scope="module")
+def hsr(motet):
+    return World(load("hsr", "kitchen", motet))
+
+
+@pytest.fixture
+def mover(hsr):
+    hsr.reset()
+    options = Options(profile("ideal"), Chance(0).seed)
+    return Mover(hsr, Observer(hsr), Beliefs(hsr), None, options)
+
+
+def rates(path):
+    """Greatest rates of the actuators on a path."""
+    return np.max([np.abs(path.at(time)[1]) for time in np.arange(0.0, path.end, 0.01)], axis=0)
+
+
+def test_a_path_has_the_times_of_its_witness():
+    points = [np.array([0.0, 0.0]), np.array([1.0, 0.0]), np.array([1.0, 2.0])]
+    path = witnessed(points, [{"at": 0.0}, {"at": 3.0, "ramp": 1.0}, {"at": 5.0, "ramp": 1.0}], None, 1.0)
+    assert path.end == 5.0
+    # Even speed of 1 / (3 - 1), after even acceleration for 1 s.
+    assert np.allclose(path.at(1.5)[1], [0.5, 0.0]) and np.allclose(path.at(0.5)[1], [0.25, 0.0])
+    assert np.allclose(path.at(3.0)[0], [1.0, 0.0]) and np.allclose(path.at(9.0)[0], points[-1])
+
+
+def test_a_corner_is_passed_by_where_it_is_free(hsr):
+    model = hsr.model
+    start = hsr.target
+    aside, up = start.copy(), start.copy()
+    aside[0] += 0.5
+    up[:] = aside
+    up[model.controls["arm_lift_joint"]] = 0.3
+    stopping = timed([start, aside, up], model)
+    free = stopping.blended(model, lambda *_: True)
+    assert free.end < stopping.end - 1.0, "base and arm move at once"
+    assert stopping.blended(model, lambda *_: False).end == stopping.end
+    for path in (stopping, free):
+        assert np.all(rates(path) <= model.speeds * 1.001)
+        assert np.allclose(path.at(path.end)[0], up)
+
+
+def test_a_path_straight_on_does_not_stop(hsr):
+    points = [hsr.target.copy() for _ in range(4)]
+    for at, point in enumerate(points):
+        point[0] += 0.3 * at
+    path = timed(points, hsr.model)
+    legs = [timed([one, other], hsr.model) for one, other in zip(points, points[1:])]
+    assert path.end < sum(leg.end for leg in legs) - 1.5
+    assert np.all(rates(path) <= hsr.model.speeds * 1.001)
+    for point in points:
+        assert min(np.abs(path.at(time)[0] - point).max() for time in np.arange(0.0, path.end + 0.01, 0.01)) < 3e-3
+
+
+def test_a_path_turns_round_only_at_rest(hsr):
+    there = hsr.target.copy()
+    there[0] += 0.5
+    path = timed([hsr.target, there, hsr.target], hsr.model)
+    assert path.blended(hsr.model, lambda *_: True).end == path.end
+
+
+def test_a_corner_into_furniture_is_not_cut(mover):
+    from motet_mujoco.clearance import Clearance
+
+    world = mover.world
+    before, corner, after = (world.target.copy() for _ in range(3))
+    low, high = world.bounds("kitchen_table")
+    before[:2] = [low[0] - 0.5, low[1] - 0.5]
+    corner[:2] = [low[0] - 0.5, high[1]]
+    after[:2] = [(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0]
+    clearance = Clearance(world, mover.beliefs)
+    assert clearance.is_free(before, corner, [(before + corner) / 2.0])
+    assert not clearance.is_free(before, corner, [after])
+
+
+def test_a_thing_in_the_hand_is_carried_gently(motet):
+    world = World(load("anymal_z1", "lab", motet))
+    mover = Mover(world, Observer(world), Beliefs(world), None, Options(profile("ideal")))
+    start = world.target.copy()
+    out = start.copy()
+    out[world.model.controls["joint2"]] += 1.5
+    out[world.model.controls["joint6"]] += 1.5
+    quick = mover.path([start, out])
+    slow = Path([mover.gentle(stroke) for stroke in quick.strokes])
+
+    def strongest(path):
+        places = np.array([mover.frame(path.at(time)[0])[0] for time in np.arange(0.0, path.end, 0.02)])
+        return np.linalg.norm(np.diff(places, 2, axis=0), axis=1).max() / 0.02**2
+
+    assert strongest(quick) > 2.0 * HELD[0]
+    assert strongest(slow) < 1.5 * HELD[0]
+
+
+def test_what_is_dropped_is_where_nobody_knows(mover):
+    check = mover.keeps("mug_1")
+    with pytest.raises(Failed) as failed:
+        for _ in range(20):
+            check()
+    assert failed.value.kind == "slipped"
+    assert "pose" not in mover.beliefs.entities["mug_1"] and "on" not in mover.beliefs.entities["mug_1"]
