@@ -17,6 +17,7 @@ use crate::report::Report;
 #[command(after_help = "Examples:\n  \
     motet compile fetch_mug.motet --robot hsr -o fetch_mug.graph.json\n  \
     motet compile fetch_mug.json --emit text\n  \
+    motet compile fetch_mug.motet --robot hsr --emit python -o fetch_mug.py\n  \
     motet compile fetch_mug.motet --emit dot | dot -Tsvg > fetch_mug.svg")]
 pub(crate) struct CompileArgs {
     /// Policy file, or `-` for stdin
@@ -53,6 +54,8 @@ enum Emit {
     Mermaid,
     /// Graph for Graphviz
     Dot,
+    /// Python script against the class `motet.Driver`
+    Python,
 }
 
 /// Runs the command.
@@ -81,6 +84,10 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
         Emit::Tree => Ok(draw::text(&graph)),
         Emit::Mermaid => Ok(draw::mermaid(&graph)),
         Emit::Dot => Ok(draw::dot(&graph)),
+        Emit::Python => {
+            let entities = motet::run::start_state(opened.session.scene()).entities;
+            motet_graph::python::script(&graph, &entities).map_err(|why| why.to_string())
+        }
         Emit::Json => documents::write(&parsed, policy, library, Syntax::Json),
         Emit::Text => documents::write(&parsed, policy, library, Syntax::Text),
     };

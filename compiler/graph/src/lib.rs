@@ -5,6 +5,7 @@ pub mod arbitrary;
 pub mod draw;
 pub mod encode;
 pub mod model;
+pub mod python;
 mod spoken;
 pub mod validate;
 

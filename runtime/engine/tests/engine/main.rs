@@ -16,6 +16,7 @@ mod journal;
 mod memory;
 mod monitors;
 mod naive;
+mod python;
 mod random;
 mod ready;
 mod rescan;
