@@ -59,6 +59,7 @@ pub(crate) fn lower(
         failures: tables.failures,
         resources: tables.resources,
         bindings: tables.bindings,
+        entities: declared_entities(&nodes, library),
         names: tables.names.into_iter().map(|(entity, name)| graph::EntityName { entity, name }).collect(),
         sentences,
         result: program.result.map(|id| graph::BindingId(id.0)),
@@ -69,6 +70,26 @@ pub(crate) fn lower(
         observe_within_secs: library.observe_within_secs,
         duration: graph::DurationBounds { least_secs, greatest_secs },
     }
+}
+
+/// Entities of the documents, if a call is about each entity of a kind.
+fn declared_entities(nodes: &[graph::Node], library: &Library) -> Vec<graph::DeclaredEntity> {
+    let quantifies = |node: &graph::Node| match &node.kind {
+        graph::NodeKind::Call(call) => {
+            call.needs.iter().any(|need| need.each.is_some())
+                || call.effects.iter().any(|effect| effect.each.is_some())
+                || call.unsettles.iter().any(|effect| effect.each.is_some())
+        }
+        _ => false,
+    };
+    if !nodes.iter().any(quantifies) {
+        return Vec::new();
+    }
+    let declared = library.entities.iter().map(|(name, kind, _)| graph::DeclaredEntity {
+        entity: name.clone(),
+        kind: graph::KindId(u32::from(kind.0)),
+    });
+    declared.collect()
 }
 
 /// Returns whether a step or a step in it binds a name. The nesting of steps bounds the recursion.

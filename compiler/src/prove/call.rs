@@ -4,12 +4,12 @@ use motet_syntax::{Diagnostic, Mistake, Severity, Span};
 use smallvec::SmallVec;
 
 use super::assume::Outcome;
-use super::effects::{Certainty, FactChange, PerceptionLifetime};
+use super::effects::{Certainty, FactChange, PerceptionLifetime, weaken};
 use super::errors::{Refuted, Stale};
 use super::evaluation::{CallFrame, MAX_ALIASES};
 use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
 use crate::analysis::{Domain, Enclosing};
-use crate::declare::{LastsDef, NeedDef, PrimitiveDef, ResourceSet};
+use crate::declare::{EffectDef, LastsDef, NeedDef, PrimitiveDef, ResourceSet};
 use crate::environment::base_pose_facts;
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
 use crate::ir::{Base, BindingId, Call, Condition, Entity, Fluent, MotionKind, StepId, StepKind, Term, Ty};
@@ -43,6 +43,9 @@ impl<'a> Prover<'a> {
         let lasting = self.lasting(id);
         self.make_stale(id, def, frame);
         self.unsettle(&unsettles, cause);
+        if call.retries > 0 {
+            self.effects_of_retries(id, def, frame, (&mut makes, &mut unsettles));
+        }
         self.check_lasting(&lasting);
         self.fail(id, call, def, frame, &makes, &mut verdicts);
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
@@ -94,6 +97,31 @@ impl<'a> Prover<'a> {
         } else {
             self.proof.certain.insert(id, certain);
         }
+    }
+
+    /// Weakens the effects of a step that is tried again: those with a condition are then decided by what an
+    /// attempt that failed has left behind.
+    fn effects_of_retries(
+        &mut self,
+        id: StepId,
+        def: &PrimitiveDef,
+        frame: CallFrame<'_>,
+        (makes, unsettles): (&mut Vec<FactChange>, &mut Vec<FactChange>),
+    ) {
+        let is_conditional = |effect: &EffectDef| effect.when.is_some();
+        if !def.makes.iter().chain(&def.unsettles).any(is_conditional) {
+            return;
+        }
+        let mark = self.state.facts.mark();
+        self.unsettle(makes, Cause::step(id));
+        self.erode();
+        let (mut made, mut unsettled) = (Vec::new(), Vec::new());
+        self.changes(&def.makes, frame, &mut made);
+        self.changes(&def.unsettles, frame, &mut unsettled);
+        self.back_to(mark);
+        weaken(makes, &made);
+        weaken(unsettles, &unsettled);
+        self.unsettle(unsettles, Cause::step(id));
     }
 
     /// Propagates the facts after a failure of the step, and rechecks its needs for a retry.

@@ -32,7 +32,7 @@ impl FactChange {
 }
 
 /// Certainty of the condition of an effect.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Certainty {
     Always,
     Sometimes,
@@ -402,6 +402,25 @@ impl Prover<'_> {
         moved.dedup();
         moved
     }
+}
+
+/// Makes the changes of a first attempt those of any attempt: only what all of them change is certain.
+pub(super) fn weaken(first: &mut Vec<FactChange>, later: &[FactChange]) {
+    let is_in = |changes: &[FactChange], change: &FactChange| {
+        let same = |other: &&FactChange| {
+            (other.fluent, other.key, other.truth) == (change.fluent, change.key, change.truth)
+        };
+        changes.iter().find(same).map(|other| other.sure)
+    };
+    let added: Vec<FactChange> = later.iter().filter(|change| is_in(first, change).is_none()).copied().collect();
+    for change in first.iter_mut().filter(|change| change.is_sure()) {
+        if is_in(later, change) != Some(Certainty::Always) {
+            change.sure = Certainty::Unknown;
+        }
+    }
+    let unsure = |change: FactChange| FactChange { sure: change.sure.max(Certainty::Unknown), ..change };
+    first.extend(added.into_iter().map(unsure));
+    first.sort_by_key(|change| change.truth);
 }
 
 fn certainty(value: TruthSet) -> Option<Certainty> {

@@ -98,6 +98,10 @@ impl EntityCollector<'_> {
 
     fn graph(&mut self) {
         let graph = self.graph;
+        for declared in &graph.entities {
+            let kind = graph.kinds.get(declared.kind.index());
+            self.beliefs.entities.hear(graph, &declared.entity, kind.map(|kind| kind.name.as_str()));
+        }
         graph.initial.iter().for_each(|initial| self.fact(&initial.fact));
         graph.goal.iter().for_each(|part| self.condition(part));
         for node in &graph.nodes {

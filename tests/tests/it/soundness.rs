@@ -1,7 +1,8 @@
 //! Needs that only a guard can vouch for: the compiler may not prove them from a test that stayed unknown, or
 //! from a guard that has refused.
 
-use motet_graph::{NodeKind, Verdict};
+use motet_graph::{Graph, NodeKind, Verdict};
+use motet_runtime::{Answer, DriverEvent, Effect, Engine, Event, Outcome, Query, StartState, Time};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
 
@@ -30,13 +31,53 @@ action wave()
     uses base
 ";
 
-/// Verdicts on the needs of the last call of a primitive in a policy over [`DOMAIN`].
-fn verdicts(callee: &str, policy: &str) -> Vec<Verdict> {
+/// Graph of a policy over [`DOMAIN`].
+fn compiled(policy: &str) -> Graph {
     let (session, _) = setup::session(None, None, &mut Sources::default());
     let source = Source::new("p.motet", format!("{DOMAIN}\n{policy}"));
     let checked = session.check_document(&motet_syntax::read(&source, FileId(99)));
-    let graph = checked.policies.iter().find_map(|policy| policy.graph.as_ref());
-    let graph = graph.unwrap_or_else(|| panic!("{policy}: {:#?}", checked.diagnostics));
+    let graph = checked.policies.iter().find_map(|policy| policy.graph.clone());
+    graph.unwrap_or_else(|| panic!("{policy}: {:#?}", checked.diagnostics))
+}
+
+/// Events that a driver answers an effect with.
+type Answers<'a> = &'a mut dyn FnMut(&Effect) -> Vec<DriverEvent>;
+
+/// Requests to the driver in a run, in order. Each effect is answered at once, and each event comes 10 ms
+/// after the one before.
+fn requests(policy: &str, answers: Answers<'_>) -> Vec<String> {
+    let mut engine = Engine::new(compiled(policy), &StartState::default()).unwrap();
+    let (mut events, mut found) = (std::collections::VecDeque::from([Event::Begin]), Vec::new());
+    let mut now = 0.0;
+    while let Some(event) = events.pop_front() {
+        let mut out = Vec::new();
+        engine.handle(Time::from_secs(now), event, &mut out);
+        now += 0.01;
+        for effect in out.iter().filter(|effect| !matches!(effect, Effect::Report(_))) {
+            found.push(engine.describe(effect));
+            events.extend(answers(effect).into_iter().map(Event::Driver));
+        }
+    }
+    found
+}
+
+/// Answer of a driver that carries everything out and observes what `see` says.
+fn honest(effect: &Effect, see: impl Fn(&Query) -> Option<bool>) -> Vec<DriverEvent> {
+    match effect {
+        Effect::Start { goal, .. } => {
+            vec![DriverEvent::Ended { goal: *goal, outcome: Outcome::Success(None) }]
+        }
+        Effect::Observe { query } | Effect::Watch { query } => {
+            let answer = see(query).map_or(Answer::Unknown, Answer::Truth);
+            vec![DriverEvent::Observed { query: Query::clone(query), answer }]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Verdicts on the needs of the last call of a primitive in a policy over [`DOMAIN`].
+fn verdicts(callee: &str, policy: &str) -> Vec<Verdict> {
+    let graph = compiled(policy);
     let mut calls = graph.nodes.iter().filter_map(|node| match &node.kind {
         NodeKind::Call(call) if graph.primitives[call.primitive.index()].name == callee => Some(call),
         _ => None,
@@ -143,4 +184,74 @@ fn soundness_a_dropped_thing_can_be_picked_again() {
                     then resume at most 2 { go(mug_1) pick(mug_1) } during { go(user) } }";
     let found = session_codes(Some("kitchen"), recovers);
     assert!(!found.contains(&"M0501") && !found.contains(&"M0902"), "{found:?}");
+}
+
+/// Domain of needs and effects that are about each object.
+const EACH: &str = "
+entity b: Object
+fluent h(o: Object)
+action use_where(o: Object)
+    needs f(x) for each x: Object when h(x)
+action use_all(o: Object)
+    needs f(x) for each x: Object
+action use_if(o: Object)
+    needs f(o) when h(o)
+action rub(o: Object)
+    makes not h(o), f(o) when h(o)
+    fails slipped
+";
+
+/// Returns whether a primitive of [`EACH`] starts beside a driver that observes what `see` says.
+fn starts(call: &str, see: impl Fn(&str) -> Option<bool>) -> bool {
+    let policy = format!("{EACH}\npolicy p {{ {call} }}");
+    let found = requests(&policy, &mut |effect| honest(effect, |query| see(&query.to_string())));
+    found.iter().any(|request| request.starts_with("start"))
+}
+
+#[test]
+fn soundness_a_need_under_an_unknown_condition_is_asked() {
+    for call in ["use_where(a)", "use_if(a)"] {
+        assert!(!starts(call, |_| None), "{call}");
+        // One that has the condition lacks what is needed.
+        assert!(!starts(call, |query| Some(query == "h(a)")), "{call}");
+        assert!(starts(call, |query| Some(query == "h(a)" || query == "f(a)")), "{call}");
+        // What is needed holds of all, or the condition of none.
+        assert!(starts(call, |query| query.starts_with('f').then_some(true)), "{call}");
+        assert!(starts(call, |query| query.starts_with('h').then_some(false)), "{call}");
+    }
+}
+
+#[test]
+fn soundness_a_need_of_each_object_asks_of_those_that_no_step_names() {
+    assert!(!starts("use_all(a)", |query| Some(query == "f(a)")));
+    // The robot is no object.
+    assert!(starts("use_all(a)", |query| Some(query == "f(a)" || query == "f(b)")));
+}
+
+#[test]
+fn soundness_an_effect_of_a_retry_is_that_of_what_the_try_before_left() {
+    let policy = |retry: &str| format!("{EACH}\ninitially h(a)\npolicy p {{ rub(a) {retry} use(a) }}");
+    assert_eq!(verdicts("use", &policy("")), [Verdict::Proven]);
+    assert_eq!(verdicts("use", &policy("retry 1")), [Verdict::Deferred]);
+}
+
+#[test]
+fn soundness_an_answer_from_before_a_step_says_nothing_of_what_the_step_unsettles() {
+    let policy = "initially f(a)\npolicy p { wait until f(a) within 1 s shake(a) use(a) }";
+    // The driver answers the watch of the wait once the step has begun, and then says what is so.
+    let mut late = Vec::new();
+    let found = requests(policy, &mut |effect| match effect {
+        Effect::Watch { query } => {
+            late.push(DriverEvent::Observed { query: Query::clone(query), answer: Answer::Truth(true) });
+            Vec::new()
+        }
+        effect => late.drain(..).chain(honest(effect, |_| Some(false))).collect(),
+    });
+    assert!(!found.iter().any(|request| request.contains("use")), "{found:#?}");
+    // A driver that answers nothing late is asked once more, and no more.
+    let silent = requests(policy, &mut |effect| match effect {
+        Effect::Watch { .. } => Vec::new(),
+        effect => honest(effect, |_| Some(true)),
+    });
+    assert!(silent.iter().any(|request| request.contains("use")), "{silent:#?}");
 }

@@ -115,6 +115,7 @@ pub fn declarations() -> Graph {
         ],
         bindings: Vec::<Binding>::new(),
         names: vec![EntityName { entity: name("mug"), name: name("red mug") }],
+        entities: Vec::new(),
         sentences: vec![FailureSentence { failure: UNREACHABLE, text: name("no motion leads there") }],
         result: None,
         goal: Vec::new(),

@@ -17,6 +17,15 @@ pub struct Kind {
     pub parent: Option<KindId>,
 }
 
+/// An entity that a document declares.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DeclaredEntity {
+    /// Id of the entity.
+    pub entity: SmolStr,
+    pub kind: KindId,
+}
+
 /// What people call an entity.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -90,6 +90,10 @@ pub struct Graph {
     /// Exclusive resources of the robot that the graph uses.
     pub resources: Vec<Resource>,
     pub bindings: Vec<Binding>,
+    /// Entities that documents declare, where a need or an effect is about each entity of a kind. Those of the
+    /// scene are not among them: the host names them at the start of a run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub entities: Vec<DeclaredEntity>,
     /// What people call the entities that a text may name; any other is called by its id.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub names: Vec<EntityName>,
@@ -132,6 +136,7 @@ impl Graph {
             resources: Vec::new(),
             bindings: Vec::new(),
             names: Vec::new(),
+            entities: Vec::new(),
             sentences: Vec::new(),
             result: None,
             goal: Vec::new(),

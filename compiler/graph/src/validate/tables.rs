@@ -57,6 +57,9 @@ fn declarations(graph: &Graph, findings: &mut Findings) {
     for (index, binding) in graph.bindings.iter().enumerate() {
         type_known(graph, findings, "binding", index, &binding.ty);
     }
+    for (index, declared) in graph.entities.iter().enumerate() {
+        known(findings, "entity", index, "kind", declared.kind.0, graph.kinds.len());
+    }
     for (index, sentence) in graph.sentences.iter().enumerate() {
         known(findings, "sentence", index, "failure", sentence.failure.0, graph.failures.len());
     }

@@ -37,6 +37,13 @@ pub(crate) struct Cell {
     pub(crate) written: bool,
     /// Its last watcher went away in a swap that is being made.
     pub(crate) idle: bool,
+    /// Number of answers that are outstanding: one for each question, and the first one of a watch.
+    pub(crate) due: u32,
+    /// Number of outstanding answers to questions that are older than the last effect: such an answer may
+    /// have been observed before it.
+    pub(crate) late: u32,
+    /// True if the answer is such a late one. Watches go by it; a guard asks again.
+    pub(crate) tainted: bool,
     next: Option<CellId>,
 }
 
@@ -174,6 +181,9 @@ impl Beliefs {
             observable,
             written: false,
             idle: false,
+            due: 0,
+            late: 0,
+            tainted: false,
             next,
         });
         id

@@ -122,7 +122,10 @@ impl Entities {
     pub(crate) fn get(&self, index: usize, sorting: &Sorting) -> Option<(SmolStr, OfKind)> {
         let (id, kind) = self.list.get(index)?;
         let place = kind.map_or(sorting.0.len().checked_sub(1)?, |kind| kind as usize);
-        Some((id.clone(), sorting.0.get(place).copied().unwrap_or(OfKind::Perhaps)))
+        let of_kind = sorting.0.get(place).copied().unwrap_or(OfKind::Perhaps);
+        // The robot is of the root kind and of no other.
+        let is_robot = of_kind == OfKind::Perhaps && id == lang::entities::ROBOT;
+        Some((id.clone(), if is_robot { OfKind::No } else { of_kind }))
     }
 
     /// All with the name of their kind where it is known.

@@ -179,6 +179,9 @@ impl Evaluator<'_> {
         {
             truth = Truth::Unknown;
         }
+        if self.missing.is_some() && self.beliefs.is_tainted(&fluent.name, &args) {
+            truth = Truth::Unknown;
+        }
         if truth != Truth::Unknown {
             return truth;
         }

@@ -53,6 +53,12 @@ impl Beliefs {
         (answer, seen)
     }
 
+    /// True if what is believed of a fact was perhaps observed before the last effect on it.
+    pub(crate) fn is_tainted(&self, fluent: &str, args: &[Pattern]) -> bool {
+        let cell = self.find_fact(fluent, args).and_then(|id| self.cell(id));
+        cell.is_some_and(|cell| cell.tainted)
+    }
+
     /// Writes a fact that a host or a compiler states.
     pub(crate) fn tell(&mut self, fluent: &SmolStr, args: Vec<Pattern>, value: Truth) {
         let change = BeliefChange { fluent: fluent.clone(), args, value, sure: true, rest: false };
@@ -91,12 +97,21 @@ impl Beliefs {
         }
     }
 
-    /// Takes an observation of a cell.
-    pub(crate) fn observe(&mut self, id: CellId, answer: Answer, now: Time) {
-        self.observations += 1;
-        self.observing = self.observations;
-        self.take(id, answer, now);
-        self.observing = 0;
+    /// Takes an observation of a cell. Returns true if it answers a question that is older than the last
+    /// effect on the cell: unless somebody watches the cell, nothing is learned from it.
+    pub(crate) fn observe(&mut self, id: CellId, answer: Answer, now: Time) -> bool {
+        let Some(cell) = self.cell_mut(id) else { return false };
+        let is_late = cell.late > 0;
+        cell.due = cell.due.saturating_sub(1);
+        cell.late = cell.late.saturating_sub(1);
+        cell.tainted = is_late;
+        if !is_late || cell.watchers > 0 {
+            self.observations += 1;
+            self.observing = self.observations;
+            self.take(id, answer, now);
+            self.observing = 0;
+        }
+        is_late
     }
 
     fn take(&mut self, id: CellId, answer: Answer, now: Time) {
@@ -219,6 +234,10 @@ impl Beliefs {
         cell.at = now;
         cell.seen = seen;
         cell.written = true;
+        if seen == 0 {
+            cell.late = cell.due;
+            cell.tainted = false;
+        }
         if cell.answer != answer {
             cell.answer = answer;
             self.note(id);

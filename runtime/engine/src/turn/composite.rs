@@ -219,6 +219,7 @@ impl Turn<'_> {
             if cell.observable {
                 cell.watchers += 1;
                 if cell.watchers == 1 && !std::mem::take(&mut cell.idle) {
+                    cell.due += 1;
                     self.out.push(Effect::Watch { query: cell.query.clone() });
                 }
             }

@@ -288,6 +288,7 @@ impl Turn<'_> {
             self.run.asked.push((*id, node));
             if let Some(cell) = self.run.beliefs.cell_mut(*id) {
                 cell.dependents.push(key);
+                cell.due += 1;
                 self.out.push(Effect::Observe { query: cell.query.clone() });
             }
         }

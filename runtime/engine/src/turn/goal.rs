@@ -1,7 +1,7 @@
 //! Goals: what drivers report of them, and how they are ended early.
 
 use super::Turn;
-use crate::belief::Freshness;
+use crate::belief::{CellId, Freshness};
 use crate::cleanup::strike;
 use crate::effect::{Effect, Fault};
 use crate::event::{DriverEvent, FailureReport, Outcome};
@@ -294,7 +294,9 @@ impl Turn<'_> {
             known = Some(self.run.beliefs.intern(query));
         }
         let Some(id) = known else { return };
-        self.run.beliefs.observe(id, answer, self.run.now);
+        if self.run.beliefs.observe(id, answer, self.run.now) && self.ask_again(id) {
+            return;
+        }
         // A reading that was taken afresh counts from now on, also where it reads the same.
         self.run.beliefs.note(id);
         let mut asked = std::mem::take(&mut self.run.asked);
@@ -305,6 +307,16 @@ impl Turn<'_> {
             *cell != id
         });
         self.run.asked = asked;
+    }
+
+    /// Asks once more for what a late answer did not settle. Returns false if nobody waits for it.
+    fn ask_again(&mut self, id: CellId) -> bool {
+        let is_awaited = self.run.asked.iter().any(|(cell, _)| *cell == id);
+        if let Some(cell) = self.run.beliefs.cell_mut(id).filter(|_| is_awaited) {
+            cell.due += 1;
+            self.out.push(Effect::Observe { query: cell.query.clone() });
+        }
+        is_awaited
     }
 
     /// The entities in an observed fact were heard of.

@@ -54,6 +54,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
     });
     Graph {
         names: Vec::new(),
+        entities: Vec::new(),
         sentences: Vec::new(),
         result: None,
         goal: Vec::new(),
