@@ -109,8 +109,7 @@ def test_parts_of_a_thing_are_no_new_things(motet):
     """A bottle stands before the magazine and divides it in the picture."""
     world = World(load("hsr", "living_room", motet))
     target = world.target.copy()
-    target[:3] = [0.66, 0.95, 0.0]
-    target[world.model.controls["head_tilt_joint"]] = -0.5
+    target[:3] = [0.6324, 0.5059, 0.6747]
     world.data.qpos[world.model.control_qpos] = target
     world.step(target)
     eyes = Eyes(world, Observer(world), Beliefs(world))
