@@ -21,13 +21,18 @@ use motet_runtime::{
 use motet_sim::{Faults, Profile, Sim, SimOptions};
 
 use crate::actions::{ActionFaults, ActionLedger};
+use crate::available_threads;
 use crate::outcome::StepFailures;
 use crate::planners::PlannerKind;
+use crate::tasks::half_height;
 
 /// Interpreter of the physics driver.
 const PYTHON: &str = "python3";
 /// Time that a driver has to answer a question about the world.
 const ANSWER: Time = Time::from_nanos(1_000_000_000);
+/// Distance in m between things that lie in a container, and of the least of them from its lower end.
+const ASIDE: f64 = 0.08;
+const BOTTOM: f64 = 0.02;
 /// Number of folders that this process made.
 static FOLDERS: AtomicU64 = AtomicU64::new(0);
 
@@ -59,6 +64,12 @@ pub struct Bench {
     pub profile: Profile,
     pub driver: DriverKind,
     pub planner: PlannerKind,
+    /// Number of trials at once.
+    pub jobs: usize,
+    /// Every which case of a file of wordings is played: 1 for all.
+    pub every: usize,
+    /// Words of which a trial has one in its name, its robot or its request; without any, all trials are run.
+    pub only: Vec<String>,
 }
 
 impl Bench {
@@ -72,7 +83,18 @@ impl Bench {
             return Err(format!("the physics driver has no profile `{world}`, only the built-in ones"));
         }
         let profile = motet_project::read_profile(world).map_err(|error| error.to_string())?;
-        Ok(Self { world: world.to_owned(), profile, driver, planner: PlannerKind::Builtin })
+        let (planner, jobs) = (PlannerKind::Builtin, available_threads());
+        Ok(Self { world: world.to_owned(), profile, driver, planner, jobs, every: 1, only: Vec::new() })
+    }
+
+    /// True if a trial is asked for, by words that tell it from others.
+    #[must_use]
+    pub fn asks_for(&self, words: &[&str]) -> bool {
+        self.only.is_empty()
+            || self
+                .only
+                .iter()
+                .any(|part| part.split('+').all(|part| words.iter().any(|word| word.contains(part))))
     }
 
     /// The simulated world without errors of its own.
@@ -80,10 +102,11 @@ impl Bench {
     pub fn ideal() -> Self {
         let world = "ideal".to_owned();
         let (driver, planner) = (DriverKind::Kinematic, PlannerKind::Builtin);
-        Self { world, profile: Profile::default(), driver, planner }
+        let (jobs, only) = (available_threads(), Vec::new());
+        Self { world, profile: Profile::default(), driver, planner, jobs, every: 1, only }
     }
 
-    /// A robot in a room: it was told the one, and the other is real. In physics it knows the real room.
+    /// A robot in a room: it was told the one, and the other is real.
     ///
     /// # Errors
     ///
@@ -102,11 +125,15 @@ impl Bench {
             return Ok(TrialRobot::Kinematic(Box::new(Sim::new(robot, told, options))));
         }
         let folder = Folder::new()?;
-        let scene = folder.0.join("scene.json");
-        fs::write(&scene, write(real)).map_err(|error| format!("{}: {error}", scene.display()))?;
-        let (scene, seed) = (scene.display().to_string(), seed.to_string());
-        let motet = motet_program();
-        let words = [PYTHON, "-m", "motet_mujoco", "--robot", &robot.name, "--scene", &scene];
+        let file = |name: &str, scene: &Scene| {
+            let path = folder.0.join(name);
+            fs::write(&path, write(scene)).map_err(|error| format!("{}: {error}", path.display()))?;
+            Ok::<_, String>(path.display().to_string())
+        };
+        let (scene, told) = (file("scene.json", &laid(real))?, file("told.json", told)?);
+        let (seed, motet) = (seed.to_string(), motet_program());
+        let words =
+            [PYTHON, "-m", "motet_mujoco", "--robot", &robot.name, "--scene", &scene, "--told", &told];
         let more = ["--seed", &seed, "--profile", &self.world, "--motet", &motet];
         let words = words.into_iter().chain(more).map(str::to_owned).collect();
         let hello = Hello { run: format!("eval-{seed}"), robot: robot.name.to_string(), ..Hello::default() };
@@ -116,6 +143,20 @@ impl Bench {
         let driver = driver.map_err(|error| format!("the physics driver does not start: {error}"))?;
         Ok(TrialRobot::Physics(Box::new(driver), folder))
     }
+}
+
+/// A room in which everything that lies in something has a place on its bottom: physics has no thing without one.
+fn laid(room: &Scene) -> Scene {
+    let mut laid = room.clone();
+    let nowhere = laid.entities.values_mut().filter(|entity| entity.pose.is_none());
+    for (entity, aside) in nowhere.zip([0.0, 1.0, -1.0].into_iter().cycle()) {
+        let container = entity.inside.as_ref().and_then(|inside| room.entities.get(inside));
+        let Some((container, mut pose)) = container.and_then(|one| Some((one, one.pose?))) else { continue };
+        pose.xyz[1] += aside * ASIDE;
+        pose.xyz[2] += half_height(entity) - half_height(container) + BOTTOM;
+        entity.pose = Some(pose);
+    }
+    laid
 }
 
 /// The command `motet`, beside this program, or by its name.

@@ -174,7 +174,9 @@ pub fn trials(bench: &Bench, seed: u64, count: usize) -> Result<Vec<Trial>, Stri
             drawn.extend((0..count).map(|index| (task, robot, index, random.random())));
         }
     }
-    let trials = super::spread(drawn, |(task, robot, index, draw)| run(bench, task, robot, index, draw));
+    drawn.retain(|(task, robot, _, _): &(&Task, &str, usize, f64)| bench.asks_for(&[robot, task.name]));
+    let play = |(task, robot, index, draw): (&Task, &str, usize, f64)| run(bench, task, robot, index, draw);
+    let trials = super::spread_over(bench.jobs, drawn, play);
     trials.into_iter().collect()
 }
 

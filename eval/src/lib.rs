@@ -16,6 +16,7 @@ pub mod setup;
 pub mod tasks;
 pub mod world;
 
+use std::sync::Mutex;
 use std::time::Duration;
 
 use indexmap::IndexMap;
@@ -122,22 +123,33 @@ fn sums(rows: &[&Judged]) -> Summary {
     }
 }
 
-/// Runs something on each item, on several threads; the results come in the order of the items.
+/// Runs something on each item, on as many threads as are free; the results come in the order of the items.
 #[must_use]
 pub fn spread<T: Send, R: Send>(items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
-    const THREADS: usize = 4;
-    let mut shares: Vec<Vec<(usize, T)>> = (0..THREADS).map(|_| Vec::new()).collect();
-    for (index, item) in items.into_iter().enumerate() {
-        if let Some(share) = shares.get_mut(index % THREADS) {
-            share.push((index, item));
-        }
-    }
+    spread_over(available_threads(), items, run)
+}
+
+/// Number of threads that the machine runs at once.
+#[must_use]
+pub fn available_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+}
+
+/// Runs something on each item, on a number of threads; the results come in the order of the items. A thread
+/// takes the next item when it has done one, since items differ in how long they take.
+#[must_use]
+pub fn spread_over<T: Send, R: Send>(threads: usize, items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let count = threads.clamp(1, items.len().max(1));
+    let queue = Mutex::new(items.into_iter().enumerate());
     let mut done: Vec<(usize, R)> = std::thread::scope(|scope| {
-        let run = &run;
-        let work = |share: Vec<(usize, T)>| {
-            scope.spawn(move || share.into_iter().map(|(index, item)| (index, run(item))).collect::<Vec<_>>())
+        let (run, queue) = (&run, &queue);
+        let next = || queue.lock().ok()?.next();
+        let work = |_| {
+            scope.spawn(move || {
+                std::iter::from_fn(next).map(|(index, item)| (index, run(item))).collect::<Vec<_>>()
+            })
         };
-        let threads: Vec<_> = shares.into_iter().map(work).collect();
+        let threads: Vec<_> = (0..count).map(work).collect();
         let joined = threads.into_iter().map(|thread| match thread.join() {
             Ok(done) => done,
             // What goes wrong in a trial is not lost with its thread.

@@ -8,9 +8,11 @@
 //! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot. Both take
 //!   `--world ideal|typical|harsh|FILE`, `--driver kinematic|mujoco`, and `--planner builtin|tree|one-shot|
 //!   forgetful|URL` with `--model M`.
-//! - `tasks [FILE…] [--trials N]` plays the tasks of the papers, with the same flags.
-//! - `world` takes the number of runs in a world that can fail, and exits with 0 if none of them ends as done
-//!   without its goal.
+//! - `tasks [FILE…] [--trials N]` plays the tasks of the papers, with the same flags. `--jobs N` plays so many
+//!   trials at once, `--only WORD` those with a word in their name, robot or request (`WORD+WORD` with all of
+//!   them), and `dialogue --every N` each Nth case.
+//! - `world` takes the number of runs in a world that can fail (`harsh`, unless `--world` names another; with
+//!   `--driver`, `--jobs` and `--only` as above), and exits with 0 if none of them ends as done without its goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
 //!   passes without a word fails by a need that was not listed.
 //! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are
@@ -30,7 +32,6 @@ use motet_eval::{
     Judged, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary, tasks,
     world,
 };
-use motet_sim::Profile;
 
 /// Suite over the lines of a file.
 type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
@@ -52,6 +53,9 @@ struct Flags {
     planner: Option<String>,
     model: Option<String>,
     trials: Option<usize>,
+    jobs: Option<usize>,
+    every: Option<usize>,
+    only: Vec<String>,
     words: Vec<String>,
 }
 
@@ -67,11 +71,10 @@ impl Flags {
                 "--driver" => flags.driver = Some(value()?.parse()?),
                 "--planner" => flags.planner = Some(value()?),
                 "--model" => flags.model = Some(value()?),
-                "--trials" => {
-                    let number = value()?;
-                    let wrong = |_| format!("`{number}` is no number of trials");
-                    flags.trials = Some(number.parse().map_err(wrong)?);
-                }
+                "--only" => flags.only.push(value()?),
+                "--trials" => flags.trials = Some(number(&value()?)?),
+                "--jobs" => flags.jobs = Some(number(&value()?)?),
+                "--every" => flags.every = Some(number(&value()?)?),
                 flag if flag.starts_with("--") => return Err(format!("there is no flag `{flag}`")),
                 word => flags.words.push(word.to_owned()),
             }
@@ -81,16 +84,35 @@ impl Flags {
 
     /// World of the trials: `typical` unless another is asked for.
     fn bench(&self) -> Result<Bench, String> {
-        let planner = self.planner.as_deref().unwrap_or("builtin");
-        let planner = PlannerKind::read(planner, self.model.as_deref())?;
-        let world = self.world.as_deref().unwrap_or("typical");
-        Ok(Bench { planner, ..Bench::new(world, self.driver.unwrap_or_default())? })
+        self.bench_in("typical")
     }
 
-    /// True if a world, a driver or a planner is asked for.
-    const fn is_benched(&self) -> bool {
-        self.world.is_some() || self.driver.is_some() || self.planner.is_some() || self.trials.is_some()
+    /// World of the trials: the one given unless another is asked for.
+    fn bench_in(&self, usual: &str) -> Result<Bench, String> {
+        let planner = self.planner.as_deref().unwrap_or("builtin");
+        let planner = PlannerKind::read(planner, self.model.as_deref())?;
+        let world = self.world.as_deref().unwrap_or(usual);
+        let bench = Bench::new(world, self.driver.unwrap_or_default())?;
+        let (jobs, every) = (self.jobs.unwrap_or(bench.jobs), self.every.unwrap_or(bench.every));
+        Ok(Bench { planner, jobs, every, only: self.only.clone(), ..bench })
     }
+
+    /// True if a world, a driver, a planner or a part of the trials is asked for.
+    const fn is_benched(&self) -> bool {
+        self.world.is_some()
+            || self.driver.is_some()
+            || self.planner.is_some()
+            || self.trials.is_some()
+            || self.jobs.is_some()
+            || self.every.is_some()
+            || !self.only.is_empty()
+    }
+}
+
+/// Reads a number from 1.
+fn number(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| *number > 0);
+    number.ok_or_else(|| format!("`{text}` is no whole number from 1"))
 }
 
 /// Lines for people, and the summary.
@@ -136,8 +158,9 @@ fn run() -> Result<bool, String> {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
             "usage: eval {} FILE [--json], eval dialogue FILE|dynamic TRIALS [--world PROFILE] [--driver \
-             kinematic|mujoco] [--planner PLANNER] [--model M], eval tasks [FILE…] with the same flags and \
-             [--trials N], eval world RUNS, eval mutations, \
+             kinematic|mujoco] [--planner PLANNER] [--model M] [--jobs N] [--only WORD]… [--every N], \
+             eval tasks [FILE…] with the same flags and [--trials N], eval world RUNS with the same flags, \
+             eval mutations, \
              eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \
              eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
             names.join("|")
@@ -153,12 +176,12 @@ fn run() -> Result<bool, String> {
             return shown(&spoken(&flags.bench()?, &text)?, only_json);
         }
         ["tasks", files @ ..] => return shown(&tasked(&flags, files)?, only_json),
+        ["world", count] => {
+            let count = count.parse().map_err(|_| usage())?;
+            return shown(&failing(&flags.bench_in("harsh")?, count)?, only_json);
+        }
         _ if flags.is_benched() => return Err(usage()),
         _ => {}
-    }
-    if let ["world", count] = words.as_slice() {
-        let count = count.parse().map_err(|_| usage())?;
-        return shown(&failing(count)?, only_json);
     }
     if words == ["mutations"] {
         return shown(&mutated()?, only_json);
@@ -283,9 +306,8 @@ fn mutated() -> Result<Report, String> {
     })
 }
 
-fn failing(count: usize) -> Result<Report, String> {
-    let harsh = Profile::builtin("harsh").ok_or("there is no profile `harsh`")?;
-    let ends = world::carry_out(world::runs(Path::new(EXAMPLES), count)?, &harsh);
+fn failing(bench: &Bench, count: usize) -> Result<Report, String> {
+    let ends = world::carry_out(world::runs(Path::new(EXAMPLES), count)?, bench)?;
     let untrue = ends.iter().filter(|end| end.is_done && !end.is_true).map(serde_json::to_string);
     let sums = world::sums(&ends);
     Ok(Report {

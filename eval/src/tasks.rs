@@ -132,7 +132,11 @@ pub fn trials(bench: &Bench, tasks: &[Task], count: usize) -> Result<Vec<TaskTri
             drawn.extend((0..count).map(|seed| (task, robot, seed as u64)));
         }
     }
-    super::spread(drawn, |(task, robot, seed)| task.carry_out(bench, robot, seed)).into_iter().collect()
+    drawn.retain(|(task, robot, _): &(&Task, &str, u64)| {
+        bench.asks_for(&[robot, &task.table, &task.cell, &task.request])
+    });
+    let run = |(task, robot, seed): (&Task, &str, u64)| task.carry_out(bench, robot, seed);
+    super::spread_over(bench.jobs, drawn, run).into_iter().collect()
 }
 
 /// Person who answers by the kind of the problem.
@@ -258,7 +262,8 @@ fn put(scene: &mut Scene, place: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn half_height(entity: &scene::Entity) -> f64 {
+/// Half of the height of an entity as it stands, in m.
+pub(crate) fn half_height(entity: &scene::Entity) -> f64 {
     match &entity.shape {
         Some(scene::EntityShape::Box([_, _, z])) => z / 2.0,
         Some(scene::EntityShape::Cylinder { height, .. }) => height / 2.0,

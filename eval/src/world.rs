@@ -1,6 +1,7 @@
 //! Runs in a world that can fail: the examples, and requests in words, in the profile `harsh`. No run may end
 //! as done where its goal does not hold by the truth of the world.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -15,13 +16,12 @@ use motet_planner::dialogue::{
 use motet_robots::builtin;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::{
-    Answer, Driver as _, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run,
-};
-use motet_sim::{Profile, Sim, SimOptions};
+use motet_runtime::{Answer, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run};
+use motet_sim::Faults;
 use motet_syntax::{FileId, Source, Sources};
 use serde::Serialize;
 
+use crate::bench::{Bench, TrialRobot};
 use crate::outcome::{FailureSort, StepFailures};
 use crate::{dialogue, mutations};
 
@@ -90,25 +90,30 @@ pub fn runs(folder: &Path, count: usize) -> Result<Vec<WorldRun>, String> {
     Ok(runs.collect())
 }
 
-/// Carries out runs in a profile.
-#[must_use]
-pub fn carry_out(runs: Vec<WorldRun>, profile: &Profile) -> Vec<WorldEnd> {
-    super::spread(runs, |run| run.carry_out(profile))
+/// Carries out runs in a world.
+///
+/// # Errors
+///
+/// The driver does not start.
+pub fn carry_out(mut runs: Vec<WorldRun>, bench: &Bench) -> Result<Vec<WorldEnd>, String> {
+    runs.retain(|run| bench.asks_for(&[&run.robot, &run.scene, &run.name]));
+    super::spread_over(bench.jobs, runs, |run| run.carry_out(bench)).into_iter().collect()
 }
 
-/// Notes failures of steps.
+/// Notes failures of steps, and when the last event was.
 #[derive(Default)]
-struct Failures(StepFailures);
+struct Failures(StepFailures, Time);
 
 impl Observer for Failures {
-    fn event(&mut self, _now: Time, event: &Event) {
+    fn event(&mut self, now: Time, event: &Event) {
         self.0.take(event);
+        self.1 = now;
     }
 }
 
 impl DialogueObserver for Failures {
-    fn event(&mut self, _now: Time, event: &Event) {
-        self.0.take(event);
+    fn event(&mut self, now: Time, event: &Event) {
+        Observer::event(self, now, event);
     }
 }
 
@@ -124,22 +129,22 @@ impl Person for Patient {
 }
 
 impl WorldRun {
-    fn carry_out(self, profile: &Profile) -> WorldEnd {
+    fn carry_out(self, bench: &Bench) -> Result<WorldEnd, String> {
         let mut seen = Failures::default();
         let (is_done, is_true) = match (&self.work, builtin::robot(&self.robot), builtin::scene(&self.scene))
         {
             (Work::Policy(text), Some(body), Some(scene)) => {
                 let geometry = Geometry::new(&body.robot, &body.urdf, &scene, None, SearchBudget::default());
-                self.policy(text, &body.robot, &scene, Arc::new(geometry), profile, &mut seen)
+                self.policy(text, &body.robot, &scene, Arc::new(geometry), bench, &mut seen)?
             }
             (Work::Request(case), Some(body), Some(scene)) => {
-                self.request(case, body.robot, scene, profile, &mut seen)
+                self.request(case, body.robot, scene, bench, &mut seen)?
             }
             (_, _, _) => (false, false),
         };
         let failures = seen.0.counts();
         let failed_by = seen.0.0.last().copied().filter(|_| !is_done);
-        WorldEnd {
+        Ok(WorldEnd {
             name: self.name,
             robot: self.robot,
             seed: self.seed,
@@ -147,11 +152,7 @@ impl WorldRun {
             is_true,
             failures,
             failed_by,
-        }
-    }
-
-    fn options(&self, profile: &Profile) -> SimOptions {
-        SimOptions { seed: self.seed, profile: profile.clone(), ..SimOptions::default() }
+        })
     }
 
     /// Runs an example. Gives whether it is done, and whether its goal holds.
@@ -161,20 +162,24 @@ impl WorldRun {
         robot: &Robot,
         scene: &Scene,
         geometry: Arc<Geometry>,
-        profile: &Profile,
+        bench: &Bench,
         seen: &mut Failures,
-    ) -> (bool, bool) {
+    ) -> Result<(bool, bool), String> {
         let session = Session::builder().robot(robot).scene(scene).build(&mut Sources::default());
         let session = session.with_geometry(geometry);
         let parsed = motet_syntax::read(&Source::new("example.motet", text), FileId(99));
-        let Some(graph) = session.compile(&parsed, None).graph else { return (false, false) };
-        let mut sim = Sim::new(robot, scene, self.options(profile));
-        let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else { return (false, false) };
-        let mut engine = engine.with_capabilities(sim.capabilities());
-        let end = run(&mut engine, &mut sim, seen, Time::ZERO);
-        let judge = Judge { graph: &graph, engine: &engine, sim: &sim };
+        let Some(graph) = session.compile(&parsed, None).graph else { return Ok((false, false)) };
+        let mut robot_in = bench.robot(robot, (scene, scene), self.seed, Faults::default())?;
+        let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else {
+            return Ok((false, false));
+        };
+        let driver = robot_in.driver();
+        let mut engine = engine.with_capabilities(driver.capabilities());
+        let from = driver.begin_run(Time::ZERO, "run.1", Some(&graph));
+        let end = run(&mut engine, driver, seen, from);
+        let judge = Judge { graph: &graph, engine: &engine, world: RefCell::new(robot_in), at: seen.1 };
         let is_true = graph.goal.iter().all(|part| judge.truth(part) != Some(false));
-        (matches!(end, RunEnd::Done { .. }), is_true)
+        Ok((matches!(end, RunEnd::Done { .. }), is_true))
     }
 
     /// Carries a request out. Gives whether it is done, and whether its goal holds.
@@ -183,21 +188,23 @@ impl WorldRun {
         case: &dialogue::Case,
         robot: Robot,
         scene: Scene,
-        profile: &Profile,
+        bench: &Bench,
         seen: &mut Failures,
-    ) -> (bool, bool) {
+    ) -> Result<(bool, bool), String> {
         let scene = case.told(scene);
-        let mut sim = Sim::new(&robot, &scene, self.options(profile));
+        let mut robot_in = bench.robot(&robot, (&scene, &scene), self.seed, Faults::default())?;
         let options = CheckOptions::default();
         let setting = DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options };
         let mut talk = Conversation::new(&setting);
-        let (outcome, _) =
-            talk.carry_out(&case.request, &mut Builtin, &mut sim, &mut Patient(AGAIN), seen, Time::ZERO);
-        let holds = |(fluent, args): &(String, Vec<String>)| {
+        let (driver, mut person) = (robot_in.driver(), Patient(AGAIN));
+        let (outcome, end) =
+            talk.carry_out(&case.request, &mut Builtin, driver, &mut person, seen, Time::ZERO);
+        let mut holds = |(fluent, args): &(String, Vec<String>)| {
             let args: Vec<&str> = args.iter().map(String::as_str).collect();
-            sim.holds(fluent, &args) == Some(true)
+            robot_in.holds(end, fluent, &args)
         };
-        (outcome == Outcome::Done, case.goal.iter().all(holds) && !case.undo.iter().any(holds))
+        let is_true = case.goal.iter().all(&mut holds) && !case.undo.iter().any(&mut holds);
+        Ok((outcome == Outcome::Done, is_true))
     }
 }
 
@@ -205,10 +212,16 @@ impl WorldRun {
 struct Judge<'a> {
     graph: &'a Graph,
     engine: &'a Engine,
-    sim: &'a Sim,
+    world: RefCell<TrialRobot>,
+    /// Time of the end of the run.
+    at: Time,
 }
 
 impl Judge<'_> {
+    fn ask(&self, query: &Query) -> Answer {
+        self.world.borrow_mut().truth(self.at, query)
+    }
+
     /// Truth of a part of a goal; `None` where the world cannot say.
     fn truth(&self, part: &Condition) -> Option<bool> {
         match part {
@@ -219,7 +232,8 @@ impl Judge<'_> {
                     FactArg::Any => Some(Pattern::Any),
                     FactArg::Term(term) => self.value(term).map(Pattern::Is),
                 });
-                match self.sim.truth(&Query::Fact { fluent, args: args.collect::<Option<_>>()? }) {
+                let query = Query::Fact { fluent, args: args.collect::<Option<_>>()? };
+                match self.ask(&query) {
                     Answer::Truth(is_true) => Some(is_true),
                     Answer::Value(_) | Answer::Unknown => None,
                 }
@@ -268,7 +282,7 @@ impl Judge<'_> {
             }
             _ => return None,
         };
-        match self.sim.truth(&asked) {
+        match self.ask(&asked) {
             Answer::Value(value) => Some(value),
             Answer::Truth(_) | Answer::Unknown => None,
         }

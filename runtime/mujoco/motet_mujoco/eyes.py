@@ -24,6 +24,8 @@ UNLIKE_ANYWHERE = 0.3
 # Every which row and column of a depth picture is looked at, for what is known; the distance in m up to which a point
 # is on it, and the number of points that show it.
 GRID, ON, ENOUGH = 6, 0.02, 8
+# Distance in m from a thing up to which what is seen is a part of it.
+PART = 0.03
 # Parts of the travel of a drawer or door that are told apart.
 STEPS = 5
 # Distance in m from which a thing counts as being elsewhere.
@@ -201,7 +203,13 @@ class Eyes:
                 entity = self.world.model.entities[one["id"]]
                 one["label"] = (entity.get("names") or [entity.get("class") or one["id"]])[0]
                 one["pose"]["xyz"] = centred(one, entity)
-        return found
+        return [one for one in found if one["id"] is not None or not self.is_part(one, taken)]
+
+    def is_part(self, one, taken):
+        """True for a detection that is a part of a thing of which another part was recognised, as where something
+        stands before its middle."""
+        gaps = [self.beliefs.gap(thing, one["pose"]["xyz"]) for thing in taken]
+        return any(gap is not None and gap <= PART for gap in gaps)
 
     def match(self, one, taken):
         """Id of the believed thing that a detection fits best; None for something new."""

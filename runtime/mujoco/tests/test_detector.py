@@ -103,3 +103,21 @@ def test_open_vocabulary_with_random_weights(kitchen):
 
 def test_the_camera_has_no_window(kitchen):
     assert isinstance(kitchen.camera, Camera)
+
+
+def test_parts_of_a_thing_are_no_new_things(motet):
+    """A bottle stands before the magazine and divides it in the picture."""
+    world = World(load("hsr", "living_room", motet))
+    target = world.target.copy()
+    target[:3] = [0.6324, 0.5059, 0.6747]
+    world.data.qpos[world.model.control_qpos] = target
+    world.step(target)
+    eyes = Eyes(world, Observer(world), Beliefs(world))
+    try:
+        found = eyes.detections()
+    except NoGraphics as error:
+        pytest.skip(str(error))
+    finally:
+        eyes.close()
+    assert "magazine" in {one["id"] for one in found}
+    assert not [one for one in found if one["id"] is None and one["confidence"] > 0.5], found
