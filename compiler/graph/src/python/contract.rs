@@ -7,14 +7,18 @@ use serde_json::json;
 use super::term::{quoted, type_name};
 use super::{Writer, identifier};
 use crate::model::{
-    CallEffect, CallNode, Condition, FactArg, Fact, KindId, Need, Node, NodeId, Term, TextPart, Unsettled,
+    CallEffect, CallNode, Condition, Fact, FactArg, KindId, Need, Node, NodeId, Term, TextPart, Unsettled,
     Verdict,
 };
 
 impl Writer<'_> {
     /// Writes the function that gives the contract of a call, and returns the call of it; none without one.
     pub(super) fn contract(&mut self, id: NodeId, node: &Node, call: &CallNode) -> Option<String> {
-        if call.needs.is_empty() && call.effects.is_empty() && call.unsettles.is_empty() && call.motion.is_none() {
+        if call.needs.is_empty()
+            && call.effects.is_empty()
+            && call.unsettles.is_empty()
+            && call.motion.is_none()
+        {
             return None;
         }
         let primitive = self.graph.primitives.get(call.primitive.index());
@@ -25,7 +29,10 @@ impl Writer<'_> {
         parts.push(("needs", call.needs.iter().map(|need| self.need(need)).collect()));
         parts.push(("makes", call.effects.iter().map(|effect| self.effect(effect)).collect()));
         parts.push(("unsettles", call.unsettles.iter().map(|one| self.unsettled(one)).collect()));
-        let mut text = format!("\n\ndef {name}({params}) -> Contract:\n    # {}\n    return Contract(\n", quoted(&node.path));
+        let mut text = format!(
+            "\n\ndef {name}({params}) -> Contract:\n    # {}\n    return Contract(\n",
+            quoted(&node.path)
+        );
         for (part, entries) in parts.into_iter().filter(|(_, entries)| !entries.is_empty()) {
             let entries: String = entries.iter().map(|entry| format!("            {entry},\n")).collect();
             text.push_str(&format!("        {part}=(\n{entries}        ),\n"));
@@ -37,7 +44,9 @@ impl Writer<'_> {
             };
             let mut found = json!({"query": motion.query, "verdict": verdict});
             for (key, value) in [("witness", json!(motion.witness)), ("why", json!(motion.why))] {
-                if !value.is_null() && let Some(found) = found.as_object_mut() {
+                if !value.is_null()
+                    && let Some(found) = found.as_object_mut()
+                {
                     found.insert(key.to_owned(), value);
                 }
             }
@@ -141,9 +150,10 @@ impl Writer<'_> {
         let observable = graph.fluents.iter().filter(|fluent| fluent.observable);
         let observable: Vec<String> = observable.map(|fluent| quoted(&fluent.name)).collect();
         let names: BTreeMap<_, _> = graph.names.iter().map(|name| (&name.entity, &name.name)).collect();
-        let sentences = graph.sentences.iter().filter_map(|sentence| {
-            Some((graph.failures.get(sentence.failure.index())?, &sentence.text))
-        });
+        let sentences = graph
+            .sentences
+            .iter()
+            .filter_map(|sentence| Some((graph.failures.get(sentence.failure.index())?, &sentence.text)));
         let sentences: BTreeMap<_, _> = sentences.collect();
         let primitives: BTreeMap<_, _> = graph
             .primitives

@@ -58,12 +58,12 @@ pub fn script(graph: &Graph, entities: &[(SmolStr, SmolStr)]) -> Result<String, 
 const DEEPEST: usize = crate::validate::MAX_DEPTH + 2;
 /// Names that the script uses itself, and that no binding may have.
 const TAKEN: &[&str] = &[
-    "ANY", "Case", "Contract", "EACH", "Entity", "Entry", "Failed", "False", "MOTIONS", "Need", "None", "Planned", "Pose", "SCRIPT", "Robot",
-    "Script", "Text", "True", "all_of", "and", "any_of", "arith", "as", "assert", "async", "await", "break",
-    "class", "compare", "continue", "count", "def", "del", "elif", "else", "except", "fact", "failure", "field",
-    "finally", "first", "for", "from", "global", "if", "import", "in", "is", "json", "lambda", "main",
-    "measure", "no", "nonlocal", "not", "or", "pass", "planned", "raise", "range", "return", "robot", "said", "try",
-    "while", "with", "yield",
+    "ANY", "Case", "Contract", "EACH", "Entity", "Entry", "Failed", "False", "MOTIONS", "Need", "None",
+    "Planned", "Pose", "SCRIPT", "Robot", "Script", "Text", "True", "all_of", "and", "any_of", "arith", "as",
+    "assert", "async", "await", "break", "class", "compare", "continue", "count", "def", "del", "elif",
+    "else", "except", "fact", "failure", "field", "finally", "first", "for", "from", "global", "if",
+    "import", "in", "is", "json", "lambda", "main", "measure", "no", "nonlocal", "not", "or", "pass",
+    "planned", "raise", "range", "return", "robot", "said", "try", "while", "with", "yield",
 ];
 
 struct Writer<'g> {
@@ -232,7 +232,9 @@ impl<'g> Writer<'g> {
                 self.line(level, &format!("for {item} in robot.items({list}, {kind}, at_most={at_most}):"));
                 self.region(*body, level + 1)?;
             }
-            NodeKind::Parallel { .. } => return unsayable("`parallel`, because it does several things at once"),
+            NodeKind::Parallel { .. } => {
+                return unsayable("`parallel`, because it does several things at once");
+            }
             NodeKind::End { how, of, why } => self.ending(*how, *of, why.as_ref(), level),
         }
         Ok(())
@@ -301,8 +303,12 @@ impl<'g> Writer<'g> {
             .map(|(arg, param)| format!("{}: {}", quoted(&param.name), self.term(arg, Some(&param.ty))))
             .collect();
         let name = primitive.map_or("", |primitive| &primitive.name);
-        let mut text =
-            format!("await robot.call({}, {{{}}}, within={:?}", quoted(name), args.join(", "), call.deadline_secs);
+        let mut text = format!(
+            "await robot.call({}, {{{}}}, within={:?}",
+            quoted(name),
+            args.join(", "),
+            call.deadline_secs
+        );
         if call.retries > 0 {
             text.push_str(&format!(", retry={}", call.retries));
         }
@@ -340,7 +346,8 @@ fn identifier(name: &str) -> String {
 fn free(name: &str, taken: &mut BTreeSet<String>) -> String {
     let generated = ["part_", "cleanup_", "contract_"].iter().any(|stem| name.starts_with(stem));
     let stem = if generated || name == "_" { format!("its_{name}") } else { name.to_owned() };
-    let mut candidates = std::iter::once(stem.clone()).chain((2_u64..).map(|number| format!("{stem}_{number}")));
+    let mut candidates =
+        std::iter::once(stem.clone()).chain((2_u64..).map(|number| format!("{stem}_{number}")));
     let name = candidates.find(|name| !taken.contains(name)).unwrap_or(stem);
     taken.insert(name.clone());
     name

@@ -98,9 +98,8 @@ fn played(seed: u64, graph: &Graph) -> Vec<String> {
             match effect {
                 Effect::Start { goal, command, .. } => {
                     started += 1;
-                    let manner = command.manner.map(|manner| {
-                        format!(" {:?}/{:?}", manner.speed, manner.acceleration)
-                    });
+                    let manner =
+                        command.manner.map(|manner| format!(" {:?}/{:?}", manner.speed, manner.acceleration));
                     let plain = Command { manner: None, ..(*command).clone() };
                     log.push(format!("{plain}{}", manner.unwrap_or_default()));
                     let (outcome, secs) = fate(seed, started, &command);
@@ -207,7 +206,11 @@ fn python_script_cannot_say_what_runs_beside_something() {
     let go = || vec![StepSketch::go("table")];
     let near = WatchSketch::new(v::nearer("user", 0.5), ReactionSketch::Pause(3.0));
     for (steps, path, words) in [
-        (vec![StepSketch::Sequence(vec![StepSketch::Parallel(vec![go(), go()])])], "/steps/0/0", "`parallel`"),
+        (
+            vec![StepSketch::Sequence(vec![StepSketch::Parallel(vec![go(), go()])])],
+            "/steps/0/0",
+            "`parallel`",
+        ),
         (vec![StepSketch::go("shelf"), StepSketch::Monitor(vec![near], go())], "/steps/1", "`monitor`"),
     ] {
         let why = python::script(&graph(&steps), &[]).unwrap_err();
