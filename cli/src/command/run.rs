@@ -6,7 +6,7 @@ mod conformance;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motet::run::{create_journal, engine, run_id, start_state, unix_ns};
+use motet::run::{create_journal, engine, events, run_id, start_state, unix_ns};
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::DriverAddress;
@@ -25,7 +25,7 @@ use crate::flags::{DriverArgs, DriverChoice, OutputFormat, SessionArgs, Speed};
 use crate::output::{Colors, count, escape, note};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
-use crate::run_view::{Clock, events, view};
+use crate::run_view::{Clock, view};
 use crate::runner::{PacedView, Runner, connect, exit_of, journal_error, note_open};
 
 /// Flags of `motet run`.
@@ -105,7 +105,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let guard = opened.session.world_tracker().map(|course| Guard::new(course, speed.verifies()));
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings)?;
     let journal = match args.record.as_deref().zip(saved) {
-        Some((folder, saved)) => Some(create_journal(folder, &run, (&engine, &start), &saved)?),
+        Some((folder, saved)) => Some(create_journal(folder, &run, (&engine, &start), Some(&saved))?),
         None => None,
     };
     let view = view(args.format, engine.graph(), colors, clock);
@@ -129,7 +129,10 @@ pub(super) fn compile<'p>(
     let sources = opened.sources(source);
     match format {
         OutputFormat::Human => report.print(&compiled.diagnostics, &sources),
-        OutputFormat::Json => events::diagnostics(&compiled.diagnostics, &sources, &mut report.out),
+        OutputFormat::Json => {
+            let lines = events::diagnostics(&compiled.diagnostics, &sources);
+            lines.iter().for_each(|line| report.out.line(line));
+        }
     }
     if let Some(graph) = compiled.graph {
         return Ok(Some((graph, parsed, opened)));
