@@ -1,16 +1,17 @@
-//! Native part of the Python module `motet`: environments, vocabularies and decoders. Names of files and
-//! tokenizers of other libraries are handled in `motet/*.py`.
+//! Environments, vocabularies and decoders. Names of files and tokenizers of other libraries are handled in
+//! `motet/*.py`.
 
 use motet_decode::vocabulary::Encoding;
 use motet_decode::{AcceptorFactory, EndToken, Environment as Texts, Modifiers, Session, Subset};
 use motet_syntax::{FileId, Source, Sources, Syntax, render};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::errors::wrong;
+
 /// The tokens of a language model.
 #[pyclass(frozen, module = "motet._motet")]
-struct Vocabulary(motet_decode::Vocabulary);
+pub(crate) struct Vocabulary(motet_decode::Vocabulary);
 
 #[pymethods]
 impl Vocabulary {
@@ -78,7 +79,7 @@ impl EndOfSequence {
 
 /// A robot, a scene and facts, prepared.
 #[pyclass(frozen, module = "motet._motet")]
-struct Environment {
+pub(crate) struct Environment {
     session: Session,
     prepared: AcceptorFactory,
 }
@@ -87,11 +88,13 @@ struct Environment {
 impl Environment {
     /// Takes names of built-in robots and scenes, or texts.
     #[new]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     #[pyo3(signature = (
         *, robot = None, declarations = None, scene = None, state = None, domain = None,
         modifiers = false, text = false
     ))]
     fn new(
+        py: Python<'_>,
         robot: Option<&str>,
         declarations: Option<&str>,
         scene: Option<&str>,
@@ -100,18 +103,22 @@ impl Environment {
         modifiers: bool,
         text: bool,
     ) -> PyResult<Self> {
-        let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
+        let texts = Texts { robot, declarations, scene, state, domain };
+        let session = py.detach(|| texts.session()).map_err(wrong)?;
         let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
         let syntax = if text { Syntax::Text } else { Syntax::Json };
-        let prepared = AcceptorFactory::new(&session, Subset { syntax, modifiers, ..Subset::default() });
+        let subset = Subset { syntax, modifiers, ..Subset::default() };
+        let prepared = py.detach(|| AcceptorFactory::new(&session, subset));
         Ok(Self { session, prepared })
     }
 
     /// The diagnostics of a policy in either syntax: JSON objects, one a line.
-    fn check(&self, policy: &str) -> String {
-        let (source, sources) = sources(policy);
-        let parsed = motet_syntax::read(&source, FileId(0));
-        render::json(&self.session.check(&parsed), &sources)
+    fn check(&self, py: Python<'_>, policy: &str) -> String {
+        py.detach(|| {
+            let (source, sources) = sources(policy);
+            let parsed = motet_syntax::read(&source, FileId(0));
+            render::json(&self.session.check(&parsed), &sources)
+        })
     }
 
     /// Creates a decoder for a policy of at most `budget` bytes.
@@ -124,7 +131,7 @@ impl Environment {
 
 /// Follows one policy token by token.
 #[pyclass(module = "motet._motet")]
-struct Decoder {
+pub(crate) struct Decoder {
     decoder: motet_decode::Decoder,
     /// The number of words of a mask.
     words: usize,
@@ -186,17 +193,4 @@ fn sources(text: &str) -> (Source, Sources) {
     let source = Source::new("policy", text);
     sources.add(source.clone());
     (source, sources)
-}
-
-fn wrong(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
-}
-
-/// The native part of `motet`.
-#[pymodule]
-fn _motet(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<Vocabulary>()?;
-    module.add_class::<Environment>()?;
-    module.add_class::<Decoder>()
 }
