@@ -7,12 +7,10 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
-use motet_compiler::{Library, make_explicit};
-use motet_project::files::{Bytes, decode, read_bounded, read_file};
-use motet_project::{DOCUMENT, ProjectError};
-use motet_syntax::ast::{self, Item, MAX_BYTES, Policy};
-use motet_syntax::errors::too_large;
-use motet_syntax::{Diagnostic, Parsed, Source, Span, Syntax, print};
+use motet_project::ProjectError;
+use motet_project::files::{Bytes, read_bounded, read_file};
+use motet_syntax::ast::MAX_BYTES;
+use motet_syntax::{Parsed, Source};
 use serde::de::IgnoredAny;
 
 use crate::error::CliError;
@@ -142,40 +140,9 @@ impl Document {
 
     /// Parses the document. Bytes that are not text, or are too many, are diagnostics.
     pub(crate) fn parse(&self) -> (Source, Parsed) {
-        match &self.bytes {
-            Bytes::All(bytes) => {
-                let (source, diagnostics) = decode(&self.name, bytes, DOCUMENT);
-                let source = self.with_line(source);
-                let parsed = match diagnostics.is_empty() {
-                    true => motet_syntax::read(&source, DOCUMENT),
-                    false => unparsed(diagnostics),
-                };
-                (source, parsed)
-            }
-            Bytes::TooMany(bytes) => {
-                let mistake = too_large(Span::new(DOCUMENT, 0, 0), *bytes);
-                (self.with_line(Source::new(self.name.as_str(), "")), unparsed(vec![mistake]))
-            }
-        }
+        let line_of = self.line_of.as_ref().map(|(file, line)| (file.as_str(), *line));
+        motet::document::parse(&self.name, &self.bytes, line_of)
     }
-
-    fn with_line(&self, source: Source) -> Source {
-        match &self.line_of {
-            Some((file, line)) => source.as_line(file.as_str(), *line),
-            None => source,
-        }
-    }
-}
-
-/// Result of parsing a document that is not text.
-fn unparsed(diagnostics: Vec<Diagnostic>) -> Parsed {
-    let file = ast::File::default();
-    Parsed { file, syntax: Syntax::Text, text: Default::default(), diagnostics, written: None }
-}
-
-/// Is `true` for a reply with prose around its policy, which a rewritten document would lose.
-pub(crate) fn is_reply(parsed: &Parsed) -> bool {
-    parsed.diagnostics.iter().any(|found| found.code.0 == "M0116")
 }
 
 /// Continuation of a loop over documents.
@@ -271,42 +238,5 @@ fn failed_path(error: &ignore::Error) -> Option<&Path> {
         | ignore::Error::Glob { .. }
         | ignore::Error::UnrecognizedFileType(_)
         | ignore::Error::InvalidDefinition => None,
-    }
-}
-
-/// Writes a document, or one policy of it, in a syntax.
-pub(crate) fn write(
-    parsed: &Parsed,
-    policy: Option<&str>,
-    library: &Library,
-    syntax: Syntax,
-) -> Result<String, String> {
-    let mut file = parsed.file.clone();
-    if let Some(name) = policy {
-        file.items.retain(|item| matches!(item, Item::Policy(policy) if policy.name.text == name));
-        if file.items.is_empty() {
-            return Err(format!("there is no policy `{name}`"));
-        }
-    }
-    for item in &mut file.items {
-        if let Item::Policy(policy) = item {
-            make_explicit(policy, library, syntax);
-        }
-    }
-    match syntax {
-        Syntax::Text => Ok(print::text(&file)),
-        Syntax::Json => Ok(print::policy_json(only(&file.items)?)),
-    }
-}
-
-/// Only policy of a document, which has no parameters.
-fn only(items: &[Item]) -> Result<&Policy, String> {
-    let rule = "a JSON document holds exactly one policy without parameters";
-    match items {
-        [Item::Policy(policy)] if policy.params.is_empty() => Ok(policy),
-        [Item::Policy(policy)] => Err(format!("`{}` has parameters, and {rule}", policy.name.text)),
-        [] => Err(format!("there is no policy, and {rule}")),
-        [_] => Err(format!("there is no policy but another declaration, and {rule}")),
-        more => Err(format!("there are {} declarations, and {rule}", more.len())),
     }
 }

@@ -5,9 +5,10 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
-use motet_syntax::render::is_steering;
 
 use crate::error::CliError;
+
+pub(crate) use motet::shown::escape;
 
 /// Colours of the output.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
@@ -135,23 +136,6 @@ pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
-/// Maximum length of a shown text from another process, in characters.
-const MAX_SHOWN_CHARS: usize = 500;
-
-/// Text from another process as one line for a terminal. Control and bidirectional characters are escaped
-/// (`\u{1b}`), and a long text is cut.
-pub(crate) fn escape(text: &str) -> String {
-    let mut shown = String::new();
-    for (index, letter) in text.chars().enumerate() {
-        if index == MAX_SHOWN_CHARS {
-            shown.push('…');
-            break;
-        }
-        if is_steering(letter) { shown.extend(letter.escape_default()) } else { shown.push(letter) }
-    }
-    shown
-}
-
 /// `1 error`, `2 errors`.
 pub(crate) fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
@@ -160,16 +144,4 @@ pub(crate) fn count(number: usize, one: &str) -> String {
 /// `1 entry`, `2 entries`.
 pub(crate) fn count_irregular(number: usize, one: &str, several: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { several })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{MAX_SHOWN_CHARS, escape};
-
-    #[test]
-    fn escape_escapes_control_characters_and_cuts() {
-        assert_eq!(escape("gripper 40 °C, ok"), "gripper 40 °C, ok");
-        assert_eq!(escape("a\u{1b}[2Jb\u{9b}c\nd\u{202e}e"), r"a\u{1b}[2Jb\u{9b}c\nd\u{202e}e");
-        assert_eq!(escape(&"x".repeat(900_000)).chars().count(), MAX_SHOWN_CHARS + 1);
-    }
 }

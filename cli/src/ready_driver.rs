@@ -3,11 +3,12 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use motet::run::{remote_settings, state_facts};
 use motet_graph::Graph;
-use motet_host::remote::protocol::{Hello, StateFact};
-use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
+use motet_host::remote::protocol::Hello;
+use motet_host::remote::{DriverAddress, RemoteDriver};
 use motet_project::{DiagnosticSink, ProjectSession, SavedDriver, SavedProject, named_robot};
-use motet_runtime::{CameraImage, Driver, DriverClock, EngineSettings, Perception, RgbdView, Time, Truth};
+use motet_runtime::{CameraImage, Driver, DriverClock, EngineSettings, Perception, RgbdView, Time};
 use motet_sim::Sim;
 use motet_syntax::Parsed;
 use motet_syntax::ast::File;
@@ -95,22 +96,21 @@ fn kinematic(
 ) -> Result<ReadyDriver, CliError> {
     let opened = subject.opened;
     let named = subject.policy.and_then(|(_, parsed)| named_robot(&parsed.file));
-    let (Some(robot), Some(files)) = (&opened.robot, &opened.files) else { return Err(no_robot(named)) };
+    let Some(robot) = &opened.robot else { return Err(no_robot(named)) };
     let eye = opened.geometry.as_ref().and_then(|geometry| geometry.eye());
     let inputs = args.inputs(eye, report)?;
-    inputs.check_names(&opened.session.signatures())?;
-    let (options, saved) = match subject.policy {
+    let (simulator, saved) = match subject.policy {
         Some((graph, parsed)) => {
-            let declarations: Vec<_> = opened.domains.iter().chain([&parsed.file]).collect();
-            let options = inputs.for_policy(graph, &declarations).with_facts(opened.told_facts());
-            let (text, project) = (opened.scene_text.clone(), SavedProject::of(opened));
-            let saved = SavedDriver::simulator(files, text, &options, project);
-            (options, Some(saved))
+            let (simulator, saved) = motet::run::simulator(opened, (graph, &parsed.file), inputs)?;
+            (simulator, Some(saved))
         }
-        None => (inputs.without_policy().with_facts(opened.told_facts()), None),
+        None => {
+            inputs.check_names(&opened.session.signatures())?;
+            let options = inputs.without_policy().with_facts(opened.told_facts());
+            (Sim::new(robot, &opened.scene.clone().unwrap_or_default(), options), None)
+        }
     };
-    let scene = opened.scene.clone().unwrap_or_default();
-    let simulator = Rc::new(RefCell::new(Sim::new(robot, &scene, options)));
+    let simulator = Rc::new(RefCell::new(simulator));
     Ok(ReadyDriver {
         driver: Box::new(Rc::clone(&simulator)),
         eyes: Eyes::Simulator(simulator),
@@ -128,12 +128,6 @@ fn remote(
     subject: &RunSubject<'_>,
 ) -> Result<ReadyDriver, CliError> {
     let RunSubject { run, policy, opened } = subject;
-    let facts = opened.told_facts();
-    let known = facts.into_iter().filter_map(|(query, truth)| match truth {
-        Truth::True => Some(StateFact { query, holds: true }),
-        Truth::False => Some(StateFact { query, holds: false }),
-        Truth::Unknown => None,
-    });
     let hello = match policy {
         Some((graph, _)) => Hello::of(graph, run),
         None => {
@@ -141,7 +135,7 @@ fn remote(
             Hello { run: (*run).to_owned(), robot, ..Hello::default() }
         }
     };
-    let hello = Hello { state: known.collect(), ..hello };
+    let hello = Hello { state: state_facts(opened), ..hello };
     let has_state = !hello.state.is_empty();
     let driver = connect(address, hello, Time::ZERO)?;
     let (clock, speed) = match (driver.capabilities().clock, args.speed) {
@@ -158,10 +152,7 @@ fn remote(
     }
     let saved =
         policy.map(|_| SavedDriver::process(address, &driver.welcome().instance, SavedProject::of(opened)));
-    // A safe stop may take as long as it takes to reach a silent driver again.
-    let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
-    let settings =
-        EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() };
+    let settings = remote_settings();
     let driver = Rc::new(RefCell::new(driver));
     let eyes = Eyes::Process(Rc::clone(&driver));
     Ok(ReadyDriver { driver: Box::new(driver), eyes, saved, clock, speed, settings })

@@ -1,6 +1,6 @@
 //! Views of a run: redrawn in place on a terminal, line by line, or as JSON events.
 
-pub(crate) mod events;
+mod events;
 mod screen;
 pub(crate) mod tree;
 

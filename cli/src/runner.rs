@@ -8,10 +8,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use motet::run::Room;
 use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
-use motet_planner::dialogue::Knowledge;
 use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
 use motet_runtime::journal::{JournalHead, OpenGoals};
@@ -104,13 +104,13 @@ pub(crate) struct PacedView {
     now: Time,
     guard: Option<Guard>,
     /// The room as the robot knows it, with what it has seen.
-    room: Option<(Scene, Knowledge)>,
+    room: Room,
 }
 
 impl PacedView {
     /// Observer without a guard.
     pub(crate) fn new(view: Box<dyn View>, speed: Speed) -> Self {
-        Self { view, speed, begun: None, now: Time::ZERO, guard: None, room: None }
+        Self { view, speed, begun: None, now: Time::ZERO, guard: None, room: Room::default() }
     }
 
     /// The same with a guard, which checks deferred motions.
@@ -120,7 +120,7 @@ impl PacedView {
 
     /// The same in a room that changes by what the driver detects.
     pub(crate) fn with_room(self, scene: Option<Scene>) -> Self {
-        Self { room: scene.map(|scene| (scene, Knowledge::default())), ..self }
+        Self { room: Room::new(scene), ..self }
     }
 
     /// Takes effects from before this process began.
@@ -187,14 +187,11 @@ impl Observer for PacedView {
     }
 
     fn detected(&mut self, _now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
-        let Some((scene, known)) = &mut self.room else { return Vec::new() };
-        let (news, facts) = known.notice_seen(scene, seen, engine);
-        self.guard.iter_mut().for_each(|guard| guard.saw(news.clone()));
-        facts
+        self.room.detected(seen, engine, self.guard.as_mut())
     }
 
     fn tell(&mut self) -> Option<ToldThing> {
-        self.room.as_mut()?.1.take_untold()
+        self.room.tell()
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {

@@ -2,6 +2,7 @@
 
 use motet_graph::InvalidGraph;
 use motet_host::journal::JournalError;
+use motet_host::remote::LinkError;
 use motet_planner::builtin::PlanError;
 use motet_project::ProjectError;
 use motet_syntax::{Diagnostic, Severity, Sources, render};
@@ -23,9 +24,15 @@ pub enum Error {
     /// The operation needs a robot, and the project has none.
     #[error("the project has no robot")]
     NoRobot,
+    /// Motions are asked for, and the card of the robot names no body.
+    #[error("the card of `{0}` names no URDF under [model]")]
+    NoBody(String),
     /// The graph was not made by the compiler and is not valid.
     #[error("the graph is not valid{}", .0.first().map_or_else(String::new, |error| format!(": {error}")))]
     Graph(Vec<InvalidGraph>),
+    /// A driver does not speak the driver protocol.
+    #[error("{0}")]
+    Driver(#[from] LinkError),
     /// A journal cannot be read or written.
     #[error(transparent)]
     Journal(#[from] JournalError),
@@ -39,7 +46,12 @@ impl Error {
             Self::Refused { diagnostics, .. } => diagnostics,
             Self::Project(error) => error.diagnostics(),
             Self::Plan(PlanError::Refused { diagnostics, .. }) => diagnostics,
-            Self::Plan(_) | Self::NoRobot | Self::Graph(_) | Self::Journal(_) => &[],
+            Self::Plan(_)
+            | Self::NoRobot
+            | Self::NoBody(_)
+            | Self::Graph(_)
+            | Self::Driver(_)
+            | Self::Journal(_) => &[],
         }
     }
 

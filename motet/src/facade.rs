@@ -2,10 +2,8 @@
 
 use motet_compiler::Session;
 use motet_graph::Graph;
-use motet_planner::builtin;
 use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_project::{DOCUMENT, Project, ProjectBuilder, ProjectSession, SimulationInputs};
-use motet_robots::scene::Scene;
 use motet_runtime::{Driver, EngineSettings, Observer, RunEnd, Time};
 use motet_sim::Sim;
 use motet_syntax::ast::File;
@@ -164,10 +162,7 @@ impl Motet {
     ///
     /// [`Error::Plan`]: the request is not clear, or no plan reaches its goals.
     pub fn plan(&self, request: &str) -> Result<Plan, Error> {
-        let empty = Scene::default();
-        let situation = motet_requests::RequestContext::new(self.opened.scene.as_ref().unwrap_or(&empty));
-        let robot = self.opened.robot.as_ref();
-        let answered = builtin::answer(&self.opened.session, robot, request, &situation)?;
+        let answered = crate::plan::for_request(&self.opened, request)?;
         let planned = answered.planned;
         let graph = planned.compiled.graph.ok_or_else(|| Error::Graph(Vec::new()))?;
         let warnings = planned.compiled.diagnostics;

@@ -1,8 +1,14 @@
 #![doc = include_str!("../README.md")]
 
+pub mod conformance;
+pub mod document;
 mod error;
 mod facade;
+pub mod feasible;
+pub mod plan;
+pub mod replay;
 pub mod run;
+pub mod shown;
 
 pub use error::Error;
 pub use facade::{CheckedPolicy, Motet, Plan};

@@ -3,21 +3,32 @@
 //! [`Motet::run`](crate::Motet::run) covers most embedders. These parts serve hosts that pace a run, show
 //! it, write a journal or resume one, as the `motet` command does.
 
+pub mod events;
+mod recorded;
+mod room;
+
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
+use motet_host::remote::DriverTimeouts;
+use motet_host::remote::protocol::StateFact;
 use motet_planner::runtime_check::{Guard, WITHIN};
-use motet_project::SavedDriver;
+use motet_project::{ProjectSession, SavedDriver, SavedProject, SimulationInputs};
 use motet_robots::scene::Scene;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{
     Answer, Capabilities, Detection, Effect, Engine, EngineSettings, Event, Heard, Moved, Observer, Query,
-    RunControl, StartState, Time, ToldThing, Verifier,
+    RunControl, StartState, Time, ToldThing, Truth, Verifier,
 };
+use motet_sim::Sim;
+use motet_syntax::ast::File;
 
 use crate::Error;
+
+pub use recorded::{RecordedRun, RunPlan, recorded};
+pub use room::Room;
 
 /// Entities that the engine knows at the start besides those in the graph: all of the scene.
 #[must_use]
@@ -47,7 +58,8 @@ pub fn engine(
     Ok(engine.with_capabilities(capabilities).with_settings(settings))
 }
 
-/// Creates the journal of a run of this id that begins now, in a folder that is empty or does not exist.
+/// Creates the journal of a run of this id that begins now, in a folder that is empty or does not exist. A run
+/// without a description of its driver can be replayed but not resumed.
 ///
 /// # Errors
 ///
@@ -56,10 +68,49 @@ pub fn create_journal(
     folder: &Path,
     run: &str,
     (engine, start): (&Engine, &StartState),
-    driver: &SavedDriver,
+    driver: Option<&SavedDriver>,
 ) -> Result<JournalWriter, Error> {
-    let head = JournalHead { driver: driver.to_json()?, ..journal_head(run, engine, start) };
+    let driver = driver.map_or(Ok(serde_json::Value::Null), SavedDriver::to_json)?;
+    let head = JournalHead { driver, ..journal_head(run, engine, start) };
     Ok(JournalWriter::create(folder, head)?)
+}
+
+/// Simulator for a compiled policy in a project, and its description for a journal.
+///
+/// # Errors
+///
+/// [`Error::NoRobot`], and [`Error::Project`] for a fault with an unknown name.
+pub fn simulator(
+    opened: &ProjectSession,
+    (graph, document): (&Graph, &File),
+    inputs: SimulationInputs,
+) -> Result<(Sim, SavedDriver), Error> {
+    let (Some(robot), Some(files)) = (&opened.robot, &opened.files) else { return Err(Error::NoRobot) };
+    inputs.check_names(&opened.session.signatures())?;
+    let declarations: Vec<_> = opened.domains.iter().chain([document]).collect();
+    let options = inputs.for_policy(graph, &declarations).with_facts(opened.told_facts());
+    let (text, project) = (opened.scene_text.clone(), SavedProject::of(opened));
+    let saved = SavedDriver::simulator(files, text, &options, project);
+    let scene = opened.scene.clone().unwrap_or_default();
+    Ok((Sim::new(robot, &scene, options), saved))
+}
+
+/// Facts that a driver hears at the beginning of a run: those that the state says beside or against the scene.
+#[must_use]
+pub fn state_facts(opened: &ProjectSession) -> Vec<StateFact> {
+    let known = opened.told_facts().into_iter().filter_map(|(query, truth)| match truth {
+        Truth::True => Some(StateFact { query, holds: true }),
+        Truth::False => Some(StateFact { query, holds: false }),
+        Truth::Unknown => None,
+    });
+    known.collect()
+}
+
+/// Settings of an engine whose driver may have to be reached again: a safe stop may take as long as that.
+#[must_use]
+pub fn remote_settings() -> EngineSettings {
+    let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
+    EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() }
 }
 
 /// Head of the journal of a run of this id that begins now, at time 0, without a description of the driver.

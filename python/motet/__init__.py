@@ -1,10 +1,14 @@
 """Motet: policies for robots, checked before anything moves.
 
+    report = motet.check(policy, robot="hsr", scene="kitchen")     # what `motet check` says
+    run = motet.simulate(policy, robot="hsr", scene="kitchen")     # what `motet run` does
+
     class MyRobot(motet.Driver):
         async def go(self, goal, to):
             await self.base.drive(to)
 
-    motet.serve(MyRobot())
+    motet.drive(policy, MyRobot(), scene="kitchen")                # in this process
+    motet.serve(MyRobot())                                         # for `motet run --driver`
 
 `Driver`, `serve` and their like need the standard library of Python alone. The other names need the compiled part of the package,
 which is loaded when the first of them is used.
@@ -15,26 +19,47 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .driver import Driver, Failed, Goal, Motion, Refused, observes
+from .errors import InputError, PlanError, PolicyError
 from .serving import serve
 from .values import ANY, Case, Entity, Pose, Text
 
 if TYPE_CHECKING:
-    from ._motet import __version__
+    from ._motet import Vocabulary, __version__, explain
+    from .conformance import Conformance, check_driver
     from .decoder import Decoder
     from .environment import Environment
-    from .vocabularies import Vocabulary, vocabulary
+    from .graph import Graph
+    from .inputs import Inputs
+    from .motions import Feasibility, MotionVerdict, feasible
+    from .project import Plan, Project, check, compile, drive, fix, fmt, plan, simulate
+    from .report import Diagnostic, Report
+    from .run import Event, Replay, Run, replay
+    from .vocabularies import vocabulary
 
+#: Names that need the compiled part, by the module that has them.
 _COMPILED = {
-    "__version__": "_motet",
-    "Decoder": "decoder",
-    "Environment": "environment",
-    "Vocabulary": "vocabularies",
-    "vocabulary": "vocabularies",
+    name: module
+    for module, names in {
+        "_motet": ("Vocabulary", "__version__", "explain"),
+        "conformance": ("Conformance", "check_driver"),
+        "decoder": ("Decoder",),
+        "environment": ("Environment",),
+        "graph": ("Graph",),
+        "inputs": ("Inputs",),
+        "motions": ("Feasibility", "MotionVerdict", "feasible"),
+        "project": ("Plan", "Project", "check", "compile", "drive", "fix", "fmt", "plan", "simulate"),
+        "report": ("Diagnostic", "Report"),
+        "run": ("Event", "Replay", "Run", "replay"),
+        "vocabularies": ("vocabulary",),
+    }.items()
+    for name in names
 }
 
 __all__ = [
-    "ANY", "Case", "Driver", "Entity", "Failed", "Goal", "Motion", "Pose", "Refused", "Text", "observes", "serve",
-    "Decoder", "Environment", "Vocabulary", "__version__", "vocabulary",
+    "ANY", "Case", "Conformance", "Decoder", "Diagnostic", "Driver", "Entity", "Environment", "Event", "Failed", "Feasibility",
+    "Goal", "Graph", "InputError", "Inputs", "Motion", "MotionVerdict", "Plan", "PlanError", "PolicyError", "Pose", "Project",
+    "Refused", "Replay", "Report", "Run", "Text", "Vocabulary", "__version__", "check", "check_driver", "compile", "drive",
+    "explain", "feasible", "fix", "fmt", "observes", "plan", "replay", "serve", "simulate", "vocabulary",
 ]
 
 

@@ -10,7 +10,7 @@ from typing import Any
 __all__ = ["DriverLoop", "new_loop"]
 
 
-class _Idle(selectors.DefaultSelector):  # type: ignore[misc,valid-type]
+class _Idle(selectors.DefaultSelector):
     """A selector that says when nothing is left to do at the present time."""
 
     idle: Callable[[float | None], bool] = staticmethod(lambda timeout: False)

@@ -43,7 +43,8 @@ class Failed(Exception):
 
     def __init__(self, kind: str, text: str = "") -> None:
         super().__init__(f"{kind}: {text}" if text else kind)
-        self.kind, self.text = kind, text
+        self.kind: str = kind
+        self.text: str = text
 
     def _wire(self) -> Any:
         return {"kind": self.kind, "text": self.text} if self.text else self.kind
@@ -236,7 +237,9 @@ class Driver:
             self._session.look_at_watched()
 
     def _capabilities(self) -> dict[str, Any]:
-        which = lambda names: names if names == "all" else {"only": list(names)}  # noqa: E731
+        def which(names: str | tuple[str, ...]) -> Any:
+            return names if names == "all" else {"only": list(names)}
+
         capabilities = {"hold": which(self.can_hold), "update": which(self.can_update), "moved": True}
         for name in ("look", "detections", "told"):
             capabilities[name] = callable(getattr(self, name, None))

@@ -28,17 +28,19 @@ class CallError(Exception):
 
     def __init__(self, code: int, message: str, data: Any = None) -> None:
         super().__init__(message)
-        self.code, self.data = code, data
+        self.code: int = code
+        self.data: Any = data
 
 
 class Session:
     """Keeps the goals of a driver over all its connections. Everything runs on one event loop."""
 
     def __init__(self, driver: Driver, loop: asyncio.AbstractEventLoop) -> None:
-        self.driver, self.loop = driver, loop
+        self.driver: Driver = driver
+        self.loop: asyncio.AbstractEventLoop = loop
         self.run: str | None = None
         self.primitives: dict[str, dict[str, Any]] = {}
-        self.instance = f"{os.getpid()}-{time.time_ns()}"
+        self.instance: str = f"{os.getpid()}-{time.time_ns()}"
         self.goals: dict[int, Goal] = {}
         self.states: dict[int, Any] = {}
         self.tasks: dict[int, asyncio.Task[Any]] = {}
@@ -222,7 +224,7 @@ class Session:
     def forget(self) -> None:
         """Another run begins: its goals have numbers of their own."""
         for kept in (self.goals, self.states, self.tasks, self.stops, self.watched):
-            kept.clear()  # type: ignore[attr-defined]
+            kept.clear()
 
     # Watched queries.
 

@@ -6,13 +6,15 @@ import asyncio
 import os
 import socket
 import sys
+import threading
+import warnings
 from collections.abc import Callable
 
 from .clock import new_loop
 from .driver import Driver
 from .protocol import Session
 
-__all__ = ["serve"]
+__all__ = ["ServedStream", "serve"]
 
 #: A host says something every second; after so many seconds without a word it has vanished.
 SILENCE = 5.0
@@ -65,6 +67,37 @@ async def _serve_stdio(session: Session, output: int) -> None:
     await session.stop_all()
 
 
+class ServedStream:
+    """A driver in this process, on a thread of its own, at the other end of a socket."""
+
+    #: Seconds that a driver has to end after its host has gone.
+    GRACE = 10.0
+
+    def __init__(self, driver: Driver) -> None:
+        self._driver = driver
+        self._thread: threading.Thread | None = None
+
+    def serve(self, file: int) -> None:
+        """Begins to serve the socket with this number, which is closed at the end."""
+        connection = socket.socket(fileno=file)
+
+        async def serving(session: Session) -> None:
+            if not await serve_connection(session, connection):
+                await session.stop_all()
+
+        self._thread = threading.Thread(target=_run, args=(self._driver, serving), name="motet driver", daemon=True)
+        self._thread.start()
+
+    def join(self) -> None:
+        """Waits until the driver has ended, but not for ever."""
+        if self._thread is None:
+            return
+        self._thread.join(self.GRACE)
+        if self._thread.is_alive():
+            text = f"the driver has not ended within {self.GRACE} s: a coroutine of it does not await"
+            warnings.warn(text, RuntimeWarning, stacklevel=4)
+
+
 async def _listen(session: Session, server: socket.socket, grace: float) -> None:
     """Serves one connection after the other. What runs has `grace` seconds without one."""
     server.setblocking(False)
@@ -97,6 +130,11 @@ async def serve_connection(session: Session, connection: socket.socket) -> bool:
             session.write = None
 
 
+def _set(ready: asyncio.Future[None]) -> None:
+    if not ready.done():
+        ready.set_result(None)
+
+
 async def _converse(
     session: Session, file: int, read: Callable[[], bytes], write: Callable[[bytes], None]
 ) -> bool:
@@ -105,7 +143,7 @@ async def _converse(
     session.write = write
     while True:
         ready = loop.create_future()
-        loop.add_reader(file, lambda: ready.done() or ready.set_result(None))
+        loop.add_reader(file, _set, ready)
         try:
             # Nothing moves while our own time stands still, however long the host is silent.
             await asyncio.wait([ready], timeout=None if session.driver.owns_clock else SILENCE)

@@ -1,7 +1,10 @@
 """Vocabularies from encodings, files and tokenizers of other libraries."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
+from typing import Any
 
 from ._motet import Vocabulary
 
@@ -10,7 +13,7 @@ __all__ = ["Vocabulary", "vocabulary"]
 ENCODINGS = ("cl100k", "o200k")
 
 
-def vocabulary(tokenizer, end=None):
+def vocabulary(tokenizer: Any, end: int | str | None = None) -> Vocabulary:
     """The vocabulary of a tokenizer: `cl100k` or `o200k`, the path of a tokenizer.json, of a list in JSON or of lines in
     base64, a tokenizer of `transformers` or of `tokenizers`, or a `Vocabulary` as it is.
 

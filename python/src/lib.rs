@@ -1,202 +1,30 @@
-//! Native part of the Python module `motet`: environments, vocabularies and decoders. Names of files and
-//! tokenizers of other libraries are handled in `motet/*.py`.
+//! Native part of the Python package `motet`: checks, runs and decoders over the facade. The classes that people
+//! see are in `motet/*.py`; what passes between is text, mostly JSON.
 
-use motet_decode::vocabulary::Encoding;
-use motet_decode::{AcceptorFactory, EndToken, Environment as Texts, Modifiers, Session, Subset};
-use motet_syntax::{FileId, Source, Sources, Syntax, render};
-use pyo3::exceptions::PyValueError;
+mod conformance;
+mod decoder;
+mod errors;
+mod feasible;
+mod findings;
+mod graph;
+mod project;
+mod run;
+
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
-
-/// The tokens of a language model.
-#[pyclass(frozen, module = "motet._motet")]
-struct Vocabulary(motet_decode::Vocabulary);
-
-#[pymethods]
-impl Vocabulary {
-    /// Reads tokenizer.json, a list in JSON or lines in base64. `end` is the name or the number of the
-    /// token that ends a sequence; the default is the token with a well-known name.
-    #[staticmethod]
-    #[pyo3(signature = (file, end = None))]
-    fn from_file(file: &[u8], end: Option<EndOfSequence>) -> PyResult<Self> {
-        motet_decode::Vocabulary::from_file(file, EndOfSequence::as_end(end.as_ref()))
-            .map(Self)
-            .map_err(wrong)
-    }
-
-    /// The vocabulary `cl100k` or `o200k`.
-    #[staticmethod]
-    fn of_encoding(name: &str) -> PyResult<Self> {
-        let encoding = Encoding::named(name)
-            .ok_or_else(|| wrong(format!("there is no encoding `{name}`: cl100k or o200k")))?;
-        motet_decode::Vocabulary::of_encoding(encoding).map(Self).map_err(wrong)
-    }
-
-    /// Tokens as bytes in the order of their numbers; one without bytes is special.
-    #[staticmethod]
-    fn from_tokens(tokens: Vec<Vec<u8>>, end: u32) -> PyResult<Self> {
-        motet_decode::Vocabulary::from_tokens(tokens, end).map(Self).map_err(wrong)
-    }
-
-    /// The token that ends a sequence.
-    #[getter]
-    fn end(&self) -> u32 {
-        self.0.end()
-    }
-
-    fn __len__(&self) -> usize {
-        self.0.len()
-    }
-
-    /// The bytes of a token.
-    fn token<'py>(&self, py: Python<'py>, token: u32) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, self.0.bytes(token))
-    }
-
-    /// The tokens of a text, the longest first at each place.
-    fn tokenize(&self, text: &[u8]) -> Vec<u32> {
-        self.0.tokenize(text)
-    }
-}
-
-/// The token that ends a sequence, by its name or its number.
-#[derive(FromPyObject)]
-enum EndOfSequence {
-    Number(u32),
-    Name(String),
-}
-
-impl EndOfSequence {
-    fn as_end(end: Option<&Self>) -> EndToken<'_> {
-        match end {
-            None => EndToken::Known,
-            Some(Self::Number(number)) => EndToken::Number(*number),
-            Some(Self::Name(name)) => EndToken::Named(name),
-        }
-    }
-}
-
-/// A robot, a scene and facts, prepared.
-#[pyclass(frozen, module = "motet._motet")]
-struct Environment {
-    session: Session,
-    prepared: AcceptorFactory,
-}
-
-#[pymethods]
-impl Environment {
-    /// Takes names of built-in robots and scenes, or texts.
-    #[new]
-    #[pyo3(signature = (
-        *, robot = None, declarations = None, scene = None, state = None, domain = None,
-        modifiers = false, text = false
-    ))]
-    fn new(
-        robot: Option<&str>,
-        declarations: Option<&str>,
-        scene: Option<&str>,
-        state: Option<&str>,
-        domain: Option<&str>,
-        modifiers: bool,
-        text: bool,
-    ) -> PyResult<Self> {
-        let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
-        let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
-        let syntax = if text { Syntax::Text } else { Syntax::Json };
-        let prepared = AcceptorFactory::new(&session, Subset { syntax, modifiers, ..Subset::default() });
-        Ok(Self { session, prepared })
-    }
-
-    /// The diagnostics of a policy in either syntax: JSON objects, one a line.
-    fn check(&self, policy: &str) -> String {
-        let (source, sources) = sources(policy);
-        let parsed = motet_syntax::read(&source, FileId(0));
-        render::json(&self.session.check(&parsed), &sources)
-    }
-
-    /// Creates a decoder for a policy of at most `budget` bytes.
-    fn decoder(&self, vocabulary: &Vocabulary, budget: usize) -> PyResult<Decoder> {
-        let decoder = self.prepared.decoder(&vocabulary.0, budget);
-        let decoder = decoder.ok_or_else(|| wrong(format!("no policy has at most {budget} bytes")))?;
-        Ok(Decoder { decoder, words: vocabulary.0.len().div_ceil(32) })
-    }
-}
-
-/// Follows one policy token by token.
-#[pyclass(module = "motet._motet")]
-struct Decoder {
-    decoder: motet_decode::Decoder,
-    /// The number of words of a mask.
-    words: usize,
-}
-
-#[pymethods]
-impl Decoder {
-    /// The mask, one bit per token, the lowest first, in 32-bit words of the machine's order.
-    fn mask<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        let words = self.words;
-        let mask = py.detach(|| self.decoder.mask().get(..words).unwrap_or_default().to_vec());
-        let bytes: Vec<u8> = mask.iter().flat_map(|word| word.to_ne_bytes()).collect();
-        PyBytes::new(py, &bytes)
-    }
-
-    /// Takes a token if it may follow.
-    fn accept(&mut self, token: u32) -> bool {
-        self.decoder.accept(token)
-    }
-
-    /// The text that must come next; empty if there is a choice.
-    fn forced(&mut self) -> String {
-        String::from_utf8_lossy(&self.decoder.acceptor().forced()).into_owned()
-    }
-
-    /// Takes back the last tokens.
-    #[pyo3(signature = (tokens = 1))]
-    fn rollback(&mut self, tokens: usize) {
-        self.decoder.rollback(tokens);
-    }
-
-    /// The errors of the checker for a text that may not follow: JSON objects, one a line.
-    fn why_not(&mut self, text: &str) -> String {
-        let acceptor = self.decoder.acceptor();
-        let (_, sources) = sources(&(String::from_utf8_lossy(acceptor.bytes()) + text));
-        render::json(&acceptor.why_not(text.as_bytes()), &sources)
-    }
-
-    /// The text so far.
-    #[getter]
-    fn text(&mut self) -> String {
-        String::from_utf8_lossy(self.decoder.acceptor().bytes()).into_owned()
-    }
-
-    /// Returns `true` if the text so far is a whole policy.
-    #[getter]
-    fn is_accepting(&mut self) -> bool {
-        self.decoder.acceptor().is_accepting()
-    }
-
-    /// Another decoder in the same state.
-    fn clone(&self) -> Self {
-        Self { decoder: self.decoder.clone(), words: self.words }
-    }
-}
-
-fn sources(text: &str) -> (Source, Sources) {
-    let mut sources = Sources::default();
-    let source = Source::new("policy", text);
-    sources.add(source.clone());
-    (source, sources)
-}
-
-fn wrong(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
-}
 
 /// The native part of `motet`.
 #[pymodule]
 fn _motet(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<Vocabulary>()?;
-    module.add_class::<Environment>()?;
-    module.add_class::<Decoder>()
+    module.add_class::<decoder::Vocabulary>()?;
+    module.add_class::<decoder::Environment>()?;
+    module.add_class::<decoder::Decoder>()?;
+    module.add_class::<findings::Findings>()?;
+    module.add_class::<graph::Graph>()?;
+    module.add_class::<project::Project>()?;
+    module.add_class::<run::Run>()?;
+    module.add_function(wrap_pyfunction!(conformance::harmless_steps, module)?)?;
+    module.add_function(wrap_pyfunction!(feasible::feasible, module)?)?;
+    module.add_function(wrap_pyfunction!(run::replay, module)?)?;
+    module.add_function(wrap_pyfunction!(errors::explain, module)?)
 }

@@ -9,7 +9,8 @@
 //! - any other block is text, unless a comment before it names a file that it becomes: `<!-- file:
 //!   my_robot/robot.toml -->`.
 //!
-//! `<!-- not run: REASON -->` before a block keeps it from running. All blocks of a page share a folder,
+//! `<!-- not run: REASON -->` before a block keeps it from running, and `<!-- if: COMMAND -->` where the command
+//! fails, such as one that looks for a package. All blocks of a page share a folder,
 //! which begins with a copy of `examples/` and a link to `python/`.
 
 use std::collections::BTreeSet;
@@ -32,6 +33,8 @@ struct Block {
 enum Directive {
     File(String),
     NotRun(String),
+    /// Command without whose success the block does not run.
+    If(String),
 }
 
 /// Checks all pages with the `motet` command at `motet`. `only` names one page. Returns whether nothing was
@@ -171,6 +174,7 @@ fn blocks(text: &str) -> Vec<Block> {
             directive = match comment.split_once(": ") {
                 Some(("file", name)) => Some(Directive::File(name.to_owned())),
                 Some(("not run", reason)) => Some(Directive::NotRun(reason.to_owned())),
+                Some(("if", command)) => Some(Directive::If(command.to_owned())),
                 _ => None,
             };
         } else if let Some(language) = trimmed.strip_prefix("```") {
@@ -210,7 +214,16 @@ fn run_blocks(
     let (mut ran, mut skipped, mut failed) = (0, 0, Vec::new());
     for block in blocks(text) {
         let place = format!("{page}:{}", block.line);
-        match (&block.directive, block.language.as_str()) {
+        let mut directive = &block.directive;
+        if let Some(Directive::If(command)) = directive {
+            if shell(command, &folder, motet)?.1 != 0 {
+                println!("{place}: not run: `{command}` fails");
+                skipped += 1;
+                continue;
+            }
+            directive = &None;
+        }
+        match (directive, block.language.as_str()) {
             (Some(Directive::File(name)), _) => {
                 let path = folder.join(name);
                 std::fs::create_dir_all(path.parent().unwrap_or(&folder)).map_err(fail)?;
@@ -239,7 +252,7 @@ fn run_blocks(
                     }
                 }
             }
-            (None, _) => {}
+            (None | Some(Directive::If(_)), _) => {}
         }
     }
     Ok((ran, skipped, failed))

@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use motet::document::{MAX_FIXES, is_reply, listed};
 use motet_compiler::fix::{Applicability, FixLimits, fix};
 use motet_graph::{Graph, NodeKind, Verdict};
 use motet_project::files::Bytes;
 use motet_project::{DOCUMENT, Project, named_robot};
 
-use crate::documents::{self, Document, Flow, is_reply};
+use crate::documents::{self, Document, Flow};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, FormatArgs, SessionArgs};
 use crate::output::{Colors, count, count_irregular, note, replace_file};
@@ -60,9 +61,6 @@ impl FixArgs {
         if self.unsafe_fixes { FixLimits::all(MAX_FIXES) } else { FixLimits::safe(MAX_FIXES) }
     }
 }
-
-/// Maximum number of fixes that are applied to one document.
-const MAX_FIXES: usize = 100;
 
 /// Runs the command.
 pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, CliError> {
@@ -192,7 +190,6 @@ impl Tally {
     ) -> Result<(), CliError> {
         self.documents += 1;
         let (source, parsed) = found.parse();
-        let has_scene = project.has_scene();
         let opened = project.session_for(&parsed.file, report)?;
         if opened.robot.is_none() && parsed.file.runnable().next().is_some() {
             self.without_robot += usize::from(named_robot(&parsed.file).is_none());
@@ -206,10 +203,7 @@ impl Tally {
             progress.advance(bytes.len());
         }
         self.left += checked.deferred_notes.len();
-        // Without a scene nearly everything is left to the run.
-        let lists_left = self.denies_deferred || has_scene;
-        let left = checked.deferred_notes.into_iter().filter(|_| lists_left);
-        let diagnostics: Vec<_> = checked.diagnostics.into_iter().chain(left).collect();
+        let diagnostics = listed(checked, opened, self.denies_deferred);
         if !diagnostics.is_empty() {
             let sources = opened.sources(source);
             progress.suspend(|| report.print(&diagnostics, &sources));

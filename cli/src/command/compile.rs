@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use motet::document;
 use motet_graph::draw;
 use motet_syntax::Syntax;
 
-use crate::documents::{self, one_document};
+use crate::documents::one_document;
 use crate::error::{CliError, Exit};
 use crate::flags::{FormatArgs, SessionArgs};
 use crate::output::{Colors, note};
@@ -88,8 +89,8 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
             let entities = motet::run::start_state(opened.session.scene()).entities;
             motet_graph::python::script(&graph, &entities).map_err(|why| why.to_string())
         }
-        Emit::Json => documents::write(&parsed, policy, library, Syntax::Json),
-        Emit::Text => documents::write(&parsed, policy, library, Syntax::Text),
+        Emit::Json => document::write(&parsed, policy, library, Syntax::Json),
+        Emit::Text => document::write(&parsed, policy, library, Syntax::Text),
     };
     let mut text = match written {
         Ok(text) => text,

@@ -15,7 +15,6 @@ use motet_project::{DOCUMENT, ProjectSession};
 use motet_robots::scene::Scene;
 use motet_syntax::{Severity, Source};
 
-use crate::documents;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
 use crate::output::{Colors, note};
@@ -129,7 +128,7 @@ fn plan(
     let diagnostics = opened.session.check(&parsed);
     let is_wrong = diagnostics.iter().any(|found| found.severity == Severity::Error);
     report.print(&diagnostics, &opened.sources(source));
-    match documents::write(&parsed, None, opened.session.library(), to.into()) {
+    match motet::document::write(&parsed, None, opened.session.library(), to.into()) {
         // Several JSON documents are printed on one line each.
         Ok(text) if to == SyntaxArg::Json && !is_only => {
             report.out.line(&text.lines().map(str::trim).collect::<Vec<_>>().join(" "));

@@ -4,11 +4,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use motet::document::{self, is_broken, is_reply};
 use motet_project::Project;
 use motet_project::files::Bytes;
-use motet_syntax::{Parsed, Severity};
 
-use crate::documents::{self, Document, Flow, Input, is_reply};
+use crate::documents::{self, Document, Flow, Input};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, SyntaxArg};
 use crate::output::{Colors, count, note, replace_file};
@@ -109,7 +109,7 @@ impl Tally {
             self.failed += 1;
             return Ok(());
         }
-        match documents::write(&parsed, None, opened.session.library(), to.into()) {
+        match document::write(&parsed, None, opened.session.library(), to.into()) {
             Ok(text) => {
                 let text = match to {
                     SyntaxArg::Json if self.is_batch => one_line(&text),
@@ -190,10 +190,6 @@ impl Tally {
             note(&parts.join(", "));
         }
     }
-}
-
-fn is_broken(parsed: &Parsed) -> bool {
-    parsed.diagnostics.iter().any(|said| said.severity == Severity::Error)
 }
 
 /// JSON on one line; other text stays as it is.

@@ -1,14 +1,10 @@
 //! `motet plan`: a policy for a request or a goal, by the built-in planner.
 
 use clap::Args;
-use motet_compiler::plan::{Goal, NoPlan, Persistence};
-use motet_planner::builtin::{self, PlanError};
-use motet_planner::dialogue::Knowledge;
-use motet_requests::Aim;
-use motet_robots::scene::Scene;
+use motet_compiler::plan::NoPlan;
+use motet_planner::builtin::PlanError;
 use motet_syntax::Source;
 
-use crate::documents;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
 use crate::output::{Colors, note};
@@ -41,26 +37,18 @@ pub(crate) fn run(args: &PlanArgs, colors: Colors) -> Result<Exit, CliError> {
 fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
     let mut project = args.session.project().open_with(report)?;
     let opened = project.session(report)?;
-    let robot = opened.robot.as_ref();
     let planned = match &args.request {
-        Some(request) => {
-            let empty = Scene::default();
-            let known = Knowledge::of(opened.told_facts());
-            let situation = known.situation(opened.scene.as_ref().unwrap_or(&empty));
-            builtin::answer(&opened.session, robot, request, &situation).map(|answered| {
-                answered.understood.notes.iter().for_each(|text| note(text));
-                answered.planned
-            })
-        }
-        None => goals(&args.goal)
-            .map_err(PlanError::from)
-            .and_then(|aims| builtin::plan(&opened.session, robot, "plan", &aims)),
+        Some(request) => motet::plan::for_request(opened, request).map(|answered| {
+            answered.understood.notes.iter().for_each(|text| note(text));
+            answered.planned
+        }),
+        None => motet::plan::for_goals(opened, &args.goal),
     };
     match planned {
         Ok(planned) => {
             let sources = opened.sources(Source::new("plan.motet", planned.text.as_str()));
             report.print(&planned.compiled.diagnostics, &sources);
-            match documents::write(&planned.parsed, None, opened.session.library(), args.to.into()) {
+            match motet::document::write(&planned.parsed, None, opened.session.library(), args.to.into()) {
                 Ok(text) => report.out.line(text.trim_end()),
                 Err(why) => return Ok(refuse(&why.to_string())),
             }
@@ -74,15 +62,6 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
         }
         Err(why) => Ok(refuse(&why.to_string())),
     }
-}
-
-/// Reads conditions as goals, one after the other.
-pub(crate) fn goals(texts: &[String]) -> Result<Vec<Aim>, NoPlan> {
-    let aim = |(index, text): (usize, &String)| {
-        let goal = Goal::read(text, Persistence::ToTheEnd)?;
-        Ok(Aim { goal, name: format!("goal_{}", index + 1), only_if: None, awaits: None, deed: None })
-    };
-    texts.iter().enumerate().map(aim).collect()
 }
 
 fn refuse(why: &str) -> Exit {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use clap::Args;
-use motet::run::{create_journal, engine, journal_head, run_id, start_state, unix_ns};
+use motet::run::{create_journal, engine, events, journal_head, run_id, start_state, unix_ns};
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::DriverAddress;
@@ -29,7 +29,7 @@ use crate::flags::{DriverArgs, DriverChoice, OutputFormat, PageArgs, SessionArgs
 use crate::output::{Colors, count, escape, note, replace_file};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
-use crate::run_view::{Clock, events, view};
+use crate::run_view::{Clock, view};
 use crate::runner::{Beginning, PacedView, Runner, connect, exit_of, journal_error, note_open};
 use crate::view::journal::{recorded_text, session};
 use crate::view::live::{LivePage, SharedPage};
@@ -122,7 +122,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings)?;
     let journal = match args.record.as_deref().zip(saved) {
         Some((folder, saved)) => {
-            let journal = create_journal(folder, &run, (&engine, &start), &saved)?;
+            let journal = create_journal(folder, &run, (&engine, &start), Some(&saved))?;
             let name = if written.1 == Syntax::Json { "policy.json" } else { "policy.motet" };
             replace_file(&folder.join(name), &written.0)?;
             Some(journal)
@@ -173,7 +173,10 @@ pub(super) fn compile<'p>(
     let sources = opened.sources(source.clone());
     match format {
         OutputFormat::Human => report.print(&compiled.diagnostics, &sources),
-        OutputFormat::Json => events::diagnostics(&compiled.diagnostics, &sources, &mut report.out),
+        OutputFormat::Json => {
+            let lines = events::diagnostics(&compiled.diagnostics, &sources);
+            lines.iter().for_each(|line| report.out.line(line));
+        }
     }
     if let Some(graph) = compiled.graph {
         let text = PolicyText::of(&source, &parsed.file, &graph.policy);

@@ -1,14 +1,12 @@
 //! Steps of a policy as rows of a tree, each with its status. The trace of the engine updates them; views
 //! draw them.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use motet::run::events::{FailureNames, watched};
 use motet_graph::draw::Names;
-use motet_graph::{FailureId, Graph, NodeId, NodeKind, ROOT, Reaction, RegionId, Term};
-use motet_runtime::{
-    Command, DriverEvent, Event, NodeEnding, Outcome, Time, TraceEvent, TraceEventKind, Verification,
-};
+use motet_graph::{Graph, NodeId, NodeKind, ROOT, Reaction, RegionId, Term};
+use motet_runtime::{Command, Event, NodeEnding, Time, TraceEvent, TraceEventKind, Verification};
 
 use crate::output::escape;
 
@@ -276,16 +274,6 @@ fn needed(graph: &Graph, node: NodeId, need: u32) -> String {
     }
 }
 
-/// Condition of a watch.
-pub(crate) fn watched(graph: &Graph, node: NodeId, watch: u32) -> String {
-    match graph.nodes.get(node.index()).map(|node| &node.kind) {
-        Some(NodeKind::Monitor { watches, .. }) => watches
-            .get(watch as usize)
-            .map_or_else(|| "?".to_owned(), |watch| Names(graph).condition(&watch.condition)),
-        Some(_) | None => "?".to_owned(),
-    }
-}
-
 /// Item of the stack from which the tree is built.
 enum Open {
     Node(NodeId, usize),
@@ -344,38 +332,6 @@ fn branches(graph: &Graph, kind: &NodeKind, depth: usize, open: &mut Vec<Open>) 
                 open.push(Open::Heading(format!("branch {}", index + 1), inner));
                 open.push(Open::Region(*branch, inner + 1));
             }
-        }
-    }
-}
-
-/// Names of the failure kinds that a driver invented: neither the graph nor the trace has them, but the
-/// events of the driver.
-#[derive(Debug, Default)]
-pub(crate) struct FailureNames {
-    last: Option<String>,
-    known: BTreeMap<usize, String>,
-}
-
-impl FailureNames {
-    /// Takes an event before the engine handles it.
-    pub(crate) fn event(&mut self, event: &Event) {
-        self.last = match event {
-            Event::Driver(
-                DriverEvent::Ended { outcome: Outcome::Failure(failure), .. }
-                | DriverEvent::Refused { failure, .. },
-            ) => Some(failure.kind.to_string()),
-            _ => None,
-        };
-    }
-
-    /// Name of a failure kind: that of the graph, or the driver's when its number first appeared.
-    pub(crate) fn name(&mut self, graph: &Graph, kind: FailureId) -> String {
-        if kind.index() < graph.failures.len() {
-            return Names(graph).failure(kind).to_owned();
-        }
-        match self.last.clone() {
-            Some(last) => self.known.entry(kind.index()).or_insert(last).clone(),
-            None => self.known.get(&kind.index()).map_or_else(|| "?".to_owned(), String::clone),
         }
     }
 }

@@ -41,6 +41,9 @@ pub enum ProjectError {
     /// A profile is not TOML of its form, or a number in it is out of range.
     #[error("`{}`: {error}", path.display())]
     Profile { path: PathBuf, error: motet_sim::ProfileError },
+    /// A card as JSON is no JSON object, or has values that TOML does not have.
+    #[error("the card of the robot cannot be used: {0}")]
+    Card(String),
     /// A journal does not describe its driver, or was written by another host.
     #[error("{0}")]
     Journal(String),
@@ -63,6 +66,7 @@ impl ProjectError {
             | Self::FaultNames(_)
             | Self::Faults { .. }
             | Self::Profile { .. }
+            | Self::Card(_)
             | Self::Journal(_) => None,
         }
     }

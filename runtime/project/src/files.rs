@@ -48,6 +48,20 @@ pub fn read_small(path: &Path) -> Result<Vec<u8>, ProjectError> {
     }
 }
 
+/// Name and content of an input: the text itself if it is JSON, under a name in diagnostics, or else the file
+/// of this path.
+pub(crate) fn read_inline(input: &Path, name: &str) -> Result<(String, Vec<u8>), ProjectError> {
+    match input.to_str().filter(|text| is_inline(text)) {
+        Some(text) => Ok((name.to_owned(), text.as_bytes().to_vec())),
+        None => Ok((input.display().to_string(), read_small(input)?)),
+    }
+}
+
+/// Is `true` for an input that is JSON itself, and no path.
+pub(crate) fn is_inline(input: &str) -> bool {
+    input.trim_start().starts_with(['{', '['])
+}
+
 /// Name and content of a file; `None` if it does not exist.
 pub(crate) fn read_optional(path: &Path) -> Result<Option<(String, Vec<u8>)>, ProjectError> {
     match read_small(path) {
@@ -88,7 +102,7 @@ pub fn add_source(name: &str, bytes: &[u8], sources: &mut Sources) -> (Source, F
     (source, file, diagnostics)
 }
 
-/// Reads a JSON file that is not a policy. `subject` names it in errors.
+/// Reads JSON that is not a policy, from a file or from the argument itself. `subject` names it in errors.
 ///
 /// # Errors
 ///
@@ -99,8 +113,8 @@ pub fn read_json<T: DeserializeOwned + JsonSchema>(
     sink: &mut dyn DiagnosticSink,
 ) -> Result<(T, Source), ProjectError> {
     let mut sources = Sources::default();
-    let (source, file, mut diagnostics) =
-        add_source(&path.display().to_string(), &read_small(path)?, &mut sources);
+    let (name, bytes) = read_inline(path, subject)?;
+    let (source, file, mut diagnostics) = add_source(&name, &bytes, &mut sources);
     let (value, more) = json::read::<T>(&source, file);
     diagnostics.extend(more);
     require(subject, &diagnostics, &sources, sink)?;

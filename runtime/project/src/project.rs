@@ -18,7 +18,7 @@ use motet_syntax::json::{self, Spanned};
 use motet_syntax::{FileId, Source, Sources, suggest};
 
 use crate::error::{DiagnosticSink, Discard, ProjectError, invalid, require};
-use crate::files::{add_source, read_small};
+use crate::files::{add_source, is_inline, read_inline, read_small};
 use crate::robot::RobotFiles;
 
 /// Id of the document in the sources of a [`ProjectSession`]. The files of the project follow it.
@@ -53,15 +53,16 @@ impl Default for ProjectBuilder {
 }
 
 impl ProjectBuilder {
-    /// Sets the robot: a built-in name, or a folder with a `robot.toml`. Without one, the `for NAME` of each
-    /// document names a built-in robot.
+    /// Sets the robot: a built-in name, a folder with a `robot.toml`, or the content of one as a JSON object,
+    /// whose files are looked up in the present folder. Without one, the `for NAME` of each document names a
+    /// built-in robot.
     #[must_use]
     pub fn robot(mut self, robot: impl Into<String>) -> Self {
         self.robot = Some(robot.into());
         self
     }
 
-    /// Sets the scene: a built-in name, or a JSON file.
+    /// Sets the scene: a built-in name, a JSON file, or its JSON itself.
     #[must_use]
     pub fn scene(mut self, scene: impl Into<String>) -> Self {
         self.scene = Some(scene.into());
@@ -171,7 +172,7 @@ pub struct Project {
     /// An empty place for the document, then the files of the project.
     sources: Sources,
     /// By name of the robot; the empty name is no robot.
-    sessions: BTreeMap<String, ProjectSession>,
+    sessions: BTreeMap<String, Arc<ProjectSession>>,
 }
 
 impl Project {
@@ -211,6 +212,19 @@ impl Project {
         document: &File,
         sink: &mut dyn DiagnosticSink,
     ) -> Result<&ProjectSession, ProjectError> {
+        self.shared_session_for(document, sink).map(|session| &**session)
+    }
+
+    /// Session for a document as in [`Project::session_for`], to be kept beside the project.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Project::session_for`].
+    pub fn shared_session_for(
+        &mut self,
+        document: &File,
+        sink: &mut dyn DiagnosticSink,
+    ) -> Result<&Arc<ProjectSession>, ProjectError> {
         let wanted = match &self.robot {
             Some((_, robot)) => robot.name.to_string(),
             None => {
@@ -219,7 +233,7 @@ impl Project {
         };
         if !self.sessions.contains_key(&wanted) {
             let session = self.build(&wanted, sink)?;
-            self.sessions.insert(wanted.clone(), session);
+            self.sessions.insert(wanted.clone(), Arc::new(session));
         }
         let unknown = || ProjectError::Unknown { what: "robot", name: wanted.clone(), help: String::new() };
         self.sessions.get(&wanted).ok_or_else(unknown)
@@ -408,13 +422,15 @@ pub fn named_robot(document: &File) -> Option<String> {
     document.policies().find_map(|policy| policy.robot.as_ref()).map(|name| name.text.to_string())
 }
 
-/// Reads a scene by a built-in name or from a JSON file.
+/// Reads a scene by a built-in name, from a JSON file, or from the argument itself if it is a JSON object.
 ///
 /// ```
 /// use motet_project::{Discard, read_scene};
 ///
 /// let kitchen = read_scene("kitchen", &mut Default::default(), &mut Discard)?;
 /// assert!(kitchen.entities.contains_key("mug_1"));
+/// let same = read_scene(&motet_robots::scene::write(&kitchen), &mut Default::default(), &mut Discard)?;
+/// assert_eq!(same.entities.len(), kitchen.entities.len());
 /// # Ok::<(), motet_project::ProjectError>(())
 /// ```
 ///
@@ -428,7 +444,7 @@ pub fn read_scene(
 ) -> Result<Scene, ProjectError> {
     let (name, bytes) = match builtin::scene_text(name) {
         Some(texts) => (format!("{name}.json"), texts.json.as_bytes().to_vec()),
-        None if looks_like_file(name) => (name.to_owned(), read_small(Path::new(name))?),
+        None if is_inline(name) || looks_like_file(name) => read_inline(Path::new(name), "scene.json")?,
         None => return Err(unknown_scene(name)),
     };
     let (source, file, mut diagnostics) = add_source(&name, &bytes, sources);
@@ -469,17 +485,13 @@ fn read_domain(
     Ok(parsed.file)
 }
 
-/// Reads a state from a file, or from the argument itself if it is a JSON object.
+/// Reads a state.
 fn read_state(
     path: &Path,
     sources: &mut Sources,
     sink: &mut dyn DiagnosticSink,
 ) -> Result<InitialState, ProjectError> {
-    let inline = path.to_str().filter(|text| text.trim_start().starts_with('{'));
-    let (name, bytes) = match inline {
-        Some(text) => ("--state".to_owned(), text.as_bytes().to_vec()),
-        None => (path.display().to_string(), read_small(path)?),
-    };
+    let (name, bytes) = read_inline(path, "--state")?;
     let (source, file, mut diagnostics) = add_source(&name, &bytes, sources);
     let (facts, more) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
     diagnostics.extend(more);

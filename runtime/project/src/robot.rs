@@ -17,7 +17,7 @@ use motet_robots::urdf::{self, Urdf};
 use motet_syntax::{Sources, suggest};
 
 use crate::error::{DiagnosticSink, ProjectError, invalid, require};
-use crate::files::{add_source, read_optional, read_small};
+use crate::files::{add_source, is_inline, read_optional, read_small};
 
 /// Files of one robot: its card, its declarations, and the folder with its URDF, SRDF and meshes.
 #[derive(Clone, Debug)]
@@ -60,7 +60,18 @@ impl RobotFiles {
         })
     }
 
-    /// Finds a robot by a built-in name, by its folder, or by the path of its `robot.toml`.
+    /// Finds a robot by a built-in name, by its folder, or by the path of its `robot.toml`; or takes the
+    /// content of a `robot.toml` as a JSON object, whose files are in the present folder.
+    ///
+    /// ```
+    /// use motet_project::RobotFiles;
+    ///
+    /// let json = r#"{"name": "cart", "base": {"drive": "legged"}}"#;
+    /// let card = RobotFiles::find(json)?.texts().0;
+    /// assert!(card.contains("name = \"cart\""));
+    /// assert!(RobotFiles::find("{nonsense").is_err());
+    /// # Ok::<(), motet_project::ProjectError>(())
+    /// ```
     ///
     /// # Errors
     ///
@@ -68,6 +79,9 @@ impl RobotFiles {
     pub fn find(name: &str) -> Result<Self, ProjectError> {
         if let Some(files) = Self::built_in(name) {
             return Ok(files);
+        }
+        if is_inline(name) {
+            return Self::of_json(name);
         }
         let path = Path::new(name);
         if path.is_dir() {
@@ -83,6 +97,14 @@ impl RobotFiles {
             suggest::one_of(robot_names())
         );
         Err(ProjectError::Unknown { what: "robot", name: name.to_owned(), help })
+    }
+
+    /// Card as JSON: TOML is what diagnostics and journals show.
+    fn of_json(json: &str) -> Result<Self, ProjectError> {
+        let wrong = |why: String| ProjectError::Card(why);
+        let card: toml::Table = serde_json::from_str(json).map_err(|error| wrong(error.to_string()))?;
+        let toml = toml::to_string(&card).map_err(|error| wrong(error.to_string()))?;
+        Ok(Self::draft(Path::new("."), &toml))
     }
 
     /// Text of the card and of its declarations.

@@ -135,8 +135,8 @@ impl SavedDriver {
     /// another host.
     pub fn from_json(json: &serde_json::Value) -> Result<Self, ProjectError> {
         if json.is_null() {
-            let why = "the run was part of a conversation and started in a scene that earlier runs had \
-                       changed: it can be replayed but not resumed";
+            let why = "the run was part of a conversation, whose scene earlier runs had changed, or on a \
+                       driver inside of a program: it can be replayed but not resumed";
             return Err(ProjectError::Journal(why.to_owned()));
         }
         Self::deserialize(json).map_err(|error| {

@@ -4,6 +4,8 @@ use super::link::{KeepAlive, Link, LinkError};
 use std::fmt;
 use std::io::{BufReader, Write};
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
+#[cfg(unix)]
+use std::os::unix::net::UnixStream;
 use std::process::{Command, Stdio};
 use std::str::FromStr;
 use std::time::Duration;
@@ -122,6 +124,42 @@ impl DriverAddress {
                 let peer = super::link::Peer::Socket(closer);
                 Ok(Link::new(BufReader::new(reader), writer, peer, keep_alive))
             }
+        }
+    }
+}
+
+/// Way to a driver.
+#[derive(Debug)]
+pub(super) enum Route {
+    Address(DriverAddress),
+    /// A driver in this process, at the other end of a stream, until it is opened: nobody comes back to it.
+    #[cfg(unix)]
+    Stream(Option<UnixStream>),
+}
+
+impl Route {
+    /// Starts or calls the driver.
+    pub(super) fn open(&mut self, within: Duration, keep_alive: KeepAlive) -> Result<Link, LinkError> {
+        match self {
+            Self::Address(address) => address.open(within, keep_alive),
+            #[cfg(unix)]
+            Self::Stream(stream) => {
+                let stream = stream.take().ok_or(LinkError::Closed)?;
+                let own = |error: std::io::Error| LinkError::NotReached(error.to_string());
+                let (reader, closer) = (stream.try_clone().map_err(own)?, stream.try_clone().map_err(own)?);
+                let peer = super::link::Peer::Stream(closer);
+                Ok(Link::new(BufReader::new(reader), Box::new(stream), peer, keep_alive))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Route {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Address(address) => address.fmt(f),
+            #[cfg(unix)]
+            Self::Stream(_) => f.write_str("in this process"),
         }
     }
 }

@@ -15,7 +15,7 @@ use self::goals::GoalLedger;
 use self::rate::LineRate;
 use self::run_time::RunTime;
 use self::telemetry::TelemetryQueue;
-use super::connect::DriverAddress;
+use super::connect::{DriverAddress, Route};
 use super::link::{Clock, KeepAlive, Link, LinkError};
 use super::protocol::{
     DriverCall, DriverMessage, DriverTimeouts, EmptyParams, GoalParams, GoalStatus, Hello, MAX_BREACHES,
@@ -27,6 +27,8 @@ use motet_runtime::{Capabilities, Driver, DriverClock, DriverEvent, Effect, Even
 use motet_stdlib::lang;
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, VecDeque};
+#[cfg(unix)]
+use std::os::unix::net::UnixStream;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -41,7 +43,7 @@ const MOST_BREACHES: u32 = 20;
 /// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few
 /// times; these calls then wait for its greeting. What it used is safe once it has answered the safe stop.
 pub struct RemoteDriver {
-    address: DriverAddress,
+    route: Route,
     patience: DriverTimeouts,
     hello: Hello,
     time: RunTime,
@@ -84,12 +86,40 @@ impl RemoteDriver {
         from: Time,
         log: Box<dyn DriverLog>,
     ) -> Result<Self, LinkError> {
+        Self::on_route(Route::Address(address), hello, patience, from, log)
+    }
+
+    /// Greets a driver in this process, at the other end of a stream. It is `from` then. What ends the stream
+    /// ends the driver: it is not called again.
+    ///
+    /// # Errors
+    ///
+    /// It does not speak this protocol.
+    #[cfg(unix)]
+    pub fn over_stream(
+        stream: UnixStream,
+        hello: Hello,
+        patience: DriverTimeouts,
+        from: Time,
+        log: Box<dyn DriverLog>,
+    ) -> Result<Self, LinkError> {
+        let patience = DriverTimeouts { restarts: 0, ..patience };
+        Self::on_route(Route::Stream(Some(stream)), hello, patience, from, log)
+    }
+
+    fn on_route(
+        route: Route,
+        hello: Hello,
+        patience: DriverTimeouts,
+        from: Time,
+        log: Box<dyn DriverLog>,
+    ) -> Result<Self, LinkError> {
         let hello = Hello { protocol: VERSION, ..hello };
         let goals = GoalLedger::new(&hello.primitives);
         let capabilities = Capabilities::default();
         let (driver, instance) = (String::new(), String::new());
         let mut this = Self {
-            address,
+            route,
             patience,
             hello,
             time: RunTime::Own { now: from, stalls: 0 },
@@ -138,7 +168,7 @@ impl RemoteDriver {
             say(id, &DriverCall::Ping(EmptyParams {}), None)
         };
         let keep_alive = KeepAlive { line: Box::new(ping), after: self.patience.heartbeat * 2 };
-        let link = self.address.open(self.patience.greeting, keep_alive)?;
+        let link = self.route.open(self.patience.greeting, keep_alive)?;
         self.greet_on(link)
     }
 
@@ -228,7 +258,7 @@ impl RemoteDriver {
             return false;
         }
         self.restarts -= 1;
-        self.log.note(&format!("calling the driver again: {}", self.address));
+        self.log.note(&format!("calling the driver again: {}", self.route));
         match self.greet() {
             Ok(early) => early.iter().for_each(|line| self.hear_line(line)),
             Err(breakage) => {

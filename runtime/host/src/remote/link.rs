@@ -6,6 +6,8 @@ use motet_runtime::Time;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::{Shutdown, TcpStream};
+#[cfg(unix)]
+use std::os::unix::net::UnixStream;
 use std::process::Child;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -61,11 +63,16 @@ impl fmt::Display for LinkError {
     }
 }
 
+impl std::error::Error for LinkError {}
+
 /// Other end of the link, ended together with it.
 #[derive(Debug)]
 pub(super) enum Peer {
     Process(Child),
     Socket(TcpStream),
+    /// A driver in this process.
+    #[cfg(unix)]
+    Stream(UnixStream),
 }
 
 #[derive(Debug)]
@@ -167,6 +174,10 @@ impl Link {
                 }
             }
             Peer::Socket(stream) => {
+                let _ = stream.shutdown(Shutdown::Both);
+            }
+            #[cfg(unix)]
+            Peer::Stream(stream) => {
                 let _ = stream.shutdown(Shutdown::Both);
             }
         }

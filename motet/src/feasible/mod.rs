@@ -1,0 +1,112 @@
+//! Verdicts on motions of a robot in a scene, with the path or the reason: the answers of `motet feasible`.
+
+mod answers;
+mod drawing;
+mod motions;
+
+use motet_compiler::Session;
+use motet_geometry::planning::{
+    MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
+};
+use motet_project::{DiagnosticSink, open_robot, read_scene, require};
+use motet_robots::clearance::ClearanceOverride;
+use motet_robots::scene;
+use motet_syntax::{Diagnostic, Sources};
+
+use crate::Error;
+
+/// Motions to decide.
+#[derive(Clone, Copy, Debug)]
+pub enum Motions<'a> {
+    /// Each in the notation of the language, such as `reach(mug_1, top)`.
+    These(&'a [String]),
+    /// `go_to` for all entities, `reach` for all objects, `pull` or `push` for all doors, and all postures.
+    All,
+}
+
+/// Motions of a robot in a scene. Each begins at the start of the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct FeasibilityQuestion<'a> {
+    /// Name, folder or JSON of a robot, as in [`motet_project::ProjectBuilder::robot`].
+    pub robot: &'a str,
+    /// Name, file or JSON of a scene, as in [`motet_project::ProjectBuilder::scene`].
+    pub scene: &'a str,
+    pub motions: Motions<'a>,
+    /// Factor of the default search budget.
+    pub effort: u16,
+    /// Distances from obstacles in place of those of scene and robot, in m.
+    pub clearance: ClearanceOverride,
+}
+
+/// Verdict on one motion.
+#[derive(Clone, Debug)]
+pub struct MotionVerdict {
+    pub query: MotionQuery,
+    pub answer: MotionAnswer,
+    /// Answer for people, one or two lines.
+    pub text: String,
+    /// Answer as a JSON object on one line.
+    pub json: String,
+}
+
+/// Decides motions one after the other, and gives each verdict to `each`, with the sink, at once. Returns a drawing of the
+/// scene from above as SVG, with the robot and the paths.
+///
+/// ```
+/// use motet::feasible::{FeasibilityQuestion, Motions, decide};
+///
+/// let question = FeasibilityQuestion {
+///     robot: "hsr",
+///     scene: "kitchen",
+///     motions: Motions::These(&["reach(mug_1)".to_owned()]),
+///     effort: 1,
+///     clearance: Default::default(),
+/// };
+/// let mut verdicts = Vec::new();
+/// let svg = decide(&question, &mut motet::project::Discard, &mut |_, verdict| verdicts.push(verdict))?;
+/// assert!(verdicts[0].text.starts_with("reach(mug_1): feasible"));
+/// assert!(svg.starts_with("<svg"));
+/// # Ok::<(), motet::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// [`Error::Project`] for an unknown name and for files with errors, [`Error::NoBody`].
+pub fn decide<S: DiagnosticSink>(
+    question: &FeasibilityQuestion<'_>,
+    sink: &mut S,
+    each: &mut dyn FnMut(&mut S, MotionVerdict),
+) -> Result<String, Error> {
+    let mut sources = Sources::default();
+    let (robot, urdf) = open_robot(question.robot, &mut sources, sink)?;
+    let Some(urdf) = urdf else { return Err(Error::NoBody(robot.name.to_string())) };
+    let mut scene = read_scene(question.scene, &mut sources, sink)?;
+    scene.clearance = question.clearance.or(scene.clearance);
+    require("scene", &scene::fit(&scene, &urdf), &sources, sink)?;
+    let machine = RobotModel::new(&robot, &urdf);
+    let (named, queries) = match question.motions {
+        Motions::All => (&[][..], motions::all_motions(&machine, &scene)),
+        Motions::These(named) => (named, motions::parse_motions(named, &machine, &scene)?),
+    };
+    let session = Session::builder().robot(&robot).scene(&scene).build(&mut sources);
+    let diagnostics = session.input_diagnostics().to_vec();
+    require("robot or scene", &diagnostics, &sources, sink)?;
+    let diagnostics: Vec<Diagnostic> =
+        named.iter().flat_map(|motion| motions::check_kinds(motion, &session, &mut sources)).collect();
+    require("motion", &diagnostics, &sources, sink)?;
+    let world = SceneState::new(&machine, &scene);
+    let room = QueryContext::new(&machine, &scene, &world);
+    let mut answered = Vec::new();
+    for query in queries {
+        let budget = SearchBudget::default().times(usize::from(question.effort));
+        let mut answer = room.answer(&query, budget);
+        if let MotionAnswer::Infeasible(why) = &mut answer {
+            *why = room.explain(&query, why, budget);
+        }
+        let text = answers::describe(&query, &answer);
+        let json = answers::json_line(&machine, &query, &answer);
+        answered.push((query.clone(), answer.clone()));
+        each(sink, MotionVerdict { query, answer, text, json });
+    }
+    Ok(drawing::top_view(&room, &scene, &world, &answered))
+}

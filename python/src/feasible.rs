@@ -1,0 +1,35 @@
+//! Verdicts on motions.
+
+use motet::feasible::{FeasibilityQuestion, Motions, decide};
+use motet::robots::clearance::ClearanceOverride;
+use pyo3::prelude::*;
+
+use crate::errors::input_error;
+use crate::findings::Findings;
+
+/// The verdicts on motions, or on all motions of a scene, as pairs of text and JSON; a drawing as SVG; and the
+/// findings on the inputs.
+#[pyfunction]
+#[pyo3(signature = (robot, scene, motions, *, effort, base_m, arm_m))]
+pub(crate) fn feasible(
+    py: Python<'_>,
+    robot: &str,
+    scene: &str,
+    motions: Option<Vec<String>>,
+    effort: u16,
+    base_m: Option<f64>,
+    arm_m: Option<f64>,
+) -> PyResult<(Vec<(String, String)>, String, Findings)> {
+    let question = FeasibilityQuestion {
+        robot,
+        scene,
+        motions: motions.as_deref().map_or(Motions::All, Motions::These),
+        effort,
+        clearance: ClearanceOverride { base_m, arm_m },
+    };
+    let (mut verdicts, mut findings) = (Vec::new(), Findings::default());
+    let svg = py.detach(|| {
+        decide(&question, &mut findings, &mut |_, verdict| verdicts.push((verdict.text, verdict.json)))
+    });
+    Ok((verdicts, svg.map_err(|error| input_error(py, &error))?, findings))
+}

@@ -1,0 +1,63 @@
+//! Compiled policies.
+
+use motet::document;
+use motet::graph::draw;
+use motet_syntax::{Parsed, Syntax};
+use pyo3::prelude::*;
+
+use crate::errors::wrong;
+use crate::project::Opened;
+
+/// A policy that has passed the check, with its execution graph.
+#[pyclass(frozen, module = "motet._motet")]
+pub(crate) struct Graph {
+    pub(crate) graph: motet::Graph,
+    pub(crate) parsed: Parsed,
+    pub(crate) opened: Opened,
+    /// Policy that was chosen by name, of several in the document.
+    pub(crate) chosen: Option<String>,
+}
+
+#[pymethods]
+impl Graph {
+    /// Name of the policy.
+    #[getter]
+    fn policy(&self) -> &str {
+        &self.graph.policy
+    }
+
+    /// The graph in its versioned JSON encoding.
+    fn json(&self) -> String {
+        motet::graph::encode(&self.graph)
+    }
+
+    /// The graph as an indented tree with guards, effects and durations.
+    fn tree(&self) -> String {
+        draw::text(&self.graph)
+    }
+
+    /// The graph as a Mermaid flowchart.
+    fn mermaid(&self) -> String {
+        draw::mermaid(&self.graph)
+    }
+
+    /// The graph for Graphviz.
+    fn dot(&self) -> String {
+        draw::dot(&self.graph)
+    }
+
+    /// The policy as text or as JSON.
+    fn policy_as(&self, syntax: &str) -> PyResult<String> {
+        let library = self.opened.session.library();
+        document::write(&self.parsed, self.chosen.as_deref(), library, syntax_of(syntax)?).map_err(wrong)
+    }
+}
+
+/// Syntax of this name.
+pub(crate) fn syntax_of(name: &str) -> PyResult<Syntax> {
+    match name {
+        "json" => Ok(Syntax::Json),
+        "text" => Ok(Syntax::Text),
+        other => Err(wrong(format!("there is no syntax `{other}`: json or text"))),
+    }
+}

@@ -1,0 +1,144 @@
+"""Runs in the simulator and on drivers in this process, and replays of them."""
+
+import json
+import signal
+import threading
+import time
+
+import motet
+import pytest
+from conftest import ROOT, setting
+
+GREET = 'policy greet for hsr { say("Hello!") done }'
+FETCH = ROOT / "examples/fetch_mug.motet"
+
+
+@pytest.mark.parametrize("name", ["fetch_mug", "tidy_table", "object_slips", "person_in_the_way"])
+def test_simulate_does_what_the_command_does(name, command):
+    example = ROOT / f"examples/{name}.motet"
+    of = setting(example)
+    flags = ["--robot", of["robot"], "--scene", of["scene"], "--seed", 7]
+    run = motet.simulate(example, seed=7, **of)
+    ran = command("run", example, *flags, "--speed", "max", "--format", "json").splitlines()
+    of_run = [line for line in ran if json.loads(line)["event"] != "diagnostic"]
+    assert run.to_json().splitlines() == of_run
+    assert run.replay().is_identical and run.events[-1].event == "finished"
+
+
+def test_a_run_is_a_sequence_of_events_that_can_be_replayed(tmp_path):
+    run = motet.simulate(FETCH, robot="hsr", scene="kitchen", record=tmp_path / "run")
+    assert run.ok and run.outcome == "done" and run.failure is None and run.duration > 1.0
+    names = [event.event for event in run]
+    assert names.count("command") > 2 and names[-1] == "finished" and len(run) == len(names)
+    picked = next(event for event in run if event.event == "command" and event.more["primitive"] == "pick")
+    before, after = run.replay(at=picked.at - 0.001), run.replay(at=run.duration)
+    assert "identical" in before.verdict and before.entries < after.entries
+    assert before.state["at"] <= picked.at * 1e9 and before.state != after.state
+    on_disk = motet.replay(tmp_path / "run")
+    assert on_disk.is_identical and on_disk.state is None
+    assert motet.replay(tmp_path / "run", entry=3).state == run.replay(entry=3).state
+    with pytest.raises(motet.InputError, match="not empty"):
+        motet.simulate(FETCH, robot="hsr", scene="kitchen", record=tmp_path / "run")
+    with pytest.raises(motet.InputError, match="no journal|cannot read"):
+        motet.replay(tmp_path / "nothing")
+    with pytest.raises(ValueError, match="no time"):
+        run.replay(at=float("nan"))
+
+
+def test_faults_and_answers_are_values():
+    with pytest.raises(motet.InputError):
+        motet.simulate(GREET, faults={"calls": 3})
+    with pytest.raises(motet.InputError, match="there is no profile `typcal`"):
+        motet.simulate(GREET, profile="typcal")
+    with pytest.raises(motet.PolicyError) as raised:
+        motet.simulate("policy drop for hsr { place(mug_1, shelf) done }", scene="kitchen")
+    assert raised.value.diagnostics[0].code == "M0501"
+    assert motet.simulate(GREET, seed=3).to_json() == motet.simulate(GREET, seed=3).to_json()
+
+
+def test_pandas_has_a_row_for_each_event():
+    pandas = pytest.importorskip("pandas")
+    run = motet.simulate(GREET)
+    table = run.to_pandas()
+    assert isinstance(table, pandas.DataFrame) and len(table) == len(run) and "event" in table
+
+
+class Robot(motet.Driver):
+    owns_clock = True
+
+    def __init__(self):
+        self.said, self.is_closed = [], False
+
+    async def say(self, goal, text):
+        await goal.feedback(f"saying {text}")
+        await goal.sleep(2.0)
+        self.said.append(text)
+
+    def close(self):
+        self.is_closed = True
+
+
+def test_drive_runs_a_driver_on_the_engine(tmp_path):
+    robot, heard = Robot(), []
+    run = motet.drive(GREET, robot, say=heard.append, record=tmp_path / "run")
+    assert run.ok and robot.said == ["Hello!"] and robot.is_closed
+    assert run.duration == pytest.approx(2.0, abs=0.1)
+    assert any("saying Hello!" in text for text in heard)
+    assert run.replay().is_identical and motet.replay(tmp_path / "run").is_identical
+
+
+def test_drive_on_the_clock_of_the_wall_gives_the_driver_its_turn():
+    class Slow(Robot):
+        owns_clock = False
+
+        async def say(self, goal, text):
+            time.sleep(0.01)  # A blocking call of a library.
+            self.said.append(threading.current_thread().name)
+
+    robot = Slow()
+    assert motet.drive(GREET, robot).ok and robot.said == ["motet driver"]
+
+
+def test_drive_tells_failures_of_the_driver():
+    class Mute(Robot):
+        async def say(self, goal, text):
+            raise motet.Failed("timeout", "no voice")
+
+    run = motet.drive(GREET, Mute())
+    assert (run.outcome, run.failure) == ("failed", "timeout") and "no voice" in str(run.why)
+
+    class Broken(Robot):
+        def begin_run(self, run):
+            raise RuntimeError("no power")
+
+    with pytest.raises(motet.InputError, match="no power"):
+        motet.drive(GREET, Broken())
+
+
+def test_an_interrupt_stops_a_run_and_the_robot():
+    class Endless(Robot):
+        owns_clock = False
+        stopped = False
+
+        async def say(self, goal, text):
+            signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+            await goal.sleep(3600.0)
+
+        async def stop(self, goal):
+            Endless.stopped = True
+
+    with pytest.raises(KeyboardInterrupt):
+        motet.drive(GREET, Endless())
+    assert Endless.stopped
+
+
+def test_the_laws_of_drivers_are_checked():
+    found = motet.check_driver(Robot)
+    assert found.ok and len(found.scenes) > 5, str(found)
+
+    class Liar(Robot):
+        async def stop(self, goal):
+            goal._session.report("ended", {"goal": goal.number, "outcome": {"success": None}})
+
+    broken = motet.check_driver(Liar)
+    assert not broken.ok and broken.broken[0].messages, str(broken)
