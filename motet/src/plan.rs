@@ -25,11 +25,16 @@ pub fn for_request(opened: &ProjectSession, request: &str) -> Result<PlannedRequ
 ///
 /// A condition is wrong, or no plan reaches it.
 pub fn for_goals(opened: &ProjectSession, conditions: &[String]) -> Result<Planned, PlanError> {
-    let aims = goals(conditions)?;
+    let aims = aims(conditions)?;
     builtin::plan(&opened.session, opened.robot.as_ref(), "plan", &aims)
 }
 
-fn goals(texts: &[String]) -> Result<Vec<Aim>, NoPlan> {
+/// Reads conditions as goals, one after the other.
+///
+/// # Errors
+///
+/// A condition is wrong.
+pub fn aims(texts: &[String]) -> Result<Vec<Aim>, NoPlan> {
     let aim = |(index, text): (usize, &String)| {
         let goal = Goal::read(text, Persistence::ToTheEnd)?;
         Ok(Aim { goal, name: format!("goal_{}", index + 1), only_if: None, awaits: None, deed: None })

@@ -70,7 +70,22 @@ impl From<CliError> for Refusal {
 
 impl From<ProjectError> for Refusal {
     fn from(error: ProjectError) -> Self {
-        Self { help: error.help().map(ToOwned::to_owned), ..Self::new(error.to_string()) }
+        let refusal = Self { help: error.help().map(ToOwned::to_owned), ..Self::new(error.to_string()) };
+        match &error {
+            ProjectError::Invalid { diagnostics, sources, .. } => {
+                refusal.with(json!({"says": render::llm(diagnostics, sources)}))
+            }
+            _ => refusal,
+        }
+    }
+}
+
+impl From<motet::Error> for Refusal {
+    fn from(error: motet::Error) -> Self {
+        match error {
+            motet::Error::Project(error) => error.into(),
+            error => Self::new(error.to_string()),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Tools that decide about policies before anything moves: check, fix, explain and plan.
 
+use motet::plan::aims;
 use motet_compiler::explain_pages;
 use motet_compiler::fix::{FixLimits, fix};
 use motet_graph::{Graph, NodeKind, Verdict};
@@ -10,7 +11,6 @@ use serde_json::{Value, json};
 
 use super::answer::{Refusal, first};
 use super::situation::Situation;
-use crate::command::plan::goals;
 
 /// The most bytes of a policy, a request or another text of a call.
 pub(super) const MAX_TEXT_BYTES: usize = 128 * 1024;
@@ -129,7 +129,7 @@ pub(super) fn plan(
         }
         (None, [_, ..]) => {
             conditions.iter().try_for_each(|condition| within("condition", condition))?;
-            let planned = goals(conditions).map_err(PlanError::from);
+            let planned = aims(conditions).map_err(PlanError::from);
             (planned.and_then(|aims| builtin::plan(session, robot, "plan", &aims)), Vec::new())
         }
         (Some(_), [_, ..]) | (None, []) => {

@@ -1,15 +1,16 @@
 //! Tool that decides motions, with a drawing of the answers from above.
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use motet_geometry::planning::{MotionAnswer, QueryContext, RobotModel, SceneState, SearchBudget};
-use motet_syntax::{Sources, render};
+use motet::feasible::{Motions, decide_in, queries};
+use motet_geometry::planning::RobotModel;
+use motet_syntax::Sources;
 use serde_json::{Value, json};
 
 use super::answer::{Refusal, ToolAnswer};
 use super::check::within;
 use super::situation::{Situation, StderrSink};
-use crate::command::feasible::{all_motions, check_kinds, describe, drawing, json_of, parse_motions};
 
 /// The most motions of a call.
 const MAX_MOTIONS: usize = 40;
@@ -32,36 +33,19 @@ pub(super) fn feasible(situation: &Situation, motions: &[String]) -> Result<Tool
     };
     let urdf = urdf.ok_or_else(|| Refusal::new(format!("the card of `{}` names no URDF", robot.name)))?;
     let (machine, scene) = (RobotModel::new(robot, &urdf), &situation.scene);
-    let queries = match motions {
-        [] => all_motions(&machine, scene),
-        motions => parse_motions(motions, &machine, scene)?,
-    };
-    let mut sources = Sources::default();
-    let kinds: Vec<_> =
-        motions.iter().flat_map(|motion| check_kinds(motion, &situation.session, &mut sources)).collect();
-    if !kinds.is_empty() {
-        return Err(Refusal::new("a motion has arguments of the wrong kind")
-            .with(json!({"says": render::llm(&kinds, &sources)})));
-    }
-    let world = SceneState::new(&machine, scene);
-    let room = QueryContext::new(&machine, scene, &world);
-    let begun = Instant::now();
-    let (mut answers, mut says, mut not_decided) = (Vec::new(), Vec::new(), 0);
-    for query in queries.into_iter().take(MAX_MOTIONS) {
-        if begun.elapsed() > PATIENCE {
-            not_decided += 1;
-            continue;
-        }
-        let mut answer = room.answer(&query, SearchBudget::default());
-        if let MotionAnswer::Infeasible(why) = &mut answer {
-            *why = room.explain(&query, why, SearchBudget::default());
-        }
-        says.push(describe(&query, &answer).trim_end().to_owned());
-        answers.push((query, answer));
-    }
-    let picture = drawing::top_view(&room, scene, &world, &answers);
-    let data: Vec<Value> =
-        answers.iter().map(|(query, answer)| brief(json_of(&machine, query, answer))).collect();
+    let room = (&machine, scene);
+    let wanted = if motions.is_empty() { Motions::All } else { Motions::These(motions) };
+    let mut queries =
+        queries(wanted, room, &situation.session, &mut Sources::default(), &mut StderrSink)?;
+    queries.truncate(MAX_MOTIONS);
+    let (begun, wanted) = (Instant::now(), queries.len());
+    let (mut data, mut says) = (Vec::new(), Vec::new());
+    let picture = decide_in(room, queries, 1, &mut |verdict| {
+        says.push(verdict.text.trim_end().to_owned());
+        data.push(brief(serde_json::from_str(&verdict.json).unwrap_or_default()));
+        if begun.elapsed() > PATIENCE { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let not_decided = wanted - says.len();
     let answer = json!({"says": says, "answers": data, "not_decided_in_time": not_decided});
     Ok(ToolAnswer::from(answer).with_picture(picture))
 }

@@ -4,13 +4,15 @@ mod answers;
 mod drawing;
 mod motions;
 
+use std::ops::ControlFlow;
+
 use motet_compiler::Session;
 use motet_geometry::planning::{
     MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
 };
 use motet_project::{DiagnosticSink, open_robot, read_scene, require};
 use motet_robots::clearance::ClearanceOverride;
-use motet_robots::scene;
+use motet_robots::scene::{self, Scene};
 use motet_syntax::{Diagnostic, Sources};
 
 use crate::Error;
@@ -84,29 +86,60 @@ pub fn decide<S: DiagnosticSink>(
     scene.clearance = question.clearance.or(scene.clearance);
     require("scene", &scene::fit(&scene, &urdf), &sources, sink)?;
     let machine = RobotModel::new(&robot, &urdf);
-    let (named, queries) = match question.motions {
-        Motions::All => (&[][..], motions::all_motions(&machine, &scene)),
-        Motions::These(named) => (named, motions::parse_motions(named, &machine, &scene)?),
-    };
     let session = Session::builder().robot(&robot).scene(&scene).build(&mut sources);
+    let queries = queries(question.motions, (&machine, &scene), &session, &mut sources, sink)?;
     let diagnostics = session.input_diagnostics().to_vec();
     require("robot or scene", &diagnostics, &sources, sink)?;
+    Ok(decide_in((&machine, &scene), queries, question.effort, &mut |verdict| {
+        each(sink, verdict);
+        ControlFlow::Continue(())
+    }))
+}
+
+/// Motion queries of a robot in a scene, in the order in which they are written.
+///
+/// # Errors
+///
+/// [`Error::Project`] for a motion that cannot be read, for an unknown name, and for an argument of the wrong
+/// kind.
+pub fn queries(
+    motions: Motions<'_>,
+    (machine, scene): (&RobotModel<'_>, &Scene),
+    session: &Session,
+    sources: &mut Sources,
+    sink: &mut dyn DiagnosticSink,
+) -> Result<Vec<MotionQuery>, Error> {
+    let Motions::These(named) = motions else { return Ok(motions::all_motions(machine, scene)) };
+    let queries = motions::parse_motions(named, machine, scene)?;
     let diagnostics: Vec<Diagnostic> =
-        named.iter().flat_map(|motion| motions::check_kinds(motion, &session, &mut sources)).collect();
-    require("motion", &diagnostics, &sources, sink)?;
-    let world = SceneState::new(&machine, &scene);
-    let room = QueryContext::new(&machine, &scene, &world);
+        named.iter().flat_map(|motion| motions::check_kinds(motion, session, sources)).collect();
+    require("motion", &diagnostics, sources, sink)?;
+    Ok(queries)
+}
+
+/// Decides motions of a robot in a scene one after the other, as [`decide`] does, until `each` ends it. `effort` is the
+/// factor of the default search budget. Returns the drawing.
+pub fn decide_in(
+    (machine, scene): (&RobotModel<'_>, &Scene),
+    queries: impl IntoIterator<Item = MotionQuery>,
+    effort: u16,
+    each: &mut dyn FnMut(MotionVerdict) -> ControlFlow<()>,
+) -> String {
+    let world = SceneState::new(machine, scene);
+    let room = QueryContext::new(machine, scene, &world);
+    let budget = SearchBudget::default().times(usize::from(effort));
     let mut answered = Vec::new();
     for query in queries {
-        let budget = SearchBudget::default().times(usize::from(question.effort));
         let mut answer = room.answer(&query, budget);
         if let MotionAnswer::Infeasible(why) = &mut answer {
             *why = room.explain(&query, why, budget);
         }
         let text = answers::describe(&query, &answer);
-        let json = answers::json_line(&machine, &query, &answer);
+        let json = answers::json_line(machine, &query, &answer);
         answered.push((query.clone(), answer.clone()));
-        each(sink, MotionVerdict { query, answer, text, json });
+        if each(MotionVerdict { query, answer, text, json }).is_break() {
+            break;
+        }
     }
-    Ok(drawing::top_view(&room, &scene, &world, &answered))
+    drawing::top_view(&room, scene, &world, &answered)
 }
