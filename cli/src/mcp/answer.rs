@@ -4,7 +4,7 @@
 use std::fmt::Display;
 
 use motet_project::ProjectError;
-use motet_syntax::render::escaped;
+use motet_syntax::render::{self, escaped};
 use rmcp::model::{CallToolResult, ContentBlock, ResourceContents};
 use serde_json::{Map, Value, json};
 

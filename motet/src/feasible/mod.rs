@@ -104,7 +104,7 @@ pub fn decide<S: DiagnosticSink>(
 /// kind.
 pub fn queries(
     motions: Motions<'_>,
-    (machine, scene): (&RobotModel<'_>, &Scene),
+    (machine, scene): (&RobotModel, &Scene),
     session: &Session,
     sources: &mut Sources,
     sink: &mut dyn DiagnosticSink,
@@ -120,7 +120,7 @@ pub fn queries(
 /// Decides motions of a robot in a scene one after the other, as [`decide`] does, until `each` ends it. `effort` is the
 /// factor of the default search budget. Returns the drawing.
 pub fn decide_in(
-    (machine, scene): (&RobotModel<'_>, &Scene),
+    (machine, scene): (&RobotModel, &Scene),
     queries: impl IntoIterator<Item = MotionQuery>,
     effort: u16,
     each: &mut dyn FnMut(MotionVerdict) -> ControlFlow<()>,
