@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use motet::host::remote::protocol::Hello;
 use motet::host::remote::{DriverTimeouts, RemoteDriver};
 use motet::planner::runtime_check::CheckMode;
-use motet::project::{DiagnosticSink, SimulationInputs, read_profile, read_scene};
+use motet::project::{SimulationInputs, read_profile, read_scene};
 use motet::replay::{JournalPlayer, Moment};
 use motet::run::{RecordedRun, RunPlan, recorded, remote_settings, run_id, simulator, state_facts};
 use motet::runtime::journal::JournalEntry;
