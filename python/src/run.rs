@@ -125,8 +125,8 @@ impl Project {
         Ok((Some((run, prepared)), findings))
     }
 
-    /// Checks a policy and runs it on a driver. `serve` gets the number of a socket and starts to serve it on a
-    /// thread of its own; `say` gets what the driver says to people.
+    /// Checks a policy and runs it on a driver. `serve` gets the number of a socket and starts to serve it on
+    /// a thread of its own; `say` gets what the driver says to people.
     #[expect(clippy::too_many_arguments, reason = "most are keywords")]
     #[pyo3(signature = (name, document, policy, *, serve, say, record))]
     fn drive(
@@ -173,8 +173,8 @@ impl Project {
     }
 }
 
-/// Runs to the end, with signals of Python looked at now and then. An exception in a handler stops the run and
-/// is raised after it.
+/// Runs to the end, with signals of Python looked at now and then. An exception in a handler stops the run
+/// and is raised after it.
 fn followed(
     plan: &RunPlan<'_>,
     driver: &mut dyn motet::Driver,
