@@ -64,7 +64,10 @@ def _environment(text: str) -> Environment:
         # A path would be one of the server, and a request comes from anybody.
         if isinstance(given, str) and not given.replace("_", "").isalnum():
             raise ValueError(f"`{name}` is a built-in name or an object, not `{given[:80]}`")
-    return Environment(**asked)
+    try:
+        return Environment(**asked)
+    except TypeError as error:
+        raise ValueError(f"`{KEY}` has an argument of another type: {error}") from None
 
 
 def decoder_for(text: str, vocabulary: Vocabulary) -> Decoder:
