@@ -47,8 +47,8 @@ pub struct DriverResult {
 
 /// Leads a driver through all scenes with a call, and gives each scene to `each`, which may break off.
 /// `connect` makes a driver that has done nothing, and greets it with a log; the first one is only asked for
-/// its name and its clock, with `log`. A call may take `patience_secs`, or else 5 s on the wall, or its deadline
-/// on a driver that owns the clock.
+/// its name and its clock, with `log`. A call may take `patience_secs`, or else 5 s on the wall, or its
+/// deadline on a driver that owns the clock.
 ///
 /// # Errors
 ///

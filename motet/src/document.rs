@@ -11,8 +11,8 @@ use motet_syntax::{Diagnostic, Parsed, Severity, Source, Span, Syntax, print};
 /// Maximum number of fixes that are applied to one document.
 pub const MAX_FIXES: usize = 100;
 
-/// Parses a document. Bytes that are not text, or are too many, are diagnostics. `line_of` is the file and the
-/// number of the line that holds the document, from 1, where it has no file of its own.
+/// Parses a document. Bytes that are not text, or are too many, are diagnostics. `line_of` is the file and
+/// the number of the line that holds the document, from 1, where it has no file of its own.
 ///
 /// ```
 /// use motet::project::files::Bytes;

@@ -1,4 +1,5 @@
-//! Replays of a journal: the engine goes through it again, and its effects are compared with those of the run.
+//! Replays of a journal: the engine goes through it again, and its effects are compared with those of the
+//! run.
 
 use motet_runtime::journal::{EffectMismatch, EngineReplay, JournalEntry, ReplayError};
 use motet_runtime::{Snapshot, Time};

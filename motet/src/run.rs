@@ -58,8 +58,8 @@ pub fn engine(
     Ok(engine.with_capabilities(capabilities).with_settings(settings))
 }
 
-/// Creates the journal of a run of this id that begins now, in a folder that is empty or does not exist. A run
-/// without a description of its driver can be replayed but not resumed.
+/// Creates the journal of a run of this id that begins now, in a folder that is empty or does not exist. A
+/// run without a description of its driver can be replayed but not resumed.
 ///
 /// # Errors
 ///
@@ -95,7 +95,8 @@ pub fn simulator(
     Ok((Sim::new(robot, &scene, options), saved))
 }
 
-/// Facts that a driver hears at the beginning of a run: those that the state says beside or against the scene.
+/// Facts that a driver hears at the beginning of a run: those that the state says beside or against the
+/// scene.
 #[must_use]
 pub fn state_facts(opened: &ProjectSession) -> Vec<StateFact> {
     let known = opened.told_facts().into_iter().filter_map(|(query, truth)| match truth {

@@ -250,8 +250,8 @@ def fmt(
     >>> import motet
     >>> print(motet.fmt('policy greet{say("hi") done}'), end="")
     policy greet {
-      say("hi")
-      done
+        say("hi")
+        done
     }
     """
     return _project(inputs).fmt(policy, to=to, name=name)

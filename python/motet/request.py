@@ -39,12 +39,18 @@ def read_request(params: Mapping[str, Any] | None) -> str | None:
     for name in asked:
         if name not in ARGUMENTS:
             raise ValueError(f"`{KEY}` has no `{name}`: {', '.join(sorted(ARGUMENTS))}")
-    text = json.dumps(asked, sort_keys=True)
-    _environment(text)
     budget = asked.get("budget", BUDGET)
     if not (isinstance(budget, int) and 0 < budget <= 1 << 20):
         raise ValueError(f"`budget` is a number of bytes up to {1 << 20}, not {budget!r}")
+    text = json.dumps(asked, sort_keys=True)
+    _try(text)
     return text
+
+
+@lru_cache(maxsize=64)
+def _try(text: str) -> None:
+    """Makes a decoder over single bytes: what fails with any vocabulary fails here. Raises `ValueError`."""
+    decoder_for(text, Vocabulary.from_tokens([bytes([byte]) for byte in range(256)] + [b""], 256))
 
 
 @lru_cache(maxsize=64)
@@ -58,7 +64,10 @@ def _environment(text: str) -> Environment:
         # A path would be one of the server, and a request comes from anybody.
         if isinstance(given, str) and not given.replace("_", "").isalnum():
             raise ValueError(f"`{name}` is a built-in name or an object, not `{given[:80]}`")
-    return Environment(**asked)
+    try:
+        return Environment(**asked)
+    except TypeError as error:
+        raise ValueError(f"`{KEY}` has an argument of another type: {error}") from None
 
 
 def decoder_for(text: str, vocabulary: Vocabulary) -> Decoder:

@@ -10,11 +10,14 @@ The package has to be installed where SGLang runs.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import logging
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy
+
 from .masks import follow, masked, row_of
-from .request import decoder_for, read_request
+from .request import KEY, decoder_for, read_request
 from .vocabularies import Vocabulary, vocabulary
 
 if TYPE_CHECKING:
@@ -39,31 +42,34 @@ class MotetLogitProcessor(Base):
     def __call__(self, logits: Any, custom_param_list: Sequence[dict[str, Any] | None] | None = None) -> Any:
         """The logits, of shape (rows, tokens), with -inf for tokens that may not follow.
 
-        SGLang gives the parameters of each row, with the request under `__req__`: its `output_ids` are the tokens so far.
-        Raises `ValueError` if the arguments of a request are wrong.
+        SGLang gives the parameters of each row, with the request under `__req__`: its `output_ids` are the tokens so far. A
+        request with wrong arguments may only end at once, which the log explains: an exception would stop the whole server.
         """
+        width = int(logits.shape[-1])
         for index, params in enumerate(custom_param_list or ()):
-            if params is not None and (decoder := _decoder(params)) is not None:
-                logits[index] = masked(logits[index], row_of(decoder, int(logits.shape[-1])))
+            if params is None or params.get("__req__") is None or KEY not in params:
+                continue
+            try:
+                allowed = row_of(_decoder(params), width)
+            except ValueError as error:
+                logging.getLogger(__name__).error("the request is ended: %s", error)
+                allowed = numpy.arange(width) == _tokens(params["__req__"].tokenizer).end
+            logits[index] = masked(logits[index], allowed)
         return logits
 
 
-def _decoder(params: dict[str, Any]) -> Decoder | None:
-    """The decoder of a request after its output; None if it asks for no policy. It is kept beside the parameters."""
-    request = params.get("__req__")
+def _decoder(params: dict[str, Any]) -> Decoder:
+    """The decoder of a request after its output. It is kept beside the parameters. Raises `ValueError` if they are wrong."""
+    request = params["__req__"]
     kept: Decoder | None = params.get("__motet__")
     if kept is None:
-        asked = read_request(_own(params))
-        if asked is None or request is None:
-            return None
+        asked = read_request({KEY: params[KEY]})
+        if asked is None:
+            raise ValueError(f"`{KEY}` is null")
         kept = decoder_for(asked, _tokens(request.tokenizer))
-    output = [int(token) for token in request.output_ids]  # type: ignore[union-attr]
+    output = [int(token) for token in request.output_ids]
     params["__motet__"] = decoder = kept if kept.tokens == output else follow([kept], output)
     return decoder
-
-
-def _own(params: Mapping[str, Any]) -> Mapping[str, Any]:
-    return {name: value for name, value in params.items() if not name.startswith("__")}
 
 
 def _tokens(tokenizer: Any) -> Vocabulary:

@@ -4,8 +4,8 @@ A request asks for a policy in its extra arguments; all others are left alone:
 
     client.chat.completions.create(..., extra_body={"vllm_xargs": {"motet": '{"robot": "hsr", "scene": "kitchen"}'}})
 
-Each row of the batch has a decoder of its own, which follows the tokens of its output. The server runs without asynchronous
-scheduling and without speculative decoding: both choose tokens before the ones before them are known.
+Each row of the batch has a decoder of its own, which follows the tokens of its output. The server runs without speculative decoding.
+Where its asynchronous scheduling asks for a mask before the last token is known, an error asks for `--no-async-scheduling`.
 """
 
 from __future__ import annotations

@@ -20,9 +20,9 @@ type Scenes = Vec<(String, Vec<(String, String)>, Vec<String>)>;
 
 #[pymethods]
 impl Project {
-    /// Leads drivers through the scenes of the conformance suite with the first call of a policy, or of one that
-    /// says something. `serve` gets the number of a socket and serves a fresh driver on it. Gives the scenes;
-    /// none where the check refuses the policy.
+    /// Leads drivers through the scenes of the conformance suite with the first call of a policy, or of one
+    /// that says something. `serve` gets the number of a socket and serves a fresh driver on it. Gives the
+    /// scenes; none where the check refuses the policy.
     #[pyo3(signature = (name, document, policy, *, serve, patience))]
     fn check_driver(
         &self,

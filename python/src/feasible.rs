@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 use crate::errors::input_error;
 use crate::findings::Findings;
 
-/// The verdicts on motions, or on all motions of a scene, as pairs of text and JSON; a drawing as SVG; and the
-/// findings on the inputs.
+/// The verdicts on motions, or on all motions of a scene, as pairs of text and JSON; a drawing as SVG; and
+/// the findings on the inputs.
 #[pyfunction]
 #[pyo3(signature = (robot, scene, motions, *, effort, base_m, arm_m))]
 pub(crate) fn feasible(

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use motet::project::DiagnosticSink;
 use motet_syntax::render::{self, ColorChoice};
-use motet_syntax::{Diagnostic, Severity, Sources};
+use motet_syntax::{Diagnostic, Sources};
 use pyo3::prelude::*;
 
 /// Diagnostics of the inputs and of one document, in this order.
@@ -20,11 +20,6 @@ impl Findings {
 
     fn rendered(&self, one: impl Fn(&[Diagnostic], &Sources) -> String) -> Vec<String> {
         self.0.iter().map(|part| one(&part.0, &part.1)).collect()
-    }
-
-    /// Is `true` if one of the findings is an error.
-    pub(crate) fn has_errors(&self) -> bool {
-        self.0.iter().flat_map(|part| &part.0).any(|found| found.severity == Severity::Error)
     }
 }
 

@@ -1,12 +1,17 @@
-//! Compiled policies.
+//! Compiled policies with their graphs, in the encodings and drawings of `motet compile`.
 
+use std::sync::Arc;
+
+use motet::ProjectSession;
 use motet::document;
 use motet::graph::draw;
 use motet_syntax::{Parsed, Syntax};
 use pyo3::prelude::*;
 
 use crate::errors::wrong;
-use crate::project::Opened;
+
+/// Session of one robot, which documents share.
+pub(crate) type Opened = Arc<ProjectSession>;
 
 /// A policy that has passed the check, with its execution graph.
 #[pyclass(frozen, module = "motet._motet")]

@@ -1,5 +1,5 @@
-//! Native part of the Python package `motet`: checks, runs and decoders over the facade. The classes that people
-//! see are in `motet/*.py`; what passes between is text, mostly JSON.
+//! Native part of the Python package `motet`: checks, runs and decoders over the facade. The classes that
+//! people see are in `motet/*.py`; what passes between is text, mostly JSON.
 
 mod conformance;
 mod decoder;

@@ -17,10 +17,7 @@ use pyo3::prelude::*;
 
 use crate::errors::{input_error, raised};
 use crate::findings::Findings;
-use crate::graph::{Graph, syntax_of};
-
-/// Session of one robot, which documents share.
-pub(crate) type Opened = Arc<ProjectSession>;
+use crate::graph::{Graph, Opened, syntax_of};
 
 /// A robot in a scene, opened from names, paths and JSON.
 #[pyclass(frozen, module = "motet._motet")]
@@ -94,8 +91,8 @@ fn refused(py: Python<'_>, error: ProjectError) -> PyErr {
 
 #[pymethods]
 impl Project {
-    /// Takes names, paths or JSON. `effort` is the factor of the search for motions; without one every motion is
-    /// left to the run.
+    /// Takes names, paths or JSON. `effort` is the factor of the search for motions; without one every motion
+    /// is left to the run.
     #[new]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     #[pyo3(signature = (*, robot, scene, state, domains, max_duration, effort, base_m, arm_m))]
@@ -140,8 +137,8 @@ impl Project {
         checked.map_err(|error| refused(py, error))
     }
 
-    /// Document after its fixes, the fixes as code, title and applicability, and the findings on what is left.
-    /// A reply with prose around its policy stays as it is, and so does what is not text.
+    /// Document after its fixes, the fixes as code, title and applicability, and the findings on what is
+    /// left. A reply with prose around its policy stays as it is, and so does what is not text.
     fn fix(
         &self,
         py: Python<'_>,
@@ -196,7 +193,8 @@ impl Project {
         Ok((text, findings))
     }
 
-    /// Compiled policy; `None` if the check refuses it. The findings are those on the document and its inputs.
+    /// Compiled policy; `None` if the check refuses it. The findings are those on the document and its
+    /// inputs.
     #[pyo3(signature = (name, document, policy))]
     pub(crate) fn compile(
         &self,

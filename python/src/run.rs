@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use motet::host::remote::protocol::Hello;
 use motet::host::remote::{DriverTimeouts, RemoteDriver};
 use motet::planner::runtime_check::CheckMode;
-use motet::project::{DiagnosticSink, SimulationInputs, read_profile, read_scene};
+use motet::project::{SimulationInputs, read_profile, read_scene};
 use motet::replay::{JournalPlayer, Moment};
 use motet::run::{RecordedRun, RunPlan, recorded, remote_settings, run_id, simulator, state_facts};
 use motet::runtime::journal::JournalEntry;
@@ -125,8 +125,8 @@ impl Project {
         Ok((Some((run, prepared)), findings))
     }
 
-    /// Checks a policy and runs it on a driver. `serve` gets the number of a socket and starts to serve it on a
-    /// thread of its own; `say` gets what the driver says to people.
+    /// Checks a policy and runs it on a driver. `serve` gets the number of a socket and starts to serve it on
+    /// a thread of its own; `say` gets what the driver says to people.
     #[expect(clippy::too_many_arguments, reason = "most are keywords")]
     #[pyo3(signature = (name, document, policy, *, serve, say, record))]
     fn drive(
@@ -173,8 +173,8 @@ impl Project {
     }
 }
 
-/// Runs to the end, with signals of Python looked at now and then. An exception in a handler stops the run and
-/// is raised after it.
+/// Runs to the end, with signals of Python looked at now and then. An exception in a handler stops the run
+/// and is raised after it.
 fn followed(
     plan: &RunPlan<'_>,
     driver: &mut dyn motet::Driver,

@@ -120,7 +120,7 @@ def test_robots_scenes_and_states_are_values_names_and_paths():
         motet.check(policy, scene="kitchn")
     with pytest.raises(motet.InputError, match="clearance"):
         motet.check(policy, clearance={"base": 9.0})
-    held = {"holding(mug_1)": True, "free(hand)": False}
+    held = {"holding(mug_1)": True, "free(hand)": False, "at(robot, shelf)": True}
     carry = "policy p for hsr { place(mug_1, shelf) done }"
     assert motet.check(carry, scene="kitchen").errors and "M0501" not in {
         found.code for found in motet.check(carry, scene="kitchen", state=held)
@@ -133,7 +133,7 @@ def test_files_that_change_are_read_again(tmp_path):
     codes = lambda: {found.code for found in motet.check(carry, scene="kitchen", state=state)}  # noqa: E731
     state.write_text("{}")
     assert "M0501" in codes()
-    state.write_text('{"holding(mug_1)": true, "free(hand)": false}')
+    state.write_text('{"holding(mug_1)": true, "free(hand)": false, "at(robot, shelf)": true}')
     assert "M0501" not in codes()
 
 

@@ -114,6 +114,11 @@ def test_vllm_batches_of_mixed_requests_get_policies_that_check(processor, vocab
         ({"robot": "hal"}, "there is no robot `hal`"),
         ({"robots": "hsr"}, "has no `robots`"),
         ({"robot": "hsr", "budget": -1}, "number of bytes"),
+        ({"robot": "hsr", "budget": 3}, "no policy has at most 3 bytes"),
+        ({"robot": "hsr", "modifiers": {}}, "of another type"),
+        ({"robot": "hsr", "scene": [1]}, "of another type"),
+        ({"robot": "hsr", "scene": {"entities": 3}}, "scene"),
+        ({"robot": ["hsr"]}, "is the name"),
         ({"robot": "../../etc/passwd"}, "built-in name"),
         ({"robot": "hsr", "scene": "/etc/passwd"}, "built-in name"),
     ],
@@ -154,3 +159,11 @@ def test_sglang_batches_of_mixed_requests_get_policies_that_check(tokenizer, voc
         report = motet.check(text_of(vocabulary, request.output_ids), robot="hsr", scene="kitchen", geometry=False)
         assert report.ok and request.output_ids[-1] == vocabulary.end, str(report)
     assert processor(numpy.zeros((1, width)), None).shape == (1, width)
+
+
+def test_sglang_ends_a_wrong_request_and_no_other(vocabulary, caplog):
+    request = SimpleNamespace(tokenizer=vocabulary, output_ids=[])
+    batch = [{"motet": {"robot": "hal"}, "__req__": request}, {"motet": WANTED, "__req__": request}]
+    logits = MotetLogitProcessor()(numpy.zeros((2, len(vocabulary))), batch)
+    assert numpy.isfinite(logits[0]).nonzero()[0].tolist() == [vocabulary.end]
+    assert numpy.isfinite(logits[1]).sum() == 2 and "there is no robot `hal`" in caplog.text

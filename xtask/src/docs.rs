@@ -9,9 +9,9 @@
 //! - any other block is text, unless a comment before it names a file that it becomes: `<!-- file:
 //!   my_robot/robot.toml -->`.
 //!
-//! `<!-- not run: REASON -->` before a block keeps it from running, and `<!-- if: COMMAND -->` where the command
-//! fails, such as one that looks for a package. All blocks of a page share a folder,
-//! which begins with a copy of `examples/` and a link to `python/`.
+//! `<!-- not run: REASON -->` before a block keeps it from running, and `<!-- if: COMMAND -->` where the
+//! command fails, such as one that looks for a package. All blocks of a page share a folder, which begins
+//! with a copy of `examples/` and a link to `python/`.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;

@@ -51,8 +51,8 @@ pub struct MotionVerdict {
     pub json: String,
 }
 
-/// Decides motions one after the other, and gives each verdict to `each`, with the sink, at once. Returns a drawing of the
-/// scene from above as SVG, with the robot and the paths.
+/// Decides motions one after the other, and gives each verdict to `each`, with the sink, at once. Returns a
+/// drawing of the scene from above as SVG, with the robot and the paths.
 ///
 /// ```
 /// use motet::feasible::{FeasibilityQuestion, Motions, decide};

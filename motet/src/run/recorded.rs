@@ -20,7 +20,8 @@ use crate::Error;
 /// Run that is over.
 #[derive(Clone, Debug)]
 pub struct RecordedRun {
-    /// Events as `motet run --format json` prints them, one JSON object each; the last says how the run ended.
+    /// Events as `motet run --format json` prints them, one JSON object each; the last says how the run
+    /// ended.
     pub events: Vec<String>,
     /// Entries of the journal, for [`crate::replay::JournalPlayer`].
     pub journal: Vec<JournalEntry>,
@@ -47,7 +48,8 @@ pub struct RunPlan<'a> {
     pub looks_every: Time,
 }
 
-/// Runs a policy to its end on a driver whose run begins at time 0. `control` is asked at every time that the run reaches.
+/// Runs a policy to its end on a driver whose run begins at time 0. `control` is asked at every time that the
+/// run reaches.
 ///
 /// # Errors
 ///

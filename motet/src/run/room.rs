@@ -5,7 +5,8 @@ use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
 use motet_runtime::{Answer, Detection, Engine, Query, ToldThing};
 
-/// Room that changes by the detections of the driver. Observers of a run pass their calls of the same name on.
+/// Room that changes by the detections of the driver. Observers of a run pass their calls of the same name
+/// on.
 #[derive(Debug, Default)]
 pub struct Room(Option<(Scene, Knowledge)>);
 
