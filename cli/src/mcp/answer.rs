@@ -19,12 +19,12 @@ pub(crate) struct Refusal {
     problem: String,
     help: Option<String>,
     /// Further members of the answer, such as diagnostics.
-    more: Map<String, Value>,
+    more: Vec<(String, Value)>,
 }
 
 impl Refusal {
     pub(crate) fn new(problem: impl Into<String>) -> Self {
-        Self { problem: problem.into(), help: None, more: Map::new() }
+        Self { problem: problem.into(), help: None, more: Vec::new() }
     }
 
     /// The same with advice.

@@ -312,14 +312,16 @@ impl RunTable {
         self.state().runs.get_mut(id)?.swap.take()
     }
 
-    /// Ends a run.
+    /// Ends a run: from the moment in which clients see its ending, another one may begin.
     pub(super) fn end(&self, id: &str, ending: RunEnding) {
-        self.change(id, |run| {
+        let mut state = self.state();
+        state.current = None;
+        if let Some(run) = state.runs.get_mut(id) {
             run.say(&ending.says);
             (run.question, run.answer, run.swap) = (None, None, None);
             run.ending = Some(ending);
-        });
-        self.state().current = None;
+        }
+        drop(state);
         self.notify();
     }
 

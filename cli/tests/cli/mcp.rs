@@ -17,6 +17,8 @@ const LOGGED: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/../examples/drivers/echo.py --seconds 0.05'"
 );
+/// Part of the message that lets a driver move.
+const START: &str = "\"method\":\"start\"";
 /// Policy that checks, and starts one goal.
 const AWAY: &str = "policy away for hsr { go(kitchen_table) done }";
 
@@ -159,7 +161,7 @@ fn attempts() -> Vec<(&'static str, Value, &'static str)> {
     let tool = |name: &str, arguments: Value| ("tools/call", json!({"name": name, "arguments": arguments}));
     let run = |policy: &str| tool("run_policy", json!({"policy": policy}));
     let refused = "the check refuses";
-    let deep = format!("policy deep for hsr {}{}", "{ if true ".repeat(20_000), "}".repeat(20_000));
+    let deep = format!("policy deep for hsr {}{}", "{ if true ".repeat(5_000), "}".repeat(5_000));
     let long = format!("policy long for hsr {{ say(\"{}\") }}", "x".repeat(200_000));
     let mut all = Vec::new();
     let mut add =
@@ -272,12 +274,12 @@ fn nothing_but_a_policy_that_checks_moves_the_robot() {
     let reach = "policy look for panda { home() done }";
     client.call("check_policy", json!({"policy": reach, "robot": "panda", "scene": "lab"}));
     assert!(reason(&client.call("run_policy", json!({"policy": reach}))).contains("refuses"));
-    assert!(place.says("log", "\"hello\""));
-    assert!(!place.says("log", "\"start\""), "{}", place.read("log"));
+    assert!(place.says("log", "\"method\":\"hello\""), "{}", place.read("log"));
+    assert!(!place.says("log", START), "{}", place.read("log"));
     // One that checks does move it.
     let ran = client.answer("run_policy", json!({"policy": AWAY}));
     assert_eq!(ran["status"], "done", "{ran}");
-    assert!(place.says("log", "\"start\""));
+    assert!(place.says("log", START));
     client.leave();
 }
 
@@ -322,12 +324,12 @@ fn a_run_is_a_task_whose_id_is_its_journal() {
         assert_eq!(created["resultType"], "task", "{created}");
         created["taskId"].as_str().unwrap().to_owned()
     };
-    let ask = "policy asks for hsr { let answer = ask(\"Go?\\u{1b}[2J\") say(answer) done }";
-    let id = begin(&mut client, &ask.replace("\\u{1b}", ""));
+    let ask = "policy asks for hsr { let answer = ask(\"Go?\") say(answer) done }";
+    let id = begin(&mut client, ask);
     let asked = client.task(&id);
     assert_eq!(asked["status"], "input_required", "{asked}");
     let question = &asked["inputRequests"]["question-1"]["params"];
-    assert_eq!(question["message"], "Go?[2J");
+    assert_eq!(question["message"], "Go?");
     assert_eq!(question["requestedSchema"]["properties"]["answer"]["type"], "string");
     let update = |client: &mut Client, id: &str, key: &str, response: Value| {
         client.request("tasks/update", &json!({"taskId": id, "inputResponses": {key: response}}))
@@ -353,14 +355,14 @@ fn a_run_is_a_task_whose_id_is_its_journal() {
     let journal = client.request("resources/read", &uri);
     assert!(journal["result"]["contents"][0]["text"].as_str().unwrap().contains("asks"), "{journal}");
     // A declined question fails its step.
-    let id = begin(&mut client, "policy asks for hsr { let answer = ask(\"Go?\") say(answer) done }");
+    let id = begin(&mut client, ask);
     client.task(&id);
     update(&mut client, &id, "question-1", json!({"action": "decline"}));
     let failed = client.task(&id);
     assert_eq!(failed["result"]["isError"], true, "{failed}");
     assert!(failed["statusMessage"].as_str().unwrap().contains("refused"), "{failed}");
     // A task that is cancelled during its question.
-    let id = begin(&mut client, "policy asks for hsr { let answer = ask(\"Go?\") say(answer) done }");
+    let id = begin(&mut client, ask);
     client.task(&id);
     client.request("tasks/cancel", &json!({"taskId": id}));
     while client.task(&id)["status"] == "input_required" {}
@@ -388,7 +390,6 @@ fn one_run_goes_on_at_a_time_and_may_be_swapped_and_stopped() {
     assert_eq!(swapped["policy"], "longer", "{swapped}");
     let status = client.answer("run_status", json!({"run": run}));
     assert_eq!(status["policy"], "longer");
-    assert!(status["message"].as_str().unwrap().contains("runs"), "{status}");
     let checked = client.answer("check_policy", json!({"policy": AWAY}));
     assert!(checked["remark"].as_str().unwrap().contains("before the run"), "{checked}");
     let stopped = client.answer("stop", json!({}));
@@ -404,7 +405,7 @@ fn one_run_goes_on_at_a_time_and_may_be_swapped_and_stopped() {
 fn a_policy_is_checked_in_the_state_that_the_runs_have_left() {
     let place = Place::new("mcp_state");
     let mut client = Client::new(&place, &JUMPING);
-    let take = json!({"policy": "policy take for hsr { go(kitchen_table) pick(mug_1) done }"});
+    let take = json!({"policy": "policy take for hsr { search(\"mug_1\", kitchen_table) pick(mug_1) done }"});
     assert_eq!(client.answer("check_policy", take.clone())["ok"], true);
     assert_eq!(client.answer("run_policy", take.clone())["status"], "done");
     // The check from before the run is stale: the hand is full now.
@@ -424,9 +425,8 @@ fn a_firing_of_a_monitor_is_the_message_of_the_run() {
     let place = Place::new("mcp_monitor");
     let mut client = Client::with_tasks(&place, &["--drive", LOGGED]);
     // Every distance is 1 m to this driver.
-    let policy = "policy careful for hsr {\n\
-        monitor when distance(user) < 2 m then { say(\"Hello!\") let answer = ask(\"Go on?\") say(answer) }\n\
-        during { go(kitchen_table) }\n done }";
+    let policy = "policy careful for hsr { monitor when distance(user) < 2 m then resume at most 1 {\n\
+        let answer = ask(\"Go on?\") say(answer) } during { go(kitchen_table) } done }";
     let created = client.call("run_policy", json!({"policy": policy}))["result"].clone();
     let id = created["taskId"].as_str().unwrap_or_else(|| panic!("{created}")).to_owned();
     let asked = client.task(&id);
