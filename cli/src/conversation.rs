@@ -1,6 +1,7 @@
 //! A conversation with a robot on any driver: `motet do` is one of a single request, `motet talk` one of
 //! many.
 
+pub(crate) mod answered;
 mod flags;
 mod observer;
 pub(crate) mod operator;

@@ -23,8 +23,7 @@ async function request_with_question() {
   const { page, faults, close } = await open(browser, await url);
   await page.locator(".question .asked").waitFor({ timeout: PATIENCE });
   await picture(page, "question");
-  await page.locator(".question input").fill("the red mug");
-  await page.locator(".question form button").click();
+  await page.locator(".question .options button", { hasText: "red mug" }).click();
   await page.locator(".question").waitFor({ state: "detached", timeout: PATIENCE });
   await page.locator(".row.running").first().waitFor({ timeout: PATIENCE });
   await page.waitForTimeout(1200);
@@ -33,7 +32,23 @@ async function request_with_question() {
   check((await exit) === 0, "the run is done");
   await tab(page, "Talk");
   const talk = await page.locator(".talk").innerText();
-  check(talk.includes("the red mug"), `the answer is in the talk: ${talk}`);
+  check(/You\s+mug_1/.test(talk), `the answer is in the talk: ${talk}`);
+  check(faults.length === 0, faults.join("; "));
+  await close();
+  child.kill();
+}
+
+/** A question of a policy is answered in free text. */
+async function free_text() {
+  const { child, url, exit } = serve(motet, ["run", "examples/choose_cup.motet", ...SCENE, "--speed", "20", "--view"]);
+  const { page, faults, close } = await open(browser, await url);
+  await page.locator(".question .asked", { hasText: "Which of these" }).waitFor({ timeout: PATIENCE });
+  await page.getByLabel("Your answer").fill("the red mug");
+  await page.getByRole("button", { name: "Answer" }).click();
+  await chip(page, "done");
+  check((await exit) === 0, "the run is done");
+  await tab(page, "Known");
+  check((await page.locator(".details").innerText()).includes("cup = mug_1"), "the choice is bound");
   check(faults.length === 0, faults.join("; "));
   await close();
   child.kill();
@@ -90,6 +105,8 @@ async function scrub() {
   await run(motet, ["view", record, "-o", file]);
   const { page, faults, close } = await open(browser, `file://${file}`);
   await chip(page, "done");
+  const first = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? 0);
+  console.log(`  first picture after ${first.toFixed(0)} ms`);
   const running = page.locator(".row.running");
   check((await running.count()) === 0, "nothing runs at the end");
   const slider = page.getByLabel("Moment that is shown");
@@ -138,6 +155,31 @@ async function scrub() {
     check(other.faults.length === 0, other.faults.join("; "));
     await other.close();
   }
+  check(faults.length === 0, faults.join("; "));
+  await close();
+}
+
+/** A motion that is proven infeasible says why in numbers, and what blocks it is red. */
+async function blocked() {
+  const scene = JSON.parse(readFileSync("robots/scenes/kitchen.json", "utf8"));
+  const shelf = scene.entities.find((one) => one.id === "shelf");
+  const walls = [[2.2, -0.8, 2.7, 0.1], [2.2, 1.8, 2.7, 0.1], [0.9, 0.5, 0.1, 2.7], [3.5, 0.5, 0.1, 2.7]];
+  walls.forEach(([x, y, along, across], i) =>
+    scene.entities.push({ ...shelf, id: `wall_${i}`, names: [`wall ${i}`], pose: { xyz: [x, y, 0.35], rpy: [0, 0, 0] }, shape: { box: [along, across, 0.7] } }),
+  );
+  const [room, policy, answers, record, file] = ["walls.json", "chosen.motet", "answers.json", "walled", "walled.html"].map((name) => join(folder, name));
+  writeFileSync(room, JSON.stringify(scene));
+  writeFileSync(answers, JSON.stringify(["red mug"]));
+  writeFileSync(policy, 'policy chosen for hsr {\n    let cups = detect_all("drinkware")\n    let cup = choose("Which of these?", cups)\n    go(cup)\n}\n');
+  await run(motet, ["run", policy, "--robot", "hsr", "--scene", room, "--answers", answers, "--speed", "max", "--record", record], [3]);
+  await run(motet, ["view", record, "-o", file]);
+  const { page, faults, close } = await open(browser, `file://${file}`);
+  await chip(page, "failed");
+  const why = await page.locator(".blockedby").innerText();
+  check(/wall_\d/.test(why) && /\d/.test(why), `the reason names a wall: ${why}`);
+  check((await page.locator(".tag.blocked").count()) > 0, "a name is red");
+  await page.waitForTimeout(1200);
+  await picture(page, "blocked");
   check(faults.length === 0, faults.join("; "));
   await close();
 }
@@ -249,7 +291,7 @@ async function refused() {
   child.kill();
 }
 
-const TESTS = { request_with_question, swap, reconnect, scrub, hostile, thousand, refused };
+const TESTS = { request_with_question, free_text, swap, reconnect, scrub, blocked, hostile, thousand, refused };
 const only = process.env.ONLY?.split(",");
 let failed = 0;
 for (const [name, test] of Object.entries(TESTS)) {

@@ -28,7 +28,7 @@ export function Head({ state, live, link, time }) {
         <span class={`chip ${how}`} role="status">
           {{ idle: WORDS.waiting, held: WORDS.held, running: WORDS.running }[how] ?? WORDS.ended[how]}
         </span>
-        {policy && <span class="progress">{WORDS.summary(done, calls.length)}</span>}
+        {policy && <span class="progress">{WORDS.summary(done)}</span>}
         {time !== null && <span class="chip past">{WORDS.past(secs(time))}</span>}
         <span class="link" role="status">
           {{ connecting: WORDS.connecting, reconnecting: WORDS.reconnecting, refused: WORDS.refused, over: WORDS.over }[link]}
@@ -87,7 +87,7 @@ export function Head({ state, live, link, time }) {
   );
 }
 
-function Question({ question, now, canAnswer }) {
+function Question({ question, now, names, canAnswer }) {
   const [text, setText] = useState("");
   const [fault, command] = useSend();
   const give = (answer) => command("answer", { question: question.id, text: answer });
@@ -102,8 +102,8 @@ function Question({ question, now, canAnswer }) {
         <>
           <div class="options">
             {question.options.map((option) => (
-              <button key={option} onClick={() => give(option)}>
-                {option}
+              <button key={option} title={option} onClick={() => give(option)}>
+                {names[option] ?? option}
               </button>
             ))}
           </div>
@@ -127,8 +127,9 @@ function Question({ question, now, canAnswer }) {
   );
 }
 
-export function Questions({ state, live, link }) {
+export function Questions({ state, live, link, world }) {
+  const names = Object.fromEntries(world?.things.map((thing) => [thing.id, thing.name]) ?? []);
   const open = state.questions.filter((one) => one.to === null);
   const canAnswer = link === "live" && live.takes.includes("answer") && state === live;
-  return open.map((one) => <Question key={one.id} question={one} now={state.now} canAnswer={canAnswer} />);
+  return open.map((one) => <Question key={one.id} question={one} now={state.now} names={names} canAnswer={canAnswer} />);
 }

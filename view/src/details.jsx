@@ -1,6 +1,6 @@
 // What is known of the chosen step, and what the robot knows.
 
-import { current } from "./state.js";
+import { current, told } from "./state.js";
 import { Sign, margin, reading, secs, short } from "./parts.jsx";
 import { Things } from "./scene.jsx";
 import { WORDS } from "./words.js";
@@ -33,7 +33,7 @@ export function StepDetails({ state, chosen, showLine }) {
       {is.n && (
         <p class={is.s === "failed" ? "why failed" : "why"}>
           {is.s === "failed" && <b>{WORDS.why}: </b>}
-          {is.n}
+          {is.s === "failed" ? told(state, chosen, is.n) : is.n}
         </p>
       )}
       {attempts.length > 0 && <h4>{WORDS.attempts}</h4>}
@@ -107,7 +107,10 @@ function List({ of, title, show }) {
   );
 }
 
+const truth = (value) => <b class={{ true: "yes", false: "no" }[value] ?? ""}>{WORDS.believes[String(value)]}</b>;
+
 export function Known({ log, state, time }) {
+  const others = Object.entries(state.facts).filter(([fact]) => !(fact in state.changed));
   return (
     <div class="scroll details">
       <List of={state.bindings} title={WORDS.bindings} show={(value) => `= ${value}`} />
@@ -120,7 +123,17 @@ export function Known({ log, state, time }) {
           </>
         )}
       />
-      <List of={state.facts} title={WORDS.beliefs} show={(value) => <b class={{ true: "yes", false: "no", null: "" }[value]}>{WORDS.believes[String(value)]}</b>} />
+      <List of={state.changed} title={WORDS.beliefs} show={truth} />
+      <details>
+        <summary>{WORDS.otherBeliefs(others.length)}</summary>
+        <ul class="plain">
+          {others.map(([fact, value]) => (
+            <li key={fact}>
+              <code>{fact}</code> {truth(value)}
+            </li>
+          ))}
+        </ul>
+      </details>
       {log.world && <h4>{WORDS.things}</h4>}
       <Things log={log} state={state} time={time} />
     </div>

@@ -10,7 +10,7 @@ import { WORDS } from "./words.js";
 const MOST = 400;
 const LETTERS = 38;
 const cut = (text) => (text.length > LETTERS ? `${text.slice(0, LETTERS - 1)}…` : text);
-const width = (text) => 40 + cut(text).length * 6.7;
+const width = (row) => 36 + cut(row.l).length * 6.9 + (row.watches ? 130 : 0);
 
 function parents(rows) {
   const stack = [];
@@ -31,7 +31,7 @@ function layout(rows, list, closed) {
   graph.setDefaultEdgeLabel(() => ({}));
   const inside = (i) => (open(i) ? `g${i}` : null);
   for (const i of list) {
-    graph.setNode(`n${i}`, { width: width(rows[i].l), height: 30, i });
+    graph.setNode(`n${i}`, { width: width(rows[i]), height: 30, i });
     if (open(i)) {
       graph.setNode(`g${i}`, { i, box: true });
       graph.setParent(`n${i}`, `g${i}`);
@@ -42,8 +42,9 @@ function layout(rows, list, closed) {
     const own = inside(i) ?? `n${i}`;
     if (parent !== null && inside(parent)) graph.setParent(own, inside(parent));
   }
-  // A step follows the one before it; branches of one parent lie side by side.
-  const last = new Map();
+  // A step follows those before it. A heading belongs to the step before it, or to its parent: a handler or a
+  // branch begins there, and a cleanup follows it.
+  const tails = new Map();
   const ends = (i) => {
     if (!open(i)) return [i];
     let child = null;
@@ -52,14 +53,20 @@ function layout(rows, list, closed) {
   };
   for (const i of list) {
     const parent = up[i];
-    const heading = rows[i].n === undefined;
-    const before = last.get(parent);
-    if (before === undefined || heading) {
+    const before = tails.get(parent) ?? [];
+    const is_heading = rows[i].n === undefined;
+    const follow = () => before.flatMap(ends).forEach((end) => rows[end].kind !== "end" && graph.setEdge(`n${end}`, `n${i}`));
+    if (before.length === 0) {
       if (parent !== null) graph.setEdge(`n${parent}`, `n${i}`);
+      tails.set(parent, [i]);
+    } else if (is_heading && rows[i].l !== "finally") {
+      const owner = rows[before[0]].n === undefined ? parent : before[0];
+      if (owner !== null) graph.setEdge(`n${owner}`, `n${i}`);
+      tails.set(parent, [...before, i]);
     } else {
-      for (const end of ends(before)) graph.setEdge(`n${end}`, `n${i}`);
+      follow();
+      tails.set(parent, [i]);
     }
-    last.set(parent, i);
   }
   dagre.layout(graph);
   const nodes = [];
@@ -95,7 +102,8 @@ export function GraphView({ state, chosen, choose, closed, toggle }) {
   }, [rows, folded]);
   const running = policy && active(policy);
   useEffect(() => {
-    const node = plan?.nodes.find((one) => one.i === (chosen ?? running));
+    // Of a step in a closed group the group is shown.
+    const node = plan?.nodes.findLast((one) => one.i <= (chosen ?? running ?? -1));
     if (node && box.current) {
       const { clientWidth, clientHeight } = box.current;
       box.current.scrollTo({ left: node.x * scale - clientWidth / 2, top: node.y * scale - clientHeight / 2 });
@@ -146,7 +154,7 @@ export function GraphView({ state, chosen, choose, closed, toggle }) {
                   {cut(is.l)}
                 </text>
                 {value !== null && (
-                  <text class="read" x={one.width + 4} y="19.5">
+                  <text class="read" x={one.width - 8} y="19.5" text-anchor="end">
                     {short(value)}
                     {by === null ? "" : ` (${WORDS.margin(short(by))})`}
                   </text>

@@ -5,7 +5,6 @@ import { secs, short } from "./parts.jsx";
 import { WORDS } from "./words.js";
 
 const LANE = 24;
-const LEFT = 104;
 const MOST_BARS = 1500;
 
 /** A step of the time axis that a person reads: 1, 2 or 5 times a power of ten. */
@@ -42,6 +41,7 @@ export function Lanes({ log, live, time, setTime, choose }) {
   }, []);
   const end = Math.max(log.end, 1);
   const list = lanes(live);
+  const LEFT = wide < 700 ? 100 : 168;
   const room = Math.max(wide - LEFT - 14, 100);
   const x = (at) => LEFT + (Math.min(at, end) / end) * room;
   const high = list.length * LANE + 22;
@@ -56,6 +56,10 @@ export function Lanes({ log, live, time, setTime, choose }) {
   return (
     <section class="lanes" aria-label={WORDS.lanes}>
       <div class="scrub">
+        <output>{secs(now)}</output>
+        <button class={time === null ? "small on" : "small"} aria-pressed={time === null} onClick={() => setTime(null)}>
+          {time === null ? WORDS.live : WORDS.now}
+        </button>
         <input
           type="range"
           aria-label={WORDS.playhead}
@@ -66,10 +70,6 @@ export function Lanes({ log, live, time, setTime, choose }) {
           value={now}
           onInput={(event) => setTime(Number(event.currentTarget.value))}
         />
-        <output>{secs(now)}</output>
-        <button class={time === null ? "small on" : "small"} aria-pressed={time === null} onClick={() => setTime(null)}>
-          {time === null ? WORDS.live : WORDS.now}
-        </button>
       </div>
       <div class="chart" ref={box}>
         <svg
@@ -87,7 +87,7 @@ export function Lanes({ log, live, time, setTime, choose }) {
           {ticks.map((at) => (
             <g key={at}>
               <line class="tick" x1={x(at)} x2={x(at)} y1="0" y2={high - 18} />
-              <text class="time" x={x(at)} y={high - 5} text-anchor={at === 0 ? "start" : "middle"}>
+              <text class="time" x={x(at)} y={high - 5} text-anchor={at === 0 ? "start" : x(at) > wide - 50 ? "end" : "middle"}>
                 {secs(at).replace(".0 s", " s")}
               </text>
             </g>
@@ -100,7 +100,7 @@ export function Lanes({ log, live, time, setTime, choose }) {
           {list.map((lane, k) => (
             <g key={lane.name} transform={`translate(0 ${k * LANE})`}>
               <text class="name" x="6" y="16">
-                {lane.name.length > 15 ? `${lane.name.slice(0, 14)}…` : lane.name}
+                {lane.name.length > LEFT / 7.2 ? `${lane.name.slice(0, Math.floor(LEFT / 7.2) - 1)}…` : lane.name}
               </text>
               {lane.bars.map((bar, i) => {
                 const [from, to] = [x(bar.from), x(bar.to ?? end)];

@@ -72,7 +72,7 @@ function Page() {
     if (side === "talk" || side === "known") setSide("step");
   };
   const regions = {
-    steps: () => <Outline state={state} chosen={safe} choose={choose} closed={closed} toggle={toggle} follow={follow} setFollow={setFollow} />,
+    steps: () => <Outline state={state} now={time ?? log.end} chosen={safe} choose={choose} closed={closed} toggle={toggle} follow={follow} setFollow={setFollow} />,
     graph: () => <GraphView state={state} chosen={safe} choose={choose} closed={closed} toggle={toggle} />,
     text: () => <PolicyText state={state} chosen={safe} choose={choose} />,
     changes: () => <Changes state={state} />,
@@ -89,7 +89,7 @@ function Page() {
   return (
     <div class={`page ${time === null ? "" : "pasttime"}`}>
       <Head state={state} live={log.live} link={link} time={time} />
-      <Questions state={state} live={log.live} link={link} />
+      <Questions state={state} live={log.live} link={link} world={log.world} />
       {narrow ? (
         <main class="one">
           <Tabs name="Motet" tabs={{ ...MAIN, ...SIDE }} is={only} set={setOnly} />

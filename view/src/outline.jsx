@@ -1,7 +1,7 @@
 // Outline of the steps: a tree of which only the visible part is in the document.
 
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { current, } from "./state.js";
+import { current, told } from "./state.js";
 import { Sign, margin, reading, secs, short } from "./parts.jsx";
 import { WORDS } from "./words.js";
 
@@ -46,7 +46,7 @@ function Badges({ row, state }) {
   });
 }
 
-export function Outline({ state, chosen, choose, closed, toggle, follow, setFollow }) {
+export function Outline({ state, now, chosen, choose, closed, toggle, follow, setFollow }) {
   const policy = current(state);
   const box = useRef(null);
   const [view, setView] = useState({ top: 0, height: 600 });
@@ -164,8 +164,8 @@ export function Outline({ state, chosen, choose, closed, toggle, follow, setFoll
                 {row.n === undefined ? null : <Sign is={is.s} />}
                 <span class="label">{is.l}</span>
                 <Badges row={row} state={state} />
-                {is.n && <span class="note">{is.n}</span>}
-                <span class="took">{is.d !== null ? secs(is.d) : is.s === "running" ? secs(Math.max(0, state.now - is.a)) : ""}</span>
+                {is.n && <span class="note">{is.s === "failed" ? told(state, i, is.n) : is.n}</span>}
+                <span class="took">{is.d !== null ? secs(is.d) : is.s === "running" ? secs(Math.max(0, now - is.a)) : ""}</span>
               </div>
             );
           })}

@@ -34,7 +34,10 @@ export function reading(state, q) {
   const read = state.readings[q];
   if (read) return read.v;
   const fact = state.facts[q];
-  return fact === undefined ? null : WORDS.believes[String(fact)];
+  if (fact !== undefined) return WORDS.believes[String(fact)];
+  // In a policy the question names a binding, in the world its value.
+  const meant = q.replace(/\b[A-Za-z_]\w*\b/g, (name) => (Object.hasOwn(state.bindings, name) ? state.bindings[name] : name));
+  return meant === q ? null : reading({ ...state, bindings: {} }, meant);
 }
 
 /** Tabs of a region. */

@@ -80,7 +80,7 @@ export function Things({ log, state, time }) {
           return (
             <li key={thing.id} class={blocks ? "blocked" : ""}>
               <b>{thing.name}</b> {WORDS.place((at ?? thing.at).slice(0, 3))}
-              {held.includes(thing.id) && <span class="badge">holding</span>}
+              {held.includes(thing.id) && <span class="badge">{WORDS.holding}</span>}
               {gap > 0.03 && <small> {WORDS.apart(gap)}</small>}
             </li>
           );

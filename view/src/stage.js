@@ -118,7 +118,7 @@ export class Stage {
     const [left, right, front, back] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
     this.#target.set((left + right) / 2, (front + back) / 2, 0.5);
     const size = Math.max(right - left, back - front, 2);
-    this.#orbit.far = size * 1.15 + 1.2;
+    this.#orbit.far = size * 1.25 + 1.5;
     const cells = Math.ceil(size + 3);
     const grid = new GridHelper(cells, cells, is_dark ? 0x4a5160 : 0xb8bec9, is_dark ? 0x333a47 : 0xd7dbe2);
     grid.rotateX(Math.PI / 2).position.set(Math.round(this.#target.x), Math.round(this.#target.y), 0);
@@ -206,11 +206,13 @@ export class Stage {
       this.#camera.aspect = w / h;
       this.#camera.updateProjectionMatrix();
       const { turn, tilt, far } = this.#orbit;
-      const flat = Math.cos(tilt) * far;
+      // A narrow picture needs more distance for the same room.
+      const reach = far * Math.max(1, 1.1 / this.#camera.aspect);
+      const flat = Math.cos(tilt) * reach;
       this.#camera.position.set(
         this.#target.x + Math.cos(turn) * flat,
         this.#target.y + Math.sin(turn) * flat,
-        this.#target.z + Math.sin(tilt) * far,
+        this.#target.z + Math.sin(tilt) * reach,
       );
       this.#camera.lookAt(this.#target);
       this.renderer.render(this.#scene, this.#camera);

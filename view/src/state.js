@@ -14,6 +14,7 @@ export function fresh() {
     readings: {},
     series: {},
     facts: {},
+    changed: {},
     bindings: {},
     holds: [],
     held: false,
@@ -57,7 +58,7 @@ export function apply(state, item) {
       break;
     case "run":
       state.run = item.run;
-      Object.assign(state, { end: null, held: false, blocked: null, facts: {}, bindings: {}, readings: {}, guards: {} });
+      Object.assign(state, { end: null, held: false, blocked: null, facts: {}, changed: {}, bindings: {}, readings: {}, guards: {} });
       policy(state, item);
       if (item.request && state.says.at(-1)?.text !== item.request) {
         state.says.push({ at: state.now, who: "person", text: item.request });
@@ -88,6 +89,12 @@ export function apply(state, item) {
       break;
   }
   for (const change of item.c ?? []) apply_change(state, change);
+}
+
+/** Reason of a failed step in the words of the driver, if it said more than the kind. */
+export function told(state, r, why) {
+  const last = state.goals.findLast((one) => one.r === r && one.p === state.policies.length - 1 && one.how === "failed");
+  return last?.why && last.why.length > (why ?? "").length ? last.why : why;
 }
 
 function apply_change(state, change) {
@@ -192,6 +199,8 @@ function apply_change(state, change) {
       break;
     }
     case "fact":
+      // Those of the head are where the run begins.
+      if (change.f in state.facts) state.changed[change.f] = change.v;
       state.facts[change.f] = change.v;
       break;
     case "bind":
@@ -209,7 +218,7 @@ function apply_change(state, change) {
       state.poses.push({ at: state.now, pose: change.pose, things: {} });
       break;
     case "end":
-      state.end = { how: change.how, why: change.why, r: change.r, at: change.at };
+      state.end = { how: change.how, why: told(state, change.r, change.why), r: change.r, at: change.at };
       if (change.by?.length) state.blocked = { why: change.why, by: change.by };
       for (const one of state.goals) if (one.run === state.run && one.to === null) one.to = state.now;
       for (const one of state.questions) one.to ??= state.now;

@@ -22,6 +22,7 @@ use motet_runtime::journal::{
 use motet_runtime::{Driver, DriverClock, Event, Time, Verifier as _};
 use motet_syntax::{Parsed, Severity, Syntax};
 
+use crate::conversation::answered::AnsweredQuestions;
 use crate::conversation::operator::{AskingDriver, OperatorInput, OperatorPrompt};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
@@ -120,8 +121,11 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let start = start_state(opened.scene.as_ref());
     let guard = opened.session.world_tracker().map(|course| Guard::new(course, speed.verifies()));
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings)?;
+    // The simulated person of a script answers the questions of policies.
+    let has_person = page.is_some() && args.driver.answers.is_none();
     let journal = match args.record.as_deref().zip(saved) {
         Some((folder, saved)) => {
+            let saved = if has_person { saved.with_person() } else { saved };
             let journal = create_journal(folder, &run, (&engine, &start), Some(&saved))?;
             let name = if written.1 == Syntax::Json { "policy.json" } else { "policy.motet" };
             replace_file(&folder.join(name), &written.0)?;
@@ -134,8 +138,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let empty = Scene::default();
     let mut asking;
     let driver: &mut dyn Driver = match &page {
-        // The simulated person of a script answers the questions of policies.
-        Some(page) if args.driver.answers.is_none() => {
+        Some(page) if has_person => {
             let input = Rc::new(OperatorInput::of_page(page));
             let prompt = OperatorPrompt { input, page: Some(Rc::clone(page)) };
             asking = AskingDriver::new(&mut *driver, prompt, opened.scene.as_ref().unwrap_or(&empty));
@@ -211,6 +214,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     };
     let mut paced = PacedView::new(view, speed);
     let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
+    let mut questions = saved.asks().then(AnsweredQuestions::default);
     let checked = saved.project().filter(|_| head.settings.verify_within.is_some());
     let course = checked.and_then(|checked| open_course(checked, report));
     let mut guard = course.map(|course| Guard::new(course, speed.verifies()));
@@ -227,7 +231,9 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
             Err(error) => return Err(differs(error.to_string())),
         }
         if let Some(simulator) = &mut simulator {
-            retrace.take(simulator, entry).map_err(|astray| differs(astray.to_string()))?;
+            let seen = questions.as_mut().map(|questions| questions.without(entry));
+            let taken = retrace.take(simulator, seen.as_ref().unwrap_or(entry));
+            taken.map_err(|astray| differs(astray.to_string()))?;
         }
         if let Some(guard) = &mut guard {
             if let JournalEntry::Step(StepEntry { event: Some(event), .. }) = entry {
@@ -251,6 +257,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     // Older journals have no id; the time of their beginning is as good.
     let run = if head.run.is_empty() { format!("{:x}", head.began_unix_ns) } else { head.run.clone() };
     let mut events = if begun { Vec::new() } else { vec![Event::Begin] };
+    events.extend(questions.iter().flat_map(AnsweredQuestions::refused));
     let unix_ns = unix_ns();
     let resumed = JournalEntry::Resumed(ResumeEntry { unix_ns, cut_bytes: tail.torn_bytes });
     writer.append(|chain| chain.line(resumed)).and_then(|()| writer.sync()).map_err(journal_error)?;

@@ -215,9 +215,10 @@ impl OperatorPrompt {
 
 impl Person for OperatorPrompt {
     fn ask(&mut self, problem: &Problem) -> Option<String> {
-        let id = self.page.as_ref().map(|page| {
-            page.borrow_mut().question(&printable(&problem.question), &problem.options)
-        });
+        let id = self
+            .page
+            .as_ref()
+            .map(|page| page.borrow_mut().question(&printable(&problem.question), &problem.options));
         let answer = self.ask_as(id.as_deref(), problem);
         if let (Some(page), Some(id)) = (&self.page, &id) {
             page.borrow_mut().answered(id, answer.as_deref());

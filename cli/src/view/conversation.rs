@@ -103,7 +103,9 @@ impl ConversationFolder {
     fn show(&mut self, line: &TalkLine, page: &mut LivePage) {
         let item: Option<Value> = match line.what.as_str() {
             "request" => Some(json!({"t": "say", "who": "person", "text": line.text})),
-            "answered" => line.answer.as_ref().map(|answer| json!({"t": "say", "who": "robot", "text": answer})),
+            "answered" => {
+                line.answer.as_ref().map(|answer| json!({"t": "say", "who": "robot", "text": answer}))
+            }
             "swap_refused" => Some(json!({"t": "say", "who": "host", "text": line.why})),
             "outcome" => Some(json!({"t": "outcome", "is": line.outcome})),
             "question" => {

@@ -59,9 +59,9 @@ impl Feed {
         format!("{}-{seq}", self.run)
     }
 
-    /// Items that follow from an entry; at most one, but for a journal that another process has gone on with.
+    /// Item that follows from an entry, with its id; `None` where the engine does not take the entry.
     pub(crate) fn entry(&mut self, seq: u64, entry: &JournalEntry) -> Option<(String, Value)> {
-        let item = match entry {
+        let mut item = match entry {
             JournalEntry::Head(head) => {
                 self.run += 1;
                 self.replay = Some(EngineReplay::new(head).ok()?);
@@ -100,7 +100,6 @@ impl Feed {
                 item
             }
         };
-        let mut item = item;
         item.insert("run".to_owned(), json!(self.run));
         Some((self.id(seq), Value::Object(item)))
     }
@@ -151,7 +150,8 @@ impl Feed {
 
     fn reported(&mut self, report: &DriverEvent, changes: &mut Vec<Value>) {
         let ended = |goal: &GoalId, how: &str, why: Option<String>| {
-            json!({"k": "goal", "g": goal.to_string(), "how": how, "why": why.map(|why| escape(&why))})
+            let why = why.map(|why| escape(&why));
+            json!({"k": "goal", "g": goal.to_string(), "how": how, "why": why})
         };
         match report {
             DriverEvent::Acknowledged { goal } => {
@@ -243,7 +243,8 @@ impl Feed {
         let motions = command.motions.iter().filter_map(|motion| motion.witness.as_deref());
         let paths: Vec<Value> =
             world.into_iter().flat_map(|world| motions.clone().map(|witness| world.path(witness))).collect();
-        let why: Vec<String> = command.motions.iter().filter_map(|motion| motion.why.as_deref()).map(escape).collect();
+        let why: Vec<String> =
+            command.motions.iter().filter_map(|motion| motion.why.as_deref()).map(escape).collect();
         json!({
             "k": "start", "g": goal.to_string(), "r": self.place(node), "cmd": escape(&command.to_string()),
             "l": label, "uses": command.uses, "by": deadline.secs(), "paths": paths, "open": why,
@@ -292,7 +293,12 @@ impl Feed {
             TraceEventKind::Updated { goal, .. } => {
                 changes.push(json!({"k": "fate", "g": goal.to_string(), "is": "updated"}));
             }
-            TraceEventKind::GoalEnded { goal, ending: NodeEnding::Interrupted, cause: EndCause::Swap, .. } => {
+            TraceEventKind::GoalEnded {
+                goal,
+                ending: NodeEnding::Interrupted,
+                cause: EndCause::Swap,
+                ..
+            } => {
                 changes.push(json!({"k": "fate", "g": goal.to_string(), "is": "cancelled"}));
             }
             TraceEventKind::GoalObserved { truth } => {

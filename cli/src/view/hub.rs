@@ -250,7 +250,8 @@ mod tests {
     #[test]
     fn hub_thins_motion_of_a_long_run() {
         let hub = Hub::default();
-        let kept = |secs: u64| (0..secs * 10).filter(|at| hub.wants_motion(Time::from_secs(*at as f64 / 10.0)));
+        let kept =
+            |secs: u64| (0..secs * 10).filter(|at| hub.wants_motion(Time::from_secs(*at as f64 / 10.0)));
         let day = kept(24 * 3600).count() as u64;
         assert!(day > MOTIONS && day < 8 * MOTIONS, "{day}");
     }

@@ -11,6 +11,7 @@ use motet_sim::Sim;
 
 use super::live::LivePage;
 use super::source::PolicyText;
+use crate::conversation::answered::AnsweredQuestions;
 use crate::error::CliError;
 use crate::output::note;
 use crate::runner::journal_error;
@@ -37,6 +38,8 @@ struct Simulation {
     sim: Box<Sim>,
     retrace: DriverReplay,
     now: Time,
+    /// Questions that a person answered, if one did.
+    questions: Option<AnsweredQuestions>,
 }
 
 impl JournalFolder {
@@ -98,10 +101,12 @@ impl JournalFolder {
 impl Simulation {
     /// Simulation of a run; `None` where the run was none.
     fn of(driver: &serde_json::Value) -> Option<Self> {
-        match SavedDriver::from_json(driver).ok()? {
+        let driver = SavedDriver::from_json(driver).ok()?;
+        let questions = driver.asks().then(AnsweredQuestions::default);
+        match driver {
             SavedDriver::Simulator(saved) => {
                 let sim = Box::new(saved.open().ok()?);
-                Some(Self { sim, retrace: DriverReplay::default(), now: Time::ZERO })
+                Some(Self { sim, retrace: DriverReplay::default(), now: Time::ZERO, questions })
             }
             SavedDriver::Process { .. } => None,
         }
@@ -111,27 +116,29 @@ impl Simulation {
     fn follow(&mut self, entry: &JournalEntry, page: &mut LivePage) -> bool {
         let Some((at, _)) = entry.happened() else { return true };
         let span = at.since(self.now).nanos();
-        let every = LOOK_EVERY.nanos().max(span / LOOKS);
-        let mut look = self.now.after(Time::from_nanos(every));
+        let every = Time::from_nanos(LOOK_EVERY.nanos().max(span / LOOKS));
+        let mut look = self.now.after(every);
         while look < at {
-            if self.sim.advance(look).is_some() {
-                return false;
-            }
-            self.show(page);
-            look = look.after(Time::from_nanos(every));
+            // A copy looks ahead: the simulation itself reports what it sees whenever it is stepped.
+            let mut ahead = self.sim.clone();
+            let _ = ahead.advance(look);
+            show(&mut ahead, page);
+            look = look.after(every);
         }
-        if self.retrace.take(&mut *self.sim, entry).is_err() {
+        let seen = self.questions.as_mut().map(|questions| questions.without(entry));
+        if self.retrace.take(&mut *self.sim, seen.as_ref().unwrap_or(entry)).is_err() {
             return false;
         }
         self.now = at.max(self.now);
-        self.show(page);
+        show(&mut self.sim, page);
         true
     }
+}
 
-    fn show(&mut self, page: &mut LivePage) {
-        while let Some(moved) = self.sim.telemetry() {
-            page.moved(&moved);
-        }
+/// Shows the motion that a simulation has to report.
+fn show(sim: &mut Sim, page: &mut LivePage) {
+    while let Some(moved) = sim.telemetry() {
+        page.moved(&moved);
     }
 }
 

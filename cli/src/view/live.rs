@@ -7,8 +7,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use motet_project::ProjectSession;
-use motet_runtime::journal::JournalEntry;
 use motet_runtime::Moved;
+use motet_runtime::journal::JournalEntry;
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 

@@ -60,7 +60,11 @@ impl Observer for PageObserver<'_> {
             Some(Cause::RefusedSwap) => {}
             Some(Cause::Swap(graph)) => {
                 let graph = motet_graph::encode::document(&graph);
-                self.add(&JournalEntry::Swap(Box::new(SwapEntry { at: now, graph, effects: effects.clone() })));
+                self.add(&JournalEntry::Swap(Box::new(SwapEntry {
+                    at: now,
+                    graph,
+                    effects: effects.clone(),
+                })));
             }
             Some(Cause::Event(event)) => {
                 let step = StepEntry { at: now, event: Some(event), effects: effects.clone() };

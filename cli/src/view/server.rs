@@ -302,3 +302,129 @@ fn control(State(shared): State<Arc<Shared>>, headers: &HeaderMap, wish: RunCont
     shared.hub.control(wish);
     StatusCode::NO_CONTENT.into_response()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+    use std::net::TcpStream;
+    use std::sync::Arc;
+    use std::sync::mpsc::channel;
+
+    use serde_json::json;
+
+    use super::{Hub, MOST_BYTES, MOST_LETTERS, MOST_PAGES, Server};
+
+    struct Served {
+        server: Server,
+        hub: Arc<Hub>,
+    }
+
+    fn served() -> Served {
+        let hub = Arc::new(Hub::default());
+        let server = Server::start("127.0.0.1:0".parse().unwrap(), Arc::clone(&hub)).unwrap();
+        Served { server, hub }
+    }
+
+    impl Served {
+        fn token(&self) -> &str {
+            self.server.shared.token.as_str()
+        }
+
+        /// Sends a request with more headers and a body, and leaves the connection open.
+        fn ask(&self, line: &str, more: &str, body: &str) -> BufReader<TcpStream> {
+            let mut stream = TcpStream::connect(self.server.address).unwrap();
+            let (address, length) = (self.server.address, body.len());
+            write!(
+                stream,
+                "{line} HTTP/1.1\r\nhost: {address}\r\n{more}content-length: {length}\r\n\r\n{body}"
+            )
+            .unwrap();
+            BufReader::new(stream)
+        }
+
+        fn status(&self, line: &str, more: &str, body: &str) -> u16 {
+            status(&mut self.ask(line, more, body))
+        }
+
+        /// Status of a command with the token.
+        fn command(&self, line: &str, body: &str) -> u16 {
+            let more = format!("x-motet-token: {}\r\ncontent-type: application/json\r\n", self.token());
+            self.status(line, &more, body)
+        }
+    }
+
+    fn status(reply: &mut BufReader<TcpStream>) -> u16 {
+        let mut line = String::new();
+        reply.read_line(&mut line).unwrap();
+        line.split(' ').nth(1).unwrap().parse().unwrap()
+    }
+
+    #[test]
+    fn server_takes_commands_with_the_token_only() {
+        let served = served();
+        let (lines, typed) = channel();
+        served.hub.take_lines(lines);
+        let json = "content-type: application/json\r\n";
+        let wrong = format!("{json}x-motet-token: 0\r\n");
+        for command in ["stop", "hold", "proceed", "say", "answer"] {
+            let (line, body) = (format!("POST /{command}"), json!({"text": "hello"}).to_string());
+            assert_eq!(served.status(&line, json, &body), 403, "{command} without a token");
+            assert_eq!(served.status(&line, &wrong, &body), 403, "{command} with a wrong token");
+        }
+        assert_eq!(served.status("GET /events?token=0", "", ""), 403);
+        let elsewhere = format!("{json}x-motet-token: {}\r\norigin: http://evil.example\r\n", served.token());
+        assert_eq!(served.status("POST /stop", &elsewhere, ""), 403);
+        assert!(!served.hub.is_stopped());
+        assert_eq!(served.command("POST /say", r#"{"text": " bring\nme the mug "}"#), 204);
+        assert_eq!(typed.try_iter().collect::<Vec<_>>(), ["bring me the mug"]);
+        assert_eq!(served.command("POST /stop", ""), 204);
+        assert!(served.hub.is_stopped());
+        served.server.finish();
+    }
+
+    #[test]
+    fn server_limits_lines_and_bodies() {
+        let served = served();
+        let (lines, _typed) = channel();
+        served.hub.take_lines(lines);
+        let say = |text: &str| served.command("POST /say", &json!({"text": text}).to_string());
+        assert_eq!(say(&"x".repeat(MOST_LETTERS)), 204);
+        assert_eq!(say(&"x".repeat(MOST_LETTERS + 1)), 422);
+        assert_eq!(say(" \u{7} "), 422);
+        assert_eq!(say(&"x".repeat(MOST_BYTES)), 413);
+        assert_eq!(served.command("POST /say", "{"), 400);
+        assert_eq!(served.command("POST /answer", r#"{"question": "1:#1", "text": "yes"}"#), 409);
+        assert_eq!(served.command("GET /stop", ""), 405);
+        assert_eq!(served.command("GET /../Cargo.toml", ""), 404);
+        served.server.finish();
+    }
+
+    #[test]
+    fn server_gives_a_page_what_follows_its_last_item() {
+        let served = served();
+        for seq in 0..3 {
+            served.hub.push(&format!("1-{seq}"), &json!({"t": "step"}));
+        }
+        let line = format!("GET /events?token={}", served.token());
+        let mut reply = served.ask(&line, "last-event-id: 1-1\r\n", "");
+        assert_eq!(status(&mut reply), 200);
+        served.hub.push("1-3", &json!({"t": "step", "text": "two\nlines"}));
+        served.server.finish();
+        let mut text = String::new();
+        // The server may close the connection in the middle of a chunk.
+        let _ = reply.read_to_string(&mut text);
+        let ids: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("id: ")).collect();
+        assert_eq!(ids, ["1-2", "1-3", "over"]);
+    }
+
+    #[test]
+    fn server_serves_so_many_pages() {
+        let served = served();
+        served.hub.push("1-0", &json!({"t": "step"}));
+        let line = format!("GET /events?token={}", served.token());
+        let mut pages: Vec<_> = (0..MOST_PAGES).map(|_| served.ask(&line, "", "")).collect();
+        assert!(pages.iter_mut().all(|page| status(page) == 200));
+        assert_eq!(served.status(&line, "", ""), 503);
+        served.server.finish();
+    }
+}

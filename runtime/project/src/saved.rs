@@ -68,6 +68,9 @@ pub struct SavedSimulator {
     eye: Option<[f64; 3]>,
     #[serde(default)]
     guard: Option<Box<SavedProject>>,
+    /// True if a person answered the questions of the policy, not the simulated one.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    asks: bool,
 }
 
 impl SavedDriver {
@@ -95,7 +98,23 @@ impl SavedDriver {
             world: options.world.as_ref().map(scene::write),
             eye: options.eye,
             guard: project.map(Box::new),
+            asks: false,
         }))
+    }
+
+    /// The same with a person who answers the questions of the policy.
+    #[must_use]
+    pub fn with_person(mut self) -> Self {
+        if let Self::Simulator(saved) = &mut self {
+            saved.asks = true;
+        }
+        self
+    }
+
+    /// True if a person answered the questions of the policy, not the simulated one.
+    #[must_use]
+    pub fn asks(&self) -> bool {
+        matches!(self, Self::Simulator(saved) if saved.asks)
     }
 
     /// Description of a driver process.
