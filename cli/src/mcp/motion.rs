@@ -35,8 +35,7 @@ pub(super) fn feasible(situation: &Situation, motions: &[String]) -> Result<Tool
     let (machine, scene) = (RobotModel::new(robot, &urdf), &situation.scene);
     let room = (&machine, scene);
     let wanted = if motions.is_empty() { Motions::All } else { Motions::These(motions) };
-    let mut queries =
-        queries(wanted, room, &situation.session, &mut Sources::default(), &mut StderrSink)?;
+    let mut queries = queries(wanted, room, &situation.session, &mut Sources::default(), &mut StderrSink)?;
     queries.truncate(MAX_MOTIONS);
     let (begun, wanted) = (Instant::now(), queries.len());
     let (mut data, mut says) = (Vec::new(), Vec::new());

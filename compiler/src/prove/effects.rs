@@ -412,7 +412,8 @@ pub(super) fn weaken(first: &mut Vec<FactChange>, later: &[FactChange]) {
         };
         changes.iter().find(same).map(|other| other.sure)
     };
-    let added: Vec<FactChange> = later.iter().filter(|change| is_in(first, change).is_none()).copied().collect();
+    let added: Vec<FactChange> =
+        later.iter().filter(|change| is_in(first, change).is_none()).copied().collect();
     for change in first.iter_mut().filter(|change| change.is_sure()) {
         if is_in(later, change) != Some(Certainty::Always) {
             change.sure = Certainty::Unknown;

@@ -25,10 +25,11 @@ impl Writer<'_> {
         let primitive = identifier(primitive.map_or("call", |primitive| &primitive.name));
         let name = format!("contract_{}_{primitive}", id.0);
         let params = self.used(call).join(", ");
-        let mut parts: Vec<(&str, Vec<String>)> = Vec::new();
-        parts.push(("needs", call.needs.iter().map(|need| self.need(need)).collect()));
-        parts.push(("makes", call.effects.iter().map(|effect| self.effect(effect)).collect()));
-        parts.push(("unsettles", call.unsettles.iter().map(|one| self.unsettled(one)).collect()));
+        let parts: [(&str, Vec<String>); 3] = [
+            ("needs", call.needs.iter().map(|need| self.need(need)).collect()),
+            ("makes", call.effects.iter().map(|effect| self.effect(effect)).collect()),
+            ("unsettles", call.unsettles.iter().map(|one| self.unsettled(one)).collect()),
+        ];
         let mut text = format!(
             "\n\ndef {name}({params}) -> Contract:\n    # {}\n    return Contract(\n",
             quoted(&node.path)

@@ -88,7 +88,8 @@ impl Turn<'_> {
             let mut judge = self.judge(fresh);
             judge.each.clone_from(&each);
             asked = judge.condition(when);
-            if asked == Truth::False || asked == Truth::Unknown && judge.condition(&need.condition) == Truth::True
+            if asked == Truth::False
+                || asked == Truth::Unknown && judge.condition(&need.condition) == Truth::True
             {
                 return Truth::True;
             }
