@@ -107,6 +107,13 @@ def test_drive_tells_failures_of_the_driver():
     run = motet.drive(GREET, Mute())
     assert (run.outcome, run.failure) == ("failed", "timeout")
 
+    class Endless(Robot):
+        async def say(self, goal, text):
+            await goal.feedback("x" * 3_000_000)
+            await super().say(goal, text)
+
+    assert motet.drive(GREET, Endless()).ok
+
     class Broken(Robot):
         def begin_run(self, run):
             raise RuntimeError("no power")
