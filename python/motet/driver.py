@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Driver", "Failed", "Goal", "Motion", "Refused", "observes"]
 
+#: Characters of a text for people that the host keeps.
+LONGEST = 1000
+
 Method = TypeVar("Method", bound=Callable[..., Any])
 
 
@@ -135,7 +138,8 @@ class Goal:
     async def feedback(self, text: str) -> None:
         """Says something to people and the journal; the host keeps at most 1,000 characters. Gives other goals a turn."""
         if self._session is not None:
-            self._session.report("feedback", {"goal": self.number, "text": text})
+            # A longer line would count as a flood, and end the connection.
+            self._session.report("feedback", {"goal": self.number, "text": text[:LONGEST]})
         await asyncio.sleep(0)
 
     async def sleep(self, seconds: float) -> None:
@@ -229,7 +233,7 @@ class Driver:
     def report_heard(self, text: str, by: str | None = None) -> None:
         """Says that a person said something that nobody had asked for."""
         if self._session is not None:
-            self._session.report("heard", {"text": text} | ({} if by is None else {"from": by}))
+            self._session.report("heard", {"text": text[:LONGEST]} | ({} if by is None else {"from": by}))
 
     def check_watched(self) -> None:
         """Looks at what the host watches now, instead of within `watch_period`."""

@@ -84,6 +84,13 @@ def metres(clearance: Clearance | None) -> tuple[float | None, float | None]:
     return base, arm  # type: ignore[return-value]
 
 
+def factor(effort: int) -> int:
+    """The factor of a search budget, from 1 to 1000. Raises `motet.InputError`."""
+    if not (isinstance(effort, int) and 1 <= effort <= 1000):
+        raise InputError(f"the effort is a whole number from 1 to 1000, not {effort!r}")
+    return effort
+
+
 def fingerprint(given: Any) -> object:
     """Something that changes with the input, or with the files behind its path."""
     text = name_or_json(given)

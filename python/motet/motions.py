@@ -10,7 +10,7 @@ from html import escape
 from typing import Any, Literal, overload
 
 from . import _motet
-from .inputs import Clearance, RobotLike, SceneLike, metres, name_or_json
+from .inputs import Clearance, RobotLike, SceneLike, factor, metres, name_or_json
 from .report import Report
 
 __all__ = ["Feasibility", "MotionVerdict", "feasible"]
@@ -118,6 +118,6 @@ def feasible(
     given = None if motions is None else [motions] if isinstance(motions, str) else list(motions)
     base_m, arm_m = metres(clearance)
     verdicts, svg, findings = _motet.feasible(
-        name_or_json(robot), name_or_json(scene), given, effort=effort, base_m=base_m, arm_m=arm_m
+        name_or_json(robot), name_or_json(scene), given, effort=factor(effort), base_m=base_m, arm_m=arm_m
     )
     return Feasibility(verdicts, svg, Report(findings))

@@ -6,11 +6,12 @@ import json
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
+from math import inf
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 from . import _motet
 from .driver import Driver
-from .errors import PolicyError
+from .errors import InputError, PolicyError
 from .graph import Graph
 from .inputs import (
     Clearance,
@@ -20,6 +21,7 @@ from .inputs import (
     SceneLike,
     StateLike,
     document,
+    factor,
     fingerprint,
     metres,
     name_or_json,
@@ -73,13 +75,16 @@ class Project:
         clearance: Clearance | None = None,
     ) -> None:
         base_m, arm_m = metres(clearance)
+        if max_duration is not None and not 0.0 < max_duration < inf:
+            raise InputError(f"the duration of a policy is above 0 s, not {max_duration!r}")
+        domains = [domains] if isinstance(domains, str) else domains
         self._native = _motet.Project(
             robot=None if robot is None else name_or_json(robot),
             scene=None if scene is None else name_or_json(scene),
             state=None if state is None else name_or_json(state),
             domains=[name_or_json(path) for path in domains],
             max_duration=max_duration,
-            effort=effort if geometry else None,
+            effort=factor(effort) if geometry else None,
             base_m=base_m,
             arm_m=arm_m,
         )
@@ -206,7 +211,9 @@ MOST_OPEN = 8
 
 def _project(inputs: Inputs) -> Project:
     """A project with these inputs: one that is open, if its files are still the same."""
-    paths = [inputs.get(name) for name in ("robot", "scene", "state")] + list(inputs.get("domains", ()))
+    domains = inputs.get("domains", ())
+    paths = [inputs.get(name) for name in ("robot", "scene", "state")]
+    paths += [domains] if isinstance(domains, str) else list(domains)
     files = [None if path is None else fingerprint(path) for path in paths]
     rest = {name: value for name, value in inputs.items() if name not in ("robot", "scene", "state", "domains")}
     key = json.dumps([files, sorted(rest.items())], default=repr)

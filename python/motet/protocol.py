@@ -12,15 +12,13 @@ from collections.abc import Callable
 from typing import Any
 
 from .clock import DriverLoop
-from .driver import Driver, Failed, Goal, Refused
+from .driver import LONGEST, Driver, Failed, Goal, Refused
 from .values import encode
 
 __all__ = ["Session"]
 
 PROTOCOL = 2
 REFUSED, METHOD_NOT_FOUND, INVALID_PARAMS, INTERNAL = 1, -32601, -32602, -32603
-#: Texts that are longer are cut by the host; lines may have 1 MiB.
-LONGEST = 1000
 
 
 class CallError(Exception):

@@ -7,6 +7,9 @@ use pyo3::prelude::*;
 use crate::errors::input_error;
 use crate::findings::Findings;
 
+/// Verdicts as pairs of text and JSON, a drawing as SVG, and the findings on the inputs.
+type Verdicts = (Vec<(String, String)>, String, Findings);
+
 /// The verdicts on motions, or on all motions of a scene, as pairs of text and JSON; a drawing as SVG; and
 /// the findings on the inputs.
 #[pyfunction]
@@ -19,7 +22,7 @@ pub(crate) fn feasible(
     effort: u16,
     base_m: Option<f64>,
     arm_m: Option<f64>,
-) -> PyResult<(Vec<(String, String)>, String, Findings)> {
+) -> PyResult<Verdicts> {
     let question = FeasibilityQuestion {
         robot,
         scene,

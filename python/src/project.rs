@@ -33,6 +33,9 @@ struct Inner {
     of_robots: BTreeMap<String, Findings>,
 }
 
+/// Document after its fixes, each fix as code, title and safety, and the findings on what is left.
+type Fixed = (Option<String>, Vec<(String, String, bool)>, Findings);
+
 /// Document that is read, with its session and the findings on the inputs.
 struct Read {
     source: Source,
@@ -145,7 +148,7 @@ impl Project {
         name: &str,
         document: Option<&[u8]>,
         unsafe_fixes: bool,
-    ) -> PyResult<(Option<String>, Vec<(String, String, bool)>, Findings)> {
+    ) -> PyResult<Fixed> {
         let limits = if unsafe_fixes { FixLimits::all(MAX_FIXES) } else { FixLimits::safe(MAX_FIXES) };
         let (text, applied) = py
             .detach(|| {

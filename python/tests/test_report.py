@@ -118,8 +118,15 @@ def test_robots_scenes_and_states_are_values_names_and_paths():
     assert raised.value.diagnostics
     with pytest.raises(motet.InputError, match="there is no scene `kitchn`.*did you mean"):
         motet.check(policy, scene="kitchn")
-    with pytest.raises(motet.InputError, match="clearance"):
-        motet.check(policy, clearance={"base": 9.0})
+    for wrong in (
+        {"clearance": {"base": 9.0}}, {"clearance": {"leg": 0.1}}, {"effort": 0}, {"effort": 1 << 20}, {"max_duration": -1.0},
+        {"max_duration": float("nan")}, {"robot": "{"}, {"robot": {"name": None}}, {"robot": b"hsr"}, {"scene": "[" * 5000},
+        {"scene": {"a": object()}}, {"state": {"on(a, b)": 1}}, {"domains": "nowhere.motet"}, {"robot": "/"},
+    ):
+        with pytest.raises(motet.InputError):
+            motet.check(policy, **wrong)
+    with pytest.raises(TypeError, match="bogus"):
+        motet.check(policy, bogus=1)
     held = {"holding(mug_1)": True, "free(hand)": False, "at(robot, shelf)": True}
     carry = "policy p for hsr { place(mug_1, shelf) done }"
     assert motet.check(carry, scene="kitchen").errors and "M0501" not in {

@@ -4,7 +4,6 @@ import asyncio
 import json
 import signal
 import threading
-import time
 
 import motet
 import pytest
@@ -93,7 +92,7 @@ def test_drive_on_the_clock_of_the_wall_gives_the_driver_its_turn():
         owns_clock = False
 
         async def say(self, goal, text):
-            time.sleep(0.01)  # A blocking call of a library.
+            sum(range(100_000))  # A call of a library that does not await.
             self.said.append(threading.current_thread().name)
 
     robot = Slow()
@@ -107,6 +106,13 @@ def test_drive_tells_failures_of_the_driver():
 
     run = motet.drive(GREET, Mute())
     assert (run.outcome, run.failure) == ("failed", "timeout")
+
+    class Endless(Robot):
+        async def say(self, goal, text):
+            await goal.feedback("x" * 3_000_000)
+            await super().say(goal, text)
+
+    assert motet.drive(GREET, Endless()).ok
 
     class Broken(Robot):
         def begin_run(self, run):

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import motet
 import pytest
+from conftest import ROOT
 from motet import _motet
 
 PACKAGE = Path(motet.__file__).parent
@@ -73,15 +74,15 @@ def test_the_stub_has_what_the_module_has():
 
 def test_mypy_is_content():
     pytest.importorskip("mypy")
-    done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "-p", "motet"], capture_output=True, text=True, cwd=PACKAGE.parents[0]
-    )
-    assert done.returncode == 0, done.stdout
+    words = [sys.executable, "-m", "mypy", "--strict", "motet"]
+    done = subprocess.run(words, capture_output=True, text=True, cwd=ROOT / "python")
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_pyright_knows_the_type_of_every_public_name():
     pytest.importorskip("pyright")
     words = [sys.executable, "-m", "pyright", "--verifytypes", "motet", "--ignoreexternal", "--outputjson"]
+    words += ["--pythonpath", sys.executable]
     done = subprocess.run(words, capture_output=True, text=True)
     if not done.stdout.startswith("{"):
         pytest.skip(f"pyright does not run: {(done.stdout + done.stderr)[:200]}")
