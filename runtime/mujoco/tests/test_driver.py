@@ -53,6 +53,15 @@ def test_a_drawer_opens_and_closes_by_contact(drive):
     assert not host.holds("open", "drawer_1")
 
 
+def test_the_robot_goes_on_after_it_opened_a_drawer(drive):
+    """The arm has no room to fold where it opened the drawer: the base draws back first."""
+    host = drive("hsr", "kitchen")
+    host.carry_out("go", to=entity("drawer_1"))
+    assert host.carry_out("open", what=entity("drawer_1")) == {"success": None}
+    assert host.carry_out("go", to=entity("mug_1")) == {"success": None}
+    assert host.holds("open", "drawer_1")
+
+
 def test_holding_stopping_and_cancelling(drive):
     host = drive("hsr", "kitchen")
     goal, answer = host.start("go", to=entity("counter"))
