@@ -73,7 +73,7 @@ class Driver:
         self.oracle, self.walks, self.says = oracle, list(walks), list(says)
         self.instance = "%d-%d" % (os.getpid(), time.time_ns())
         self.say = lambda message: None
-        self.run, self.protocol, self.has_clock = None, 2, False
+        self.run, self.protocol, self.has_clock, self.is_greeted = None, 2, False, False
         self.declared, self.offset = {}, 0.0
         self.make()
 
@@ -114,7 +114,7 @@ class Driver:
         self.declared = {one["name"]: one.get("fails", []) for one in params.get("primitives", [])}
         # The time of a run begins at 0, or goes on where the host says.
         self.offset = self.world.now - float(params.get("at", 0.0))
-        self.has_clock = version >= 2
+        self.has_clock, self.is_greeted = version >= 2, True
         capabilities = {"hold": "all", "update": {"only": []}}
         if version >= 2:
             capabilities.update({"clock": "driver", "moved": True, "look": True, "detections": True, "told": True})
@@ -374,13 +374,15 @@ def serve(driver, read_fd, write, speed=1.0):
     rest, heard, began = b"", time.monotonic(), time.monotonic()
     offset = driver.world.now
     while True:
-        if driver.has_clock:
+        if driver.has_clock or not driver.is_greeted:
+            # Until the host has said whose the clock is, nothing moves.
             wait = None
+            began = time.monotonic()
         else:
             behind = offset + (time.monotonic() - began) * speed - driver.world.now
             wait = 0.0 if behind >= driver.world.tick else driver.world.tick / speed
         ready = selector.select(wait)
-        if not driver.has_clock:
+        if not driver.has_clock and driver.is_greeted:
             ticks = 0
             while offset + (time.monotonic() - began) * speed - driver.world.now >= driver.world.tick and ticks < 50:
                 driver.tick()

@@ -24,8 +24,9 @@ UNLIKE_ANYWHERE = 0.3
 # Every which row and column of a depth picture is looked at, for what is known; the distance in m up to which a point
 # is on it, and the number of points that show it.
 GRID, ON, ENOUGH = 6, 0.02, 8
-# Distance in m from a thing up to which what is seen is a part of it.
-PART = 0.03
+# Distance in m from a thing up to which what is seen is a part of it, and the share of its size below which a view of it
+# is of a part.
+PART, PARTLY = 0.03, 0.8
 # Parts of the travel of a drawer or door that are told apart.
 STEPS = 5
 # Distance in m from which a thing counts as being elsewhere.
@@ -195,6 +196,10 @@ class Eyes:
             picture = self.camera.look(name)
             self.pictures.append(picture)
             found.extend(self.ask(dict(picture.message(), solids=self.solids())))
+        held = self.world.held()
+        for thing in held:
+            # Where the hand holds it, the robot knows it.
+            self.beliefs.saw(thing, *self.world.pose(thing))
         taken = set()
         for one in found:
             one["id"] = self.match(one, taken)
@@ -202,8 +207,18 @@ class Eyes:
                 taken.add(one["id"])
                 entity = self.world.model.entities[one["id"]]
                 one["label"] = (entity.get("names") or [entity.get("class") or one["id"]])[0]
-                one["pose"]["xyz"] = centred(one, entity)
-        return [one for one in found if one["id"] is not None or not self.is_part(one, taken)]
+                one["pose"]["xyz"] = self.middle(one)
+        parts = taken.union(held)
+        return [one for one in found if one["id"] is not None or not self.is_part(one, parts)]
+
+    def middle(self, one):
+        """Middle of a known thing of which a side was seen. A part of it that is seen where the thing should be says
+        that it is there."""
+        entity, believed = self.world.model.entities[one["id"]], self.beliefs.entities[one["id"]]
+        is_part = np.max(one["extent"]) < PARTLY * np.max(extent(entity))
+        if is_part and self.beliefs.gap(one["id"], one["pose"]["xyz"]) in (None, 0.0) and "pose" in believed:
+            return [round(float(part), 4) for part in believed["pose"]["xyz"]]
+        return centred(one, entity)
 
     def is_part(self, one, taken):
         """True for a detection that is a part of a thing of which another part was recognised, as where something

@@ -356,7 +356,7 @@ def interval(held, of):
         return 0.0, 1.0
     z, share = 1.959964, held / of
     middle, spread = share + z * z / (2 * of), z * np.sqrt(share * (1 - share) / of + z * z / (4 * of * of))
-    return max(0.0, (middle - spread) / (1 + z * z / of)), min(1.0, (middle + spread) / (1 + z * z / of))
+    return max(0.0, (middle - spread) / (1 + z * z / of)), min(1.0, max(share, (middle + spread) / (1 + z * z / of)))
 
 
 def aim_of(kind, robot):

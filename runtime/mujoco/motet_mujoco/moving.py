@@ -12,6 +12,8 @@ from .motion import Path, Stroke, near_turn, rotation_vector, set_targets, timed
 BEGINS = 0.05
 # Error in m or rad of a servo above which something is in the way.
 BLOCKED = 0.12
+# Distances in m that the base draws back where the arm has no room to fold.
+RETREATS = (0.15, 0.3, 0.45)
 # Greatest acceleration of the hand while it holds something, in m/s² and rad/s².
 HELD = (1.0, 3.0)
 
@@ -227,12 +229,44 @@ class Mover:
         return target
 
     def home_again(self, begun, motion):
-        """Brings the arm to where the command leaves it, by a way of its own."""
-        if motion.leaves is None or np.abs(self.goal - self.leaves(motion, begun))[self.arm_and_base()].max() > 0.02:
-            witness, _ = self.planner.plan(self.beliefs.now(), "posture(home)")
+        """Brings the robot to where the command leaves it, by a way of its own: away from what it opened or closed,
+        the arm home, and the base to its place."""
+        leaves = self.leaves(motion, begun)
+        if motion.leaves is not None and np.abs(self.goal - leaves)[self.arm_and_base()].max() <= 0.02:
+            return
+        witness, _ = self.planner.plan(self.beliefs.now(), "posture(home)")
+        if witness is None and self.world.model.drives:
+            witness = yield from self.retreat("posture(home)")
+        if witness is None:
+            return
+        yield from self.follow(self.own(witness, motion))
+        self.observer.posture = "home"
+        if motion.leaves is not None and self.world.model.drives:
+            x, y, yaw = leaves[:3]
+            query = "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw)
+            witness, _ = self.planner.plan(self.beliefs.now(), query)
             if witness is not None:
                 yield from self.follow(self.own(witness, motion))
-                self.observer.posture = "home"
+
+    def retreat(self, query):
+        """Moves the base a little to where it has room for a motion: against the way that the hand points, or to a
+        side. Gives the witness of the motion from there, or None where there is no such place."""
+        ahead, clearance = self.world.tip()[1][:2, 2], Clearance(self.world, self.beliefs)
+        ahead = float(np.arctan2(ahead[1], ahead[0]))
+        for far in RETREATS:
+            for turn in (1.0, 0.75, -0.75, 0.5, -0.5, 0.25, -0.25):
+                target = self.goal.copy()
+                target[:2] += far * np.array([np.cos(ahead + turn * np.pi), np.sin(ahead + turn * np.pi)])
+                between = [self.goal + (target - self.goal) * share for share in np.linspace(0.1, 1.0, 10)]
+                if not clearance.is_free(self.goal, self.goal, between):
+                    continue
+                scene = self.beliefs.now()
+                scene["robot"]["base"] = [float(part) for part in target[:3]]
+                witness, _ = self.planner.plan(scene, query)
+                if witness is not None:
+                    yield from self.follow(self.path([self.goal.copy(), target]))
+                    return witness
+        return None
 
 
 class Motion:

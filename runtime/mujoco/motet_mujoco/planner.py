@@ -8,6 +8,12 @@ import tempfile
 from .model import ModelError, motet
 
 
+# Clearances of a robot that stands too near to something.
+LEAST = "base=0.01,arm=0.005"
+# Search budget of a motion that the usual one did not decide.
+EFFORT = "10"
+
+
 class Planner:
     """Plans where a command brings no motion, or one that begins elsewhere."""
 
@@ -15,13 +21,23 @@ class Planner:
         self.command, self.robot = command, robot
 
     def plan(self, scene, query):
-        """(witness, None), or (None, (reason, text)) where there is none."""
+        """(witness, None), or (None, (reason, text)) where there is none. Where the robot stands too near to something
+        for the clearance that it keeps, it moves with less; where a search ends without an answer, it tries for longer."""
+        witness, why = self.ask(scene, query)
+        if witness is None and "budget" in why[1]:
+            witness, _ = self.ask(scene, query, "--effort", EFFORT)
+        elif witness is None and "clearance" in why[1]:
+            witness, _ = self.ask(scene, query, "--clearance", LEAST)
+        return witness, None if witness is not None else why
+
+    def ask(self, scene, query, *flags):
+        """The answer to one question, as `plan` gives it."""
         handle, path = tempfile.mkstemp(suffix=".json", prefix="motet-")
         try:
             with os.fdopen(handle, "w", encoding="utf-8") as out:
                 json.dump(scene, out)
             text = motet(self.command, "feasible", "--robot", self.robot, "--scene", path, "--for", query,
-                         "--format", "json", ok=(0, 1))
+                         "--format", "json", *flags, ok=(0, 1))
         except ModelError as error:
             return None, ("unknown", str(error))
         finally:

@@ -6,13 +6,15 @@ A task that is not resumed holds still, since the targets stay where they are.
 import numpy as np
 
 from .camera import NoGraphics
-from .motion import phases
+from .motion import near_turn, phases
 from .moving import Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted
 
 # Distance in m from a thing up to which a given point counts as being at it.
 NEAR_GRASP = 0.05
+# Distances in m, beyond that of a drive to a person, from which the hand may hold something out.
+OFFERS = (0.0, 0.15, -0.1)
 
 
 class Tasks(Mover):
@@ -34,9 +36,36 @@ class Tasks(Mover):
 
     def do_go(self, args, motion):
         to = entity(args["to"])
-        yield from self.drive(self.motion(motion, "go_to(%s)" % quoted(to)), to)
+        path, held = self.motion(motion, "go_to(%s)" % quoted(to)), self.world.held()
+        if motion.witness is None and held and to in self.world.model.people:
+            path = self.offering(path, held[0], to, motion)
+        yield from self.drive(path, to)
         self.observer.visited.add(to)
         self.observer.visited.update(self.world.bearers(to) if to in self.world.model.free else [])
+
+    def offering(self, path, thing, person, motion):
+        """The path to a place from which the hand can hold a thing out to a person: its own, or else one around the
+        person. Its own where no place was found."""
+        query, scene = "offer(%s, %s)" % (quoted(thing), quoted(person)), self.beliefs.now()
+        end, (x, y, _) = path.points[-1][:3], self.beliefs.entities[person]["pose"]["xyz"]
+        far, angle = float(np.hypot(*(end[:2] - [x, y]))), float(np.arctan2(end[1] - y, end[0] - x))
+        places = [tuple(float(part) for part in end)]
+        for off in OFFERS:
+            for aside in (0.0, 0.3, -0.3, 0.8, -0.8):
+                at = angle + aside
+                stand = x + (far + off) * np.cos(at), y + (far + off) * np.sin(at)
+                places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in (0.0, 1.2, -1.2))
+        for at, (px, py, yaw) in enumerate(places):
+            scene["robot"]["base"] = [float(px), float(py), float(yaw)]
+            if self.planner.ask(scene, query)[0] is None:
+                continue
+            if at == 0:
+                return path
+            place = "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (px, py, yaw)
+            witness, _ = self.planner.plan(self.beliefs.now(), place)
+            if witness is not None:
+                return self.own(witness, motion)
+        return path
 
     def drive(self, path, to):
         held = self.world.held()

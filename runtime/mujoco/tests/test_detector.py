@@ -121,3 +121,16 @@ def test_parts_of_a_thing_are_no_new_things(motet):
         eyes.close()
     assert "magazine" in {one["id"] for one in found}
     assert not [one for one in found if one["id"] is None and one["confidence"] > 0.5], found
+
+
+def test_a_side_of_a_large_thing_tells_where_all_of_it_is(motet):
+    """From the start the camera at the wrist sees the near side of the vise, 13 cm before its middle."""
+    world = World(load("anymal_z1", "lab", motet))
+    eyes = Eyes(world, Observer(world), Beliefs(world))
+    try:
+        found = {one["id"]: one for one in eyes.detections()}
+    except NoGraphics as error:
+        pytest.skip(str(error))
+    finally:
+        eyes.close()
+    assert np.linalg.norm(np.array(found["vise"]["pose"]["xyz"]) - world.pose("vise")[0]) < 0.05

@@ -5,6 +5,8 @@ import os
 
 import pytest
 from host import Host, entity, pose, text
+from motet_mujoco.driver import Driver, Options, serve
+from motet_mujoco.model import load
 
 # A profile in which things stand elsewhere, and all else is as it should be.
 SHIFTED = os.path.join(os.path.dirname(__file__), "shifted.toml")
@@ -51,6 +53,15 @@ def test_a_drawer_opens_and_closes_by_contact(drive):
     assert host.holds("open", "drawer_1")
     assert host.carry_out("close", what=entity("drawer_1")) == {"success": None}
     assert not host.holds("open", "drawer_1")
+
+
+def test_the_robot_goes_on_after_it_opened_a_drawer(drive):
+    """The arm has no room to fold where it opened the drawer: the base draws back first."""
+    host = drive("hsr", "kitchen")
+    host.carry_out("go", to=entity("drawer_1"))
+    assert host.carry_out("open", what=entity("drawer_1")) == {"success": None}
+    assert host.carry_out("go", to=entity("mug_1")) == {"success": None}
+    assert host.holds("open", "drawer_1")
 
 
 def test_holding_stopping_and_cancelling(drive):
@@ -136,6 +147,21 @@ def test_the_same_calls_give_the_same_reports(drive):
     first = run("3")
     assert first == run("3")
     assert first != run("4")
+
+
+def test_nothing_moves_before_the_host_has_greeted(motet, monkeypatch):
+    """A machine that is slow to start must not change what happens: the world began to move by the wall clock."""
+    driver = Driver(load("hsr", "kitchen", motet), motet, Options(), oracle=True)
+    reader, writer = os.pipe()
+    os.write(writer, b"\n" + json.dumps({"jsonrpc": "2.0", "id": 1, "method": "hello", "params": {
+        "protocol": 2, "run": "test", "primitives": []}}).encode() + b"\n")
+    os.close(writer)
+    hours = iter(range(0, 10**6, 3600))
+    monkeypatch.setattr("motet_mujoco.driver.time.monotonic", lambda: float(next(hours)))
+    before, said = driver.world.now, []
+    serve(driver, reader, said.append)
+    os.close(reader)
+    assert driver.world.now == before and len(said) == 1
 
 
 def test_looking(drive):
