@@ -20,4 +20,5 @@ pub(crate) mod replay;
 pub(crate) mod robots;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod serve;
 pub(crate) mod talk;

@@ -20,6 +20,7 @@ use motet_runtime::{
 };
 use motet_sim::{Faults, Profile, Sim, SimOptions};
 
+use crate::Workers;
 use crate::actions::{ActionFaults, ActionLedger};
 use crate::outcome::StepFailures;
 use crate::planners::PlannerKind;
@@ -59,6 +60,7 @@ pub struct Bench {
     pub profile: Profile,
     pub driver: DriverKind,
     pub planner: PlannerKind,
+    pub workers: Workers,
 }
 
 impl Bench {
@@ -72,7 +74,13 @@ impl Bench {
             return Err(format!("the physics driver has no profile `{world}`, only the built-in ones"));
         }
         let profile = motet_project::read_profile(world).map_err(|error| error.to_string())?;
-        Ok(Self { world: world.to_owned(), profile, driver, planner: PlannerKind::Builtin })
+        Ok(Self {
+            world: world.to_owned(),
+            profile,
+            driver,
+            planner: PlannerKind::Builtin,
+            workers: Workers::default(),
+        })
     }
 
     /// The simulated world without errors of its own.
@@ -80,7 +88,8 @@ impl Bench {
     pub fn ideal() -> Self {
         let world = "ideal".to_owned();
         let (driver, planner) = (DriverKind::Kinematic, PlannerKind::Builtin);
-        Self { world, profile: Profile::default(), driver, planner }
+        let workers = Workers::default();
+        Self { world, profile: Profile::default(), driver, planner, workers }
     }
 
     /// A robot in a room: it was told the one, and the other is real. In physics it knows the real room.

@@ -174,7 +174,8 @@ pub fn trials(bench: &Bench, seed: u64, count: usize) -> Result<Vec<Trial>, Stri
             drawn.extend((0..count).map(|index| (task, robot, index, random.random())));
         }
     }
-    let trials = super::spread(drawn, |(task, robot, index, draw)| run(bench, task, robot, index, draw));
+    let trials =
+        bench.workers.spread(drawn, |(task, robot, index, draw)| run(bench, task, robot, index, draw));
     trials.into_iter().collect()
 }
 

@@ -16,9 +16,11 @@ pub mod setup;
 pub mod tasks;
 pub mod world;
 
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use indexmap::IndexMap;
+use motet::batch::{self, Shard};
 use motet_compiler::Session;
 use motet_syntax::{Diagnostic, Severity, Source, Sources};
 use serde::Serialize;
@@ -122,31 +124,34 @@ fn sums(rows: &[&Judged]) -> Summary {
     }
 }
 
-/// Runs something on each item, on several threads; the results come in the order of the items.
-#[must_use]
-pub fn spread<T: Send, R: Send>(items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
-    const THREADS: usize = 4;
-    let mut shares: Vec<Vec<(usize, T)>> = (0..THREADS).map(|_| Vec::new()).collect();
-    for (index, item) in items.into_iter().enumerate() {
-        if let Some(share) = shares.get_mut(index % THREADS) {
-            share.push((index, item));
-        }
+/// Threads of a suite, and the share of its items that this process takes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Workers {
+    /// Number of threads.
+    pub jobs: usize,
+    /// Share of the items.
+    pub shard: Shard,
+}
+
+impl Default for Workers {
+    /// A thread for each core, and all items.
+    fn default() -> Self {
+        let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+        Self { jobs, shard: Shard::default() }
     }
-    let mut done: Vec<(usize, R)> = std::thread::scope(|scope| {
-        let run = &run;
-        let work = |share: Vec<(usize, T)>| {
-            scope.spawn(move || share.into_iter().map(|(index, item)| (index, run(item))).collect::<Vec<_>>())
-        };
-        let threads: Vec<_> = shares.into_iter().map(work).collect();
-        let joined = threads.into_iter().map(|thread| match thread.join() {
-            Ok(done) => done,
-            // What goes wrong in a trial is not lost with its thread.
-            Err(panic) => std::panic::resume_unwind(panic),
+}
+
+impl Workers {
+    /// Runs something on each item of the share; the results are in the order of the items.
+    pub fn spread<T: Send, R: Send>(self, items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
+        let items = items.into_iter().enumerate().filter(|(index, _)| self.shard.has(*index));
+        let mut done = Vec::new();
+        let _ = batch::in_order(self.jobs, 1, items.map(|(_, item)| item), run, |result| {
+            done.push(result);
+            ControlFlow::<()>::Continue(())
         });
-        joined.flatten().collect()
-    });
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, result)| result).collect()
+        done
+    }
 }
 
 /// Checks a policy document under a domain of declarations, without robot and scene.

@@ -18,6 +18,9 @@
 //! - `reach [SCENE|--rooms N --seed S]` asks motion queries.
 //! - `physics --robot NAME [--seeds N]` carries every feasible verdict out in MuJoCo, and exits with 0 if the
 //!   shares that it bears out reach the aims.
+//!
+//! All suites but `reach` and `physics` take `-j N`, a number of threads, and `--shard K/N`, which takes each
+//! N-th item from the K-th on.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -27,18 +30,18 @@ use motet_eval::bench::{Bench, DriverKind};
 use motet_eval::planners::PlannerKind;
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary, tasks,
-    world,
+    Judged, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary,
+    tasks, world,
 };
 use motet_sim::Profile;
 
 /// Suite over the lines of a file.
-type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
+type Suite = fn(Workers, &[(usize, &str)]) -> Result<Report, String>;
 
 const SUITES: &[(&str, Suite)] = &[
-    ("planbench", |lines| judged(lines, planbench::judge)),
-    ("scenarios", |lines| judged(lines, scenarios::judge)),
-    ("saycan", |lines| judged(lines, saycan::judge)),
+    ("planbench", |workers, lines| judged(workers, lines, planbench::judge)),
+    ("scenarios", |workers, lines| judged(workers, lines, scenarios::judge)),
+    ("saycan", |workers, lines| judged(workers, lines, saycan::judge)),
     ("repairs", repaired),
 ];
 
@@ -52,6 +55,7 @@ struct Flags {
     planner: Option<String>,
     model: Option<String>,
     trials: Option<usize>,
+    workers: Workers,
     words: Vec<String>,
 }
 
@@ -72,7 +76,13 @@ impl Flags {
                     let wrong = |_| format!("`{number}` is no number of trials");
                     flags.trials = Some(number.parse().map_err(wrong)?);
                 }
-                flag if flag.starts_with("--") => return Err(format!("there is no flag `{flag}`")),
+                "-j" | "--jobs" => {
+                    let number = value()?;
+                    let jobs = number.parse().ok().filter(|jobs| (1..=1024).contains(jobs));
+                    flags.workers.jobs = jobs.ok_or_else(|| format!("`{number}` is no number of threads"))?;
+                }
+                "--shard" => flags.workers.shard = value()?.parse()?,
+                flag if flag.starts_with('-') => return Err(format!("there is no flag `{flag}`")),
                 word => flags.words.push(word.to_owned()),
             }
         }
@@ -84,7 +94,8 @@ impl Flags {
         let planner = self.planner.as_deref().unwrap_or("builtin");
         let planner = PlannerKind::read(planner, self.model.as_deref())?;
         let world = self.world.as_deref().unwrap_or("typical");
-        Ok(Bench { planner, ..Bench::new(world, self.driver.unwrap_or_default())? })
+        let workers = self.workers;
+        Ok(Bench { planner, workers, ..Bench::new(world, self.driver.unwrap_or_default())? })
     }
 
     /// True if a world, a driver or a planner is asked for.
@@ -158,10 +169,10 @@ fn run() -> Result<bool, String> {
     }
     if let ["world", count] = words.as_slice() {
         let count = count.parse().map_err(|_| usage())?;
-        return shown(&failing(count)?, only_json);
+        return shown(&failing(flags.workers, count)?, only_json);
     }
     if words == ["mutations"] {
-        return shown(&mutated()?, only_json);
+        return shown(&mutated(flags.workers)?, only_json);
     }
     let [name, file] = words.as_slice() else { return Err(usage()) };
     let known = SUITES.iter().find(|(known, _)| known == name);
@@ -173,7 +184,7 @@ fn run() -> Result<bool, String> {
     let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let lines: Vec<_> = lines.map(|(index, line)| (index + 1, line)).collect();
-    let report = suite(&lines).map_err(|problem| format!("{file}:{problem}"))?;
+    let report = suite(flags.workers, &lines).map_err(|problem| format!("{file}:{problem}"))?;
     shown(&report, only_json)
 }
 
@@ -188,13 +199,22 @@ fn shown(report: &Report, only_json: bool) -> Result<bool, String> {
     Ok(report.is_good)
 }
 
-/// Runs over every line; a problem is named by its line.
-fn each<T>(lines: &[(usize, &str)], run: impl Fn(&str) -> Result<T, String>) -> Result<Vec<T>, String> {
-    lines.iter().map(|(number, line)| run(line).map_err(|problem| format!("{number}: {problem}"))).collect()
+/// Runs over every line of the share; a problem is named by its line.
+fn each<T: Send>(
+    workers: Workers,
+    lines: &[(usize, &str)],
+    run: impl Fn(&str) -> Result<T, String> + Sync,
+) -> Result<Vec<T>, String> {
+    let run = |(number, line): (usize, &str)| run(line).map_err(|problem| format!("{number}: {problem}"));
+    workers.spread(lines.to_vec(), run).into_iter().collect()
 }
 
-fn judged(lines: &[(usize, &str)], judge: fn(&str) -> Result<Judged, String>) -> Result<Report, String> {
-    let rows = each(lines, judge)?;
+fn judged(
+    workers: Workers,
+    lines: &[(usize, &str)],
+    judge: fn(&str) -> Result<Judged, String>,
+) -> Result<Report, String> {
+    let rows = each(workers, lines, judge)?;
     let sums = summary(&rows);
     Ok(Report {
         lines: rows.iter().filter_map(Judged::disagreement).collect(),
@@ -269,8 +289,8 @@ fn tasked(flags: &Flags, files: &[&str]) -> Result<Report, String> {
 /// The folder of the examples.
 const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
 
-fn mutated() -> Result<Report, String> {
-    let ends = mutations::judge(mutations::mutants(Path::new(EXAMPLES))?, 0)?;
+fn mutated(workers: Workers) -> Result<Report, String> {
+    let ends = mutations::judge(workers, mutations::mutants(Path::new(EXAMPLES))?, 0)?;
     let notes = ends.iter().filter_map(|(mutant, end)| match end {
         mutations::MutantEnd::Unlisted(why) => Some(format!("{}: {why}", mutant.name)),
         _ => None,
@@ -283,9 +303,9 @@ fn mutated() -> Result<Report, String> {
     })
 }
 
-fn failing(count: usize) -> Result<Report, String> {
+fn failing(workers: Workers, count: usize) -> Result<Report, String> {
     let harsh = Profile::builtin("harsh").ok_or("there is no profile `harsh`")?;
-    let ends = world::carry_out(world::runs(Path::new(EXAMPLES), count)?, &harsh);
+    let ends = world::carry_out(workers, world::runs(Path::new(EXAMPLES), count)?, &harsh);
     let untrue = ends.iter().filter(|end| end.is_done && !end.is_true).map(serde_json::to_string);
     let sums = world::sums(&ends);
     Ok(Report {
@@ -295,8 +315,8 @@ fn failing(count: usize) -> Result<Report, String> {
     })
 }
 
-fn planned_from_text(lines: &[(usize, &str)]) -> Result<Report, String> {
-    let rows = each(lines, planned::attempt)?;
+fn planned_from_text(workers: Workers, lines: &[(usize, &str)]) -> Result<Report, String> {
+    let rows = each(workers, lines, planned::attempt)?;
     let sums = planned::sums(rows.iter());
     let notes = rows
         .iter()
@@ -308,8 +328,8 @@ fn planned_from_text(lines: &[(usize, &str)]) -> Result<Report, String> {
     })
 }
 
-fn repaired(lines: &[(usize, &str)]) -> Result<Report, String> {
-    let rows: Vec<_> = each(lines, scenarios::repair)?.into_iter().flatten().collect();
+fn repaired(workers: Workers, lines: &[(usize, &str)]) -> Result<Report, String> {
+    let rows: Vec<_> = each(workers, lines, scenarios::repair)?.into_iter().flatten().collect();
     let sums = repairs::summary(&rows);
     Ok(Report {
         lines: rows.iter().map(repairs::Repair::line).collect(),

@@ -132,7 +132,11 @@ pub fn trials(bench: &Bench, tasks: &[Task], count: usize) -> Result<Vec<TaskTri
             drawn.extend((0..count).map(|seed| (task, robot, seed as u64)));
         }
     }
-    super::spread(drawn, |(task, robot, seed)| task.carry_out(bench, robot, seed)).into_iter().collect()
+    bench
+        .workers
+        .spread(drawn, |(task, robot, seed)| task.carry_out(bench, robot, seed))
+        .into_iter()
+        .collect()
 }
 
 /// Person who answers by the kind of the problem.

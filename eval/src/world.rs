@@ -23,7 +23,7 @@ use motet_syntax::{FileId, Source, Sources};
 use serde::Serialize;
 
 use crate::outcome::{FailureSort, StepFailures};
-use crate::{dialogue, mutations};
+use crate::{Workers, dialogue, mutations};
 
 /// Requests in words, by their tasks.
 const WORDINGS: &str = "\
@@ -92,8 +92,8 @@ pub fn runs(folder: &Path, count: usize) -> Result<Vec<WorldRun>, String> {
 
 /// Carries out runs in a profile.
 #[must_use]
-pub fn carry_out(runs: Vec<WorldRun>, profile: &Profile) -> Vec<WorldEnd> {
-    super::spread(runs, |run| run.carry_out(profile))
+pub fn carry_out(workers: Workers, runs: Vec<WorldRun>, profile: &Profile) -> Vec<WorldEnd> {
+    workers.spread(runs, |run| run.carry_out(profile))
 }
 
 /// Notes failures of steps.

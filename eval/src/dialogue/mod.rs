@@ -129,5 +129,5 @@ pub fn trials(bench: &Bench, wordings: &str) -> Result<Vec<Trial>, String> {
         cases.retain(|case| !case.failures.iter().any(is_injected));
     }
     let seeded = cases.into_iter().enumerate().collect();
-    super::spread(seeded, |(index, case)| run(bench, case, index as u64)).into_iter().collect()
+    bench.workers.spread(seeded, |(index, case)| run(bench, case, index as u64)).into_iter().collect()
 }
