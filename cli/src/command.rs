@@ -21,5 +21,6 @@ pub(crate) mod replay;
 pub(crate) mod robots;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod serve;
 pub(crate) mod talk;
 pub(crate) mod view;

@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, HashSet};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
+use std::iter;
 use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
@@ -84,39 +85,75 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
     path.extension().is_some_and(|found| found.eq_ignore_ascii_case(wanted))
 }
 
+impl Inputs {
+    /// Documents of the inputs, read as they are asked for.
+    pub(crate) fn documents(&self) -> impl Iterator<Item = Result<Document, CliError>> + '_ {
+        self.inputs.iter().flat_map(Input::reader)
+    }
+}
+
 impl Input {
     /// Reads the documents one after the other, until `each` stops it.
     pub(crate) fn documents(
         &self,
         each: &mut dyn FnMut(Document) -> Result<Flow, CliError>,
     ) -> Result<Flow, CliError> {
-        match self {
-            Self::Stdin => {
-                let bytes = read_stdin()?;
-                each(Document { name: "-".to_owned(), line_of: None, path: None, bytes })
+        for document in self.reader() {
+            if each(document?)? == Flow::Stop {
+                return Ok(Flow::Stop);
             }
-            Self::File(path) => {
+        }
+        Ok(Flow::Continue)
+    }
+
+    /// Documents of the input, read as they are asked for. An error is the last.
+    fn reader(&self) -> Box<dyn Iterator<Item = Result<Document, CliError>> + '_> {
+        match self {
+            Self::Stdin => Box::new(iter::once_with(|| {
+                let bytes = read_stdin()?;
+                Ok(Document { name: "-".to_owned(), line_of: None, path: None, bytes })
+            })),
+            Self::File(path) => Box::new(iter::once_with(|| {
                 let bytes = read_file(path)?;
                 let name = path.display().to_string();
-                each(Document { name, line_of: None, path: Some(path.clone()), bytes })
-            }
-            Self::Lines(path) => {
-                let fail = |source| CliError::read(path, source);
-                let mut reader = BufReader::new(File::open(path).map_err(fail)?);
-                let mut number = 0;
-                while let Some(bytes) = next_line(&mut reader).map_err(fail)? {
-                    number += 1;
-                    if matches!(&bytes, Bytes::All(line) if line.trim_ascii().is_empty()) {
-                        continue;
-                    }
-                    let file = path.display().to_string();
-                    let (name, line_of) = (format!("{file}:{number}"), Some((file, number)));
-                    if each(Document { name, line_of, path: None, bytes })? == Flow::Stop {
-                        return Ok(Flow::Stop);
-                    }
+                Ok(Document { name, line_of: None, path: Some(path.clone()), bytes })
+            })),
+            Self::Lines(path) => match File::open(path) {
+                Ok(file) => Box::new(Lines { path, reader: Some(BufReader::new(file)), number: 0 }),
+                Err(source) => Box::new(iter::once(Err(CliError::read(path, source)))),
+            },
+        }
+    }
+}
+
+/// Documents of a file with one document per line.
+struct Lines<'a> {
+    path: &'a Path,
+    /// Rest of the file; `None` after an error.
+    reader: Option<BufReader<File>>,
+    /// Number of the line that was read last.
+    number: usize,
+}
+
+impl Iterator for Lines<'_> {
+    type Item = Result<Document, CliError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let bytes = match next_line(self.reader.as_mut()?) {
+                Ok(bytes) => bytes?,
+                Err(source) => {
+                    self.reader = None;
+                    return Some(Err(CliError::read(self.path, source)));
                 }
-                Ok(Flow::Continue)
+            };
+            self.number += 1;
+            if matches!(&bytes, Bytes::All(line) if line.trim_ascii().is_empty()) {
+                continue;
             }
+            let file = self.path.display().to_string();
+            let (name, line_of) = (format!("{file}:{}", self.number), Some((file, self.number)));
+            return Some(Ok(Document { name, line_of, path: None, bytes }));
         }
     }
 }
@@ -136,6 +173,14 @@ impl Document {
     /// Is `true` if the document is, byte for byte, this text.
     pub(crate) fn is(&self, text: &str) -> bool {
         matches!(&self.bytes, Bytes::All(bytes) if bytes == text.as_bytes())
+    }
+
+    /// Number of bytes, for a progress bar.
+    pub(crate) fn size(&self) -> usize {
+        match &self.bytes {
+            Bytes::All(bytes) => bytes.len(),
+            Bytes::TooMany(bytes) => *bytes,
+        }
     }
 
     /// Parses the document. Bytes that are not text, or are too many, are diagnostics.

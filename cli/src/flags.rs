@@ -1,22 +1,24 @@
 //! Flags that several subcommands share: documents, the robot and its scene, the format of diagnostics, the
 //! driver of a run. The flags of one subcommand are in its own file in `command`.
 
+mod batch;
 mod driver;
+mod key;
+mod server;
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, value_parser};
-use motet_client::{ApiKey, ServerUrl};
-use motet_decode::export::Dialect;
 use motet_project::{Project, ProjectBuilder};
 use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
 use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
 
-use crate::error::CliError;
-
+pub(crate) use batch::{JobArgs, ResultArgs};
 pub(crate) use driver::{DriverArgs, DriverChoice, Speed, seed};
+pub(crate) use key::{KeyArgs, token_from};
+pub(crate) use server::{CarrierArg, ServerArgs, ServerDialect, refuse_carrier};
 
 /// Documents to read.
 #[derive(Args, Debug)]
@@ -178,33 +180,6 @@ impl From<SyntaxArg> for Syntax {
     }
 }
 
-/// Dialect of a model server. A new one is a case of [`Dialect`] first.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum ServerDialect {
-    /// vLLM 0.12 and later
-    Vllm,
-    /// The `llama-server` of llama.cpp
-    Llamacpp,
-    /// Ollama, through its native chat endpoint
-    Ollama,
-    /// SGLang, through its OpenAI endpoint
-    Sglang,
-    /// OpenAI and compatible servers
-    Openai,
-}
-
-impl From<ServerDialect> for Dialect {
-    fn from(server: ServerDialect) -> Self {
-        match server {
-            ServerDialect::Vllm => Self::Vllm,
-            ServerDialect::Llamacpp => Self::LlamaCpp,
-            ServerDialect::Ollama => Self::Ollama,
-            ServerDialect::Sglang => Self::Sglang,
-            ServerDialect::Openai => Self::OpenAi,
-        }
-    }
-}
-
 /// Reads clearances such as `base=5cm,arm=0.01`.
 fn clearance(text: &str) -> Result<ClearanceOverride, String> {
     let wrong =
@@ -270,50 +245,6 @@ pub(crate) fn address(text: &str) -> Result<SocketAddr, String> {
     }
     let address = text.parse().or_else(|_| text.parse().map(|ip: IpAddr| SocketAddr::new(ip, 0)));
     address.map_err(|_| "write a port such as 8080, or an address such as 127.0.0.1:8080".to_owned())
-}
-
-/// Key of a model server.
-#[derive(Args, Debug)]
-pub(crate) struct KeyArgs {
-    /// Environment variable that holds the server's API key
-    #[arg(long, value_name = "VARIABLE")]
-    key_from: Option<String>,
-    /// Send the key to another machine also without encryption
-    #[arg(long, requires = "key_from")]
-    key_in_clear: bool,
-}
-
-impl KeyArgs {
-    pub(crate) fn is_given(&self) -> bool {
-        self.key_from.is_some()
-    }
-
-    /// Key for a server; `None` if none is given.
-    pub(crate) fn key(&self, server: &ServerUrl) -> Result<Option<ApiKey>, CliError> {
-        self.key_from.as_deref().map(|variable| api_key(variable, server, self.key_in_clear)).transpose()
-    }
-}
-
-/// Reads the server's key from an environment variable.
-fn api_key(variable: &str, server: &ServerUrl, may_go_in_clear: bool) -> Result<ApiKey, CliError> {
-    let is_name = variable.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-    if !is_name {
-        // It may be the key itself, which is not shown.
-        return Err(CliError::Advised {
-            problem: "what `--key-from` gives is no name of an environment variable".to_owned(),
-            help: "put the key into a variable and name that: --key-from API_KEY".to_owned(),
-        });
-    }
-    if server.is_in_clear() && !may_go_in_clear {
-        return Err(CliError::Advised {
-            problem: format!("the key would go to `{server}` without encryption"),
-            help:
-                "give an address that begins with https://, or `--key-in-clear` in a network that you trust"
-                    .to_owned(),
-        });
-    }
-    ApiKey::from_variable(variable)
-        .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }
 
 #[cfg(test)]

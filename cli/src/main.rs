@@ -9,8 +9,10 @@ mod mcp;
 mod output;
 mod ready_driver;
 mod report;
+mod result_file;
 mod run_view;
 mod runner;
+mod shared_sessions;
 mod typed_line;
 mod view;
 
@@ -65,6 +67,8 @@ enum Command {
     Dialog(command::dialog::DialogArgs),
     /// Generate instruction and policy pairs for fine-tuning, or lint a file of them
     Dataset(Box<command::dataset::DatasetArgs>),
+    /// Serve policies that check to clients of a chat endpoint, in front of a model server
+    Serve(Box<command::serve::ServeArgs>),
     /// Check a policy and run it in simulation or on a driver, or check a driver
     Run(command::run::RunArgs),
     /// Replay the journal of a run and report the first difference
@@ -136,6 +140,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Dialog(args) => command::dialog::run(args, colors),
         Command::Dataset(args) => command::dataset::run(args, colors),
         Command::Plan(args) => command::plan::run(args, colors),
+        Command::Serve(args) => command::serve::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
         Command::Replay(args) => command::replay::run(args),
         Command::View(args) => command::view::run(args, colors),

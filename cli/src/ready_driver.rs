@@ -158,7 +158,8 @@ fn remote(
     Ok(ReadyDriver { driver: Box::new(driver), eyes, saved, clock, speed, settings })
 }
 
-fn no_robot(wanted: Option<String>) -> CliError {
+/// Error of a run without a robot, or with one that is not built in.
+pub(crate) fn no_robot(wanted: Option<String>) -> CliError {
     match wanted {
         Some(name) => CliError::Unknown {
             what: "built-in robot",

@@ -1,11 +1,13 @@
 //! Diagnostics of a command: printed to stdout in the chosen format, and counted.
 
 use std::collections::HashMap;
+use std::fmt;
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use motet_project::DiagnosticSink;
 use motet_syntax::{Diagnostic, FileId, Severity, Sources, Span, render};
 
@@ -67,44 +69,48 @@ impl Report {
         self.warnings += count;
     }
 
+    /// Counts errors and warnings that an earlier call has written.
+    pub(crate) fn count(&mut self, errors: usize, warnings: usize) {
+        self.errors += errors;
+        self.warnings += warnings;
+    }
+
     /// Holds the diagnostics back until the end. They go to stdout, or to stderr if the command has written
     /// a result to stdout.
     pub(crate) fn hold(&mut self) {
         self.is_held = true;
     }
 
+    /// Way of writing diagnostics, for other threads.
+    pub(crate) fn style(&self) -> Style {
+        Style { format: self.format, colors: self.colors, is_held: self.is_held }
+    }
+
     /// Prints diagnostics now, or collects them if the report is held or its format is one document.
     pub(crate) fn print(&mut self, diagnostics: &[Diagnostic], sources: &Sources) {
-        for found in diagnostics {
-            match found.severity {
-                Severity::Error => self.errors += 1,
-                Severity::Warning => self.warnings += 1,
-                Severity::Note => {}
+        let written = self.style().write(diagnostics, sources);
+        self.show(written);
+    }
+
+    /// Prints written diagnostics, and counts them.
+    pub(crate) fn show(&mut self, written: Written) {
+        self.errors += written.errors;
+        self.warnings += written.warnings;
+        match written.body {
+            Body::Collected(diagnostics, sources) => self.collected.add(&diagnostics, &sources),
+            Body::Text(text) => {
+                let needs_gap =
+                    self.format == DiagnosticFormat::Human && self.out.is_used() && !text.is_empty();
+                let gap = if needs_gap { "\n" } else { "" };
+                self.out.text(&format!("{gap}{text}"));
             }
         }
-        if self.is_held || self.format == DiagnosticFormat::Sarif {
-            self.collected.add(diagnostics, sources);
-            return;
-        }
-        let text = self.text(diagnostics, sources);
-        let needs_gap = self.format == DiagnosticFormat::Human && self.out.is_used() && !text.is_empty();
-        let gap = if needs_gap { "\n" } else { "" };
-        self.out.text(&format!("{gap}{text}"));
     }
 
     fn text(&self, diagnostics: &[Diagnostic], sources: &Sources) -> String {
         let goes_to_stderr = self.is_held && self.out.is_used();
         let is_colored = if goes_to_stderr { self.colors.stderr } else { self.colors.stdout };
-        match self.format {
-            DiagnosticFormat::Human => {
-                let color = if is_colored { render::ColorChoice::On } else { render::ColorChoice::Off };
-                render::human(diagnostics, sources, color, width())
-            }
-            DiagnosticFormat::Github => render::github(diagnostics, sources),
-            DiagnosticFormat::Json => render::json(diagnostics, sources),
-            DiagnosticFormat::Sarif => render::sarif(diagnostics, sources, &help),
-            DiagnosticFormat::Llm => render::llm(diagnostics, sources),
-        }
+        text(self.format, is_colored, diagnostics, sources)
     }
 
     /// Number of errors so far.
@@ -135,6 +141,62 @@ impl Report {
             }
         }
         close(&mut self.out, result)
+    }
+}
+
+/// Way of writing diagnostics.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Style {
+    format: DiagnosticFormat,
+    colors: Colors,
+    is_held: bool,
+}
+
+/// Diagnostics of one document, ready to be printed.
+#[derive(Debug)]
+pub(crate) struct Written {
+    pub(crate) errors: usize,
+    pub(crate) warnings: usize,
+    body: Body,
+}
+
+#[derive(Debug)]
+enum Body {
+    Text(String),
+    /// For a report that prints all of them at its end.
+    Collected(Vec<Diagnostic>, Sources),
+}
+
+impl Written {
+    /// Diagnostics that are counted and not printed.
+    pub(crate) fn unseen(diagnostics: &[Diagnostic]) -> Self {
+        let number = |severity| diagnostics.iter().filter(|found| found.severity == severity).count();
+        let body = Body::Text(String::new());
+        Self { errors: number(Severity::Error), warnings: number(Severity::Warning), body }
+    }
+}
+
+impl Style {
+    /// Writes diagnostics.
+    pub(crate) fn write(self, diagnostics: &[Diagnostic], sources: &Sources) -> Written {
+        let body = match self.is_held || self.format == DiagnosticFormat::Sarif {
+            true => Body::Collected(diagnostics.to_vec(), sources.clone()),
+            false => Body::Text(text(self.format, self.colors.stdout, diagnostics, sources)),
+        };
+        Written { body, ..Written::unseen(diagnostics) }
+    }
+}
+
+fn text(format: DiagnosticFormat, is_colored: bool, diagnostics: &[Diagnostic], sources: &Sources) -> String {
+    match format {
+        DiagnosticFormat::Human => {
+            let color = if is_colored { render::ColorChoice::On } else { render::ColorChoice::Off };
+            render::human(diagnostics, sources, color, width())
+        }
+        DiagnosticFormat::Github => render::github(diagnostics, sources),
+        DiagnosticFormat::Json => render::json(diagnostics, sources),
+        DiagnosticFormat::Sarif => render::sarif(diagnostics, sources, &help),
+        DiagnosticFormat::Llm => render::llm(diagnostics, sources),
     }
 }
 
@@ -209,10 +271,12 @@ impl Collected {
 /// Number of inputs above which a bar is shown.
 const BATCH: usize = 8;
 
-/// Progress bar over the bytes of the inputs; hidden for a few inputs, or without a terminal.
+/// Progress bar with the rate and the time that is left; hidden for a few inputs, or without a terminal.
 #[derive(Debug)]
 pub(crate) struct Progress {
     bar: ProgressBar,
+    /// Number of documents, of which the rate is shown.
+    documents: Arc<AtomicU64>,
 }
 
 impl Progress {
@@ -220,20 +284,43 @@ impl Progress {
     pub(crate) fn new(inputs: usize, bytes: u64, verb: &'static str) -> Self {
         let is_batch = inputs > BATCH || bytes > 1 << 20;
         // On the terminal that shows the findings too, the bar would tear them apart.
-        if !is_batch || !io::stderr().is_terminal() || io::stdout().is_terminal() && inputs <= BATCH {
-            return Self { bar: ProgressBar::hidden() };
+        let is_shown = is_batch && !(io::stdout().is_terminal() && inputs <= BATCH);
+        Self::with(is_shown, bytes, verb, "{msg} {wide_bar} {bytes}/{total_bytes} {rate} {eta}")
+    }
+
+    /// Bar for a number of items, all of which take about as long.
+    pub(crate) fn of_items(items: usize, verb: &'static str) -> Self {
+        let items = u64::try_from(items).unwrap_or(u64::MAX);
+        Self::with(items > 1, items, verb, "{msg} {wide_bar} {pos}/{len} {rate} {eta}")
+    }
+
+    fn with(is_shown: bool, total: u64, verb: &'static str, template: &str) -> Self {
+        let documents = Arc::new(AtomicU64::new(0));
+        if !is_shown || !io::stderr().is_terminal() {
+            return Self { bar: ProgressBar::hidden(), documents };
         }
-        let bar = ProgressBar::with_draw_target(Some(bytes), ProgressDrawTarget::stderr_with_hz(10));
-        let template = "{msg} {wide_bar} {bytes}/{total_bytes} {eta}";
+        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(10));
+        let counted = Arc::clone(&documents);
+        let rate = move |state: &ProgressState, to: &mut dyn fmt::Write| {
+            let secs = state.elapsed().as_secs_f64().max(1e-3);
+            // The bar is drawn again: an error of it says nothing.
+            let _ = write!(to, "{:.0}/s", counted.load(Ordering::Relaxed) as f64 / secs);
+        };
         if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
+            bar.set_style(style.with_key("rate", rate));
         }
         bar.set_message(verb);
-        Self { bar }
+        Self { bar, documents }
     }
 
     /// Advances the bar by a document of this size.
     pub(crate) fn advance(&self, bytes: usize) {
+        self.documents.fetch_add(1, Ordering::Relaxed);
+        self.bar.inc(bytes as u64);
+    }
+
+    /// Advances the bar by something that is done already.
+    pub(crate) fn skip(&self, bytes: usize) {
         self.bar.inc(bytes as u64);
     }
 

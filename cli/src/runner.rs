@@ -129,6 +129,11 @@ impl PacedView {
         effects.iter().for_each(|effect| self.view.past(now, effect));
     }
 
+    /// Time that the run has reached.
+    pub(crate) const fn now(&self) -> Time {
+        self.now
+    }
+
     /// Lets the view go on below what was printed meanwhile.
     pub(crate) fn go_below(&mut self) {
         self.view.go_below();

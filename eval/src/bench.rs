@@ -20,8 +20,8 @@ use motet_runtime::{
 };
 use motet_sim::{Faults, Profile, Sim, SimOptions};
 
+use crate::Workers;
 use crate::actions::{ActionFaults, ActionLedger};
-use crate::available_threads;
 use crate::outcome::StepFailures;
 use crate::planners::PlannerKind;
 use crate::tasks::half_height;
@@ -64,8 +64,7 @@ pub struct Bench {
     pub profile: Profile,
     pub driver: DriverKind,
     pub planner: PlannerKind,
-    /// Number of trials at once.
-    pub jobs: usize,
+    pub workers: Workers,
     /// Every which case of a file of wordings is played: 1 for all.
     pub every: usize,
     /// Words of which a trial has one in its name, its robot or its request; without any, all trials are run.
@@ -83,8 +82,8 @@ impl Bench {
             return Err(format!("the physics driver has no profile `{world}`, only the built-in ones"));
         }
         let profile = motet_project::read_profile(world).map_err(|error| error.to_string())?;
-        let (planner, jobs) = (PlannerKind::Builtin, available_threads());
-        Ok(Self { world: world.to_owned(), profile, driver, planner, jobs, every: 1, only: Vec::new() })
+        let (planner, workers) = (PlannerKind::Builtin, Workers::default());
+        Ok(Self { world: world.to_owned(), profile, driver, planner, workers, every: 1, only: Vec::new() })
     }
 
     /// True if a trial is asked for, by words that tell it from others.
@@ -102,8 +101,8 @@ impl Bench {
     pub fn ideal() -> Self {
         let world = "ideal".to_owned();
         let (driver, planner) = (DriverKind::Kinematic, PlannerKind::Builtin);
-        let (jobs, only) = (available_threads(), Vec::new());
-        Self { world, profile: Profile::default(), driver, planner, jobs, every: 1, only }
+        let (workers, only) = (Workers::default(), Vec::new());
+        Self { world, profile: Profile::default(), driver, planner, workers, every: 1, only }
     }
 
     /// A robot in a room: it was told the one, and the other is real.

@@ -176,7 +176,7 @@ pub fn trials(bench: &Bench, seed: u64, count: usize) -> Result<Vec<Trial>, Stri
     }
     drawn.retain(|(task, robot, _, _): &(&Task, &str, usize, f64)| bench.asks_for(&[robot, task.name]));
     let play = |(task, robot, index, draw): (&Task, &str, usize, f64)| run(bench, task, robot, index, draw);
-    let trials = super::spread_over(bench.jobs, drawn, play);
+    let trials = bench.workers.spread(drawn, play);
     trials.into_iter().collect()
 }
 

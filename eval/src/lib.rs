@@ -16,10 +16,11 @@ pub mod setup;
 pub mod tasks;
 pub mod world;
 
-use std::sync::Mutex;
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use indexmap::IndexMap;
+use motet::batch::{self, Shard};
 use motet_compiler::Session;
 use motet_syntax::{Diagnostic, Severity, Source, Sources};
 use serde::Serialize;
@@ -123,42 +124,34 @@ fn sums(rows: &[&Judged]) -> Summary {
     }
 }
 
-/// Runs something on each item, on as many threads as are free; the results come in the order of the items.
-#[must_use]
-pub fn spread<T: Send, R: Send>(items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
-    spread_over(available_threads(), items, run)
+/// Threads of a suite, and the share of its items that this process takes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Workers {
+    /// Number of threads.
+    pub jobs: usize,
+    /// Share of the items.
+    pub shard: Shard,
 }
 
-/// Number of threads that the machine runs at once.
-#[must_use]
-pub fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+impl Default for Workers {
+    /// A thread for each core, and all items.
+    fn default() -> Self {
+        let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+        Self { jobs, shard: Shard::default() }
+    }
 }
 
-/// Runs something on each item, on a number of threads; the results come in the order of the items. A thread
-/// takes the next item when it has done one, since items differ in how long they take.
-#[must_use]
-pub fn spread_over<T: Send, R: Send>(threads: usize, items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
-    let count = threads.clamp(1, items.len().max(1));
-    let queue = Mutex::new(items.into_iter().enumerate());
-    let mut done: Vec<(usize, R)> = std::thread::scope(|scope| {
-        let (run, queue) = (&run, &queue);
-        let next = || queue.lock().ok()?.next();
-        let work = |_| {
-            scope.spawn(move || {
-                std::iter::from_fn(next).map(|(index, item)| (index, run(item))).collect::<Vec<_>>()
-            })
-        };
-        let threads: Vec<_> = (0..count).map(work).collect();
-        let joined = threads.into_iter().map(|thread| match thread.join() {
-            Ok(done) => done,
-            // What goes wrong in a trial is not lost with its thread.
-            Err(panic) => std::panic::resume_unwind(panic),
+impl Workers {
+    /// Runs something on each item of the share; the results are in the order of the items.
+    pub fn spread<T: Send, R: Send>(self, items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
+        let items = items.into_iter().enumerate().filter(|(index, _)| self.shard.has(*index));
+        let mut done = Vec::new();
+        let _ = batch::in_order(self.jobs, 1, items.map(|(_, item)| item), run, |result| {
+            done.push(result);
+            ControlFlow::<()>::Continue(())
         });
-        joined.flatten().collect()
-    });
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, result)| result).collect()
+        done
+    }
 }
 
 /// Checks a policy document under a domain of declarations, without robot and scene.

@@ -20,6 +20,9 @@
 //! - `reach [SCENE|--rooms N --seed S]` asks motion queries.
 //! - `physics --robot NAME [--seeds N]` carries every feasible verdict out in MuJoCo, and exits with 0 if the
 //!   shares that it bears out reach the aims.
+//!
+//! All suites but `reach` and `physics` take `-j N`, a number of threads, and `--shard K/N`, which takes each
+//! N-th item from the K-th on.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -29,17 +32,17 @@ use motet_eval::bench::{Bench, DriverKind};
 use motet_eval::planners::PlannerKind;
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary, tasks,
-    world,
+    Judged, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary,
+    tasks, world,
 };
 
 /// Suite over the lines of a file.
-type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
+type Suite = fn(Workers, &[(usize, &str)]) -> Result<Report, String>;
 
 const SUITES: &[(&str, Suite)] = &[
-    ("planbench", |lines| judged(lines, planbench::judge)),
-    ("scenarios", |lines| judged(lines, scenarios::judge)),
-    ("saycan", |lines| judged(lines, saycan::judge)),
+    ("planbench", |workers, lines| judged(workers, lines, planbench::judge)),
+    ("scenarios", |workers, lines| judged(workers, lines, scenarios::judge)),
+    ("saycan", |workers, lines| judged(workers, lines, saycan::judge)),
     ("repairs", repaired),
 ];
 
@@ -53,7 +56,7 @@ struct Flags {
     planner: Option<String>,
     model: Option<String>,
     trials: Option<usize>,
-    jobs: Option<usize>,
+    workers: Workers,
     every: Option<usize>,
     only: Vec<String>,
     words: Vec<String>,
@@ -73,9 +76,13 @@ impl Flags {
                 "--model" => flags.model = Some(value()?),
                 "--only" => flags.only.push(value()?),
                 "--trials" => flags.trials = Some(number(&value()?)?),
-                "--jobs" => flags.jobs = Some(number(&value()?)?),
                 "--every" => flags.every = Some(number(&value()?)?),
-                flag if flag.starts_with("--") => return Err(format!("there is no flag `{flag}`")),
+                "-j" | "--jobs" => {
+                    let jobs = Some(number(&value()?)?).filter(|jobs| (1..=1024).contains(jobs));
+                    flags.workers.jobs = jobs.ok_or("the number of threads is from 1 to 1024")?;
+                }
+                "--shard" => flags.workers.shard = value()?.parse()?,
+                flag if flag.starts_with('-') => return Err(format!("there is no flag `{flag}`")),
                 word => flags.words.push(word.to_owned()),
             }
         }
@@ -93,8 +100,8 @@ impl Flags {
         let planner = PlannerKind::read(planner, self.model.as_deref())?;
         let world = self.world.as_deref().unwrap_or(usual);
         let bench = Bench::new(world, self.driver.unwrap_or_default())?;
-        let (jobs, every) = (self.jobs.unwrap_or(bench.jobs), self.every.unwrap_or(bench.every));
-        Ok(Bench { planner, jobs, every, only: self.only.clone(), ..bench })
+        let (workers, every) = (self.workers, self.every.unwrap_or(bench.every));
+        Ok(Bench { planner, workers, every, only: self.only.clone(), ..bench })
     }
 
     /// True if a world, a driver, a planner or a part of the trials is asked for.
@@ -103,7 +110,6 @@ impl Flags {
             || self.driver.is_some()
             || self.planner.is_some()
             || self.trials.is_some()
-            || self.jobs.is_some()
             || self.every.is_some()
             || !self.only.is_empty()
     }
@@ -184,7 +190,7 @@ fn run() -> Result<bool, String> {
         _ => {}
     }
     if words == ["mutations"] {
-        return shown(&mutated()?, only_json);
+        return shown(&mutated(flags.workers)?, only_json);
     }
     let [name, file] = words.as_slice() else { return Err(usage()) };
     let known = SUITES.iter().find(|(known, _)| known == name);
@@ -196,7 +202,7 @@ fn run() -> Result<bool, String> {
     let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let lines: Vec<_> = lines.map(|(index, line)| (index + 1, line)).collect();
-    let report = suite(&lines).map_err(|problem| format!("{file}:{problem}"))?;
+    let report = suite(flags.workers, &lines).map_err(|problem| format!("{file}:{problem}"))?;
     shown(&report, only_json)
 }
 
@@ -211,13 +217,22 @@ fn shown(report: &Report, only_json: bool) -> Result<bool, String> {
     Ok(report.is_good)
 }
 
-/// Runs over every line; a problem is named by its line.
-fn each<T>(lines: &[(usize, &str)], run: impl Fn(&str) -> Result<T, String>) -> Result<Vec<T>, String> {
-    lines.iter().map(|(number, line)| run(line).map_err(|problem| format!("{number}: {problem}"))).collect()
+/// Runs over every line of the share; a problem is named by its line.
+fn each<T: Send>(
+    workers: Workers,
+    lines: &[(usize, &str)],
+    run: impl Fn(&str) -> Result<T, String> + Sync,
+) -> Result<Vec<T>, String> {
+    let run = |(number, line): (usize, &str)| run(line).map_err(|problem| format!("{number}: {problem}"));
+    workers.spread(lines.to_vec(), run).into_iter().collect()
 }
 
-fn judged(lines: &[(usize, &str)], judge: fn(&str) -> Result<Judged, String>) -> Result<Report, String> {
-    let rows = each(lines, judge)?;
+fn judged(
+    workers: Workers,
+    lines: &[(usize, &str)],
+    judge: fn(&str) -> Result<Judged, String>,
+) -> Result<Report, String> {
+    let rows = each(workers, lines, judge)?;
     let sums = summary(&rows);
     Ok(Report {
         lines: rows.iter().filter_map(Judged::disagreement).collect(),
@@ -292,8 +307,8 @@ fn tasked(flags: &Flags, files: &[&str]) -> Result<Report, String> {
 /// The folder of the examples.
 const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
 
-fn mutated() -> Result<Report, String> {
-    let ends = mutations::judge(mutations::mutants(Path::new(EXAMPLES))?, 0)?;
+fn mutated(workers: Workers) -> Result<Report, String> {
+    let ends = mutations::judge(workers, mutations::mutants(Path::new(EXAMPLES))?, 0)?;
     let notes = ends.iter().filter_map(|(mutant, end)| match end {
         mutations::MutantEnd::Unlisted(why) => Some(format!("{}: {why}", mutant.name)),
         _ => None,
@@ -317,8 +332,8 @@ fn failing(bench: &Bench, count: usize) -> Result<Report, String> {
     })
 }
 
-fn planned_from_text(lines: &[(usize, &str)]) -> Result<Report, String> {
-    let rows = each(lines, planned::attempt)?;
+fn planned_from_text(workers: Workers, lines: &[(usize, &str)]) -> Result<Report, String> {
+    let rows = each(workers, lines, planned::attempt)?;
     let sums = planned::sums(rows.iter());
     let notes = rows
         .iter()
@@ -330,8 +345,8 @@ fn planned_from_text(lines: &[(usize, &str)]) -> Result<Report, String> {
     })
 }
 
-fn repaired(lines: &[(usize, &str)]) -> Result<Report, String> {
-    let rows: Vec<_> = each(lines, scenarios::repair)?.into_iter().flatten().collect();
+fn repaired(workers: Workers, lines: &[(usize, &str)]) -> Result<Report, String> {
+    let rows: Vec<_> = each(workers, lines, scenarios::repair)?.into_iter().flatten().collect();
     let sums = repairs::summary(&rows);
     Ok(Report {
         lines: rows.iter().map(repairs::Repair::line).collect(),

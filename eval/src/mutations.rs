@@ -20,6 +20,8 @@ use motet_syntax::{FileId, Severity, Source, Sources};
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::Workers;
+
 /// Keys that only steps have as their first.
 const STEP_KEYS: &[&str] =
     &["do", "sequence", "if", "wait", "monitor", "try", "repeat", "each", "parallel", "end"];
@@ -184,7 +186,7 @@ struct Setting {
 /// # Errors
 ///
 /// A mutant names a robot or a scene that is not built in.
-pub fn judge(mutants: Vec<Mutant>, seed: u64) -> Result<Vec<(Mutant, MutantEnd)>, String> {
+pub fn judge(workers: Workers, mutants: Vec<Mutant>, seed: u64) -> Result<Vec<(Mutant, MutantEnd)>, String> {
     let mut settings: IndexMap<(String, String), Setting> = IndexMap::new();
     for mutant in &mutants {
         let key = (mutant.robot.clone(), mutant.scene.clone());
@@ -192,7 +194,7 @@ pub fn judge(mutants: Vec<Mutant>, seed: u64) -> Result<Vec<(Mutant, MutantEnd)>
             settings.insert(key, setting(&mutant.robot, &mutant.scene)?);
         }
     }
-    Ok(super::spread(mutants, |mutant| {
+    Ok(workers.spread(mutants, |mutant| {
         let setting = settings.get(&(mutant.robot.clone(), mutant.scene.clone()));
         let end = setting.map_or(MutantEnd::Refused, |setting| setting.judge(&mutant, seed));
         (mutant, end)

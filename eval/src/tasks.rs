@@ -136,7 +136,7 @@ pub fn trials(bench: &Bench, tasks: &[Task], count: usize) -> Result<Vec<TaskTri
         bench.asks_for(&[robot, &task.table, &task.cell, &task.request])
     });
     let run = |(task, robot, seed): (&Task, &str, u64)| task.carry_out(bench, robot, seed);
-    super::spread_over(bench.jobs, drawn, run).into_iter().collect()
+    bench.workers.spread(drawn, run).into_iter().collect()
 }
 
 /// Person who answers by the kind of the problem.

@@ -97,7 +97,7 @@ pub fn runs(folder: &Path, count: usize) -> Result<Vec<WorldRun>, String> {
 /// The driver does not start.
 pub fn carry_out(mut runs: Vec<WorldRun>, bench: &Bench) -> Result<Vec<WorldEnd>, String> {
     runs.retain(|run| bench.asks_for(&[&run.robot, &run.scene, &run.name]));
-    super::spread_over(bench.jobs, runs, |run| run.carry_out(bench)).into_iter().collect()
+    bench.workers.spread(runs, |run| run.carry_out(bench)).into_iter().collect()
 }
 
 /// Notes failures of steps, and when the last event was.

@@ -2,6 +2,7 @@
 
 pub mod conformance;
 pub mod document;
+pub mod batch;
 mod error;
 mod facade;
 pub mod feasible;

@@ -52,7 +52,7 @@ impl Project {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
         let Inner { project, of_robots } = &mut *inner;
         let mut news = Findings::default();
-        let opened = Arc::clone(project.shared_session_for(&parsed.file, &mut news)?);
+        let opened = project.shared_session_for(&parsed.file, &mut news)?;
         let robot = opened.robot.as_ref().map(|robot| robot.name.to_string()).unwrap_or_default();
         let known = of_robots.entry(robot).or_insert(news);
         let mut all = self.inputs.clone();

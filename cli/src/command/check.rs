@@ -1,26 +1,34 @@
 //! `motet check`: finds the errors of policies before a robot moves.
 
+use std::cell::RefCell;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
+use motet::batch;
 use motet::document::{MAX_FIXES, is_reply, listed};
-use motet_compiler::fix::{Applicability, FixLimits, fix};
+use motet_compiler::fix::{Applicability, AppliedFix, FixLimits, fix};
 use motet_graph::{Graph, NodeKind, Verdict};
 use motet_project::files::Bytes;
-use motet_project::{DOCUMENT, Project, named_robot};
+use motet_project::{DOCUMENT, Project, ProjectSession, named_robot};
+use motet_syntax::{Parsed, Source, render};
+use serde_json::{Value, json};
 
 use crate::documents::{self, Document, Flow};
 use crate::error::{CliError, Exit};
-use crate::flags::{DocumentArgs, FormatArgs, SessionArgs};
+use crate::flags::{DocumentArgs, FormatArgs, JobArgs, ResultArgs, SessionArgs};
 use crate::output::{Colors, count, count_irregular, note, replace_file};
-use crate::report::Progress;
-use crate::report::Report;
+use crate::report::{Progress, Report, Style, Written};
+use crate::result_file::{DoneResult, ResultFile};
+use crate::shared_sessions::{SharedSession, SharedSessions};
 
 /// Flags of `motet check`.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     motet check fetch_mug.motet --robot hsr --scene kitchen\n  \
     motet check policies/ --format sarif > findings.sarif\n  \
+    motet check policies.jsonl --scene kitchen --out verdicts.jsonl --shard 0/4\n  \
     motet check --fix reply.json --robot hsr --scene kitchen\n  \
     motet check --diff --unsafe-fixes reply.json --robot hsr --scene kitchen\n  \
     cat reply.txt | motet check - --robot hsr")]
@@ -36,6 +44,10 @@ pub(crate) struct CheckArgs {
     deny_deferred: bool,
     #[command(flatten)]
     format: FormatArgs,
+    #[command(flatten)]
+    jobs: JobArgs,
+    #[command(flatten)]
+    results: ResultArgs,
 }
 
 /// Flags that choose which fixes are applied, and how.
@@ -74,31 +86,70 @@ pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let inputs = documents::collect(&args.documents.paths)?;
-    let mut project = args.session.project().open_with(report)?;
-    let progress = Progress::new(inputs.inputs.len(), inputs.size, "checking");
-    let mut tally = Tally { denies_deferred: args.deny_deferred, ..Tally::default() };
-    for input in &inputs.inputs {
-        let flow = input.documents(&mut |found| {
-            let found = if args.fixes.is_fixing() {
-                tally.fix(found, args.fixes, &mut project, report)?
-            } else {
-                found
-            };
-            if args.fixes.diff {
-                // What a fix would leave is for the run that writes it.
-                tally.documents += 1;
-                return Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue });
-            }
-            tally.add(&found, &mut project, report, &progress)?;
-            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue })
-        })?;
-        if flow == Flow::Stop {
-            break;
-        }
+    if args.results.out.is_some() && args.fixes.is_fixing() {
+        return Err(CliError::Message(
+            "`--out` writes results, and fixes change documents: give one".to_owned(),
+        ));
     }
+    let inputs = documents::collect(&args.documents.paths)?;
+    let project = args.session.project().open_with(report)?;
+    let progress = Progress::new(inputs.inputs.len(), inputs.size, "checking");
+    let results =
+        ResultFile::open(&args.results, &format!("check {:?} {}", args.session, args.deny_deferred))?;
+    let (has_results, results) = (results.is_some(), RefCell::new(results));
+    let checker = Checker {
+        fixes: args.fixes,
+        denies_deferred: args.deny_deferred,
+        style: report.style(),
+        has_results,
+        sessions: SharedSessions::new(project),
+    };
+    let mut tally = Tally { denies_deferred: args.deny_deferred, ..Tally::default() };
+    let shard = args.jobs.shard();
+    let documents = inputs.documents().enumerate().filter_map(|(index, found)| {
+        let found = found.and_then(|found| match &mut *results.borrow_mut() {
+            _ if !shard.has(index) => {
+                progress.skip(found.size());
+                Ok(None)
+            }
+            Some(results) => Ok(Some((results.done(&found)?, found))),
+            None => Ok(Some((None, found))),
+        });
+        found.transpose()
+    });
+    let ended = batch::in_order(
+        args.jobs.jobs(),
+        PACKET,
+        documents,
+        |found| found.map(|(done, found)| (done.is_none().then(|| checker.check(&found)), done, found)),
+        |checked| {
+            let added = checked.and_then(|(checked, done, found)| match (checked, done) {
+                (Some(checked), _) => {
+                    tally.add(checked, &found, (args.fixes, report, &progress), &mut results.borrow_mut())
+                }
+                (None, done) => {
+                    tally.add_done(&done, report);
+                    progress.skip(found.size());
+                    Ok(())
+                }
+            });
+            match added {
+                Err(error) => ControlFlow::Break(Some(error)),
+                Ok(()) if report.out.is_closed() => ControlFlow::Break(None),
+                Ok(()) => ControlFlow::Continue(()),
+            }
+        },
+    );
     drop(progress);
-    tally.print(&project, &inputs.skipped);
+    if let ControlFlow::Break(Some(error)) = ended {
+        return Err(error);
+    }
+    if results.into_inner().is_some_and(|results| results.left() > 0) {
+        return Err(CliError::Message(
+            "the file of results has more lines than there are documents".to_owned(),
+        ));
+    }
+    tally.print(&checker.sessions.into_project(), &inputs.skipped);
     if args.fixes.diff {
         let fixes = count_irregular(tally.fixed, "fix", "fixes");
         note(&format!("{fixes} would be applied to {}", count(tally.documents, "document")));
@@ -110,6 +161,116 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
     note(&format!("checked {}: {}", count(tally.documents, "document"), report.tally()));
     let is_refused = args.deny_deferred && tally.is_deferred();
     Ok(if report.errors() > 0 || is_refused { Exit::Findings } else { Exit::Success })
+}
+
+/// Number of documents that a thread takes at once: a check takes some 50 µs.
+const PACKET: usize = 32;
+
+/// Checks documents, on any thread.
+struct Checker {
+    fixes: FixArgs,
+    /// Is `true` if nothing may be left to the run.
+    denies_deferred: bool,
+    style: Style,
+    /// Is `true` if the diagnostics go to a file of results.
+    has_results: bool,
+    sessions: SharedSessions,
+}
+
+/// Result of checking one document.
+struct CheckedDocument {
+    session: Arc<SharedSession>,
+    fixed: FixedDocument,
+    /// Diagnostics; `None` if there are none.
+    written: Option<Written>,
+    /// The same for a file of results.
+    diagnostics: Vec<Value>,
+    /// Numbers of the document.
+    tally: Tally,
+}
+
+/// Result of fixing a document.
+#[derive(Default)]
+struct FixedDocument {
+    applied: Vec<AppliedFix>,
+    /// The text before and after the fixes.
+    change: Option<(Arc<str>, String)>,
+}
+
+impl Checker {
+    fn check(&self, found: &Document) -> CheckedDocument {
+        let mut tally = Tally { documents: 1, ..Tally::default() };
+        let (mut source, mut parsed) = found.parse();
+        let shared = self.sessions.session_for(&parsed.file);
+        let unchecked = |fixed, tally| CheckedDocument {
+            session: Arc::clone(&shared),
+            fixed,
+            written: None,
+            diagnostics: Vec::new(),
+            tally,
+        };
+        let Some(opened) = &shared.session else { return unchecked(FixedDocument::default(), tally) };
+        let fixed = match self.fixes.is_fixing() {
+            true => self.fix(found, (&source, &parsed), opened, &mut tally),
+            false => FixedDocument::default(),
+        };
+        if self.fixes.diff {
+            // What a fix would leave is for the run that writes it.
+            return unchecked(fixed, tally);
+        }
+        if let Some((_, text)) = &fixed.change {
+            let bytes = Bytes::All(text.clone().into_bytes());
+            let (name, path) = (found.name.clone(), found.path.clone());
+            (source, parsed) = Document { name, line_of: None, path, bytes }.parse();
+        }
+        if opened.robot.is_none() && parsed.file.runnable().next().is_some() {
+            tally.without_robot += usize::from(named_robot(&parsed.file).is_none());
+        }
+        let checked = opened.session.check_document(&parsed);
+        for policy in &checked.policies {
+            tally.unseen += policy.skipped_motions;
+            tally.motions += policy.graph.as_ref().map_or(0, deferred_motions);
+        }
+        tally.left += checked.deferred_notes.len();
+        let all = listed(checked, opened, self.denies_deferred);
+        let (mut written, mut diagnostics) = (None, Vec::new());
+        if !all.is_empty() {
+            let sources = opened.sources(source);
+            written = Some(match self.has_results {
+                true => Written::unseen(&all),
+                false => self.style.write(&all, &sources),
+            });
+            if self.has_results {
+                let lines = render::json(&all, &sources);
+                diagnostics.extend(lines.lines().filter_map(|line| serde_json::from_str(line).ok()));
+            }
+        }
+        CheckedDocument { session: Arc::clone(&shared), fixed, written, diagnostics, tally }
+    }
+
+    /// Fixes a document in memory.
+    fn fix(
+        &self,
+        found: &Document,
+        (source, parsed): (&Source, &Parsed),
+        opened: &ProjectSession,
+        tally: &mut Tally,
+    ) -> FixedDocument {
+        if found.path.is_none() && found.name != "-" {
+            tally.lines += 1;
+            return FixedDocument::default();
+        }
+        let is_text = matches!(&found.bytes, Bytes::All(bytes) if std::str::from_utf8(bytes).is_ok());
+        let is_reply = is_reply(parsed);
+        tally.replies += usize::from(is_reply);
+        if !is_text || is_reply {
+            return FixedDocument::default();
+        }
+        let fixed = fix(&opened.session, source, DOCUMENT, self.fixes.limits());
+        tally.fixed += fixed.applied.len();
+        let change = (!fixed.applied.is_empty()).then(|| (Arc::clone(&source.text), fixed.text));
+        FixedDocument { applied: fixed.applied, change }
+    }
 }
 
 /// Numbers for the summary, besides those of errors and warnings.
@@ -133,82 +294,85 @@ struct Tally {
 }
 
 impl Tally {
-    /// Fixes a document in place. Returns the fixed document.
-    fn fix(
-        &mut self,
-        mut found: Document,
-        args: FixArgs,
-        project: &mut Project,
-        report: &mut Report,
-    ) -> Result<Document, CliError> {
-        let is_stdin = found.name == "-";
-        if found.path.is_none() && !is_stdin {
-            self.lines += 1;
-            return Ok(found);
-        }
-        let (source, parsed) = found.parse();
-        let is_text = matches!(&found.bytes, Bytes::All(bytes) if std::str::from_utf8(bytes).is_ok());
-        let is_reply = is_reply(&parsed);
-        self.replies += usize::from(is_reply);
-        if is_text && !is_reply {
-            let opened = project.session_for(&parsed.file, report)?;
-            let fixed = fix(&opened.session, &source, DOCUMENT, args.limits());
-            self.fixed += fixed.applied.len();
-            for applied in &fixed.applied {
-                let kind = match applied.applicability {
-                    Applicability::Safe => "",
-                    Applicability::Unsafe | Applicability::Shown => "unsafe ",
-                };
-                let verb = if args.diff { "would fix" } else { "fixed" };
-                note(&format!("{verb} {}: {} ({kind}{})", found.name, applied.title, applied.code));
-            }
-            if args.diff {
-                if !fixed.applied.is_empty() {
-                    report.out.text(&diff(&found.name, &source.text, &fixed.text));
-                }
-                return Ok(found);
-            }
-            if !fixed.applied.is_empty() {
-                if let Some(path) = &found.path {
-                    replace_file(path, &fixed.text)?;
-                }
-                found.bytes = Bytes::All(fixed.text.into_bytes());
-            }
-        }
-        if let (true, false, Bytes::All(bytes)) = (is_stdin, args.diff, &found.bytes) {
-            report.out.text(&String::from_utf8_lossy(bytes));
-        }
-        Ok(found)
-    }
-
+    /// Adds a checked document: prints its diagnostics and writes its fixes.
     fn add(
         &mut self,
+        checked: CheckedDocument,
         found: &Document,
-        project: &mut Project,
-        report: &mut Report,
-        progress: &Progress,
+        (fixes, report, progress): (FixArgs, &mut Report, &Progress),
+        results: &mut Option<ResultFile>,
     ) -> Result<(), CliError> {
+        checked.session.announce(report)?;
+        self.add_fixed(&checked.fixed, found, fixes, report)?;
+        self.sum(&checked.tally);
+        let numbers = checked.written.as_ref().map_or((0, 0), |written| (written.errors, written.warnings));
+        if let Some(written) = checked.written {
+            progress.suspend(|| report.show(written));
+        }
+        progress.advance(found.size());
+        let Some(results) = results else { return Ok(()) };
+        let checksum = results.checksum(found);
+        let (errors, warnings) = numbers;
+        let line = json!({
+            "ok": errors == 0,
+            "errors": errors,
+            "warnings": warnings,
+            "deferred": checked.tally.left + checked.tally.motions,
+            "diagnostics": checked.diagnostics,
+        });
+        results.add(&found.name, &checksum, line)
+    }
+
+    /// Adds a document whose result an earlier call has written.
+    fn add_done(&mut self, done: &Option<DoneResult>, report: &mut Report) {
+        let number = |key: &str| {
+            let number = done.as_ref().and_then(|done| done.line.get(key)?.as_u64());
+            number.and_then(|number| usize::try_from(number).ok()).unwrap_or_default()
+        };
         self.documents += 1;
-        let (source, parsed) = found.parse();
-        let opened = project.session_for(&parsed.file, report)?;
-        if opened.robot.is_none() && parsed.file.runnable().next().is_some() {
-            self.without_robot += usize::from(named_robot(&parsed.file).is_none());
+        self.left += number("deferred");
+        report.count(number("errors"), number("warnings"));
+    }
+
+    /// Reports the fixes of a document, and writes it.
+    fn add_fixed(
+        &self,
+        fixed: &FixedDocument,
+        found: &Document,
+        args: FixArgs,
+        report: &mut Report,
+    ) -> Result<(), CliError> {
+        for applied in &fixed.applied {
+            let kind = match applied.applicability {
+                Applicability::Safe => "",
+                Applicability::Unsafe | Applicability::Shown => "unsafe ",
+            };
+            let verb = if args.diff { "would fix" } else { "fixed" };
+            note(&format!("{verb} {}: {} ({kind}{})", found.name, applied.title, applied.code));
         }
-        let checked = opened.session.check_document(&parsed);
-        for policy in &checked.policies {
-            self.unseen += policy.skipped_motions;
-            self.motions += policy.graph.as_ref().map_or(0, deferred_motions);
-        }
-        if let Bytes::All(bytes) = &found.bytes {
-            progress.advance(bytes.len());
-        }
-        self.left += checked.deferred_notes.len();
-        let diagnostics = listed(checked, opened, self.denies_deferred);
-        if !diagnostics.is_empty() {
-            let sources = opened.sources(source);
-            progress.suspend(|| report.print(&diagnostics, &sources));
+        match (&fixed.change, &found.path) {
+            (Some((before, after)), _) if args.diff => report.out.text(&diff(&found.name, before, after)),
+            (Some((_, after)), Some(path)) => replace_file(path, after)?,
+            (Some((_, after)), None) => report.out.text(after),
+            (None, _) => {
+                let is_printed = found.name == "-" && args.is_fixing() && !args.diff;
+                if let (true, Bytes::All(bytes)) = (is_printed, &found.bytes) {
+                    report.out.text(&String::from_utf8_lossy(bytes));
+                }
+            }
         }
         Ok(())
+    }
+
+    fn sum(&mut self, other: &Self) {
+        self.documents += other.documents;
+        self.fixed += other.fixed;
+        self.lines += other.lines;
+        self.replies += other.replies;
+        self.motions += other.motions;
+        self.left += other.left;
+        self.unseen += other.unseen;
+        self.without_robot += other.without_robot;
     }
 
     /// Returns whether anything is left to the run.

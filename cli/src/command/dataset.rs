@@ -4,11 +4,11 @@ mod lint;
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write as _};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
 
 use clap::{Args, Subcommand, ValueEnum, value_parser};
+use motet::batch;
 use motet_dataset::format;
 use motet_dataset::generate::{self, Dataset, Order, SceneRows};
 use motet_dataset::lint::family;
@@ -23,9 +23,9 @@ use serde_json::{Value, json};
 use smol_str::SmolStr;
 
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, MotionArgs, OutputFormat};
+use crate::flags::{DiagnosticFormat, JobArgs, MotionArgs, OutputFormat};
 use crate::output::{Colors, count, note};
-use crate::report::Report;
+use crate::report::{Progress, Report};
 
 /// Flags of `motet dataset`.
 #[derive(Args, Debug)]
@@ -35,6 +35,7 @@ use crate::report::Report;
     subcommand_help_heading = "Subcommands",
     after_help = "Examples:\n  \
     motet dataset --out data --form trl --scenes 100\n  \
+    motet dataset --out data/0 --form trl --scenes 1000 --shard 0/4\n  \
     motet dataset --out data --form inteliplan --robot hsr --room kitchen --seed 7\n  \
     motet dataset lint data/train.jsonl data/test.jsonl"
 )]
@@ -89,6 +90,8 @@ struct MakeArgs {
     /// Seed; the same seed gives the same files
     #[arg(long, default_value_t = 0, value_name = "NUMBER")]
     seed: u64,
+    #[command(flatten)]
+    jobs: JobArgs,
     #[command(flatten)]
     motions: MotionArgs,
 }
@@ -164,7 +167,7 @@ fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
         return Err(CliError::Message("rows in the format `inteliplan` are texts without images".to_owned()));
     }
     let order = order(args, report)?;
-    let dataset = generate::gather(&order, parts(&order));
+    let dataset = generate::gather(&order, parts(&order, args.jobs));
     fs::create_dir_all(folder).map_err(|source| CliError::Write { path: folder.clone(), source })?;
     for (name, rows) in [("train", &dataset.train), ("test", &dataset.test)] {
         let lines = rows.iter().map(|row| format::write(row, order.form));
@@ -190,7 +193,7 @@ fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
     for (why, dropped) in &dataset.dropped {
         note(&format!("left out {dropped}: {why}"));
     }
-    if dataset.train.is_empty() {
+    if dataset.train.is_empty() && args.jobs.shard().is_whole() {
         return Err(CliError::Message("the dataset is empty".to_owned()));
     }
     Ok(Exit::Success)
@@ -237,28 +240,19 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, CliError> {
     })
 }
 
-/// Parts of a dataset in order, generated on all cores.
-fn parts(order: &Order) -> Vec<SceneRows> {
-    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(order.scenes);
-    let next = AtomicUsize::new(0);
-    let (send, receive) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            let (send, next) = (send.clone(), &next);
-            scope.spawn(move || {
-                loop {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    if number >= order.scenes || send.send((number, generate::part(order, number))).is_err() {
-                        return;
-                    }
-                }
-            });
-        }
+/// Parts of a dataset with their numbers, in order.
+fn parts(order: &Order, jobs: JobArgs) -> Vec<(usize, SceneRows)> {
+    let shard = jobs.shard();
+    let numbers: Vec<usize> = (0..order.scenes).filter(|number| shard.has(*number)).collect();
+    let progress = Progress::of_items(numbers.len(), "generating");
+    let mut parts = Vec::new();
+    let part = |number| (number, generate::part(order, number));
+    let _ = batch::in_order(jobs.jobs(), 1, numbers, part, |part| {
+        progress.advance(1);
+        parts.push(part);
+        ControlFlow::<()>::Continue(())
     });
-    drop(send);
-    let mut parts: Vec<(usize, SceneRows)> = receive.into_iter().collect();
-    parts.sort_by_key(|(number, _)| *number);
-    parts.into_iter().map(|(_, part)| part).collect()
+    parts
 }
 
 /// Suffix with the number of rows after a failure.

@@ -9,7 +9,9 @@ use motet_decode::{Grammar, Modifiers, Subset};
 use serde_json::Value;
 
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, EnvironmentArgs, KeyArgs, ServerDialect, SyntaxArg};
+use crate::flags::{
+    CarrierArg, DiagnosticFormat, EnvironmentArgs, KeyArgs, ServerDialect, SyntaxArg, refuse_carrier,
+};
 use crate::output::{Colors, Output, note};
 use crate::report::Report;
 
@@ -49,6 +51,9 @@ pub(crate) struct GrammarArgs {
     /// Print the body of a chat request with the grammar, in the dialect of a server
     #[arg(long, value_enum, value_name = "SERVER", conflicts_with = "format")]
     request: Option<ServerDialect>,
+    /// Part of the request that carries the grammar
+    #[arg(long, value_enum, default_value_t, value_name = "CARRIER", requires = "request")]
+    carrier: CarrierArg,
     /// Model of the request
     #[arg(long, default_value = "MODEL", value_name = "NAME")]
     model: String,
@@ -136,7 +141,12 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
     let text = match args.request {
         Some(server) => {
             let prompt = Prompt { model: &args.model, system: SYSTEM, user: &args.ask };
-            let body = request_body(server.into(), &grammar, prompt)
+            let dialect = Dialect::from(server);
+            refuse_carrier(Some(dialect), args.carrier)?;
+            let carrier = args.carrier.carrier().ok_or_else(|| {
+                CliError::Message("a request that shows the grammar has a carrier of it".to_owned())
+            })?;
+            let body = request_body(dialect, carrier, &grammar, prompt)
                 .ok_or_else(|| needs_json("this server takes"))?;
             format!("{body}\n")
         }
@@ -185,10 +195,10 @@ fn probe_server(args: &ProbeArgs) -> Result<Exit, CliError> {
     let url = ServerUrl::new(&args.url, Some(dialect)).map_err(CliError::Message)?;
     let (body, demanded) = probe_body(dialect, &args.model);
     let answer = ask(args, url.clone(), &body)?;
-    let said = content(&answer)
+    let said = content(Some(dialect), &answer)
         .ok_or_else(|| CliError::Message(format!("`{url}` did not answer with a chat message")))?;
     let is_held = serde_json::from_str::<Value>(said.trim()).is_ok_and(|answer| answer == demanded);
-    if !is_held && is_cut(said, &demanded) {
+    if !is_held && is_cut(&said, &demanded) {
         return Err(CliError::Message(format!(
             "`{url}` cut its answer off at `{}`, so the test is inconclusive",
             said.trim()
@@ -219,6 +229,7 @@ fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliE
     let timeout = Duration::from_secs(args.timeout);
     let key = args.key.key(&address)?;
     let settings = ClientSettings {
+        dialect: Some(args.dialect.into()),
         key,
         timeout,
         idle_timeout: timeout,

@@ -2,6 +2,7 @@
 //! a journal; or checks such a driver.
 
 mod conformance;
+mod many;
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -26,7 +27,9 @@ use crate::conversation::answered::AnsweredQuestions;
 use crate::conversation::operator::{AskingDriver, OperatorInput, OperatorPrompt};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
-use crate::flags::{DriverArgs, DriverChoice, OutputFormat, PageArgs, SessionArgs, Speed};
+use crate::flags::{
+    DriverArgs, DriverChoice, JobArgs, OutputFormat, PageArgs, ResultArgs, SessionArgs, Speed,
+};
 use crate::output::{Colors, count, escape, note, replace_file};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
@@ -45,6 +48,7 @@ const TAKES: &[&str] = &["stop", "hold", "answer"];
     motet run fetch_mug.motet --robot hsr --scene kitchen --speed max\n  \
     motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json\n  \
     motet run fetch_mug.motet --scene kitchen --record run/    write a journal for `motet replay run/`\n  \
+    motet run policies.jsonl --robot hsr --scene kitchen --out runs.jsonl\n  \
     motet run --resume run/                                    continue after a crash\n  \
     motet run --resume run/ --driver 'python3 my_driver.py'    the same on a driver\n  \
     motet run fetch_mug.motet --scene kitchen --driver 'python3 examples/drivers/echo.py'\n  \
@@ -52,7 +56,8 @@ const TAKES: &[&str] = &["stop", "hold", "answer"];
     motet run fetch_mug.motet --scene kitchen --driver mujoco  run in physics\n  \
     motet run --check --driver 'python3 my_driver.py'          check the laws of drivers")]
 pub(crate) struct RunArgs {
-    /// Policy file, or `-` for stdin; with `--check`, the driver gets its first call instead of `say`
+    /// Policy file, `-` for stdin, or a .jsonl file with one policy per line, which are all simulated at
+    /// full speed; with `--check`, the driver gets its first call instead of `say`
     #[arg(value_name = "FILE", required_unless_present_any = ["resume", "check"])]
     file: Option<PathBuf>,
     /// Policy to run; required if the file has several
@@ -90,14 +95,20 @@ pub(crate) struct RunArgs {
     /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     format: OutputFormat,
+    #[command(flatten)]
+    jobs: JobArgs,
+    #[command(flatten)]
+    results: ResultArgs,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, CliError> {
     args.driver.refuse_flags()?;
+    many::refuse_flags(args)?;
     Report::run(args.format.into(), colors, |report| match (&args.resume, &args.file) {
         (None, file) if args.check => conformance::check(file.as_deref(), args, report),
         (Some(folder), _) => resume(folder, args, colors, report),
+        (None, Some(file)) if many::is_lines(file) => many::run(file, args, report),
         (None, Some(file)) => check_and_run(file, args, colors, report),
         (None, None) => Err(CliError::Message("a policy is needed".to_owned())),
     })

@@ -1,16 +1,13 @@
 //! Flags of a conversation: those of `motet do` and of `motet talk`.
 
-use std::iter;
 use std::path::PathBuf;
 use std::str::FromStr;
-use std::sync::LazyLock;
 
-use clap::builder::PossibleValue;
-use clap::{Args, ValueEnum, value_parser};
+use clap::{Args, ValueEnum};
 use motet_planner::dialogue::OnInstruction;
 use motet_runtime::Time;
 
-use crate::flags::{DriverArgs, KeyArgs, OutputFormat, PageArgs, ServerDialect, SessionArgs, duration};
+use crate::flags::{DriverArgs, OutputFormat, PageArgs, ServerArgs, SessionArgs, duration};
 
 /// Flags of a conversation.
 #[derive(Args, Debug)]
@@ -70,56 +67,20 @@ pub(super) struct ModelArgs {
     /// Planner: `builtin`, which needs no model, or the address of a server such as http://localhost:8000
     #[arg(long, default_value = "builtin", value_name = "builtin|URL")]
     pub(super) planner: String,
-    /// Model to ask
-    #[arg(long, default_value = "default", value_name = "NAME")]
-    pub(super) model: String,
-    /// Dialect in which the server takes the grammar; every reply is checked, with or without a grammar
-    #[arg(long, value_enum, default_value = "none", value_name = "SERVER")]
-    pub(super) dialect: GrammarDialect,
-    /// Send the grammar as Lark, for a vLLM, SGLang or llama.cpp that uses llguidance
-    #[arg(long)]
-    pub(super) lark: bool,
+    #[command(flatten)]
+    pub(super) server: ServerArgs,
     /// Image of the scene for the model, as PNG, JPEG, WebP or GIF; repeatable
     #[arg(long, value_name = "FILE")]
     pub(super) image: Vec<PathBuf>,
     /// Show the model a camera image with each request, and ask it for the points of `ground`
     #[arg(long)]
     pub(super) camera: bool,
-    #[command(flatten)]
-    pub(super) key: KeyArgs,
-    /// Maximum time to wait for a reply, in seconds
-    #[arg(long, default_value_t = 120, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..))]
-    pub(super) timeout: u64,
-    /// Number of times a refused reply goes back to the model with the diagnostics
-    #[arg(long, default_value_t = 3, value_name = "N", value_parser = value_parser!(u32).range(..=9))]
-    pub(super) repair: u32,
     /// Start the first step as soon as it is complete and no later step can refute it
     #[arg(long)]
     pub(super) eager: bool,
     /// Use the built-in planner if the model cannot be asked or finds no policy
     #[arg(long)]
     pub(super) fallback: bool,
-}
-
-/// Dialect in which a server takes a grammar, if it gets one.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct GrammarDialect(pub(super) Option<ServerDialect>);
-
-impl ValueEnum for GrammarDialect {
-    fn value_variants<'a>() -> &'a [Self] {
-        static ALL: LazyLock<Vec<GrammarDialect>> = LazyLock::new(|| {
-            let servers = ServerDialect::value_variants().iter().copied().map(Some);
-            iter::once(None).chain(servers).map(GrammarDialect).collect()
-        });
-        &ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        match self.0 {
-            None => Some(PossibleValue::new("none").help("Send no grammar")),
-            Some(server) => server.to_possible_value(),
-        }
-    }
 }
 
 /// Request that is typed at a time of the run.

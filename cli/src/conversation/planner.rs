@@ -1,10 +1,8 @@
 //! Planner of a conversation: the built-in one, or a model on a server with a log of its replies.
 
 use std::io::{self, IsTerminal, Write as _};
-use std::time::Duration;
 
-use motet_client::{Client, ClientSettings, EncodedImage, Notation, ServerUrl};
-use motet_decode::export::Dialect;
+use motet_client::{Client, ClientSettings, EncodedImage};
 use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner, Role, Start};
 use motet_planner::runtime_check::CheckMode;
@@ -15,7 +13,7 @@ use serde_json::json;
 use super::flags::{ConversationArgs, ModelArgs};
 use super::record::ConversationRecord;
 use crate::error::CliError;
-use crate::flags::{OutputFormat, Speed};
+use crate::flags::{CarrierArg, OutputFormat, Speed};
 use crate::output::{Colors, note};
 use crate::runner::is_interrupted;
 
@@ -33,12 +31,12 @@ pub(super) fn planner(
             return Err(CliError::Message(why.to_owned()));
         }
         let unused = [
-            ("--model", flags.model != "default"),
-            ("--dialect", flags.dialect.0.is_some()),
+            ("--model", flags.server.model != "default"),
+            ("--dialect", flags.server.dialect.0.is_some()),
             ("--image", !flags.image.is_empty()),
-            ("--key-from", flags.key.is_given()),
+            ("--key-from or --key-file", flags.server.key.is_given()),
             ("--eager", flags.eager),
-            ("--lark", flags.lark),
+            ("--carrier", flags.server.carrier != CarrierArg::default()),
             ("--fallback", flags.fallback),
         ];
         if let Some((flag, _)) = unused.iter().find(|(_, is_given)| *is_given) {
@@ -62,7 +60,7 @@ pub(super) fn planner(
     // The first step alone does not show whether the whole policy keeps the maximum duration.
     let start =
         if flags.eager && args.session.max_duration.is_none() { Start::FirstStep } else { Start::Whole };
-    let settings = model::Settings { repairs: flags.repair, start, ..model::Settings::default() };
+    let settings = model::Settings { repairs: flags.server.repair, start, ..model::Settings::default() };
     let planner = ModelPlanner::new(client, log, settings);
     Ok(if flags.fallback { Box::new(FallbackPlanner(planner)) } else { Box::new(planner) })
 }
@@ -75,14 +73,7 @@ pub(super) fn client(flags: &ModelArgs) -> Result<Client, CliError> {
 }
 
 fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
-    let dialect = args.dialect.0.map(Dialect::from);
-    let takes_lark = matches!(dialect, Some(Dialect::Vllm | Dialect::Sglang | Dialect::LlamaCpp));
-    if args.lark && !takes_lark {
-        let why = "--lark is for servers with llguidance: give --dialect vllm, sglang or llamacpp";
-        return Err(CliError::Message(why.to_owned()));
-    }
-    let notation = if args.lark { Notation::Lark } else { Notation::Usual };
-    let address = ServerUrl::new(&args.planner, dialect).map_err(CliError::Message)?;
+    let settings = args.server.settings(&args.planner)?;
     let mut images = Vec::new();
     for path in &args.image {
         let image = EncodedImage::new(&read_small(path)?).map_err(|why| {
@@ -90,19 +81,7 @@ fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
         })?;
         images.push(image);
     }
-    let key = args.key.key(&address)?;
-    let timeout = Duration::from_secs(args.timeout);
-    let new = ClientSettings::new(address, &args.model);
-    Ok(ClientSettings {
-        dialect,
-        notation,
-        key,
-        images,
-        timeout,
-        // A model may think as long as the person waits.
-        idle_timeout: timeout,
-        ..new
-    })
+    Ok(ClientSettings { images, ..settings })
 }
 
 /// Model planner with the built-in planner behind it.
@@ -199,6 +178,9 @@ impl ModelObserver for ModelLog {
                     let _ = write!(io::stderr().lock(), "{}", self.paint("2", &printable(piece)));
                     self.in_line = true;
                 }
+            }
+            ModelEvent::Used(usage) => {
+                self.keep("used", json!({"input_tokens": usage.input, "output_tokens": usage.output}));
             }
             ModelEvent::Said { round, words } => {
                 self.reply(words);

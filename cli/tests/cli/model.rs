@@ -112,16 +112,20 @@ fn a_server_that_is_not_there_is_said_and_the_builtin_planner_plans_only_if_aske
 
 #[test]
 fn what_cannot_be_used_is_said_before_anything_is_asked() {
-    let place = Place::new("model_flags").file("room.txt", "no image");
+    let place = Place::new("model_flags").file("room.txt", "no image").file("empty.txt", "\n");
     for (flags, words) in [
         ("--planner localhost", "address"),
         ("--planner http://localhost --image room.txt", "no PNG"),
         ("--planner http://localhost --key-from NO_SUCH_KEY", "NO_SUCH_KEY"),
         ("--planner http://localhost --key-from sk-0123", "no name of an environment variable"),
         ("--planner http://models.example --key-from PATH", "without encryption"),
+        ("--planner http://models.example --key-file room.txt", "without encryption"),
+        ("--planner http://localhost --key-file empty.txt", "holds no key"),
+        ("--planner http://localhost --key-file gone.txt", "gone.txt"),
+        ("--planner http://localhost --dialect openai --carrier tool", "--dialect anthropic"),
         ("--planner http://0.0.0.0 --key-from NO_SUCH_KEY", "NO_SUCH_KEY"),
         ("--camera", "--planner URL"),
-        ("--planner http://localhost --dialect ollama --lark", "--dialect vllm"),
+        ("--planner http://localhost --dialect ollama --carrier lark", "--dialect vllm"),
     ] {
         let ran = place.run(&format!("{DO} {flags}"));
         assert_eq!((ran.code, ran.stderr.contains(words)), (Some(2), true), "{flags}: {}", ran.stderr);

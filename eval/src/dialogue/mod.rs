@@ -130,7 +130,5 @@ pub fn trials(bench: &Bench, wordings: &str) -> Result<Vec<Trial>, String> {
     }
     cases.retain(|case| bench.asks_for(&[&case.robot, &case.scene, &case.request]));
     let seeded = cases.into_iter().enumerate().step_by(bench.every.max(1)).collect();
-    super::spread_over(bench.jobs, seeded, |(index, case)| run(bench, case, index as u64))
-        .into_iter()
-        .collect()
+    bench.workers.spread(seeded, |(index, case)| run(bench, case, index as u64)).into_iter().collect()
 }

@@ -152,25 +152,31 @@ impl RunEvents {
     /// Line of the end of the run.
     #[must_use]
     pub fn finish(&self, now: Time, end: &RunEnd) -> String {
-        let (outcome, node, more) = match end {
-            RunEnd::Done { why, result: None } => ("done", None, json!({"why": why})),
-            RunEnd::Done { why, result: Some(result) } => {
-                ("done", None, json!({"why": why, "result": value(result)}))
-            }
-            RunEnd::Failed { kind, why, node } => {
-                ("failed", Some(*node), json!({"failure": kind.as_str(), "why": why}))
-            }
-            RunEnd::Declined { why } => ("declined", None, json!({"why": why})),
-            RunEnd::Replan { why } => ("replan", None, json!({"why": why})),
-            RunEnd::Interrupted => ("interrupted", None, json!({})),
-            RunEnd::Fault(fault) => ("fault", None, json!({"why": fault.to_string()})),
+        let node = match end {
+            RunEnd::Failed { node, .. } => Some(*node),
+            _ => None,
         };
-        let mut all = json!({"outcome": outcome});
-        if let (serde_json::Value::Object(all), serde_json::Value::Object(more)) = (&mut all, more) {
-            all.extend(more);
-        }
-        self.line(now, "finished", node, all)
+        self.line(now, "finished", node, outcome(end))
     }
+}
+
+/// End of a run as a JSON object, without its time.
+#[must_use]
+pub fn outcome(end: &RunEnd) -> serde_json::Value {
+    let (outcome, more) = match end {
+        RunEnd::Done { why, result: None } => ("done", json!({"why": why})),
+        RunEnd::Done { why, result: Some(result) } => ("done", json!({"why": why, "result": value(result)})),
+        RunEnd::Failed { kind, why, .. } => ("failed", json!({"failure": kind.as_str(), "why": why})),
+        RunEnd::Declined { why } => ("declined", json!({"why": why})),
+        RunEnd::Replan { why } => ("replan", json!({"why": why})),
+        RunEnd::Interrupted => ("interrupted", json!({})),
+        RunEnd::Fault(fault) => ("fault", json!({"why": fault.to_string()})),
+    };
+    let mut all = json!({"outcome": outcome});
+    if let (serde_json::Value::Object(all), serde_json::Value::Object(more)) = (&mut all, more) {
+        all.extend(more);
+    }
+    all
 }
 
 /// Lines of the diagnostics of a check, which come before those of the run.

@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 use kitchen::{Heard, brisk, geometry, right, setting};
 use motet_client::{Client, ClientSettings};
 use motet_compiler::{InitialState, Session};
-use motet_decode::export::{Dialect, request_constraint};
+use motet_decode::export::{Dialect, GrammarCarrier, request_constraint};
 use motet_decode::{AcceptorFactory as Acceptors, Grammar, Subset};
 use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator};
 use motet_planner::model::{self, ModelPlanner, ReplyVerdict, Start, StreamReader, judge};
@@ -108,7 +108,8 @@ impl Kept {
     fn new(setting: &DialogueSetup) -> Self {
         let session = session(setting);
         let grammar = Grammar::new(&session.signatures(), Subset::default());
-        let constraint = request_constraint(Dialect::Vllm, &grammar).unwrap().to_string();
+        let constraint =
+            request_constraint(Dialect::Vllm, GrammarCarrier::Usual, &grammar).unwrap().to_string();
         Self {
             lasting: StaticPrompt::new(&session, &setting.robot, &setting.scene),
             acceptors: Acceptors::new(&session, Subset::default()),

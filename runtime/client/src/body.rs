@@ -1,13 +1,13 @@
-//! The body of a chat request, in a server's dialect.
+//! The body of a chat request: messages with their images, and the grammar.
 
 use motet_decode::Grammar;
-use motet_decode::export::{Dialect, lark_constraint, request_constraint};
+use motet_decode::export::{ChatBody, Delivery, Turn, TurnImage, TurnRole, request_constraint};
 use motet_planner::model::{Message, ModelError, Role};
 use motet_runtime::CameraImage as Picture;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use crate::image::EncodedImage;
-use crate::settings::{ClientSettings, Notation};
+use crate::settings::ClientSettings;
 
 /// The body of a chat that is answered piece by piece, held to a grammar where the server takes one.
 pub(crate) fn chat(
@@ -15,61 +15,54 @@ pub(crate) fn chat(
     chat: &[Message],
     constraint: Option<&Map<String, Value>>,
 ) -> Result<Value, ModelError> {
-    let mut body = Map::new();
-    body.insert("model".to_owned(), settings.model.clone().into());
-    body.insert("messages".to_owned(), messages(settings, chat)?);
+    let mut body = written(settings, chat, Delivery::Streamed)?;
     body.extend(constraint.into_iter().flatten().map(|(name, value)| (name.clone(), value.clone())));
-    body.insert("stream".to_owned(), true.into());
     Ok(Value::Object(body))
 }
 
 /// Parameters that constrain a reply to a grammar, in the server's dialect; none for a server without a
-/// dialect.
+/// dialect or without a part that carries the grammar.
 pub(crate) fn constraint(
     settings: &ClientSettings,
     grammar: &Grammar,
 ) -> Result<Option<Map<String, Value>>, ModelError> {
-    let Some(dialect) = settings.dialect else { return Ok(None) };
-    let constraint = match settings.notation {
-        Notation::Usual => request_constraint(dialect, grammar),
-        Notation::Lark => lark_constraint(dialect, grammar),
-    };
-    match constraint {
+    let (Some(dialect), Some(carrier)) = (settings.dialect, settings.carrier) else { return Ok(None) };
+    match request_constraint(dialect, carrier, grammar) {
         Some(Value::Object(fields)) => Ok(Some(fields)),
         _ => Err(ModelError::Refused { why: "it takes no grammar of this form".to_owned() }),
     }
 }
 
-fn messages(settings: &ClientSettings, chat: &[Message]) -> Result<Value, ModelError> {
+/// Messages of a chat in the protocol of the server.
+fn written(
+    settings: &ClientSettings,
+    chat: &[Message],
+    delivery: Delivery,
+) -> Result<Map<String, Value>, ModelError> {
     let with_images = chat.iter().position(|message| message.role == Role::User);
-    let messages = chat.iter().enumerate().map(|(index, message)| {
-        let role = match message.role {
-            Role::System => "system",
-            Role::User => "user",
-            Role::Assistant => "assistant",
-        };
-        let fixed = if Some(index) == with_images { settings.images.as_slice() } else { &[] };
-        let fresh = message.images.iter().map(|image| encoded(image)).collect::<Result<Vec<_>, _>>()?;
-        let images: Vec<&EncodedImage> = fixed.iter().chain(&fresh).collect();
-        Ok(said(settings, role, &message.text, &images))
-    });
-    messages.collect()
+    let fresh = chat.iter().map(|message| message.images.iter().map(|image| encoded(image)).collect());
+    let fresh = fresh.collect::<Result<Vec<Vec<_>>, _>>()?;
+    let images: Vec<Vec<TurnImage<'_>>> = fresh
+        .iter()
+        .enumerate()
+        .map(|(index, fresh)| {
+            let fixed = if Some(index) == with_images { settings.images.as_slice() } else { &[] };
+            fixed.iter().chain(fresh).map(EncodedImage::of_turn).collect()
+        })
+        .collect();
+    let turns: Vec<Turn<'_>> =
+        chat.iter().zip(&images).map(|(message, images)| turn(message, images)).collect();
+    let body = ChatBody { dialect: settings.dialect, model: &settings.model, turns: &turns };
+    Ok(body.write(delivery))
 }
 
-/// A message of one role with its images.
-fn said(settings: &ClientSettings, role: &str, text: &str, images: &[&EncodedImage]) -> Value {
-    if images.is_empty() {
-        return json!({"role": role, "content": text});
-    }
-    if settings.dialect == Some(Dialect::Ollama) {
-        let images: Vec<&str> = images.iter().map(|image| image.base64()).collect();
-        return json!({"role": role, "content": text, "images": images});
-    }
-    let mut parts = vec![json!({"type": "text", "text": text})];
-    for image in images {
-        parts.push(json!({"type": "image_url", "image_url": {"url": image.data_url()}}));
-    }
-    json!({"role": role, "content": parts})
+fn turn<'t>(message: &'t Message, images: &'t [TurnImage<'t>]) -> Turn<'t> {
+    let role = match message.role {
+        Role::System => TurnRole::System,
+        Role::User => TurnRole::User,
+        Role::Assistant => TurnRole::Assistant,
+    };
+    Turn { role, text: &message.text, images }
 }
 
 fn encoded(image: &Picture) -> Result<EncodedImage, ModelError> {
@@ -84,6 +77,14 @@ pub(crate) fn question(
     image: &Picture,
     question: &str,
 ) -> Result<Value, ModelError> {
-    let messages = json!([said(settings, "user", question, &[&encoded(image)?])]);
-    Ok(json!({"model": settings.model, "messages": messages, "stream": false}))
+    let image = encoded(image)?;
+    let images = [image.of_turn()];
+    let turns = [Turn { role: TurnRole::User, text: question, images: &images }];
+    let body = ChatBody { dialect: settings.dialect, model: &settings.model, turns: &turns };
+    let mut body = body.write(Delivery::Whole);
+    if settings.dialect.is_none() {
+        // Some servers stream unless they are told not to.
+        body.insert("stream".to_owned(), false.into());
+    }
+    Ok(Value::Object(body))
 }

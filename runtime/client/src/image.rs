@@ -2,6 +2,7 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use motet_decode::export::TurnImage;
 use thiserror::Error;
 
 /// The largest image that is sent, in bytes: servers take no larger ones.
@@ -52,12 +53,8 @@ impl EncodedImage {
         Ok(Self { kind, base64: STANDARD.encode(bytes) })
     }
 
-    pub(crate) fn data_url(&self) -> String {
-        format!("data:{};base64,{}", self.kind, self.base64)
-    }
-
-    pub(crate) fn base64(&self) -> &str {
-        &self.base64
+    pub(crate) fn of_turn(&self) -> TurnImage<'_> {
+        TurnImage { media_type: self.kind, base64: &self.base64 }
     }
 }
 

@@ -2,13 +2,15 @@
 
 mod body;
 mod image;
+mod protocol;
+mod reply_reader;
 mod settings;
 mod stream;
 mod talk;
 
 pub use image::{EncodedImage, ImageError, MAX_IMAGE_BYTES};
-pub use settings::{ApiKey, ClientSettings, Notation, ServerUrl};
-pub use stream::content;
+pub use reply_reader::content;
+pub use settings::{ApiKey, ClientSettings, ServerUrl};
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -18,7 +20,7 @@ use motet_decode::Grammar;
 use motet_planner::model::{Message, Model, ModelError, News, Reply};
 use motet_planner::vision::Pointer;
 use motet_runtime::CameraImage as Picture;
-use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue};
+use reqwest::header::{HeaderMap, HeaderName, HeaderValue};
 use reqwest::redirect;
 use serde_json::{Map, Value};
 use tokio::runtime::Runtime;
@@ -44,12 +46,17 @@ impl Client {
         let wrong = |why: String| ModelError::Unreachable { why };
         // The first to set it wins, and all set the same.
         let _ = rustls::crypto::ring::default_provider().install_default();
-        let mut headers = HeaderMap::new();
+        let protocol = protocol::protocol(settings.dialect);
+        let fixed = protocol.headers.iter();
+        let fixed =
+            fixed.map(|(name, value)| (HeaderName::from_static(name), HeaderValue::from_static(value)));
+        let mut headers: HeaderMap = fixed.collect();
         if let Some(key) = &settings.key {
-            let mut value = HeaderValue::try_from(key.bearer())
+            let (name, prefix) = protocol.key_header;
+            let mut value = HeaderValue::try_from(key.header(prefix))
                 .map_err(|_| wrong("the key has characters that no header takes".to_owned()))?;
             value.set_sensitive(true);
-            headers.insert(AUTHORIZATION, value);
+            headers.insert(HeaderName::from_static(name), value);
         }
         let mut builder = reqwest::Client::builder()
             .default_headers(headers)
@@ -118,7 +125,7 @@ impl Pointer for Client {
     fn ask(&mut self, image: &Picture, question: &str) -> Result<String, String> {
         let answer = body::question(&self.settings, image, question).and_then(|body| self.once(&body));
         let answer = answer.map_err(|why| why.to_string())?;
-        content(&answer).map(ToOwned::to_owned).ok_or_else(|| "its answer is no reply to a chat".to_owned())
+        content(self.settings.dialect, &answer).ok_or_else(|| "its answer is no reply to a chat".to_owned())
     }
 }
 

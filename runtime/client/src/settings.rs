@@ -4,10 +4,11 @@ use std::fmt;
 use std::net::IpAddr;
 use std::time::Duration;
 
-use motet_decode::export::Dialect;
+use motet_decode::export::{Delivery, Dialect, GrammarCarrier, Protocol};
 use reqwest::Url;
 
 use crate::image::EncodedImage;
+use crate::protocol::protocol;
 
 /// Server, model, and limits of time and size.
 #[derive(Clone, Debug)]
@@ -15,10 +16,10 @@ pub struct ClientSettings {
     pub address: ServerUrl,
     /// The name of the model.
     pub model: String,
-    /// Dialect in which the server takes a grammar; without one, no grammar is sent.
+    /// Dialect of the server; without one, chats go as to OpenAI, and no grammar is sent.
     pub dialect: Option<Dialect>,
-    /// In which notation it takes it.
-    pub notation: Notation,
+    /// Part of the request that carries the grammar; without one, no grammar is sent.
+    pub carrier: Option<GrammarCarrier>,
     /// The server's key.
     pub key: Option<ApiKey>,
     /// Images of the room, sent with the first message that is not the system's.
@@ -41,16 +42,6 @@ pub struct ClientSettings {
     pub max_bytes: usize,
 }
 
-/// In which notation a server takes a grammar.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Notation {
-    /// The one that every server of its kind takes: JSON Schema.
-    #[default]
-    Usual,
-    /// Lark, where llguidance runs the grammars.
-    Lark,
-}
-
 impl ClientSettings {
     /// The defaults for a server and a model.
     #[must_use]
@@ -59,7 +50,7 @@ impl ClientSettings {
             address,
             model: model.into(),
             dialect: None,
-            notation: Notation::Usual,
+            carrier: Some(GrammarCarrier::default()),
             key: None,
             images: Vec::new(),
             connect_timeout: Duration::from_secs(10),
@@ -70,6 +61,27 @@ impl ClientSettings {
             longest_back_off: Duration::from_secs(20),
             max_bytes: 4 << 20,
         }
+    }
+
+    /// Address of a request: Gemini has the model and the delivery in it.
+    pub(crate) fn request_url(&self, delivery: Delivery) -> Url {
+        let mut url = self.address.0.clone();
+        if self.dialect.map(Dialect::protocol) != Some(Protocol::Gemini) {
+            return url;
+        }
+        let model = self.model.strip_prefix("models/").unwrap_or(&self.model);
+        let method = match delivery {
+            Delivery::Whole => "generateContent",
+            Delivery::Streamed => "streamGenerateContent",
+        };
+        // The segment is encoded, whatever the name of the model is.
+        if let Ok(mut segments) = url.path_segments_mut() {
+            segments.push(&format!("{model}:{method}"));
+        }
+        if delivery == Delivery::Streamed {
+            url.set_query(Some("alt=sse"));
+        }
+        url
     }
 }
 
@@ -106,14 +118,13 @@ impl ServerUrl {
             );
         }
         let base = url.path().trim_end_matches('/').to_owned();
-        if !base.ends_with("/chat/completions") && !base.ends_with("/api/chat") {
-            let path = match dialect {
-                Some(Dialect::Ollama) => format!("{base}/api/chat"),
-                Some(Dialect::Vllm | Dialect::LlamaCpp | Dialect::Sglang | Dialect::OpenAi) | None => {
-                    format!("{}/v1/chat/completions", base.strip_suffix("/v1").unwrap_or(&base))
-                }
-            };
-            url.set_path(&path);
+        let path = protocol(dialect).path;
+        let is_whole =
+            |path: &str| base.ends_with(path.trim_start_matches("/v1beta").trim_start_matches("/v1"));
+        if !is_whole(path) && !(is_chat(dialect) && (is_whole("/chat/completions") || is_whole("/api/chat")))
+        {
+            let server = ["/v1beta", "/v1"].iter().find_map(|version| base.strip_suffix(version));
+            url.set_path(&format!("{}{path}", server.unwrap_or(&base)));
         }
         Ok(Self(url))
     }
@@ -144,10 +155,11 @@ impl ServerUrl {
     pub fn is_in_clear(&self) -> bool {
         self.0.scheme() == "http" && !self.is_loopback()
     }
+}
 
-    pub(crate) fn url(&self) -> Url {
-        self.0.clone()
-    }
+/// True for servers that are asked at the path of chat completions or of Ollama, whichever is given.
+fn is_chat(dialect: Option<Dialect>) -> bool {
+    matches!(dialect.map(Dialect::protocol), None | Some(Protocol::Chat | Protocol::Ollama))
 }
 
 impl fmt::Display for ServerUrl {
@@ -164,18 +176,35 @@ impl ApiKey {
     /// The key in a variable of the environment; none where there is no such variable, or nothing in it.
     #[must_use]
     pub fn from_variable(name: &str) -> Option<Self> {
-        let key = std::env::var(name).ok()?;
-        let key = key.trim();
+        Self::new(&std::env::var(name).ok()?)
+    }
+
+    /// The key in a text, such as the content of a file; none if there is nothing in it but white space.
+    #[must_use]
+    pub fn new(text: &str) -> Option<Self> {
+        let key = text.trim();
         (!key.is_empty()).then(|| Self(key.to_owned()))
     }
 
-    pub(crate) fn bearer(&self) -> String {
-        format!("Bearer {}", self.0)
+    /// Value of a header with the key behind a prefix.
+    pub(crate) fn header(&self, prefix: &str) -> String {
+        format!("{prefix}{}", self.0)
     }
 
-    /// A text of the server, which may quote what it was sent, without the key.
+    /// A text of the server, which may quote what it was sent, without the key: as it is, and as JSON
+    /// writes it.
     pub(crate) fn cut_from(&self, text: &str) -> String {
-        text.replace(&self.0, "[key]")
+        let cut = text.replace(&self.0, "[key]");
+        let written = serde_json::Value::from(self.0.as_str()).to_string();
+        let written = written.trim_matches('"');
+        if written == self.0 || written.is_empty() { cut } else { cut.replace(written, "[key]") }
+    }
+
+    /// Offset at which a text ends with the beginning of the key; its length if it does not.
+    pub(crate) fn begun_at(&self, text: &str) -> usize {
+        let longest = self.0.len().min(text.len());
+        let begins = |start: &usize| text.get(*start..).is_some_and(|end| self.0.starts_with(end));
+        (text.len() - longest..text.len()).find(begins).unwrap_or(text.len())
     }
 }
 

@@ -12,6 +12,7 @@ use reqwest::Response;
 use reqwest::header::CONTENT_TYPE;
 use serde_json::Value;
 
+use crate::reply_reader::ReplyReader;
 use crate::settings::ClientSettings;
 
 type Bytes = Vec<u8>;
@@ -60,15 +61,20 @@ pub(crate) async fn pass_on(
     let kind = response.headers().get(CONTENT_TYPE).and_then(|kind| kind.to_str().ok()).unwrap_or_default();
     let kind = kind.to_ascii_lowercase();
     let pieces = pieces(response, settings);
-    if kind.starts_with("text/event-stream") { events(pieces, news).await } else { lines(pieces, news).await }
+    let mut reader = ReplyReader::new(settings, news);
+    let end = match kind.starts_with("text/event-stream") {
+        true => events(pieces, &mut reader).await,
+        false => lines(pieces, &mut reader).await,
+    };
+    reader.close();
+    end
 }
 
 async fn events(
     pieces: impl Stream<Item = Result<Bytes, ModelError>> + Unpin,
-    news: &Sender<News>,
+    reader: &mut ReplyReader<'_>,
 ) -> Result<Finish, ModelError> {
     let mut events = pieces.eventsource();
-    let mut finish = None;
     while let Some(event) = events.next().await {
         let event = event.map_err(|error| match error {
             EventStreamError::Transport(error) => error,
@@ -76,23 +82,21 @@ async fn events(
             EventStreamError::Parser(_) => malformed("its events cannot be read"),
         })?;
         if event.data.trim() == "[DONE]" {
-            return Ok(finish.unwrap_or(Finish::Stop));
+            return Ok(reader.finish().unwrap_or(Finish::Stop));
         }
-        if event.data.is_empty() {
-            continue;
+        if !event.data.is_empty() && reader.take(&event.data)? {
+            break;
         }
-        finish = piece(&event.data, news)?.or(finish);
     }
-    finish.ok_or_else(broke_off)
+    reader.finish().ok_or_else(broke_off)
 }
 
 /// A JSON object a line, or one object over many lines.
 async fn lines(
     mut pieces: impl Stream<Item = Result<Bytes, ModelError>> + Unpin,
-    news: &Sender<News>,
+    reader: &mut ReplyReader<'_>,
 ) -> Result<Finish, ModelError> {
     let (mut bytes, mut begun) = (Vec::new(), 0);
-    let mut finish = None;
     while let Some(next) = pieces.next().await {
         let next = next?;
         let from = bytes.len();
@@ -102,51 +106,25 @@ async fn lines(
             let line = String::from_utf8_lossy(bytes.get(begun..end).unwrap_or_default()).into_owned();
             // Of an object over many lines a single one says nothing.
             if serde_json::from_str::<Value>(&line).is_ok_and(|value| value.is_object()) {
-                finish = piece(&line, news)?.or(finish);
+                reader.take(&line)?;
                 begun = end;
             }
         }
-        if finish.is_some() {
+        if reader.finish().is_some() {
             break;
         }
         bytes.drain(..begun);
         begun = 0;
     }
     let rest = String::from_utf8_lossy(bytes.get(begun..).unwrap_or_default()).into_owned();
-    if finish.is_none() && !rest.trim().is_empty() {
-        finish = match serde_json::from_str::<Value>(&rest) {
-            Ok(_) => piece(&rest, news)?,
+    if reader.finish().is_none() && !rest.trim().is_empty() {
+        match serde_json::from_str::<Value>(&rest) {
+            Ok(_) => drop(reader.take(&rest)?),
             Err(_) if rest.trim_start().starts_with('{') => return Err(broke_off()),
             Err(error) => return Err(malformed(&format!("it is no JSON: {error}"))),
         };
     }
-    finish.ok_or_else(broke_off)
-}
-
-/// Passes on what one object says; how it all finished, where it says that.
-fn piece(text: &str, news: &Sender<News>) -> Result<Option<Finish>, ModelError> {
-    let value: Value =
-        serde_json::from_str(text).map_err(|error| malformed(&format!("it is no JSON: {error}")))?;
-    if let Some(error) = value.get("error").filter(|error| !error.is_null()) {
-        let words = error.get("message").unwrap_or(error);
-        let words = words.as_str().map_or_else(|| words.to_string(), ToOwned::to_owned);
-        return Err(ModelError::CutOff { why: words.chars().take(320).collect() });
-    }
-    let delta = value.pointer("/choices/0/delta/content").and_then(Value::as_str);
-    let whole = content(&value);
-    if let Some(said) = delta.or(whole).filter(|said| !said.is_empty()) {
-        // Who no longer listens has hung up, and this task is being ended.
-        let _ = news.send(News::Piece(said.to_owned()));
-    }
-    let reason = value.pointer("/choices/0/finish_reason").or_else(|| value.get("done_reason"));
-    let is_done = value.get("done").and_then(Value::as_bool) == Some(true);
-    Ok(match reason.and_then(Value::as_str) {
-        Some("length") => Some(Finish::Length),
-        Some(_) => Some(Finish::Stop),
-        // A server that does not stream may leave the reason out.
-        None if is_done || value.pointer("/choices/0/message").is_some() => Some(Finish::Stop),
-        None => None,
-    })
+    reader.finish().ok_or_else(broke_off)
 }
 
 fn malformed(why: &str) -> ModelError {
@@ -175,22 +153,4 @@ pub(crate) fn reason(error: reqwest::Error) -> String {
         cause = next.source();
     }
     text
-}
-
-/// The text of a chat answer: of an OpenAI-like server, or of Ollama.
-///
-/// ```
-/// use serde_json::json;
-///
-/// let openai = json!({"choices": [{"message": {"role": "assistant", "content": "yes"}}]});
-/// assert_eq!(motet_client::content(&openai), Some("yes"));
-/// let ollama = json!({"message": {"content": "no"}, "done": true});
-/// assert_eq!(motet_client::content(&ollama), Some("no"));
-/// ```
-#[must_use]
-pub fn content(answer: &Value) -> Option<&str> {
-    answer
-        .pointer("/choices/0/message/content")
-        .or_else(|| answer.pointer("/message/content"))
-        .and_then(Value::as_str)
 }

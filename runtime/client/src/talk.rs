@@ -3,16 +3,15 @@
 use std::sync::mpsc::Sender;
 use std::time::Duration;
 
+use motet_decode::export::Delivery;
 use motet_planner::model::{ModelError, News};
 use reqwest::header::{CONTENT_TYPE, HeaderMap, RETRY_AFTER};
 use reqwest::{Response, StatusCode};
 use serde_json::Value;
 
+use crate::reply_reader::{shown, without_key};
 use crate::settings::ClientSettings;
 use crate::stream::{self, reason, timed_out};
-
-/// Number of characters of a server's refusal that are shown.
-const SHOWN_CHARS: usize = 320;
 
 /// Sends a body and passes on what comes, the ending last. Who no longer listens is not told.
 pub(crate) async fn talk(
@@ -22,7 +21,8 @@ pub(crate) async fn talk(
     news: &Sender<News>,
 ) {
     let whole = async {
-        let response = send(http, settings, body, |news_of| drop(news.send(news_of))).await?;
+        let sends = |news_of| drop(news.send(news_of));
+        let response = send(http, settings, (Delivery::Streamed, body), sends).await?;
         stream::pass_on(response, settings, news).await
     };
     let end = match tokio::time::timeout(settings.timeout, whole).await {
@@ -37,14 +37,16 @@ pub(crate) async fn talk(
 pub(crate) async fn send(
     http: &reqwest::Client,
     settings: &ClientSettings,
-    body: String,
+    (delivery, body): (Delivery, String),
     tell: impl Fn(News),
 ) -> Result<Response, ModelError> {
     let mut back_off = settings.back_off;
     let mut tries = 0;
     loop {
-        let request =
-            http.post(settings.address.url()).header(CONTENT_TYPE, "application/json").body(body.clone());
+        let request = http
+            .post(settings.request_url(delivery))
+            .header(CONTENT_TYPE, "application/json")
+            .body(body.clone());
         let sent = tokio::time::timeout(settings.idle_timeout, request.send()).await;
         let (error, asked) = match sent {
             Ok(Ok(response)) if response.status().is_success() => return Ok(response),
@@ -97,9 +99,7 @@ async fn refusal(response: Response, settings: &ClientSettings) -> ModelError {
         stream::text(response, settings.max_bytes.min(64 << 10)),
     );
     let said = words.await.ok().and_then(Result::ok).unwrap_or_default();
-    let said = settings.key.as_ref().map_or_else(|| said.clone(), |key| key.cut_from(&said));
-    let said: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    let said: String = said.chars().take(SHOWN_CHARS).collect();
+    let said = shown(settings.key.as_ref(), &said);
     let colon = if said.is_empty() { "" } else { ": " };
     let why = format!("it answers {status}{colon}{said}");
     if is_passing(status) { ModelError::Busy { why } } else { ModelError::Refused { why } }
@@ -112,10 +112,12 @@ pub(crate) async fn once(
     body: String,
 ) -> Result<Value, ModelError> {
     let whole = async {
-        let response = send(http, settings, body, |_| ()).await?;
+        let response = send(http, settings, (Delivery::Whole, body), |_| ()).await?;
         let text = stream::text(response, settings.max_bytes).await?;
-        serde_json::from_str(&text)
-            .map_err(|error| ModelError::Malformed { why: format!("it is no JSON: {error}") })
+        let mut answer = serde_json::from_str(&text)
+            .map_err(|error| ModelError::Malformed { why: format!("it is no JSON: {error}") })?;
+        settings.key.iter().for_each(|key| without_key(key, &mut answer));
+        Ok(answer)
     };
     tokio::time::timeout(settings.timeout, whole).await.unwrap_or_else(|_| Err(timed_out(settings.timeout)))
 }

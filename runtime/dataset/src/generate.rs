@@ -185,14 +185,16 @@ impl SceneRows {
     }
 }
 
-/// Puts parts together, in the order of their numbers: a row whose input is there already is left out, and
-/// each varied scene is either for learning or for testing.
+/// Puts parts together, in the order of their numbers, which come with them: a row whose input is there
+/// already is left out, and each varied scene is either for learning or for testing. Some of the parts give
+/// some of the rows, each in the file where it is with all parts.
 #[must_use]
-pub fn gather(order: &Order, parts: Vec<SceneRows>) -> Dataset {
+pub fn gather(order: &Order, parts: Vec<(usize, SceneRows)>) -> Dataset {
     let mut dataset = Dataset::default();
     let is_test = tested(order);
     let mut inputs: FxHashSet<String> = FxHashSet::default();
-    for (mut part, is_test) in parts.into_iter().zip(is_test) {
+    for (number, mut part) in parts {
+        let Some(is_test) = is_test.get(number).copied() else { continue };
         for (why, count) in part.dropped {
             *dataset.dropped.entry(why).or_default() += count;
         }

@@ -49,7 +49,8 @@ fn order(form: RowFormat) -> Order {
 }
 
 fn made(order: &Order) -> Dataset {
-    generate::gather(order, (0..order.scenes).map(|number| generate::part(order, number)).collect())
+    let part = |number| (number, generate::part(order, number));
+    generate::gather(order, (0..order.scenes).map(part).collect())
 }
 
 fn worlds(dataset: &Dataset, effort: Option<SearchBudget>) -> Worlds {

@@ -212,10 +212,16 @@ impl Project {
         document: &File,
         sink: &mut dyn DiagnosticSink,
     ) -> Result<&ProjectSession, ProjectError> {
-        self.shared_session_for(document, sink).map(|session| &**session)
+        let wanted = self.robot_for(document);
+        if !self.sessions.contains_key(&wanted) {
+            let session = Arc::new(self.build(&wanted, sink)?);
+            self.sessions.insert(wanted.clone(), session);
+        }
+        let unknown = || ProjectError::Unknown { what: "robot", name: wanted.clone(), help: String::new() };
+        self.sessions.get(&wanted).map(Arc::as_ref).ok_or_else(unknown)
     }
 
-    /// Session for a document as in [`Project::session_for`], to be kept beside the project.
+    /// The session of [`Project::session_for`], to be shared with other threads.
     ///
     /// # Errors
     ///
@@ -224,19 +230,22 @@ impl Project {
         &mut self,
         document: &File,
         sink: &mut dyn DiagnosticSink,
-    ) -> Result<&Arc<ProjectSession>, ProjectError> {
-        let wanted = match &self.robot {
+    ) -> Result<Arc<ProjectSession>, ProjectError> {
+        self.session_for(document, sink)?;
+        let wanted = self.robot_for(document);
+        let unknown = || ProjectError::Unknown { what: "robot", name: wanted.clone(), help: String::new() };
+        self.sessions.get(&wanted).cloned().ok_or_else(unknown)
+    }
+
+    /// Name of the robot whose session checks a document; empty for no robot.
+    #[must_use]
+    pub fn robot_for(&self, document: &File) -> String {
+        match &self.robot {
             Some((_, robot)) => robot.name.to_string(),
             None => {
                 named_robot(document).filter(|name| RobotFiles::built_in(name).is_some()).unwrap_or_default()
             }
-        };
-        if !self.sessions.contains_key(&wanted) {
-            let session = self.build(&wanted, sink)?;
-            self.sessions.insert(wanted.clone(), Arc::new(session));
         }
-        let unknown = || ProjectError::Unknown { what: "robot", name: wanted.clone(), help: String::new() };
-        self.sessions.get(&wanted).ok_or_else(unknown)
     }
 
     /// Is `true` if the project has a scene.

@@ -18,7 +18,7 @@ use crate::files::{read_json, read_small};
 use crate::project::looks_like_file;
 
 /// Inputs of a simulated run, read before the policy is known.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct SimulationInputs {
     faults: Faults,
     /// File of the faults, for the places of its names.

@@ -62,9 +62,10 @@ def judge(binary, world, reply, wrong, tally):
 
 
 def carried_out(binary, world, url, dialect, folder, wrong, tally):
-    """`motet do`, asked with the model at an address."""
+    """`motet do`, asked with the model at an address, in a dialect with the carrier of the grammar."""
     robot, scene, request = world
-    flags = ["--planner", url, "--model", "tiny", "--dialect", dialect, "--repair", "1", "--timeout", "300"]
+    dialect, carrier = dialect
+    flags = ["--planner", url, "--model", "tiny", "--dialect", dialect, "--carrier", carrier, "--repair", "1", "--timeout", "300"]
     flags += ["--no-geometry", "--ask", "never", "--speed", "max", "--record", str(folder)]
     ran = motet(binary, "do", request, "--robot", robot, "--scene", scene, *flags)
     tally[f"do ended with {ran.returncode}"] += 1

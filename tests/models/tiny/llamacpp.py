@@ -99,7 +99,7 @@ def main():
                             tally[f"{name}: ended by {why}"] += 1
                             if why == "stop":
                                 judge(binary, world, said, wrong, tally)
-                    carried_out(binary, world, url, "llamacpp", folder / world[0], wrong, tally)
+                    carried_out(binary, world, url, ("llamacpp", "usual"), folder / world[0], wrong, tally)
     spent = time.perf_counter() - begun
     report(f"{models} models of {parameters} parameters, {tokenizer.get_vocab_size()} tokens: {spent:.0f} s", wrong, tally)
 

@@ -1,7 +1,7 @@
-"""A model behind HTTP on the loopback, as far as OpenAI's chat is needed: replies in one piece or as server-sent events.
+"""A model behind HTTP on the loopback, in the protocols of `protocols.py`: replies in one piece or as server-sent events.
 
-What the model may write is a Lark grammar that the server was given, or the JSON Schema of the request, wherever one of the
-dialects of `motet do --dialect` puts it.
+What the model may write is the grammar of the request, wherever one of the dialects of `motet do --dialect` puts it, or else the
+Lark grammar that the server was given.
 """
 
 import json
@@ -9,6 +9,7 @@ import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 from mistralrs import Architecture, ChatCompletionRequest, ModelDType, Runner, Which
+from protocols import PROTOCOLS
 
 # Longer than any policy that is asked for here, so that a model without an end is cut off and that is seen.
 MOST_TOKENS = 3072
@@ -23,9 +24,9 @@ class Model:
         self.lark = lark
         self.turn = threading.Lock()
 
-    def pieces(self, messages, schema=None):
+    def pieces(self, messages, held=None):
         """The pieces of a reply, and why it ended with the last."""
-        kind, grammar = ("lark", self.lark) if schema is None else ("json_schema", json.dumps(schema))
+        kind, grammar = held or ("lark", self.lark)
         request = ChatCompletionRequest(
             messages=messages,
             model="default",
@@ -41,15 +42,6 @@ class Model:
                 yield choice.delta.content or "", choice.finish_reason
 
 
-def schema_of(body):
-    """The JSON Schema of a request, in vLLM's dialect or in OpenAI's."""
-    schema = body.get("structured_outputs", {}).get("json")
-    if schema is None:
-        schema = body.get("response_format", {}).get("json_schema", {}).get("schema")
-    # What the grammar leaves open, a model without sense fills with blanks.
-    return schema and {**schema, "x-guidance": {"whitespace_flexible": False}}
-
-
 def serve(model, log):
     """Starts a server for a model; each reply is added to the log. Gives the server with its address."""
 
@@ -61,7 +53,8 @@ def serve(model, log):
 
         def do_POST(self):
             body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
-            schema = schema_of(body)
+            protocol = PROTOCOLS[self.path]()
+            messages, held = protocol.asked(body)
             self.close_connection = True
             self.send_response(200)
             streams = body.get("stream", False)
@@ -69,24 +62,25 @@ def serve(model, log):
             self.send_header("Connection", "close")
             self.end_headers()
             said, why = "", None
-            for piece, why in model.pieces(body["messages"], schema):
+            listens = not streams or self.say(protocol.begin())
+            for piece, why in model.pieces(messages, held):
                 said += piece
-                if streams and not self.say({"choices": [{"index": 0, "delta": {"content": piece}, "finish_reason": why}]}):
-                    why = "left"
+                if streams and not self.say(protocol.piece(piece)):
+                    listens = False
                     break
-            log.append({"held": "lark" if schema is None else "schema", "said": said, "why": why})
+            why = why if listens else "left"
+            log.append({"held": held[0] if held else "lark", "path": self.path, "said": said, "why": why})
             if streams:
-                self.say(None)
+                self.say(protocol.end(said, why))
             else:
-                message = {"role": "assistant", "content": said}
-                whole = {"choices": [{"index": 0, "message": message, "finish_reason": why}]}
-                self.wfile.write(json.dumps(whole).encode())
+                self.wfile.write(json.dumps(protocol.whole(said, why)).encode())
 
-        def say(self, event):
-            """Writes an event; false where nobody listens any more."""
+        def say(self, events):
+            """Writes events; false where nobody listens any more."""
             try:
-                text = "[DONE]" if event is None else json.dumps(event)
-                self.wfile.write(f"data: {text}\n\n".encode())
+                for event in events:
+                    text = event if isinstance(event, str) else json.dumps(event)
+                    self.wfile.write(f"data: {text}\n\n".encode())
                 self.wfile.flush()
                 return True
             except OSError:

@@ -73,7 +73,7 @@ impl ModelObserver for Heard {
         let line = match happening {
             ModelEvent::Asked { round, .. } => format!("asked {round}"),
             ModelEvent::Retrying { .. } => "retrying".to_owned(),
-            ModelEvent::Wrote(_) => return,
+            ModelEvent::Wrote(_) | ModelEvent::Used(_) => return,
             ModelEvent::Said { words, .. } => format!("said {words}"),
             ModelEvent::Unmet { goal } => format!("unmet {goal}"),
             ModelEvent::Mended { titles } => format!("mended {}", titles.join("; ")),

@@ -9,6 +9,7 @@
 )]
 
 mod cleanup;
+mod dialects;
 mod flood;
 mod kitchen;
 mod planner;

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use crate::kitchen::{brisk, session};
 use crate::server::{Act, Server};
-use motet_client::{Client, ClientSettings, EncodedImage, ImageError, Notation, ServerUrl};
-use motet_decode::export::Dialect;
+use motet_client::{Client, ClientSettings, EncodedImage, ImageError, ServerUrl};
+use motet_decode::export::{Dialect, GrammarCarrier};
 use motet_decode::{Grammar, Subset};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, News, Role};
 
@@ -27,6 +27,7 @@ fn ask(settings: ClientSettings) -> (String, usize, Result<Finish, ModelError>) 
         match reply.next(Duration::from_millis(20)) {
             News::Nothing => {}
             News::Piece(piece) => text.push_str(&piece),
+            News::Used(_) => {}
             News::Retrying { .. } => retries += 1,
             News::End(finish) => return (text, retries, Ok(finish)),
             News::Failed(why) => return (text, retries, Err(why)),
@@ -109,8 +110,12 @@ fn client_lark_goes_where_llguidance_takes_it() {
     ] {
         let server = Server::new(vec![Act::says("{}")]);
         let address = ServerUrl::new(&server.url, Some(dialect)).unwrap();
-        let settings =
-            ClientSettings { dialect: Some(dialect), notation: Notation::Lark, address, ..brisk(&server) };
+        let settings = ClientSettings {
+            dialect: Some(dialect),
+            carrier: Some(GrammarCarrier::Lark),
+            address,
+            ..brisk(&server)
+        };
         let (_, _, end) = ask(settings);
         let Some(field) = field else {
             assert!(matches!(&end, Err(ModelError::Refused { .. })), "{dialect:?}: {end:?}");

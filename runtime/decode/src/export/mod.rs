@@ -7,17 +7,21 @@
 //! A grammar cannot know what is in scope: a binding is any name. A policy that it generates parses, and is
 //! right in names and types but for that.
 
+mod chat_body;
 mod derive;
 mod ebnf;
+mod limits;
 mod notation;
 mod schema;
 mod server_dialect;
 mod terminal;
 
+pub use chat_body::{ChatBody, Delivery, Turn, TurnImage, TurnRole};
 pub use ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
+pub use limits::{LimitWarning, warnings};
 pub use notation::Header;
 pub use server_dialect::{
-    Dialect, LimitWarning, Prompt, lark_constraint, probe_body, request_body, request_constraint, warnings,
+    Dialect, GrammarCarrier, Prompt, Protocol, probe_body, request_body, request_constraint,
 };
 
 use motet_syntax::Syntax;

@@ -1,13 +1,13 @@
-//! Servers that constrain a model to a grammar: the fields of their chat requests, and their known limits.
+//! Servers that constrain a model to a grammar: the fields of their requests that carry it.
 
 use serde_json::{Map, Value, json};
 
+use super::chat_body::{ChatBody, Delivery, Turn, TurnRole};
 use super::notation::{self, Header};
-use super::{EbnfExpr, ebnf, json_schema};
+use super::{ebnf, json_schema};
 use crate::Grammar;
-use crate::grammar::MAX_EXCLUDED;
 
-/// A server's way of taking a grammar.
+/// A server's way of taking a chat and a grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Dialect {
     /// vLLM 0.12 and later: `structured_outputs`.
@@ -18,8 +18,57 @@ pub enum Dialect {
     Ollama,
     /// SGLang: `response_format`, or `ebnf`.
     Sglang,
-    /// OpenAI: `response_format`, strict. It takes a JSON Schema and nothing else.
+    /// The chat completions of OpenAI: `response_format`, strict. It takes a JSON Schema and nothing else.
     OpenAi,
+    /// The Responses API of OpenAI: `text.format`, or a custom tool whose input a Lark grammar describes.
+    OpenAiResponses,
+    /// The Messages API of Anthropic: `output_config.format`, or a strict tool.
+    Anthropic,
+    /// The Gemini API: `generationConfig.responseJsonSchema`. It takes a JSON Schema and nothing else.
+    Gemini,
+    /// mistral.rs, through its chat completions: `grammar`.
+    MistralRs,
+}
+
+/// Protocol of chats that a server speaks. Several dialects share one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Protocol {
+    /// Chat completions as of OpenAI.
+    Chat,
+    /// The native chat of Ollama.
+    Ollama,
+    /// The Responses API of OpenAI.
+    Responses,
+    /// The Messages API of Anthropic.
+    Messages,
+    /// `generateContent` of Gemini.
+    Gemini,
+}
+
+impl Dialect {
+    /// Protocol of the server's chats.
+    #[must_use]
+    pub const fn protocol(self) -> Protocol {
+        match self {
+            Self::Vllm | Self::LlamaCpp | Self::Sglang | Self::OpenAi | Self::MistralRs => Protocol::Chat,
+            Self::Ollama => Protocol::Ollama,
+            Self::OpenAiResponses => Protocol::Responses,
+            Self::Anthropic => Protocol::Messages,
+            Self::Gemini => Protocol::Gemini,
+        }
+    }
+}
+
+/// Part of a request that carries the grammar.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum GrammarCarrier {
+    /// The field that every server of its kind takes, with a JSON Schema if the server knows it.
+    #[default]
+    Usual,
+    /// Lark, where llguidance runs the grammars, and in the custom tools of OpenAI.
+    Lark,
+    /// A tool that the model has to call, with the policy as its input.
+    Tool,
 }
 
 /// Messages of a request, beside its grammar.
@@ -31,70 +80,167 @@ pub struct Prompt<'p> {
     pub user: &'p str,
 }
 
-/// The fields that hold a model to a grammar, to be merged into the body of a chat request; `None` for a
-/// server that cannot: Ollama and OpenAI take a JSON Schema only, so not the text syntax.
+/// Name of the policy in requests that name the object or the tool.
+const NAME: &str = "motet_policy";
+/// Description of the tool whose input is a policy.
+const DESCRIPTION: &str = "Takes the policy: the steps that do what is asked.";
+
+/// The fields that hold a model to a grammar, to be merged into the body of a chat request. `None` if the
+/// server does not take the grammar by this carrier: most take the text syntax by no JSON Schema, Lark needs
+/// llguidance or a custom tool, and only Anthropic has strict tools.
 #[must_use]
-pub fn request_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
-    let named = |schema: Value| {
-        let schema = json!({"name": "motet_policy", "strict": true, "schema": schema});
-        json!({"type": "json_schema", "json_schema": schema})
-    };
+pub fn request_constraint(dialect: Dialect, carrier: GrammarCarrier, grammar: &Grammar) -> Option<Value> {
+    match carrier {
+        GrammarCarrier::Usual => match json_schema(grammar) {
+            Some(schema) => Some(schema_constraint(dialect, NAME, &schema)),
+            None => text_constraint(dialect, grammar),
+        },
+        GrammarCarrier::Lark => lark_constraint(dialect, grammar),
+        GrammarCarrier::Tool => tool_constraint(dialect, &json_schema(grammar)?),
+    }
+}
+
+/// Fields for a JSON Schema.
+fn schema_constraint(dialect: Dialect, name: &str, schema: &Value) -> Value {
+    let named = || json!({"type": "json_schema", "name": name, "strict": true, "schema": schema});
+    match dialect {
+        Dialect::Vllm => json!({"structured_outputs": {"json": schema, "disable_any_whitespace": true}}),
+        Dialect::LlamaCpp | Dialect::Sglang | Dialect::OpenAi => {
+            let schema = json!({"name": name, "strict": true, "schema": schema});
+            json!({"response_format": {"type": "json_schema", "json_schema": schema}})
+        }
+        Dialect::Ollama => json!({"format": schema}),
+        Dialect::OpenAiResponses => json!({"text": {"format": named()}}),
+        Dialect::Anthropic => {
+            let schema = narrowed(schema, ANTHROPIC_LEAVES_OUT);
+            json!({"output_config": {"format": {"type": "json_schema", "schema": schema}}})
+        }
+        Dialect::Gemini => json!({"generationConfig": {
+            "responseMimeType": "application/json",
+            "responseJsonSchema": narrowed(schema, GEMINI_LEAVES_OUT),
+        }}),
+        Dialect::MistralRs => {
+            let mut schema = schema.clone();
+            if let Value::Object(keys) = &mut schema {
+                // What the grammar leaves open, a weak model fills with blanks.
+                keys.insert("x-guidance".to_owned(), json!({"whitespace_flexible": false}));
+            }
+            json!({"grammar": {"type": "json_schema", "value": schema}})
+        }
+    }
+}
+
+/// Fields for the text syntax.
+fn text_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
     let gbnf = || notation::gbnf(&ebnf(grammar));
-    Some(match (dialect, json_schema(grammar)) {
-        (Dialect::Vllm, Some(schema)) => {
-            json!({"structured_outputs": {"json": schema, "disable_any_whitespace": true}})
-        }
-        (Dialect::Vllm, None) => {
-            json!({"structured_outputs": {"grammar": gbnf()}})
-        }
-        (Dialect::LlamaCpp | Dialect::Sglang | Dialect::OpenAi, Some(schema)) => {
-            json!({"response_format": named(schema)})
-        }
-        (Dialect::LlamaCpp, None) => json!({"grammar": gbnf()}),
-        (Dialect::Sglang, None) => json!({"ebnf": gbnf()}),
-        (Dialect::Ollama, Some(schema)) => json!({"format": schema, "stream": false}),
-        (Dialect::OpenAi | Dialect::Ollama, None) => return None,
+    match dialect {
+        Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": gbnf()}})),
+        Dialect::LlamaCpp => Some(json!({"grammar": gbnf()})),
+        Dialect::Sglang => Some(json!({"ebnf": gbnf()})),
+        Dialect::OpenAiResponses | Dialect::MistralRs => lark_constraint(dialect, grammar),
+        Dialect::OpenAi | Dialect::Ollama | Dialect::Anthropic | Dialect::Gemini => None,
+    }
+}
+
+/// Fields for Lark. vLLM takes it with the backend `guidance`, SGLang with `llguidance`, llama.cpp if it was
+/// built with that.
+fn lark_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
+    let lark = |header| notation::lark(&ebnf(grammar), header);
+    match dialect {
+        Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": lark(Header::Llguidance)}})),
+        Dialect::LlamaCpp => Some(json!({"grammar": lark(Header::Llguidance)})),
+        Dialect::Sglang => Some(json!({"ebnf": lark(Header::Llguidance)})),
+        Dialect::MistralRs => Some(json!({"grammar": {"type": "lark", "value": lark(Header::Llguidance)}})),
+        Dialect::OpenAiResponses => Some(json!({
+            "tools": [{
+                "type": "custom",
+                "name": NAME,
+                "description": DESCRIPTION,
+                "format": {"type": "grammar", "syntax": "lark", "definition": lark(Header::None)},
+            }],
+            "tool_choice": {"type": "custom", "name": NAME},
+            "parallel_tool_calls": false,
+        })),
+        Dialect::OpenAi | Dialect::Ollama | Dialect::Anthropic | Dialect::Gemini => None,
+    }
+}
+
+/// Fields for a tool that the model has to call.
+fn tool_constraint(dialect: Dialect, schema: &Value) -> Option<Value> {
+    (dialect == Dialect::Anthropic).then(|| {
+        let schema = narrowed(schema, ANTHROPIC_LEAVES_OUT);
+        json!({
+            "tools": [{"name": NAME, "description": DESCRIPTION, "strict": true, "input_schema": schema}],
+            "tool_choice": {"type": "tool", "name": NAME, "disable_parallel_tool_use": true},
+        })
     })
 }
 
-/// The same in Lark, which llguidance takes, in the field where a server takes GBNF: of vLLM with the
-/// backend `guidance`, of SGLang with `llguidance`, and of a server of llama.cpp that was built with it.
-/// `None` for servers that take neither.
-#[must_use]
-pub fn lark_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
-    let lark = || notation::lark(&ebnf(grammar), Header::Llguidance);
-    match dialect {
-        Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": lark()}})),
-        Dialect::LlamaCpp => Some(json!({"grammar": lark()})),
-        Dialect::Sglang => Some(json!({"ebnf": lark()})),
-        Dialect::OpenAi | Dialect::Ollama => None,
+/// Keywords that Anthropic refuses. Of arrays it takes a least number of items of 0 or 1, which is all that
+/// the schemas have.
+const ANTHROPIC_LEAVES_OUT: &[&str] = &["minimum", "maximum", "maxItems", "minLength", "maxLength"];
+/// Keywords that Gemini does not know. `const` becomes an `enum` of one value.
+const GEMINI_LEAVES_OUT: &[&str] = &["pattern", "const"];
+
+/// A schema without some keywords. The check decides what it no longer says.
+fn narrowed(schema: &Value, leaves_out: &[&str]) -> Value {
+    match schema {
+        Value::Object(keys) => {
+            let mut narrow = Map::new();
+            for (key, value) in keys {
+                match key.as_str() {
+                    // Names of properties and definitions are no keywords.
+                    "properties" | "$defs" => {
+                        let named = value.as_object().into_iter().flatten();
+                        let named = named.map(|(name, shape)| (name.clone(), narrowed(shape, leaves_out)));
+                        narrow.insert(key.clone(), Value::Object(named.collect()));
+                    }
+                    "const" if leaves_out.contains(&"const") => {
+                        narrow.insert("enum".to_owned(), json!([value]));
+                    }
+                    key if leaves_out.contains(&key) => {}
+                    key => {
+                        narrow.insert(key.to_owned(), narrowed(value, leaves_out));
+                    }
+                }
+            }
+            Value::Object(narrow)
+        }
+        Value::Array(items) => items.iter().map(|item| narrowed(item, leaves_out)).collect(),
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => schema.clone(),
     }
 }
 
 /// The whole body of a chat request; `None` as of [`request_constraint`].
 ///
 /// ```
-/// use motet_decode::export::{Dialect, Prompt, request_body};
+/// use motet_decode::export::{Dialect, GrammarCarrier, Prompt, request_body};
 /// use motet_decode::{Environment, Grammar, Subset};
 ///
 /// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
 /// let grammar = Grammar::new(&texts.session()?.signatures(), Subset::default());
 /// let prompt = Prompt { model: "m", system: "Write a policy.", user: "Bring me the red mug." };
-/// let body = request_body(Dialect::Vllm, &grammar, prompt).expect("vLLM takes a JSON Schema");
+/// let body = request_body(Dialect::Vllm, GrammarCarrier::Usual, &grammar, prompt).expect("a JSON Schema");
 /// assert_eq!(body["structured_outputs"]["json"]["type"], "object");
 /// # Ok::<(), motet_decode::EnvironmentError>(())
 /// ```
 #[must_use]
-pub fn request_body(dialect: Dialect, grammar: &Grammar, prompt: Prompt<'_>) -> Option<Value> {
-    Some(body(prompt, request_constraint(dialect, grammar)?))
+pub fn request_body(
+    dialect: Dialect,
+    carrier: GrammarCarrier,
+    grammar: &Grammar,
+    prompt: Prompt<'_>,
+) -> Option<Value> {
+    Some(body(dialect, prompt, request_constraint(dialect, carrier, grammar)?))
 }
 
-fn body(prompt: Prompt<'_>, constraint: Value) -> Value {
-    let mut body = Map::new();
-    body.insert("model".to_owned(), prompt.model.into());
-    let messages =
-        json!([{"role": "system", "content": prompt.system}, {"role": "user", "content": prompt.user}]);
-    body.insert("messages".to_owned(), messages);
+fn body(dialect: Dialect, prompt: Prompt<'_>, constraint: Value) -> Value {
+    let turns = [
+        Turn { role: TurnRole::System, text: prompt.system, images: &[] },
+        Turn { role: TurnRole::User, text: prompt.user, images: &[] },
+    ];
+    let chat = ChatBody { dialect: Some(dialect), model: prompt.model, turns: &turns };
+    let mut body = chat.write(Delivery::Whole);
     if let Value::Object(fields) = constraint {
         body.extend(fields);
     }
@@ -112,107 +258,10 @@ pub fn probe_body(dialect: Dialect, model: &str) -> (Value, Value) {
         "required": ["probe"],
         "additionalProperties": false,
     });
-    let constraint = match dialect {
-        Dialect::Vllm => json!({"structured_outputs": {"json": schema}}),
-        Dialect::LlamaCpp | Dialect::Sglang | Dialect::OpenAi => json!({"response_format":
-            {"type": "json_schema", "json_schema": {"name": "probe", "strict": true, "schema": schema}}}),
-        Dialect::Ollama => json!({"format": schema, "stream": false}),
-    };
     let prompt = Prompt {
         model,
         system: "Answer with one word and nothing else. Never write JSON.",
         user: "Write the word free.",
     };
-    (body(prompt, constraint), json!({"probe": "held"}))
-}
-
-/// The most properties of all objects together that OpenAI takes.
-const OPENAI_PROPERTIES: usize = 5_000;
-/// Nesting depth of a schema that OpenAI accepts.
-const OPENAI_LEVELS: usize = 10;
-/// The most values of all enumerations together that OpenAI takes.
-const OPENAI_VALUES: usize = 1_000;
-/// The most repetitions of one thing that llama.cpp takes.
-const LLAMA_REPETITIONS: u32 = 2_000;
-/// A schema of this many bytes makes Ollama, which turns it into a grammar for each request, slow to answer.
-const OLLAMA_BYTES: usize = 64 * 1024;
-
-/// A limit that a grammar exceeds.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct LimitWarning {
-    /// Server with the limit; `None` for a limit of all servers.
-    pub server: Option<Dialect>,
-    /// Description of the excess, with its amount.
-    pub text: String,
-}
-
-/// The limits of servers that a grammar exceeds: the server refuses it, or becomes slow.
-#[must_use]
-pub fn warnings(grammar: &Grammar) -> Vec<LimitWarning> {
-    let mut found = Vec::new();
-    let mut warn = |server, text| found.push(LimitWarning { server, text });
-    if let Some(schema) = json_schema(grammar) {
-        let mut count = Count::default();
-        count.value(&schema, 0);
-        let openai = [
-            ("properties", count.properties, OPENAI_PROPERTIES),
-            ("levels", count.levels, OPENAI_LEVELS),
-            ("values of enumerations", count.values, OPENAI_VALUES),
-        ];
-        for (what, actual, most) in openai {
-            if actual > most {
-                let text = format!("the JSON Schema has {actual} {what}; OpenAI takes {most}");
-                warn(Some(Dialect::OpenAi), text);
-            }
-        }
-        let bytes = schema.to_string().len();
-        if bytes > OLLAMA_BYTES {
-            let (kib, most) = (bytes / 1024, OLLAMA_BYTES / 1024);
-            let text = format!("the JSON Schema has {kib} KiB; above {most} KiB Ollama is slow to begin");
-            warn(Some(Dialect::Ollama), text);
-        }
-    }
-    let most = ebnf(grammar).rules.iter().map(|rule| repetitions(&rule.body)).max().unwrap_or(0);
-    if most > LLAMA_REPETITIONS {
-        let text = format!("the grammar repeats something {most} times; llama.cpp takes {LLAMA_REPETITIONS}");
-        warn(Some(Dialect::LlamaCpp), text);
-    }
-    let names = grammar.signatures.entities.len();
-    if grammar.subset.syntax == motet_syntax::Syntax::Text && names > MAX_EXCLUDED {
-        warn(None, format!("there are {names} entities: a name that the policy gives may be one of theirs"));
-    }
-    found
-}
-
-#[derive(Default)]
-struct Count {
-    properties: usize,
-    levels: usize,
-    values: usize,
-}
-
-impl Count {
-    fn value(&mut self, value: &Value, level: usize) {
-        self.levels = self.levels.max(level);
-        match value {
-            Value::Object(keys) => {
-                let own = usize::from(keys.get("type").is_some_and(|ty| ty == "object" || ty == "array"));
-                self.properties +=
-                    keys.get("properties").and_then(Value::as_object).map_or(0, serde_json::Map::len);
-                self.values += keys.get("enum").and_then(Value::as_array).map_or(0, Vec::len);
-                self.values += usize::from(keys.contains_key("const"));
-                keys.values().for_each(|inner| self.value(inner, level + own));
-            }
-            Value::Array(items) => items.iter().for_each(|inner| self.value(inner, level)),
-            Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
-        }
-    }
-}
-
-fn repetitions(expr: &EbnfExpr) -> u32 {
-    match expr {
-        EbnfExpr::Literal(_) | EbnfExpr::Class(_) | EbnfExpr::Rule(_) => 0,
-        EbnfExpr::Seq(parts) | EbnfExpr::Choice(parts) => parts.iter().map(repetitions).max().unwrap_or(0),
-        EbnfExpr::Repeat(inner, _, greatest) => repetitions(inner).max(*greatest),
-    }
+    (body(dialect, prompt, schema_constraint(dialect, "probe", &schema)), json!({"probe": "held"}))
 }

@@ -40,7 +40,7 @@ impl PendingRest {
     /// Reads on, waiting at most `wait`.
     pub(super) fn next(&mut self, wait: Duration) -> RestProgress {
         match self.reply.next(wait) {
-            News::Nothing | News::Retrying { .. } => RestProgress::Nothing,
+            News::Nothing | News::Used(_) | News::Retrying { .. } => RestProgress::Nothing,
             News::Piece(piece) => match self.reading.push(&piece) {
                 StreamVerdict::GoOn | StreamVerdict::Steps(_) => RestProgress::Some(piece),
                 StreamVerdict::Whole => RestProgress::Whole(self.reading.policy().to_owned()),

@@ -68,10 +68,33 @@ pub enum News {
         /// Waiting time before the repetition.
         after: Duration,
     },
+    /// Number of tokens of the exchange, shortly before its end.
+    Used(TokenUsage),
     /// The reply is complete.
     End(Finish),
     /// The reply failed.
     Failed(ModelError),
+}
+
+/// Number of tokens, as the server counts them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct TokenUsage {
+    /// Tokens of the chat.
+    pub input: Option<u64>,
+    /// Tokens of the reply.
+    pub output: Option<u64>,
+}
+
+impl TokenUsage {
+    /// Sum with another exchange.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        let sum = |a: Option<u64>, b: Option<u64>| match (a, b) {
+            (Some(a), Some(b)) => Some(a.saturating_add(b)),
+            (one, None) | (None, one) => one,
+        };
+        Self { input: sum(self.input, other.input), output: sum(self.output, other.output) }
+    }
 }
 
 /// Ending of a reply.
@@ -93,6 +116,12 @@ pub enum ModelError {
     #[error("it refuses the request: {why}")]
     Refused {
         /// The server's message.
+        why: String,
+    },
+    /// The model or a filter of the server declined to answer.
+    #[error("the model declines: {why}")]
+    Declined {
+        /// The words of the model, or the server's name of the reason.
         why: String,
     },
     /// The server was busy or failed at every attempt.
@@ -131,6 +160,7 @@ impl ModelError {
         match self {
             Self::Unreachable { .. }
             | Self::Refused { .. }
+            | Self::Declined { .. }
             | Self::Busy { .. }
             | Self::TimedOut { .. }
             | Self::Cancelled => true,
@@ -152,6 +182,8 @@ pub enum ModelEvent<'a> {
     },
     /// The model wrote the next piece of its reply.
     Wrote(&'a str),
+    /// The server counted the tokens of a round.
+    Used(TokenUsage),
     /// The reply has no policy, and asks or refuses.
     Said {
         round: u32,

@@ -15,6 +15,6 @@ mod stream_reader;
 pub use crate::reply_verdict::{ReplyVerdict, judge};
 pub use background::without_first_step;
 pub use chat::{Finish, Message, Model, ModelError, News, Reply, Role};
-pub use chat::{ModelEvent, ModelObserver};
-pub use planner::{ModelPlanner, Settings, Start, chat};
+pub use chat::{ModelEvent, ModelObserver, TokenUsage};
+pub use planner::{Exchange, ModelPlanner, ReadTo, Settings, Start, chat};
 pub use stream_reader::{StreamReader, StreamVerdict, Wrong};

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use motet_compiler::{Session, Signatures};
 use motet_decode::{AcceptorFactory, Grammar, Subset};
+use motet_runtime::CameraImage;
 use motet_syntax::{Diagnostic, Source, Sources, print, render};
 
 use super::background::{PendingRest, RestProgress, first_step};
@@ -48,11 +49,29 @@ pub struct Settings {
     pub surface: Subset,
     /// Moment at which a policy starts to run.
     pub start: Start,
+    /// Position up to which a reply is read.
+    pub read_to: ReadTo,
+}
+
+/// Position up to which a reply is read.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum ReadTo {
+    /// The end of its policy: nothing is waited for that is of no use.
+    #[default]
+    Policy,
+    /// The end of the reply, where the server counts its tokens.
+    Reply,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { repairs: 3, tokens: prompt::TOKENS, surface: Subset::default(), start: Start::Whole }
+        Self {
+            repairs: 3,
+            tokens: prompt::TOKENS,
+            surface: Subset::default(),
+            start: Start::Whole,
+            read_to: ReadTo::Policy,
+        }
     }
 }
 
@@ -249,6 +268,7 @@ impl<'m> ModelPlanner<'m> {
             }
             match reply.next(SLICE) {
                 News::Nothing => {}
+                News::Used(usage) => self.listener.hear(&ModelEvent::Used(usage)),
                 News::Retrying { why, after } => {
                     self.listener.hear(&ModelEvent::Retrying { why: &why, after });
                 }
@@ -268,7 +288,7 @@ impl<'m> ModelPlanner<'m> {
                         StreamVerdict::Wrong(_) => begins = false,
                         StreamVerdict::GoOn | StreamVerdict::Steps(_) | StreamVerdict::Whole => {}
                     }
-                    if reading.is_whole() {
+                    if reading.is_whole() && self.settings.read_to == ReadTo::Policy {
                         return Ok(ReadEnd::Whole);
                     }
                 }
@@ -283,16 +303,50 @@ impl<'m> ModelPlanner<'m> {
     }
 }
 
-impl Planner for ModelPlanner<'_> {
-    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
+/// Messages around a request.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exchange<'a> {
+    /// Earlier messages. Those of the system follow the system's prompt; the others stand before the request.
+    pub earlier: &'a [Message],
+    /// Images that are shown with the request.
+    pub images: &'a [Arc<CameraImage>],
+}
+
+impl ModelPlanner<'_> {
+    /// Plans a policy for a request in an exchange of messages.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Planner::plan`].
+    pub fn plan_in(
+        &mut self,
+        ask: &PlanRequest<'_>,
+        exchange: Exchange<'_>,
+    ) -> Result<PlannedRequest, PlanError> {
         self.later = None;
         let ready = self.ready(ask);
-        let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
+        let mut chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
+        let (system, said): (Vec<_>, Vec<_>) =
+            exchange.earlier.iter().cloned().partition(|message| message.role == Role::System);
+        if let Some(prompt) = chat.first_mut() {
+            system.iter().for_each(|more| prompt.text.push_str(&format!("\n{}\n", more.text.trim())));
+        }
+        if let Some(request) = chat.last_mut() {
+            request.images.extend(exchange.images.iter().cloned());
+        }
+        let behind_prompt = 1.min(chat.len());
+        chat.splice(behind_prompt..behind_prompt, said);
         let goal = RequestGoal::new(ask.request, ask.situation);
         let planned = self.rounds(ask.session, &ready, &chat, goal.as_ref())?;
         let mut spoken_of = ask.situation.spoken_of.clone();
         spoken_of.extend(motet_requests::named(ask.request, ask.situation));
         Ok(PlannedRequest { understood: Intent { spoken_of, ..Intent::default() }, planned })
+    }
+}
+
+impl Planner for ModelPlanner<'_> {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
+        self.plan_in(ask, Exchange::default())
     }
 
     fn reads_answers(&self) -> bool {

@@ -1,0 +1,123 @@
+//! File with one JSON object per document, in the order of the documents. Each names its document and has a
+//! checksum of it, so that a file that was begun can be continued without doing anything twice.
+
+use std::collections::VecDeque;
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead as _, BufReader, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+
+use crc32fast::Hasher;
+use motet_project::files::Bytes;
+use serde_json::{Map, Value, json};
+
+use crate::documents::Document;
+use crate::error::CliError;
+use crate::flags::ResultArgs;
+
+/// File of results, open at its end.
+pub(crate) struct ResultFile {
+    path: PathBuf,
+    file: File,
+    /// Checksum of the flags that decide the results.
+    seed: Hasher,
+    /// Results that the file has already.
+    done: VecDeque<DoneResult>,
+}
+
+/// Result that a file has already.
+#[derive(Clone, Debug)]
+pub(crate) struct DoneResult {
+    checksum: String,
+    /// The line.
+    pub(crate) line: Map<String, Value>,
+}
+
+impl ResultFile {
+    /// Opens the file of the flags; `None` without one. `flags` are those that decide the results.
+    pub(crate) fn open(args: &ResultArgs, flags: &str) -> Result<Option<Self>, CliError> {
+        let Some(path) = &args.out else { return Ok(None) };
+        let cannot = |source| CliError::Write { path: path.clone(), source };
+        let mut seed = Hasher::new();
+        seed.update(flags.as_bytes());
+        if !args.r#continue {
+            let file = File::create_new(path).map_err(|source| match source.kind() {
+                std::io::ErrorKind::AlreadyExists => CliError::Advised {
+                    problem: format!("the file `{}` exists", path.display()),
+                    help: "continue it with --continue, or give another file".to_owned(),
+                },
+                _ => cannot(source),
+            })?;
+            return Ok(Some(Self { path: path.clone(), file, seed, done: VecDeque::new() }));
+        }
+        let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
+        let mut file = options.map_err(cannot)?;
+        let (done, length) = read(path, &file)?;
+        // A line that was being written when the earlier call ended.
+        file.set_len(length).and_then(|()| file.seek(SeekFrom::Start(length))).map_err(cannot)?;
+        Ok(Some(Self { path: path.clone(), file, seed, done }))
+    }
+
+    /// The result of a document that the file has already; `None` if the document is next to do.
+    pub(crate) fn done(&mut self, document: &Document) -> Result<Option<DoneResult>, CliError> {
+        let Some(done) = self.done.pop_front() else { return Ok(None) };
+        if done.checksum == self.checksum(document) {
+            return Ok(Some(done));
+        }
+        Err(CliError::Advised {
+            problem: format!(
+                "`{}` holds the result of another document, or of other flags, than that of `{}`",
+                self.path.display(),
+                document.name
+            ),
+            help: "continue with the same inputs and flags, or give another file".to_owned(),
+        })
+    }
+
+    /// Number of results that the file has from an earlier call and that were not asked for yet.
+    pub(crate) fn left(&self) -> usize {
+        self.done.len()
+    }
+
+    /// Checksum of a document and the flags.
+    pub(crate) fn checksum(&self, document: &Document) -> String {
+        let mut hasher = self.seed.clone();
+        hasher.update(document.name.as_bytes());
+        hasher.update(&[0]);
+        match &document.bytes {
+            Bytes::All(bytes) => hasher.update(bytes),
+            Bytes::TooMany(bytes) => hasher.update(&bytes.to_le_bytes()),
+        }
+        format!("{:08x}", hasher.finalize())
+    }
+
+    /// Adds the result of a document.
+    pub(crate) fn add(&mut self, name: &str, checksum: &str, more: Value) -> Result<(), CliError> {
+        let mut line = json!({"document": name, "checksum": checksum});
+        if let (Value::Object(line), Value::Object(more)) = (&mut line, more) {
+            line.extend(more);
+        }
+        let written = self.file.write_all(format!("{line}\n").as_bytes());
+        written.map_err(|source| CliError::Write { path: self.path.clone(), source })
+    }
+}
+
+/// Whole lines of a file of results, and the number of their bytes.
+fn read(path: &Path, file: &File) -> Result<(VecDeque<DoneResult>, u64), CliError> {
+    let mut reader = BufReader::new(file);
+    let (mut done, mut length, mut line) = (VecDeque::new(), 0, Vec::new());
+    loop {
+        line.clear();
+        let read = reader.read_until(b'\n', &mut line).map_err(|source| CliError::read(path, source))?;
+        if line.last() != Some(&b'\n') {
+            return Ok((done, length));
+        }
+        let number = done.len() + 1;
+        let wrong = || {
+            CliError::Message(format!("line {number} of `{}` is no result of this command", path.display()))
+        };
+        let line: Map<String, Value> = serde_json::from_slice(&line).map_err(|_| wrong())?;
+        let checksum = line.get("checksum").and_then(Value::as_str).ok_or_else(wrong)?.to_owned();
+        done.push_back(DoneResult { checksum, line });
+        length += u64::try_from(read).unwrap_or_default();
+    }
+}
