@@ -71,6 +71,12 @@ pub const TASKS: &[Task] = &[
     },
 ];
 
+/// All instructions of the tasks.
+pub fn instructions() -> impl Iterator<Item = &'static str> {
+    let wordings = TASKS.iter().flat_map(|task| task.wordings);
+    wordings.flat_map(|(request, instead)| std::iter::once(*request).chain(*instead))
+}
+
 /// Result of a trial.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Trial {

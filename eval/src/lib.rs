@@ -4,6 +4,7 @@ pub mod actions;
 pub mod bench;
 pub mod dialogue;
 pub mod dynamic;
+pub mod few_shot;
 pub mod mutations;
 pub mod outcome;
 pub mod physics;

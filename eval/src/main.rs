@@ -7,7 +7,7 @@
 //!   them are carried out.
 //! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot. Both take
 //!   `--world ideal|typical|harsh|FILE`, `--driver kinematic|mujoco`, and `--planner builtin|tree|one-shot|
-//!   forgetful|URL` with `--model M`.
+//!   forgetful|[few-shot:]URL|[few-shot:]file:REPLIES` with `--model M`.
 //! - `tasks [FILE…] [--trials N]` plays the tasks of the papers, with the same flags. `--jobs N` plays so many
 //!   trials at once, `--only WORD` those with a word in their name, robot or request (`WORD+WORD` with all of
 //!   them), and `dialogue --every N` each Nth case.

@@ -9,6 +9,13 @@ use motet_planner::{Builtin, PlanRequest, Planner, RemainingSteps, Wait};
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 
+use crate::few_shot::{FewShot, FileModel};
+
+/// Settings of a model that is asked once.
+fn once() -> Settings {
+    Settings { repairs: 0, ..Settings::default() }
+}
+
 /// Planner of trials.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub enum PlannerKind {
@@ -21,13 +28,46 @@ pub enum PlannerKind {
     OneShot,
     /// A new plan after each failure, from the scene as it was told at the start.
     Forgetful,
-    /// A model on a server, with its name.
-    Server(String, String),
+    /// A model, with the prompt and the repairs of `motet do`.
+    Asked(ModelSource),
+    /// A model that is shown examples and asked once ([`crate::few_shot`]).
+    FewShot(ModelSource),
 }
 
+/// Place of a model.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum ModelSource {
+    /// A server, with the name of the model.
+    Server(String, String),
+    /// A file with replies, one request and its policy on a line.
+    File(String),
+}
+
+impl ModelSource {
+    fn read(text: &str, model: Option<&str>) -> Result<Self, String> {
+        match text.strip_prefix("file:") {
+            Some(_) if model.is_some() => Err("`--model` is for a planner on a server".to_owned()),
+            Some(file) => Ok(Self::File(file.to_owned())),
+            None if text.starts_with("http://") || text.starts_with("https://") => {
+                Ok(Self::Server(text.to_owned(), model.unwrap_or("default").to_owned()))
+            }
+            None => Err(format!("there is no planner `{text}`: write {KNOWN}")),
+        }
+    }
+
+    fn client(url: &str, model: &str) -> Result<Client, String> {
+        let address = ServerUrl::new(url, None)?;
+        Client::new(ClientSettings::new(address, model)).map_err(|why| format!("cannot ask `{url}`: {why}"))
+    }
+}
+
+/// Planners as the command line names them.
+const KNOWN: &str = "`builtin`, `tree`, `one-shot`, `forgetful`, http://… or file:REPLIES; before the last two \
+                     also `few-shot:`";
+
 impl PlannerKind {
-    /// Planner by the words of the command line: `builtin`, `tree`, `one-shot`, `forgetful`, or the address
-    /// of a server.
+    /// Planner by the words of the command line: `builtin`, `tree`, `one-shot`, `forgetful`, the address of a
+    /// server, or `file:` with a file of replies; before the last two also `few-shot:`.
     ///
     /// # Errors
     ///
@@ -38,12 +78,11 @@ impl PlannerKind {
             "tree" => Self::Tree,
             "one-shot" => Self::OneShot,
             "forgetful" => Self::Forgetful,
-            url if url.starts_with("http://") || url.starts_with("https://") => {
-                return Ok(Self::Server(url.to_owned(), model.unwrap_or("default").to_owned()));
-            }
             other => {
-                let known = "`builtin`, `tree`, `one-shot`, `forgetful`, or http://…";
-                return Err(format!("there is no planner `{other}`: write {known}"));
+                return match other.strip_prefix("few-shot:") {
+                    Some(source) => ModelSource::read(source, model).map(Self::FewShot),
+                    None => ModelSource::read(other, model).map(Self::Asked),
+                };
             }
         };
         if model.is_some() {
@@ -63,11 +102,17 @@ impl PlannerKind {
             Self::Tree => Box::new(FixedTree(None)),
             Self::OneShot => Box::new(OneShot(false)),
             Self::Forgetful => Box::new(Forgetful(None)),
-            Self::Server(url, model) => {
-                let address = ServerUrl::new(url, None)?;
-                let client = Client::new(ClientSettings::new(address, model));
-                let client = client.map_err(|why| format!("cannot ask `{url}`: {why}"))?;
-                Box::new(ModelPlanner::new(client, (), Settings::default()))
+            Self::Asked(ModelSource::Server(url, model)) => {
+                Box::new(ModelPlanner::new(ModelSource::client(url, model)?, (), Settings::default()))
+            }
+            Self::Asked(ModelSource::File(file)) => {
+                Box::new(ModelPlanner::new(FileModel::open(file)?, (), Settings::default()))
+            }
+            Self::FewShot(ModelSource::Server(url, model)) => {
+                Box::new(ModelPlanner::new(FewShot::new(ModelSource::client(url, model)?)?, (), once()))
+            }
+            Self::FewShot(ModelSource::File(file)) => {
+                Box::new(ModelPlanner::new(FewShot::new(FileModel::open(file)?)?, (), once()))
             }
         })
     }

@@ -156,6 +156,12 @@ impl Person for Answers {
 }
 
 impl Task {
+    /// The request in words.
+    #[must_use]
+    pub fn request(&self) -> &str {
+        &self.request
+    }
+
     /// True if something goes wrong on the way, which the robot has to tell.
     #[must_use]
     pub fn has_failures(&self) -> bool {

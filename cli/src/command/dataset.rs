@@ -1,5 +1,6 @@
 //! `motet dataset`: generates and lints instruction and policy pairs for fine-tuning.
 
+mod from_journal;
 mod lint;
 
 use std::fs::{self, File};
@@ -10,10 +11,10 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand, ValueEnum, value_parser};
 use motet::batch;
 use motet_dataset::format;
-use motet_dataset::generate::{self, Dataset, Order, SceneRows};
+use motet_dataset::generate::{self, Dataset, HeldOut, Order, SceneRows};
 use motet_dataset::lint::family;
 use motet_dataset::picture::{FOLDER, Pictures};
-use motet_dataset::{Body, Row, scenery, wordings};
+use motet_dataset::{Body, Row, lesson, scenery, wordings};
 use motet_geometry::planning::SearchBudget;
 use motet_project::files::read_small;
 use motet_project::{open_robot, read_scene};
@@ -22,6 +23,7 @@ use motet_syntax::Sources;
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 
+use self::from_journal::FromJournalArgs;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, JobArgs, MotionArgs, OutputFormat};
 use crate::output::{Colors, count, note};
@@ -37,7 +39,8 @@ use crate::report::{Progress, Report};
     motet dataset --out data --form trl --scenes 100\n  \
     motet dataset --out data/0 --form trl --scenes 1000 --shard 0/4\n  \
     motet dataset --out data --form inteliplan --robot hsr --room kitchen --seed 7\n  \
-    motet dataset lint data/train.jsonl data/test.jsonl"
+    motet dataset lint data/train.jsonl data/test.jsonl\n  \
+    motet dataset from-journal talk/ --robot hsr --scene kitchen --out own.jsonl"
 )]
 pub(crate) struct DatasetArgs {
     #[command(subcommand)]
@@ -52,6 +55,8 @@ enum DatasetCommand {
     /// Find rows whose plan cannot run, contradictory or duplicate rows, scenes in several files, and missing
     /// or unused images
     Lint(LintArgs),
+    /// Make rows from recorded conversations: requests that were done, with their plans
+    FromJournal(FromJournalArgs),
 }
 
 /// Flags of `motet dataset`, which generates.
@@ -75,6 +80,9 @@ struct MakeArgs {
     /// File with the wordings of requests and answers, one `KEY: WORDING` per line [default: built in]
     #[arg(long, value_name = "FILE")]
     wordings: Option<PathBuf>,
+    /// File with lessons: requests with the steps that they ask for [default: built in]
+    #[arg(long, value_name = "FILE")]
+    lessons: Option<PathBuf>,
     /// Scene whose objects are added to the varied scenes [default: built in]
     #[arg(long, value_name = "FILE")]
     things: Option<String>,
@@ -136,6 +144,17 @@ enum RowFormat {
     Inteliplan,
 }
 
+impl From<RowFormat> for format::RowFormat {
+    fn from(form: RowFormat) -> Self {
+        match form {
+            RowFormat::Trl => Self::Trl,
+            RowFormat::Llamafactory => Self::LlamaFactory,
+            RowFormat::QwenVl => Self::QwenVl,
+            RowFormat::Inteliplan => Self::InteLiPlan,
+        }
+    }
+}
+
 fn share(text: &str) -> Result<f64, String> {
     let share: f64 = text.parse().map_err(|_| "write a number such as 0.2".to_owned())?;
     if (0.0..1.0).contains(&share) { Ok(share) } else { Err("write a number from 0 to below 1".to_owned()) }
@@ -145,6 +164,7 @@ fn share(text: &str) -> Result<f64, String> {
 pub(crate) fn run(args: &DatasetArgs, colors: Colors) -> Result<Exit, CliError> {
     Report::run_held(DiagnosticFormat::Human, colors, |report| match &args.command {
         Some(DatasetCommand::Lint(args)) => lint::lint(args, report),
+        Some(DatasetCommand::FromJournal(args)) => from_journal::from_journal(args, report),
         None => make(&args.make, report),
     })
 }
@@ -208,6 +228,14 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, CliError> {
         }
         None => wordings::read(wordings::OWN).map_err(|wrong| CliError::Message(wrong.to_string()))?,
     };
+    let lessons = match &args.lessons {
+        Some(path) => {
+            let bytes = read_small(path)?;
+            lesson::read(&String::from_utf8_lossy(&bytes))
+                .map_err(|wrong| CliError::Message(format!("`{}`, {wrong}", path.display())))?
+        }
+        None => lesson::read(lesson::OWN).map_err(|wrong| CliError::Message(wrong.to_string()))?,
+    };
     let things = match &args.things {
         Some(name) => read_scene(name, &mut Sources::default(), report)?,
         None => scenery::things(),
@@ -226,16 +254,13 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, CliError> {
         bases,
         things,
         wordings,
+        held_out: HeldOut::own(),
+        lessons,
         scenes: args.scenes as usize,
         cases: args.cases as usize,
         test: args.test,
         effort: effort(&args.motions),
-        form: match args.form {
-            RowFormat::Trl => format::RowFormat::Trl,
-            RowFormat::Llamafactory => format::RowFormat::LlamaFactory,
-            RowFormat::QwenVl => format::RowFormat::QwenVl,
-            RowFormat::Inteliplan => format::RowFormat::InteLiPlan,
-        },
+        form: args.form.into(),
         pictures: if args.images { Pictures::EachRow } else { Pictures::None },
     })
 }

@@ -66,6 +66,7 @@ fn compiles() {
     let place = Place::new("compile")
         .file("a.motet", GOOD)
         .file("bad.motet", BAD)
+        .file("both.motet", "policy both for hsr {\n    parallel { { go(sink) } { say(\"Hello.\") } }\n}\n")
         .file("two.motet", format!("{GOOD}\npolicy other for hsr {{\n    done\n}}\n"));
     let graph = place.run("compile a.motet --scene kitchen").check(0, &[]).stdout.clone();
     assert!(serde_json::from_str::<serde_json::Value>(&graph).unwrap().is_object());
@@ -79,6 +80,8 @@ fn compiles() {
     for (line, code, texts) in [
         ("compile a.motet --scene kitchen --emit mermaid", 0, &["out:flowchart"][..]),
         ("compile a.motet --scene kitchen --emit dot", 0, &["out:digraph"]),
+        ("compile a.motet --scene kitchen --emit python", 0, &["out:async def tidy(robot: Robot):"]),
+        ("compile both.motet --scene kitchen --emit python", 1, &["err:cannot say `parallel`", "err:/steps/0"]),
         ("compile a.motet --scene kitchen --emit text", 0, &["out:policy tidy for hsr"]),
         ("compile a.motet --scene kitchen --emit json", 0, &["out:\"steps\""]),
         ("compile bad.motet", 1, &["out:M0201"]),

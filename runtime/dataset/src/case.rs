@@ -9,17 +9,18 @@ use rand_xoshiro::SplitMix64;
 use smol_str::SmolStr;
 
 use crate::random::Draw;
-use crate::scenery::is_bin;
+use crate::scenery::{HIGH, is_bin};
 use crate::wordings::{Task, Wordings};
 
 /// One conversation to record: a request, and the failures on its way.
 #[derive(Clone, Debug)]
 pub struct Case {
-    pub task: Task,
+    /// Name of the task or lesson.
+    pub task: SmolStr,
     /// In which words.
     pub request: String,
-    /// A fact, and whether it shall hold at the end.
-    pub goal: (&'static str, Vec<SmolStr>, bool),
+    /// A fact, and whether it shall hold at the end; none of a lesson.
+    pub goal: Option<(&'static str, Vec<SmolStr>, bool)>,
     /// Failures in their order.
     pub failures: Vec<Kind>,
     /// The scene as it is, where that is not as the robot was told.
@@ -30,22 +31,30 @@ pub struct Case {
     pub answers: Vec<(Kind, String)>,
     /// The person gives up, since the request cannot be carried out.
     pub is_given_up: bool,
+    /// The policy of a lesson.
+    pub policy: Option<String>,
+    /// Seconds after which the person wants something else, and the words for it.
+    pub update: Option<(f64, String)>,
 }
 
 /// Weights of the failure sequences: none, each kind alone, two in a row.
 const TROUBLES: &[(usize, &[Kind])] = &[
-    (9, &[]),
-    (2, &[Kind::NotFound]),
-    (2, &[Kind::NotReachable]),
-    (2, &[Kind::AmbiguousReference]),
-    (1, &[Kind::AmbiguousTask]),
-    (2, &[Kind::ActionFailed]),
+    (3, &[]),
+    (4, &[Kind::NotFound]),
+    (4, &[Kind::NotReachable]),
+    (3, &[Kind::AmbiguousReference]),
+    (3, &[Kind::AmbiguousTask]),
+    (3, &[Kind::ActionFailed]),
     (1, &[Kind::AmbiguousReference, Kind::NotFound]),
     (1, &[Kind::NotFound, Kind::ActionFailed]),
     (1, &[Kind::AmbiguousTask, Kind::NotReachable]),
 ];
 /// Number of attempts of a step that merely failed, before a question and once more.
 const SLIPS: u32 = 3;
+/// Share of the requests without a failure that a person changes while they are carried out.
+const CHANGED: f64 = 0.6;
+/// Seconds after which a person wants something else: at least, and at most.
+const CHANGED_AFTER_SECS: [f64; 2] = [2.0, 14.0];
 
 /// Draws a case for a robot in a scene; none where the scene has nothing for what was drawn. O(things²).
 #[must_use]
@@ -61,12 +70,28 @@ pub fn draw(robot: &Robot, scene: &Scene, wordings: &Wordings, draw: &mut SplitM
     }
 }
 
+/// A recorded request with its policy, in the scene as it was told.
+pub(crate) fn recorded(scene: &Scene, request: &str, policy: &str) -> Case {
+    Case {
+        task: SmolStr::new_static("recorded"),
+        request: request.to_owned(),
+        goal: None,
+        failures: Vec::new(),
+        real: scene.clone(),
+        faults: Faults::default(),
+        answers: Vec::new(),
+        is_given_up: false,
+        policy: Some(policy.to_owned()),
+        update: None,
+    }
+}
+
 /// A request that is about a place alone: nothing goes wrong with it.
 fn plain(scene: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Option<Case> {
     let fits = |entity: &&Entity| match task {
         Task::Open => is_closet(entity) && entity.open == Some(false),
         Task::Close => is_closet(entity) && entity.open == Some(true),
-        _ => matches!(entity.kind.as_str(), kinds::SURFACE | kinds::PLACE),
+        _ => matches!(entity.kind.as_str(), kinds::SURFACE | kinds::PLACE) && !is_high(scene, &entity.id),
     };
     let places: Vec<&Entity> = scene.entities.values().filter(fits).collect();
     let place = draw.pick(&places)?;
@@ -75,14 +100,16 @@ fn plain(scene: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Opt
         other => (fluents::OPEN, vec![place.id.clone()], other == Task::Open),
     };
     Some(Case {
-        task,
+        task: SmolStr::new_static(task.name()),
         request: fill(wording, "{place}", &the(scene, place, draw)?),
-        goal,
+        goal: Some(goal),
         failures: Vec::new(),
         real: scene.clone(),
         faults: Faults::default(),
         answers: Vec::new(),
         is_given_up: false,
+        policy: None,
+        update: None,
     })
 }
 
@@ -99,7 +126,11 @@ fn carried(
         scene.entities.values().filter(|entity| entity.kind == kinds::OBJECT && !entity.fixed).collect();
     let is_twin = |one: &&&Entity| objects.iter().any(|other| other.id != one.id && other.class == one.class);
     let asks_which = failures.contains(&Kind::AmbiguousReference);
-    let among: Vec<&Entity> = objects.iter().filter(|one| !asks_which || is_twin(one)).copied().collect();
+    // Out of reach is what stands too high.
+    let is_far = failures.contains(&Kind::NotReachable);
+    let stands_high = |one: &&&Entity| one.on.as_ref().is_some_and(|on| is_high(scene, on));
+    let fits = |one: &&&Entity| (!asks_which || is_twin(one)) && stands_high(one) == is_far;
+    let among: Vec<&Entity> = objects.iter().filter(fits).copied().collect();
     let thing = *draw.pick(&among)?;
     let is_given_up = !can_carry(robot, thing);
     if is_given_up {
@@ -116,7 +147,7 @@ fn carried(
     let place = holder.map(|holder| the(scene, holder, draw)).unwrap_or(Some(String::new()))?;
     let mut request = fill(&fill(wording, "{thing}", &called), "{place}", &place);
     let id = thing.id.clone();
-    let goal = match (task, holder) {
+    let mut goal = match (task, holder) {
         (Task::Put, Some(holder)) => (fluents::ON, vec![id, holder.id.clone()], true),
         (Task::Stow, Some(holder)) => (fluents::IN, vec![id, holder.id.clone()], true),
         (Task::Throw, _) => {
@@ -130,13 +161,14 @@ fn carried(
     for kind in &failures {
         let answer = match kind {
             Kind::NotReachable if is_given_up => draw.pick(&wordings.leave)?.clone(),
-            Kind::NotReachable | Kind::ActionFailed => draw.pick(&wordings.again)?.clone(),
+            Kind::ActionFailed => draw.pick(&wordings.again)?.clone(),
             Kind::AmbiguousReference => own.clone(),
             Kind::AmbiguousTask => {
                 let vague = fill(draw.pick(&wordings.vague)?, "{thing}", &called);
                 std::mem::replace(&mut request, vague)
             }
-            Kind::NotFound => {
+            // The person takes it down.
+            Kind::NotReachable | Kind::NotFound => {
                 let hidden = hide(&mut real, thing, holder, draw)?;
                 fill(draw.pick(&wordings.places)?, "{at}", &hidden)
             }
@@ -144,7 +176,39 @@ fn carried(
         answers.push((*kind, answer));
     }
     let faults = if is_given_up { Faults::default() } else { faults(&failures) };
-    Some(Case { task, request, goal, failures, real, faults, answers, is_given_up })
+    let mut update = None;
+    if failures.is_empty() && draw.chance(CHANGED) {
+        let (words, other) = change(scene, wordings, thing, holder, draw)?;
+        (update, goal) = (Some((draw.within(CHANGED_AFTER_SECS[0], CHANGED_AFTER_SECS[1]), words)), other);
+    }
+    let task = SmolStr::new_static(task.name());
+    let goal = Some(goal);
+    Some(Case { task, request, goal, failures, real, faults, answers, is_given_up, policy: None, update })
+}
+
+/// Fact that shall hold, as a case has it.
+type Goal = (&'static str, Vec<SmolStr>, bool);
+
+/// Another wish for a thing that is being carried, and the fact that it makes.
+fn change(
+    scene: &Scene,
+    wordings: &Wordings,
+    thing: &Entity,
+    holder: Option<&Entity>,
+    draw: &mut SplitMix64,
+) -> Option<(String, Goal)> {
+    let (said, own) = (draw.pick(&wordings.instead)?, the(scene, thing, draw)?);
+    let said = fill(said, "{thing}", &own);
+    if !said.contains("{place}") {
+        return Some((
+            said,
+            (fluents::AT, vec![thing.id.clone(), SmolStr::new_static(entities::USER)], true),
+        ));
+    }
+    let place = other_place(scene, kinds::SURFACE, thing, draw)
+        .filter(|place| holder.is_none_or(|holder| holder.id != place.id))?;
+    let said = fill(&said, "{place}", &the(scene, place, draw)?);
+    Some((said, (fluents::ON, vec![thing.id.clone(), place.id.clone()], true)))
 }
 
 fn drawn_failures(draw: &mut SplitMix64) -> &'static [Kind] {
@@ -166,9 +230,7 @@ fn faults(failures: &[Kind]) -> Faults {
         nth: Some(nth),
         then: CallFaultKind::Fails(kind.into()),
     };
-    let calls = if failures.contains(&Kind::NotReachable) {
-        vec![fails(1, failures::UNREACHABLE)]
-    } else if failures.contains(&Kind::ActionFailed) {
+    let calls = if failures.contains(&Kind::ActionFailed) {
         (1..=SLIPS).map(|nth| fails(nth, failures::SLIPPED)).collect()
     } else {
         Vec::new()
@@ -181,7 +243,7 @@ fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Spli
     let is_other = |place: &Entity| {
         let is_goal = goal.is_some_and(|goal| goal.id == place.id);
         let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
-        !is_goal && !is_there
+        !is_goal && !is_there && !place.categories.iter().any(|category| category == HIGH)
     };
     let fits = |place: &&Entity| (place.kind == kinds::SURFACE || is_closet(place)) && is_other(place);
     let places: Vec<&Entity> = real.entities.values().filter(fits).collect();
@@ -208,18 +270,26 @@ fn other_place<'r>(
 ) -> Option<&'r Entity> {
     let fits = |place: &&Entity| {
         let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
-        place.kind == kind && !is_there && (kind == kinds::SURFACE || is_closet(place))
+        let is_low = !place.categories.iter().any(|category| category == HIGH);
+        place.kind == kind && !is_there && is_low && (kind == kinds::SURFACE || is_closet(place))
     };
     let places: Vec<&Entity> = scene.entities.values().filter(fits).collect();
     draw.pick(&places).copied()
 }
 
 /// True for a container that the robot can open and close.
-fn is_closet(entity: &Entity) -> bool {
+pub(crate) fn is_closet(entity: &Entity) -> bool {
     entity.kind == kinds::CONTAINER && entity.travel.is_some() && entity.locked != Some(true)
 }
 
-fn can_carry(robot: &Robot, thing: &Entity) -> bool {
+/// True if an entity of a scene is a shelf that no robot reaches.
+pub(crate) fn is_high(scene: &Scene, id: &SmolStr) -> bool {
+    let is_it = |entity: &Entity| entity.categories.iter().any(|category| category == HIGH);
+    scene.entities.get(id).is_some_and(is_it)
+}
+
+/// True if a hand of a robot can lift and hold a thing.
+pub(crate) fn can_carry(robot: &Robot, thing: &Entity) -> bool {
     robot.hands.values().any(|hand| {
         thing.mass_kg.is_none_or(|mass| mass <= hand.payload_kg)
             && thing.width().is_none_or(|width| width <= hand.opening_m)
@@ -227,14 +297,14 @@ fn can_carry(robot: &Robot, thing: &Entity) -> bool {
 }
 
 /// Name of an entity in speech, with its article: one of the names that nothing else in the scene has.
-fn the(scene: &Scene, entity: &Entity, draw: &mut SplitMix64) -> Option<String> {
+pub(crate) fn the(scene: &Scene, entity: &Entity, draw: &mut SplitMix64) -> Option<String> {
     let own = entity.names.iter().chain([&entity.class]).filter(|name| !name.is_empty());
     let names: Vec<&SmolStr> = own.filter(|name| scene.matches(name).len() == 1).collect();
     draw.pick(&names).map(|name| format!("the {name}"))
 }
 
 /// Fills a hole, in upper case where the wording begins with it.
-fn fill(wording: &str, hole: &str, with: &str) -> String {
+pub(crate) fn fill(wording: &str, hole: &str, with: &str) -> String {
     match wording.strip_prefix(hole) {
         Some(rest) => {
             let mut letters = with.chars();

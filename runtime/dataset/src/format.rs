@@ -16,7 +16,6 @@ use serde_json::{Value, json};
 use smol_str::SmolStr;
 
 use crate::picture::Pictures;
-use crate::wordings::Task;
 
 /// Format of rows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -34,7 +33,7 @@ pub enum RowFormat {
 /// A row as a line of JSON, without a line break.
 #[must_use]
 pub fn write(row: &Row, form: RowFormat) -> String {
-    let tag = if row.image.is_some() { "<image>" } else { "" };
+    let tag = TAG.repeat(row.images.len());
     let mut value = match form {
         RowFormat::Trl => json!({
             "messages": [
@@ -59,8 +58,9 @@ pub fn write(row: &Row, form: RowFormat) -> String {
         RowFormat::InteLiPlan => json!({"text": in_dialect(row).write()}),
     };
     if let Some(fields) = value.as_object_mut() {
-        if let (Some(image), Some(column)) = (&row.image, column(form)) {
-            fields.insert(column.to_owned(), json!([image.as_str()]));
+        if let Some(column) = column(form).filter(|_| !row.images.is_empty()) {
+            let images: Vec<&str> = row.images.iter().map(SmolStr::as_str).collect();
+            fields.insert(column.to_owned(), json!(images));
         }
         fields.insert("motet".to_owned(), about(&row.about));
     }
@@ -87,10 +87,13 @@ enum Shown {
 /// one type.
 fn content(row: &Row, text: &str, shown: Shown) -> Value {
     let said = json!({"type": "text", "text": text});
-    match (&row.image, shown) {
-        (None, _) => text.into(),
-        (Some(_), Shown::Text) => json!([said]),
-        (Some(_), Shown::Picture) => json!([{"type": "image"}, said]),
+    match shown {
+        _ if row.images.is_empty() => text.into(),
+        Shown::Text => json!([said]),
+        Shown::Picture => {
+            let images = row.images.iter().map(|_| json!({"type": "image"}));
+            images.chain([said]).collect()
+        }
     }
 }
 
@@ -109,7 +112,7 @@ fn about(about: &About) -> Value {
     json!({
         "robot": about.robot.as_str(),
         "scene": about.scene.as_str(),
-        "task": about.task.name(),
+        "task": about.task.as_str(),
         "failures": failures.join(","),
         "turn": about.turn.to_string(),
     })
@@ -143,7 +146,8 @@ pub struct About {
     /// The name of the scene as it is in this row: that of the varied scene, with a number behind a point
     /// where something has happened in it.
     pub scene: SmolStr,
-    pub task: Task,
+    /// Name of the task or of the lesson; [`UPDATE`] of a turn in which a person changed the request.
+    pub task: SmolStr,
     /// Failures in the conversation, in their order.
     pub failures: Vec<Kind>,
     /// Turn of the conversation, from 0.
@@ -157,8 +161,8 @@ pub struct Row {
     /// System message, as `motet do` sends it.
     pub system: String,
     pub user: String,
-    /// The picture that it is shown: a path as seen from the folder of the row's file.
-    pub image: Option<SmolStr>,
+    /// The pictures that it is shown: paths as seen from the folder of the row's file.
+    pub images: Vec<SmolStr>,
     /// The policy on the model surface.
     pub policy: String,
     /// The request in its words.
@@ -172,6 +176,9 @@ pub struct Row {
     pub actions: String,
 }
 
+/// Task of the turns in which a person changed the request while it was carried out.
+pub const UPDATE: &str = "update";
+
 /// Mark of an image in a text.
 const TAG: &str = "<image>";
 
@@ -182,6 +189,8 @@ pub struct Read {
     pub robot: Option<SmolStr>,
     /// The scene, where the row says.
     pub scene: Option<SmolStr>,
+    /// Its task, where the row says.
+    pub task: Option<SmolStr>,
     /// Failures in its conversation by name, in their order, where the row says.
     pub failures: Vec<SmolStr>,
     /// Turn of its conversation, from 0; 0 where the row does not say.
@@ -253,8 +262,8 @@ pub fn read(line: &str) -> Result<Read, String> {
     let failures = about("failures").unwrap_or_default();
     let failures = failures.split(',').filter(|name| !name.is_empty()).map(SmolStr::from).collect();
     let turn = about("turn").and_then(|turn| turn.parse().ok()).unwrap_or_default();
-    let (robot, scene) = (about("robot"), about("scene"));
-    Ok(Read { robot, scene, failures, turn, input, images, places, target })
+    let (robot, scene, task) = (about("robot"), about("scene"), about("task"));
+    Ok(Read { robot, scene, task, failures, turn, input, images, places, target })
 }
 
 /// The pictures that a row names: a path, or a list of them.

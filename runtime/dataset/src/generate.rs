@@ -10,7 +10,8 @@ use motet_robots::scene::Scene;
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
-use crate::format::{self, About, Row, RowFormat};
+use crate::format::{self, About, Row, RowFormat, UPDATE};
+use crate::lesson::{self, Lesson};
 use crate::picture::{Picture, Pictures};
 use crate::play::play;
 use crate::random::{self, Draw as _};
@@ -30,6 +31,10 @@ pub struct Order {
     pub things: Scene,
     /// Wordings of requests and answers.
     pub wordings: Wordings,
+    /// Instructions that no row may have: those of evaluations.
+    pub held_out: HeldOut,
+    /// Lessons beside the requests; the form of InteLiPlan has none.
+    pub lessons: Vec<Lesson>,
     /// Number of varied scenes.
     pub scenes: usize,
     /// Number of cases for each robot in each scene.
@@ -42,6 +47,30 @@ pub struct Order {
     pub form: RowFormat,
     /// Images of the rows. The form of InteLiPlan has none.
     pub pictures: Pictures,
+}
+
+/// Instructions that no row may have. Case, white space and punctuation count for nothing.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct HeldOut(FxHashSet<String>);
+
+impl HeldOut {
+    /// The instructions of the evaluations that come with Motet.
+    #[must_use]
+    pub fn own() -> Self {
+        include_str!("../data/held_out.txt").lines().filter(|line| !line.starts_with('#')).collect()
+    }
+
+    /// True if an instruction is held out.
+    #[must_use]
+    pub fn has(&self, instruction: &str) -> bool {
+        self.0.contains(&lint::normal(instruction))
+    }
+}
+
+impl<'t> FromIterator<&'t str> for HeldOut {
+    fn from_iter<T: IntoIterator<Item = &'t str>>(instructions: T) -> Self {
+        Self(instructions.into_iter().map(lint::normal).filter(|one| !one.is_empty()).collect())
+    }
 }
 
 /// Rows of one varied scene.
@@ -76,8 +105,20 @@ impl Order {
             RowFormat::Trl | RowFormat::LlamaFactory | RowFormat::QwenVl => self.pictures,
         }
     }
+
+    /// Lessons that the form allows: a list of actions has no constructs.
+    fn taught(&self) -> &[Lesson] {
+        match self.form {
+            RowFormat::InteLiPlan => &[],
+            RowFormat::Trl | RowFormat::LlamaFactory | RowFormat::QwenVl => &self.lessons,
+        }
+    }
 }
 
+/// Light of pictures: least and greatest, where 1 is that of the camera.
+const LIGHT: [f64; 2] = [0.5, 1.2];
+/// Share of the cases that are lessons.
+const LESSONS: f64 = 0.5;
 /// Number of draws of a case in a scene that has nothing for the first one.
 const DRAWS: usize = 8;
 
@@ -100,12 +141,18 @@ pub fn part(order: &Order, number: usize) -> SceneRows {
             }
         };
         for _ in 0..order.cases {
-            let drawn = (0..DRAWS).find_map(|_| case::draw(&body.robot, &told, &order.wordings, &mut draw));
+            let light = draw.within(LIGHT[0], LIGHT[1]);
+            let lessons = order.taught();
+            let is_lesson = !lessons.is_empty() && draw.chance(LESSONS);
+            let drawn = (0..DRAWS).find_map(|_| match is_lesson {
+                true => lesson::draw(&body.robot, &told, lessons, &mut draw),
+                false => case::draw(&body.robot, &told, &order.wordings, &mut draw),
+            });
             let Some(case) = drawn else {
                 part.leave_out("the scene has nothing for it");
                 continue;
             };
-            match play(&case, &stage, order.shown()) {
+            match play(&case, &stage, (order.shown(), light)) {
                 Ok(turns) => {
                     for (turn, played) in turns.into_iter().enumerate() {
                         part.turn(order, body, &stage, &name, &case, turn, played);
@@ -113,6 +160,38 @@ pub fn part(order: &Order, number: usize) -> SceneRows {
                 }
                 Err(why) => part.leave_out(why),
             }
+        }
+    }
+    part
+}
+
+/// Request of a recorded conversation that was done by its first plan.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct RecordedPlan {
+    pub request: String,
+    /// The policy, in either syntax.
+    pub policy: String,
+}
+
+/// Makes rows of recorded plans, in the first scene and for the first robot of the order. Each is played in
+/// simulation and verified like a generated one.
+#[must_use]
+pub fn recorded(order: &Order, plans: &[RecordedPlan]) -> SceneRows {
+    let mut part = SceneRows::default();
+    let (Some((name, scene)), Some(body)) = (order.bases.first(), order.bodies.first()) else { return part };
+    let Ok(stage) = Stage::new(body, scene, order.effort) else {
+        part.leave_out("the robot cannot be in the scene");
+        return part;
+    };
+    for plan in plans {
+        let case = case::recorded(scene, &plan.request, &plan.policy);
+        match play(&case, &stage, (order.shown(), 1.0)) {
+            Ok(turns) => {
+                for (turn, played) in turns.into_iter().enumerate() {
+                    part.turn(order, body, &stage, name, &case, turn, played);
+                }
+            }
+            Err(why) => part.leave_out(why),
         }
     }
     part
@@ -135,23 +214,29 @@ impl SceneRows {
         turn: usize,
         played: crate::play::Turn,
     ) {
+        if order.held_out.has(&played.request) {
+            self.leave_out("the instruction is one of an evaluation");
+            return;
+        }
         let Ok(policy) = played.policy else {
             self.leave_out("the plan has no place on the model surface");
             return;
         };
         let is_start = played.scene == stage.scene;
-        let picture = played.picture.map(|picture| (picture.path(scene, &body.robot.name), picture));
+        let is_update = turn > 0 && case.update.is_some();
+        let named = |picture: Picture| (picture.path(scene, &body.robot.name), picture);
+        let pictures: Vec<(SmolStr, Picture)> = played.pictures.into_iter().map(named).collect();
         let mut row = Row {
             about: About {
                 robot: body.robot.name.to_smolstr(),
                 scene: scene.clone(),
-                task: case.task,
+                task: if is_update { SmolStr::new_static(UPDATE) } else { case.task.clone() },
                 failures: case.failures.clone(),
                 turn,
             },
             system: played.system,
             user: played.user,
-            image: picture.as_ref().map(|(path, _)| path.clone()),
+            images: pictures.iter().map(|(path, _)| path.clone()).collect(),
             policy,
             request: played.request,
             history: played.history,
@@ -180,7 +265,7 @@ impl SceneRows {
                 .unwrap_or_else(|| format_smolstr!("{scene}.{}", self.scenes.len() + 1));
         }
         self.scenes.entry(row.about.scene.clone()).or_insert(played.scene);
-        self.pictures.extend(picture);
+        self.pictures.extend(pictures);
         self.rows.push(row);
     }
 }
@@ -208,10 +293,10 @@ pub fn gather(order: &Order, parts: Vec<(usize, SceneRows)>) -> Dataset {
             if let Some(scene) = part.scenes.get(&row.about.scene) {
                 dataset.scenes.entry(row.about.scene.clone()).or_insert_with(|| scene.clone());
             }
-            if let Some((path, picture)) =
-                row.image.as_ref().and_then(|path| part.pictures.remove_entry(path))
-            {
-                dataset.pictures.insert(path, picture.0);
+            for path in &row.images {
+                if let Some((path, picture)) = part.pictures.remove_entry(path) {
+                    dataset.pictures.insert(path, picture.0);
+                }
             }
             rows.push(row);
         }

@@ -3,6 +3,7 @@
 pub mod case;
 pub mod format;
 pub mod generate;
+pub mod lesson;
 pub mod lint;
 pub mod picture;
 mod play;

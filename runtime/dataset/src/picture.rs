@@ -14,7 +14,8 @@ pub const FOLDER: &str = "images";
 pub enum Pictures {
     #[default]
     None,
-    /// Each has one.
+    /// Each has one of the room, and one of a thing that the request names, if it is in view. The light
+    /// varies.
     EachRow,
 }
 
@@ -30,6 +31,38 @@ impl Picture {
             Sha256::digest(&self.0).iter().take(8).map(|byte| format!("{byte:02x}")).collect();
         format_smolstr!("{FOLDER}/{scene}_{robot}_{digest}.png")
     }
+
+    /// The same picture in another light: 1 is that of the camera, less is darker. Unchanged if it is no PNG
+    /// with 8 bits for each channel.
+    pub(crate) fn lit(self, light: f64) -> Self {
+        relit(&self.0, light).map_or(self, |bytes| Self(bytes.into()))
+    }
+}
+
+fn relit(bytes: &[u8], light: f64) -> Option<Vec<u8>> {
+    let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().ok()?;
+    let mut pixels = vec![0; reader.output_buffer_size()?];
+    let frame = reader.next_frame(&mut pixels).ok()?;
+    let channels = match (frame.color_type, frame.bit_depth) {
+        (png::ColorType::Rgb, png::BitDepth::Eight) => 3,
+        (png::ColorType::Rgba, png::BitDepth::Eight) => 4,
+        (png::ColorType::Grayscale, png::BitDepth::Eight) => 1,
+        _ => return None,
+    };
+    for pixel in pixels.chunks_exact_mut(channels) {
+        // The fourth channel is no light.
+        for value in pixel.iter_mut().take(3) {
+            *value = (f64::from(*value) * light).round().clamp(0.0, 255.0) as u8;
+        }
+    }
+    let mut written = Vec::new();
+    let mut encoder = png::Encoder::new(&mut written, frame.width, frame.height);
+    encoder.set_color(frame.color_type);
+    encoder.set_depth(frame.bit_depth);
+    let mut writer = encoder.write_header().ok()?;
+    writer.write_image_data(&pixels).ok()?;
+    writer.finish().ok()?;
+    Some(written)
 }
 
 /// Checks that trainers can read the bytes of an image file, and returns the fault. A PNG is decoded; of

@@ -8,9 +8,13 @@ use std::time::Duration;
 use motet_compiler::CheckOptions;
 use motet_decode::{Grammar, Subset, canonical};
 use motet_planner::builtin::{PlanError, PlannedRequest};
-use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
+use motet_planner::dialogue::{
+    Conversation, DialogueObserver, DialogueSetup, Kind, Outcome, Person, Problem,
+};
 use motet_planner::inteliplan::{actions, exchange};
+use motet_planner::model::ReplyVerdict;
 use motet_planner::{Builtin, PlanRequest, Planner, model, prompt};
+use motet_requests::Intent;
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Perception as _, Time};
 use motet_sim::{Sim, SimOptions};
@@ -32,14 +36,34 @@ impl Person for Scripted {
     }
 }
 
+/// A person who changes the request at a time.
+struct Change(Option<(f64, String)>);
+
+impl DialogueObserver for Change {
+    fn request(&mut self, now: Time) -> Option<String> {
+        self.0.take_if(|(secs, _)| Time::from_secs(*secs) <= now).map(|(_, words)| words)
+    }
+
+    fn at_least_every(&self) -> Time {
+        if self.0.is_some() { Time::from_secs(0.5) } else { Time::NEVER }
+    }
+}
+
 /// Plays a case where the robot was told the scene of a stage. Gives its turns, or why it did not go as it
 /// was drawn: it came to another end, its goal does not hold, or something that should go wrong was never
 /// asked about.
-pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec<Turn>, &'static str> {
+pub(crate) fn play(
+    case: &Case,
+    stage: &Stage,
+    (pictures, light): (Pictures, f64),
+) -> Result<Vec<Turn>, &'static str> {
     let eye = stage.geometry.as_ref().and_then(|geometry| geometry.eye());
     let options = SimOptions { faults: case.faults.clone(), eye, ..SimOptions::default() };
     let mut driver = Rc::new(RefCell::new(Sim::new(&stage.robot, &case.real, options)));
-    let mut mind = Mind { told: stage.scene.clone(), sim: driver.clone(), pictures, turns: Vec::new() };
+    let (told, sim) = (stage.scene.clone(), driver.clone());
+    let lesson = case.policy.clone();
+    let mut mind = Mind { told, sim, pictures, light, lesson, is_asking: false, turns: Vec::new() };
+    let mut change = Change(case.update.clone());
     let setting = DialogueSetup {
         robot: stage.robot.clone(),
         scene: stage.scene.clone(),
@@ -50,18 +74,28 @@ pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec
     let mut person = Scripted(case.answers.clone());
     let mut talk = Conversation::new(&setting);
     let (outcome, _) =
-        talk.carry_out(&case.request, &mut mind, &mut driver, &mut person, &mut (), Time::ZERO);
+        talk.carry_out(&case.request, &mut mind, &mut driver, &mut person, &mut change, Time::ZERO);
+    if change.0.is_some() {
+        return Err("it was over before the person changed the request");
+    }
     match (outcome, case.is_given_up) {
         (Outcome::Done, false) | (Outcome::GivenUp, true) => {}
+        // A lesson may decline, or ask a question to which nobody has an answer here.
+        (Outcome::Declined(_), false) if case.policy.is_some() => {}
+        (Outcome::Failed(_), false) if mind.is_asking => {}
         _ => return Err("the conversation came to another end"),
     }
     if !person.0.is_empty() {
         return Err("not everything went wrong that should");
     }
-    let (fluent, args, holds) = &case.goal;
-    let args: Vec<&str> = args.iter().map(smol_str::SmolStr::as_str).collect();
-    if !case.is_given_up && driver.borrow().holds(fluent, &args) != Some(*holds) {
-        return Err("what was asked for does not hold at the end");
+    if let Some((fluent, args, holds)) = case.goal.as_ref().filter(|_| !case.is_given_up) {
+        let args: Vec<&str> = args.iter().map(smol_str::SmolStr::as_str).collect();
+        if driver.borrow().holds(fluent, &args) != Some(*holds) {
+            return Err("what was asked for does not hold at the end");
+        }
+    }
+    if case.policy.is_some() {
+        mind.turns.truncate(1);
     }
     Ok(mind.turns)
 }
@@ -73,8 +107,8 @@ pub(crate) struct Turn {
     pub(crate) scene: Scene,
     pub(crate) system: String,
     pub(crate) user: String,
-    /// Camera image at that moment.
-    pub(crate) picture: Option<Picture>,
+    /// Camera images at that moment.
+    pub(crate) pictures: Vec<Picture>,
     pub(crate) request: String,
     pub(crate) history: String,
     pub(crate) vision: String,
@@ -93,12 +127,25 @@ pub(crate) struct Mind {
     pub(crate) told: Scene,
     pub(crate) sim: Shared,
     pub(crate) pictures: Pictures,
+    /// Light of the pictures, where 1 is that of the camera.
+    pub(crate) light: f64,
+    /// The policy of a lesson, until it is asked for.
+    pub(crate) lesson: Option<String>,
+    /// True if the policy of the lesson passed the check and may ask for another plan.
+    pub(crate) is_asking: bool,
     pub(crate) turns: Vec<Turn>,
 }
 
 impl Planner for Mind {
     fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
-        let answer = Builtin.plan(ask);
+        let answer = match self.lesson.take() {
+            Some(policy) => {
+                let taught = taught(ask, &policy);
+                self.is_asking = taught.is_ok() && policy.contains("replan ");
+                taught
+            }
+            None => Builtin.plan(ask),
+        };
         let mut chat = model::chat(ask, prompt::TOKENS).into_iter().map(|message| message.text);
         let (system, user) = (chat.next().unwrap_or_default(), chat.next().unwrap_or_default());
         let (scene, situation) = (ask.situation.scene, ask.situation);
@@ -126,7 +173,7 @@ impl Planner for Mind {
             scene: now,
             system,
             user,
-            picture: self.picture(),
+            pictures: self.pictures(&named),
             request: ask.request.to_owned(),
             history: history.join("; "),
             vision: vision.join(", "),
@@ -143,13 +190,17 @@ impl Planner for Mind {
 }
 
 impl Mind {
-    fn picture(&self) -> Option<Picture> {
+    /// Pictures of the room, and of the first named thing that is in view.
+    fn pictures(&self, named: &[SmolStr]) -> Vec<Picture> {
         match self.pictures {
-            Pictures::None => None,
+            Pictures::None => Vec::new(),
             Pictures::EachRow => {
                 let mut sim = self.sim.borrow_mut();
                 let now = sim.now();
-                Some(Picture(sim.image(now)?.bytes.into()))
+                let room = sim.image(now);
+                let near = named.iter().find_map(|id| sim.view(now, id)).map(|view| view.image);
+                let all = room.into_iter().chain(near);
+                all.map(|image| Picture(image.bytes.into()).lit(self.light)).collect()
             }
         }
     }
@@ -229,6 +280,18 @@ fn sight(now: &Scene, id: &str) -> Option<String> {
     };
     let place = at(fluents::ON, &entity.on).or_else(|| at(fluents::IN, &entity.inside)).unwrap_or_default();
     Some(format!("{id}: {word}{}{place}", state(entity)))
+}
+
+/// The policy of a lesson, with the steps that it lacks on this robot.
+fn taught(ask: &PlanRequest<'_>, policy: &str) -> Result<PlannedRequest, PlanError> {
+    match model::judge(ask.session, policy) {
+        ReplyVerdict::Good { planned, .. } => {
+            Ok(PlannedRequest { understood: Intent::default(), planned: *planned })
+        }
+        ReplyVerdict::Bad { findings, .. } => {
+            Err(PlanError::Refused { text: policy.to_owned(), diagnostics: findings })
+        }
+    }
 }
 
 /// A policy as a model writes it.

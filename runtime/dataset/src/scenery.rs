@@ -30,6 +30,12 @@ const OPEN: f64 = 0.2;
 const ELSEWHERE: f64 = 0.4;
 /// Mass that most hands cannot lift, in kg.
 const HEAVY_KG: f64 = 1.0;
+/// Probability that a scene has a shelf above a surface that no robot reaches, with a thing on it.
+const HIGH_SHELF: f64 = 0.7;
+/// Height of that shelf in m, and its thickness.
+const HIGH_M: [f64; 2] = [1.95, 0.02];
+/// Category of such a shelf.
+pub(crate) const HIGH: &str = "high_shelf";
 /// The furniture that is always left.
 const KEPT: usize = 3;
 
@@ -66,7 +72,46 @@ pub fn vary(base: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
             scene.entities.insert(thing.id.clone(), thing);
         }
     }
+    if draw.chance(HIGH_SHELF) {
+        raise(&mut scene, draw);
+    }
     scene
+}
+
+/// Adds a shelf high above a surface, and puts a thing of the scene on it.
+fn raise(scene: &mut Scene, draw: &mut SplitMix64) {
+    let is_below = |entity: &&Entity| entity.kind == kinds::SURFACE && entity.pose.is_some();
+    let surfaces: Vec<&Entity> = scene.entities.values().filter(is_below).collect();
+    let stands = |entity: &&Entity| entity.kind == kinds::OBJECT && !entity.fixed && entity.on.is_some();
+    let things: Vec<&Entity> = scene.entities.values().filter(stands).collect();
+    let (Some(below), Some(thing)) = (draw.pick(&surfaces), draw.pick(&things)) else { return };
+    let size = below.shape.as_ref().and_then(extents);
+    let below = (*below).clone();
+    let (Some(pose), Some([long, deep, _]), Some([_, _, high])) =
+        (below.pose, size, thing.shape.as_ref().and_then(extents))
+    else {
+        return;
+    };
+    let ([x, y, _], id) = (pose.xyz, thing.id.clone());
+    let shelf_id = free_id(scene, &SmolStr::new_static("high_shelf"));
+    let shelf = Entity {
+        id: shelf_id.clone(),
+        class: SmolStr::new_static("board"),
+        names: vec![SmolStr::new_static("high shelf")],
+        categories: vec![SmolStr::new_static(HIGH)],
+        pose: Some(Placement { xyz: [x, y, HIGH_M[0]], rpy: pose.rpy }),
+        shape: Some(EntityShape::Box([long, deep.min(0.3), HIGH_M[1]])),
+        fixed: true,
+        on: None,
+        inside: None,
+        ..below
+    };
+    scene.entities.insert(shelf_id.clone(), shelf);
+    if let Some(thing) = scene.entities.get_mut(&id) {
+        let z = millimetres(HIGH_M[0] + HIGH_M[1] / 2.0 + high / 2.0);
+        (thing.on, thing.inside) = (Some(shelf_id), None);
+        (thing.pose, thing.visible) = (Some(Placement { xyz: [x, y, z], rpy: [0.0; 3] }), None);
+    }
 }
 
 /// Entities of a scene that nobody carries about, without a random few.

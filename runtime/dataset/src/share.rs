@@ -11,7 +11,7 @@ use motet_syntax::ast::{Block, Do, End, EndKind, Policy, Reaction, Step, StepKin
 use motet_syntax::{FileId, Source};
 use rustc_hash::FxHashSet;
 
-use crate::format::{Read, Target};
+use crate::format::{Read, Target, UPDATE};
 
 /// Part of the language that a policy uses or does not use.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -95,7 +95,7 @@ impl Construct {
 const FAILURES: [Kind; 5] =
     [Kind::NotFound, Kind::NotReachable, Kind::AmbiguousReference, Kind::AmbiguousTask, Kind::ActionFailed];
 
-/// Least share of the rows that have a policy, for each construct.
+/// Least share of the rows that have a policy, for each construct; also of all rows, for changed requests.
 pub const LEAST_CONSTRUCT: f64 = 0.03;
 /// Least share of the rows, for each kind of failure.
 pub const LEAST_FAILURE: f64 = 0.08;
@@ -117,6 +117,8 @@ pub enum Subject {
     Failure(Kind),
     /// Rows that come right after the failure.
     Recovery(Kind),
+    /// Rows in which a person has changed the request while it was carried out.
+    Update,
 }
 
 impl Subject {
@@ -127,6 +129,7 @@ impl Subject {
             Self::Construct(_) => "construct",
             Self::Failure(_) => "failure",
             Self::Recovery(_) => "recovery",
+            Self::Update => "task",
         }
     }
 
@@ -136,6 +139,7 @@ impl Subject {
         match self {
             Self::Construct(construct) => construct.name(),
             Self::Failure(kind) | Self::Recovery(kind) => kind.name(),
+            Self::Update => UPDATE,
         }
     }
 
@@ -143,7 +147,7 @@ impl Subject {
     #[must_use]
     pub const fn least(self) -> Option<f64> {
         match self {
-            Self::Construct(_) => Some(LEAST_CONSTRUCT),
+            Self::Construct(_) | Self::Update => Some(LEAST_CONSTRUCT),
             Self::Failure(_) => Some(LEAST_FAILURE),
             Self::Recovery(_) => None,
         }
@@ -187,6 +191,9 @@ impl Counts {
                 self.count(Subject::Construct(construct));
             }
         }
+        if row.task.as_deref() == Some(UPDATE) {
+            self.count(Subject::Update);
+        }
         let before = row.turn.checked_sub(1).and_then(|turn| row.failures.get(turn));
         for kind in FAILURES {
             if row.failures.iter().any(|name| name == kind.name()) {
@@ -207,8 +214,10 @@ impl Counts {
     #[must_use]
     pub fn shares(&self) -> Vec<Share> {
         let constructs = Construct::ALL.map(Subject::Construct).into_iter().filter(|_| self.policies > 0);
-        let subjects =
-            constructs.chain(FAILURES.map(Subject::Failure)).chain(FAILURES.map(Subject::Recovery));
+        let subjects = constructs
+            .chain(FAILURES.map(Subject::Failure))
+            .chain(FAILURES.map(Subject::Recovery))
+            .chain([Subject::Update]);
         let share = |subject| Share {
             subject,
             rows: self.with.get(&subject).copied().unwrap_or_default(),

@@ -78,6 +78,8 @@ pub struct Wordings {
     pub leave: Vec<String>,
     /// Requests that do not say what to do with `{thing}`.
     pub vague: Vec<String>,
+    /// Other wishes for `{thing}` while it is being carried; `{place}` is a surface.
+    pub instead: Vec<String>,
 }
 
 /// A line that is no wording.
@@ -89,8 +91,8 @@ pub struct NoWording {
     pub why: String,
 }
 
-/// Reads wordings: a line each, `KEY: WORDING`, where the key is a task, `where`, `again`, `leave` or
-/// `vague`. Empty lines and those that begin with `#` are skipped. O(bytes).
+/// Reads wordings: a line each, `KEY: WORDING`, where the key is a task, `where`, `again`, `leave`,
+/// `vague` or `instead`. Empty lines and those that begin with `#` are skipped. O(bytes).
 ///
 /// ```
 /// use motet_dataset::wordings::{OWN, read};
@@ -127,6 +129,7 @@ pub fn read(text: &str) -> Result<Wordings, NoWording> {
                 needs(&["{thing}"])?;
                 &mut wordings.vague
             }
+            "instead" => &mut wordings.instead,
             "again" => &mut wordings.again,
             "leave" => &mut wordings.leave,
             _ => {
@@ -134,7 +137,7 @@ pub fn read(text: &str) -> Result<Wordings, NoWording> {
                     let known: Vec<&str> = Task::ALL.iter().map(|task| task.name()).collect();
                     let known = known.join(", ");
                     return Err(wrong(format!(
-                        "there is no task `{key}`; known are {known}, and `where`, `again`, `leave`, `vague`"
+                        "there is no task `{key}`; known are {known}, and `where`, `again`, `leave`, `vague`, `instead`"
                     )));
                 };
                 needs(task.holes())?;
@@ -160,7 +163,7 @@ mod tests {
         for task in Task::ALL {
             assert!(own.requests.iter().filter(|(known, _)| *known == task).count() >= 6, "{task:?}");
         }
-        for list in [&own.places, &own.again, &own.leave, &own.vague] {
+        for list in [&own.places, &own.again, &own.leave, &own.vague, &own.instead] {
             assert!(list.len() >= 3, "{list:?}");
         }
     }

@@ -10,11 +10,11 @@
 use std::collections::BTreeSet;
 
 use motet_dataset::format::{self, RowFormat};
-use motet_dataset::generate::{self, Dataset, Order};
+use motet_dataset::generate::{self, Dataset, HeldOut, Order};
 use motet_dataset::lint::{Finding, Linter, RowFault, Shelf, Worlds, family};
 use motet_dataset::picture::{self, Pictures};
 use motet_dataset::share::{Construct, Counts, Subject};
-use motet_dataset::{Body, Row, scenery, wordings};
+use motet_dataset::{Body, Row, lesson, scenery, wordings};
 use motet_geometry::planning::SearchBudget;
 use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::scene;
@@ -39,6 +39,8 @@ fn order(form: RowFormat) -> Order {
         bases: ["kitchen", "living_room"].map(|name| (name.into(), scene(name))).to_vec(),
         things: scenery::things(),
         wordings: wordings::read(wordings::OWN).unwrap(),
+        held_out: HeldOut::own(),
+        lessons: lesson::read(lesson::OWN).unwrap(),
         scenes: 2,
         cases: 3,
         test: 0.3,
@@ -134,6 +136,31 @@ fn dataset_scenes_are_on_one_side_and_what_happens_varies() {
     assert!(requests.len() * 2 > all.len(), "{} of {}", requests.len(), all.len());
     assert!(all.iter().any(|row| row.about.turn > 0 && row.policy.contains("\"do\":\"pick\"")), "recoveries");
     assert!(all.iter().any(|row| row.policy.contains("\"do\":\"ask\"")), "questions");
+}
+
+#[test]
+fn dataset_lessons_changes_and_heights_are_in_the_rows() {
+    let order =
+        Order { scenes: 8, cases: 12, effort: Some(SearchBudget::default()), ..order(RowFormat::Trl) };
+    let dataset = made(&order);
+    let all: Vec<&Row> = dataset.train.iter().chain(&dataset.test).collect();
+    let tasks: BTreeSet<&str> = all.iter().map(|row| row.about.task.as_str()).collect();
+    let taught = order.lessons.iter().filter(|lesson| tasks.contains(lesson.name.as_str())).count();
+    assert!(taught > 15 && tasks.contains(format::UPDATE), "{tasks:?} {:?}", dataset.dropped);
+    // Out of reach by geometry, in a person's words.
+    assert!(all.iter().any(|row| row.policy.contains("1.9") && row.policy.contains("I reach")), "heights");
+    assert!(all.iter().all(|row| !order.held_out.has(&row.request)));
+}
+
+#[test]
+fn dataset_held_out_instruction_is_in_no_row() {
+    let order = Order { lessons: Vec::new(), ..order(RowFormat::Trl) };
+    let requests: Vec<String> = made(&order).train.into_iter().map(|row| row.request).collect();
+    let one = requests.first().unwrap().to_uppercase();
+    let held_out: HeldOut = [one.as_str()].into_iter().collect();
+    let dataset = made(&Order { held_out, ..order });
+    let left: Vec<&Row> = dataset.train.iter().chain(&dataset.test).collect();
+    assert!(!left.is_empty() && left.iter().all(|row| row.request.to_uppercase() != one), "{one}");
 }
 
 #[test]
@@ -316,11 +343,12 @@ fn dataset_pictures_go_with_rows_in_every_form_that_has_them() {
         let order = Order { pictures: Pictures::EachRow, bodies: vec![body("hsr")], ..order(form) };
         let dataset = made(&order);
         let rows: Vec<&Row> = dataset.train.iter().chain(&dataset.test).collect();
-        let shown: BTreeSet<_> = rows.iter().filter_map(|row| row.image.clone()).collect();
-        assert!(rows.iter().all(|row| row.image.is_some()), "{form:?}");
+        let shown: BTreeSet<_> = rows.iter().flat_map(|row| row.images.clone()).collect();
+        assert!(rows.iter().all(|row| !row.images.is_empty()), "{form:?}");
+        assert!(rows.iter().any(|row| row.images.len() == 2), "{form:?}: the room and a thing");
         assert!(shown.iter().eq(dataset.pictures.keys()), "{form:?}: each is kept, and no other");
         let line: Value = serde_json::from_str(&format::write(rows[0], form)).unwrap();
-        assert_eq!(line[column], json!([rows[0].image.as_deref().unwrap()]));
+        assert_eq!(line[column], json!(rows[0].images));
         let worlds = worlds(&dataset, None);
         let mut shelf = Kept(&dataset);
         let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);

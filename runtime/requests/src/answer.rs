@@ -16,6 +16,7 @@ use crate::engine::noun::{Noun, Spot, noun, spot};
 use crate::engine::token::{Token, singular, stands, tokens};
 use crate::engine::verb::{Act, Inflection, base, verb};
 use crate::engine::vocabulary::{Role, Vocabulary};
+use crate::meaning::Reader;
 
 const ALL: &[Role] = &[Role::Object, Role::Surface, Role::Container, Role::Place, Role::Person];
 
@@ -115,6 +116,10 @@ pub fn choose(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>)
             chosen.push(id);
             continue;
         }
+        if let Some(id) = extreme(&said, options, situation) {
+            chosen.push(id);
+            continue;
+        }
         let one = numbered(part, options).or_else(|| pick(&said, options, situation));
         let Some(id) = one.or_else(|| other(&said, options, situation)) else { return Vec::new() };
         if !chosen.contains(&id) {
@@ -122,6 +127,20 @@ pub fn choose(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>)
         }
     }
     chosen
+}
+
+/// `the bigger one`, `the mug nearest to me`, of some options.
+fn extreme(said: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Option<SmolStr> {
+    let words = tokens(&format!("the {}", said.strip_prefix("the ").unwrap_or(said)));
+    let Some((Noun::Phrase(phrase), end)) = noun(&words, 0) else { return None };
+    if phrase.extreme.is_none() || end < words.len() {
+        return None;
+    }
+    let mut reader = Reader::new(situation);
+    let told: Vec<SmolStr> =
+        reader.vocabulary.told_by(&phrase.words, ALL).iter().map(|thing| thing.id.clone()).collect();
+    let called = options.iter().filter(|id| phrase.words.is_empty() || told.contains(id)).cloned().collect();
+    <[SmolStr; 1]>::try_from(reader.extreme(&phrase, called)).ok().map(|[only]| only)
 }
 
 /// `2`, `number two`, `mug 2`, `the last one`, `the other one`

@@ -7,6 +7,7 @@ mod deed;
 mod engine;
 mod errand;
 mod error;
+mod extreme;
 mod meaning;
 mod parse;
 mod part;

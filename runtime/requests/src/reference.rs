@@ -224,6 +224,9 @@ impl Reader<'_> {
             }
         }
         let is_open = phrase.words.is_empty() && phrase.good_for.is_none() && phrase.is.is_empty();
+        if !is_open || place.is_some() {
+            found = self.extreme(phrase, found);
+        }
         if let ([], [elsewhere], Some(_)) = (found.as_slice(), fitting.as_slice(), &place)
             && !phrase.words.is_empty()
         {

@@ -4,7 +4,7 @@
 use crate::engine::english::{
     BEHIND_REPORT, DEICTICS, DETERMINERS, ENDS_AT_CAN, IT, KINDS_OF, LOOK_THERE, NARROWED_IS, NARROWED_LIKED,
     NEXT_PLACE, NOUN_ENDS, OPEN_NOUNS, PARTS_OF_THINGS, PHRASE_SOMETHING, PREPOSITIONS_OF_DIRECTION,
-    PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS, SPOTS_GOES_ON, THAT_IS, USE_ENDS,
+    PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS, SPOTS_GOES_ON, SUPERLATIVES, THAT_IS, USE_ENDS,
 };
 use crate::engine::phrases::Phrases;
 use crate::engine::token::{Token, singular};
@@ -48,6 +48,56 @@ pub(crate) struct Phrase {
     pub(crate) place: Option<Box<Spot>>,
     /// `something that I would like`
     pub(crate) is_liked: bool,
+    /// `the nearest`, `the bigger one`, `the mug nearest to the sink`
+    pub(crate) extreme: Option<Extreme>,
+}
+
+/// A superlative, with its point of view.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Extreme {
+    pub(crate) kind: ExtremeKind,
+    pub(crate) from: Viewpoint,
+}
+
+/// The measure of a superlative, and the end of it that is meant.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ExtremeKind {
+    Nearest,
+    Farthest,
+    Largest,
+    Smallest,
+    Tallest,
+    Shortest,
+    Heaviest,
+    Lightest,
+}
+
+/// Point from which distances count.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Viewpoint {
+    /// Nobody says from where: the person and the robot must agree.
+    Open,
+    /// `nearest to you`
+    Robot,
+    /// `nearest to the sink`, `nearest to me`
+    Thing(Box<Noun>),
+}
+
+impl ExtremeKind {
+    /// The measure of a name in the list of superlatives.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "nearest" => Self::Nearest,
+            "farthest" => Self::Farthest,
+            "largest" => Self::Largest,
+            "smallest" => Self::Smallest,
+            "tallest" => Self::Tallest,
+            "shortest" => Self::Shortest,
+            "heaviest" => Self::Heaviest,
+            "lightest" => Self::Lightest,
+            _ => return None,
+        })
+    }
 }
 
 /// A noun that begins at a place, and where it ends.
@@ -88,8 +138,13 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
         None => which,
     };
     at += open.map_or(0, |(count, _)| count);
+    let mut extreme = None;
     while !ends(tokens, at) {
         let word = tokens.get(at).map_or("", Token::word);
+        if let Some((found, after)) = superlative(tokens, at).filter(|_| extreme.is_none()) {
+            (extreme, at) = (Some(found), after);
+            continue;
+        }
         // `hand the guest the magazine`
         if PHRASE_SOMETHING.has(word) {
             break;
@@ -114,7 +169,8 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
     if words.is_empty() && !is_open && which.is_none() {
         return None;
     }
-    if words.is_empty() && !is_open && !matches!(which, Some(Which::All | Which::Count(_))) {
+    let is_counted = matches!(which, Some(Which::All | Which::Count(_)));
+    if words.is_empty() && !is_open && !is_counted && extreme.is_none() {
         return None;
     }
     let mut phrase = Phrase {
@@ -127,6 +183,7 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
         is: Vec::new(),
         place: None,
         is_liked: false,
+        extreme,
     };
     if which.is_none() && !is_plural && !is_open {
         // `bring me sponge`: said in a hurry, and the one is meant as well as any.
@@ -168,6 +225,11 @@ fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
                 continue;
             }
             let begin = determiner(tokens, after).1;
+            if let (true, Some((extreme, end))) = (is_so, superlative(tokens, begin)) {
+                phrase.extreme = Some(extreme);
+                at = end;
+                continue;
+            }
             let mut end = begin;
             while !ends(tokens, end) {
                 end += 1;
@@ -182,6 +244,22 @@ fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
         }
         return at;
     }
+}
+
+/// `nearest`, `bigger one`, `nearest to the sink`, and where it ends.
+fn superlative(tokens: &[Token], at: usize) -> Option<(Extreme, usize)> {
+    let (count, name) = SUPERLATIVES.valued(tokens, at)?;
+    let (kind, at) = (ExtremeKind::named(name)?, at + count);
+    let is_place = matches!(kind, ExtremeKind::Nearest | ExtremeKind::Farthest);
+    let joint = tokens.get(at).map_or("", Token::word);
+    if !is_place || !matches!(joint, "to" | "from") {
+        return Some((Extreme { kind, from: Viewpoint::Open }, at));
+    }
+    if tokens.get(at + 1).is_some_and(|token| token.word() == "you") {
+        return Some((Extreme { kind, from: Viewpoint::Robot }, at + 2));
+    }
+    let (noun, after) = noun(tokens, at + 1)?;
+    Some((Extreme { kind, from: Viewpoint::Thing(Box::new(noun)) }, after))
 }
 
 /// `to clean it up with`: what still belongs to the use.
