@@ -140,14 +140,26 @@ impl Document {
         matches!(&self.bytes, Bytes::All(bytes) if bytes == text.as_bytes())
     }
 
+    /// Folder of the file, or else the present one.
+    pub(crate) fn folder(&self) -> PathBuf {
+        let file = self.path.as_deref().or_else(|| self.line_of.as_ref().map(|(file, _)| Path::new(file)));
+        let folder = file.and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
+        folder.unwrap_or(Path::new(".")).to_owned()
+    }
+
     /// Parses the document. Bytes that are not text, or are too many, are diagnostics.
     pub(crate) fn parse(&self) -> (Source, Parsed) {
+        self.parse_as(|source| motet_syntax::read(source, DOCUMENT))
+    }
+
+    /// Parses a document of another language.
+    pub(crate) fn parse_as(&self, read: impl FnOnce(&Source) -> Parsed) -> (Source, Parsed) {
         match &self.bytes {
             Bytes::All(bytes) => {
                 let (source, diagnostics) = decode(&self.name, bytes, DOCUMENT);
                 let source = self.with_line(source);
                 let parsed = match diagnostics.is_empty() {
-                    true => motet_syntax::read(&source, DOCUMENT),
+                    true => read(&source),
                     false => unparsed(diagnostics),
                 };
                 (source, parsed)

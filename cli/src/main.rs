@@ -6,6 +6,7 @@ mod documents;
 mod error;
 mod flags;
 mod output;
+mod projects;
 mod ready_driver;
 mod report;
 mod run_view;
@@ -67,7 +68,7 @@ enum Command {
     Run(command::run::RunArgs),
     /// Replay the journal of a run and report the first difference
     Replay(command::replay::ReplayArgs),
-    /// Export the journal of a run to another format
+    /// Export the journal of a run, or a policy, to another format
     Export(command::export::ExportArgs),
     /// Decide which motions are feasible for a robot in a scene
     Feasible(command::feasible::FeasibleArgs),
@@ -132,7 +133,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Plan(args) => command::plan::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
         Command::Replay(args) => command::replay::run(args),
-        Command::Export(args) => command::export::run(args),
+        Command::Export(args) => command::export::run(args, colors),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Explain(args) => command::explain::run(args),

@@ -1,6 +1,6 @@
 //! `motet check`: finds the errors of policies before a robot moves.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motet_compiler::fix::{Applicability, FixLimits, fix};
@@ -12,8 +12,8 @@ use crate::documents::{self, Document, Flow, is_reply};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, FormatArgs, SessionArgs};
 use crate::output::{Colors, count, count_irregular, note, replace_file};
-use crate::report::Progress;
-use crate::report::Report;
+use crate::projects::Projects;
+use crate::report::{Progress, Report};
 
 /// Flags of `motet check`.
 #[derive(Args, Debug)]
@@ -77,22 +77,23 @@ pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, CliError> {
 
 fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
     let inputs = documents::collect(&args.documents.paths)?;
-    let mut project = args.session.project().open_with(report)?;
+    let mut projects = Projects::new(&args.session);
+    if inputs.inputs.is_empty() {
+        projects.of(Path::new("."), report)?;
+    }
     let progress = Progress::new(inputs.inputs.len(), inputs.size, "checking");
     let mut tally = Tally { denies_deferred: args.deny_deferred, ..Tally::default() };
     for input in &inputs.inputs {
         let flow = input.documents(&mut |found| {
-            let found = if args.fixes.is_fixing() {
-                tally.fix(found, args.fixes, &mut project, report)?
-            } else {
-                found
-            };
+            let project = projects.of(&found.folder(), report)?;
+            let found =
+                if args.fixes.is_fixing() { tally.fix(found, args.fixes, project, report)? } else { found };
             if args.fixes.diff {
                 // What a fix would leave is for the run that writes it.
                 tally.documents += 1;
                 return Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue });
             }
-            tally.add(&found, &mut project, report, &progress)?;
+            tally.add(&found, project, report, &progress)?;
             Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue })
         })?;
         if flow == Flow::Stop {
@@ -100,7 +101,7 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
         }
     }
     drop(progress);
-    tally.print(&project, &inputs.skipped);
+    tally.print(&projects, &inputs.skipped);
     if args.fixes.diff {
         let fixes = count_irregular(tally.fixed, "fix", "fixes");
         note(&format!("{fixes} would be applied to {}", count(tally.documents, "document")));
@@ -222,7 +223,7 @@ impl Tally {
         self.left + self.motions > 0
     }
 
-    fn print(&self, project: &Project, skipped: &[PathBuf]) {
+    fn print(&self, projects: &Projects<'_>, skipped: &[PathBuf]) {
         if self.documents == 0 {
             note("warning: nothing to check: found no .motet file and no policy in JSON");
         }
@@ -243,7 +244,7 @@ impl Tally {
             note("note: without a robot, every primitive of the standard library is allowed (--robot NAME)");
         }
         // Without a scene no motion was checked, with or without errors.
-        let (motions, unseen) = match project.has_scene() {
+        let (motions, unseen) = match projects.have_scene() {
             true => (self.motions, self.unseen),
             false => (self.motions + self.unseen, 0),
         };
@@ -251,14 +252,14 @@ impl Tally {
             note(&format!("note: {} not checked because of earlier errors", were(unseen)));
         }
         if motions > 0 {
-            let (what, why) = match (project.has_scene(), project.has_geometry()) {
+            let (what, why) = match (projects.have_scene(), projects.have_geometry()) {
                 (false, _) => ("not checked", ", because no scene was given (--scene NAME)"),
                 (true, false) => ("not checked", ""),
                 (true, true) => ("deferred to the run", " (`motet compile --emit tree` shows the reasons)"),
             };
             note(&format!("note: {} {what}{why}", were(motions)));
         }
-        if self.left > 0 && !project.has_scene() && !self.denies_deferred {
+        if self.left > 0 && !projects.have_scene() && !self.denies_deferred {
             let steps = count(self.left, "step");
             note(&format!("note: needs of {steps} are left to the run (--scene NAME decides more)"));
         }

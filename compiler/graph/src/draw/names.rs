@@ -273,7 +273,9 @@ impl<'a> Names<'a> {
         terms.iter().map(|term| self.term(term)).collect::<Vec<_>>().join(", ")
     }
 
-    fn term(&self, term: &Term) -> String {
+    /// A term in the text syntax.
+    #[must_use]
+    pub fn term(&self, term: &Term) -> String {
         match term {
             Term::Literal(value) => value.to_string(),
             Term::Binding(id) => self.binding(*id).to_owned(),
