@@ -183,10 +183,22 @@ impl Document {
         }
     }
 
+    /// Folder of the file, or else the present one.
+    pub(crate) fn folder(&self) -> PathBuf {
+        let file = self.path.as_deref().or_else(|| self.line_of.as_ref().map(|(file, _)| Path::new(file)));
+        let folder = file.and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
+        folder.unwrap_or(Path::new(".")).to_owned()
+    }
+
     /// Parses the document. Bytes that are not text, or are too many, are diagnostics.
     pub(crate) fn parse(&self) -> (Source, Parsed) {
+        self.parse_as(|source| motet_syntax::read(source, DOCUMENT))
+    }
+
+    /// Parses a document of another language.
+    pub(crate) fn parse_as(&self, read: impl FnOnce(&Source) -> Parsed) -> (Source, Parsed) {
         let line_of = self.line_of.as_ref().map(|(file, line)| (file.as_str(), *line));
-        motet::document::parse(&self.name, &self.bytes, line_of)
+        motet::document::parse_as(&self.name, &self.bytes, line_of, read)
     }
 }
 

@@ -7,10 +7,10 @@ mod key;
 mod server;
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum, value_parser};
-use motet_project::{Project, ProjectBuilder};
+use motet_project::{Project, ProjectBuilder, find_config, read_config};
 use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
 use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
@@ -51,7 +51,11 @@ pub(crate) struct EnvironmentArgs {
 impl EnvironmentArgs {
     /// Project of these inputs in which no motion is searched.
     pub(crate) fn without_motions(&self) -> ProjectBuilder {
-        let mut project = Project::builder().without_motions();
+        self.over(Project::builder().without_motions())
+    }
+
+    /// Project of these inputs, in which those that are missing are the given ones.
+    fn over(&self, mut project: ProjectBuilder) -> ProjectBuilder {
         if let Some(robot) = &self.robot {
             project = project.robot(robot);
         }
@@ -80,12 +84,31 @@ pub(crate) struct SessionArgs {
 impl SessionArgs {
     /// Project of these inputs.
     pub(crate) fn project(&self) -> ProjectBuilder {
-        let mut project = self.environment.without_motions();
+        self.over(Project::builder())
+    }
+
+    /// Project of these inputs, in which those that are missing are those of the nearest `motet.toml` at
+    /// or above a folder.
+    pub(crate) fn project_in(&self, folder: &Path) -> Result<ProjectBuilder, CliError> {
+        let config = find_config(folder).map(|path| read_config(&path)).transpose()?;
+        Ok(self.over(config.unwrap_or_else(Project::builder)))
+    }
+
+    fn over(&self, project: ProjectBuilder) -> ProjectBuilder {
+        let mut project = self.environment.over(project);
         if let Some(secs) = self.max_duration {
             project = project.max_duration(secs);
         }
-        project = project.clearance(self.motions.clearance.given());
-        if self.motions.no_geometry { project } else { project.motion_effort(self.motions.effort) }
+        if let Some(clearance) = self.motions.clearance.clearance {
+            project = project.clearance(clearance);
+        }
+        if self.motions.no_geometry {
+            return project.without_motions();
+        }
+        match self.motions.effort {
+            Some(effort) => project.motion_effort(effort),
+            None => project,
+        }
     }
 }
 
@@ -96,9 +119,9 @@ pub(crate) struct MotionArgs {
     #[arg(long)]
     pub(crate) no_geometry: bool,
     /// Search budget of a motion: 4 tries four times as often before the motion is deferred to the run
-    #[arg(long, value_name = "FACTOR", default_value_t = 1,
-          value_parser = value_parser!(u16).range(1..=1000))]
-    pub(crate) effort: u16,
+    /// [default: 1]
+    #[arg(long, value_name = "FACTOR", value_parser = value_parser!(u16).range(1..=1000))]
+    pub(crate) effort: Option<u16>,
     #[command(flatten)]
     pub(crate) clearance: ClearanceArgs,
 }

@@ -2,23 +2,25 @@
 //! printed with the first document, in the order of the documents, that needs it.
 
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use motet_project::{DiagnosticSink, Project, ProjectSession};
+use motet_project::{DiagnosticSink, ProjectSession};
 use motet_syntax::ast::File;
 use motet_syntax::{Diagnostic, Sources};
 
 use crate::error::CliError;
+use crate::projects::Projects;
 use crate::report::Report;
 
-/// Sessions by robot.
-pub(crate) struct SharedSessions {
-    inner: Mutex<Inner>,
+/// Sessions by the folder of a document and its robot.
+pub(crate) struct SharedSessions<'a> {
+    inner: Mutex<Inner<'a>>,
 }
 
-struct Inner {
-    project: Project,
-    opened: BTreeMap<String, Arc<SharedSession>>,
+struct Inner<'a> {
+    projects: Projects<'a>,
+    opened: BTreeMap<(PathBuf, String), Arc<SharedSession>>,
 }
 
 /// Session of one robot, or the reason why there is none.
@@ -41,28 +43,35 @@ impl DiagnosticSink for Opening {
     }
 }
 
-impl SharedSessions {
-    pub(crate) fn new(project: Project) -> Self {
-        Self { inner: Mutex::new(Inner { project, opened: BTreeMap::new() }) }
+impl<'a> SharedSessions<'a> {
+    pub(crate) fn new(projects: Projects<'a>) -> Self {
+        Self { inner: Mutex::new(Inner { projects, opened: BTreeMap::new() }) }
     }
 
-    /// Session for a document.
-    pub(crate) fn session_for(&self, document: &File) -> Arc<SharedSession> {
+    /// Session for a document in a folder.
+    pub(crate) fn session_for(&self, folder: &Path, document: &File) -> Arc<SharedSession> {
         let mut inner = lock(&self.inner);
-        let Inner { project, opened } = &mut *inner;
+        let Inner { projects, opened } = &mut *inner;
+        let mut opening = Opening::default();
+        let project = match projects.of(folder, &mut opening) {
+            Ok(project) => project,
+            Err(error) => {
+                opening.error = Some(error);
+                return Arc::new(SharedSession { session: None, opening: Mutex::new(opening) });
+            }
+        };
         let robot = project.robot_for(document);
         let open = || {
-            let mut opening = Opening::default();
             let session = project.shared_session_for(document, &mut opening);
             let session = session.map_err(|error| opening.error = Some(error.into())).ok();
             Arc::new(SharedSession { session, opening: Mutex::new(opening) })
         };
-        Arc::clone(opened.entry(robot).or_insert_with(open))
+        Arc::clone(opened.entry((folder.to_owned(), robot)).or_insert_with(open))
     }
 
-    /// The project, when no more documents come.
-    pub(crate) fn into_project(self) -> Project {
-        self.inner.into_inner().unwrap_or_else(PoisonError::into_inner).project
+    /// The projects, when no more documents come.
+    pub(crate) fn into_projects(self) -> Projects<'a> {
+        self.inner.into_inner().unwrap_or_else(PoisonError::into_inner).projects
     }
 }
 

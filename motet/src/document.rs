@@ -24,6 +24,17 @@ pub const MAX_FIXES: usize = 100;
 /// ```
 #[must_use]
 pub fn parse(name: &str, bytes: &Bytes, line_of: Option<(&str, usize)>) -> (Source, Parsed) {
+    parse_as(name, bytes, line_of, |source| motet_syntax::read(source, DOCUMENT))
+}
+
+/// Parses a document of another language, as [`parse`] does.
+#[must_use]
+pub fn parse_as(
+    name: &str,
+    bytes: &Bytes,
+    line_of: Option<(&str, usize)>,
+    read: impl FnOnce(&Source) -> Parsed,
+) -> (Source, Parsed) {
     let with_line = |source: Source| match line_of {
         Some((file, line)) => source.as_line(file, line),
         None => source,
@@ -33,7 +44,7 @@ pub fn parse(name: &str, bytes: &Bytes, line_of: Option<(&str, usize)>) -> (Sour
             let (source, diagnostics) = decode(name, bytes, DOCUMENT);
             let source = with_line(source);
             let parsed = match diagnostics.is_empty() {
-                true => motet_syntax::read(&source, DOCUMENT),
+                true => read(&source),
                 false => unparsed(diagnostics),
             };
             (source, parsed)

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
@@ -11,14 +11,15 @@ use motet::document::{MAX_FIXES, is_reply, listed};
 use motet_compiler::fix::{Applicability, AppliedFix, FixLimits, fix};
 use motet_graph::{Graph, NodeKind, Verdict};
 use motet_project::files::Bytes;
-use motet_project::{DOCUMENT, Project, ProjectSession, named_robot};
+use motet_project::{DOCUMENT, ProjectSession, named_robot};
 use motet_syntax::{Parsed, Source, render};
 use serde_json::{Value, json};
 
-use crate::documents::{self, Document, Flow};
+use crate::documents::{self, Document};
 use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, FormatArgs, JobArgs, ResultArgs, SessionArgs};
 use crate::output::{Colors, count, count_irregular, note, replace_file};
+use crate::projects::Projects;
 use crate::report::{Progress, Report, Style, Written};
 use crate::result_file::{DoneResult, ResultFile};
 use crate::shared_sessions::{SharedSession, SharedSessions};
@@ -92,7 +93,10 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
         ));
     }
     let inputs = documents::collect(&args.documents.paths)?;
-    let project = args.session.project().open_with(report)?;
+    let mut projects = Projects::new(&args.session);
+    if inputs.inputs.is_empty() {
+        projects.of(Path::new("."), report)?;
+    }
     let progress = Progress::new(inputs.inputs.len(), inputs.size, "checking");
     let results =
         ResultFile::open(&args.results, &format!("check {:?} {}", args.session, args.deny_deferred))?;
@@ -102,7 +106,7 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
         denies_deferred: args.deny_deferred,
         style: report.style(),
         has_results,
-        sessions: SharedSessions::new(project),
+        sessions: SharedSessions::new(projects),
     };
     let mut tally = Tally { denies_deferred: args.deny_deferred, ..Tally::default() };
     let shard = args.jobs.shard();
@@ -149,7 +153,7 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
             "the file of results has more lines than there are documents".to_owned(),
         ));
     }
-    tally.print(&checker.sessions.into_project(), &inputs.skipped);
+    tally.print(&checker.sessions.into_projects(), &inputs.skipped);
     if args.fixes.diff {
         let fixes = count_irregular(tally.fixed, "fix", "fixes");
         note(&format!("{fixes} would be applied to {}", count(tally.documents, "document")));
@@ -167,14 +171,14 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
 const PACKET: usize = 32;
 
 /// Checks documents, on any thread.
-struct Checker {
+struct Checker<'a> {
     fixes: FixArgs,
     /// Is `true` if nothing may be left to the run.
     denies_deferred: bool,
     style: Style,
     /// Is `true` if the diagnostics go to a file of results.
     has_results: bool,
-    sessions: SharedSessions,
+    sessions: SharedSessions<'a>,
 }
 
 /// Result of checking one document.
@@ -197,11 +201,11 @@ struct FixedDocument {
     change: Option<(Arc<str>, String)>,
 }
 
-impl Checker {
+impl Checker<'_> {
     fn check(&self, found: &Document) -> CheckedDocument {
         let mut tally = Tally { documents: 1, ..Tally::default() };
         let (mut source, mut parsed) = found.parse();
-        let shared = self.sessions.session_for(&parsed.file);
+        let shared = self.sessions.session_for(&found.folder(), &parsed.file);
         let unchecked = |fixed, tally| CheckedDocument {
             session: Arc::clone(&shared),
             fixed,
@@ -380,7 +384,7 @@ impl Tally {
         self.left + self.motions > 0
     }
 
-    fn print(&self, project: &Project, skipped: &[PathBuf]) {
+    fn print(&self, projects: &Projects<'_>, skipped: &[PathBuf]) {
         if self.documents == 0 {
             note("warning: nothing to check: found no .motet file and no policy in JSON");
         }
@@ -401,7 +405,7 @@ impl Tally {
             note("note: without a robot, every primitive of the standard library is allowed (--robot NAME)");
         }
         // Without a scene no motion was checked, with or without errors.
-        let (motions, unseen) = match project.has_scene() {
+        let (motions, unseen) = match projects.have_scene() {
             true => (self.motions, self.unseen),
             false => (self.motions + self.unseen, 0),
         };
@@ -409,14 +413,14 @@ impl Tally {
             note(&format!("note: {} not checked because of earlier errors", were(unseen)));
         }
         if motions > 0 {
-            let (what, why) = match (project.has_scene(), project.has_geometry()) {
+            let (what, why) = match (projects.have_scene(), projects.have_geometry()) {
                 (false, _) => ("not checked", ", because no scene was given (--scene NAME)"),
                 (true, false) => ("not checked", ""),
                 (true, true) => ("deferred to the run", " (`motet compile --emit tree` shows the reasons)"),
             };
             note(&format!("note: {} {what}{why}", were(motions)));
         }
-        if self.left > 0 && !project.has_scene() && !self.denies_deferred {
+        if self.left > 0 && !projects.have_scene() && !self.denies_deferred {
             let steps = count(self.left, "step");
             note(&format!("note: needs of {steps} are left to the run (--scene NAME decides more)"));
         }

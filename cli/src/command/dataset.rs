@@ -175,7 +175,7 @@ fn body(name: &str, report: &mut Report) -> Result<Body, CliError> {
 }
 
 fn effort(args: &MotionArgs) -> Option<SearchBudget> {
-    (!args.no_geometry).then(|| SearchBudget::default().times(args.effort.into()))
+    (!args.no_geometry).then(|| SearchBudget::default().times(args.effort.unwrap_or(1).into()))
 }
 
 /// Generates a dataset.

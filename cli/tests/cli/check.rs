@@ -267,3 +267,35 @@ fn says_what_of_a_folder_it_did_not_check() {
         ],
     );
 }
+
+#[test]
+fn check_takes_robot_and_scene_from_the_folder_of_each_policy() {
+    let place = Place::new("check_config")
+        .file("motet.toml", "robot = \"hsr\"\nscene = \"kitchen\"\nmax_duration = \"10 min\"\n")
+        .file("a.motet", "policy a { go(counter) }\n")
+        .file(
+            "inner/motet.toml",
+            "robot = \"hsr\"\nscene = \"rooms/one.json\"\n[clearance]\nbase = \"2 cm\"\n",
+        )
+        .file(
+            "inner/rooms/one.json",
+            "{\"motet_scene\": 1, \"entities\": [{\"id\": \"shelf\", \"kind\": \"Surface\"}]}",
+        )
+        .file("inner/deep/b.motet", "policy b { go(shelf) }\n")
+        .file("inner/c.motet", "policy c { go(counter) }\n");
+    place.run("check a.motet inner/deep/b.motet").check(0, &["err:checked 2 documents: no errors"]);
+    // Of the room of its own folder, and no other.
+    place.run("check .").check(1, &["out:M0202", "out:counter", "out:inner/c.motet:1:"]);
+    // A flag goes before the file.
+    place.run("check inner/c.motet --scene kitchen").check(0, &[]);
+    for (text, said) in [
+        ("robto = \"hsr\"\n", "line 1: unknown field `robto`"),
+        ("[clearance]\nbase = 3\n", "`clearance.base` has to be from 0 to 0.5"),
+        ("max_duration = \"3 cm\"\n", "`max_duration` has to be"),
+        ("robot = \"nobody\"\n", "there is no robot"),
+    ] {
+        let place =
+            Place::new("check_config_wrong").file("motet.toml", text).file("a.motet", "policy a { done }\n");
+        place.run("check a.motet").check(2, &[&format!("err:{said}")]);
+    }
+}

@@ -313,3 +313,73 @@ fn reaction_span(reaction: &Reaction) -> Span {
         Reaction::End(end) => end.span,
     }
 }
+
+/// Span of the step at a pointer such as `/steps/2/try/0`; of the call, for a step of an inlined policy;
+/// of the name of the policy, where there is no such step. O(steps on the way).
+///
+/// ```
+/// use motet_syntax::{FileId, Source, pointer, read};
+///
+/// let text = "policy p { go(table) done }";
+/// let policy = read(&Source::new("p.motet", text), FileId(0)).file.policies().next().cloned().unwrap();
+/// let span = pointer::step_span(&policy, "/steps/1");
+/// assert_eq!(&text[span.range()], "done");
+/// ```
+#[must_use]
+pub fn step_span(policy: &Policy, path: &str) -> Span {
+    let path = path.split(':').next().unwrap_or_default();
+    let mut blocks: Vec<(String, &Block)> = vec![("/steps/".to_owned(), &policy.body)];
+    blocks.extend(policy.cleanup.iter().map(|cleanup| ("/finally/".to_owned(), cleanup)));
+    let (mut rest, mut found) = (path, policy.name.span);
+    loop {
+        let inner =
+            blocks.iter().find_map(|(prefix, block)| Some((rest.strip_prefix(prefix.as_str())?, *block)));
+        let Some((tail, block)) = inner else { return found };
+        let (index, more) = tail.split_at(tail.find('/').unwrap_or(tail.len()));
+        let step = index.parse::<usize>().ok().and_then(|index| block.written().nth(index).flatten());
+        let Some(step) = step else { return found };
+        (rest, found, blocks) = (more, step.span, inside(step));
+    }
+}
+
+/// Blocks of a step with the part of the pointer that leads into each.
+fn inside(step: &Step) -> Vec<(String, &Block)> {
+    let at = |key: &str| format!("/{key}/");
+    match &step.kind {
+        StepKind::Do(_)
+        | StepKind::Let { .. }
+        | StepKind::Wait { .. }
+        | StepKind::Delay { .. }
+        | StepKind::End(_) => Vec::new(),
+        StepKind::Sequence { body, .. }
+        | StepKind::Repeat { body, .. }
+        | StepKind::Each { body, .. }
+        | StepKind::Keep { body, .. }
+        | StepKind::Within { body, .. } => vec![(at("steps"), body)],
+        StepKind::If { then, otherwise, .. } => {
+            let otherwise = otherwise.iter().map(|block| (at("else"), block));
+            std::iter::once((at("then"), then)).chain(otherwise).collect()
+        }
+        StepKind::Monitor { whens, body } => {
+            let resumes = whens.iter().enumerate().filter_map(|(index, when)| match &when.reaction {
+                Reaction::Resume { body, .. } => Some((format!("/monitor/{index}/then/steps/"), body)),
+                Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End(_) => None,
+            });
+            std::iter::once((at("during"), body)).chain(resumes).collect()
+        }
+        StepKind::Try { body, catches } => {
+            let catches = catches.iter().enumerate();
+            let catches = catches.map(|(index, catch)| (format!("/catch/{index}/steps/"), &catch.body));
+            std::iter::once((at("try"), body)).chain(catches).collect()
+        }
+        StepKind::Parallel { branches } => {
+            let branches = branches.iter().enumerate();
+            branches.map(|(index, branch)| (format!("/parallel/{index}/"), branch)).collect()
+        }
+        StepKind::Finally { step, cleanup } => {
+            let mut blocks = inside(step);
+            blocks.push((at("finally"), cleanup));
+            blocks
+        }
+    }
+}

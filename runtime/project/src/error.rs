@@ -23,6 +23,9 @@ pub enum ProjectError {
     /// A file of declarations is not UTF-8 text.
     #[error("`{}` is not UTF-8 text", path.display())]
     NotText { path: PathBuf },
+    /// A `motet.toml` is not TOML of its form, or a number in it is out of range.
+    #[error("`{}`: {problem}", path.display())]
+    Config { path: PathBuf, problem: String },
     /// A robot's folder has no `robot.toml`.
     #[error("the folder `{}` has no robot.toml", path.display())]
     NoCard { path: PathBuf },
@@ -59,6 +62,9 @@ impl ProjectError {
                 Some("a robot's folder holds robot.toml, and primitives.motet if its signatures differ")
             }
             Self::TooLarge { .. } => Some("split it into several files"),
+            Self::Config { .. } => Some(
+                "its keys are robot, scene, state, domains, clearance, max_duration, geometry and effort",
+            ),
             Self::Read { .. }
             | Self::Folder { .. }
             | Self::NotText { .. }

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod config;
 mod error;
 pub mod files;
 mod project;
@@ -7,6 +8,7 @@ mod robot;
 mod saved;
 mod simulation;
 
+pub use config::{CONFIG, find_config, read_config};
 pub use error::{DiagnosticSink, Discard, ProjectError, reason, require};
 pub use project::{
     DOCUMENT, Project, ProjectBuilder, ProjectSession, SessionInputs, named_robot, open_robot, read_scene,

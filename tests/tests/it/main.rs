@@ -11,6 +11,7 @@
 )]
 
 mod advice;
+mod btcpp;
 mod canonical;
 mod conversation;
 mod corpus;

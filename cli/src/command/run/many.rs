@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use motet::batch;
+use motet::run::events::outcome;
 use motet::run::{engine, start_state};
 use motet_graph::Graph;
 use motet_planner::runtime_check::{CheckMode, Guard};
@@ -21,6 +22,7 @@ use crate::documents::{self, Document};
 use crate::error::{CliError, Exit};
 use crate::flags::{DriverChoice, Speed};
 use crate::output::{count_irregular, note};
+use crate::projects::Projects;
 use crate::ready_driver::no_robot;
 use crate::report::{Progress, Report};
 use crate::result_file::ResultFile;
@@ -71,12 +73,13 @@ struct PolicyRun {
 /// Runs the policies of a file.
 pub(super) fn run(file: &Path, args: &RunArgs, report: &mut Report) -> Result<Exit, CliError> {
     let inputs = documents::collect(&[file.to_owned()])?;
-    let project = args.session.project().open_with(report)?;
+    let mut projects = Projects::new(&args.session);
+    projects.of(file.parent().unwrap_or(Path::new(".")), report)?;
     let simulation = args.driver.inputs(None, report)?;
     let flags = format!("run {:?} {:?} {:?}", args.session, args.driver, args.policy);
     let results = RefCell::new(ResultFile::open(&args.results, &flags)?);
     let progress = Progress::new(usize::MAX, inputs.size, "running");
-    let runs = Runs { args, simulation, sessions: SharedSessions::new(project) };
+    let runs = Runs { args, simulation, sessions: SharedSessions::new(projects) };
     catch_interrupts()?;
     let shard = args.jobs.shard();
     let found = inputs.documents().enumerate().filter_map(|(index, found)| {
@@ -162,14 +165,14 @@ pub(super) fn run(file: &Path, args: &RunArgs, report: &mut Report) -> Result<Ex
 struct Runs<'a> {
     args: &'a RunArgs,
     simulation: SimulationInputs,
-    sessions: SharedSessions,
+    sessions: SharedSessions<'a>,
 }
 
 impl Runs<'_> {
     /// Checks and simulates a policy.
     fn run(&self, found: &Document) -> Result<PolicyRun, CliError> {
         let (source, parsed) = found.parse();
-        let session = self.sessions.session_for(&parsed.file);
+        let session = self.sessions.session_for(&found.folder(), &parsed.file);
         let Some(opened) = session.session.clone() else {
             return Ok(PolicyRun { session, line: Some(Value::Null), exit: Exit::CouldNotRun });
         };
