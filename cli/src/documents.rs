@@ -192,7 +192,7 @@ impl Document {
 
     /// Parses the document. Bytes that are not text, or are too many, are diagnostics.
     pub(crate) fn parse(&self) -> (Source, Parsed) {
-        self.parse_as(|source| motet_syntax::read(source, DOCUMENT))
+        self.parse_as(|source| motet_syntax::read(source, motet_project::DOCUMENT))
     }
 
     /// Parses a document of another language.

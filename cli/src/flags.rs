@@ -15,6 +15,8 @@ use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
 use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
 
+use crate::error::CliError;
+
 pub(crate) use batch::{JobArgs, ResultArgs};
 pub(crate) use driver::{DriverArgs, DriverChoice, Speed, seed};
 pub(crate) use key::{KeyArgs, token_from};

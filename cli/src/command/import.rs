@@ -241,7 +241,7 @@ fn btcpp(args: &BtcppArgs, report: &mut Report) -> Result<Exit, CliError> {
             parsed.diagnostics = opened.session.check(&parsed);
             // A fix is an edit of Motet text.
             parsed.diagnostics.iter_mut().for_each(|found| found.fix = None);
-            imported = Some(documents::write(&parsed, None, opened.session.library(), Syntax::Text));
+            imported = Some(motet::document::write(&parsed, None, opened.session.library(), Syntax::Text));
         }
     }
     report.print(&parsed.diagnostics, &opened.sources(source));

@@ -113,7 +113,7 @@ impl Gateway {
         let said = match planned {
             Ok(answered) => {
                 let library = self.opened.session.library();
-                let written = documents::write(&answered.planned.parsed, None, library, self.syntax);
+                let written = motet::document::write(&answered.planned.parsed, None, library, self.syntax);
                 let wrong =
                     |why| ApiError::new(ErrorKind::NoPolicy, format!("the reply is no single policy: {why}"));
                 Said::Policy(written.map_err(wrong)?)
