@@ -14,6 +14,7 @@ mod run_table;
 mod simulation;
 mod situation;
 mod task;
+mod text;
 mod tool;
 mod watch;
 mod world;
@@ -153,7 +154,8 @@ impl MotetServer {
             ToolName::CheckPolicy => {
                 let args: tool::CheckArgs = tool::arguments(given)?;
                 self.compute(move |all| {
-                    let found = all.find(args.robot.as_deref(), args.scene.as_deref())?;
+                    let (robot, scene) = (args.robot.as_deref(), args.scene.as_deref());
+                    let found = all.find_for(&args.policy, robot, scene)?;
                     Ok(check::check(&found, &args.policy)?.into())
                 })
                 .await?
@@ -181,7 +183,8 @@ impl MotetServer {
             ToolName::SimulatePolicy => {
                 let args: tool::SimulateArgs = tool::arguments(given)?;
                 self.compute(move |all| {
-                    let found = all.find(args.robot.as_deref(), args.scene.as_deref())?;
+                    let (robot, scene) = (args.robot.as_deref(), args.scene.as_deref());
+                    let found = all.find_for(&args.policy, robot, scene)?;
                     let wanted = Simulation {
                         policy: &args.policy,
                         seed: args.seed,
@@ -219,7 +222,7 @@ impl MotetServer {
                 let args: tool::AnswerArgs = tool::arguments(given)?;
                 let runs = &self.driven()?.runs;
                 if let Some(answer) = &args.answer {
-                    check::within("answer", answer)?;
+                    text::within("answer", answer)?;
                 }
                 runs.answer(&args.run, None, args.answer)?;
                 runs.read(Some(&args.run), RunRecord::report)?.into()
@@ -244,7 +247,7 @@ impl MotetServer {
     async fn run_policy(&self, args: tool::RunArgs, client: ClientAbilities) -> Result<Reply, Refusal> {
         let robot = self.driven()?;
         let patience = wait(args.wait_secs, WAIT_SECS)?;
-        check::within("policy", &args.policy)?;
+        text::within("policy", &args.policy)?;
         let run = run_id();
         robot.runs.reserve(&run)?;
         let (reply, begun) = oneshot::channel();
@@ -278,7 +281,7 @@ impl MotetServer {
 
     async fn swap_policy(&self, args: tool::SwapArgs) -> Result<Value, Refusal> {
         let robot = self.driven()?;
-        check::within("policy", &args.policy)?;
+        text::within("policy", &args.policy)?;
         let (reply, decided) = oneshot::channel();
         robot.runs.offer(args.run.as_deref(), SwapOrder { policy: args.policy, reply })?;
         match tokio::time::timeout(ROBOT_TIME, decided).await {

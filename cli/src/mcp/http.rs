@@ -93,7 +93,7 @@ impl BearerToken {
     }
 }
 
-/// Who may call the endpoint.
+/// Address of the endpoint, and conditions for those who call it.
 pub(crate) struct HttpAccess {
     pub(crate) address: HttpAddress,
     pub(crate) token: BearerToken,

@@ -7,8 +7,8 @@ use motet_syntax::{Sources, render};
 use serde_json::{Value, json};
 
 use super::answer::{Refusal, ToolAnswer};
-use super::check::within;
 use super::situation::{Situation, StderrSink};
+use super::text::within;
 use crate::command::feasible::{all_motions, check_kinds, describe, drawing, json_of, parse_motions};
 
 /// The most motions of a call.
