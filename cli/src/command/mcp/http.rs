@@ -21,7 +21,7 @@ use rmcp::transport::streamable_http_server::{StreamableHttpServerConfig, Stream
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
-use super::MotetServer;
+use super::server::MotetServer;
 use crate::error::CliError;
 use crate::output::note;
 

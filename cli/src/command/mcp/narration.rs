@@ -54,7 +54,7 @@ fn report(graph: &Graph, record: &TraceEvent) -> Option<Line> {
             // A driver may fail in ways that the graph does not name.
             let is_named = kind.index() < graph.failures.len();
             let kind =
-                is_named.then(|| format!(" with `{}`", Names(graph).failure(*kind))).unwrap_or_default();
+                if is_named { format!(" with `{}`", Names(graph).failure(*kind)) } else { String::new() };
             event(format!("{} failed{kind} ({cause})", step(node)))
         }
         TraceEventKind::Ended { node, ending: NodeEnding::Interrupted, cause } if is_call(graph, *node) => {

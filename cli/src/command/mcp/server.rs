@@ -1,24 +1,6 @@
 //! Server of the Model Context Protocol: tools that check, plan and simulate policies, and, with a driver,
 //! run those that check, one at a time. It lists no tool that moves a joint.
 
-mod answer;
-mod check;
-mod checker;
-pub(crate) mod http;
-mod motion;
-mod narration;
-mod question;
-mod resource;
-mod robot;
-mod run_table;
-mod simulation;
-mod situation;
-mod task;
-mod text;
-mod tool;
-mod watch;
-mod world;
-
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
@@ -36,16 +18,14 @@ use rmcp::{ErrorData, ServerHandler};
 use serde_json::Value;
 use tokio::sync::{Semaphore, oneshot};
 
-use answer::{Refusal, ToolAnswer};
-use robot::RunOrder;
-use run_table::{RunRecord, SwapOrder};
-use simulation::Simulation;
-use task::{answer_all, input_required, task};
-use tool::ToolName;
-
-pub(crate) use robot::{RobotInputs, serve as serve_robot};
-pub(crate) use run_table::RunTable;
-pub(crate) use situation::Situations;
+use super::answer::{Refusal, ToolAnswer};
+use super::robot::RunOrder;
+use super::run_table::{RunRecord, RunTable, SwapOrder};
+use super::simulation::{Simulation, simulate};
+use super::situation::Situations;
+use super::task::{answer_all, input_required, task};
+use super::tool::ToolName;
+use super::{check, motion, resource, text, tool, world};
 
 /// The most calls that compute at the same time.
 const MAX_CALLS: usize = 2;
@@ -191,7 +171,7 @@ impl MotetServer {
                         profile: args.profile.as_deref(),
                         answers: &args.answers,
                     };
-                    Ok(simulation::simulate(&found, &wanted)?.into())
+                    Ok(simulate(&found, &wanted)?.into())
                 })
                 .await?
             }
