@@ -5,7 +5,6 @@ mod conversation;
 mod documents;
 mod error;
 mod flags;
-mod mcp;
 mod output;
 mod projects;
 mod ready_driver;

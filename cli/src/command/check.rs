@@ -441,7 +441,7 @@ fn were(motions: usize) -> String {
 }
 
 /// Number of motions that the compiler deferred to the run.
-fn deferred_motions(graph: &Graph) -> usize {
+pub(crate) fn deferred_motions(graph: &Graph) -> usize {
     let is_deferred = |kind: &NodeKind| {
         let NodeKind::Call(call) = kind else { return false };
         call.motion.as_ref().is_some_and(|motion| motion.verdict == Verdict::Deferred)

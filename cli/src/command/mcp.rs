@@ -1,5 +1,24 @@
 //! `motet mcp`: a server of the Model Context Protocol for agents, on stdin and stdout or over HTTP.
 
+mod answer;
+mod check;
+mod checker;
+mod http;
+mod motion;
+mod narration;
+mod question;
+mod resource;
+mod robot;
+mod run_table;
+mod server;
+mod simulation;
+mod situation;
+mod task;
+mod text;
+mod tool;
+mod watch;
+mod world;
+
 use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 use std::thread;
@@ -9,10 +28,13 @@ use clap::Args;
 use rmcp::ServiceExt as _;
 use tokio::runtime::Runtime;
 
+use self::http::{BearerToken, HttpAccess, HttpAddress};
+use self::robot::RobotInputs;
+use self::run_table::RunTable;
+use self::server::{DrivenRobot, MotetServer};
+use self::situation::Situations;
 use crate::error::{CliError, Exit};
 use crate::flags::{DriverArgs, DriverChoice, SessionArgs, Speed, seed};
-use crate::mcp::http::{self, BearerToken, HttpAccess, HttpAddress};
-use crate::mcp::{DrivenRobot, MotetServer, RobotInputs, RunTable, Situations, serve_robot};
 use crate::output::note;
 use crate::runner::{SLICE, catch_interrupts, is_interrupted};
 
@@ -110,7 +132,7 @@ pub(crate) fn run(args: &McpArgs) -> Result<Exit, CliError> {
                     situations: &situations,
                     runs: &runs,
                 };
-                scope.spawn(move || serve_robot(&inputs, &ordered, &ready));
+                scope.spawn(move || robot::serve(&inputs, &ordered, &ready));
                 let gone = || CliError::Message("the driver is gone".to_owned());
                 opened.recv().map_err(|_| gone())??;
                 Some(DrivenRobot { orders, runs: Arc::clone(&runs), journals })

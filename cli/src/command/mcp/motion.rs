@@ -9,8 +9,8 @@ use motet_syntax::Sources;
 use serde_json::{Value, json};
 
 use super::answer::{Refusal, ToolAnswer};
-use super::check::within;
 use super::situation::{Situation, StderrSink};
+use super::text::within;
 
 /// The most motions of a call.
 const MAX_MOTIONS: usize = 40;

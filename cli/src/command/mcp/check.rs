@@ -3,37 +3,20 @@
 use motet::plan::aims;
 use motet_compiler::explain_pages;
 use motet_compiler::fix::{FixLimits, fix};
-use motet_graph::{Graph, NodeKind, Verdict};
 use motet_planner::builtin::{self, PlanError};
 use motet_project::DOCUMENT;
-use motet_syntax::{Diagnostic, Parsed, Severity, Source, Sources, render, suggest};
+use motet_syntax::{Diagnostic, Severity, Source, Sources, render, suggest};
 use serde_json::{Value, json};
 
 use super::answer::{Refusal, first};
 use super::situation::Situation;
+use super::text::{read, within};
+use crate::command::check::deferred_motions;
 
-/// The most bytes of a policy, a request or another text of a call.
-pub(super) const MAX_TEXT_BYTES: usize = 128 * 1024;
 /// The most diagnostics of an answer.
 const MAX_DIAGNOSTICS: usize = 40;
 /// The most fixes that are applied to a policy.
 const MAX_FIXES: usize = 100;
-
-/// Reads a policy of a call.
-pub(super) fn read(text: &str) -> Result<(Source, Parsed), Refusal> {
-    within("policy", text)?;
-    let source = Source::new("policy", text);
-    let parsed = motet_syntax::read(&source, DOCUMENT);
-    Ok((source, parsed))
-}
-
-/// Refuses a text that is too long.
-pub(super) fn within(what: &str, text: &str) -> Result<(), Refusal> {
-    if text.len() <= MAX_TEXT_BYTES {
-        return Ok(());
-    }
-    Err(Refusal::new(format!("the {what} has {} bytes, at most {MAX_TEXT_BYTES} are taken", text.len())))
-}
 
 /// Checks a policy. Returns its findings, what is left to the run, and a fixed policy where the safe fixes
 /// change it.
@@ -43,7 +26,8 @@ pub(super) fn check(situation: &Situation, text: &str) -> Result<Value, Refusal>
     let checked = session.check_document(&parsed);
     let is_runnable = parsed.file.runnable().next().is_some();
     let has_error = checked.diagnostics.iter().any(is_error);
-    let left: usize = checked.policies.iter().filter_map(|one| one.graph.as_ref()).map(deferred).sum();
+    let left: usize =
+        checked.policies.iter().filter_map(|one| one.graph.as_ref()).map(deferred_motions).sum();
     let fixed = fix(session, &source, DOCUMENT, FixLimits::safe(MAX_FIXES));
     let sources = situation.project.sources(source);
     let mut answer = findings(&checked.diagnostics, &sources);
@@ -83,15 +67,6 @@ pub(super) fn findings(diagnostics: &[Diagnostic], sources: &Sources) -> Value {
 
 fn is_error(found: &Diagnostic) -> bool {
     found.severity == Severity::Error
-}
-
-/// Number of motions that are left to the run.
-fn deferred(graph: &Graph) -> usize {
-    let is_deferred = |kind: &NodeKind| {
-        let NodeKind::Call(call) = kind else { return false };
-        call.motion.as_ref().is_some_and(|motion| motion.verdict == Verdict::Deferred)
-    };
-    graph.nodes.iter().filter(|node| is_deferred(&node.kind)).count()
 }
 
 /// Page of a diagnostic code.
@@ -140,7 +115,7 @@ pub(super) fn plan(
         Ok(planned) => {
             let sources = situation.project.sources(Source::new("plan", planned.text.as_str()));
             let warnings = render::llm(&planned.compiled.diagnostics, &sources);
-            let left = planned.compiled.graph.as_ref().map_or(0, deferred);
+            let left = planned.compiled.graph.as_ref().map_or(0, deferred_motions);
             let left = json!({"motions": left});
             Ok(json!({"policy": planned.text, "notes": notes, "warnings": warnings, "left_to_run": left}))
         }

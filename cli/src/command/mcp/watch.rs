@@ -65,6 +65,7 @@ pub(super) struct RunWatch<'r, 'a> {
 }
 
 impl<'r, 'a> RunWatch<'r, 'a> {
+    /// Observer of a run with this id.
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
         (project, checker): (&'r ProjectSession, &Checker),

@@ -21,7 +21,7 @@ use rmcp::transport::streamable_http_server::{StreamableHttpServerConfig, Stream
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
-use super::MotetServer;
+use super::server::MotetServer;
 use crate::error::CliError;
 use crate::output::note;
 
@@ -93,7 +93,7 @@ impl BearerToken {
     }
 }
 
-/// Who may call the endpoint.
+/// Address of the endpoint, and conditions for those who call it.
 pub(crate) struct HttpAccess {
     pub(crate) address: HttpAddress,
     pub(crate) token: BearerToken,

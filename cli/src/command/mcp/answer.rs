@@ -23,6 +23,7 @@ pub(crate) struct Refusal {
 }
 
 impl Refusal {
+    /// Refusal for a reason, which is one clause.
     pub(crate) fn new(problem: impl Into<String>) -> Self {
         Self { problem: problem.into(), help: None, more: Vec::new() }
     }

@@ -12,7 +12,8 @@ use serde_json::Value;
 use tokio::sync::Semaphore;
 
 use super::answer::Refusal;
-use super::check::{findings, read};
+use super::check::findings;
+use super::text::read;
 
 /// The most checks at a time: one for a run, and one for a swap.
 const MAX_CHECKS: usize = 2;
@@ -39,6 +40,7 @@ pub(super) struct Checker {
 }
 
 impl Checker {
+    /// Checker of policies in a project.
     pub(super) fn new(project: &Arc<ProjectSession>) -> Self {
         Self { project: Arc::clone(project), places: Arc::new(Semaphore::new(MAX_CHECKS)) }
     }

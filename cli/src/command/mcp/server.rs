@@ -1,23 +1,6 @@
 //! Server of the Model Context Protocol: tools that check, plan and simulate policies, and, with a driver,
 //! run those that check, one at a time. It lists no tool that moves a joint.
 
-mod answer;
-mod check;
-mod checker;
-pub(crate) mod http;
-mod motion;
-mod narration;
-mod question;
-mod resource;
-mod robot;
-mod run_table;
-mod simulation;
-mod situation;
-mod task;
-mod tool;
-mod watch;
-mod world;
-
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
@@ -35,16 +18,14 @@ use rmcp::{ErrorData, ServerHandler};
 use serde_json::Value;
 use tokio::sync::{Semaphore, oneshot};
 
-use answer::{Refusal, ToolAnswer};
-use robot::RunOrder;
-use run_table::{RunRecord, SwapOrder};
-use simulation::Simulation;
-use task::{answer_all, input_required, task};
-use tool::ToolName;
-
-pub(crate) use robot::{RobotInputs, serve as serve_robot};
-pub(crate) use run_table::RunTable;
-pub(crate) use situation::Situations;
+use super::answer::{Refusal, ToolAnswer};
+use super::robot::RunOrder;
+use super::run_table::{RunRecord, RunTable, SwapOrder};
+use super::simulation::{Simulation, simulate};
+use super::situation::Situations;
+use super::task::{answer_all, input_required, task};
+use super::tool::ToolName;
+use super::{check, motion, resource, text, tool, world};
 
 /// The most calls that compute at the same time.
 const MAX_CALLS: usize = 2;
@@ -153,7 +134,8 @@ impl MotetServer {
             ToolName::CheckPolicy => {
                 let args: tool::CheckArgs = tool::arguments(given)?;
                 self.compute(move |all| {
-                    let found = all.find(args.robot.as_deref(), args.scene.as_deref())?;
+                    let (robot, scene) = (args.robot.as_deref(), args.scene.as_deref());
+                    let found = all.find_for(&args.policy, robot, scene)?;
                     Ok(check::check(&found, &args.policy)?.into())
                 })
                 .await?
@@ -181,14 +163,15 @@ impl MotetServer {
             ToolName::SimulatePolicy => {
                 let args: tool::SimulateArgs = tool::arguments(given)?;
                 self.compute(move |all| {
-                    let found = all.find(args.robot.as_deref(), args.scene.as_deref())?;
+                    let (robot, scene) = (args.robot.as_deref(), args.scene.as_deref());
+                    let found = all.find_for(&args.policy, robot, scene)?;
                     let wanted = Simulation {
                         policy: &args.policy,
                         seed: args.seed,
                         profile: args.profile.as_deref(),
                         answers: &args.answers,
                     };
-                    Ok(simulation::simulate(&found, &wanted)?.into())
+                    Ok(simulate(&found, &wanted)?.into())
                 })
                 .await?
             }
@@ -219,7 +202,7 @@ impl MotetServer {
                 let args: tool::AnswerArgs = tool::arguments(given)?;
                 let runs = &self.driven()?.runs;
                 if let Some(answer) = &args.answer {
-                    check::within("answer", answer)?;
+                    text::within("answer", answer)?;
                 }
                 runs.answer(&args.run, None, args.answer)?;
                 runs.read(Some(&args.run), RunRecord::report)?.into()
@@ -244,7 +227,7 @@ impl MotetServer {
     async fn run_policy(&self, args: tool::RunArgs, client: ClientAbilities) -> Result<Reply, Refusal> {
         let robot = self.driven()?;
         let patience = wait(args.wait_secs, WAIT_SECS)?;
-        check::within("policy", &args.policy)?;
+        text::within("policy", &args.policy)?;
         let run = run_id();
         robot.runs.reserve(&run)?;
         let (reply, begun) = oneshot::channel();
@@ -278,7 +261,7 @@ impl MotetServer {
 
     async fn swap_policy(&self, args: tool::SwapArgs) -> Result<Value, Refusal> {
         let robot = self.driven()?;
-        check::within("policy", &args.policy)?;
+        text::within("policy", &args.policy)?;
         let (reply, decided) = oneshot::channel();
         robot.runs.offer(args.run.as_deref(), SwapOrder { policy: args.policy, reply })?;
         match tokio::time::timeout(ROBOT_TIME, decided).await {

@@ -56,7 +56,7 @@ pub(super) struct RunRecord {
     pub(super) policy: String,
     pub(super) created: String,
     pub(super) updated: String,
-    /// What a person should know: the latest firing of a monitor, question or ending.
+    /// News for a person: the latest firing of a monitor, question or ending.
     pub(super) message: String,
     pub(super) question: Option<OpenQuestion>,
     pub(super) ending: Option<RunEnding>,

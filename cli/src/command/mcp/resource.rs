@@ -10,9 +10,9 @@ use super::robot::journal_folder;
 use crate::output::escape;
 
 /// Manual of the language.
-const MANUAL: &str = include_str!("../../manual/language.md");
+const MANUAL: &str = include_str!("../../../manual/language.md");
 /// Skill file for agents.
-const SKILL: &str = include_str!("../../skills/motet/SKILL.md");
+const SKILL: &str = include_str!("../../../skills/motet/SKILL.md");
 /// The most journals of a list, the latest.
 const MAX_JOURNALS: usize = 100;
 /// The most bytes of the entries of a journal, the first ones.

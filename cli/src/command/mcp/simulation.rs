@@ -12,10 +12,10 @@ use motet_sim::{PersonScript, Profile, Sim};
 use serde_json::{Value, json};
 
 use super::answer::Refusal;
-use super::check::{read, within};
 use super::checker::compile;
 use super::narration::{Line, ending, narrate};
 use super::situation::Situation;
+use super::text::{read, within};
 
 /// Time after which a simulation is stopped.
 const PATIENCE: Duration = Duration::from_secs(20);

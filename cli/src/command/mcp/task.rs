@@ -8,8 +8,8 @@ use rmcp::model::{
 use serde_json::{Value, json};
 
 use super::answer::{Refusal, ToolAnswer};
-use super::check::{MAX_TEXT_BYTES, within};
 use super::run_table::{OpenQuestion, RunRecord, RunTable};
+use super::text::{MAX_TEXT_BYTES, within};
 
 /// Interval in ms at which a client should look after a task.
 const POLL_MS: u64 = 500;

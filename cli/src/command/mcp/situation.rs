@@ -6,13 +6,14 @@ use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 use motet_compiler::Session;
 use motet_planner::dialogue::Knowledge;
-use motet_project::{DiagnosticSink, Project, ProjectBuilder, ProjectSession, robot_names};
+use motet_project::{DiagnosticSink, Project, ProjectBuilder, ProjectSession, named_robot, robot_names};
 use motet_robots::builtin::SCENES;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::{Diagnostic, Sources, render, suggest};
 
 use super::answer::Refusal;
+use super::text::read;
 use crate::error::CliError;
 use crate::output::note;
 
@@ -35,7 +36,7 @@ impl Situation {
         Ok(Self { project: Arc::new(opened), session, scene, known })
     }
 
-    /// The robot.
+    /// Robot of the situation.
     pub(super) fn robot(&self) -> Result<&Robot, Refusal> {
         let missing = || {
             let names = suggest::one_of(robot_names());
@@ -61,7 +62,7 @@ impl DiagnosticSink for StderrSink {
     }
 }
 
-/// All situations.
+/// Situations that calls may name.
 pub(crate) struct Situations {
     /// Name of the scene of the command line.
     scene: Option<String>,
@@ -86,6 +87,21 @@ impl Situations {
     /// Replaces the situation of the command line by a later one.
     pub(super) fn publish(&self, now: Situation) {
         *self.own.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(now);
+    }
+
+    /// Situation for a policy: as [`Situations::find`] has it, but with the robot that the policy names where
+    /// neither the call nor the command line gives one.
+    pub(super) fn find_for(
+        &self,
+        policy: &str,
+        robot: Option<&str>,
+        scene: Option<&str>,
+    ) -> Result<Arc<Situation>, Refusal> {
+        let named = match robot {
+            None if self.own().project.robot.is_none() => named_robot(&read(policy)?.1.file),
+            _ => None,
+        };
+        self.find(robot.or(named.as_deref()), scene)
     }
 
     /// Situation that a call names: built-in names, or by default those of the command line. No call opens a

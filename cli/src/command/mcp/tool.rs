@@ -151,7 +151,7 @@ pub(super) struct AnswerArgs {
     pub(super) answer: Option<String>,
 }
 
-/// A tool.
+/// Tool that the server offers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ToolName {
     Robots,
