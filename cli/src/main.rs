@@ -5,6 +5,7 @@ mod conversation;
 mod documents;
 mod error;
 mod flags;
+mod interrupt;
 mod output;
 mod ready_driver;
 mod report;

@@ -14,9 +14,8 @@ use motet_sim::Sim;
 use motet_stdlib::lang;
 use motet_stdlib::lang::kinds;
 
-use crate::error::{CliError, Exit};
+use crate::error::{CliError, Exit, journal_error};
 use crate::output::{note, replace_with};
-use crate::runner::journal_error;
 
 /// Flags of `motet export`.
 #[derive(Args, Debug)]

@@ -8,11 +8,10 @@ use clap::Args;
 use motet_runtime::journal::{EffectMismatch, EngineReplay, JournalEntry, ReplayError};
 use motet_runtime::{Snapshot, Time};
 
-use crate::error::{CliError, Exit};
+use crate::error::{CliError, Exit, journal_error};
 use crate::flags::duration;
 use crate::output::{Output, count, count_irregular, note};
 use crate::report;
-use crate::runner::journal_error;
 
 /// Flags of `motet replay`.
 #[derive(Args, Debug)]

@@ -24,10 +24,10 @@ use super::{CompiledPolicy, RunArgs, compile};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
+use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{count, escape, note};
 use crate::ready_driver::address;
 use crate::report::Report;
-use crate::runner::{catch_interrupts, is_interrupted};
 
 /// Policy whose call harms nothing and nobody.
 const SAY: &str = "{ say(\"This is a test.\") }";
