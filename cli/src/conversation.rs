@@ -1,7 +1,6 @@
 //! A conversation with a robot on any driver: `motet do` is one of a single request, `motet talk` one of
 //! many.
 
-pub(crate) mod answered;
 mod flags;
 mod observer;
 pub(crate) mod operator;
@@ -21,10 +20,10 @@ use record::ConversationRecord;
 
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
+use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{Colors, escape, note};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
-use crate::runner::{catch_interrupts, is_interrupted};
 use crate::view::live::LivePage;
 
 /// Carries out one request, or without one every line of a person until there are no more.

@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use motet_host::journal::JournalError;
 use motet_project::{ProjectError, reason};
 use thiserror::Error;
 
@@ -99,4 +100,9 @@ impl From<motet::Error> for CliError {
             other => Self::Message(other.to_string()),
         }
     }
+}
+
+/// Error of reading or writing a journal.
+pub(crate) fn journal_error(error: JournalError) -> CliError {
+    CliError::Message(error.to_string())
 }

@@ -5,6 +5,7 @@ mod conversation;
 mod documents;
 mod error;
 mod flags;
+mod interrupt;
 mod output;
 mod projects;
 mod ready_driver;

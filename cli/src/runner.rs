@@ -1,100 +1,29 @@
 //! Runs an engine on a driver, in this process or another: paced by the wall clock, shown by a view,
 //! recorded in a journal, stopped by Ctrl-C.
 
-use std::collections::BTreeMap;
 use std::rc::Rc;
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use motet::run::Room;
-use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
+use motet_host::journal::{JournalWriter, RunRecorder};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
-use motet_runtime::journal::{JournalHead, OpenGoals};
+use motet_runtime::journal::JournalHead;
 use motet_runtime::{
-    Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Observer, Query, RunControl,
-    RunEnd, Time, ToldThing, Verifier, resume,
+    Answer, Detection, Driver, Effect, Engine, Event, Observer, Query, RunControl, RunEnd, Time, ToldThing,
+    Verifier, resume,
 };
 
-use crate::error::{CliError, Exit};
+use crate::error::{CliError, Exit, journal_error};
 use crate::flags::Speed;
+use crate::interrupt::{SLICE, catch_interrupts, is_interrupted, note_effect, note_event};
 use crate::output::{escape, note};
 use crate::run_view::View;
-use crate::typed_line;
 use crate::view::live::SharedPage;
 use crate::view::onlooker::PageObserver;
-
-/// Interval at which a waiting run checks for an interrupt.
-pub(crate) const SLICE: Duration = Duration::from_millis(50);
-
-/// Number of requests to stop: presses of Ctrl-C, SIGTERM, and SIGHUP, which a closed terminal sends.
-static REQUESTS: AtomicU32 = AtomicU32::new(0);
-
-/// Commands that may move the robot, by their goals. They stay until the driver has said that they ended or
-/// stand still, or the run has given up waiting for that.
-static MOVING: Mutex<BTreeMap<GoalId, String>> = Mutex::new(BTreeMap::new());
-
-/// Turns a signal to end into a request to stop. The second one ends the process where nothing can move;
-/// otherwise it says what may move, and the process ends with the safe stop.
-pub(crate) fn catch_interrupts() -> Result<(), CliError> {
-    ctrlc::set_handler(|| {
-        if REQUESTS.fetch_add(1, Ordering::SeqCst) == 0 {
-            return;
-        }
-        let moving = moving();
-        if moving.is_empty() {
-            typed_line::restore();
-            std::process::exit(130);
-        }
-        let commands: Vec<&str> = moving.values().map(String::as_str).collect();
-        note(&format!(
-            "stopping: these commands may still move the robot: {}. The run ends once the driver has \
-             confirmed the stop, or has not answered in time.",
-            commands.join(", ")
-        ));
-    })
-    .map_err(|error| CliError::Message(format!("cannot handle Ctrl-C: {error}")))
-}
-
-fn moving() -> MutexGuard<'static, BTreeMap<GoalId, String>> {
-    MOVING.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Keeps in mind what an effect lets move.
-fn note_effect(effect: &Effect) {
-    match effect {
-        Effect::Start { goal, command, .. } => {
-            moving().insert(*goal, escape(&command.to_string()));
-        }
-        Effect::Finished(_) => moving().clear(),
-        _ => {}
-    }
-}
-
-/// Keeps in mind what a run that goes on had let move.
-pub(crate) fn note_open(ledger: &OpenGoals) {
-    let open = ledger.goals.iter().map(|(goal, open)| (*goal, escape(&open.command.to_string())));
-    moving().extend(open);
-}
-
-/// Keeps in mind what an event says to stand still.
-pub(crate) fn note_event(event: &Event) {
-    if let Event::Driver(
-        DriverEvent::Ended { goal, .. } | DriverEvent::Refused { goal, .. } | DriverEvent::Stopped { goal },
-    ) = event
-    {
-        moving().remove(goal);
-    }
-}
-
-/// Is `true` after Ctrl-C and after another signal to end.
-pub(crate) fn is_interrupted() -> bool {
-    REQUESTS.load(Ordering::SeqCst) > 0
-}
 
 /// Observer that shows a run, keeps it in step with the wall clock, and checks deferred motions.
 pub(crate) struct PacedView {
@@ -272,11 +201,6 @@ pub(crate) const fn exit_of(end: &RunEnd) -> Exit {
         RunEnd::Fault(_) => Exit::Failed,
         RunEnd::Interrupted => Exit::Interrupted,
     }
-}
-
-/// Error of reading or writing a journal.
-pub(crate) fn journal_error(error: JournalError) -> CliError {
-    CliError::Message(error.to_string())
 }
 
 /// Starts a driver process, or connects to it.

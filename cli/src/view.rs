@@ -6,6 +6,7 @@
 //! pages, and [`file`] writes them into one. The sources of the page are in `view/`.
 
 pub(crate) mod access;
+pub(crate) mod answered;
 pub(crate) mod conversation;
 pub(crate) mod feed;
 pub(crate) mod file;

@@ -1,5 +1,7 @@
 // State of the runs at a moment: a fold over the items of the page.
 
+import { WORDS } from "./words.js";
+
 const clock = (item) => (typeof item.at === "number" ? item.at : null);
 
 /** State before the first item. */
@@ -24,6 +26,7 @@ export function fresh() {
     questions: [],
     swaps: [],
     guards: {},
+    reasons: {},
     poses: [],
     full: false,
   };
@@ -58,7 +61,7 @@ export function apply(state, item) {
       break;
     case "run":
       state.run = item.run;
-      Object.assign(state, { end: null, held: false, blocked: null, facts: {}, changed: {}, bindings: {}, readings: {}, guards: {} });
+      Object.assign(state, { end: null, held: false, blocked: null, facts: {}, changed: {}, bindings: {}, readings: {}, guards: {}, reasons: {} });
       policy(state, item);
       if (item.request && state.says.at(-1)?.text !== item.request) {
         state.says.push({ at: state.now, who: "person", text: item.request });
@@ -69,6 +72,7 @@ export function apply(state, item) {
       state.swaps.push({ at: state.now, from: state.policies.length - 2, to: state.policies.length - 1, fates: [] });
       state.held = false;
       state.guards = {};
+      state.reasons = {};
       break;
     case "say":
       state.says.push({ at: state.now, who: item.who, text: item.text });
@@ -91,10 +95,11 @@ export function apply(state, item) {
   for (const change of item.c ?? []) apply_change(state, change);
 }
 
-/** Reason of a failed step in the words of the driver, if it said more than the kind. */
+/** Reason of a failed step: the words of the driver, of geometry or of a guard, if they say more than the kind. */
 export function told(state, r, why) {
   const last = state.goals.findLast((one) => one.r === r && one.p === state.policies.length - 1 && one.how === "failed");
-  return last?.why && last.why.length > (why ?? "").length ? last.why : why;
+  const reasons = [why ?? "", last?.why ?? "", state.reasons[r] ?? ""];
+  return reasons.reduce((best, next) => (next.length > best.length ? next : best)) || why;
 }
 
 function apply_change(state, change) {
@@ -106,6 +111,7 @@ function apply_change(state, change) {
       const row = of?.status[change.r];
       if (!row) break;
       if (change.k === "enter") {
+        delete state.reasons[change.r];
         const depth = of.rows[change.r].d;
         for (let i = change.r + 1; i < of.rows.length && of.rows[i].d > depth; i++) {
           Object.assign(of.status[i], { s: "pending", n: "", d: null });
@@ -191,6 +197,10 @@ function apply_change(state, change) {
       break;
     case "guard":
       state.guards[`${change.r}:${change.i}`] = change.truth;
+      if (change.truth !== "true") state.reasons[change.r] = WORDS.refuted(running?.rows[change.r]?.needs?.[change.i]?.text ?? "", change.truth);
+      break;
+    case "verdict":
+      if (change.text !== "feasible") state.reasons[change.r] = change.text;
       break;
     case "read": {
       state.readings[change.q] = { v: change.v, at: state.now };

@@ -44,6 +44,7 @@ export const WORDS = {
   within: (least, most) => `${least} to ${most}`,
   why: "Why",
   needs: "Needs",
+  refuted: (need, truth) => `needs ${need}; it is ${truth}`,
   watches: "Watches",
   motion: "Motion",
   attempts: "Attempts",

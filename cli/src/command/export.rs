@@ -15,11 +15,10 @@ use motet_stdlib::lang;
 use motet_stdlib::lang::kinds;
 
 use crate::documents::one_document;
-use crate::error::{CliError, Exit};
+use crate::error::{CliError, Exit, journal_error};
 use crate::flags::{FormatArgs, SessionArgs};
 use crate::output::{Colors, note, replace_with};
 use crate::report::Report;
-use crate::runner::journal_error;
 
 /// Flags of `motet export`.
 #[derive(Args, Debug)]

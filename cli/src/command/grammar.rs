@@ -165,7 +165,8 @@ fn concerns(args: &GrammarArgs, server: Option<Dialect>) -> bool {
     let Some(server) = server else { return true };
     match (args.request, notation(args)) {
         (Some(asked), _) => Dialect::from(asked) == server,
-        (None, Notation::JsonSchema) => true,
+        // Hardly a grammar is within the limits of Anthropic; both protocols of OpenAI have the same ones.
+        (None, Notation::JsonSchema) => !matches!(server, Dialect::Anthropic | Dialect::OpenAiResponses),
         (None, Notation::Gbnf) => server == Dialect::LlamaCpp,
         (None, Notation::Lark | Notation::RegexFreeEbnf) => false,
     }

@@ -7,11 +7,10 @@ use clap::Args;
 use motet::replay::{JournalPlayer, Moment};
 use motet_runtime::{Snapshot, Time};
 
-use crate::error::{CliError, Exit};
+use crate::error::{CliError, Exit, journal_error};
 use crate::flags::duration;
 use crate::output::{Output, note};
 use crate::report;
-use crate::runner::journal_error;
 
 /// Flags of `motet replay`.
 #[derive(Args, Debug)]

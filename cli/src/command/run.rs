@@ -23,18 +23,19 @@ use motet_runtime::journal::{
 use motet_runtime::{Driver, DriverClock, Event, Time, Verifier as _};
 use motet_syntax::{Parsed, Severity, Syntax};
 
-use crate::conversation::answered::AnsweredQuestions;
 use crate::conversation::operator::{AskingDriver, OperatorInput, OperatorPrompt};
 use crate::documents::{Document, one_document};
-use crate::error::{CliError, Exit};
+use crate::error::{CliError, Exit, journal_error};
 use crate::flags::{
     DriverArgs, DriverChoice, JobArgs, OutputFormat, PageArgs, ResultArgs, SessionArgs, Speed,
 };
+use crate::interrupt::note_open;
 use crate::output::{Colors, count, escape, note, replace_file};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, view};
-use crate::runner::{Beginning, PacedView, Runner, connect, exit_of, journal_error, note_open};
+use crate::runner::{Beginning, PacedView, Runner, connect, exit_of};
+use crate::view::answered::AnsweredQuestions;
 use crate::view::journal::{recorded_text, session};
 use crate::view::live::{LivePage, SharedPage};
 use crate::view::source::PolicyText;

@@ -10,9 +10,9 @@ use motet_project::{DiagnosticSink, ProjectSession};
 
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, address};
+use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{Colors, note, replace_file};
 use crate::report::Report;
-use crate::runner::{catch_interrupts, is_interrupted};
 use crate::view::conversation::{ConversationFolder, TALK};
 use crate::view::file;
 use crate::view::hub::Hub;

@@ -23,9 +23,10 @@ use super::planner::{client, printable};
 use super::record::{ConversationRecord, RunJournal};
 use crate::error::CliError;
 use crate::flags::{OutputFormat, Speed};
+use crate::interrupt::{SLICE, is_interrupted, note_event};
 use crate::output::{Colors, Output, escape, note};
 use crate::run_view::{Clock, view};
-use crate::runner::{PacedView, SLICE, is_interrupted, note_event};
+use crate::runner::PacedView;
 use crate::view::live::SharedPage;
 use crate::view::source::PolicyText;
 

@@ -22,8 +22,8 @@ use smol_str::SmolStr;
 
 use super::planner::printable;
 use crate::error::CliError;
+use crate::interrupt::is_interrupted;
 use crate::output::{escape, note};
-use crate::runner::is_interrupted;
 use crate::typed_line::{self, LetterReader};
 use crate::view::hub::Hub;
 use crate::view::live::SharedPage;

@@ -14,8 +14,8 @@ use super::flags::{ConversationArgs, ModelArgs};
 use super::record::ConversationRecord;
 use crate::error::CliError;
 use crate::flags::{CarrierArg, OutputFormat, Speed};
+use crate::interrupt::is_interrupted;
 use crate::output::{Colors, note};
-use crate::runner::is_interrupted;
 
 /// Planner of the flags.
 pub(super) fn planner(

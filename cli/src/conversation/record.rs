@@ -14,8 +14,7 @@ use motet_runtime::journal::JournalHead;
 use motet_runtime::{Driver, Effect, Engine, Observer, RunControl, RunEnd, StartState, Time};
 use serde_json::{Value, json};
 
-use crate::error::CliError;
-use crate::runner::journal_error;
+use crate::error::{CliError, journal_error};
 use crate::view::live::SharedPage;
 use crate::view::onlooker::PageObserver;
 

@@ -117,7 +117,7 @@ impl Hub {
         locked(&self.items).0.iter().skip(position).take(most).cloned().collect()
     }
 
-    /// All items.
+    /// Every item so far, in order.
     pub(crate) fn all(&self) -> Vec<Item> {
         self.from(0, usize::MAX)
     }

@@ -9,12 +9,11 @@ use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_runtime::{Driver as _, Time};
 use motet_sim::Sim;
 
+use super::answered::AnsweredQuestions;
 use super::live::LivePage;
 use super::source::PolicyText;
-use crate::conversation::answered::AnsweredQuestions;
-use crate::error::CliError;
+use crate::error::{CliError, journal_error};
 use crate::output::note;
-use crate::runner::journal_error;
 
 /// Span of simulated time between two looks at a replayed simulation.
 const LOOK_EVERY: Time = Time::from_nanos(100_000_000);

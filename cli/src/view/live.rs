@@ -19,8 +19,8 @@ use super::source::PolicyText;
 use super::world::World;
 use crate::error::CliError;
 use crate::flags::PageArgs;
+use crate::interrupt::{SLICE, is_interrupted};
 use crate::output::note;
-use crate::runner::{SLICE, is_interrupted};
 
 /// Page that the observer of a run and its operator share.
 pub(crate) type SharedPage = Rc<RefCell<LivePage>>;

@@ -11,7 +11,7 @@ use motet_runtime::{
 };
 
 use super::live::SharedPage;
-use crate::runner::SLICE;
+use crate::interrupt::SLICE;
 
 /// Observer that shows a run on a page, and lets another one look on.
 pub(crate) struct PageObserver<'a> {

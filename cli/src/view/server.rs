@@ -38,6 +38,8 @@ const MOST_LETTERS: usize = 2_000;
 const BATCH: usize = 256;
 /// Header of a command with the token.
 const TOKEN: &str = "x-motet-token";
+/// Time after which a page connects again.
+const RETRY: Duration = Duration::from_millis(400);
 /// Time in which pages get the last items of a run that is over.
 const FAREWELL: Duration = Duration::from_secs(2);
 /// The page loads nothing from elsewhere, runs no script in its text, and is shown in no frame.
@@ -50,8 +52,8 @@ struct Shared {
     hub: Arc<Hub>,
     token: Token,
     pages: Arc<Semaphore>,
-    /// Number of pages that are connected now.
-    connected: AtomicUsize,
+    /// Number of pages that have not got the end of the run, connected or about to connect again.
+    awaited: AtomicUsize,
     is_over: AtomicBool,
     over: watch::Sender<bool>,
 }
@@ -79,7 +81,7 @@ impl Server {
             hub,
             token,
             pages: Arc::new(Semaphore::new(MOST_PAGES)),
-            connected: AtomicUsize::new(0),
+            awaited: AtomicUsize::new(0),
             is_over: AtomicBool::new(false),
             over,
         });
@@ -112,7 +114,7 @@ impl Server {
         self.shared.hub.push("over", &serde_json::json!({"t": "over"}));
         let slice = Duration::from_millis(20);
         let mut left = FAREWELL;
-        while self.shared.connected.load(Ordering::SeqCst) > 0 && !left.is_zero() {
+        while self.shared.awaited.load(Ordering::SeqCst) > 0 && !left.is_zero() {
             std::thread::sleep(slice);
             left = left.saturating_sub(slice);
         }
@@ -189,7 +191,12 @@ async fn events(
     };
     let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()).unwrap_or(&access.after);
     let position = shared.hub.after(last);
-    let cursor = Cursor::new(shared, permit, position);
+    if position == 0 {
+        shared.awaited.fetch_add(1, Ordering::SeqCst);
+    }
+    let news = shared.hub.news();
+    let batch = Vec::new().into_iter();
+    let cursor = Cursor { shared, news, position, batch, retry: Some(RETRY), _permit: permit };
     let keep = KeepAlive::new().interval(Duration::from_secs(10));
     Sse::new(items(cursor)).keep_alive(keep).into_response()
 }
@@ -200,21 +207,9 @@ struct Cursor {
     news: watch::Receiver<usize>,
     position: usize,
     batch: std::vec::IntoIter<Item>,
+    /// Time after which the page connects again, to be sent once.
+    retry: Option<Duration>,
     _permit: OwnedSemaphorePermit,
-}
-
-impl Cursor {
-    fn new(shared: Arc<Shared>, permit: OwnedSemaphorePermit, position: usize) -> Self {
-        shared.connected.fetch_add(1, Ordering::SeqCst);
-        let news = shared.hub.news();
-        Self { shared, news, position, batch: Vec::new().into_iter(), _permit: permit }
-    }
-}
-
-impl Drop for Cursor {
-    fn drop(&mut self) {
-        self.shared.connected.fetch_sub(1, Ordering::SeqCst);
-    }
 }
 
 /// Items from the place of a page on, as they come; the end once the run is over.
@@ -227,12 +222,21 @@ fn items(cursor: Cursor) -> impl Stream<Item = Result<Event, Infallible>> {
                     Some(id) => event.id(id),
                     None => event,
                 };
+                let event = match cursor.retry.take() {
+                    Some(retry) => event.retry(retry),
+                    None => event,
+                };
                 return Some((Ok(event), cursor));
             }
             let _ = *cursor.news.borrow_and_update();
             let batch = cursor.shared.hub.from(cursor.position, BATCH);
             if batch.is_empty() {
-                if cursor.shared.is_over.load(Ordering::SeqCst) || cursor.news.changed().await.is_err() {
+                if cursor.shared.is_over.load(Ordering::SeqCst) {
+                    let less = |awaited: usize| Some(awaited.saturating_sub(1));
+                    let _ = cursor.shared.awaited.fetch_update(Ordering::SeqCst, Ordering::SeqCst, less);
+                    return None;
+                }
+                if cursor.news.changed().await.is_err() {
                     return None;
                 }
                 continue;
@@ -406,6 +410,8 @@ mod tests {
             served.hub.push(&format!("1-{seq}"), &json!({"t": "step"}));
         }
         let line = format!("GET /events?token={}", served.token());
+        // The page loses its connection, and connects again.
+        assert_eq!(status(&mut served.ask(&line, "", "")), 200);
         let mut reply = served.ask(&line, "last-event-id: 1-1\r\n", "");
         assert_eq!(status(&mut reply), 200);
         served.hub.push("1-3", &json!({"t": "step", "text": "two\nlines"}));

@@ -15,10 +15,10 @@ use super::{CompiledPolicy, RunArgs, compile};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
+use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{count, escape, note};
 use crate::ready_driver::address;
 use crate::report::Report;
-use crate::runner::{catch_interrupts, is_interrupted};
 
 /// Robot whose `say` a check uses where none is named.
 const ROBOT: &str = "hsr";

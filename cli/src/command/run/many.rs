@@ -27,8 +27,12 @@ use crate::ready_driver::no_robot;
 use crate::report::{Progress, Report};
 use crate::result_file::ResultFile;
 use crate::run_view::View;
-use crate::runner::{PacedView, catch_interrupts, exit_of, is_interrupted};
+use crate::interrupt::{catch_interrupts, is_interrupted};
+use crate::runner::{PacedView, exit_of};
 use crate::shared_sessions::{SharedSession, SharedSessions};
+
+/// Outcome of a policy that the check refuses.
+const REFUSED: &str = "refused";
 
 /// Is `true` for a file with one policy per line.
 pub(super) fn is_lines(file: &Path) -> bool {
@@ -109,7 +113,7 @@ pub(super) fn run(file: &Path, args: &RunArgs, report: &mut Report) -> Result<Ex
             Err(done) => {
                 progress.skip(found.size());
                 let is_done = done.line.get("outcome").and_then(Value::as_str) == Some("done");
-                let is_refused = done.line.get("outcome").and_then(Value::as_str) == Some("refused");
+                let is_refused = done.line.get("outcome").and_then(Value::as_str) == Some(REFUSED);
                 if is_done {
                     Exit::Success
                 } else if is_refused {
@@ -182,7 +186,7 @@ impl Runs<'_> {
             let lines = lines.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
             let is_error = |found: &&motet_syntax::Diagnostic| found.severity == Severity::Error;
             let line = json!({
-                "outcome": "refused",
+                "outcome": REFUSED,
                 "errors": compiled.diagnostics.iter().filter(is_error).count(),
                 "diagnostics": lines.collect::<Vec<_>>(),
             });

@@ -8,7 +8,7 @@ use motet_planner::PlanRequest;
 use motet_planner::builtin::PlanError;
 use motet_planner::dialogue::Knowledge;
 use motet_planner::model::{
-    self, Exchange, ModelError, ModelEvent, ModelObserver, ModelPlanner, ReadTo, TokenUsage,
+    self, ChatContext, ModelError, ModelEvent, ModelObserver, ModelPlanner, ReadTo, TokenUsage,
 };
 use motet_project::ProjectSession;
 use motet_robots::card::Robot;
@@ -107,7 +107,7 @@ impl Gateway {
             bound: &[],
             image: None,
         };
-        let exchange = Exchange { earlier: &request.earlier, images: &request.images };
+        let exchange = ChatContext { earlier: &request.earlier, images: &request.images };
         let planned = ModelPlanner::new(client, &mut log, settings).plan_in(&ask, exchange);
         let usage = log.usage;
         let said = match planned {

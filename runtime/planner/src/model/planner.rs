@@ -305,7 +305,7 @@ impl<'m> ModelPlanner<'m> {
 
 /// Messages around a request.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Exchange<'a> {
+pub struct ChatContext<'a> {
     /// Earlier messages. Those of the system follow the system's prompt; the others stand before the request.
     pub earlier: &'a [Message],
     /// Images that are shown with the request.
@@ -321,7 +321,7 @@ impl ModelPlanner<'_> {
     pub fn plan_in(
         &mut self,
         ask: &PlanRequest<'_>,
-        exchange: Exchange<'_>,
+        exchange: ChatContext<'_>,
     ) -> Result<PlannedRequest, PlanError> {
         self.later = None;
         let ready = self.ready(ask);
@@ -346,7 +346,7 @@ impl ModelPlanner<'_> {
 
 impl Planner for ModelPlanner<'_> {
     fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
-        self.plan_in(ask, Exchange::default())
+        self.plan_in(ask, ChatContext::default())
     }
 
     fn reads_answers(&self) -> bool {

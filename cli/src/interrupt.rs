@@ -1,0 +1,81 @@
+//! Requests to stop, from Ctrl-C and other signals, and the commands that may move the robot meanwhile.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use motet_runtime::journal::OpenGoals;
+use motet_runtime::{DriverEvent, Effect, Event, GoalId};
+
+use crate::error::CliError;
+use crate::output::{escape, note};
+use crate::typed_line;
+
+/// Interval at which a waiting run checks for an interrupt.
+pub(crate) const SLICE: Duration = Duration::from_millis(50);
+
+/// Number of requests to stop: presses of Ctrl-C, SIGTERM, and SIGHUP, which a closed terminal sends.
+static REQUESTS: AtomicU32 = AtomicU32::new(0);
+
+/// Commands that may move the robot, by their goals. They stay until the driver has said that they ended or
+/// stand still, or the run has given up waiting for that.
+static MOVING: Mutex<BTreeMap<GoalId, String>> = Mutex::new(BTreeMap::new());
+
+/// Turns a signal to end into a request to stop. The second one ends the process where nothing can move;
+/// otherwise it says what may move, and the process ends with the safe stop.
+pub(crate) fn catch_interrupts() -> Result<(), CliError> {
+    ctrlc::set_handler(|| {
+        if REQUESTS.fetch_add(1, Ordering::SeqCst) == 0 {
+            return;
+        }
+        let moving = moving();
+        if moving.is_empty() {
+            typed_line::restore();
+            std::process::exit(130);
+        }
+        let commands: Vec<&str> = moving.values().map(String::as_str).collect();
+        note(&format!(
+            "stopping: these commands may still move the robot: {}. The run ends once the driver has \
+             confirmed the stop, or has not answered in time.",
+            commands.join(", ")
+        ));
+    })
+    .map_err(|error| CliError::Message(format!("cannot handle Ctrl-C: {error}")))
+}
+
+fn moving() -> MutexGuard<'static, BTreeMap<GoalId, String>> {
+    MOVING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps in mind what an effect lets move.
+pub(crate) fn note_effect(effect: &Effect) {
+    match effect {
+        Effect::Start { goal, command, .. } => {
+            moving().insert(*goal, escape(&command.to_string()));
+        }
+        Effect::Finished(_) => moving().clear(),
+        _ => {}
+    }
+}
+
+/// Keeps in mind what a run that goes on had let move.
+pub(crate) fn note_open(ledger: &OpenGoals) {
+    let open = ledger.goals.iter().map(|(goal, open)| (*goal, escape(&open.command.to_string())));
+    moving().extend(open);
+}
+
+/// Keeps in mind what an event says to stand still.
+pub(crate) fn note_event(event: &Event) {
+    if let Event::Driver(
+        DriverEvent::Ended { goal, .. } | DriverEvent::Refused { goal, .. } | DriverEvent::Stopped { goal },
+    ) = event
+    {
+        moving().remove(goal);
+    }
+}
+
+/// Is `true` after Ctrl-C and after another signal to end.
+pub(crate) fn is_interrupted() -> bool {
+    REQUESTS.load(Ordering::SeqCst) > 0
+}
