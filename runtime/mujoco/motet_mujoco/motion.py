@@ -245,8 +245,8 @@ class Reacher:
         return data.site_xpos[self.model.tip].copy(), data.site_xmat[self.model.tip].reshape(3, 3).copy()
 
     def solve(self, qpos, target, place, rotation, rounds=60):
-        """Targets near to given ones with the hand at a pose, or None. `qpos` holds everything else. The base moves only
-        where the arm alone does not get there."""
+        """Targets near to given ones with the hand at a pose, or None. `qpos` holds everything else. The base moves
+        only where the arm alone does not get there."""
         if self.model.drives:
             still = self.weights.copy()
             still[:3] = 0.0
