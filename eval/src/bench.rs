@@ -144,7 +144,8 @@ impl Bench {
     }
 }
 
-/// A room in which everything that lies in something has a place on its bottom: physics has no thing without one.
+/// A room in which everything that lies in something has a place on its bottom: physics has no thing without
+/// one.
 fn laid(room: &Scene) -> Scene {
     let mut laid = room.clone();
     let nowhere = laid.entities.values_mut().filter(|entity| entity.pose.is_none());

@@ -38,10 +38,19 @@ def detect(picture, solids):
     """Things in a picture, the largest in pixels first. `solids` are those of known furniture: dictionaries with
     `xyz`, `rotation` (3 × 3) and `box` (half sides) or `cylinder` (radius, half height)."""
     points = picture.points()
-    known = (picture.depth <= 0.0) | (points[..., 2] < NEAR_FLOOR)
+    new = (picture.depth > 0.0) & (points[..., 2] >= NEAR_FLOOR)
+    left = np.flatnonzero(new)
+    rest = points.reshape(-1, 3)[left]
     for solid in solids:
-        known |= belongs(points, solid)
-    labels = components(~known, picture.depth, picture.colour)
+        # Only what no solid before has, and what is about there, is looked at closely.
+        about = np.flatnonzero(np.all(np.abs(rest - np.array(solid["xyz"])) <= half_box(solid), axis=-1))
+        mine = about[belongs(rest[about], solid)]
+        if len(mine):
+            new.flat[left[mine]] = False
+            keep = np.ones(len(left), dtype=bool)
+            keep[mine] = False
+            left, rest = left[keep], rest[keep]
+    labels = components(new, picture.depth, picture.colour)
     counts = np.bincount(labels.ravel())
     found = []
     for label in np.argsort(-counts, kind="stable"):
@@ -52,6 +61,12 @@ def detect(picture, solids):
         if one is not None:
             found.append(one)
     return found
+
+
+def half_box(solid):
+    """Half of the sides of the box around a solid, along the axes of the map, with all that belongs to it."""
+    half = solid["box"] if "box" in solid else [solid["cylinder"][0]] * 2 + [solid["cylinder"][1]]
+    return np.abs(np.array(solid["rotation"])) @ (np.array(half) + NEAR_FURNITURE) + 1e-9
 
 
 def belongs(points, solid):

@@ -24,8 +24,8 @@ UNLIKE_ANYWHERE = 0.3
 # Every which row and column of a depth picture is looked at, for what is known; the distance in m up to which a point
 # is on it, and the number of points that show it.
 GRID, ON, ENOUGH = 6, 0.02, 8
-# Distance in m from a thing up to which what is seen is a part of it, and the share of its size below which a view of it
-# is of a part.
+# Distance in m from a thing up to which what is seen is a part of it, and the share of its size below which a view
+# of it is of a part.
 PART, PARTLY = 0.03, 0.8
 # Parts of the travel of a drawer or door that are told apart.
 STEPS = 5

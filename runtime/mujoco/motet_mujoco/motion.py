@@ -245,7 +245,18 @@ class Reacher:
         return data.site_xpos[self.model.tip].copy(), data.site_xmat[self.model.tip].reshape(3, 3).copy()
 
     def solve(self, qpos, target, place, rotation, rounds=60):
-        """Targets near to given ones with the hand at a pose, or None. `qpos` holds everything else."""
+        """Targets near to given ones with the hand at a pose, or None. `qpos` holds everything else. The base moves
+        only where the arm alone does not get there."""
+        if self.model.drives:
+            still = self.weights.copy()
+            still[:3] = 0.0
+            found = self.solved(still, qpos, target, place, rotation, rounds)
+            if found is not None:
+                return found
+        return self.solved(self.weights, qpos, target, place, rotation, rounds)
+
+    def solved(self, weights, qpos, target, place, rotation, rounds):
+        """Targets as `solve` gives them, with a weight for the motion of each actuator."""
         model, data = self.model, self.data
         mj = model.mj
         target = np.array(target, dtype=float)
@@ -260,10 +271,10 @@ class Reacher:
             if np.linalg.norm(off) < 1e-4 and np.linalg.norm(turn) < 1e-3:
                 return target
             mujoco.mj_jacSite(mj, data, jac_p, jac_r, model.tip)
-            jacobian = np.vstack([jac_p, jac_r])[:, model.control_qvel] * self.weights
+            jacobian = np.vstack([jac_p, jac_r])[:, model.control_qvel] * weights
             error = np.concatenate([off, turn])
             step = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + 1e-4 * np.eye(6), error)
-            target = np.clip(target + self.weights * np.clip(step, -0.2, 0.2), low, high)
+            target = np.clip(target + weights * np.clip(step, -0.2, 0.2), low, high)
         return None
 
 

@@ -177,8 +177,8 @@ class Mover:
         points = strokes[0].points
         lifted = self.raised(points[1], 0.06) if len(points) > 2 or len(strokes) > 1 else None
         points[0] = start
-        if lifted is not None:
-            after = points[2] if len(points) > 2 else strokes[1].points[1]
+        after = points[2] if len(points) > 2 else strokes[1].points[1] if len(strokes) > 1 else None
+        if lifted is not None and self.is_way(start, lifted, after):
             first = self.path([start, lifted, after, *points[3:]], motion.speed).strokes
             strokes[: 1 if len(points) > 2 else 2] = first
         last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
@@ -186,6 +186,13 @@ class Mover:
             strokes.extend(self.path([last, leaves], motion.speed).strokes)
         yield from self.follow(Path(strokes), watch=self.keeps(thing, "fell on the way back"))
         yield from self.pause(0.2)
+
+    def is_way(self, *points):
+        """True if nothing is too near on the straight ways between targets that is not so at the first of them."""
+        clearance = Clearance(self.world, self.beliefs)
+        shares = np.linspace(0.1, 1.0, 8)
+        ways = [one + (other - one) * share for one, other in zip(points, points[1:]) for share in shares]
+        return clearance.is_free(points[0], points[0], ways)
 
     def keeps(self, thing, how="slipped out of the hand"):
         """A check that fails where a thing is lost from the hand; None without a thing."""

@@ -22,7 +22,8 @@ class Planner:
 
     def plan(self, scene, query):
         """(witness, None), or (None, (reason, text)) where there is none. Where the robot stands too near to something
-        for the clearance that it keeps, it moves with less; where a search ends without an answer, it tries for longer."""
+        for the clearance that it keeps, it moves with less; where a search ends without an answer, it tries for
+        longer."""
         witness, why = self.ask(scene, query)
         if witness is None and "budget" in why[1]:
             witness, _ = self.ask(scene, query, "--effort", EFFORT)
