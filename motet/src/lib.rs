@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 
+pub mod batch;
 pub mod conformance;
 pub mod document;
-pub mod batch;
 mod error;
 mod facade;
 pub mod feasible;

@@ -12,7 +12,7 @@ use motet_robots::import::{self, MAX_CELLS, MapOptions, UnknownCells};
 use motet_robots::scene;
 use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Sources, Syntax, ast};
 
-use crate::documents::{self, one_document};
+use crate::documents::one_document;
 use crate::error::{CliError, Exit};
 use crate::flags::{FormatArgs, SessionArgs};
 use crate::output::{Colors, note};

@@ -35,8 +35,8 @@ use self::server::{DrivenRobot, MotetServer};
 use self::situation::Situations;
 use crate::error::{CliError, Exit};
 use crate::flags::{DriverArgs, DriverChoice, SessionArgs, Speed, seed};
+use crate::interrupt::{SLICE, catch_interrupts, is_interrupted};
 use crate::output::note;
-use crate::runner::{SLICE, catch_interrupts, is_interrupted};
 
 /// Flags of `motet mcp`.
 #[derive(Args, Debug)]

@@ -13,9 +13,9 @@ use clap::{Args, value_parser};
 
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, ServerArgs, SessionArgs, SyntaxArg, token_from};
+use crate::interrupt::catch_interrupts;
 use crate::output::{Colors, note};
 use crate::report::Report;
-use crate::runner::catch_interrupts;
 use gateway::{Gateway, Limits};
 
 /// Flags of `motet serve`.

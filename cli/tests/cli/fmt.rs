@@ -81,7 +81,11 @@ fn compiles() {
         ("compile a.motet --scene kitchen --emit mermaid", 0, &["out:flowchart"][..]),
         ("compile a.motet --scene kitchen --emit dot", 0, &["out:digraph"]),
         ("compile a.motet --scene kitchen --emit python", 0, &["out:async def tidy(robot: Robot):"]),
-        ("compile both.motet --scene kitchen --emit python", 1, &["err:cannot say `parallel`", "err:/steps/0"]),
+        (
+            "compile both.motet --scene kitchen --emit python",
+            1,
+            &["err:cannot say `parallel`", "err:/steps/0"],
+        ),
         ("compile a.motet --scene kitchen --emit text", 0, &["out:policy tidy for hsr"]),
         ("compile a.motet --scene kitchen --emit json", 0, &["out:\"steps\""]),
         ("compile bad.motet", 1, &["out:M0201"]),

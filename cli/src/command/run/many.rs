@@ -21,13 +21,13 @@ use super::RunArgs;
 use crate::documents::{self, Document};
 use crate::error::{CliError, Exit};
 use crate::flags::{DriverChoice, Speed};
+use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{count_irregular, note};
 use crate::projects::Projects;
 use crate::ready_driver::no_robot;
 use crate::report::{Progress, Report};
 use crate::result_file::ResultFile;
 use crate::run_view::View;
-use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::runner::{PacedView, exit_of};
 use crate::shared_sessions::{SharedSession, SharedSessions};
 

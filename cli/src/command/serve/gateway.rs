@@ -19,8 +19,7 @@ use serde_json::Value;
 
 use super::answer::{ApiError, ErrorKind};
 use super::request::ChatRequest;
-use crate::documents;
-use crate::runner::is_interrupted;
+use crate::interrupt::is_interrupted;
 
 /// Limits of the endpoint.
 #[derive(Clone, Copy, Debug)]

@@ -25,7 +25,7 @@ use tokio::time::{sleep, timeout};
 use super::answer::{self, ApiError, ErrorKind, Head};
 use super::gateway::{Gateway, Limits, Reply};
 use super::request::{ChatRequest, Delivery};
-use crate::runner::{SLICE, is_interrupted};
+use crate::interrupt::{SLICE, is_interrupted};
 
 type Body = UnsyncBoxBody<Bytes, Infallible>;
 
