@@ -136,7 +136,9 @@ class Eyes:
         """True if furniture or a person is in view: the depth pictures have points where it should be."""
         if self.oracle:
             return self.observer.is_visible(one)
-        return any(np.count_nonzero(gaps <= ON) >= ENOUGH for gaps in self.gaps(one))
+        is_seen = any(np.count_nonzero(gaps <= ON) >= ENOUGH for gaps in self.gaps(one))
+        # A drawer that stands open hides the rest of what it is in.
+        return is_seen or self.sees_open(one) is not None
 
     def gaps(self, one):
         """Distances in m of the points of the depth pictures from where an entity is believed to be."""

@@ -80,6 +80,15 @@ def test_a_drawer_is_seen_to_be_open(drive):
     assert host.carry_out("inspect", what=entity("drawer_1")) == {"success": None}
 
 
+def test_an_open_drawer_is_seen_by_its_leaf(drive):
+    """The camera at the wrist is so near that it sees no more than the drawer that stands open."""
+    host = drive("anymal_z1", "lab")
+    host.carry_out("wake_up")
+    host.carry_out("go", to=entity("drawer_1"))
+    host.carry_out("start_pose")
+    assert host.carry_out("inspect", what=entity("drawer_1")) == {"success": None}
+
+
 def test_words_about_a_thing_replace_what_was_known(motet):
     beliefs = Beliefs(World(load("hsr", "kitchen", motet)))
     beliefs.told("mug_1", {"in": "fridge_1"})

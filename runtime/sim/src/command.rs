@@ -117,8 +117,8 @@ impl SimCommand {
             Self::Detect(_) | Self::DetectAll(_) | Self::Locate(_) | Self::Ground(_) | Self::Inspect(_) => {
                 0.3
             }
-            Self::Pick(_) | Self::Grasp(..) | Self::Lift | Self::Place(..) => 0.4,
-            Self::Open(_) | Self::Close(_) | Self::Push(_) => 0.4,
+            Self::Pick(_) | Self::Grasp(..) | Self::Place(..) | Self::Open(_) | Self::Close(_) => 0.2,
+            Self::Lift | Self::Push(_) => 0.4,
             Self::Unknown => 0.5,
         }
     }
