@@ -118,13 +118,11 @@ fn run_simulates_a_file_of_policies_the_same_with_any_number_of_threads() {
     assert_eq!(first.lines().count(), 5);
     place.run(&format!("{RUN} --out runs.out --shard 0/2 --continue")).check(1, &["err:ran 5 policies"]);
     assert_eq!(place.read("runs.out"), first);
-    for (flags, words) in [
-        ("--record kept", "--out"),
-        ("--speed 2", "full speed"),
-        ("--driver tcp://127.0.0.1:1", "full speed"),
-    ] {
+    for (flags, words) in [("--record kept", "--out"), ("--speed 2", "full speed")] {
         place.run(&format!("{RUN} {flags}")).check(2, &[&format!("err:{words}")]);
     }
+    let driven = "run all.jsonl --scene kitchen --driver tcp://127.0.0.1:1";
+    place.run(driven).check(2, &["err:full speed"]);
     place.run("run p0.json --scene kitchen --out x.out").check(2, &["err:.jsonl"]);
     place.run("run p0.json --scene kitchen -j 2").check(2, &["err:.jsonl"]);
 }

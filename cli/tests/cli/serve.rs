@@ -174,7 +174,7 @@ fn serve_repairs_and_gives_no_policy_that_does_not_check() {
     assert_eq!(all["choices"][0]["message"]["content"], GOOD);
     assert_eq!(all["usage"]["total_tokens"], 220, "of both rounds");
     let again = heard.lock().unwrap()[1]["messages"].to_string();
-    assert!(again.contains("M0501"), "{again}");
+    assert!(again.contains("`place` needs `holding(mug_1)`"), "{again}");
     let (stubborn, _) = endpoint(&[BAD, BAD], "");
     let answer = stubborn.ask("go to the counter");
     assert_eq!(answer.status, 422, "{answer:?}");

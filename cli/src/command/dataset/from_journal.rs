@@ -74,7 +74,7 @@ pub(super) fn from_journal(args: &FromJournalArgs, report: &mut Report) -> Resul
         form: args.form.into(),
         pictures: Pictures::None,
     };
-    let dataset = generate::gather(&order, vec![generate::recorded(&order, &plans)]);
+    let dataset = generate::gather(&order, vec![(0, generate::recorded(&order, &plans))]);
     super::write(&args.out, dataset.train.iter().map(|row| format::write(row, order.form)))?;
     for (why, dropped) in &dataset.dropped {
         note(&format!("left out {dropped}: {why}"));
