@@ -218,7 +218,7 @@ impl Session {
 
     /// Runs with the library and the environment of a document: the session's own, unless the document
     /// declares something.
-    pub(crate) fn within(
+    fn within(
         &self,
         parsed: &Parsed,
         diagnostics: &mut Vec<Diagnostic>,

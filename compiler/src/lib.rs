@@ -19,7 +19,6 @@ mod resolve;
 mod session;
 pub mod signature;
 mod syntax_conversion;
-mod tree_vocabulary;
 
 pub use declare::{
     Library, LibraryBuilder, MAX_COUNT, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES, MAX_SECONDS,

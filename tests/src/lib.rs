@@ -6,6 +6,5 @@ pub mod examples;
 pub mod generate;
 pub mod notation;
 pub mod oracle;
-pub mod trees;
 
 pub use motet_eval::setup;

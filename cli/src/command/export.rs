@@ -1,5 +1,5 @@
 //! `motet export`: the journal of a run as an MCAP file, with the simulated scene if the run was a
-//! simulation; a policy as a behaviour tree.
+//! simulation.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -14,11 +14,8 @@ use motet_sim::Sim;
 use motet_stdlib::lang;
 use motet_stdlib::lang::kinds;
 
-use crate::documents::one_document;
 use crate::error::{CliError, Exit, journal_error};
-use crate::flags::{FormatArgs, SessionArgs};
-use crate::output::{Colors, note, replace_with};
-use crate::report::Report;
+use crate::output::{note, replace_with};
 
 /// Flags of `motet export`.
 #[derive(Args, Debug)]
@@ -32,27 +29,6 @@ pub(crate) struct ExportArgs {
 enum ExportCommand {
     /// Export a journal as an MCAP file, for Foxglove and other viewers
     Mcap(McapArgs),
-    /// Export a policy as a tree of BehaviorTree.CPP 4, with a manifest of its nodes for Groot2
-    Btcpp(BtcppArgs),
-}
-
-/// Flags of `motet export btcpp`.
-#[derive(Args, Debug)]
-#[command(after_help = "Example:\n  motet export btcpp fetch_mug.motet --scene kitchen -o fetch_mug.xml")]
-struct BtcppArgs {
-    /// Policy file, or `-` for stdin
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
-    /// File to write [default: stdout]
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Policy to export; required if the file has several
-    #[arg(long, value_name = "NAME")]
-    policy: Option<String>,
-    #[command(flatten)]
-    session: SessionArgs,
-    #[command(flatten)]
-    format: FormatArgs,
 }
 
 /// Flags of `motet export mcap`.
@@ -68,41 +44,8 @@ struct McapArgs {
 }
 
 /// Runs the command.
-pub(crate) fn run(args: &ExportArgs, colors: Colors) -> Result<Exit, CliError> {
-    match &args.command {
-        ExportCommand::Mcap(args) => mcap(args),
-        ExportCommand::Btcpp(args) => Report::run(args.format.format, colors, |report| {
-            if args.output.is_none() {
-                report.hold();
-            }
-            btcpp(args, report)
-        }),
-    }
-}
-
-fn btcpp(args: &BtcppArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let (source, parsed) = one_document(&args.file)?.parse();
-    let mut project = args.session.project().open_with(report)?;
-    let opened = project.session_for(&parsed.file, report)?;
-    let compiled = opened.session.compile(&parsed, args.policy.as_deref());
-    let mut diagnostics = compiled.diagnostics;
-    let policy = |name: &str| parsed.file.policies().find(|policy| policy.name.text == name);
-    let mut tree = None;
-    if let Some(graph) = &compiled.graph
-        && let Some(policy) = policy(&graph.policy)
-    {
-        match motet_btcpp::export(graph, policy, &opened.session.tree_vocabulary(&parsed)) {
-            Ok(text) => tree = Some(text),
-            Err(refused) => diagnostics.extend(refused),
-        }
-    }
-    report.print(&diagnostics, &opened.sources(source));
-    let Some(tree) = tree else { return Ok(Exit::Findings) };
-    report.out.file(args.output.as_deref(), &tree)?;
-    Ok(Exit::Success)
-}
-
-fn mcap(args: &McapArgs) -> Result<Exit, CliError> {
+pub(crate) fn run(args: &ExportArgs) -> Result<Exit, CliError> {
+    let ExportCommand::Mcap(args) = &args.command;
     // An earlier file, which may be the journal itself, stays until the new one is complete.
     let entries = replace_with(&args.output, |file| write(&args.folder, file))?;
     note(&format!("wrote {entries} entries to {}", args.output.display()));

@@ -6,16 +6,14 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum};
 use motet_pddl::PddlSource;
-use motet_project::DOCUMENT;
 use motet_project::files::{add_source, read_small};
 use motet_robots::import::{self, MAX_CELLS, MapOptions, UnknownCells};
 use motet_robots::scene;
-use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Sources, Syntax, ast};
+use motet_syntax::{Diagnostic, FileId, Source, Sources};
 
-use crate::documents::one_document;
 use crate::error::{CliError, Exit};
-use crate::flags::{FormatArgs, SessionArgs};
-use crate::output::{Colors, note};
+use crate::flags::FormatArgs;
+use crate::output::Colors;
 use crate::report::Report;
 
 /// Flags of `motet import`.
@@ -34,26 +32,6 @@ enum ImportCommand {
     Map(MapArgs),
     /// Import the models of an SDF as a scene
     Sdf(SdfArgs),
-    /// Import a tree of BehaviorTree.CPP 4, whose nodes are primitives and facts of the robot, as a policy
-    Btcpp(BtcppArgs),
-}
-
-/// Flags of `motet import btcpp`.
-#[derive(Args, Debug)]
-#[command(
-    after_help = "Example:\n  motet import btcpp fetch_mug.xml --robot hsr --scene kitchen -o fetch_mug.motet"
-)]
-struct BtcppArgs {
-    /// XML file with the tree
-    #[arg(value_name = "XML")]
-    tree: PathBuf,
-    /// File to write [default: stdout]
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    #[command(flatten)]
-    session: SessionArgs,
-    #[command(flatten)]
-    format: FormatArgs,
 }
 
 /// Flags of `motet import map`.
@@ -140,7 +118,6 @@ pub(crate) fn run(args: &ImportArgs, colors: Colors) -> Result<Exit, CliError> {
         ImportCommand::Pddl(args) => (args.format.format, &args.output),
         ImportCommand::Map(args) => (args.format.format, &args.output),
         ImportCommand::Sdf(args) => (args.format.format, &args.output),
-        ImportCommand::Btcpp(args) => (args.format.format, &args.output),
     };
     Report::run(format, colors, |report| {
         if output.is_none() {
@@ -150,7 +127,6 @@ pub(crate) fn run(args: &ImportArgs, colors: Colors) -> Result<Exit, CliError> {
             ImportCommand::Pddl(args) => pddl(args, report),
             ImportCommand::Map(args) => map(args, report),
             ImportCommand::Sdf(args) => sdf(args, report),
-            ImportCommand::Btcpp(args) => btcpp(args, report),
         }
     })
 }
@@ -220,43 +196,6 @@ fn pddl(args: &PddlArgs, report: &mut Report) -> Result<Exit, CliError> {
     let Some(imported) = imported else { return Ok(Exit::Findings) };
     let text = if args.plan.is_some() { imported.policy_text() } else { imported.declarations_text() };
     write(&text, args.output.as_deref(), report)
-}
-
-/// Imports a tree, and checks the policy with its places in the XML.
-fn btcpp(args: &BtcppArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let (source, mut parsed) = one_document(&args.tree)?.parse_as(|source| {
-        let file = ast::File::default();
-        let text = source.text.to_string().into();
-        Parsed { file, syntax: Syntax::Json, text, diagnostics: Vec::new(), written: None }
-    });
-    let mut project = args.session.project().open_with(report)?;
-    let opened = project.session_for(&parsed.file, report)?;
-    let mut imported = None;
-    if parsed.diagnostics.is_empty() {
-        let vocabulary = opened.session.tree_vocabulary(&parsed);
-        let (file, found) = motet_btcpp::import(&source, DOCUMENT, &vocabulary);
-        parsed.diagnostics = found;
-        if let Some(file) = file {
-            parsed.file = file;
-            parsed.diagnostics = opened.session.check(&parsed);
-            // A fix is an edit of Motet text.
-            parsed.diagnostics.iter_mut().for_each(|found| found.fix = None);
-            imported = Some(motet::document::write(&parsed, None, opened.session.library(), Syntax::Text));
-        }
-    }
-    report.print(&parsed.diagnostics, &opened.sources(source));
-    match imported {
-        None => Ok(Exit::Findings),
-        Some(Err(why)) => {
-            note(&format!("error: {}: {why}", args.tree.display()));
-            Ok(Exit::Findings)
-        }
-        Some(Ok(text)) => {
-            write(&text, args.output.as_deref(), report)?;
-            let is_wrong = parsed.diagnostics.iter().any(|found| found.severity == Severity::Error);
-            Ok(if is_wrong { Exit::Findings } else { Exit::Success })
-        }
-    }
 }
 
 fn read(

@@ -189,13 +189,6 @@ impl Case {
         }
     }
 
-    fn tree(&mut self, text: &[u8], session: &Session) {
-        if let Some((source, file)) = self.add(text) {
-            let vocabulary = session.tree_vocabulary(&motet_syntax::read(&Source::new("none", ""), file));
-            self.said.extend(motet_btcpp::import(&source, file, &vocabulary).1);
-        }
-    }
-
     fn scene(&mut self, text: &[u8]) {
         if let Some((source, file)) = self.add(text) {
             let (scene, said) = scene::read(&source, file);
@@ -218,8 +211,7 @@ impl Case {
 
     /// Runs the examples through every stage.
     fn run(mut self, fences: &[Fence<'_>]) -> Result<(Vec<Diagnostic>, Vec<Diagnostic>), String> {
-        let (mut domains, mut policies, mut exported) = (Vec::new(), Vec::new(), Vec::new());
-        let mut trees = Vec::new();
+        let (mut domains, mut policies) = (Vec::new(), Vec::new());
         for Fence { info, text } in fences {
             let mut words = info.iter().copied().skip(1);
             let mut bytes = text.clone().into_bytes();
@@ -245,7 +237,6 @@ impl Case {
                     }
                     None if [
                         "card", "urdf", "srdf", "scene", "state", "domain", "pddl", "map", "image", "sdf",
-                        "btcpp", "exported",
                     ]
                     .contains(&word) =>
                     {
@@ -264,7 +255,6 @@ impl Case {
                 "image" => self.map_image(&bytes),
                 "sdf" => self.sdf(&bytes),
                 "state" => self.state(&bytes),
-                "btcpp" => trees.push(bytes),
                 "pddl" => {
                     let added = self.add(&bytes);
                     self.pddl.extend(added);
@@ -276,7 +266,6 @@ impl Case {
                         self.said.extend(parsed.diagnostics);
                         domains.push(parsed.file);
                     } else {
-                        exported.extend((role == "exported").then(|| parsed.clone()));
                         policies.push(parsed);
                     }
                 }
@@ -320,15 +309,6 @@ impl Case {
             }
             _ => session,
         };
-        for tree in trees {
-            self.tree(&tree, &session);
-        }
-        for parsed in &exported {
-            let (graph, policy) = (session.compile(parsed, None).graph, parsed.file.policies().next());
-            let (graph, policy) = graph.zip(policy).ok_or("a policy that does not compile")?;
-            let tree = motet_btcpp::export(&graph, policy, &session.tree_vocabulary(parsed));
-            self.said.extend(tree.err().into_iter().flatten());
-        }
         for parsed in &policies {
             self.said.extend(session.check(parsed));
             self.left.extend(session.check_document(parsed).deferred_notes);

@@ -19,17 +19,15 @@ const MAX_NODES: u32 = 200_000;
 /// Greatest nesting depth; a URDF needs five levels, extensions some more.
 const MAX_DEPTH: usize = 64;
 
-/// Parsed XML document, within limits of size and depth.
-#[derive(Debug)]
-pub struct XmlDocument<'t> {
+/// Parsed XML document.
+pub(crate) struct XmlDocument<'t> {
     xml: roxmltree::Document<'t>,
-    /// Conversion of its nodes to spans.
-    pub spans: XmlSpans,
+    pub(crate) spans: XmlSpans,
 }
 
-/// Conversion of the nodes of a document to spans.
-#[derive(Clone, Copy, Debug)]
-pub struct XmlSpans {
+/// Conversion of nodes to spans.
+#[derive(Clone, Copy)]
+pub(crate) struct XmlSpans {
     file: FileId,
     /// Bytes before the XML, which must start its file to be well-formed: a blanked byte order mark, empty
     /// lines.
@@ -37,8 +35,12 @@ pub struct XmlSpans {
 }
 
 impl<'t> XmlDocument<'t> {
-    /// Parses the text. Returns the diagnostic of the first mistake (M0451, M0452, M0454). O(bytes).
-    pub fn parse(source: &'t Source, file: FileId, dialect: XmlDialect) -> Result<Self, Box<Diagnostic>> {
+    /// Parses the text. O(bytes).
+    pub(crate) fn parse(
+        source: &'t Source,
+        file: FileId,
+        dialect: XmlDialect,
+    ) -> Result<Self, Box<Diagnostic>> {
         let text = source.text.trim_start();
         let spans = XmlSpans { file, skipped: source.text.len() - text.len() };
         let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, entity_resolver: None };
@@ -56,9 +58,7 @@ impl<'t> XmlDocument<'t> {
         }
     }
 
-    /// The root element.
-    #[must_use]
-    pub fn root(&self) -> Node<'_, 't> {
+    pub(crate) fn root(&self) -> Node<'_, 't> {
         self.xml.root_element()
     }
 
@@ -83,8 +83,7 @@ impl XmlSpans {
     }
 
     /// Span of an element: `<` and its name.
-    #[must_use]
-    pub fn tag(self, node: Node<'_, '_>) -> Span {
+    pub(crate) fn tag(self, node: Node<'_, '_>) -> Span {
         let start = node.range().start;
         let text = node.document().input_text().get(start..).unwrap_or_default();
         let end = text.find(|c: char| c.is_whitespace() || c == '/' || c == '>').unwrap_or(text.len());
@@ -92,14 +91,13 @@ impl XmlSpans {
     }
 
     /// Value of an attribute and its span.
-    #[must_use]
-    pub fn attribute<'a>(self, node: Node<'a, '_>, name: &str) -> Option<(&'a str, Span)> {
+    pub(crate) fn attribute<'a>(self, node: Node<'a, '_>, name: &str) -> Option<(&'a str, Span)> {
         let attribute = node.attribute_node(name)?;
         Some((attribute.value(), self.span(attribute.range_value())))
     }
 
-    /// Value and span of an attribute that has to be there and not be empty; else adds a diagnostic (M0455).
-    pub fn required<'a>(
+    /// An attribute that has to be there and not be empty.
+    pub(crate) fn required<'a>(
         self,
         node: Node<'a, '_>,
         name: &'static str,

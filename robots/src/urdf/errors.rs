@@ -7,15 +7,13 @@ use super::model::UrdfShape;
 
 /// Format of an XML document.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum XmlDialect {
+pub(crate) enum XmlDialect {
     /// A robot's links and joints.
     Urdf,
     /// Semantic description beside a URDF.
     Srdf,
     /// World or model of a simulator.
     Sdf,
-    /// Behaviour trees of BehaviorTree.CPP.
-    BehaviorTree,
 }
 
 /// Kind of a missing part.
@@ -36,13 +34,8 @@ motet_syntax::mistakes! {
             XmlDialect::Urdf => "a URDF",
             XmlDialect::Srdf => "an SRDF",
             XmlDialect::Sdf => "an SDF",
-            XmlDialect::BehaviorTree => "a file of behaviour trees",
         };
-        let root = match m.dialect {
-            XmlDialect::Urdf | XmlDialect::Srdf => "robot",
-            XmlDialect::Sdf => "sdf",
-            XmlDialect::BehaviorTree => "root",
-        };
+        let root = if m.dialect == XmlDialect::Sdf { "sdf" } else { "robot" };
         Some(format!("{what} is an XML document whose root element is `<{root}>`"))
     }
 

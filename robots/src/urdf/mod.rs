@@ -23,11 +23,9 @@ mod read;
 mod surplus;
 mod tree;
 
-pub use document::{XmlDocument, XmlSpans};
-pub(crate) use document::{child, children, from_rpy, is_own, numbers};
+pub(crate) use document::{XmlDocument, XmlSpans, child, children, from_rpy, is_own, numbers};
 pub use errors::CODES;
-pub use errors::XmlDialect;
-pub(crate) use errors::{BadNumber, ImpossibleNumber, XmlPart};
+pub(crate) use errors::{BadNumber, ImpossibleNumber, XmlDialect, XmlPart};
 pub use model::*;
 pub use read::read;
 pub(crate) use surplus::unknown;

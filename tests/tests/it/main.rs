@@ -11,7 +11,6 @@
 )]
 
 mod advice;
-mod btcpp;
 mod canonical;
 mod conversation;
 mod corpus;
