@@ -470,9 +470,9 @@ class Robot:
         return _Part(self)
 
     def end(self, how: str, why: Any = None) -> None:
-        """Ends the policy: `done`, `failed`, `cannot` or `replan`."""
+        """Ends the policy: `done`, `fail`, `cannot` or `replan`."""
         words = None if why is None else self.words(why)
-        raise _Ended(End(how, words, "failed" if how == "failed" else None))
+        raise _Ended(End("failed", words, "failed") if how == "fail" else End(how, words))
 
     def words(self, term: Any) -> Any:
         """A text with what was last known."""

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use motet::document;
 use motet_graph::draw;
+use motet_stdlib::lang::{entities, kinds};
 use motet_syntax::Syntax;
+use smol_str::SmolStr;
 
 use crate::documents::one_document;
 use crate::error::{CliError, Exit};
@@ -86,7 +88,14 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
         Emit::Mermaid => Ok(draw::mermaid(&graph)),
         Emit::Dot => Ok(draw::dot(&graph)),
         Emit::Python => {
-            let entities = motet::run::start_state(opened.session.scene()).entities;
+            let always = [
+                (entities::ROBOT, kinds::ENTITY),
+                (entities::USER, kinds::PERSON),
+                (entities::START, kinds::PLACE),
+            ];
+            let always = always.map(|(id, kind)| (SmolStr::new_static(id), SmolStr::new_static(kind)));
+            let of_scene = motet::run::start_state(opened.session.scene()).entities;
+            let entities: Vec<(SmolStr, SmolStr)> = always.into_iter().chain(of_scene).collect();
             motet_graph::python::script(&graph, &entities).map_err(|why| why.to_string())
         }
         Emit::Json => document::write(&parsed, policy, library, Syntax::Json),

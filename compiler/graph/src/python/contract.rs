@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::json;
 
 use super::term::{quoted, type_name};
-use super::{Writer, identifier};
+use super::writer::{Writer, identifier};
 use crate::model::{
     CallEffect, CallNode, Condition, Fact, FactArg, KindId, Need, Node, NodeId, Term, TextPart, Unsettled,
     Verdict,
@@ -61,7 +61,7 @@ impl Writer<'_> {
     }
 
     fn need(&mut self, need: &Need) -> String {
-        let failure = self.graph.failures.get(need.failure.index()).map_or("failed", |name| name);
+        let failure = self.graph.failures.get(need.failure.index()).map_or("", |name| name);
         let mut text = format!("Need({}, {}", self.condition(&need.condition), quoted(failure));
         text.push_str(&self.quantifier(need.when.as_ref(), need.each));
         text.push_str(if need.verdict == Verdict::Proven { ", proven=True)" } else { ")" });
@@ -113,10 +113,12 @@ impl Writer<'_> {
             .collect();
         let title = quoted(&format!("Policy {} for {}.", graph.policy, graph.robot));
         let mut text = format!(
-            "{title}\n\n# Written by `motet compile --emit python`. Run it with `python FILE MODULE:CLASS`.\n\n\
+            "{title}\n\n\
+             # Written by `motet compile --emit python`. Run it with `python FILE MODULE:CLASS`.\n\n\
              import json\n\n\
              from motet import ANY, Case, Entity, Failed, Pose, Text\n\
-             from motet.belief import EACH, all_of, any_of, arith, compare, count, fact, field, first, measure, no, said\n\
+             from motet.belief import EACH, all_of, any_of, arith, compare, count, fact, field, first\n\
+             from motet.belief import measure, no, said\n\
              from motet.script import Contract, Entry, Need, Planned, Robot, Script, main\n\n\n\
              async def {}(robot: Robot):\n{}",
             self.name, self.steps

@@ -2,7 +2,7 @@
 
 use smol_str::SmolStr;
 
-use super::Writer;
+use super::writer::Writer;
 use crate::model::{Condition, Fact, FactArg, Graph, Term, TextPart, Type, Value};
 
 /// A text as a literal of Python: JSON's escapes are among those of Python.
@@ -20,7 +20,7 @@ pub(super) fn type_name(graph: &Graph, ty: &Type) -> String {
         Type::Pose => "Pose".to_owned(),
         Type::Quantity(name) | Type::Case(name) => name.to_string(),
         Type::Entity(kind) => {
-            graph.kinds.get(kind.index()).map_or_else(|| "Entity".to_owned(), |kind| kind.name.to_string())
+            graph.kinds.get(kind.index()).map_or_else(String::new, |kind| kind.name.to_string())
         }
         Type::List(inner) => format!("List<{}>", type_name(graph, inner)),
     }

@@ -168,9 +168,10 @@ fn scripts_played(cases: &[(u64, Graph)]) -> Vec<Vec<String>> {
     let mut run = Process::new("python3");
     run.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/engine/harness.py"));
     run.env("PYTHONPATH", root.join("python"));
+    let known = [("robot", "Entity"), ("user", "Person")].map(|(id, kind)| (id.into(), kind.into()));
     for (index, (seed, graph)) in cases.iter().enumerate() {
         let path = folder.join(format!("case_{index}.py"));
-        std::fs::write(&path, python::script(graph, &[]).unwrap()).unwrap();
+        std::fs::write(&path, python::script(graph, &known).unwrap()).unwrap();
         run.arg(format!("{seed}:{}", path.display()));
     }
     let said = run.output().unwrap();
