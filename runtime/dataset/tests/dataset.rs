@@ -129,7 +129,7 @@ fn dataset_scenes_are_on_one_side_and_what_happens_varies() {
     assert!(train.is_disjoint(&test), "{train:?} {test:?}");
     assert_eq!((train.len(), test.len()), (4, 2));
     let all: Vec<&Row> = dataset.train.iter().chain(&dataset.test).collect();
-    let tasks: BTreeSet<_> = all.iter().map(|row| row.about.task).collect();
+    let tasks: BTreeSet<_> = all.iter().map(|row| row.about.task.clone()).collect();
     let failures: BTreeSet<_> = all.iter().flat_map(|row| &row.about.failures).collect();
     let requests: BTreeSet<_> = all.iter().map(|row| row.request.as_str()).collect();
     assert!(tasks.len() >= 6 && failures.len() == 5, "{tasks:?} {failures:?}");

@@ -299,7 +299,7 @@ fn fix_what_safe_fixes_write_runs() {
         }
     }
     assert!(mended.len() > 20, "{}", mended.len());
-    let ends = mutations::judge(mended, 0).unwrap();
+    let ends = mutations::judge(motet_eval::Workers::default(), mended, 0).unwrap();
     let failed: Vec<_> = ends
         .iter()
         .filter(|(_, end)| matches!(end, MutantEnd::Unlisted(_)))

@@ -98,7 +98,8 @@ fn dialect_streams_are_read_to_their_end_with_their_tokens() {
         assert_eq!(check(dialect, recording, POLICY, Ok(Finish::Stop)), usage, "{dialect:?}");
         // A stream that breaks off in its middle has no end.
         let cut = recording.find("motet\\\":").unwrap() + 40;
-        let cut = &recording[..recording[..cut].rfind("\n\n").unwrap() + 2];
+        let end = recording.get(..cut).unwrap().rfind("\n\n").unwrap() + 2;
+        let cut = recording.get(..end).unwrap();
         let got = exchange(events(cut), |settings| settings, dialect);
         assert!(matches!(got.end, Err(ModelError::CutOff { .. })), "{dialect:?}: {got:?}");
     }

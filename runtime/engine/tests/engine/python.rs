@@ -1,6 +1,12 @@
 //! Python scripts beside the engine: on random policies, with random answers and failures, a script makes the
 //! same calls in the same order and comes to the same end. Needs `python3`, and is skipped without it.
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stderr,
+    reason = "scripts are run by the interpreter of Python, where there is one"
+)]
+
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::process::Command as Process;
