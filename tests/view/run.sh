@@ -13,6 +13,9 @@ if ! (cd view && npm ci --silent --no-audit --no-fund >/dev/null 2>&1); then
     exit 0
 fi
 (cd view && npm run --silent check)
+if ! command -v chromium >/dev/null && [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+    (apt-get update && apt-get install --yes --no-install-recommends chromium) >/dev/null 2>&1 || true
+fi
 chromium="$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)"
 if [ -z "$chromium" ]; then
     echo 'there is no Chromium: the page was built, and is not looked at'
