@@ -148,7 +148,7 @@ fn dataset_lessons_changes_and_heights_are_in_the_rows() {
     let taught = order.lessons.iter().filter(|lesson| tasks.contains(lesson.name.as_str())).count();
     assert!(taught > 15 && tasks.contains(format::UPDATE), "{tasks:?} {:?}", dataset.dropped);
     // Out of reach by geometry, in a person's words.
-    assert!(all.iter().any(|row| row.policy.contains("1.9") && row.policy.contains("I reach")), "heights");
+    assert!(all.iter().any(|row| row.policy.contains("I reach")), "heights");
     assert!(all.iter().all(|row| !order.held_out.has(&row.request)));
 }
 

@@ -190,12 +190,8 @@ fn soundness_a_dropped_thing_can_be_picked_again() {
 const EACH: &str = "
 entity b: Object
 fluent h(o: Object)
-action use_where(o: Object)
-    needs f(x) for each x: Object when h(x)
 action use_all(o: Object)
     needs f(x) for each x: Object
-action use_if(o: Object)
-    needs f(o) when h(o)
 action rub(o: Object)
     makes not h(o), f(o) when h(o)
     fails slipped
@@ -206,19 +202,6 @@ fn starts(call: &str, see: impl Fn(&str) -> Option<bool>) -> bool {
     let policy = format!("{EACH}\npolicy p {{ {call} }}");
     let found = requests(&policy, &mut |effect| honest(effect, |query| see(&query.to_string())));
     found.iter().any(|request| request.starts_with("start"))
-}
-
-#[test]
-fn soundness_a_need_under_an_unknown_condition_is_asked() {
-    for call in ["use_where(a)", "use_if(a)"] {
-        assert!(!starts(call, |_| None), "{call}");
-        // One that has the condition lacks what is needed.
-        assert!(!starts(call, |query| Some(query == "h(a)")), "{call}");
-        assert!(starts(call, |query| Some(query == "h(a)" || query == "f(a)")), "{call}");
-        // What is needed holds of all, or the condition of none.
-        assert!(starts(call, |query| query.starts_with('f').then_some(true)), "{call}");
-        assert!(starts(call, |query| query.starts_with('h').then_some(false)), "{call}");
-    }
 }
 
 #[test]

@@ -68,39 +68,28 @@ impl Turn<'_> {
     /// True if a need holds; of a quantified one, whether it holds for every entity that the engine has heard
     /// of.
     pub(super) fn need(&mut self, need: &Need, fresh: Freshness) -> Truth {
-        let Some(kind) = need.each else { return self.need_of(need, None, fresh) };
+        let Some(kind) = need.each else {
+            let mut judge = self.judge_missing(fresh);
+            let asked = need.when.as_ref().is_none_or(|when| judge.condition(when) == Truth::True);
+            return if asked { judge.condition(&need.condition) } else { Truth::True };
+        };
         let mut truth = Truth::True;
         let sorting = self.run.beliefs.entities.sorting(&self.plan.graph, kind);
         for index in 0..self.run.beliefs.entities.len() {
             let Some((id, of_kind)) = self.run.beliefs.entities.get(index, &sorting) else { continue };
-            if of_kind != OfKind::No {
-                truth = truth.and(self.need_of(need, Some(Value::Entity(id)), fresh));
+            if of_kind == OfKind::No {
+                continue;
+            }
+            // Whether it is asked is judged by what is believed; only what it asks is worth an observation.
+            let mut judge = self.judge(fresh);
+            judge.each = Some(Value::Entity(id.clone()));
+            if need.when.as_ref().is_none_or(|when| judge.condition(when) == Truth::True) {
+                let mut judge = self.judge_missing(fresh);
+                judge.each = Some(Value::Entity(id));
+                truth = truth.and(judge.condition(&need.condition));
             }
         }
         truth
-    }
-
-    /// True if a need holds of one entity: what it asks holds, or the condition under which it asks does not.
-    /// Where neither is known, both are worth an observation.
-    fn need_of(&mut self, need: &Need, each: Option<Value>, fresh: Freshness) -> Truth {
-        let mut asked = Truth::True;
-        if let Some(when) = &need.when {
-            let mut judge = self.judge(fresh);
-            judge.each.clone_from(&each);
-            asked = judge.condition(when);
-            if asked == Truth::False
-                || asked == Truth::Unknown && judge.condition(&need.condition) == Truth::True
-            {
-                return Truth::True;
-            }
-        }
-        let mut judge = self.judge_missing(fresh);
-        judge.each = each;
-        let truth = judge.condition(&need.condition);
-        match &need.when {
-            Some(when) if asked == Truth::Unknown => judge.condition(when).and(Truth::Unknown),
-            Some(_) | None => truth,
-        }
     }
 }
 
