@@ -177,7 +177,7 @@ impl Written {
 }
 
 impl Style {
-    /// Writes diagnostics.
+    /// Writes diagnostics in this style.
     pub(crate) fn write(self, diagnostics: &[Diagnostic], sources: &Sources) -> Written {
         let body = match self.is_held || self.format == DiagnosticFormat::Sarif {
             true => Body::Collected(diagnostics.to_vec(), sources.clone()),

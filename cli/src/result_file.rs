@@ -28,7 +28,7 @@ pub(crate) struct ResultFile {
 #[derive(Clone, Debug)]
 pub(crate) struct DoneResult {
     checksum: String,
-    /// The line.
+    /// Line of the file, as an object.
     pub(crate) line: Map<String, Value>,
 }
 

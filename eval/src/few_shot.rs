@@ -1,5 +1,5 @@
-//! Few-shot prompting as a baseline: a model is shown requests with their policies before it is asked. It gets
-//! neither the state nor what the check finds, and a reply is not asked for again.
+//! Few-shot prompting as a baseline: a model is shown requests with their policies before it is asked. It
+//! gets neither the state nor what the check finds, and a reply is not asked for again.
 //!
 //! A model may be a server, or a file with its replies, which makes the baseline run without a server.
 

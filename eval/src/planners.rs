@@ -62,8 +62,8 @@ impl ModelSource {
 }
 
 /// Planners as the command line names them.
-const KNOWN: &str = "`builtin`, `tree`, `one-shot`, `forgetful`, http://… or file:REPLIES; before the last two \
-                     also `few-shot:`";
+const KNOWN: &str = "`builtin`, `tree`, `one-shot`, `forgetful`, http://… or file:REPLIES; before the last \
+                     two also `few-shot:`";
 
 impl PlannerKind {
     /// Planner by the words of the command line: `builtin`, `tree`, `one-shot`, `forgetful`, the address of a

@@ -1,6 +1,7 @@
 //! `motet dataset`: generates and lints instruction and policy pairs for fine-tuning.
 
 mod from_journal;
+mod inputs;
 mod lint;
 
 use std::fs::{self, File};
@@ -24,6 +25,8 @@ use serde_json::{Value, json};
 use smol_str::SmolStr;
 
 use self::from_journal::FromJournalArgs;
+use self::inputs::{RowFormat, body, effort, write};
+use self::lint::LintArgs;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, JobArgs, MotionArgs, OutputFormat};
 use crate::output::{Colors, count, note};
@@ -104,57 +107,6 @@ struct MakeArgs {
     motions: MotionArgs,
 }
 
-/// Flags of `motet dataset lint`.
-#[derive(Args, Debug)]
-#[command(after_help = "Exit codes: 0 no findings, 1 findings, 2 the command could not run.")]
-struct LintArgs {
-    /// Files with one row per line; their scenes are in scenes.jsonl beside them
-    #[arg(value_name = "FILE", required = true)]
-    files: Vec<PathBuf>,
-    /// Robot of rows that name none: a built-in name, or a folder with a robot.toml
-    #[arg(long, value_name = "NAME|FOLDER")]
-    robot: Option<String>,
-    /// Scene of rows that name none: a built-in name, or a JSON file
-    #[arg(long, value_name = "NAME|FILE")]
-    scene: Option<String>,
-    #[command(flatten)]
-    motions: MotionArgs,
-    /// Print the share of the rows that have each construct, failure and recovery
-    #[arg(long)]
-    shares: bool,
-    /// Report constructs in less than 3 % of the rows, and kinds of failure in less than 8 %
-    #[arg(long)]
-    minimums: bool,
-    /// Format of the findings
-    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    format: OutputFormat,
-}
-
-/// Format of rows.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
-enum RowFormat {
-    /// TRL: `messages` with roles
-    #[default]
-    Trl,
-    /// LLaMA-Factory: `conversations` and `system`, with a dataset_info.json
-    Llamafactory,
-    /// Trainer of Qwen2.5-VL: `conversations`
-    QwenVl,
-    /// InteLiPlan: tags and lists of actions, as `text`
-    Inteliplan,
-}
-
-impl From<RowFormat> for format::RowFormat {
-    fn from(form: RowFormat) -> Self {
-        match form {
-            RowFormat::Trl => Self::Trl,
-            RowFormat::Llamafactory => Self::LlamaFactory,
-            RowFormat::QwenVl => Self::QwenVl,
-            RowFormat::Inteliplan => Self::InteLiPlan,
-        }
-    }
-}
-
 fn share(text: &str) -> Result<f64, String> {
     let share: f64 = text.parse().map_err(|_| "write a number such as 0.2".to_owned())?;
     if (0.0..1.0).contains(&share) { Ok(share) } else { Err("write a number from 0 to below 1".to_owned()) }
@@ -167,15 +119,6 @@ pub(crate) fn run(args: &DatasetArgs, colors: Colors) -> Result<Exit, CliError> 
         Some(DatasetCommand::FromJournal(args)) => from_journal::from_journal(args, report),
         None => make(&args.make, report),
     })
-}
-
-fn body(name: &str, report: &mut Report) -> Result<Body, CliError> {
-    let (robot, urdf) = open_robot(name, &mut Sources::default(), report)?;
-    Ok(Body { robot, urdf })
-}
-
-fn effort(args: &MotionArgs) -> Option<SearchBudget> {
-    (!args.no_geometry).then(|| SearchBudget::default().times(args.effort.unwrap_or(1).into()))
 }
 
 /// Generates a dataset.
@@ -306,13 +249,4 @@ fn scenes(dataset: &Dataset) -> impl Iterator<Item = String> + '_ {
         let scene: Value = serde_json::from_str(&scene::write(scene)).unwrap_or_default();
         json!({"name": name.as_str(), "scene": scene}).to_string()
     })
-}
-
-fn write(path: &Path, lines: impl Iterator<Item = String>) -> Result<(), CliError> {
-    let cannot = |source| CliError::Write { path: path.to_owned(), source };
-    let mut file = BufWriter::new(File::create(path).map_err(cannot)?);
-    for line in lines {
-        writeln!(file, "{line}").map_err(cannot)?;
-    }
-    file.flush().map_err(cannot)
 }

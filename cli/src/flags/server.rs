@@ -12,7 +12,7 @@ use motet_decode::export::{Dialect, GrammarCarrier};
 use super::key::KeyArgs;
 use crate::error::CliError;
 
-/// Model server.
+/// Server of the model, and its dialect.
 #[derive(Args, Debug)]
 pub(crate) struct ServerArgs {
     /// Model to ask

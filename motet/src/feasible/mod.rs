@@ -117,8 +117,8 @@ pub fn queries(
     Ok(queries)
 }
 
-/// Decides motions of a robot in a scene one after the other, as [`decide`] does, until `each` ends it. `effort` is the
-/// factor of the default search budget. Returns the drawing.
+/// Decides motions of a robot in a scene one after the other, as [`decide`] does, until `each` ends it.
+/// `effort` is the factor of the default search budget. Returns the drawing.
 pub fn decide_in(
     (machine, scene): (&RobotModel, &Scene),
     queries: impl IntoIterator<Item = MotionQuery>,

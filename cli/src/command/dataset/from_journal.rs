@@ -12,7 +12,7 @@ use motet_syntax::Sources;
 use serde_json::Value;
 use smol_str::SmolStr;
 
-use super::RowFormat;
+use super::inputs::{RowFormat, body, effort, write};
 use super::lint::lines;
 use crate::documents::Flow;
 use crate::error::{CliError, Exit};
@@ -51,7 +51,7 @@ pub(super) struct FromJournalArgs {
 
 /// Writes the rows of recorded conversations.
 pub(super) fn from_journal(args: &FromJournalArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let body = super::body(&args.robot, report)?;
+    let body = body(&args.robot, report)?;
     let scene = read_scene(&args.scene, &mut Sources::default(), report)?;
     let stem = Path::new(&args.scene).file_stem();
     let name = stem.map_or_else(|| args.scene.clone(), |stem| stem.to_string_lossy().into_owned());
@@ -70,12 +70,12 @@ pub(super) fn from_journal(args: &FromJournalArgs, report: &mut Report) -> Resul
         scenes: 1,
         cases: 0,
         test: 0.0,
-        effort: super::effort(&args.motions),
+        effort: effort(&args.motions),
         form: args.form.into(),
         pictures: Pictures::None,
     };
     let dataset = generate::gather(&order, vec![(0, generate::recorded(&order, &plans))]);
-    super::write(&args.out, dataset.train.iter().map(|row| format::write(row, order.form)))?;
+    write(&args.out, dataset.train.iter().map(|row| format::write(row, order.form)))?;
     for (why, dropped) in &dataset.dropped {
         note(&format!("left out {dropped}: {why}"));
     }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use motet_dataset::lint::{Finding, Linter, Place, RowFault, Shelf, Worlds};
 use motet_dataset::share::{Counts, Share};
 use motet_dataset::{format, picture};
@@ -15,15 +16,41 @@ use motet_syntax::{FileId, Severity, Source, Sources};
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 
-use super::LintArgs;
+use super::inputs::{body, effort};
 use crate::documents::{Flow, Input};
 use crate::error::{CliError, Exit};
-use crate::flags::OutputFormat;
+use crate::flags::{MotionArgs, OutputFormat};
 use crate::output::{count, note};
 use crate::report::Report;
 
 /// File with the rooms of the rows beside it.
 pub(super) const ROOMS: &str = "scenes.jsonl";
+
+/// Flags of `motet dataset lint`.
+#[derive(Args, Debug)]
+#[command(after_help = "Exit codes: 0 no findings, 1 findings, 2 the command could not run.")]
+pub(super) struct LintArgs {
+    /// Files with one row per line; their scenes are in scenes.jsonl beside them
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Robot of rows that name none: a built-in name, or a folder with a robot.toml
+    #[arg(long, value_name = "NAME|FOLDER")]
+    robot: Option<String>,
+    /// Scene of rows that name none: a built-in name, or a JSON file
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: Option<String>,
+    #[command(flatten)]
+    motions: MotionArgs,
+    /// Print the share of the rows that have each construct, failure and recovery
+    #[arg(long)]
+    shares: bool,
+    /// Report constructs in less than 3 % of the rows, and kinds of failure in less than 8 %
+    #[arg(long)]
+    minimums: bool,
+    /// Format of the findings
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    format: OutputFormat,
+}
 
 /// Lints files of rows.
 pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -97,10 +124,10 @@ fn shown(finding: &Finding, format: OutputFormat) -> String {
 
 /// Robots and rooms that rows may name.
 fn worlds(args: &LintArgs, report: &mut Report) -> Result<Worlds, CliError> {
-    let mut worlds = Worlds { effort: super::effort(&args.motions), ..Worlds::default() };
+    let mut worlds = Worlds { effort: effort(&args.motions), ..Worlds::default() };
     let own = robot_names().map(str::to_owned);
     for name in own.chain(args.robot.clone()) {
-        let body = super::body(&name, report)?;
+        let body = body(&name, report)?;
         let known = SmolStr::from(body.robot.name.as_str());
         if args.robot.as_deref() == Some(name.as_str()) {
             worlds.robot = Some(known.clone());

@@ -5,7 +5,21 @@ use motet_client::ClientSettings;
 use motet_planner::model::{ModelError, TokenUsage};
 use serde_json::{Value, json};
 
-use super::gateway::{Reply, Said};
+/// Reply to a client.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Reply {
+    pub(super) said: Said,
+    pub(super) usage: TokenUsage,
+}
+
+/// Content of a reply.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) enum Said {
+    /// A policy that checks.
+    Policy(String),
+    /// A question or a refusal of the model, in words.
+    Words(String),
+}
 
 /// Error for a client.
 #[derive(Clone, PartialEq, Debug)]

@@ -17,7 +17,7 @@ use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_syntax::{Diagnostic, Source, Sources, Syntax, render};
 use serde_json::Value;
 
-use super::answer::{ApiError, ErrorKind};
+use super::answer::{ApiError, ErrorKind, Reply, Said};
 use super::request::ChatRequest;
 use crate::interrupt::is_interrupted;
 
@@ -47,22 +47,6 @@ pub(super) struct Gateway {
     pub(super) limits: Limits,
     /// Is `true` if only this machine reaches the endpoint.
     pub(super) is_local: bool,
-}
-
-/// Reply to a client.
-#[derive(Clone, PartialEq, Debug)]
-pub(super) struct Reply {
-    pub(super) said: Said,
-    pub(super) usage: TokenUsage,
-}
-
-/// Content of a reply.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Said {
-    /// A policy that checks.
-    Policy(String),
-    /// A question or a refusal of the model, in words.
-    Words(String),
 }
 
 impl Gateway {

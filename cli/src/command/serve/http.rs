@@ -22,8 +22,8 @@ use tokio::sync::{Semaphore, mpsc};
 use tokio::task::JoinHandle;
 use tokio::time::{sleep, timeout};
 
-use super::answer::{self, ApiError, ErrorKind, Head};
-use super::gateway::{Gateway, Limits, Reply};
+use super::answer::{self, ApiError, ErrorKind, Head, Reply};
+use super::gateway::{Gateway, Limits};
 use super::request::{ChatRequest, Delivery};
 use crate::interrupt::{SLICE, is_interrupted};
 

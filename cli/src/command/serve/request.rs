@@ -18,7 +18,7 @@ use crate::output::escape;
 pub(super) struct ChatRequest {
     /// Text of the last message, which is the user's.
     pub(super) text: String,
-    /// Its images.
+    /// Pictures that the message shows.
     pub(super) images: Vec<Arc<CameraImage>>,
     /// Messages before it.
     pub(super) earlier: Vec<Message>,
@@ -30,7 +30,7 @@ pub(super) struct ChatRequest {
 pub(super) enum Delivery {
     /// One JSON object.
     Whole,
-    /// Server-sent events.
+    /// Pieces as server-sent events.
     Events,
     /// The same, with an event that counts the tokens.
     EventsWithUsage,

@@ -90,8 +90,8 @@ pub struct Graph {
     /// Exclusive resources of the robot that the graph uses.
     pub resources: Vec<Resource>,
     pub bindings: Vec<Binding>,
-    /// Entities that documents declare, where a need or an effect is about each entity of a kind. Those of the
-    /// scene are not among them: the host names them at the start of a run.
+    /// Entities that documents declare, where a need or an effect is about each entity of a kind. Those of
+    /// the scene are not among them: the host names them at the start of a run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub entities: Vec<DeclaredEntity>,
     /// What people call the entities that a text may name; any other is called by its id.

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::server_dialect::{Dialect, Protocol};
+use super::dialect::{Dialect, Protocol};
 
 /// Author of a message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -11,7 +11,7 @@ pub enum TurnRole {
     System,
     /// The person, or the program that asks.
     User,
-    /// The model.
+    /// Model that replies.
     Assistant,
 }
 

@@ -9,6 +9,7 @@
 
 mod chat_body;
 mod derive;
+mod dialect;
 mod ebnf;
 mod limits;
 mod notation;
@@ -17,12 +18,11 @@ mod server_dialect;
 mod terminal;
 
 pub use chat_body::{ChatBody, Delivery, Turn, TurnImage, TurnRole};
+pub use dialect::{Dialect, Protocol};
 pub use ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
 pub use limits::{LimitWarning, warnings};
 pub use notation::Header;
-pub use server_dialect::{
-    Dialect, GrammarCarrier, Prompt, Protocol, probe_body, request_body, request_constraint,
-};
+pub use server_dialect::{GrammarCarrier, Prompt, probe_body, request_body, request_constraint};
 
 use motet_syntax::Syntax;
 use serde_json::Value;
