@@ -12,7 +12,8 @@
 //!   many trials at once, `--only WORD` those with a word in their name, robot or request (`WORD+WORD` with
 //!   all of them), and `dialogue --every N` each Nth case.
 //! - `world` takes the number of runs in a world that can fail (`harsh`, unless `--world` names another),
-//!   with `--driver`, `--jobs` and `--only` as above. It exits with 0 if no run ends as done without its goal.
+//!   with `--driver`, `--jobs` and `--only` as above. It exits with 0 if no run ends as done without its
+//!   goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
 //!   passes without a word fails by a need that was not listed.
 //! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are

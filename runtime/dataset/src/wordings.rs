@@ -137,7 +137,8 @@ pub fn read(text: &str) -> Result<Wordings, NoWording> {
                     let known: Vec<&str> = Task::ALL.iter().map(|task| task.name()).collect();
                     let known = known.join(", ");
                     return Err(wrong(format!(
-                        "there is no task `{key}`; known are {known}, and `where`, `again`, `leave`, `vague`, \
+                        "there is no task `{key}`; known are {known}, \
+                         `where`, `again`, `leave`, `vague` and \
                          `instead`"
                     )));
                 };
