@@ -206,10 +206,11 @@ class Beliefs:
     """What is believed. `kinds` are the kinds of entities with their parents, parents first."""
 
     def __init__(self, kinds: dict[str, str | None], observable: tuple[str, ...]) -> None:
-        self.kinds, self.observable = kinds, observable
+        self.kinds: dict[str, str | None] = kinds
+        self.observable: tuple[str, ...] = observable
         self.entities: dict[str, str] = {}
-        self.observations = 0
-        self.now = 0.0
+        self.observations: int = 0
+        self.now: float = 0.0
         self._observing = 0
         self._cells: dict[Fact, _Cell] = {}
         self._wides: dict[str, list[tuple[Fact, bool | None, int]]] = {}
@@ -455,7 +456,7 @@ class Look:
             return (left == right) is (condition.sign == "==")
         if not _is_number(left) or not _is_number(right):
             return None
-        signs = {"<": left < right, "<=": left <= right, ">": left > right, ">=": left >= right}
+        signs: dict[str, bool] = {"<": left < right, "<=": left <= right, ">": left > right, ">=": left >= right}
         return signs[condition.sign]
 
 

@@ -343,11 +343,13 @@ class Robot:
     def _entry(self, entry: Entry, truth: bool | None) -> list[Change]:
         """The changes of one entry, in the state as it is."""
         fact = entry.fact.inner if isinstance(entry.fact, Not) else entry.fact
-        look, changes = self._look(self._now(), None), []
+        look = self._look(self._now(), None)
+        changes: list[Change] = []
+        entities: list[tuple[Entity | None, bool]]
         if entry.each is None:
             entities = [(None, True)]
         else:
-            entities = self.beliefs.of_kind(entry.each)
+            entities = [*self.beliefs.of_kind(entry.each)]
             # For those nobody has heard of it is the new default, before what is said of single ones.
             nobody = look.of(Entity(""))
             if nobody.truth(entry.when) is not False:
@@ -514,7 +516,7 @@ class _Deadline:
         self.robot._deadlines.remove(self)
         if not self.is_over:
             return
-        if hasattr(self.task, "uncancel"):
+        if self.task is not None and hasattr(self.task, "uncancel"):
             self.task.uncancel()
         # An ending that is under way is no longer watched.
         if kind is asyncio.CancelledError:

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use motet::document::{self, MAX_FIXES, is_broken, is_reply};
 use motet::planner::builtin::PlanError;

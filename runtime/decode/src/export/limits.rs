@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::server_dialect::Dialect;
+use super::dialect::Dialect;
 use super::{EbnfExpr, ebnf, json_schema};
 use crate::Grammar;
 use crate::grammar::MAX_EXCLUDED;
