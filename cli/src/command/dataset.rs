@@ -4,21 +4,19 @@ mod from_journal;
 mod inputs;
 mod lint;
 
-use std::fs::{self, File};
-use std::io::{BufWriter, Write as _};
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Subcommand, ValueEnum, value_parser};
+use clap::{Args, Subcommand, value_parser};
 use motet::batch;
 use motet_dataset::format;
 use motet_dataset::generate::{self, Dataset, HeldOut, Order, SceneRows};
 use motet_dataset::lint::family;
 use motet_dataset::picture::{FOLDER, Pictures};
-use motet_dataset::{Body, Row, lesson, scenery, wordings};
-use motet_geometry::planning::SearchBudget;
+use motet_dataset::{Row, lesson, scenery, wordings};
 use motet_project::files::read_small;
-use motet_project::{open_robot, read_scene};
+use motet_project::read_scene;
 use motet_robots::scene;
 use motet_syntax::Sources;
 use serde_json::{Value, json};
@@ -28,7 +26,7 @@ use self::from_journal::FromJournalArgs;
 use self::inputs::{RowFormat, body, effort, write};
 use self::lint::LintArgs;
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, JobArgs, MotionArgs, OutputFormat};
+use crate::flags::{DiagnosticFormat, JobArgs, MotionArgs};
 use crate::output::{Colors, count, note};
 use crate::report::{Progress, Report};
 
