@@ -15,7 +15,7 @@ from typing import Any
 from .values import ANY, Entity, Text
 
 __all__ = [
-    "EACH", "Arith", "Beliefs", "Change", "Compare", "Count", "Fact", "Field", "First", "Look", "Measure", "Not", "Said",
+    "EACH", "Arith", "Beliefs", "Change", "Compare", "Count", "Fact", "Field", "First", "Look", "Measure", "Not", "RESULT", "Said",
     "all_of", "any_of", "compare", "count", "fact", "field", "first", "measure", "no", "said", "arith",
 ]
 
@@ -31,6 +31,16 @@ class _Each:
 
 
 EACH = _Each()
+
+
+class _Result:
+    """The result of the call whose contract speaks of it."""
+
+    def __repr__(self) -> str:
+        return "RESULT"
+
+
+RESULT = _Result()
 
 
 @dataclass(frozen=True)
@@ -351,6 +361,8 @@ class Look:
     #: A text says of an unknown value that it is unknown; otherwise the whole text is.
     is_vague: bool = False
     each: Any = None
+    #: Value of `RESULT`, once there is one.
+    result: Any = None
     names: tuple[tuple[str, str], ...] = ()
 
     def of(self, each: Any, missing: list[Any] | None = None) -> Look:
@@ -385,6 +397,8 @@ class Look:
         """The value of a term; None where it is unknown."""
         if term is EACH:
             return self.each
+        if term is RESULT:
+            return self.result
         if isinstance(term, (list, tuple)):
             items = tuple(self.value(item) for item in term)
             return None if None in items else items

@@ -135,6 +135,7 @@ class Robot:
         self.script, self.driver = script, driver
         self.beliefs = Beliefs(script.kinds, script.observable)
         self._goals = 0
+        self._result: Any = None
         #: The deadlines of the blocks around the present step.
         self._deadlines: list[_Deadline] = []
         #: True if a result was another one than the proofs assume.
@@ -188,7 +189,7 @@ class Robot:
             if declared is not None:
                 self._is_unproven |= bool(among) and isinstance(value, Entity) and value not in among
                 self.beliefs.hear(value, declared)
-            self._make(contract)
+            self._make(contract, value)
             return value
         self._doubt(contract)
         if outcome == "interrupted":
@@ -262,7 +263,7 @@ class Robot:
         except asyncio.CancelledError:
             outcome, value = await self._cancel(goal, task)
             if outcome == "success":
-                self._make(contract)
+                self._make(contract, value)
             else:
                 self._doubt(contract)
             raise
@@ -325,9 +326,11 @@ class Robot:
     def _changes(self, entries: Iterable[Entry], truth: bool | None) -> list[Change]:
         return [change for entry in entries for change in self._entry(entry, truth)]
 
-    def _make(self, contract: Contract) -> None:
+    def _make(self, contract: Contract, result: Any) -> None:
         """What a successful call makes is believed."""
+        self._result = result
         made = [change for entry in contract.makes for change in self._entry(entry, not isinstance(entry.fact, Not))]
+        self._result = None
         # What is both made and unmade is made.
         self._apply(sorted(made, key=lambda change: change.truth is True))
 
@@ -441,7 +444,7 @@ class Robot:
             self.beliefs.observe(query, known.get("truth") if isinstance(query, Fact) else _value(known))
 
     def _look(self, since: float, missing: list[Any] | None) -> Look:
-        return Look(self.beliefs, since, missing=missing, names=tuple(self.script.names.items()))
+        return Look(self.beliefs, since, missing=missing, result=self._result, names=tuple(self.script.names.items()))
 
     @staticmethod
     def _now() -> float:

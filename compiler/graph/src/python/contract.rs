@@ -11,6 +11,9 @@ use crate::model::{
     Verdict,
 };
 
+/// Name of the result of a call in its own contract.
+const RESULT: &str = "RESULT";
+
 impl Writer<'_> {
     /// Writes the function that gives the contract of a call, and returns the call of it; none without one.
     pub(super) fn contract(&mut self, id: NodeId, node: &Node, call: &CallNode) -> Option<String> {
@@ -24,7 +27,11 @@ impl Writer<'_> {
         let primitive = self.graph.primitives.get(call.primitive.index());
         let primitive = identifier(primitive.map_or("call", |primitive| &primitive.name));
         let name = format!("contract_{}_{primitive}", id.0);
-        let params = self.used(call).join(", ");
+        // What the call itself binds has no value before it ends.
+        let own = call.binds.and_then(|binding| self.names.get_mut(binding.index()));
+        let own = own.map(|name| std::mem::replace(name, RESULT.to_owned()));
+        let params: Vec<String> = self.used(call).into_iter().filter(|name| name != RESULT).collect();
+        let params = params.join(", ");
         let parts: [(&str, Vec<String>); 3] = [
             ("needs", call.needs.iter().map(|need| self.need(need)).collect()),
             ("makes", call.effects.iter().map(|effect| self.effect(effect)).collect()),
@@ -57,6 +64,11 @@ impl Writer<'_> {
         }
         text.push_str("    )\n");
         self.contracts.push_str(&text);
+        if let Some((binding, own)) = call.binds.zip(own)
+            && let Some(name) = self.names.get_mut(binding.index())
+        {
+            *name = own;
+        }
         Some(format!("{name}({params})"))
     }
 
@@ -117,7 +129,7 @@ impl Writer<'_> {
              # Written by `motet compile --emit python`. Run it with `python FILE MODULE:CLASS`.\n\n\
              import json\n\n\
              from motet import ANY, Case, Entity, Failed, Pose, Text\n\
-             from motet.belief import EACH, all_of, any_of, arith, compare, count, fact, field, first\n\
+             from motet.belief import EACH, RESULT, all_of, any_of, arith, compare, count, fact, field, first\n\
              from motet.belief import measure, no, said\n\
              from motet.script import Contract, Entry, Need, Planned, Robot, Script, main\n\n\n\
              async def {}(robot: Robot):\n{}",

@@ -8,7 +8,7 @@ use crate::model::{BindingId, Graph, Kind, KindId, Type};
 
 /// Names that the script uses itself, and that no binding may have.
 const TAKEN: &str = "\
-    ANY Case Contract EACH Entity Entry Failed False MOTIONS Need None Planned Pose SCRIPT Robot \
+    ANY Case Contract EACH Entity Entry Failed False MOTIONS Need None Planned Pose RESULT SCRIPT Robot \
     Script Text True all_of and any_of arith as assert async await break class compare continue \
     count def del elif else except fact failure field finally first for from global if import in is \
     json lambda main measure no nonlocal not or pass planned raise range return robot said try \
