@@ -132,8 +132,9 @@ class Robot:
     """A driver that a script leads, with what the script knows."""
 
     def __init__(self, script: Script, driver: Driver) -> None:
-        self.script, self.driver = script, driver
-        self.beliefs = Beliefs(script.kinds, script.observable)
+        self.script: Script = script
+        self.driver: Driver = driver
+        self.beliefs: Beliefs = Beliefs(script.kinds, script.observable)
         self._goals = 0
         self._result: Any = None
         #: The deadlines of the blocks around the present step.
@@ -502,7 +503,11 @@ class Robot:
 
 class _Deadline:
     def __init__(self, robot: Robot, seconds: float) -> None:
-        self.robot, self.seconds, self.is_over = robot, seconds, False
+        self.robot: Robot = robot
+        self.seconds: float = seconds
+        self.is_over: bool = False
+        self.task: asyncio.Task[Any] | None = None
+        self.timer: asyncio.TimerHandle | None = None
 
     async def __aenter__(self) -> None:
         self.robot._deadlines.append(self)
@@ -515,7 +520,8 @@ class _Deadline:
             self.task.cancel()
 
     async def __aexit__(self, kind: Any, error: Any, trace: Any) -> None:
-        self.timer.cancel()
+        if self.timer is not None:
+            self.timer.cancel()
         self.robot._deadlines.remove(self)
         if not self.is_over:
             return
@@ -529,7 +535,8 @@ class _Deadline:
 
 class _Cleanup:
     def __init__(self, robot: Robot, cleanup: Callable[[], Awaitable[None]]) -> None:
-        self.robot, self.cleanup = robot, cleanup
+        self.robot: Robot = robot
+        self.cleanup: Callable[[], Awaitable[None]] = cleanup
 
     async def __aenter__(self) -> None:
         pass
