@@ -129,8 +129,8 @@ impl Writer<'_> {
              # Written by `motet compile --emit python`. Run it with `python FILE MODULE:CLASS`.\n\n\
              import json\n\n\
              from motet import ANY, Case, Entity, Failed, Pose, Text\n\
-             from motet.belief import EACH, RESULT, all_of, any_of, arith, compare, count, fact, field, first\n\
-             from motet.belief import measure, no, said\n\
+             from motet.belief import EACH, RESULT, all_of, any_of, arith, compare, count, fact\n\
+             from motet.belief import field, first, measure, no, said\n\
              from motet.script import Contract, Entry, Need, Planned, Robot, Script, main\n\n\n\
              async def {}(robot: Robot):\n{}",
             self.name, self.steps
