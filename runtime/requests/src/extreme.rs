@@ -1,7 +1,7 @@
 //! Superlatives: of several things the nearest, the largest, the heaviest. Comparatives mean the same: `the
 //! bigger one`.
 //!
-//! What cannot be measured, or is too close to tell, is left open: then the robot asks.
+//! A measure that is unknown, or too close to tell, decides nothing: then the robot asks.
 
 use motet_robots::scene::{Entity, EntityShape, Scene};
 use motet_stdlib::lang::entities;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use motet::run::events::watched;
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind};
 use motet_runtime::{Effect, NodeEnding, RunEnd, Time, TraceEvent, TraceEventKind, Truth};
@@ -103,14 +104,6 @@ fn step(graph: &Graph, node: NodeId) -> String {
 
 fn is_call(graph: &Graph, node: NodeId) -> bool {
     graph.nodes.get(node.index()).is_some_and(|node| matches!(node.kind, NodeKind::Call(_)))
-}
-
-fn watched(graph: &Graph, node: NodeId, watch: u32) -> String {
-    let watch = graph.nodes.get(node.index()).and_then(|node| match &node.kind {
-        NodeKind::Monitor { watches, .. } => watches.get(watch as usize),
-        _ => None,
-    });
-    watch.map_or_else(|| "a condition".to_owned(), |watch| Names(graph).condition(&watch.condition))
 }
 
 /// Ending of a run in words.

@@ -30,7 +30,7 @@ pub(super) struct Limits {
     pub(super) body: usize,
 }
 
-/// What all requests share.
+/// Way to the model, with the settings that all requests share.
 pub(super) struct Gateway {
     /// Server, with the operator's key if there is one.
     pub(super) settings: ClientSettings,
@@ -135,7 +135,7 @@ fn refused(text: &str, diagnostics: &[Diagnostic]) -> ApiError {
     ApiError { code, findings, ..ApiError::new(ErrorKind::NoPolicy, message) }
 }
 
-/// What happens while a model is asked.
+/// Observer of a request while a model is asked.
 #[derive(Debug, Default)]
 struct RequestLog {
     usage: TokenUsage,

@@ -61,7 +61,7 @@ fn mix(seed: u64, text: &str) -> u64 {
     text.bytes().fold(seed ^ 0xcbf2_9ce4_8422_2325, mix) >> 7
 }
 
-/// What is seen: always the same.
+/// Answer to an observation: always the same.
 fn seen(seed: u64, query: &Query) -> Answer {
     match (query, mix(seed, &query.to_string()) % 4) {
         (_, 0) => Answer::Unknown,
