@@ -2,7 +2,6 @@
 
 mod events;
 mod screen;
-pub(crate) mod tree;
 
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
@@ -13,7 +12,7 @@ use motet_runtime::{Effect, Event, RunEnd, Time};
 
 use crate::flags::OutputFormat;
 use crate::output::{Colors, escape};
-use tree::{Status, Tree};
+use motet::page::tree::{StepStatus, StepTree};
 
 /// Clock of a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -60,24 +59,24 @@ pub(crate) fn view(format: OutputFormat, graph: &Graph, colors: Colors, clock: C
 }
 
 /// Sign of a status.
-fn mark(status: Status) -> &'static str {
+fn mark(status: StepStatus) -> &'static str {
     match status {
-        Status::Pending => "·",
-        Status::Running => "▶",
-        Status::Done => "✓",
-        Status::Failed => "✗",
-        Status::Interrupted => "■",
+        StepStatus::Pending => "·",
+        StepStatus::Running => "▶",
+        StepStatus::Done => "✓",
+        StepStatus::Failed => "✗",
+        StepStatus::Interrupted => "■",
     }
 }
 
 /// Text in the colour of a status.
-fn paint(text: &str, status: Status, is_colored: bool) -> String {
+fn paint(text: &str, status: StepStatus, is_colored: bool) -> String {
     let color = match status {
-        Status::Pending => "2",
-        Status::Running => "1;36",
-        Status::Done => "32",
-        Status::Failed => "1;31",
-        Status::Interrupted => "33",
+        StepStatus::Pending => "2",
+        StepStatus::Running => "1;36",
+        StepStatus::Done => "32",
+        StepStatus::Failed => "1;31",
+        StepStatus::Interrupted => "33",
     };
     if is_colored { format!("\u{1b}[{color}m{text}\u{1b}[0m") } else { text.to_owned() }
 }
@@ -95,28 +94,28 @@ fn duration(span: Time) -> String {
 /// Summary after a run: outcome, reason, duration, number of steps.
 fn summary(
     graph: &Graph,
-    tree: &Tree,
+    tree: &StepTree,
     (now, clock): (Time, Clock),
     end: &RunEnd,
     is_colored: bool,
 ) -> String {
     let (status, what, why) = match end {
-        RunEnd::Done { why, result: None } => (Status::Done, "done".to_owned(), why.clone()),
+        RunEnd::Done { why, result: None } => (StepStatus::Done, "done".to_owned(), why.clone()),
         RunEnd::Done { why, result: Some(result) } => {
-            (Status::Done, format!("done, gave {}", escape(&result.to_string())), why.clone())
+            (StepStatus::Done, format!("done, gave {}", escape(&result.to_string())), why.clone())
         }
         RunEnd::Failed { kind, why, node } => {
             let place = graph.nodes.get(node.index());
             let at = place.map_or_else(String::new, |node| {
                 format!(" in `{}` ({})", escape(&Names(graph).brief(&node.kind)), node.path)
             });
-            (Status::Failed, format!("failed with `{}`{at}", escape(kind)), why.clone())
+            (StepStatus::Failed, format!("failed with `{}`{at}", escape(kind)), why.clone())
         }
-        RunEnd::Declined { why } => (Status::Interrupted, "declined".to_owned(), why.clone()),
-        RunEnd::Replan { why } => (Status::Failed, "asks for a new plan".to_owned(), why.clone()),
-        RunEnd::Interrupted => (Status::Interrupted, "interrupted".to_owned(), None),
+        RunEnd::Declined { why } => (StepStatus::Interrupted, "declined".to_owned(), why.clone()),
+        RunEnd::Replan { why } => (StepStatus::Failed, "asks for a new plan".to_owned(), why.clone()),
+        RunEnd::Interrupted => (StepStatus::Interrupted, "interrupted".to_owned(), None),
         RunEnd::Fault(fault) => {
-            (Status::Failed, "stopped by a fault of the engine".to_owned(), Some(fault.to_string()))
+            (StepStatus::Failed, "stopped by a fault of the engine".to_owned(), Some(fault.to_string()))
         }
     };
     let mut text = paint(&format!("{} {}: {what}", mark(status), graph.policy), status, is_colored);

@@ -6,10 +6,12 @@ pub mod document;
 mod error;
 mod facade;
 pub mod feasible;
+pub mod page;
 pub mod plan;
 pub mod replay;
 pub mod run;
 pub mod shown;
+pub mod workbench;
 
 pub use error::Error;
 pub use facade::{CheckedPolicy, Motet, Plan};

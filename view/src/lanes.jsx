@@ -31,7 +31,7 @@ export function lanes(state) {
   return [...byName.values()];
 }
 
-export function Lanes({ log, live, time, setTime, choose }) {
+export function Lanes({ log, live, time, setTime, playing, play, choose }) {
   const box = useRef(null);
   const [wide, setWide] = useState(800);
   useEffect(() => {
@@ -60,6 +60,11 @@ export function Lanes({ log, live, time, setTime, choose }) {
         <button class={time === null ? "small on" : "small"} aria-pressed={time === null} onClick={() => setTime(null)}>
           {time === null ? WORDS.live : WORDS.now}
         </button>
+        {play && (
+          <button class="small" disabled={live.policies.length === 0} onClick={play}>
+            {playing ? WORDS.halt : WORDS.play}
+          </button>
+        )}
         <input
           type="range"
           aria-label={WORDS.playhead}

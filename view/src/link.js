@@ -36,3 +36,17 @@ export async function send(command, body = {}) {
     return String(error.message);
   }
 }
+
+/** Asks the workbench of the program. Gives its answer, with `error` where there is none. */
+export async function ask(question) {
+  try {
+    const reply = await fetch("ask", {
+      method: "POST",
+      headers: { "content-type": "application/json", "x-motet-token": TOKEN },
+      body: JSON.stringify(question),
+    });
+    return reply.ok ? await reply.json() : { error: await reply.text() };
+  } catch (error) {
+    return { error: String(error.message) };
+  }
+}

@@ -38,7 +38,7 @@ use crate::runner::{Beginning, PacedView, Runner, connect, exit_of};
 use crate::view::answered::AnsweredQuestions;
 use crate::view::journal::{recorded_text, session};
 use crate::view::live::{LivePage, SharedPage};
-use crate::view::source::PolicyText;
+use motet::page::source::PolicyText;
 
 /// Commands of a page's operator.
 const TAKES: &[&str] = &["stop", "hold", "answer"];

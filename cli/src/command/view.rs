@@ -1,4 +1,5 @@
-//! `motet view`: shows the journal of a run on a page, or writes the page to a file.
+//! `motet view`: shows the journal of a run on a page, or writes the page to a file; without a journal, a
+//! workbench for policies.
 
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
@@ -6,11 +7,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use motet::workbench::Workbench;
 use motet_project::{DiagnosticSink, ProjectSession};
 
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, address};
-use crate::interrupt::{catch_interrupts, is_interrupted};
+use crate::interrupt::{SLICE, catch_interrupts, is_interrupted};
 use crate::output::{Colors, note, replace_file};
 use crate::report::Report;
 use crate::view::conversation::{ConversationFolder, TALK};
@@ -25,16 +27,19 @@ const LOOK_EVERY: Duration = Duration::from_millis(200);
 /// Flags of `motet view`.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
+    motet view                                 a workbench: write policies, check them, run them\n  \
+    motet view --robot my_robot/ --scene my_room.json\n  \
     motet view run/                            the page of a journal, also of one that is still written\n  \
     motet view run/ -o run.html                the same in one file\n  \
     motet view talk/ --robot hsr --scene kitchen\n\n\
     `motet run`, `do` and `talk` show a run that goes on with --view.")]
 pub(crate) struct ViewArgs {
-    /// Folder of a journal, or of the record of a conversation
+    /// Folder of a journal, or of the record of a conversation; without one, the page is a workbench for
+    /// policies
     #[arg(value_name = "FOLDER")]
-    folder: PathBuf,
+    folder: Option<PathBuf>,
     /// Write one file that shows the run without a server
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", requires = "folder")]
     output: Option<PathBuf>,
     /// Address of the page: a port, or an address with a port
     #[arg(long, value_name = "ADDRESS", default_value = "", hide_default_value = true, value_parser = address,
@@ -73,25 +78,26 @@ pub(crate) fn run(args: &ViewArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn show(args: &ViewArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut folder = if args.folder.join(TALK).is_file() {
-        Folder::Conversation(ConversationFolder::new(&args.folder))
+    let Some(path) = &args.folder else { return workbench(args, report) };
+    let mut folder = if path.join(TALK).is_file() {
+        Folder::Conversation(ConversationFolder::new(path))
     } else {
-        Folder::Journal(JournalFolder::new(&args.folder))
+        Folder::Journal(JournalFolder::new(path))
     };
-    let opened = world(&args.folder, &args.environment, report)?;
+    let opened = world(path, &args.environment, report)?;
     if let Some(output) = &args.output {
         let hub = Arc::new(Hub::default());
         let mut page = LivePage::silent(Arc::clone(&hub), opened.as_ref(), &[]);
         folder.news(&mut page)?;
         if !folder.has_begun() {
-            return Err(CliError::Message(format!("`{}` holds no journal", args.folder.display())));
+            return Err(CliError::Message(format!("`{}` holds no journal", path.display())));
         }
         replace_file(output, &file::whole(&hub.all()))?;
         note(&format!("wrote {}", output.display()));
         return Ok(Exit::Success);
     }
-    if !args.folder.is_dir() {
-        return Err(CliError::Message(format!("`{}` is not a folder", args.folder.display())));
+    if !path.is_dir() {
+        return Err(CliError::Message(format!("`{}` is not a folder", path.display())));
     }
     let mut page = LivePage::start(args.address, opened.as_ref(), &[])?;
     catch_interrupts()?;
@@ -102,6 +108,21 @@ fn show(args: &ViewArgs, report: &mut Report) -> Result<Exit, CliError> {
         std::thread::sleep(LOOK_EVERY.max(begun.elapsed() * 4));
     }
     page.finish();
+    Ok(Exit::Success)
+}
+
+/// Serves a workbench until Ctrl-C.
+fn workbench(args: &ViewArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let environment = &args.environment;
+    // What the page cannot open is told here, with its places.
+    environment.without_motions().motion_effort(1).open_with(report)?;
+    let bench = Workbench::new().with_room(environment.robot.as_deref(), environment.scene.as_deref());
+    let page = LivePage::workbench(args.address, bench)?;
+    catch_interrupts()?;
+    while !is_interrupted() {
+        std::thread::sleep(SLICE);
+    }
+    drop(page);
     Ok(Exit::Success)
 }
 

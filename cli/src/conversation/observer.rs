@@ -28,7 +28,7 @@ use crate::output::{Colors, Output, escape, note};
 use crate::run_view::{Clock, view};
 use crate::runner::PacedView;
 use crate::view::live::SharedPage;
-use crate::view::source::PolicyText;
+use motet::page::source::PolicyText;
 
 /// Interval at which scheduled requests are checked.
 const REQUEST_INTERVAL: Time = Time::from_nanos(100_000_000);

@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 use motet_graph::{Graph, NodeId, NodeKind};
 use motet_runtime::{Effect, Event, NodeEnding, RunEnd, Time, TraceEvent, TraceEventKind, Verification};
 
-use super::tree::{Row, Status, Tree};
 use super::{Clock, View, duration, mark, paint, summary};
 use crate::output::Output;
 use crate::typed_line;
+use motet::page::tree::{StepRow, StepStatus, StepTree};
 
 /// Minimum time between two drawings.
 const FRAME: Duration = Duration::from_millis(60);
@@ -17,7 +17,7 @@ const FRAME: Duration = Duration::from_millis(60);
 /// View that redraws the tree of steps.
 pub(super) struct Screen {
     graph: Arc<Graph>,
-    tree: Tree,
+    tree: StepTree,
     out: Output,
     is_colored: bool,
     clock: Clock,
@@ -28,7 +28,7 @@ pub(super) struct Screen {
 
 impl Screen {
     pub(super) fn new(graph: Arc<Graph>, is_colored: bool, clock: Clock) -> Self {
-        let tree = Tree::new(Arc::clone(&graph));
+        let tree = StepTree::new(Arc::clone(&graph));
         Self { graph, tree, out: Output::default(), is_colored, clock, drawn: 0, last: None }
     }
 
@@ -50,13 +50,13 @@ impl Screen {
         push(&format!("{} on {}  {}", self.graph.policy, robot(&self.graph), duration(now)));
         let (before, after) = (shown.start, self.tree.rows.len().saturating_sub(shown.end));
         if before > 0 {
-            push(&paint(&format!("  … {before} above"), Status::Pending, self.is_colored));
+            push(&paint(&format!("  … {before} above"), StepStatus::Pending, self.is_colored));
         }
         for row in self.tree.rows.get(shown).unwrap_or_default() {
             push(&self.line(row, now));
         }
         if after > 0 {
-            push(&paint(&format!("  … {after} below"), Status::Pending, self.is_colored));
+            push(&paint(&format!("  … {after} below"), StepStatus::Pending, self.is_colored));
         }
         if let Some(typed) = typed_line::current() {
             typed_line::set_drawn(true);
@@ -67,14 +67,14 @@ impl Screen {
         self.last = Some(Instant::now());
     }
 
-    fn line(&self, row: &Row, now: Time) -> String {
+    fn line(&self, row: &StepRow, now: Time) -> String {
         let indent = "  ".repeat(row.depth);
         let took = match row.status {
-            Status::Running => Some(now.since(row.since)),
-            Status::Pending | Status::Done | Status::Failed | Status::Interrupted => row.took,
+            StepStatus::Running => Some(now.since(row.since)),
+            StepStatus::Pending | StepStatus::Done | StepStatus::Failed | StepStatus::Interrupted => row.took,
         };
         let took = took.filter(|took| *took > Time::ZERO).map_or_else(String::new, |took| {
-            paint(&format!("  {}", duration(took)), Status::Pending, self.is_colored)
+            paint(&format!("  {}", duration(took)), StepStatus::Pending, self.is_colored)
         });
         let note = if row.note.is_empty() { String::new() } else { format!("  {}", row.note) };
         let sign = if row.node.is_some() { mark(row.status) } else { " " };
@@ -88,12 +88,12 @@ fn robot(graph: &Graph) -> &str {
 }
 
 /// Range of up to `height` rows around the running one.
-fn window(rows: &[Row], height: usize) -> std::ops::Range<usize> {
+fn window(rows: &[StepRow], height: usize) -> std::ops::Range<usize> {
     if rows.len() <= height {
         return 0..rows.len();
     }
-    let running = rows.iter().rposition(|row| row.status == Status::Running);
-    let last = running.or_else(|| rows.iter().rposition(|row| row.status != Status::Pending));
+    let running = rows.iter().rposition(|row| row.status == StepStatus::Running);
+    let last = running.or_else(|| rows.iter().rposition(|row| row.status != StepStatus::Pending));
     let start = last.unwrap_or(0).saturating_sub(height / 2).min(rows.len() - height);
     start..start + height
 }
@@ -152,7 +152,7 @@ impl View for Screen {
 /// View that prints a line when a step starts or ends.
 pub(super) struct Lines {
     graph: Arc<Graph>,
-    tree: Tree,
+    tree: StepTree,
     out: Output,
     is_colored: bool,
     clock: Clock,
@@ -160,7 +160,7 @@ pub(super) struct Lines {
 
 impl Lines {
     pub(super) fn new(graph: Arc<Graph>, is_colored: bool, clock: Clock) -> Self {
-        Self { tree: Tree::new(Arc::clone(&graph)), graph, out: Output::default(), is_colored, clock }
+        Self { tree: StepTree::new(Arc::clone(&graph)), graph, out: Output::default(), is_colored, clock }
     }
 
     fn record(&mut self, record: &TraceEvent) {
@@ -186,7 +186,7 @@ impl Lines {
         }
     }
 
-    fn line(&self, row: &Row, at: Time) -> String {
+    fn line(&self, row: &StepRow, at: Time) -> String {
         let indent = "  ".repeat(row.depth.min(20));
         let mark = paint(mark(row.status), row.status, self.is_colored);
         let note = if row.note.is_empty() { String::new() } else { format!("  {}", row.note) };

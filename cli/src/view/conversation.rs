@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 
 use super::journal::JournalFolder;
 use super::live::LivePage;
-use super::source::PolicyText;
 use crate::error::CliError;
+use motet::page::source::PolicyText;
 
 /// File with the lines of a conversation.
 pub(crate) const TALK: &str = "talk.jsonl";

@@ -11,9 +11,9 @@ use motet_sim::Sim;
 
 use super::answered::AnsweredQuestions;
 use super::live::LivePage;
-use super::source::PolicyText;
 use crate::error::{CliError, journal_error};
 use crate::output::note;
+use motet::page::source::PolicyText;
 
 /// Span of simulated time between two looks at a replayed simulation.
 const LOOK_EVERY: Time = Time::from_nanos(100_000_000);

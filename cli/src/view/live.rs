@@ -12,22 +12,23 @@ use motet_runtime::journal::JournalEntry;
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 
-use super::feed::Feed;
 use super::hub::Hub;
 use super::server::Server;
-use super::source::PolicyText;
-use super::world::World;
 use crate::error::CliError;
 use crate::flags::PageArgs;
 use crate::interrupt::{SLICE, is_interrupted};
 use crate::output::note;
+use motet::page::feed::PageFeed;
+use motet::page::source::PolicyText;
+use motet::page::world::PageWorld;
+use motet::workbench::Workbench;
 
 /// Page that the observer of a run and its operator share.
 pub(crate) type SharedPage = Rc<RefCell<LivePage>>;
 
 /// Page of a run.
 pub(crate) struct LivePage {
-    feed: Feed,
+    feed: PageFeed,
     hub: Arc<Hub>,
     server: Option<Server>,
     /// Number of the entry that came last, and of the items that followed it.
@@ -46,11 +47,22 @@ impl LivePage {
         takes: &[&str],
     ) -> Result<Self, CliError> {
         let hub = Arc::new(Hub::default());
-        let server = Server::start(address, Arc::clone(&hub))?;
+        let server = Server::start(address, Arc::clone(&hub), None)?;
+        Ok(Self::served(server, hub, opened, takes))
+    }
+
+    /// Serves a page with a workbench at an address, and says where.
+    pub(crate) fn workbench(address: SocketAddr, bench: Workbench) -> Result<Self, CliError> {
+        let hub = Arc::new(Hub::default());
+        let server = Server::start(address, Arc::clone(&hub), Some(bench))?;
+        Ok(Self::served(server, hub, None, &["ask"]))
+    }
+
+    fn served(server: Server, hub: Arc<Hub>, opened: Option<&ProjectSession>, takes: &[&str]) -> Self {
         note(&format!("the page is at {}", server.url()));
         let mut page = Self::silent(hub, opened, takes);
         page.server = Some(server);
-        Ok(page)
+        page
     }
 
     /// Page of the flags, if they ask for one.
@@ -65,12 +77,12 @@ impl LivePage {
 
     /// Page that nobody serves yet.
     pub(crate) fn silent(hub: Arc<Hub>, opened: Option<&ProjectSession>, takes: &[&str]) -> Self {
-        let mut world = opened.and_then(World::of);
+        let mut world = opened.and_then(PageWorld::of);
         hub.push("0-0", &json!({"t": "hello", "takes": takes}));
         if let Some(world) = &mut world {
             hub.push("0-1", &world.item());
         }
-        let feed = Feed::new(world);
+        let feed = PageFeed::new(world);
         Self { feed, hub, server: None, last: (0, 0), unsent: Moved::default(), questions: 0 }
     }
 

@@ -3,8 +3,9 @@
 
 use std::sync::Arc;
 
+use motet::page::entries::EntryTracker;
 use motet_graph::Graph;
-use motet_runtime::journal::{JournalEntry, JournalHead, StepEntry, SwapEntry};
+use motet_runtime::journal::{JournalEntry, JournalHead};
 use motet_runtime::{
     Answer, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query, RetiredGraph,
     RunControl, SwapRefusal, Time, ToldThing, Verifier,
@@ -17,64 +18,33 @@ use crate::interrupt::SLICE;
 pub(crate) struct PageObserver<'a> {
     page: SharedPage,
     inner: &'a mut dyn Observer,
-    /// Number of the next entry of the journal.
-    seq: u64,
-    cause: Option<Cause>,
-}
-
-/// Cause of the next effects.
-enum Cause {
-    Event(Event),
-    Swap(Arc<Graph>),
-    /// Nothing follows from it.
-    RefusedSwap,
+    entries: EntryTracker,
 }
 
 impl<'a> PageObserver<'a> {
     /// Observer of a run with this head.
     pub(crate) fn new(page: SharedPage, inner: &'a mut dyn Observer, head: JournalHead) -> Self {
         page.borrow_mut().begin(JournalEntry::Head(Box::new(head)));
-        Self { page, inner, seq: 1, cause: None }
+        Self { page, inner, entries: EntryTracker::from(1) }
     }
 
     /// Observer of a run whose earlier entries the page has.
     pub(crate) fn resumed(page: SharedPage, inner: &'a mut dyn Observer, seq: u64) -> Self {
-        Self { page, inner, seq, cause: None }
-    }
-
-    fn add(&mut self, entry: &JournalEntry) {
-        self.page.borrow_mut().entry(self.seq, entry);
-        self.seq += 1;
+        Self { page, inner, entries: EntryTracker::from(seq) }
     }
 }
 
 impl Observer for PageObserver<'_> {
     fn event(&mut self, now: Time, event: &Event) {
-        self.cause = Some(Cause::Event(event.clone()));
+        self.entries.event(event);
         self.inner.event(now, event);
     }
 
     fn commit(&mut self, now: Time, effects: &[Effect]) -> RunControl {
-        let effects = effects.to_vec();
-        match self.cause.take() {
-            Some(Cause::RefusedSwap) => {}
-            Some(Cause::Swap(graph)) => {
-                let graph = motet_graph::encode::document(&graph);
-                self.add(&JournalEntry::Swap(Box::new(SwapEntry {
-                    at: now,
-                    graph,
-                    effects: effects.clone(),
-                })));
-            }
-            Some(Cause::Event(event)) => {
-                let step = StepEntry { at: now, event: Some(event), effects: effects.clone() };
-                self.add(&JournalEntry::Step(step));
-            }
-            None => {
-                self.add(&JournalEntry::GaveUp(StepEntry { at: now, event: None, effects: effects.clone() }))
-            }
+        if let Some((seq, entry)) = self.entries.commit(now, effects) {
+            self.page.borrow_mut().entry(seq, &entry);
         }
-        self.inner.commit(now, &effects)
+        self.inner.commit(now, effects)
     }
 
     fn effect(&mut self, now: Time, effect: &Effect) {
@@ -120,8 +90,7 @@ impl Observer for PageObserver<'_> {
     }
 
     fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
-        let cause = if result.is_ok() { Cause::Swap(Arc::clone(graph)) } else { Cause::RefusedSwap };
-        self.cause = Some(cause);
+        self.entries.swapped(graph, result.is_ok());
         self.inner.swapped(now, graph, result);
     }
 

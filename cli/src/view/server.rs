@@ -5,8 +5,8 @@
 
 use std::convert::Infallible;
 use std::net::SocketAddr;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -19,6 +19,7 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
 use futures_util::stream::{self, Stream};
+use motet::workbench::Workbench;
 use motet_runtime::RunControl;
 use serde::Deserialize;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
@@ -32,6 +33,8 @@ use crate::error::CliError;
 const MOST_PAGES: usize = 32;
 /// Most bytes of a command.
 const MOST_BYTES: usize = 16 * 1024;
+/// Most bytes of a question to the workbench: a policy with what JSON adds.
+const MOST_QUESTION_BYTES: usize = 3 * 1024 * 1024;
 /// Most letters of a line.
 const MOST_LETTERS: usize = 2_000;
 /// Items that go out together.
@@ -50,6 +53,8 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; i
 #[derive(Debug)]
 struct Shared {
     hub: Arc<Hub>,
+    /// Workbench of the page, if it has one. It answers one question after the other.
+    bench: Option<Mutex<Workbench>>,
     token: Token,
     pages: Arc<Semaphore>,
     /// Number of pages that have not got the end of the run, connected or about to connect again.
@@ -68,7 +73,11 @@ pub(crate) struct Server {
 
 impl Server {
     /// Listens at an address, and serves pages on a thread of its own.
-    pub(crate) fn start(address: SocketAddr, hub: Arc<Hub>) -> Result<Self, CliError> {
+    pub(crate) fn start(
+        address: SocketAddr,
+        hub: Arc<Hub>,
+        bench: Option<Workbench>,
+    ) -> Result<Self, CliError> {
         let cannot = |error: &dyn std::fmt::Display| {
             CliError::Message(format!("cannot serve the page at {address}: {error}"))
         };
@@ -79,6 +88,7 @@ impl Server {
         let (over, _) = watch::channel(false);
         let shared = Arc::new(Shared {
             hub,
+            bench: bench.map(Mutex::new),
             token,
             pages: Arc::new(Semaphore::new(MOST_PAGES)),
             awaited: AtomicUsize::new(0),
@@ -133,6 +143,7 @@ fn router(shared: Arc<Shared>) -> Router {
         .route("/events", get(events))
         .route("/say", post(say))
         .route("/answer", post(answer))
+        .route("/ask", post(ask).layer(DefaultBodyLimit::max(MOST_QUESTION_BYTES)))
         .route("/stop", post(async |shared, headers| control(shared, &headers, RunControl::Stop)))
         .route("/hold", post(async |shared, headers| control(shared, &headers, RunControl::Hold)))
         .route("/proceed", post(async |shared, headers| control(shared, &headers, RunControl::Proceed)))
@@ -277,6 +288,26 @@ async fn say(State(shared): State<Arc<Shared>>, headers: HeaderMap, Json(line): 
 
 async fn answer(State(shared): State<Arc<Shared>>, headers: HeaderMap, Json(line): Json<Line>) -> Response {
     take(&shared, &headers, &line, |hub, text| hub.answer(&line.question, text))
+}
+
+/// Answers a question to the workbench, on a thread that may take its time.
+async fn ask(State(shared): State<Arc<Shared>>, headers: HeaderMap, question: String) -> Response {
+    if !allowed(&shared, &headers) {
+        return refused(Refusal::Token);
+    }
+    if shared.bench.is_none() {
+        return (StatusCode::CONFLICT, "this page has no workbench").into_response();
+    }
+    let answered = tokio::task::spawn_blocking(move || {
+        let bench = shared.bench.as_ref()?;
+        Some(bench.lock().unwrap_or_else(PoisonError::into_inner).answer(&question))
+    });
+    match answered.await {
+        Ok(Some(answer)) => ([(CONTENT_TYPE, "application/json")], answer).into_response(),
+        Ok(None) | Err(_) => {
+            (StatusCode::INTERNAL_SERVER_ERROR, "the question has no answer").into_response()
+        }
+    }
 }
 
 fn take(

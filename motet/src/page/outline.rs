@@ -5,18 +5,18 @@ use motet_graph::{Comparison, Condition, Graph, NodeId, NodeKind, Reaction, Term
 use serde_json::{Map, Value, json};
 
 use super::source::PolicyText;
-use super::world::World;
-use crate::run_view::tree::Tree;
+use super::tree::StepTree;
+use super::world::PageWorld;
 
 /// Steps of a graph beyond which its paths are not drawn: they would be many megabytes.
 const MOST_PATHS: usize = 300;
 
 /// Outline of a graph: its name, its robot, and a row for each step and each heading.
-pub(crate) fn outline(
+pub(super) fn outline(
     graph: &Graph,
-    tree: &Tree,
+    tree: &StepTree,
     text: Option<&PolicyText>,
-    world: Option<&World>,
+    world: Option<&PageWorld>,
 ) -> Map<String, Value> {
     let rows: Vec<Value> = tree
         .rows
@@ -46,7 +46,7 @@ fn step(
     id: NodeId,
     item: &mut Map<String, Value>,
     text: Option<&PolicyText>,
-    world: Option<&World>,
+    world: Option<&PageWorld>,
 ) {
     let Some(node) = graph.nodes.get(id.index()) else { return };
     let names = Names(graph);

@@ -8,19 +8,19 @@ use serde_json::{Value, json};
 
 /// Text of a policy.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub(crate) struct PolicyText {
+pub struct PolicyText {
     /// Name of the file.
-    pub(crate) name: String,
-    pub(crate) text: String,
+    pub name: String,
+    pub text: String,
     /// Line of each step by its path, from 1.
-    pub(crate) lines: BTreeMap<String, usize>,
+    pub lines: BTreeMap<String, usize>,
     /// Findings of the check.
-    pub(crate) findings: Vec<Value>,
+    pub findings: Vec<Value>,
 }
 
 impl PolicyText {
     /// Text of a policy in a parsed document.
-    pub(crate) fn of(source: &Source, file: &File, policy: &str) -> Self {
+    pub fn of(source: &Source, file: &File, policy: &str) -> Self {
         let (name, text) = (source.file().0.to_owned(), source.text.to_string());
         let mut lines = BTreeMap::new();
         if let Some(policy) = file.policies().find(|known| known.name.text == policy) {
@@ -39,7 +39,7 @@ impl PolicyText {
     }
 
     /// Text of a policy alone; without lines where it cannot be read.
-    pub(crate) fn read(name: &str, text: &str) -> Self {
+    pub fn read(name: &str, text: &str) -> Self {
         let source = Source::new(name, text);
         let parsed = motet_syntax::read(&source, FileId(0));
         let policy = parsed.file.policies().next().map(|policy| policy.name.text.to_string());
@@ -47,19 +47,19 @@ impl PolicyText {
     }
 
     /// The same with the findings of the check.
-    pub(crate) fn with_findings(self, found: &[Diagnostic], sources: &Sources) -> Self {
+    pub fn with_findings(self, found: &[Diagnostic], sources: &Sources) -> Self {
         let finding = |found: &Diagnostic| serde_json::to_value(render::record(found, sources)).ok();
         Self { findings: found.iter().filter_map(finding).collect(), ..self }
     }
 
     /// Line of the step at a path. A step of an inlined policy has the line of its call.
-    pub(crate) fn line(&self, path: &str) -> Option<usize> {
+    pub fn line(&self, path: &str) -> Option<usize> {
         let own = path.split(':').next().unwrap_or_default();
         self.lines.get(own).copied()
     }
 
     /// Text for the page.
-    pub(crate) fn item(&self) -> Value {
+    pub fn item(&self) -> Value {
         json!({"name": self.name, "text": self.text, "findings": self.findings})
     }
 }

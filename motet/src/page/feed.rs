@@ -12,32 +12,32 @@ use motet_runtime::{
     Command, DriverEvent, Effect, EndCause, Event, GoalId, NodeEnding, Outcome, RunEnd, Snapshot, Time,
     TraceEvent, TraceEventKind, Verification,
 };
-use motet_stdlib::lang::primitives;
+use motet_stdlib::lang::{failures, primitives};
 use serde_json::{Map, Value, json};
 
 use super::outline::outline;
 use super::source::PolicyText;
-use super::world::World;
-use crate::output::escape;
-use crate::run_view::tree::{Status, Tree};
+use super::tree::{StepStatus, StepTree};
+use super::world::PageWorld;
+use crate::shown::escape;
 
 /// Facts beyond which beliefs are not compared entry by entry.
 const MOST_FACTS: usize = 5_000;
 
 /// Feed of a page.
 #[derive(Default)]
-pub(crate) struct Feed {
+pub struct PageFeed {
     /// Number of runs so far; the one that runs has the last number.
-    pub(crate) run: u32,
+    pub run: u32,
     replay: Option<EngineReplay>,
     /// Trees of the policies of this run, by revision.
-    trees: Vec<Tree>,
+    trees: Vec<StepTree>,
     beliefs: Beliefs,
     goals: BTreeMap<GoalId, Arc<Command>>,
     /// Robot and room, where they are known.
-    pub(crate) world: Option<World>,
+    pub world: Option<PageWorld>,
     /// Text of the policy that begins or takes over next.
-    pub(crate) text: Option<PolicyText>,
+    pub text: Option<PolicyText>,
 }
 
 /// Beliefs that the page has.
@@ -48,19 +48,19 @@ struct Beliefs {
     bindings: BTreeMap<String, String>,
 }
 
-impl Feed {
+impl PageFeed {
     /// Feed before the first run.
-    pub(crate) fn new(world: Option<World>) -> Self {
+    pub fn new(world: Option<PageWorld>) -> Self {
         Self { world, ..Self::default() }
     }
 
     /// Id of an item that follows from an entry.
-    pub(crate) fn id(&self, seq: u64) -> String {
+    pub fn id(&self, seq: u64) -> String {
         format!("{}-{seq}", self.run)
     }
 
     /// Item that follows from an entry, with its id; `None` where the engine does not take the entry.
-    pub(crate) fn entry(&mut self, seq: u64, entry: &JournalEntry) -> Option<(String, Value)> {
+    pub fn entry(&mut self, seq: u64, entry: &JournalEntry) -> Option<(String, Value)> {
         let mut item = match entry {
             JournalEntry::Head(head) => {
                 self.run += 1;
@@ -111,7 +111,7 @@ impl Feed {
     /// Item of the policy that runs now, whose tree is made.
     fn outline(&mut self, kind: &str) -> Option<Map<String, Value>> {
         let graph = Arc::new(self.replay.as_ref()?.engine().graph().clone());
-        let tree = Tree::new(Arc::clone(&graph));
+        let tree = StepTree::new(Arc::clone(&graph));
         let text = self.text.take();
         let mut item = outline(&graph, &tree, text.as_ref(), self.world.as_ref());
         item.insert("t".to_owned(), json!(kind));
@@ -323,7 +323,12 @@ impl Feed {
                 ("done", why.clone().or(result), None)
             }
             RunEnd::Failed { kind, why, node } => {
-                let why = why.as_ref().map_or_else(|| kind.to_string(), |why| format!("{kind}: {why}"));
+                // `fail "…"` has a kind of its own that says nothing more.
+                let why = match why {
+                    None => kind.to_string(),
+                    Some(why) if kind == failures::FAILED => why.clone(),
+                    Some(why) => format!("{kind}: {why}"),
+                };
                 ("failed", Some(why), Some(*node))
             }
             RunEnd::Declined { why } => ("declined", why.clone(), None),
@@ -370,13 +375,13 @@ fn shown(value: &MotetValue) -> String {
     escape(&value.to_string())
 }
 
-const fn status(status: Status) -> &'static str {
+const fn status(status: StepStatus) -> &'static str {
     match status {
-        Status::Pending => "pending",
-        Status::Running => "running",
-        Status::Done => "done",
-        Status::Failed => "failed",
-        Status::Interrupted => "interrupted",
+        StepStatus::Pending => "pending",
+        StepStatus::Running => "running",
+        StepStatus::Done => "done",
+        StepStatus::Failed => "failed",
+        StepStatus::Interrupted => "interrupted",
     }
 }
 

@@ -21,7 +21,7 @@ const PLACE: f64 = 0.2;
 
 /// Robot in its room.
 #[derive(Debug)]
-pub(crate) struct World {
+pub struct PageWorld {
     geometry: Arc<Geometry>,
     scene: Scene,
     /// Links with shapes.
@@ -35,9 +35,9 @@ pub(crate) struct World {
     tells_joints: bool,
 }
 
-impl World {
+impl PageWorld {
     /// World of a session; `None` without a body or a room.
-    pub(crate) fn of(opened: &ProjectSession) -> Option<Self> {
+    pub fn of(opened: &ProjectSession) -> Option<Self> {
         let (geometry, scene) = (opened.geometry.clone()?, opened.scene.clone()?);
         let state = SceneState::new(geometry.machine(), &scene);
         let mut links: Vec<usize> = geometry.machine().body().parts().iter().map(|part| part.link).collect();
@@ -58,7 +58,7 @@ impl World {
     }
 
     /// Item with the shapes of the robot and of everything in the room, and the poses at the start.
-    pub(crate) fn item(&mut self) -> Value {
+    pub fn item(&mut self) -> Value {
         let state = SceneState::new(self.model(), &self.scene);
         let things: Vec<Value> =
             self.scene.entities.values().filter_map(|entity| thing(&self.scene, entity, &state)).collect();
@@ -88,7 +88,7 @@ impl World {
     }
 
     /// Item of a report of motion.
-    pub(crate) fn moved(&mut self, moved: &Moved) -> Value {
+    pub fn moved(&mut self, moved: &Moved) -> Value {
         self.configuration.base = moved.base;
         self.tells_base = true;
         self.tells_joints |= !moved.joints.is_empty();
@@ -113,7 +113,7 @@ impl World {
 
     /// Takes in the configuration in which a success leaves the robot, as far as the driver does not tell it.
     /// Returns the poses of the links where something follows from it.
-    pub(crate) fn left(&mut self, leaves: &motet_graph::Configuration) -> Option<Value> {
+    pub fn left(&mut self, leaves: &motet_graph::Configuration) -> Option<Value> {
         if self.tells_joints {
             return None;
         }
@@ -134,7 +134,7 @@ impl World {
     }
 
     /// Path of a motion: the way of the base, the way of the hand, and the robot at its end.
-    pub(crate) fn path(&self, witness: &Witness) -> Value {
+    pub fn path(&self, witness: &Witness) -> Value {
         let dofs: Vec<Option<usize>> =
             witness.joints.iter().map(|name| self.model().tree().dof(name).ok()).collect();
         let configurations: Vec<Configuration> = witness
@@ -163,7 +163,7 @@ impl World {
     }
 
     /// Entities that a text names, such as the reason why a motion is infeasible.
-    pub(crate) fn named(&self, text: &str) -> Vec<&str> {
+    pub fn named(&self, text: &str) -> Vec<&str> {
         let words: Vec<&str> =
             text.split(|letter: char| !(letter.is_alphanumeric() || "_-".contains(letter))).collect();
         self.scene.entities.keys().map(SmolStr::as_str).filter(|id| words.contains(id)).collect()

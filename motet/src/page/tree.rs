@@ -3,16 +3,16 @@
 
 use std::sync::Arc;
 
-use motet::run::events::{FailureNames, watched};
+use crate::run::events::{FailureNames, watched};
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind, ROOT, Reaction, RegionId, Term};
 use motet_runtime::{Command, Event, NodeEnding, Time, TraceEvent, TraceEventKind, Verification};
 
-use crate::output::escape;
+use crate::shown::escape;
 
 /// Status of a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Status {
+pub enum StepStatus {
     Pending,
     Running,
     Done,
@@ -22,38 +22,38 @@ pub(crate) enum Status {
 
 /// Row of the tree: a step, or the heading of a branch.
 #[derive(Clone, Debug)]
-pub(crate) struct Row {
+pub struct StepRow {
     /// Step of the row; `None` for a heading.
-    pub(crate) node: Option<NodeId>,
+    pub node: Option<NodeId>,
     /// Indentation, in levels.
-    pub(crate) depth: usize,
+    pub depth: usize,
     /// Step in one line.
-    pub(crate) label: String,
-    pub(crate) status: Status,
+    pub label: String,
+    pub status: StepStatus,
     /// Remark behind the label, such as a failure.
-    pub(crate) note: String,
+    pub note: String,
     /// Time of the last entry.
-    pub(crate) since: Time,
+    pub since: Time,
     /// Duration of the last execution.
-    pub(crate) took: Option<Time>,
+    pub took: Option<Time>,
 }
 
 /// All rows in order; a parent precedes its children.
 #[derive(Debug)]
-pub(crate) struct Tree {
+pub struct StepTree {
     graph: Arc<Graph>,
-    pub(crate) rows: Vec<Row>,
+    pub rows: Vec<StepRow>,
     /// Row of each node.
     row_of: Vec<Option<usize>>,
     /// Number of calls that succeeded and failed, with every iteration of a loop.
-    pub(crate) done: usize,
-    pub(crate) failed: usize,
+    pub done: usize,
+    pub failed: usize,
     failures: FailureNames,
 }
 
-impl Tree {
+impl StepTree {
     /// Tree of a graph, in O(nodes). Iterative, since sub-policies may nest deeply.
-    pub(crate) fn new(graph: Arc<Graph>) -> Self {
+    pub fn new(graph: Arc<Graph>) -> Self {
         let row_of = vec![None; graph.nodes.len()];
         let mut tree = Self {
             graph: Arc::clone(&graph),
@@ -91,12 +91,12 @@ impl Tree {
         if let Some(place) = node.and_then(|node| self.row_of.get_mut(node.index())) {
             *place = Some(self.rows.len());
         }
-        let (status, note) = (Status::Pending, String::new());
-        self.rows.push(Row { node, depth, label, status, note, since: Time::ZERO, took: None });
+        let (status, note) = (StepStatus::Pending, String::new());
+        self.rows.push(StepRow { node, depth, label, status, note, since: Time::ZERO, took: None });
     }
 
     /// Row of a node.
-    pub(crate) fn row(&self, node: NodeId) -> Option<&Row> {
+    pub fn row(&self, node: NodeId) -> Option<&StepRow> {
         self.place(node).and_then(|place| self.rows.get(place))
     }
 
@@ -105,7 +105,7 @@ impl Tree {
     }
 
     /// Updates the tree by a trace event. Returns the node of the event.
-    pub(crate) fn take(&mut self, record: &TraceEvent) -> Option<NodeId> {
+    pub fn take(&mut self, record: &TraceEvent) -> Option<NodeId> {
         let graph = Arc::clone(&self.graph);
         let (node, note) = match &record.what {
             TraceEventKind::Entered { node } => {
@@ -172,13 +172,13 @@ impl Tree {
     }
 
     /// Takes an event before the engine handles it.
-    pub(crate) fn event(&mut self, event: &Event) {
+    pub fn event(&mut self, event: &Event) {
         self.failures.event(event);
     }
 
     /// Puts the texts of a command that have values, as they go to the driver, into the label of its step.
     /// Returns true if there are any.
-    pub(crate) fn start(&mut self, node: NodeId, command: &Command) -> bool {
+    pub fn start(&mut self, node: NodeId, command: &Command) -> bool {
         let Some(NodeKind::Call(call)) = self.graph.nodes.get(node.index()).map(|node| &node.kind) else {
             return false;
         };
@@ -213,7 +213,7 @@ impl Tree {
             if offset > 0 && row.depth <= depth {
                 break;
             }
-            row.status = if offset == 0 { Status::Running } else { Status::Pending };
+            row.status = if offset == 0 { StepStatus::Running } else { StepStatus::Pending };
             row.took = None;
             row.since = at;
             row.note.clear();
@@ -226,12 +226,12 @@ impl Tree {
         let Some(row) = self.place(node).and_then(|place| self.rows.get_mut(place)) else { return };
         row.took = Some(at.since(row.since));
         row.status = match ending {
-            NodeEnding::Success => Status::Done,
-            NodeEnding::Failure(_) => Status::Failed,
-            NodeEnding::Interrupted => Status::Interrupted,
+            NodeEnding::Success => StepStatus::Done,
+            NodeEnding::Failure(_) => StepStatus::Failed,
+            NodeEnding::Interrupted => StepStatus::Interrupted,
         };
-        self.done += usize::from(is_call && row.status == Status::Done);
-        self.failed += usize::from(is_call && row.status == Status::Failed);
+        self.done += usize::from(is_call && row.status == StepStatus::Done);
+        self.failed += usize::from(is_call && row.status == StepStatus::Failed);
     }
 }
 
