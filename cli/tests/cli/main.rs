@@ -25,6 +25,7 @@ mod journal;
 mod many;
 mod mcp;
 mod model;
+mod project;
 mod run;
 mod serve;
 mod support;
