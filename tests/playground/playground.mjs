@@ -77,7 +77,11 @@ async function same_findings() {
   await clean(page);
   const ask = await asker(page);
   const here = mkdtempSync(join(tmpdir(), "motet-playground-"));
-  const rooms = Map.groupBy(policies(), ({ robot, scene }) => `${robot} ${scene}`);
+  const rooms = new Map();
+  for (const one of policies()) {
+    const room = `${one.robot} ${one.scene}`;
+    rooms.set(room, [...(rooms.get(room) ?? []), one]);
+  }
   let [compared, times] = [0, []];
   for (const [room, all] of rooms) {
     const [robot, scene] = room.split(" ");
@@ -119,7 +123,7 @@ async function by_hand(page, faults) {
   await page.locator(".findings button", { hasText: "Fix:" }).first().click();
   await page.locator("button.primary:enabled").waitFor({ timeout: PATIENCE });
   check((await area(page).inputValue()).includes("  pick(mug)"), "the fix is in the text");
-  await button(page, "Motions").click();
+  await button(page, "Decide motions").click();
   await page.locator(".motions img").waitFor({ timeout: PATIENCE });
   await picture(page, "bench-motions");
   await page.getByRole("tab", { name: "Scene", exact: true }).click();
@@ -132,7 +136,7 @@ async function by_hand(page, faults) {
   await page.getByRole("tab", { name: "Steps", exact: true }).click();
   await page.locator(".row.running").first().waitFor({ timeout: PATIENCE });
   await picture(page, "bench-run");
-  await button(page, "Go to now").click();
+  await button(page, "Go to the end").click();
   await chip(page, "done");
   check(faults.length === 0, faults.join("; "));
 }
@@ -166,7 +170,7 @@ async function examples() {
     await clean(page).catch(() => check(false, `${name} has findings`));
     await button(page, "Run").click();
     await page.getByRole("button", { name: "Halt" }).waitFor({ timeout: PATIENCE }).catch(() => check(false, `${name} does not run`));
-    await button(page, "Go to now").click();
+    await button(page, "Go to the end").click();
     await chip(page, "done").catch(() => check(false, `${name} does not end as done`));
   }
   check(faults.length === 0, faults.join("; "));

@@ -123,7 +123,7 @@ async function scrub() {
   await set(0.8);
   await page.waitForTimeout(300);
   check((await page.locator(".row.done").count()) > done, "later more steps are done");
-  await page.getByRole("button", { name: "Go to now" }).click();
+  await page.getByRole("button", { name: "Go to the end" }).click();
   check((await running.count()) === 0, "and now nothing runs");
   await page.locator(".tree").focus();
   await page.keyboard.press("End");

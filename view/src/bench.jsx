@@ -111,8 +111,8 @@ export function useBench({ ask, examples, isTaken, show }) {
     run: work(
       () => ({ ask: "run", text, seed: Number(options.seed) || 0, profile: options.profile }),
       (answer) => {
-        setFound(lines(answer.lines));
         if (answer.ok) show(answer.items);
+        else setFound(lines(answer.lines));
       },
     ),
   };
@@ -120,8 +120,8 @@ export function useBench({ ask, examples, isTaken, show }) {
 
 const lines = (text) => text.split("\n").filter(Boolean).map((line) => JSON.parse(line));
 
-const Choice = ({ name, options, is, set }) => (
-  <label>
+const Choice = ({ name, options, is, set, tip }) => (
+  <label title={tip}>
     {name}{" "}
     <select value={is} onChange={(event) => set(event.currentTarget.value)}>
       {Object.entries(options).map(([value, label]) => (
@@ -172,11 +172,12 @@ export function Room({ bench, toMotions }) {
         <button class="primary" disabled={!room || isWrong || bench.busy} onClick={bench.run}>
           {WORDS.run}
         </button>
-        <Choice name={WORDS.profile} options={WORDS.profiles} is={options.profile} set={(profile) => setOptions({ ...options, profile })} />
-        <label>
+        <Choice name={WORDS.profile} tip={WORDS.tips.profile} options={WORDS.profiles} is={options.profile} set={(profile) => setOptions({ ...options, profile })} />
+        <label title={WORDS.tips.seed}>
           {WORDS.seed} <input type="number" min="0" max="999999" value={options.seed} onInput={(event) => setOptions({ ...options, seed: event.currentTarget.value })} />
         </label>
         <button
+          title={WORDS.tips.motions}
           disabled={!room || bench.busy}
           onClick={() => {
             toMotions();
@@ -185,10 +186,10 @@ export function Room({ bench, toMotions }) {
         >
           {WORDS.decide}
         </button>
-        <button disabled={!room || bench.busy} onClick={bench.fix}>
+        <button title={WORDS.tips.fixAll} disabled={!room || bench.busy} onClick={bench.fix}>
           {WORDS.fixAll}
         </button>
-        <button disabled={!room || bench.busy} onClick={bench.format}>
+        <button title={WORDS.tips.format} disabled={!room || bench.busy} onClick={bench.format}>
           {WORDS.format}
         </button>
         <span role="status" class="quiet">
@@ -307,6 +308,7 @@ export function Motions({ bench }) {
   if (!motions) return <p class="empty">{bench.busy ?? WORDS.noMotions}</p>;
   return (
     <div class="scroll motions">
+      <p class="quiet">{WORDS.whichMotions}</p>
       <ul class="plain">
         {motions.says.map((line, i) => (
           <li key={i} class={/: feasible/.test(line) ? "" : "blocked"}>

@@ -26,10 +26,10 @@ export function Head({ state, live, link, time }) {
         <h1>{policy?.policy ?? "Motet"}</h1>
         {policy?.robot && <span class="robot">{policy.robot}</span>}
         <span class={`chip ${how}`} role="status">
-          {{ idle: WORDS.waiting, held: WORDS.held, running: WORDS.running }[how] ?? WORDS.ended[how]}
+          {{ idle: live.questions.some((one) => one.to === null) ? WORDS.asking : WORDS.waiting, held: WORDS.held, running: WORDS.running }[how] ?? WORDS.ended[how]}
         </span>
         {policy && <span class="progress">{WORDS.summary(done)}</span>}
-        {time !== null && <span class="chip past">{WORDS.past(secs(time))}</span>}
+        {time !== null && <span class="chip past">{is_live ? WORDS.past(secs(time)) : WORDS.replayed(secs(time))}</span>}
         <span class="link" role="status">
           {{ connecting: WORDS.connecting, reconnecting: WORDS.reconnecting, refused: WORDS.refused, over: WORDS.over }[link]}
         </span>

@@ -42,7 +42,7 @@ export function StepDetails({ state, chosen, showLine }) {
           <li key={i}>
             <Sign is={one.how ?? "running"} /> {secs(one.from)}
             {one.to !== null && ` – ${secs(one.to)}`} {one.why ?? one.feedback}
-            {one.how === null && <small> {one.is}</small>}
+            {one.how === null && <small> {one.is === "held" ? WORDS.held : one.is}</small>}
           </li>
         ))}
       </ul>
@@ -140,12 +140,13 @@ export function Known({ log, state, time }) {
   );
 }
 
-export function Talk({ state }) {
+export function Talk({ state, world }) {
+  const names = Object.fromEntries(world?.things.map((thing) => [thing.id, `${thing.name} (${thing.id})`]) ?? []);
   if (state.says.length === 0 && state.questions.length === 0) return <p class="empty">{WORDS.nothing}</p>;
   const lines = [
     ...state.says.map((say) => ({ at: say.at, who: WORDS.who[say.who], text: say.resumed ? WORDS.resumed : say.text })),
     ...state.questions.map((one) => ({ at: one.from, who: WORDS.who.robot, text: one.text })),
-    ...state.questions.filter((one) => one.to !== null).map((one) => ({ at: one.to, who: WORDS.who.person, text: one.answer ?? WORDS.unanswered })),
+    ...state.questions.filter((one) => one.to !== null).map((one) => ({ at: one.to, who: WORDS.who.person, text: one.answer === null ? WORDS.unanswered : (names[one.answer] ?? one.answer) })),
   ];
   lines.sort((one, other) => one.at - other.at);
   return (

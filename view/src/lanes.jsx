@@ -31,11 +31,15 @@ export function lanes(state) {
   return [...byName.values()];
 }
 
-export function Lanes({ log, live, time, setTime, playing, play, choose }) {
+export function Lanes({ log, live, time, setTime, isLive, playing, play, choose }) {
   const box = useRef(null);
   const [wide, setWide] = useState(800);
+  const [bar, setBar] = useState(0);
   useEffect(() => {
-    const observer = new ResizeObserver(() => setWide(box.current?.clientWidth ?? 800));
+    const observer = new ResizeObserver(() => {
+      setWide(box.current?.clientWidth ?? 800);
+      setBar((box.current?.offsetWidth ?? 0) - (box.current?.clientWidth ?? 0));
+    });
     observer.observe(box.current);
     return () => observer.disconnect();
   }, []);
@@ -55,16 +59,24 @@ export function Lanes({ log, live, time, setTime, playing, play, choose }) {
   const now = time ?? end;
   return (
     <section class="lanes" aria-label={WORDS.lanes}>
-      <div class="scrub">
-        <output>{secs(now)}</output>
-        <button class={time === null ? "small on" : "small"} aria-pressed={time === null} onClick={() => setTime(null)}>
-          {time === null ? WORDS.live : WORDS.now}
-        </button>
-        {play && (
-          <button class="small" disabled={live.policies.length === 0} onClick={play}>
-            {playing ? WORDS.halt : WORDS.play}
+      <div class="scrub" style={{ gridTemplateColumns: `${LEFT - 18}px 1fr`, paddingRight: `${6 + bar}px` }}>
+        <div class="moment">
+          <output>{secs(now)}</output>
+        {isLive ? (
+          <button class={time === null ? "small on" : "small"} aria-pressed={time === null} onClick={() => setTime(null)}>
+            {time === null ? WORDS.live : WORDS.now}
           </button>
+        ) : (
+          <span class="keys">
+            <button class="small" disabled={!play || live.policies.length === 0} title={playing ? WORDS.halt : WORDS.play} aria-label={playing ? WORDS.halt : WORDS.play} onClick={play}>
+              {playing ? "❚❚" : "▶"}
+            </button>
+            <button class="small" disabled={time === null} title={WORDS.end} aria-label={WORDS.end} onClick={() => setTime(null)}>
+              ▶❙
+            </button>
+          </span>
         )}
+        </div>
         <input
           type="range"
           aria-label={WORDS.playhead}

@@ -6,7 +6,7 @@ import { Head, Questions } from "./controls.jsx";
 import { Known, StepDetails, Talk } from "./details.jsx";
 import { GraphView } from "./graph.jsx";
 import { Lanes } from "./lanes.jsx";
-import { Outline } from "./outline.jsx";
+import { Outline, active } from "./outline.jsx";
 import { Changes, PolicyText } from "./policy.jsx";
 import { SceneView } from "./scene.jsx";
 import { Log, current } from "./state.js";
@@ -117,11 +117,11 @@ function Page({ connect, ask, examples }) {
     steps: () => <Outline state={state} now={time ?? log.end} chosen={safe} choose={choose} closed={closed} toggle={toggle} follow={follow} setFollow={setFollow} />,
     graph: () => <GraphView state={state} chosen={safe} choose={choose} closed={closed} toggle={toggle} />,
     text: () => <PolicyText state={state} chosen={safe} choose={choose} />,
-    changes: () => <Changes state={state} />,
+    changes: () => <Changes state={state} isPast={time !== null} />,
     scene: () => <SceneView log={log} state={state} time={time} chosen={safe} tick={tick} />,
-    step: () => <StepDetails state={state} chosen={safe} showLine={() => (narrow ? setOnly("text") : setMain("text"))} />,
+    step: () => <StepDetails state={state} chosen={safe ?? (follow && policy ? active(policy) : null)} showLine={() => (narrow ? setOnly("text") : setMain("text"))} />,
     known: () => <Known log={log} state={state} time={time} />,
-    talk: () => <Talk state={state} />,
+    talk: () => <Talk state={state} world={log.world} />,
   };
   const mains = bench.isOn ? { write: WORDS.write, steps: WORDS.steps, graph: WORDS.graph } : MAIN;
   const sides = bench.isOn ? { scene: WORDS.scene, motions: WORDS.motions, step: WORDS.step, known: WORDS.known } : SIDE;
@@ -165,6 +165,7 @@ function Page({ connect, ask, examples }) {
           setPlaying(false);
           setTime(time);
         }}
+        isLive={link === "live" && !bench.isOn}
         playing={playing}
         play={
           link === "live" && !bench.isOn

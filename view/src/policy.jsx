@@ -112,8 +112,8 @@ function Swap({ swap, state }) {
   );
 }
 
-export function Changes({ state }) {
-  if (state.swaps.length === 0) return <p class="empty">{WORDS.noChanges}</p>;
+export function Changes({ state, isPast }) {
+  if (state.swaps.length === 0) return <p class="empty">{isPast ? WORDS.noChangesYet : WORDS.noChanges}</p>;
   return (
     <div class="scroll">
       {state.swaps.map((swap, i) => (

@@ -112,8 +112,9 @@ function apply_change(state, change) {
       if (!row) break;
       if (change.k === "enter") {
         delete state.reasons[change.r];
+        // What has run behind it in its block, has run in an earlier round of a loop.
         const depth = of.rows[change.r].d;
-        for (let i = change.r + 1; i < of.rows.length && of.rows[i].d > depth; i++) {
+        for (let i = change.r + 1; i < of.rows.length && of.rows[i].d >= depth; i++) {
           Object.assign(of.status[i], { s: "pending", n: "", d: null });
         }
       }

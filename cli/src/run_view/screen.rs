@@ -1,10 +1,13 @@
 //! View of a run on a terminal: the tree of steps, redrawn in place.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use motet_graph::{Graph, NodeId, NodeKind};
-use motet_runtime::{Effect, Event, NodeEnding, RunEnd, Time, TraceEvent, TraceEventKind, Verification};
+use motet_runtime::{
+    DriverEvent, Effect, Event, GoalId, NodeEnding, RunEnd, Time, TraceEvent, TraceEventKind, Verification,
+};
 
 use super::{Clock, View, duration, mark, paint, summary};
 use crate::output::Output;
@@ -24,12 +27,17 @@ pub(super) struct Screen {
     /// Number of lines of the last drawing, above the cursor.
     drawn: usize,
     last: Option<Instant>,
+    /// True while a person holds the run.
+    is_held: bool,
+    /// Goals that a monitor holds.
+    held: BTreeSet<GoalId>,
 }
 
 impl Screen {
     pub(super) fn new(graph: Arc<Graph>, is_colored: bool, clock: Clock) -> Self {
         let tree = StepTree::new(Arc::clone(&graph));
-        Self { graph, tree, out: Output::default(), is_colored, clock, drawn: 0, last: None }
+        let (out, held) = (Output::default(), BTreeSet::new());
+        Self { graph, tree, out, is_colored, clock, drawn: 0, last: None, is_held: false, held }
     }
 
     fn draw(&mut self, now: Time) {
@@ -47,7 +55,8 @@ impl Screen {
             text.push('\n');
             lines += 1;
         };
-        push(&format!("{} on {}  {}", self.graph.policy, robot(&self.graph), duration(now)));
+        let paused = if self.is_held || !self.held.is_empty() { "  paused" } else { "" };
+        push(&format!("{} on {}  {}{paused}", self.graph.policy, robot(&self.graph), duration(now)));
         let (before, after) = (shown.start, self.tree.rows.len().saturating_sub(shown.end));
         if before > 0 {
             push(&paint(&format!("  … {before} above"), StepStatus::Pending, self.is_colored));
@@ -101,14 +110,31 @@ fn window(rows: &[StepRow], height: usize) -> std::ops::Range<usize> {
 impl View for Screen {
     fn event(&mut self, event: &Event) {
         self.tree.event(event);
+        match event {
+            Event::Hold => self.is_held = true,
+            Event::Proceed | Event::Stop => self.is_held = false,
+            Event::Driver(DriverEvent::Ended { goal, .. } | DriverEvent::Stopped { goal }) => {
+                self.held.remove(goal);
+            }
+            _ => {}
+        }
     }
 
     fn effect(&mut self, now: Time, effect: &Effect) {
-        if let Effect::Report(record) = effect {
-            self.tree.take(record);
-        }
-        if let Effect::Start { node, command, .. } = effect {
-            let _ = self.tree.start(*node, command);
+        match effect {
+            Effect::Report(record) => {
+                self.tree.take(record);
+            }
+            Effect::Start { node, command, .. } => {
+                let _ = self.tree.start(*node, command);
+            }
+            Effect::Hold { goal } => {
+                self.held.insert(*goal);
+            }
+            Effect::Proceed { goal } | Effect::Cancel { goal } => {
+                self.held.remove(goal);
+            }
+            _ => {}
         }
         self.reached(now);
     }

@@ -30,12 +30,16 @@ fn new_makes_a_folder_whose_policy_checks_and_runs() {
 
 #[test]
 fn motet_toml_is_read_by_commands_with_a_policy_and_in_the_present_folder() {
-    let place = Place::new("project_config")
-        .file("home/motet.toml", "robot = \"hsr\"\nscene = \"kitchen\"\n")
-        .file("home/take.motet", "policy take achieves holding(mug_1) {\n    go(mug_1)\n    pick(mug_1)\n}\n");
-    for line in
-        ["run home/take.motet --speed max --profile ideal", "compile home/take.motet", "check home/take.motet"]
-    {
+    let place =
+        Place::new("project_config").file("home/motet.toml", "robot = \"hsr\"\nscene = \"kitchen\"\n").file(
+            "home/take.motet",
+            "policy take achieves holding(mug_1) {\n    go(mug_1)\n    pick(mug_1)\n}\n",
+        );
+    for line in [
+        "run home/take.motet --speed max --profile ideal",
+        "compile home/take.motet",
+        "check home/take.motet",
+    ] {
         let ran = place.run(line);
         assert_eq!(ran.code, Some(0), "{line}: {ran:?}");
     }

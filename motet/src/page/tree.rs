@@ -205,12 +205,13 @@ impl StepTree {
         }
     }
 
-    /// Marks a step as running and resets all steps inside it.
+    /// Marks a step as running, and resets all steps inside it. The steps behind it in its block are reset
+    /// too: if one has run, that was in an earlier round of a loop.
     fn enter(&mut self, node: NodeId, at: Time) {
         let Some(place) = self.place(node) else { return };
         let Some(depth) = self.rows.get(place).map(|row| row.depth) else { return };
         for (offset, row) in self.rows.iter_mut().skip(place).enumerate() {
-            if offset > 0 && row.depth <= depth {
+            if offset > 0 && row.depth < depth {
                 break;
             }
             row.status = if offset == 0 { StepStatus::Running } else { StepStatus::Pending };
