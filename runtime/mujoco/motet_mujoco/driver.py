@@ -13,8 +13,9 @@ from .camera import NoGraphics
 from .chance import Chance, profile
 from .disorder import People, displace
 from .eyes import Eyes
-from .observation import Observer
+from .observation import Observer, needs_eyes
 from .planner import Planner
+from .senses import Senses
 from .tasks import Failed, Tasks
 from .world import World
 
@@ -23,6 +24,8 @@ REFUSED, METHOD_NOT_FOUND, INVALID_PARAMS, INTERNAL = 1, -32601, -32602, -32603
 SILENCE = 5.0
 # Seconds between two reports `moved`.
 MOVED_EVERY = 0.05
+# Seconds between two looks for what is watched.
+LOOK_EVERY = 1.0
 # Primitives after which nothing new is in view.
 SPEECH = ("say", "ask", "choose")
 
@@ -82,14 +85,16 @@ class Driver:
         self.world = World(self.model)
         rates, chance = self.options.rates, self.options.chance
         self.model.mj.geom_friction[:, 0] = self.options.friction()
-        self.observer = Observer(self.world)
+        self.truth_of = Observer(self.world)
         self.beliefs = Beliefs(self.world, self.room)
+        self.senses = None if self.oracle else Senses(self.world, self.beliefs)
+        self.observer = Observer(self.world, self.senses, self.truth_of.own)
         displace(self.world, rates["room"], chance)
         self.people = People(self.world, self.walks, self.says, rates["people"]["walk_per_min"], Chance(chance.seed))
-        self.eyes = Eyes(self.world, self.observer, self.beliefs, self.oracle, rates["camera"], chance)
+        self.eyes = Eyes(self.world, self.beliefs, self.oracle, rates["camera"], chance)
         planner = Planner(self.command, self.model.source) if self.command else None
         self.tasks = Tasks(self.world, self.observer, self.beliefs, planner, self.eyes, self.options)
-        self.goals, self.watched, self.moved_at = {}, [], -1.0
+        self.goals, self.watched, self.moved_at, self.looked_at = {}, [], -1.0, -1.0
         self.hold_what_is_held()
 
     def hold_what_is_held(self):
@@ -97,6 +102,7 @@ class Driver:
         holding = self.model.scene["robot"].get("holding")
         if holding in self.model.free:
             self.world.settle_in_hand(holding)
+            self.beliefs.holds(holding)
             self.tasks.goal[:] = self.world.target
             self.world.data.time = 0.0
 
@@ -169,11 +175,31 @@ class Driver:
         return {}
 
     def observe(self, params):
-        return {"answer": self.observer.answer(params["query"])}
+        return {"answer": self.answer(params["query"])}
+
+    def answer(self, query):
+        """The answer to a query, as the robot knows it after a look."""
+        if needs_eyes(query):
+            self.refresh()
+        return self.observer.answer(query)
+
+    def refresh(self):
+        """Looks at what is in view, unless the robot perceives by the truth or cannot see."""
+        if self.oracle or self.looked_at == self.world.now:
+            return
+        self.looked_at = self.world.now
+        try:
+            self.eyes.refresh()
+        except NoGraphics:
+            return
+
+    def truth(self, params):
+        """The answer to a query by the truth of the world, whatever the robot knows."""
+        return {"answer": self.truth_of.answer(params["query"])}
 
     def watch(self, params):
         query = params["query"]
-        answer = self.observer.answer(query)
+        answer = self.answer(query)
         self.watched = [(known, value) for known, value in self.watched if known != query] + [(query, answer)]
         return {"answer": answer}
 
@@ -228,7 +254,7 @@ class Driver:
         return {"now": round((self.world.now if is_over else max(self.world.now, until)) - self.offset, 6)}
 
     METHODS = ("hello start update cancel hold proceed safe_stop observe watch unwatch status ping look detections "
-               "told advance").split()
+               "told truth advance").split()
 
     # The world.
 
@@ -248,7 +274,12 @@ class Driver:
         for person, text in self.people.tick():
             self.report("heard", {"text": text, "from": person})
         self.world.step(self.tasks.goal, self.tasks.rate)
-        self.observer.tick()
+        self.observer.own.tick(self.world)
+        if self.senses is not None:
+            self.senses.tick()
+        is_due = self.world.now - self.looked_at >= LOOK_EVERY
+        if is_due and any(needs_eyes(query) for query, _ in self.watched):
+            self.refresh()
         self.tell()
 
     def tell(self):

@@ -247,7 +247,7 @@ class Mover:
         if witness is None:
             return
         yield from self.follow(self.own(witness, motion))
-        self.observer.posture = "home"
+        self.observer.own.posture = "home"
         if motion.leaves is not None and self.world.model.drives:
             x, y, yaw = leaves[:3]
             query = "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw)
