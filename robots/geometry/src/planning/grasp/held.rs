@@ -22,8 +22,8 @@ const TRIED: usize = 64;
 
 impl SceneState {
     /// State that a scene describes. Joints that it does not name are at rest. Without a grip in the scene, a
-    /// held object is as `reach` grasps one that stands upright on something before the robot: the first grasp
-    /// of its list with which the robot has no contact as it stands, and of equals the one that holds it most
+    /// held object is as `reach` grasps one that stands upright on something before the robot: the first of
+    /// its list with which the robot has no contact as it stands, and of equals the one that holds it most
     /// upright.
     #[must_use]
     pub fn new(model: &RobotModel, scene: &Scene) -> Self {

@@ -28,8 +28,8 @@ impl RemoteDriver {
         self.ask(DriverCall::Status(StatusParams { goals }), self.patience.answer)
     }
 
-    /// Asks for the truth of a query in a simulated world, and waits for the answer. It is unknown of a driver
-    /// that knows no more than its robot.
+    /// Asks for the truth of a query in a simulated world, and waits for the answer. It is unknown where the
+    /// driver knows no more than its robot.
     pub fn truth(&mut self, query: &Query) -> Answer {
         let call = DriverCall::Truth(QueryParams::from(query));
         match self.ask::<QueryResult>(call, self.patience.silence) {
