@@ -190,6 +190,34 @@ def test_what_the_fingers_lose_is_noticed_by_their_joints(behind, motet):
     assert truths(behind, "on", "mug_1", "counter")[0] == "unknown"
 
 
+def test_a_placement_that_is_interrupted_after_the_release_is_known(behind):
+    """The robot felt where it let the mug go, whatever becomes of its way back."""
+
+    def start(goal, primitive, **args):
+        args = [(key, {"entity": one}) for key, one in args.items()]
+        behind.start({"goal": goal, "command": {"primitive": primitive, "args": args}})
+
+    def carry_out(goal, primitive, **args):
+        start(goal, primitive, **args)
+        while behind.goals[goal].state == "running":
+            behind.tick()
+        assert behind.goals[goal].state == {"ended": {"success": None}}, behind.goals[goal].state
+
+    carry_out(1, "go", to="kitchen_table")
+    carry_out(2, "pick", object="mug_1")
+    start(3, "place", object="mug_1", on="kitchen_table")
+    while behind.beliefs.hand == "mug_1":
+        behind.tick()
+    for _ in range(250):
+        behind.tick()
+    assert behind.goals[3].state == "running"
+    behind.cancel({"goal": 3})
+    assert truths(behind, "on", "mug_1", "kitchen_table") == ({"truth": True}, {"truth": True})
+    assert truths(behind, "holding", "mug_1") == ({"truth": False}, {"truth": False})
+    off = np.array(behind.beliefs.entities["mug_1"]["pose"]["xyz"]) - behind.world.pose("mug_1")[0]
+    assert np.linalg.norm(off) < 0.03
+
+
 def test_an_oracle_knows_what_is_behind_it(motet):
     driver = Driver(load("hsr", "kitchen", motet), motet, Options(), oracle=True)
     stand(driver, 0.9, 0.4, np.pi)
