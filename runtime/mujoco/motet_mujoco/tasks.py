@@ -7,7 +7,7 @@ import numpy as np
 
 from .camera import NoGraphics
 from .motion import near_turn, phases
-from .moving import Failed, Motion, Mover
+from .moving import THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted
 
@@ -38,7 +38,7 @@ class Tasks(Mover):
         to = entity(args["to"])
         path, held = self.motion(motion, "go_to(%s)" % quoted(to)), self.world.held()
         if motion.witness is None and held and to in self.world.model.people:
-            path = self.offering(path, held[0], to, motion)
+            path = yield from self.offering(path, held[0], to, motion)
         yield from self.drive(path, to)
         self.observer.own.visited.add(to)
         self.observer.own.visited.update(self.world.bearers(to) if to in self.world.model.free else [])
@@ -57,6 +57,8 @@ class Tasks(Mover):
                 places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in (0.0, 1.2, -1.2))
         for at, (px, py, yaw) in enumerate(places):
             scene["robot"]["base"] = [float(px), float(py), float(yaw)]
+            # The host waits for an answer while the world stands still.
+            yield from self.pause(THINKS)
             if self.planner.ask(scene, query)[0] is None:
                 continue
             if at == 0:
