@@ -15,9 +15,7 @@ use motet_planner::dialogue::{DialogueObserver, RunRecorder};
 use motet_robots::card::Robot;
 use motet_robots::scene::{Scene, write};
 use motet_runtime::journal::JournalHead;
-use motet_runtime::{
-    Answer, Driver, DriverEvent, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run,
-};
+use motet_runtime::{Answer, Driver, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run};
 use motet_sim::{Faults, Profile, Sim, SimOptions};
 
 use crate::Workers;
@@ -28,8 +26,6 @@ use crate::tasks::half_height;
 
 /// Interpreter of the physics driver.
 const PYTHON: &str = "python3";
-/// Time that a driver has to answer a question about the world.
-const ANSWER: Time = Time::from_nanos(1_000_000_000);
 /// Distance in m between things that lie in a container, and of the least of them from its lower end.
 const ASIDE: f64 = 0.08;
 const BOTTOM: f64 = 0.02;
@@ -183,42 +179,31 @@ impl TrialRobot {
         }
     }
 
-    /// Truth of a query in the world, which no belief of the robot colours; `None` where nobody can say. In
-    /// physics the driver answers from contacts and poses.
-    pub fn truth(&mut self, now: Time, query: &Query) -> Answer {
+    /// Truth of a query in the world, which no belief of the robot colours; unknown where nobody can say.
+    pub fn truth(&mut self, query: &Query) -> Answer {
         match self {
             Self::Kinematic(sim) => sim.truth(query),
-            Self::Physics(driver, _) => {
-                driver.observe(now, query);
-                while let Some((_, event)) = driver.advance(now.after(ANSWER)) {
-                    if let DriverEvent::Observed { query: of, answer } = event
-                        && of == *query
-                    {
-                        return answer;
-                    }
-                }
-                Answer::Unknown
-            }
+            Self::Physics(driver, _) => driver.truth(query),
         }
     }
 
     /// True if a fact holds in the world. `any` stands for some entity.
-    pub fn holds(&mut self, now: Time, fluent: &str, args: &[&str]) -> bool {
+    pub fn holds(&mut self, fluent: &str, args: &[&str]) -> bool {
         let arg = |arg: &&str| match *arg {
             "any" => Pattern::Any,
             id => Pattern::Is(motet_graph::Value::Entity(id.into())),
         };
         let query = Query::Fact { fluent: fluent.into(), args: args.iter().map(arg).collect() };
-        self.truth(now, &query) == Answer::Truth(true)
+        self.truth(&query) == Answer::Truth(true)
     }
 
     /// Things of a scene that are nowhere: not in the hand, on or in anything, or with anybody.
-    pub fn fallen(&mut self, now: Time, scene: &Scene) -> Vec<String> {
+    pub fn fallen(&mut self, scene: &Scene) -> Vec<String> {
         let objects = scene.entities.values().filter(|entity| entity.kind == "Object" && !entity.fixed);
         let ids: Vec<String> = objects.map(|entity| entity.id.to_string()).collect();
         let lies = |id: &String| {
-            !self.holds(now, "holding", &[id])
-                && !["on", "in", "at"].iter().any(|fluent| self.holds(now, fluent, &[id, "any"]))
+            !self.holds("holding", &[id])
+                && !["on", "in", "at"].iter().any(|fluent| self.holds(fluent, &[id, "any"]))
         };
         ids.into_iter().filter(lies).collect()
     }

@@ -147,7 +147,7 @@ fn play(
     let (outcome, end) =
         talk.carry_out(request, &mut *planner, driver, &mut NoOperator, &mut observer, Time::ZERO);
     let goal = task.goals.get(wording);
-    let is_goal = goal.is_none_or(|(fluent, args, wanted)| robot_in.holds(end, fluent, args) == *wanted);
+    let is_goal = goal.is_none_or(|(fluent, args, wanted)| robot_in.holds(fluent, args) == *wanted);
     let is_reached = is_goal && outcome == Outcome::Done;
     let problem = if let Outcome::Failed(problem) = &outcome { Some(problem.kind) } else { None };
     let last = observer.failures.0.last().copied().or(problem.map(FailureSort::of_problem));
@@ -156,7 +156,7 @@ fn play(
         robot: robot.to_owned(),
         changed_at: change_at.unwrap_or_default(),
         is_reached,
-        fallen: robot_in.fallen(end, &setting.scene),
+        fallen: robot_in.fallen(&setting.scene),
         faults: observer.journals.faults()?,
         failed_by: (!is_reached).then_some(last.unwrap_or(FailureSort::Planning)),
         end: match outcome {

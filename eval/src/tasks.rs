@@ -214,13 +214,13 @@ impl Task {
         let mut planner = Timed::new(bench.planner.make()?);
         let mut observer = TrialObserver::new(None)?;
         let driver = robot_in.driver();
-        let (outcome, end) =
+        let (outcome, _) =
             talk.carry_out(&self.request, &mut planner, driver, &mut person, &mut observer, Time::ZERO);
         let mut is_true = true;
         for fact in &self.goal {
             let RowFact { is_so, fluent, args } = RowFact::read(fact)?;
             let args: Vec<&str> = args.iter().map(String::as_str).collect();
-            is_true &= robot_in.holds(end, &fluent, &args) == is_so;
+            is_true &= robot_in.holds(&fluent, &args) == is_so;
         }
         let is_reached = is_true && outcome == Outcome::Done;
         let problem = if let Outcome::Failed(problem) = &outcome { Some(problem.kind) } else { None };

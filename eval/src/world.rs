@@ -100,14 +100,13 @@ pub fn carry_out(mut runs: Vec<WorldRun>, bench: &Bench) -> Result<Vec<WorldEnd>
     bench.workers.spread(runs, |run| run.carry_out(bench)).into_iter().collect()
 }
 
-/// Notes failures of steps, and when the last event was.
+/// Notes failures of steps.
 #[derive(Default)]
-struct Failures(StepFailures, Time);
+struct Failures(StepFailures);
 
 impl Observer for Failures {
-    fn event(&mut self, now: Time, event: &Event) {
+    fn event(&mut self, _now: Time, event: &Event) {
         self.0.take(event);
-        self.1 = now;
     }
 }
 
@@ -177,7 +176,7 @@ impl WorldRun {
         let mut engine = engine.with_capabilities(driver.capabilities());
         let from = driver.begin_run(Time::ZERO, "run.1", Some(&graph));
         let end = run(&mut engine, driver, seen, from);
-        let judge = Judge { graph: &graph, engine: &engine, world: RefCell::new(robot_in), at: seen.1 };
+        let judge = Judge { graph: &graph, engine: &engine, world: RefCell::new(robot_in) };
         let is_true = graph.goal.iter().all(|part| judge.truth(part) != Some(false));
         Ok((matches!(end, RunEnd::Done { .. }), is_true))
     }
@@ -197,11 +196,10 @@ impl WorldRun {
         let setting = DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options };
         let mut talk = Conversation::new(&setting);
         let (driver, mut person) = (robot_in.driver(), Patient(AGAIN));
-        let (outcome, end) =
-            talk.carry_out(&case.request, &mut Builtin, driver, &mut person, seen, Time::ZERO);
+        let (outcome, _) = talk.carry_out(&case.request, &mut Builtin, driver, &mut person, seen, Time::ZERO);
         let mut holds = |(fluent, args): &(String, Vec<String>)| {
             let args: Vec<&str> = args.iter().map(String::as_str).collect();
-            robot_in.holds(end, fluent, &args)
+            robot_in.holds(fluent, &args)
         };
         let is_true = case.goal.iter().all(&mut holds) && !case.undo.iter().any(&mut holds);
         Ok((outcome == Outcome::Done, is_true))
@@ -213,13 +211,11 @@ struct Judge<'a> {
     graph: &'a Graph,
     engine: &'a Engine,
     world: RefCell<TrialRobot>,
-    /// Time of the end of the run.
-    at: Time,
 }
 
 impl Judge<'_> {
     fn ask(&self, query: &Query) -> Answer {
-        self.world.borrow_mut().truth(self.at, query)
+        self.world.borrow_mut().truth(query)
     }
 
     /// Truth of a part of a goal; `None` where the world cannot say.

@@ -87,11 +87,11 @@ pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
     let mut planner = Timed::new(bench.planner.make()?);
     let mut observer = TrialObserver::new(None)?;
     let driver = robot_in.driver();
-    let (outcome, end) =
+    let (outcome, _) =
         talk.carry_out(&case.request, &mut planner, driver, &mut person, &mut observer, Time::ZERO);
     let mut holds = |(fluent, args): &(String, Vec<String>)| {
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        robot_in.holds(end, fluent, &args)
+        robot_in.holds(fluent, &args)
     };
     let is_true = case.goal.iter().all(&mut holds) && !case.undo.iter().any(&mut holds);
     let is_reached = is_true && outcome == Outcome::Done;

@@ -9,11 +9,16 @@ import re
 import mujoco
 import numpy as np
 
+from . import sight
 from .planner import rpy
-
+from .world import inside
 
 # Where things are put of whose place nothing is known, in m.
 AWAY = (0.0, 0.0, -50.0)
+# Distance in m from which a thing counts as being elsewhere.
+ELSEWHERE = 0.08
+# Error in m of a seen height up to which a thing stands on what is below it.
+SLACK = 0.04
 
 
 class Beliefs:
@@ -25,6 +30,67 @@ class Beliefs:
         self.entities = {entity["id"]: entity for entity in self.scene["entities"]}
         # Where the room that the robot was told of has each thing.
         self.first = {one: entity["pose"]["xyz"] for one, entity in self.entities.items() if "pose" in entity}
+        # The thing in the hand, and the height of the hand in m as it closed around it; None if it was there before.
+        self.hand, self.grasped_at = None, None
+        # Things by the people who took them; things that were seen or felt where they are; and where lost things are not.
+        self.given, self.seen, self.gone = {}, set(), {}
+        self.data = mujoco.MjData(world.model.mj)
+
+    def holds(self, thing, height=None):
+        """Notes that the hand has closed around a thing, at a height in m."""
+        self.hand, self.grasped_at = thing, height
+        self.gone.pop(thing, None)
+        self.given.pop(thing, None)
+
+    def room(self):
+        """The room as it is believed to be, with the robot as it stands and what it holds."""
+        world, data = self.world, self.data
+        data.qpos[:], data.mocap_pos[:] = world.data.qpos, world.data.mocap_pos
+        data.mocap_quat[:] = world.data.mocap_quat
+        self.lay(data, self.hand)
+        mujoco.mj_kinematics(world.model.mj, data)
+        mujoco.mj_camlight(world.model.mj, data)
+        return data
+
+    def looked(self, entity, position, quaternion=None):
+        """Notes where something was seen, and what it stands on or lies in there."""
+        known = self.entities.get(entity)
+        if known is None:
+            return
+        before = known.get("pose")
+        far = float(np.linalg.norm(np.array(before["xyz"]) - position)) if before else np.inf
+        self.saw(entity, position, quaternion)
+        if entity not in self.world.model.free or entity == self.hand:
+            return
+        self.seen.add(entity)
+        self.gone.pop(entity, None)
+        where, on = self.support_at(entity)
+        if where is not None:
+            self.given.pop(entity, None)
+            self.rests(entity, where, on)
+        elif far > ELSEWHERE and entity not in self.given:
+            self.rests(entity, None, None)
+
+    def support_at(self, thing):
+        """What a thing stands on or lies in where it is believed to be, by shapes: ("on", ID), ("in", ID), or (None,
+        None)."""
+        model, data, known = self.world.model, self.room(), self.entities[thing]
+        place, half, found = np.array(known["pose"]["xyz"]), sight.halves(known.get("shape", {})), []
+        for one, entity in model.entities.items():
+            shape, at = entity.get("shape", {}), model.body_of.get(one)
+            if one == thing or at is None or entity["kind"] == "Person" or not shape or self.hand == one:
+                continue
+            if entity["kind"] == "Container":
+                at = model.leaf_of(one)
+                if inside(shape, data.xmat[at].reshape(3, 3).T @ (place - data.xpos[at])):
+                    return "in", one
+                at = model.body_of[one]
+            local = data.xmat[at].reshape(3, 3).T @ (place - data.xpos[at])
+            top = sight.half_height(shape)
+            is_over = inside(shape, np.array([local[0], local[1], 0.0]))
+            if is_over and half[0] - SLACK <= local[2] - top <= half[-1] + SLACK:
+                found.append((abs(local[2] - top - half[-1]), one))
+        return ("on", min(found)[1]) if found else (None, None)
 
     def saw(self, entity, position, quaternion=None):
         """Notes where something is."""
@@ -81,8 +147,13 @@ class Beliefs:
         """Notes that something is no longer where it was, and that its place is not known."""
         known = self.entities.get(entity)
         if known is not None and entity in self.world.model.free:
+            self.gone.setdefault(entity, set()).update(known[one] for one in ("on", "in") if one in known)
             known.pop("pose", None)
             self.rests(entity, None, None)
+            self.given.pop(entity, None)
+            self.seen.discard(entity)
+            if self.hand == entity:
+                self.hand = None
 
     def told(self, entity, support, position=None):
         """Notes what the host says of a thing: what it is on, in or at, as {"in": ID}, and where it was seen."""
@@ -91,8 +162,11 @@ class Beliefs:
             return
         for relation, on in (support or {}).items():
             self.forget(entity)
+            self.gone.pop(entity, None)
             if on in self.entities and relation in ("on", "in"):
                 self.rests(entity, relation, on)
+            elif on in self.world.model.people:
+                self.given[entity] = on
         if position is not None:
             self.saw(entity, np.array(position, dtype=float))
 
@@ -119,6 +193,12 @@ class Beliefs:
         known = self.entities.get(container)
         if known is not None and "travel" in known:
             known["open"] = bool(is_open)
+
+    def locked(self, container):
+        """Notes that a drawer or a door does not open."""
+        known = self.entities.get(container)
+        if known is not None:
+            known["locked"] = True
 
     def now(self):
         """The scene, with the robot as it stands and what it holds."""

@@ -29,7 +29,6 @@ from .disorder import displace
 from .eyes import Eyes
 from .judge import DEFAULT, SCENES, SLIPS, disturbed, follow, interval, quoted, carry_out, trials, verdicts
 from .model import Model, ModelError, find_motet, motet
-from .observation import Observer
 from .world import World
 
 
@@ -117,7 +116,7 @@ def look(world, thing, witness, rates, chance, found):
     beliefs = Beliefs(world)
     displace(world, rates["room"], chance)
     follow(world, world.targets(witness["path"]), 1.0)
-    eyes = Eyes(world, Observer(world), beliefs)
+    eyes = Eyes(world, beliefs)
     try:
         seen = [one for one in eyes.detections() if one["id"] == thing]
         far = float(np.linalg.norm(world.pose(thing)[0] - eyes.eye()))

@@ -32,6 +32,20 @@ class Picture:
         local = np.stack([(columns - cx) / self.focal * ahead, (rows - cy) / self.focal * ahead, ahead], axis=-1)
         return local @ self.rotation.T + self.position
 
+    def shows_behind(self, point, far, frame):
+        """True if the picture shows something more than a distance in m behind a point of the map, or nothing there.
+        Within a frame of so many pixels it does not show the point."""
+        x, y, ahead = self.rotation.T @ (point - self.position)
+        if ahead <= 0.0:
+            return False
+        cx, cy = self.centre
+        column, row = round(x / ahead * self.focal + cx), round(y / ahead * self.focal + cy)
+        height, width = self.depth.shape
+        if not (frame <= column < width - frame and frame <= row < height - frame):
+            return False
+        depth = self.depth[row, column]
+        return bool(depth == 0.0 or depth > ahead + far)
+
     def message(self):
         """The answer to `look` of the driver protocol."""
         height, width = self.depth.shape

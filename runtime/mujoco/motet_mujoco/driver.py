@@ -8,13 +8,15 @@ import time
 
 import numpy as np
 
+from .begin import WrongStart, begun, model_of
 from .beliefs import Beliefs
 from .camera import NoGraphics
 from .chance import Chance, profile
 from .disorder import People, displace
 from .eyes import Eyes
-from .observation import Observer
+from .observation import UNKNOWN, Observer, named, needs_eyes
 from .planner import Planner
+from .senses import Senses
 from .tasks import Failed, Tasks
 from .world import World
 
@@ -23,6 +25,10 @@ REFUSED, METHOD_NOT_FOUND, INVALID_PARAMS, INTERNAL = 1, -32601, -32602, -32603
 SILENCE = 5.0
 # Seconds between two reports `moved`.
 MOVED_EVERY = 0.05
+# Seconds in which things come to rest before a run.
+SETTLES = 0.3
+# Seconds between two looks for what is watched.
+LOOK_EVERY = 1.0
 # Primitives after which nothing new is in view.
 SPEECH = ("say", "ask", "choose")
 
@@ -74,7 +80,7 @@ class Driver:
         self.instance = "%d-%d" % (os.getpid(), time.time_ns())
         self.say = lambda message: None
         self.run, self.protocol, self.has_clock, self.is_greeted = None, 2, False, False
-        self.declared, self.offset = {}, 0.0
+        self.declared, self.offset, self.given = {}, 0.0, []
         self.make()
 
     def make(self):
@@ -82,14 +88,16 @@ class Driver:
         self.world = World(self.model)
         rates, chance = self.options.rates, self.options.chance
         self.model.mj.geom_friction[:, 0] = self.options.friction()
-        self.observer = Observer(self.world)
+        self.truth_of = Observer(self.world)
         self.beliefs = Beliefs(self.world, self.room)
+        self.senses = None if self.oracle else Senses(self.world, self.beliefs)
+        self.observer = Observer(self.world, self.senses, self.truth_of.own)
         displace(self.world, rates["room"], chance)
         self.people = People(self.world, self.walks, self.says, rates["people"]["walk_per_min"], Chance(chance.seed))
-        self.eyes = Eyes(self.world, self.observer, self.beliefs, self.oracle, rates["camera"], chance)
+        self.eyes = Eyes(self.world, self.beliefs, self.oracle, rates["camera"], chance)
         planner = Planner(self.command, self.model.source) if self.command else None
         self.tasks = Tasks(self.world, self.observer, self.beliefs, planner, self.eyes, self.options)
-        self.goals, self.watched, self.moved_at = {}, [], -1.0
+        self.goals, self.watched, self.moved_at, self.looked_at = {}, [], -1.0, -1.0
         self.hold_what_is_held()
 
     def hold_what_is_held(self):
@@ -97,6 +105,7 @@ class Driver:
         holding = self.model.scene["robot"].get("holding")
         if holding in self.model.free:
             self.world.settle_in_hand(holding)
+            self.beliefs.holds(holding)
             self.tasks.goal[:] = self.world.target
             self.world.data.time = 0.0
 
@@ -111,15 +120,43 @@ class Driver:
             self.stop_all()
             self.goals, self.watched = {}, []
         self.run, self.protocol = run, version
+        if params.get("state") and not params.get("resumed"):
+            self.begin(params["state"])
         self.declared = {one["name"]: one.get("fails", []) for one in params.get("primitives", [])}
         # The time of a run begins at 0, or goes on where the host says.
         self.offset = self.world.now - float(params.get("at", 0.0))
         self.has_clock, self.is_greeted = version >= 2, True
         capabilities = {"hold": "all", "update": {"only": []}}
         if version >= 2:
-            capabilities.update({"clock": "driver", "moved": True, "look": True, "detections": True, "told": True})
+            capabilities.update({"clock": "driver", "moved": True, "look": True, "detections": True, "told": True,
+                                 "state": True})
         return {"protocol": version, "driver": "motet_mujoco 0.1.0", "instance": self.instance,
                 "capabilities": capabilities}
+
+    def begin(self, state):
+        """Makes the world anew, so that it begins in facts."""
+        facts = [(fact["query"]["fact"], fact["holds"]) for fact in state if "fact" in fact["query"]]
+        facts = [(fact["fluent"], [named(arg["is"]) for arg in fact["args"]], holds) for fact, holds in facts
+                 if "any" not in fact["args"]]
+        planner = Planner(self.command, self.model.source) if self.command else None
+        try:
+            scene = begun(self.model.scene, facts, planner)
+            self.room = None if self.room is None else begun(self.room, facts, None)
+            self.model = model_of(self.model.source, scene, self.command)
+        except WrongStart as error:
+            raise Error(INVALID_PARAMS, str(error)) from None
+        self.eyes.close()
+        self.make()
+        # Things come to rest.
+        self.world.wait(SETTLES)
+        self.world.data.time = 0.0
+        # What nobody can observe is as the host says.
+        self.given = [(fact["query"], fact["holds"]) for fact in state]
+        for query, holds in self.given:
+            fluent = query.get("fact", {}).get("fluent")
+            found = self.truth_of.answer(query)
+            if fluent in ("holding", "open", "on", "in") and found != {"truth": holds}:
+                raise Error(INVALID_PARAMS, "the world cannot begin with `%s` %s" % (words(query), str(holds).lower()))
 
     def start(self, params):
         number, command = params["goal"], params["command"]
@@ -169,11 +206,37 @@ class Driver:
         return {}
 
     def observe(self, params):
-        return {"answer": self.observer.answer(params["query"])}
+        return {"answer": self.answer(params["query"])}
+
+    def answer(self, query):
+        """The answer to a query, as the robot knows it after a look."""
+        if needs_eyes(query):
+            self.refresh()
+        return self.known(query)
+
+    def known(self, query):
+        """The answer to a query, as the robot knows it now."""
+        answer = self.observer.answer(query)
+        given = next((holds for fact, holds in self.given if fact == query), None) if answer == UNKNOWN else None
+        return answer if given is None else {"truth": given}
+
+    def refresh(self):
+        """Looks at what is in view, unless the robot perceives by the truth or cannot see."""
+        if self.oracle or self.looked_at == self.world.now:
+            return
+        self.looked_at = self.world.now
+        try:
+            self.eyes.refresh()
+        except NoGraphics:
+            return
+
+    def truth(self, params):
+        """The answer to a query by the truth of the world, whatever the robot knows."""
+        return {"answer": self.truth_of.answer(params["query"])}
 
     def watch(self, params):
         query = params["query"]
-        answer = self.observer.answer(query)
+        answer = self.answer(query)
         self.watched = [(known, value) for known, value in self.watched if known != query] + [(query, answer)]
         return {"answer": answer}
 
@@ -228,7 +291,7 @@ class Driver:
         return {"now": round((self.world.now if is_over else max(self.world.now, until)) - self.offset, 6)}
 
     METHODS = ("hello start update cancel hold proceed safe_stop observe watch unwatch status ping look detections "
-               "told advance").split()
+               "told truth advance").split()
 
     # The world.
 
@@ -248,13 +311,18 @@ class Driver:
         for person, text in self.people.tick():
             self.report("heard", {"text": text, "from": person})
         self.world.step(self.tasks.goal, self.tasks.rate)
-        self.observer.tick()
+        self.observer.own.tick(self.world)
+        if self.senses is not None:
+            self.senses.tick()
+        is_due = self.world.now - self.looked_at >= LOOK_EVERY
+        if is_due and any(needs_eyes(query) for query, _ in self.watched):
+            self.refresh()
         self.tell()
 
     def tell(self):
         """Reports answers that changed, and where everything is."""
         for at, (query, before) in enumerate(self.watched):
-            now = self.observer.answer(query)
+            now = self.known(query)
             if now != before and not alike(now, before):
                 self.watched[at] = (query, now)
                 self.report("observed", {"query": query, "answer": now})
@@ -355,6 +423,12 @@ class Driver:
         for one in messages:
             self.say(one)
         return True
+
+
+def words(query):
+    """A fact as the language writes it."""
+    args = [named(arg["is"]) if arg != "any" else "any" for arg in query["fact"]["args"]]
+    return "%s(%s)" % (query["fact"]["fluent"], ", ".join(str(arg) for arg in args))
 
 
 def alike(now, before):

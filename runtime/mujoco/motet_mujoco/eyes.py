@@ -12,7 +12,8 @@ import sys
 import mujoco
 import numpy as np
 
-from .beliefs import turned
+from . import sight
+from .beliefs import ELSEWHERE, turned
 from .camera import Camera, NoGraphics
 from .chance import Chance
 from .world import OPENED
@@ -29,15 +30,16 @@ GRID, ON, ENOUGH = 6, 0.02, 8
 PART, PARTLY = 0.03, 0.8
 # Parts of the travel of a drawer or door that are told apart.
 STEPS = 5
-# Distance in m from which a thing counts as being elsewhere.
-ELSEWHERE = 0.08
+# Distance in m behind a thing from which on what shows there shows that the thing is gone, and the pixels of the rim
+# of a picture that show nothing of it.
+BEHIND, FRAME = 0.06, 4
 
 
 class Eyes:
     """Detections of all cameras of the robot."""
 
-    def __init__(self, world, observer, beliefs, oracle=False, rates=None, chance=None, command=None):
-        self.world, self.observer, self.beliefs = world, observer, beliefs
+    def __init__(self, world, beliefs, oracle=False, rates=None, chance=None, command=None):
+        self.world, self.beliefs = world, beliefs
         self.oracle, self.chance = oracle, chance or Chance(0)
         self.rates = rates or {"error_per_m": 0.0, "miss": 0.0, "confuse": 0.0}
         self.told = {}  # where the host was told that something is
@@ -65,8 +67,29 @@ class Eyes:
             if one["id"] in self.world.model.free:
                 # Pixels tell where it is, not how it is turned.
                 quaternion = self.world.pose(one["id"])[1] if self.oracle else None
-                self.beliefs.saw(one["id"], np.array(one["pose"]["xyz"]), quaternion)
+                self.beliefs.looked(one["id"], np.array(one["pose"]["xyz"]), quaternion)
         return self.last
+
+    def refresh(self):
+        """Looks at what is in view. What is seen is noted, and what is not where it is believed to be is gone."""
+        self.detections()
+        for thing in self.world.model.free:
+            if thing not in self.sure and thing != self.beliefs.hand and self.is_gone(thing):
+                self.beliefs.forget(thing)
+        for container in self.world.model.doors:
+            is_open = self.sees_open(container)
+            if is_open is not None:
+                self.beliefs.opened(container, is_open)
+
+    def is_gone(self, thing):
+        """True if a depth picture shows what is behind the place where a thing is believed to be."""
+        known = self.beliefs.entities.get(thing, {})
+        if "pose" not in known or thing in self.beliefs.given:
+            return False
+        middle = np.array(known["pose"]["xyz"], dtype=float)
+        up = np.array([0.0, 0.0, 0.5 * sight.halves(known.get("shape", {}))[0]])
+        return any(all(picture.shows_behind(point, BEHIND, FRAME) for point in (middle - up, middle, middle + up))
+                   for picture in self.pictures)
 
     def erred(self, found):
         """Detections with the errors of the profile: some are missed, some taken for another, all a little off."""
@@ -99,7 +122,8 @@ class Eyes:
     def news(self):
         """Detections that the host does not know of: things without an id, and things elsewhere than it was told."""
         new, held = [], self.world.held()
-        for one in self.detections():
+        self.refresh()
+        for one in self.last:
             place = np.array(one["pose"]["xyz"])
             if one["id"] in held:
                 continue
@@ -135,7 +159,7 @@ class Eyes:
     def shows(self, one):
         """True if furniture or a person is in view: the depth pictures have points where it should be."""
         if self.oracle:
-            return self.observer.is_visible(one)
+            return self.world.is_visible(one)
         is_seen = any(np.count_nonzero(gaps <= ON) >= ENOUGH for gaps in self.gaps(one))
         # A drawer that stands open hides the rest of what it is in.
         return is_seen or self.sees_open(one) is not None
@@ -181,7 +205,7 @@ class Eyes:
         found = []
         for thing in self.world.model.free:
             # Where the robot holds a thing, it knows it.
-            if not any(self.observer.sees(camera, thing) for camera in self.world.model.cameras):
+            if not self.world.is_visible(thing):
                 continue
             position, (w, x, y, z) = self.world.pose(thing)
             entity = self.world.model.entities[thing]

@@ -120,6 +120,12 @@ class Model:
         """Mass of an entity in kg."""
         return float(self.mj.body_mass[self.body_of[thing]])
 
+    def leaf_of(self, container):
+        """Body in whose frame the inside of a container is: that of its drawer, where it has one."""
+        is_drawer = "slide" in self.entities[container].get("travel", {})
+        body = self.body_of[container]
+        return self.body_of.get(container + "/door", body) if is_drawer else body
+
     def posture(self, called):
         """Targets of all actuators in a posture, or None."""
         at = mujoco.mj_name2id(self.mj, mujoco.mjtObj.mjOBJ_KEY, "posture/" + name(called))

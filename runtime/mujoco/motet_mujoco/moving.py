@@ -14,6 +14,8 @@ BEGINS = 0.05
 BLOCKED = 0.12
 # Distances in m that the base draws back where the arm has no room to fold.
 RETREATS = (0.15, 0.3, 0.45)
+# Seconds that pass for each place of which a plan is tried, so that no answer to the host takes long.
+THINKS = 0.1
 # Greatest acceleration of the hand while it holds something, in m/s² and rad/s².
 HELD = (1.0, 3.0)
 
@@ -247,7 +249,7 @@ class Mover:
         if witness is None:
             return
         yield from self.follow(self.own(witness, motion))
-        self.observer.posture = "home"
+        self.observer.own.posture = "home"
         if motion.leaves is not None and self.world.model.drives:
             x, y, yaw = leaves[:3]
             query = "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw)
@@ -269,6 +271,7 @@ class Mover:
                     continue
                 scene = self.beliefs.now()
                 scene["robot"]["base"] = [float(part) for part in target[:3]]
+                yield from self.pause(THINKS)
                 witness, _ = self.planner.plan(scene, query)
                 if witness is not None:
                     yield from self.follow(self.path([self.goal.copy(), target]))

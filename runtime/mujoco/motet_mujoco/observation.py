@@ -1,4 +1,5 @@
-"""Answers to queries about the world: facts from contacts and poses, measures from poses and forces."""
+"""Answers to queries: facts and measures of a room. The room is the world itself, for judges, or what the robot knows
+of it (`senses.py`)."""
 
 import mujoco
 import numpy as np
@@ -7,28 +8,33 @@ GRAVITY = 9.81
 # Distances in m: near from the rim of the base, at a place, and as far as a person reaches out.
 NEAR, AT_PLACE, PERSON_REACH = 1.5, 0.5, 0.5
 UNKNOWN = "unknown"
+# Fluents of which the eyes tell.
+SEEN = ("visible", "located", "on", "in", "open", "clear")
 
 
-class Observer:
-    """What holds now. `visited` and the battery are kept here; all else is read from the world."""
+class Own:
+    """What the robot knows of itself: its posture, its way, and what it has moved or looked at."""
 
     def __init__(self, world):
-        self.world, self.model = world, world.model
-        self.visited = set()
-        self.standing = True
-        self.posture = "home"
-        self.driven, self.last = 0.0, world.base()
-        self.told = {}
-        self.unmoved = True
-        self.moved = set()
+        self.visited, self.moved = set(), set()
+        self.standing, self.posture = True, "home"
+        self.driven, self.last, self.unmoved = 0.0, world.base(), True
 
-    def tick(self):
+    def tick(self, world):
         """Counts the way that was driven."""
-        base = self.world.base()
+        base = world.base()
         self.driven += float(np.hypot(*(base[:2] - self.last[:2])))
         if np.abs(base - self.last).max() > 1e-4:
             self.unmoved = False
         self.last = base
+
+
+class Observer:
+    """What holds now in a room: in the world without another one."""
+
+    def __init__(self, world, room=None, own=None):
+        self.world, self.model, self.room = world, world.model, room or world
+        self.own = own or Own(world)
 
     def answer(self, query):
         """The answer to a query of the driver protocol."""
@@ -55,7 +61,7 @@ class Observer:
 
     def fact(self, fluent, args):
         """A fluent of entities."""
-        world, model = self.world, self.model
+        model = self.model
         if any(one not in model.entities and one not in ("robot", "hand") for one in args):
             return None
         if len(args) == 2:
@@ -63,63 +69,71 @@ class Observer:
         if len(args) != 1:
             return None
         [one] = args
-        if fluent == "free":
-            return not world.held() if one == "hand" else None
-        if one == "robot":
-            postures = {"arm_home": "home", "arm_ready": "ready", "arm_carry": "carry"}
-            if fluent == "standing":
-                return self.standing
-            return self.posture == postures[fluent] if fluent in postures else None
         if one == "hand":
-            return None
-        thing = model.entities[one]
+            return not self.room.held() if fluent == "free" else None
+        return self.of_robot(fluent) if one == "robot" else self.state(fluent, one)
+
+    def of_robot(self, fluent):
+        """A fluent of the robot."""
+        postures = {"arm_home": "home", "arm_ready": "ready", "arm_carry": "carry"}
+        if fluent == "standing":
+            return self.own.standing
+        return self.own.posture == postures[fluent] if fluent in postures else None
+
+    def state(self, fluent, one):
+        """A fluent of one entity."""
+        room, thing = self.room, self.model.entities[one]
         if fluent == "holding":
-            return world.holds(one)
+            return room.holds(one)
         if fluent == "lifted":
-            return world.is_lifted(one)
-        if fluent in ("visible", "located"):
+            return room.is_lifted(one)
+        if fluent == "visible":
             return self.is_visible(one)
+        if fluent == "located":
+            return room.is_located(one) if one in self.model.free else self.is_visible(one)
         if fluent == "near":
             gap = self.gap(one)
             return None if gap is None else gap - self.radius <= NEAR
         if fluent == "reachable":
             return self.serves(one)
         if fluent == "open":
-            opened = world.is_open(one)
+            opened = room.is_open(one)
             return thing.get("open") if opened is None else opened
         if fluent == "locked":
-            return self.is_locked(one)
+            return room.is_locked(one)
         if fluent == "clear":
-            return not any(one in world.bearers(other) and not world.is_in(other, one) for other in model.free)
+            return not any(room.is_on(other, one) for other in self.model.free)
         if fluent == "visited":
-            return one in self.visited
-        if fluent == "standing" and thing["kind"] == "Person":
-            return True
-        return None
+            return one in self.own.visited
+        return True if fluent == "standing" and thing["kind"] == "Person" else None
 
     def relation(self, fluent, one, to):
         """A fluent of two entities."""
-        world, model = self.world, self.model
+        room, model = self.room, self.model
         if one == "robot":
             return self.serves(to) if fluent == "at" else None
-        if to in ("robot", "hand") or one == "hand" or one == to:
+        if to in ("robot", "hand") or one == "hand" or one == to or fluent not in ("on", "in", "at"):
             return None
-        kind = model.entities[to]["kind"]
+        if one not in model.free:
+            return False if fluent != "at" or model.entities[to]["kind"] not in ("Place", "Zone") else self.stands(one, to)
         if fluent == "on":
-            return one in model.free and world.is_on(one, to)
+            return room.is_on(one, to)
         if fluent == "in":
-            return one in model.free and world.is_in(one, to) and not world.is_lifted(one)
-        if fluent == "at":
-            if kind == "Person":
-                return world.carried_by.get(one, (None,))[0] == to
-            if kind in ("Place", "Zone"):
-                pose = world.pose(one)
-                place = model.entities[to].get("pose")
-                if pose is None or place is None or world.is_lifted(one):
-                    return False
-                return bool(np.hypot(*(pose[0][:2] - np.array(place["xyz"][:2]))) <= AT_PLACE)
-            return one in model.free and (world.is_on(one, to) or self.relation("in", one, to))
-        return None
+            return False if room.is_lifted(one) else room.is_in(one, to)
+        kind = model.entities[to]["kind"]
+        if kind == "Person":
+            return room.is_given(one, to)
+        if kind in ("Place", "Zone"):
+            return False if room.is_lifted(one) else self.stands(one, to)
+        is_on, is_in = room.is_on(one, to), self.relation("in", one, to)
+        return True if is_on or is_in else None if None in (is_on, is_in) else False
+
+    def stands(self, one, place):
+        """True if an entity stands about where a place is."""
+        if self.room.pose(one) is None:
+            return None if one in self.model.free else False
+        pose, at = self.room.pose(one)[0], self.model.entities[place].get("pose")
+        return at is not None and bool(np.hypot(*(pose[:2] - np.array(at["xyz"][:2]))) <= AT_PLACE)
 
     @property
     def radius(self):
@@ -127,15 +141,15 @@ class Observer:
 
     def gap(self, one, outline=True):
         """Distance in the plane from the axis of the base to an entity, or to its outline."""
-        entity, world = self.model.entities[one], self.world
-        pose = world.pose(one)
+        entity = self.model.entities[one]
+        pose = self.room.pose(one)
         if pose is not None:
             position, quaternion = pose
-        elif "pose" in entity:
+        elif "pose" in entity and one not in self.model.free:
             position, quaternion = np.array(entity["pose"]["xyz"]), None
         else:
             return None
-        off = world.base()[:2] - position[:2]
+        off = self.world.base()[:2] - position[:2]
         if not outline:
             return float(np.hypot(*off))
         shape = entity.get("shape", {})
@@ -159,17 +173,10 @@ class Observer:
         elif kind in ("Surface", "Container"):
             gap, most = self.gap(one), reach
         else:
-            below = [other for other in self.world.bearers(one) if other in self.model.entities]
-            inside = [other for other in self.model.doors if self.world.is_in(one, other)]
-            if any(self.serves(other) for other in below + inside if other != one):
+            if any(self.serves(other) for other in self.room.supports(one) if other != one):
                 return True
             gap, most = self.gap(one), reach
         return None if gap is None else gap <= most + 0.01
-
-    def is_locked(self, one):
-        """True if a lock keeps a drawer or door where it is."""
-        at = mujoco.mj_name2id(self.model.mj, mujoco.mjtObj.mjOBJ_EQUALITY, escaped(one) + "/lock")
-        return False if at < 0 else bool(self.world.data.eq_active[at])
 
     def is_visible(self, one):
         """True if a camera of the robot could see an entity from where the base is: in range, in view, not hidden.
@@ -177,39 +184,9 @@ class Observer:
         What the scene says counts until the base has moved or the thing has.
         """
         entity = self.model.entities[one]
-        if self.unmoved and one not in self.moved and "visible" in entity:
+        if self.own.unmoved and one not in self.own.moved and "visible" in entity:
             return bool(entity["visible"])
-        return any(self.sees(camera, one) for camera in self.model.cameras)
-
-    def sees(self, camera, one):
-        """True if a camera could see an entity, turned to it as far as its card allows."""
-        model, world = self.model, self.world
-        pose = world.pose(one)
-        if pose is None:
-            return False
-        eye = world.data.cam_xpos[model.mj.camera(camera).id].copy()
-        far, view = model.sight[camera]
-        if float(np.linalg.norm(pose[0] - eye)) > far + 0.3:
-            return False
-        x, y, yaw = world.base()
-        bearing = np.arctan2(pose[0][1] - y, pose[0][0] - x) - yaw
-        bearing = abs((bearing + np.pi) % (2.0 * np.pi) - np.pi)
-        if bearing > view / 2.0:
-            return False
-        return any(self.ray(eye, point) == one for point in points_of(world, one, pose))
-
-    def ray(self, eye, point):
-        """What a ray from the eye to a point meets first, apart from the robot."""
-        way = point - eye
-        geom = np.zeros(1, dtype=np.int32)
-        groups = np.array([1, 1, 0, 0, 1, 1], dtype=np.uint8)
-        length = np.linalg.norm(way)
-        args = (self.model.mj, self.world.data, eye, way / max(length, 1e-9), groups, 1, -1, geom)
-        try:
-            mujoco.mj_ray(*args)
-        except TypeError:
-            mujoco.mj_ray(*args, None)
-        return self.model.geom_owner[geom[0]] if geom[0] >= 0 else None
+        return self.room.is_visible(one)
 
     def measure(self, measure, args):
         """A reading."""
@@ -219,7 +196,7 @@ class Observer:
             gap = self.gap(one) if one in model.entities else None
             return None if gap is None else max(gap - self.radius, 0.0)
         if measure == "battery":
-            return max(0.0, 1.0 - 1e-4 * world.now - 1e-3 * self.driven)
+            return max(0.0, 1.0 - 1e-4 * world.now - 1e-3 * self.own.driven)
         if measure == "force":
             return sum(model.mass(thing) * GRAVITY for thing in world.held() if world.is_lifted(thing))
         return None
@@ -237,6 +214,14 @@ class Observer:
         return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
 
 
+def needs_eyes(query):
+    """True if a look may tell something of a query."""
+    fact = query.get("fact")
+    if fact is None:
+        return False
+    return fact["fluent"] in SEEN or fact["fluent"] == "at" and fact["args"][0] != {"is": {"entity": "robot"}}
+
+
 def width(shape):
     """Opening in m that a hand needs for a shape: its smallest horizontal extent, or None."""
     if "box" in shape:
@@ -245,25 +230,6 @@ def width(shape):
     return None if round_ is None else 2.0 * round_["radius"]
 
 
-def points_of(world, one, pose):
-    """Points of an entity at which a camera might see it: its middle, above and to the sides."""
-    shape = world.model.entities[one].get("shape", {})
-    up = 0.0
-    if "box" in shape:
-        up = shape["box"][2] / 2.0
-    elif "cylinder" in shape:
-        up = shape["cylinder"]["height"] / 2.0
-    elif "sphere" in shape:
-        up = shape["sphere"]["radius"]
-    return [pose[0], pose[0] + np.array([0.0, 0.0, 0.7 * up]), pose[0] + np.array([0.0, 0.0, 0.95 * up])]
-
-
 def named(value):
     """The name of an entity or a case."""
     return value.get("entity", value.get("case"))
-
-
-def escaped(text):
-    from .model import name
-
-    return name(text)

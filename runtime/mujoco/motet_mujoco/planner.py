@@ -10,8 +10,8 @@ from .model import ModelError, motet
 
 # Clearances of a robot that stands too near to something.
 LEAST = "base=0.01,arm=0.005"
-# Search budget of a motion that the usual one did not decide.
-EFFORT = "10"
+# Search budgets of a motion that the usual one did not decide.
+EFFORTS = ("10", "100", "1000")
 
 
 class Planner:
@@ -26,7 +26,8 @@ class Planner:
         longer."""
         witness, why = self.ask(scene, query)
         if witness is None and "budget" in why[1]:
-            witness, _ = self.ask(scene, query, "--effort", EFFORT)
+            asked = (self.ask(scene, query, "--effort", effort)[0] for effort in EFFORTS)
+            witness = next((one for one in asked if one is not None), None)
         elif witness is None and "clearance" in why[1]:
             witness, _ = self.ask(scene, query, "--clearance", LEAST)
         return witness, None if witness is not None else why

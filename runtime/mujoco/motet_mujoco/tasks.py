@@ -7,7 +7,7 @@ import numpy as np
 
 from .camera import NoGraphics
 from .motion import near_turn, phases
-from .moving import Failed, Motion, Mover
+from .moving import THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted
 
@@ -38,10 +38,10 @@ class Tasks(Mover):
         to = entity(args["to"])
         path, held = self.motion(motion, "go_to(%s)" % quoted(to)), self.world.held()
         if motion.witness is None and held and to in self.world.model.people:
-            path = self.offering(path, held[0], to, motion)
+            path = yield from self.offering(path, held[0], to, motion)
         yield from self.drive(path, to)
-        self.observer.visited.add(to)
-        self.observer.visited.update(self.world.bearers(to) if to in self.world.model.free else [])
+        self.observer.own.visited.add(to)
+        self.observer.own.visited.update(self.world.bearers(to) if to in self.world.model.free else [])
 
     def offering(self, path, thing, person, motion):
         """The path to a place from which the hand can hold a thing out to a person: its own, or else one around the
@@ -57,6 +57,8 @@ class Tasks(Mover):
                 places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in (0.0, 1.2, -1.2))
         for at, (px, py, yaw) in enumerate(places):
             scene["robot"]["base"] = [float(px), float(py), float(yaw)]
+            # The host waits for an answer while the world stands still.
+            yield from self.pause(THINKS)
             if self.planner.ask(scene, query)[0] is None:
                 continue
             if at == 0:
@@ -101,11 +103,11 @@ class Tasks(Mover):
 
     def take_posture(self, posture, motion):
         yield from self.follow(self.motion(motion, "posture(%s)" % posture, "blocked"))
-        self.observer.posture = {"home": "home", "start": "ready"}[posture]
+        self.observer.own.posture = {"home": "home", "start": "ready"}[posture]
 
     def do_wake_up(self, _args, _motion):
         yield from self.pause(2.0)
-        self.observer.standing = True
+        self.observer.own.standing = True
 
     # Using the hand.
 
@@ -121,7 +123,7 @@ class Tasks(Mover):
             raise Failed("slipped", "%s slipped out of the hand" % thing)
         yield from self.way_back(path, begun, motion, thing)
         self.beliefs.rests(thing, None, None)
-        self.observer.moved.add(thing)
+        self.observer.own.moved.add(thing)
 
     def do_grasp(self, args, motion):
         thing, at = entity(args["object"]), args.get("at", {}).get("pose")
@@ -185,6 +187,7 @@ class Tasks(Mover):
             yield from self.grip(False, 0.6)
             yield from self.straight(-0.08 * self.world.tip()[1][:, 2])
             raise Failed(kind, text % thing)
+        self.beliefs.holds(thing, float(self.world.tip()[0][2]))
         return path
 
     def do_lift(self, args, motion):
@@ -229,6 +232,8 @@ class Tasks(Mover):
         yield from self.follow(path, on, self.keeps(thing))
         # Where it is let go is felt; where it comes to rest is for the next look.
         released = world.pose(thing)
+        self.beliefs.hand = None
+        self.beliefs.looked(thing, *released)
         yield from self.grip(False, 0.8)
         yield from self.straight(-0.08 * world.tip()[1][:, 2])
         yield from self.way_back(path, begun, motion, None)
@@ -238,7 +243,8 @@ class Tasks(Mover):
             self.beliefs.forget(thing)
         else:
             self.beliefs.saw(thing, *released)
-        self.observer.moved.add(thing)
+            self.beliefs.seen.add(thing)
+        self.observer.own.moved.add(thing)
         if where is None:
             raise Failed("slipped", "%s does not rest on %s" % (thing, on))
 
@@ -256,10 +262,12 @@ class Tasks(Mover):
         at = world.model.people[person]
         world.carried_by[thing] = (person, world.pose(thing)[0] - world.data.mocap_pos[at])
         released = world.pose(thing)
+        self.beliefs.hand = None
         yield from self.grip(False, 0.8)
         self.beliefs.rests(thing, None, None)
         self.beliefs.saw(thing, *released)
-        self.observer.moved.add(thing)
+        self.beliefs.given[thing] = person
+        self.observer.own.moved.add(thing)
         yield from self.straight(-0.05 * world.tip()[1][:, 2])
         yield from self.way_back(path, begun, motion, None)
 
@@ -291,7 +299,8 @@ class Tasks(Mover):
         self.beliefs.opened(what, is_open)
         yield from self.home_again(begun, motion)
         if is_open is not opens:
-            if self.observer.is_locked(what):
+            if world.is_locked(what):
+                self.beliefs.locked(what)
                 raise Failed("blocked", "%s is locked" % what)
             raise Failed("slipped" if opens else "blocked", "%s is %s" % (what, "open" if is_open else "closed"))
 
@@ -300,7 +309,7 @@ class Tasks(Mover):
         path = self.motion(motion, "push(%s)" % quoted(what))
         yield from self.follow(path)
         yield from self.way_back(path, begun, motion, None)
-        self.observer.moved.add(what)
+        self.observer.own.moved.add(what)
 
     # Looking.
 
@@ -343,13 +352,13 @@ class Tasks(Mover):
             raise Failed("not_found", "nothing in view is called %s" % args["what"]["text"])
         if len(found) > 1:
             raise Failed("ambiguous", "%d things in view are called %s" % (len(found), args["what"]["text"]))
-        self.observer.moved.add(found[0])
+        self.observer.own.moved.add(found[0])
         return {"entity": found[0]}
 
     def do_detect_all(self, args, motion):
         found = yield from self.seen(self.objects(args["what"]["text"]), motion)
         yield from self.pause(0.3)
-        self.observer.moved.update(found)
+        self.observer.own.moved.update(found)
         return {"list": [{"entity": one} for one in found]}
 
     def do_search(self, args, motion):
@@ -368,7 +377,7 @@ class Tasks(Mover):
             if len(found) > 1:
                 raise Failed("ambiguous", "%d things here are called %s" % (len(found), what))
             if found:
-                self.observer.moved.add(found[0])
+                self.observer.own.moved.add(found[0])
                 return {"entity": found[0]}
         raise Failed("not_found", "nothing at these places is called %s" % what)
 
@@ -393,7 +402,7 @@ class Tasks(Mover):
             found = yield from self.seen([one], motion)
             if not found:
                 raise Failed("not_found", "%s is not in view" % one)
-        self.observer.moved.add(one)
+        self.observer.own.moved.add(one)
         is_open = self.eyes.sees_open(one)
         if is_open is not None:
             self.beliefs.opened(one, is_open)

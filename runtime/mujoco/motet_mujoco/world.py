@@ -1,11 +1,13 @@
 """The world: a simulated robot in its scene, moved step by step, and what holds in it.
 
-Facts follow from contacts and poses. Nothing here knows what a command was for.
+Facts follow from contacts and poses. Nothing here knows what a command was for, or what the robot believes.
 """
 
 import mujoco
 import numpy as np
 
+from . import sight
+from .model import name
 from .motion import Reacher, near_turn
 
 # Steps of the simulation for each target of the actuators.
@@ -16,6 +18,8 @@ PRESSES = 0.2
 OPENED = 0.6
 # Distance in m up to which a thing at rest may sink into what bears it.
 SINKS = 0.02
+# Share of its travel from its end to which a finger that is told to close has closed on nothing.
+CLOSED = 0.02
 
 
 class World:
@@ -224,6 +228,16 @@ class World:
         """True if the hand holds a thing."""
         return thing in self.held()
 
+    def is_gripping(self):
+        """True if the fingers, told to close, meet something before their end: by the joints of the hand alone."""
+        grips, qpos = self.model.grips, self.data.qpos[self.model.control_qpos]
+
+        def meets(at, opened, closed):
+            span = abs(closed - opened)
+            return abs(self.target[at] - closed) < CLOSED * span < abs(qpos[at] - closed)
+
+        return any(meets(at, *ends) for at, ends in grips.items())
+
     def is_touched(self, thing):
         """True if a part of the hand touches a thing."""
         return any(geom in self.model.hand_geoms and force > 0.0 for geom, _, force in self.touching(thing))
@@ -238,6 +252,11 @@ class World:
                     if name not in found:
                         found.append(name)
         return found
+
+    def supports(self, thing):
+        """Entities that a thing rests on or lies in."""
+        below = [other for other in self.bearers(thing) if other in self.model.entities]
+        return below + [other for other in self.model.doors if self.is_in(thing, other)]
 
     def near(self):
         """Pairs of geoms that touch, with the normal from the first to the second: of things asleep too."""
@@ -265,9 +284,7 @@ class World:
         pose, entity = self.pose(thing), self.model.entities.get(container)
         if pose is None or entity is None or entity.get("kind") != "Container" or "shape" not in entity:
             return False
-        at = self.model.body_of.get(container + "/door")
-        if at is None or "slide" not in entity.get("travel", {}):
-            at = self.model.body_of[container]
+        at = self.model.leaf_of(container)
         rotation = self.data.xmat[at].reshape(3, 3)
         local = rotation.T @ (pose[0] - self.data.xpos[at])
         return inside(entity["shape"], local)
@@ -280,6 +297,23 @@ class World:
         """True if a drawer or a door is open; None without one."""
         share = self.opening(container)
         return None if share is None else share > OPENED
+
+    def is_locked(self, container):
+        """True if a lock keeps a drawer or a door where it is."""
+        at = mujoco.mj_name2id(self.model.mj, mujoco.mjtObj.mjOBJ_EQUALITY, name(container) + "/lock")
+        return False if at < 0 else bool(self.data.eq_active[at])
+
+    def is_given(self, thing, person):
+        """True if a person has a thing in the hand."""
+        return self.carried_by.get(thing, (None,))[0] == person
+
+    def is_visible(self, one):
+        """True if a camera of the robot could see an entity from where the base is."""
+        return sight.is_visible(self.model, self.data, self.base(), one)
+
+    def is_located(self, one):
+        """True if a camera of the robot could see an entity, and so where it is."""
+        return self.is_visible(one)
 
     def bumped(self, allowed=()):
         """What a part of the robot other than the hand touches, apart from those allowed; None if nothing."""

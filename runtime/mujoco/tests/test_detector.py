@@ -7,7 +7,6 @@ from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import Camera, NoGraphics
 from motet_mujoco.eyes import Eyes
 from motet_mujoco.model import load
-from motet_mujoco.observation import Observer
 from motet_mujoco.world import World
 
 
@@ -20,8 +19,8 @@ def kitchen(motet):
     target[world.model.controls["head_tilt_joint"]] = -0.5
     world.data.qpos[world.model.control_qpos] = target
     world.step(target)
-    observer, beliefs = Observer(world), Beliefs(world)
-    eyes = Eyes(world, observer, beliefs)
+    beliefs = Beliefs(world)
+    eyes = Eyes(world, beliefs)
     try:
         eyes.look()
     except NoGraphics as error:
@@ -112,7 +111,7 @@ def test_parts_of_a_thing_are_no_new_things(motet):
     target[:3] = [0.6324, 0.5059, 0.6747]
     world.data.qpos[world.model.control_qpos] = target
     world.step(target)
-    eyes = Eyes(world, Observer(world), Beliefs(world))
+    eyes = Eyes(world, Beliefs(world))
     try:
         found = eyes.detections()
     except NoGraphics as error:
@@ -126,7 +125,7 @@ def test_parts_of_a_thing_are_no_new_things(motet):
 def test_a_side_of_a_large_thing_tells_where_all_of_it_is(motet):
     """From the start the camera at the wrist sees the near side of the vise, 13 cm before its middle."""
     world = World(load("anymal_z1", "lab", motet))
-    eyes = Eyes(world, Observer(world), Beliefs(world))
+    eyes = Eyes(world, Beliefs(world))
     try:
         found = {one["id"]: one for one in eyes.detections()}
     except NoGraphics as error:

@@ -5,7 +5,7 @@ import os
 
 import pytest
 from host import Host, entity, pose, text
-from motet_mujoco.driver import Driver, Options, serve
+from motet_mujoco.driver import Driver, Error, Options, serve
 from motet_mujoco.model import load
 
 # A profile in which things stand elsewhere, and all else is as it should be.
@@ -171,3 +171,40 @@ def test_looking(drive):
         pytest.skip(seen["error"]["message"])
     assert seen["image"]["width"] == seen["depth"]["width"] == 640
     assert "error" in host.call("look", camera="nose")
+
+
+def fact(fluent, *args, holds=True):
+    """A fact of `hello`."""
+    return {"query": {"fact": {"fluent": fluent, "args": [{"is": {"entity": one}} for one in args]}}, "holds": holds}
+
+
+@pytest.mark.parametrize("robot, scene, thing", [("hsr", "kitchen", "mug_1"), ("hsr", "living_room", "remote_1"),
+                                                 ("anymal_z1", "lab", "sample")])
+def test_a_state_begins_with_the_thing_upright_in_the_hand(motet, robot, scene, thing):
+    driver = Driver(load(robot, scene, motet), motet, Options())
+    driver.hello({"protocol": 2, "run": "test", "state": [fact("holding", thing)]})
+    for _ in range(250):
+        driver.tick()
+    world = driver.world
+    assert driver.observe({"query": fact("holding", thing)["query"]})["answer"] == {"truth": True}
+    assert driver.truth({"query": fact("lifted", thing)["query"]})["answer"] == {"truth": True}
+    # As `reach` grips it, the fingers do not point up at what stands upright.
+    up = world.data.xmat[world.model.body_of[thing]].reshape(3, 3)[:, 2]
+    assert up @ world.tip()[1][:, 2] < 0.2, "it is held upside down"
+
+
+def test_a_state_puts_things_and_doors_where_it_says(motet):
+    driver = Driver(load("hsr", "kitchen", motet), motet, Options(), oracle=True)
+    state = [fact("in", "apple", "fridge_1"), fact("open", "fridge_1"), fact("on", "coke", "kitchen_table"),
+             fact("at", "robot", "counter"), fact("watered", "apple", holds=False)]
+    driver.hello({"protocol": 2, "run": "test", "state": state})
+    for _ in range(100):
+        driver.tick()
+    for one in state:
+        assert driver.observe({"query": one["query"]})["answer"] == {"truth": one["holds"]}, one
+
+
+def test_a_state_that_cannot_be_is_an_error(motet):
+    driver = Driver(load("hsr", "kitchen", motet), motet, Options(), oracle=True)
+    with pytest.raises(Error, match="kitchen_table"):
+        driver.hello({"protocol": 2, "run": "test", "state": [fact("on", "mug_1", "kitchen_table", holds=False)]})

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import Chance, profile
-from motet_mujoco.driver import Options
+from motet_mujoco.driver import Driver, Options
 from motet_mujoco.model import load
 from motet_mujoco.motion import Path, timed, witnessed
-from motet_mujoco.moving import HELD, Failed, Mover
+from motet_mujoco.moving import HELD, Failed, Motion, Mover
 from motet_mujoco.observation import Observer
 from motet_mujoco.world import World
 
@@ -112,3 +112,21 @@ def test_what_is_dropped_is_where_nobody_knows(mover):
             check()
     assert failed.value.kind == "slipped"
     assert "pose" not in mover.beliefs.entities["mug_1"] and "on" not in mover.beliefs.entities["mug_1"]
+
+
+def test_a_search_for_a_place_lets_time_pass(motet):
+    """The host waits 30 s for an answer to `advance`: a search of many plans in one step of the world took longer."""
+    driver = Driver(load("anymal_z1", "kitchen", motet), motet, Options(profile("ideal")), oracle=True)
+    times = []
+
+    def ask(*_):
+        times.append(driver.world.now)
+        return None, ("unknown", "nothing is found")
+
+    driver.tasks.planner.ask = ask
+    here = driver.tasks.goal.copy()
+    search = driver.tasks.offering(driver.tasks.path([here, here]), "mug_1", "user", Motion(None))
+    for _ in search:
+        driver.world.step(here)
+    assert len(times) > 30
+    assert all(after - before > 0.05 for before, after in zip(times, times[1:]))

@@ -61,6 +61,9 @@ pub enum DriverCall {
     Detections(EmptyParams),
     /// Take in where a thing is. Only for a driver that says it can. Answered by `{}`.
     Told(ToldParams),
+    /// Answer a question by the truth of a simulated world, whatever the robot knows of it. Only judges ask.
+    /// Answered by [`QueryResult`], or by any error: the driver knows no more than the robot.
+    Truth(QueryParams),
     /// Asks for the state of some goals after a crash. Answered by [`StatusResult`].
     Status(StatusParams),
     /// A sign of life is asked for. Answered by `{}`.
@@ -200,7 +203,7 @@ pub struct StatusParams {
     pub goals: Vec<GoalId>,
 }
 
-/// Parameters of `observe`, `watch` and `unwatch`.
+/// Parameters of `observe`, `watch`, `unwatch` and `truth`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct QueryParams {
     pub query: Query,
@@ -395,7 +398,7 @@ struct ProtocolSchema {
     report: DriverReport,
     /// The result of `hello`.
     hello_result: Welcome,
-    /// The result of `observe` and `watch`.
+    /// The result of `observe`, `watch` and `truth`.
     observe_result: QueryResult,
     /// The result of `status`.
     status_result: StatusResult,

@@ -27,7 +27,7 @@ fn round<T: DeserializeOwned + Serialize>(result: Value) {
 fn check_answer(method: &str, answer: Result<Value, RpcError>) {
     match (method, answer) {
         ("hello", Ok(result)) => assert_eq!(serde_json::from_value::<Welcome>(result).unwrap().protocol, 2),
-        ("observe" | "watch", Ok(result)) => round::<QueryResult>(result),
+        ("observe" | "watch" | "truth", Ok(result)) => round::<QueryResult>(result),
         ("status", Ok(result)) => round::<StatusResult>(result),
         ("advance", Ok(result)) => round::<AdvanceResult>(result),
         ("look", Ok(result)) => round::<LookResult>(result),

@@ -201,6 +201,25 @@ fn picture(bytes: usize, [width, height]: [u32; 2]) -> Value {
 }
 
 #[test]
+fn remote_driver_knows_the_truth_or_not() {
+    let address = driver(Box::new(|call| match call["method"].as_str().unwrap() {
+        "hello" => vec![welcome(call, json!({}))],
+        "truth" if call["params"]["query"]["fact"]["fluent"] == "holding" => {
+            vec![answer(call, json!({"answer": {"truth": false}}))]
+        }
+        _ => {
+            let why = json!({"code": -32601, "message": "there is no method `truth`"});
+            vec![json!({"jsonrpc": "2.0", "id": call["id"], "error": why})]
+        }
+    }));
+    let (mut driver, told) = connect(address).unwrap();
+    let query = |fluent: &str| Query::Fact { fluent: fluent.into(), args: vec![] };
+    assert_eq!(driver.truth(&query("holding")), Answer::Truth(false));
+    assert_eq!(driver.truth(&query("open")), Answer::Unknown);
+    assert!(told.notes.borrow().last().unwrap().contains("there is no method `truth`"));
+}
+
+#[test]
 fn remote_driver_takes_a_large_picture_when_it_asked_for_one() {
     let address = driver(Box::new(|call| match call["method"].as_str().unwrap() {
         "hello" => vec![welcome(call, json!({"look": true}))],

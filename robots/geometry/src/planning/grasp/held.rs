@@ -6,13 +6,13 @@ use std::collections::BTreeMap;
 use motet_robots::scene::Scene;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
-use super::candidates::{grasp_candidates, in_order, rank};
+use super::candidates::{GraspCandidate, grasp_candidates, in_order, rank};
 use crate::collision::Solid;
 use crate::kinematics::planar;
 use crate::planning::context::QueryContext;
 use crate::planning::query::{InfeasibleReason, MotionAnswer, UnknownReason, certain};
 use crate::planning::scene::{
-    Configuration, HeldObject, PlanningScene, RobotModel, SceneState, isometry, solid_shape,
+    Configuration, HeldObject, PlanningScene, RobotModel, SceneState, above_floor, isometry, solid_shape,
 };
 
 /// Place of the object before the base while its grasp is chosen, in m.
@@ -22,8 +22,9 @@ const TRIED: usize = 64;
 
 impl SceneState {
     /// State that a scene describes. Joints that it does not name are at rest. Without a grip in the scene, a
-    /// held object is as `reach` grasps one that stands upright before the robot: the first grasp of its list
-    /// with which the robot has no contact as it stands, and of equals the one that holds it most upright.
+    /// held object is as `reach` grasps one that stands upright on something before the robot: the first of
+    /// its list with which the robot has no contact as it stands, and of equals the one that holds it most
+    /// upright.
     #[must_use]
     pub fn new(model: &RobotModel, scene: &Scene) -> Self {
         let mut joints = model.rest().to_vec();
@@ -79,6 +80,16 @@ fn grip(model: &RobotModel, scene: &Scene, state: &SceneState, id: &str) -> Opti
     let object = Solid::new(&pose, shape);
     let (mut all, _) = grasp_candidates(hand, &object, None, state.robot.base);
     in_order(&mut all, &ahead);
+    // It stood on something, which the hand does not reach into.
+    let bottom = object.centre.z - object.extent(&Vector3::z());
+    let stays_above = |hold: &GraspCandidate| {
+        let fingers = hand.closing.sweep(hold.width, hold.depth, hold.contact);
+        let mut solids = hand.closing.open().chain(fingers);
+        solids.all(|own| above_floor(&own.moved(&hold.map_from_tip)) > bottom)
+    };
+    if all.iter().any(stays_above) {
+        all.retain(stays_above);
+    }
     let map_from_tip = model.map_from_links(&state.robot).get(hand.tip).copied()?;
     let up = |grip: &Isometry3<f64>| (map_from_tip.rotation * grip.rotation * Vector3::z()).z;
     let grips = all.iter().take(TRIED).map(|hold| (rank(hold, &ahead), hold.map_from_tip.inverse() * pose));

@@ -209,6 +209,18 @@ fn held_object_of_a_scene_stands_upright_where_it_is_put() {
     assert!(count >= 20, "{count}");
 }
 
+/// A thing that lies flat was grasped from above, since the hand does not reach into what it lay on.
+#[test]
+fn held_object_that_is_flat_is_put_where_it_lay() {
+    let ((model, _), mut scene) = (model("hsr"), embedded("living_room"));
+    scene.robot.holding = Some(Some("remote_1".into()));
+    scene.entities["remote_1"].on = None;
+    let state = SceneState::new(&model, &scene);
+    let put = MotionQuery::Put("remote_1".into(), "coffee_table".into(), PlaceRules::default());
+    let answer = QueryContext::new(&model, &scene, &state).answer(&put, SearchBudget::default());
+    assert!(matches!(answer, MotionAnswer::Feasible(_)), "{answer:?}");
+}
+
 #[test]
 fn grip_of_a_scene_is_the_grip_of_the_state() {
     let (model, _) = model("hsr");

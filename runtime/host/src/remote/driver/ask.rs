@@ -4,11 +4,11 @@
 use super::super::link::LinkError;
 use super::super::protocol::{
     AdvanceParams, AdvanceResult, Detections, DriverCall, DriverMessage, EmptyParams, LookParams, LookResult,
-    PIECE, RpcError, StatusParams, StatusResult, hear,
+    PIECE, QueryParams, QueryResult, RpcError, StatusParams, StatusResult, hear,
 };
 use super::run_time::RunTime;
 use super::{LineFrom, RemoteDriver, nonsense};
-use motet_runtime::{Detection, DriverEvent, GoalId, RgbdView, Time};
+use motet_runtime::{Answer, Detection, DriverEvent, GoalId, Query, RgbdView, Time};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::time::{Duration, Instant};
@@ -26,6 +26,19 @@ impl RemoteDriver {
     /// It does not say.
     pub fn status(&mut self, goals: Vec<GoalId>) -> Result<StatusResult, LinkError> {
         self.ask(DriverCall::Status(StatusParams { goals }), self.patience.answer)
+    }
+
+    /// Asks for the truth of a query in a simulated world, and waits for the answer. It is unknown where the
+    /// driver knows no more than its robot.
+    pub fn truth(&mut self, query: &Query) -> Answer {
+        let call = DriverCall::Truth(QueryParams::from(query));
+        match self.ask::<QueryResult>(call, self.patience.silence) {
+            Ok(said) => said.answer,
+            Err(why) => {
+                self.log.note(&format!("no truth: {why}"));
+                Answer::Unknown
+            }
+        }
     }
 
     /// Asks for a picture; `None`, with a note, where none comes.

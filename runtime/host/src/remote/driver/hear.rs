@@ -194,6 +194,7 @@ impl RemoteDriver {
                 | DriverCall::Look(_)
                 | DriverCall::Detections(_)
                 | DriverCall::Told(_)
+                | DriverCall::Truth(_)
                 | DriverCall::Status(_)
                 | DriverCall::Hello(_)
                 | DriverCall::Bye(_),
@@ -257,7 +258,10 @@ impl RemoteDriver {
             | DriverCall::Told(_) => {}
             DriverCall::Status(_) | DriverCall::Ping(_) | DriverCall::Hello(_) | DriverCall::Bye(_) => {}
             // These are waited for elsewhere.
-            DriverCall::Advance(_) | DriverCall::Look(_) | DriverCall::Detections(_) => {}
+            DriverCall::Advance(_)
+            | DriverCall::Look(_)
+            | DriverCall::Detections(_)
+            | DriverCall::Truth(_) => {}
         }
     }
 }

@@ -1,0 +1,94 @@
+"""Facts at the start, as `hello` lists them: the scene is changed so that the world begins in them."""
+
+import copy
+import json
+import os
+import tempfile
+
+import numpy as np
+
+from .model import ModelError, load
+from .planner import quoted
+from .sight import half_height
+
+# Distance in m of a thing from the rim of what it is put on, and of things from each other; height above its bottom.
+RIM, APART, BOTTOM = 0.05, 0.12, 0.01
+
+
+class WrongStart(Exception):
+    """The world cannot begin in a fact; the text is for people."""
+
+
+def model_of(robot, scene, command):
+    """The model of a robot in a scene that is no file."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.json")
+        with open(path, "w", encoding="utf-8") as out:
+            json.dump(scene, out)
+        try:
+            return load(robot, path, command)
+        except ModelError as error:
+            raise WrongStart(str(error)) from None
+
+
+def begun(scene, facts, planner):
+    """A scene in which facts hold: (fluent, arguments, truth) each. Others than those of hand, doors and places are
+    left to the caller."""
+    scene = copy.deepcopy(scene)
+    entities = {entity["id"]: entity for entity in scene["entities"]}
+    for fluent, args, holds in facts:
+        known = [entities.get(one) for one in args]
+        if fluent == "open" and known[0] is not None and "travel" in known[0]:
+            known[0]["open"] = holds
+        elif fluent == "holding" and known[0] is not None:
+            hold(scene, known[0], holds)
+        elif fluent in ("on", "in") and None not in known and holds:
+            lay(scene, known[0], fluent, known[1])
+    # Where it stands depends on all of these.
+    for fluent, args, holds in facts:
+        if fluent == "at" and args[0] == "robot" and holds and planner is not None:
+            witness, why = planner.plan(scene, "go_to(%s)" % quoted(args[1]))
+            if witness is None:
+                raise WrongStart("the robot cannot begin at `%s`: %s" % (args[1], why[1]))
+            scene["robot"]["base"] = witness["path"][-1]["base"]
+    return scene
+
+
+def hold(scene, thing, holds):
+    """Puts a thing into the hand, as `reach` grips it, or says that the hand does not hold it."""
+    robot, held = scene["robot"], scene["robot"].get("holding")
+    if holds and held != thing["id"]:
+        robot["holding"] = thing["id"]
+        robot.pop("grip", None)
+        for relation in ("on", "in"):
+            thing.pop(relation, None)
+    elif not holds and held == thing["id"]:
+        robot["holding"] = None
+        robot.pop("grip", None)
+
+
+def lay(scene, thing, relation, support):
+    """Puts a thing on or into another, at the free place that is nearest to its middle."""
+    if thing.get(relation) == support["id"]:
+        return
+    if "pose" not in support or "shape" not in support:
+        raise WrongStart("nobody knows where `%s` is, so `%s` cannot begin there" % (support["id"], thing["id"]))
+    for other in ("on", "in"):
+        thing.pop(other, None)
+    others = [np.array(one["pose"]["xyz"][:2]) for one in scene["entities"] if "pose" in one and one is not thing
+              and support["id"] in (one.get("on"), one.get("in"))]
+    shape, (x, y, z) = support["shape"], support["pose"]["xyz"]
+    yaw = support["pose"].get("rpy", (0.0, 0.0, 0.0))[2]
+    sides = shape.get("box") or [1.4 * next(iter(shape.values())).get("radius", 0.2)] * 2
+    spans = [np.linspace(-1.0, 1.0, 9) * max(side / 2.0 - RIM, 0.0) for side in sides[:2]]
+    turn = np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
+    spots = sorted(((a, b) for a in spans[0] for b in spans[1]), key=lambda spot: np.hypot(*spot))
+    places = [np.array([x, y]) + turn @ np.array(spot) for spot in spots]
+    free = [place for place in places if all(np.linalg.norm(place - other) >= APART for other in others)]
+    if not free:
+        raise WrongStart("`%s` has no room for `%s`" % (support["id"], thing["id"]))
+    up = half_height(shape) if relation == "on" else BOTTOM - half_height(shape)
+    thing["pose"] = {"xyz": [float(free[0][0]), float(free[0][1]), z + up + half_height(thing.get("shape", {}))],
+                     "rpy": [0.0, 0.0, 0.0]}
+    thing[relation] = support["id"]
+    thing.pop("visible", None)
