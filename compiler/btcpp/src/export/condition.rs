@@ -1,0 +1,153 @@
+//! Conditions as leaves that succeed if they are known to hold.
+//!
+//! An unknown condition is neither true nor false, so a negation goes down to the leaves: an inverter above
+//! would turn what is unknown into what holds.
+
+use motet_graph::{Comparison, Condition, Fact, FactArg, Term};
+
+use super::Writer;
+use super::model::{Leaf, Port};
+use crate::names::{COUNT, FIELD, FLUENT, IS, MEASURE, OF, THAN, VALUE};
+use crate::xml::Element;
+
+impl Writer<'_> {
+    /// A tree of leaves that succeeds if a condition is known to be `holds`, and fails otherwise.
+    pub(super) fn condition(&mut self, condition: &Condition, holds: bool, path: &str) -> Element {
+        match condition {
+            Condition::Literal(value) => {
+                Element::new(if *value == holds { "AlwaysSuccess" } else { "AlwaysFailure" })
+            }
+            Condition::Fact(fact) => self.fact(fact, holds, path),
+            Condition::Compare(comparison, left, right) => {
+                let comparison = if holds { *comparison } else { inverse(*comparison) };
+                self.compare(comparison, left, right, path)
+            }
+            Condition::Not(inner) => self.condition(inner, !holds, path),
+            Condition::All(parts) => self.joined(parts, holds, holds, path),
+            Condition::AnyOf(parts) => self.joined(parts, !holds, holds, path),
+        }
+    }
+
+    fn joined(&mut self, parts: &[Condition], is_all: bool, holds: bool, path: &str) -> Element {
+        let mut parts: Vec<Element> = parts.iter().map(|part| self.condition(part, holds, path)).collect();
+        match (parts.pop(), parts.is_empty(), is_all) {
+            (None, _, true) => Element::new("AlwaysSuccess"),
+            (None, _, false) => Element::new("AlwaysFailure"),
+            (Some(only), true, _) => only,
+            (Some(last), false, _) => {
+                parts.push(last);
+                Element::new(if is_all { "Sequence" } else { "Fallback" }).children(parts)
+            }
+        }
+    }
+
+    fn fact(&mut self, fact: &Fact, holds: bool, path: &str) -> Element {
+        let graph = self.graph;
+        let Some(fluent) = graph.fluents.get(fact.fluent.index()) else {
+            return self.refuse(path, "a fluent that the graph does not declare");
+        };
+        if !fluent.observable {
+            let why = "is known from effects alone, and a tree keeps no facts";
+            return self.refuse(path, format!("a test of `{}`, which {why}", fluent.name));
+        }
+        let known = self.signatures.fluent(&fluent.name);
+        let names = known.map(|known| known.params.iter().map(|(name, _)| name.to_string()).collect());
+        let ports = named(names, fluent.params.len());
+        let mut leaf = Leaf::condition(format!("{FLUENT}{}", fluent.name));
+        for ((port, ty), arg) in ports.into_iter().zip(&fluent.params).zip(&fact.args) {
+            let value = match arg {
+                FactArg::Any => "any".to_owned(),
+                FactArg::Term(term) => self.port(term, path),
+            };
+            leaf.give(Port::typed(&port, ty), value);
+        }
+        let is = Port::text(IS).or("true");
+        if holds { leaf.has(is) } else { leaf.give(is, "false".to_owned()) }
+        self.leaf(leaf, path)
+    }
+
+    fn compare(&mut self, comparison: Comparison, left: &Term, right: &Term, path: &str) -> Element {
+        let graph = self.graph;
+        let observed = |term: &Term| matches!(term, Term::Measure(..) | Term::Field(..) | Term::Count(_));
+        if observed(right) && !observed(left) {
+            return self.compare(mirrored(comparison), right, left, path);
+        }
+        let mut leaf;
+        match left {
+            Term::Measure(id, args) => {
+                let Some(measure) = graph.measures.get(id.index()) else {
+                    return self.refuse(path, "a measure that the graph does not declare");
+                };
+                let known = self.signatures.measure(&measure.name);
+                let names = known.map(|known| known.params.iter().map(|(name, _)| name.to_string()).collect());
+                let ports = named(names, measure.params.len());
+                leaf = Leaf::condition(format!("{MEASURE}{}", measure.name));
+                for ((port, ty), arg) in ports.into_iter().zip(&measure.params).zip(args) {
+                    let value = self.port(arg, path);
+                    leaf.give(Port::typed(&port, ty), value);
+                }
+            }
+            Term::Field(of, field) => {
+                leaf = Leaf::condition(FIELD.to_owned());
+                let of = self.port(of, path);
+                leaf.give(Port::text("field"), field.to_string());
+                leaf.give(Port::text(OF), of);
+            }
+            Term::Count(list) => {
+                leaf = Leaf::condition(COUNT.to_owned());
+                let list = self.port(list, path);
+                leaf.give(Port::any(OF), list);
+            }
+            other => {
+                leaf = Leaf::condition(VALUE.to_owned());
+                let value = self.port(other, path);
+                leaf.give(Port::any(OF), value);
+            }
+        }
+        leaf.give(Port::text(IS), key(comparison).to_owned());
+        let than = self.port(right, path);
+        leaf.give(Port::any(THAN), than);
+        self.leaf(leaf, path)
+    }
+}
+
+/// Names of ports, numbered where no library gives them.
+fn named(names: Option<Vec<String>>, count: usize) -> Vec<String> {
+    let names = names.filter(|names| names.len() == count);
+    names.unwrap_or_else(|| (1..=count).map(|number| format!("arg_{number}")).collect())
+}
+
+/// Word of a comparison, as in the JSON syntax.
+pub(super) fn key(comparison: Comparison) -> &'static str {
+    match comparison {
+        Comparison::Equal => "equal",
+        Comparison::Unequal => "unequal",
+        Comparison::Less => "less",
+        Comparison::AtMost => "at_most",
+        Comparison::More => "more",
+        Comparison::AtLeast => "at_least",
+    }
+}
+
+/// The comparison that holds where another one does not.
+fn inverse(comparison: Comparison) -> Comparison {
+    match comparison {
+        Comparison::Equal => Comparison::Unequal,
+        Comparison::Unequal => Comparison::Equal,
+        Comparison::Less => Comparison::AtLeast,
+        Comparison::AtMost => Comparison::More,
+        Comparison::More => Comparison::AtMost,
+        Comparison::AtLeast => Comparison::Less,
+    }
+}
+
+/// The comparison with its sides exchanged.
+fn mirrored(comparison: Comparison) -> Comparison {
+    match comparison {
+        Comparison::Equal | Comparison::Unequal => comparison,
+        Comparison::Less => Comparison::More,
+        Comparison::AtMost => Comparison::AtLeast,
+        Comparison::More => Comparison::Less,
+        Comparison::AtLeast => Comparison::AtMost,
+    }
+}
