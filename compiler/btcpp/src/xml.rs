@@ -13,6 +13,11 @@ impl Element {
         Self { tag, attributes: Vec::new(), children: Vec::new() }
     }
 
+    /// Checks the tag of an element.
+    pub(crate) fn is(&self, tag: &str) -> bool {
+        self.tag == tag
+    }
+
     /// Adds an attribute.
     pub(crate) fn with(mut self, name: &str, value: impl Into<String>) -> Self {
         self.attributes.push((name.to_owned(), value.into()));

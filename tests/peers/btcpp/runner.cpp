@@ -26,7 +26,7 @@ struct Case {
   std::vector<string> log;
 };
 
-// The functions `mix`, `seen` and `fate` of tests/src/btcpp_cases.rs.
+// The dice of compiler/btcpp/tests/btcpp/peer.rs.
 uint64_t mix(uint64_t seed, const string& text) {
   uint64_t hash = seed ^ 0xcbf29ce484222325ULL;
   for(const unsigned char byte : text) {
@@ -34,6 +34,12 @@ uint64_t mix(uint64_t seed, const string& text) {
     hash = (hash << 5) | (hash >> 59);
   }
   return hash >> 7;
+}
+
+// With an odd seed everything is known.
+uint64_t number_of(uint64_t seed, const string& query) {
+  const uint64_t number = mix(seed, query) % 4;
+  return number == 0 && seed % 2 == 1 ? 2 : number;
 }
 
 const std::vector<string> objects = { "mug", "cup", "bowl" };
@@ -52,12 +58,12 @@ int seen(uint64_t seed, const string& query) {
     }
     return truth;
   }
-  const uint64_t number = mix(seed, query) % 4;
+  const uint64_t number = number_of(seed, query);
   return number == 0 ? -1 : (number % 2 == 0 ? 1 : 0);
 }
 
 double reading(uint64_t seed, const string& query, bool& is_known) {
-  const uint64_t number = mix(seed, query) % 4;
+  const uint64_t number = number_of(seed, query);
   is_known = number != 0;
   return static_cast<double>(number) / 5.0;
 }
@@ -108,7 +114,6 @@ public:
   NodeStatus onStart() override {
     const string& id = model_->id;
     if(id == "fail" || id == "cannot" || id == "replan") {
-      run_->log.push_back("end " + id);
       return NodeStatus::FAILURE;
     }
     run_->log.push_back(id + "(" + joined(arguments(*this, *model_), ", ") + ")");
@@ -281,7 +286,10 @@ string played(uint64_t seed, const string& file) {
   string line = "[";
   for(size_t i = 0; i < run.log.size(); i++) {
     line += (i > 0 ? ", \"" : "\"");
-    for(const char byte : run.log[i]) { line += (byte == '"' || byte == '\\' ? string("\\") + byte : string(1, byte)); }
+    for(const char byte : run.log[i]) {
+      if(byte == '\n') { line += "\\n"; continue; }
+      line += (byte == '"' || byte == '\\' ? string("\\") + byte : string(1, byte));
+    }
     line += "\"";
   }
   return line + "]";

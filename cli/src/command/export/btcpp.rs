@@ -42,7 +42,7 @@ pub(super) fn run(args: &BtcppArgs, colors: Colors) -> Result<Exit, CliError> {
         let compiled = opened.session.compile(&parsed, args.policy.as_deref());
         report.print(&compiled.diagnostics, &opened.sources(source));
         let Some(graph) = compiled.graph else { return Ok(Exit::Findings) };
-        match motet_btcpp::export(&graph, &opened.session.signatures()) {
+        match motet_btcpp::export(&graph, &opened.session.signatures().leaves()) {
             Ok(text) => {
                 report.out.file(args.output.as_deref(), &text)?;
                 Ok(Exit::Success)

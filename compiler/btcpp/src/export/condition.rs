@@ -7,6 +7,7 @@ use motet_graph::{Comparison, Condition, Fact, FactArg, Term};
 
 use super::Writer;
 use super::model::{Leaf, Port};
+use crate::leaves::Ports;
 use crate::names::{COUNT, FIELD, FLUENT, IS, MEASURE, OF, THAN, VALUE};
 use crate::xml::Element;
 
@@ -50,9 +51,7 @@ impl Writer<'_> {
             let why = "is known from effects alone, and a tree keeps no facts";
             return self.refuse(path, format!("a test of `{}`, which {why}", fluent.name));
         }
-        let known = self.signatures.fluent(&fluent.name);
-        let names = known.map(|known| known.params.iter().map(|(name, _)| name.to_string()).collect());
-        let ports = named(names, fluent.params.len());
+        let ports = named(self.leaves.fluent(&fluent.name), fluent.params.len());
         let mut leaf = Leaf::condition(format!("{FLUENT}{}", fluent.name));
         for ((port, ty), arg) in ports.into_iter().zip(&fluent.params).zip(&fact.args) {
             let value = match arg {
@@ -62,7 +61,11 @@ impl Writer<'_> {
             leaf.give(Port::typed(&port, ty), value);
         }
         let is = Port::text(IS).or("true");
-        if holds { leaf.has(is) } else { leaf.give(is, "false".to_owned()) }
+        if holds {
+            leaf.has(is)
+        } else {
+            leaf.give(is, "false".to_owned())
+        }
         self.leaf(leaf, path)
     }
 
@@ -78,9 +81,8 @@ impl Writer<'_> {
                 let Some(measure) = graph.measures.get(id.index()) else {
                     return self.refuse(path, "a measure that the graph does not declare");
                 };
-                let known = self.signatures.measure(&measure.name);
-                let names = known.map(|known| known.params.iter().map(|(name, _)| name.to_string()).collect());
-                let ports = named(names, measure.params.len());
+                let known = self.leaves.measure(&measure.name).map(|(ports, _)| ports);
+                let ports = named(known, measure.params.len());
                 leaf = Leaf::condition(format!("{MEASURE}{}", measure.name));
                 for ((port, ty), arg) in ports.into_iter().zip(&measure.params).zip(args) {
                     let value = self.port(arg, path);
@@ -112,9 +114,11 @@ impl Writer<'_> {
 }
 
 /// Names of ports, numbered where no library gives them.
-fn named(names: Option<Vec<String>>, count: usize) -> Vec<String> {
-    let names = names.filter(|names| names.len() == count);
-    names.unwrap_or_else(|| (1..=count).map(|number| format!("arg_{number}")).collect())
+fn named(known: Option<&Ports>, count: usize) -> Vec<String> {
+    match known.filter(|known| known.len() == count) {
+        Some(known) => known.iter().map(|(name, _)| name.to_string()).collect(),
+        None => (1..=count).map(|number| format!("arg_{number}")).collect(),
+    }
 }
 
 /// Word of a comparison, as in the JSON syntax.

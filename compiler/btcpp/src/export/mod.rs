@@ -10,11 +10,11 @@ mod place;
 mod step;
 mod value;
 
-use motet_compiler::Signatures;
 use motet_graph::{Graph, ROOT, RegionId};
 use smol_str::SmolStr;
 use thiserror::Error;
 
+use crate::leaves::Leaves;
 use crate::xml::Element;
 use model::Models;
 use place::Place;
@@ -29,26 +29,26 @@ pub struct NoNode {
     pub what: String,
 }
 
-/// Writes a valid graph as an XML document of BehaviorTree.CPP 4 with its `TreeNodesModel`. The signatures
-/// name the ports of conditions. The same graph gives the same text.
+/// Writes a valid graph as an XML document of BehaviorTree.CPP 4 with its `TreeNodesModel`. The leaves of its
+/// library name the ports of conditions. The same graph gives the same text.
 ///
 /// ```
 /// let graph = motet_graph::Graph::empty("tidy_up", "hsr");
-/// let text = motet_btcpp::export(&graph, &motet_compiler::Signatures::default()).unwrap();
+/// let text = motet_btcpp::export(&graph, &motet_btcpp::Leaves::default()).unwrap();
 /// assert!(text.contains(r#"<BehaviorTree ID="tidy_up">"#));
 /// ```
 ///
 /// # Errors
 ///
 /// All parts that a tree cannot say, in the order of the policy.
-pub fn export(graph: &Graph, signatures: &Signatures) -> Result<String, Vec<NoNode>> {
+pub fn export(graph: &Graph, leaves: &Leaves) -> Result<String, Vec<NoNode>> {
     let names_failures = graph.nodes.iter().any(|node| match &node.kind {
         motet_graph::NodeKind::Try { handlers, .. } => handlers.iter().any(|handler| handler.on.is_some()),
         _ => false,
     });
     let mut writer = Writer {
         graph,
-        signatures,
+        leaves,
         models: Models::default(),
         trees: Vec::new(),
         refused: Vec::new(),
@@ -74,7 +74,7 @@ const DEEPEST: usize = motet_graph::validate::MAX_DEPTH + 2;
 /// A document while it is written.
 struct Writer<'g> {
     graph: &'g Graph,
-    signatures: &'g Signatures,
+    leaves: &'g Leaves,
     models: Models,
     /// Trees of sub-policies, with their names.
     trees: Vec<(String, Option<Element>)>,

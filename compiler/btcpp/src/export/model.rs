@@ -100,7 +100,8 @@ impl Writer<'_> {
         }
         let wrong = leaf.ports.iter().find(|port| !is_port_name(&port.name));
         if let Some(port) = wrong {
-            return self.refuse(path, format!("`{}` of `{}`, which is no name for a port", port.name, leaf.id));
+            return self
+                .refuse(path, format!("`{}` of `{}`, which is no name for a port", port.name, leaf.id));
         }
         let (kind, ports, _) =
             self.models.0.entry(leaf.id.clone()).or_insert_with(|| (leaf.kind, Vec::new(), leaf.note));

@@ -10,6 +10,7 @@ use super::model::{Leaf, Port};
 use super::place::{Around, Place, left};
 use super::value::milliseconds;
 use super::{Writer, set};
+use crate::import::NODE_FAILED;
 use crate::names::{AS, COUNT, FAILURE, FAILURE_IS, IS, MANNER, NEEDS, OF, THAN, VALUE};
 use crate::xml::Element;
 
@@ -31,6 +32,11 @@ impl Writer<'_> {
                 let steps = if steps.is_empty() { vec![Element::new("AlwaysSuccess")] } else { steps };
                 Element::new("Sequence").with("name", name.as_str()).children(steps)
             }
+            NodeKind::Inline { policy, body } if policy == NODE_FAILED && self.just_fails(*body) => {
+                let mut steps: Vec<Element> = self.set_failure("failed").into_iter().collect();
+                steps.push(Element::new("AlwaysFailure"));
+                return steps;
+            }
             NodeKind::Inline { policy, body } => {
                 let name = self.tree_name(policy);
                 let body = self.inside(id, node, Around::Passes, |writer| writer.region(*body));
@@ -48,7 +54,11 @@ impl Writer<'_> {
                     }
                     None => Element::new("AlwaysSuccess"),
                 };
-                Element::new("IfThenElse").children([condition, then, otherwise])
+                // A condition itself succeeds and fails so.
+                match then.is("AlwaysSuccess") && otherwise.is("AlwaysFailure") {
+                    true => condition,
+                    false => Element::new("IfThenElse").children([condition, then, otherwise]),
+                }
             }
             NodeKind::Wait { condition, within_secs } => {
                 let condition = self.condition(condition, true, path);
@@ -89,6 +99,13 @@ impl Writer<'_> {
             NodeKind::End { how, of, why } => return self.ending(*how, *of, why.as_ref(), node),
         };
         vec![element]
+    }
+
+    /// Checks if a region fails and does nothing else.
+    fn just_fails(&self, region: RegionId) -> bool {
+        let entry = self.graph.regions.get(region.index()).and_then(|region| region.entry);
+        let first = entry.and_then(|id| self.graph.nodes.get(id.index())).map(|node| &node.kind);
+        matches!(first, Some(NodeKind::End { how: Ending::Fail, .. }))
     }
 
     fn inside<T>(
@@ -281,20 +298,27 @@ impl Writer<'_> {
             Some(Type::Int) => "LoopInt",
             Some(Type::Bool) => "LoopBool",
             Some(Type::Pose | Type::List(_)) | None => {
-                return vec![self.refuse(path, "`each` over poses or lists: no loop of a tree has such items")];
+                return vec![
+                    self.refuse(path, "`each` over poses or lists: no loop of a tree has such items"),
+                ];
             }
         };
         let queue = self.port(list, path);
         let entry = self.entry(item).map(|entry| format!("{{{entry}}}")).unwrap_or_default();
         let rounds = Element::new(tag).with("queue", queue.as_str()).with("value", entry).child(body);
-        match list {
-            Term::Literal(Value::List(items)) if items.len() > at_most as usize => {
+        let length = match list {
+            Term::Literal(Value::List(items)) => Some(items.len()),
+            Term::List(items) => Some(items.len()),
+            _ => None,
+        };
+        match length {
+            Some(length) if length > at_most as usize => {
                 let fails = Element::new("AlwaysFailure");
                 vec![self.or_exhausted(fails)]
             }
-            Term::Literal(Value::List(items)) if items.is_empty() => Vec::new(),
-            Term::Literal(_) => vec![rounds],
-            _ => {
+            Some(0) => Vec::new(),
+            Some(_) => vec![rounds],
+            None => {
                 let mut fits = Leaf::condition(COUNT.to_owned());
                 fits.give(Port::any(OF), queue);
                 fits.give(Port::text(IS), "at_most".to_owned());

@@ -106,7 +106,17 @@ impl Writer<'_> {
             Term::Each => "a value of each entity of a kind",
             Term::Field(..) => "a field as an argument: a port holds a constant or an entry",
             Term::Measure(..) => "a measure as an argument: a port holds a constant or an entry",
-            Term::List(_) => "a list of bindings: a port holds a constant or one entry",
+            Term::List(items) => {
+                let items = items.iter().map(|item| match item {
+                    Term::Literal(value) => Some(value.clone()),
+                    _ => None,
+                });
+                match items.collect::<Option<Vec<Value>>>().map(|items| literal(&Value::List(items))) {
+                    Some(Ok(text)) => return text,
+                    Some(Err(why)) => why,
+                    None => "a list of bindings: a port holds a constant or one entry",
+                }
+            }
             Term::Arith(..) => "a calculation: a port holds a constant or an entry",
             Term::Count(_) | Term::First(_) => {
                 "`count` or `first` as an argument: a port holds a constant or an entry"
