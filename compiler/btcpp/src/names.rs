@@ -8,8 +8,10 @@ pub(crate) const MEASURE: &str = "compare_";
 pub(crate) const FIELD: &str = "compare_field";
 /// Condition that compares the length of a list.
 pub(crate) const COUNT: &str = "compare_count";
-/// Condition that compares a value that is known.
+/// Condition that compares two names or texts.
 pub(crate) const VALUE: &str = "compare_value";
+/// Condition that compares two numbers.
+pub(crate) const NUMBER: &str = "compare_number";
 /// Stem of the condition that the open needs of a primitive hold.
 pub(crate) const NEEDS: &str = "can_";
 /// Condition that a failure is of one of some kinds.
@@ -43,7 +45,7 @@ const BUILT_IN: &str = "\
 
 /// Checks if a node of a library may have this name.
 pub(crate) fn is_node_name(name: &str) -> bool {
-    !name.is_empty()
+    name.starts_with(|char: char| char.is_ascii_alphabetic() || char == '_')
         && !name.chars().any(is_forbidden)
         && !BUILT_IN.split_whitespace().any(|built_in| built_in == name)
 }

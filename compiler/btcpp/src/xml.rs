@@ -1,16 +1,18 @@
 //! Elements of an XML document while it is written.
 
+use std::borrow::Cow;
+
 /// Element with its attributes in order.
 #[derive(Clone, Debug)]
 pub(crate) struct Element {
-    tag: &'static str,
+    tag: Cow<'static, str>,
     attributes: Vec<(String, String)>,
     children: Vec<Element>,
 }
 
 impl Element {
-    pub(crate) fn new(tag: &'static str) -> Self {
-        Self { tag, attributes: Vec::new(), children: Vec::new() }
+    pub(crate) fn new(tag: impl Into<Cow<'static, str>>) -> Self {
+        Self { tag: tag.into(), attributes: Vec::new(), children: Vec::new() }
     }
 
     /// Checks the tag of an element.
@@ -46,6 +48,11 @@ impl Element {
                 Self::new("Sequence").children(list)
             }
         }
+    }
+
+    /// Levels of elements, with this one.
+    pub(crate) fn depth(&self) -> usize {
+        1 + self.children.iter().map(Self::depth).max().unwrap_or(0)
     }
 
     /// Writes the element as a part of a document, a child deeper than its parent.

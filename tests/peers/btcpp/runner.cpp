@@ -172,7 +172,10 @@ private:
     }
     if(id == "compare_count") {
       const auto list = getInput<std::vector<string>>("of").value();
-      return compared(static_cast<double>(list.size()), std::stod(getInput<string>("than").value()));
+      return compared(static_cast<double>(list.size()), getInput<double>("than").value());
+    }
+    if(id == "compare_number") {
+      return compared(getInput<double>("of").value(), getInput<double>("than").value());
     }
     if(id == "compare_value") {
       const bool same = getInput<string>("of").value() == getInput<string>("than").value();
@@ -182,12 +185,12 @@ private:
     if(id == "compare_field") {
       const auto query = getInput<string>("of").value() + "." + getInput<string>("field").value();
       const double value = reading(run_->seed, query, is_known);
-      return is_known && compared(value, std::stod(getInput<string>("than").value()));
+      return is_known && compared(value, getInput<double>("than").value());
     }
     const auto args = joined(arguments(*this, *model_), ", ");
     if(id.rfind("compare_", 0) == 0) {
       const double value = reading(run_->seed, id.substr(8) + "(" + args + ")", is_known);
-      return is_known && compared(value, std::stod(getInput<string>("than").value()));
+      return is_known && compared(value, getInput<double>("than").value());
     }
     if(id.rfind("is_", 0) == 0) {
       return fact(id.substr(3) + "(" + args + ")") == (getInput<string>("is").value() == "true" ? 1 : 0);
@@ -224,11 +227,9 @@ void add_port(Model& model, const tinyxml2::XMLElement* port) {
   const auto info = [&]() -> std::pair<string, BT::PortInfo> {
     if(type == "std::string") { return BT::CreatePort<string>(direction, name); }
     if(type == "double") { return BT::CreatePort<double>(direction, name); }
-    if(type == "int") { return BT::CreatePort<int>(direction, name); }
     if(type == "bool") { return BT::CreatePort<bool>(direction, name); }
     if(type == "std::vector<std::string>") { return BT::CreatePort<std::vector<string>>(direction, name); }
     if(type == "std::vector<double>") { return BT::CreatePort<std::vector<double>>(direction, name); }
-    if(type.empty()) { return BT::CreatePort<BT::AnyTypeAllowed>(direction, name); }
     throw BT::RuntimeError("a port of the type ", type);
   };
   auto made = info();

@@ -3,12 +3,13 @@
 //! An unknown condition is neither true nor false, so a negation goes down to the leaves: an inverter above
 //! would turn what is unknown into what holds.
 
-use motet_graph::{Comparison, Condition, Fact, FactArg, Term};
+use motet_graph::{Comparison, Condition, Fact, FactArg, Term, Type, Value};
 
 use super::Writer;
 use super::model::{Leaf, Port};
-use crate::leaves::Ports;
-use crate::names::{COUNT, FIELD, FLUENT, IS, MEASURE, OF, THAN, VALUE};
+use super::value::port_type;
+use crate::leaves::{PortType, Ports};
+use crate::names::{COUNT, FIELD, FLUENT, IS, MEASURE, NUMBER, OF, THAN, VALUE};
 use crate::xml::Element;
 
 impl Writer<'_> {
@@ -76,7 +77,7 @@ impl Writer<'_> {
             return self.compare(mirrored(comparison), right, left, path);
         }
         let mut leaf;
-        match left {
+        let than = match left {
             Term::Measure(id, args) => {
                 let Some(measure) = graph.measures.get(id.index()) else {
                     return self.refuse(path, "a measure that the graph does not declare");
@@ -88,27 +89,61 @@ impl Writer<'_> {
                     let value = self.port(arg, path);
                     leaf.give(Port::typed(&port, ty), value);
                 }
+                measure.result.clone()
             }
             Term::Field(of, field) => {
                 leaf = Leaf::condition(FIELD.to_owned());
                 let of = self.port(of, path);
                 leaf.give(Port::text("field"), field.to_string());
                 leaf.give(Port::text(OF), of);
+                match self.leaves.field(field) {
+                    Some(PortType::Name | PortType::Text) => Type::Text,
+                    _ => Type::Number,
+                }
             }
-            Term::Count(list) => {
-                leaf = Leaf::condition(COUNT.to_owned());
-                let list = self.port(list, path);
-                leaf.give(Port::any(OF), list);
-            }
+            Term::Count(list) => return self.count(list, comparison, right, path),
             other => {
-                leaf = Leaf::condition(VALUE.to_owned());
+                let ty = match other {
+                    Term::Binding(id) => graph.bindings.get(id.index()).map(|binding| binding.ty.clone()),
+                    Term::Literal(Value::Int(_) | Value::Number(_)) => Some(Type::Number),
+                    Term::Literal(Value::Text(_) | Value::Entity(_) | Value::Case(_)) => Some(Type::Text),
+                    _ => None,
+                };
+                let ty = match ty {
+                    Some(Type::Text | Type::Entity(_) | Type::Case(_)) => Type::Text,
+                    Some(Type::Int | Type::Number | Type::Quantity(_)) => Type::Number,
+                    Some(Type::Bool | Type::Pose | Type::List(_)) | None => {
+                        return self
+                            .refuse(path, "a comparison of values that are neither names nor numbers");
+                    }
+                };
+                leaf = Leaf::condition(if ty == Type::Text { VALUE } else { NUMBER }.to_owned());
                 let value = self.port(other, path);
-                leaf.give(Port::any(OF), value);
+                leaf.give(Port::typed(OF, &ty), value);
+                ty
             }
-        }
+        };
         leaf.give(Port::text(IS), key(comparison).to_owned());
-        let than = self.port(right, path);
-        leaf.give(Port::any(THAN), than);
+        let value = self.port(right, path);
+        leaf.give(Port::typed(THAN, &than), value);
+        self.leaf(leaf, path)
+    }
+
+    /// Comparison of the length of a list of names.
+    pub(super) fn count(&mut self, list: &Term, comparison: Comparison, than: &Term, path: &str) -> Element {
+        let mut leaf = Leaf::condition(COUNT.to_owned());
+        let value = self.port(list, path);
+        let ty = match list {
+            Term::Binding(id) => self.graph.bindings.get(id.index()).map(|binding| port_type(&binding.ty)),
+            _ => None,
+        };
+        if ty.is_some_and(|ty| ty != "std::vector<std::string>") {
+            return self.refuse(path, "the length of a list of numbers");
+        }
+        leaf.give(Port::typed(OF, &Type::List(Box::new(Type::Text))), value);
+        leaf.give(Port::text(IS), key(comparison).to_owned());
+        let value = self.port(than, path);
+        leaf.give(Port::typed(THAN, &Type::Number), value);
         self.leaf(leaf, path)
     }
 }
@@ -122,7 +157,7 @@ fn named(known: Option<&Ports>, count: usize) -> Vec<String> {
 }
 
 /// Word of a comparison, as in the JSON syntax.
-pub(super) fn key(comparison: Comparison) -> &'static str {
+fn key(comparison: Comparison) -> &'static str {
     match comparison {
         Comparison::Equal => "equal",
         Comparison::Unequal => "unequal",

@@ -71,6 +71,9 @@ pub fn export(graph: &Graph, leaves: &Leaves) -> Result<String, Vec<NoNode>> {
 /// Deepest level of blocks: below it an invalid graph could go round in circles.
 const DEEPEST: usize = motet_graph::validate::MAX_DEPTH + 2;
 
+/// Deepest nesting of nodes that BehaviorTree.CPP reads, but for the elements around a tree.
+const DEEPEST_XML: usize = 250;
+
 /// A document while it is written.
 struct Writer<'g> {
     graph: &'g Graph,
@@ -149,6 +152,11 @@ impl Writer<'_> {
 
     fn finish(mut self, main: String, root: Element) -> Result<String, Vec<NoNode>> {
         let models = std::mem::take(&mut self.models).element();
+        let trees = self.trees.iter().filter_map(|(_, tree)| tree.as_ref());
+        if trees.chain([&root]).any(|tree| tree.depth() > DEEPEST_XML) {
+            let what = format!("nodes that are nested more than {DEEPEST_XML} deep");
+            self.refuse("", what);
+        }
         if !self.refused.is_empty() {
             return Err(self.refused);
         }

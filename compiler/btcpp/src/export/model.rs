@@ -23,22 +23,18 @@ pub(super) struct Leaf {
 pub(super) struct Port {
     direction: &'static str,
     name: String,
-    /// Type in C++; none where the port takes values of any.
-    ty: Option<String>,
+    /// Type in C++: an entry that a port without a type reads first could not be written as a text.
+    ty: String,
     default: Option<&'static str>,
 }
 
 impl Port {
     pub(super) fn typed(name: &str, ty: &Type) -> Self {
-        Self { direction: "input_port", name: name.to_owned(), ty: Some(port_type(ty)), default: None }
+        Self { direction: "input_port", name: name.to_owned(), ty: port_type(ty), default: None }
     }
 
     pub(super) fn text(name: &str) -> Self {
         Self::typed(name, &Type::Text)
-    }
-
-    pub(super) fn any(name: &str) -> Self {
-        Self { ty: None, ..Self::text(name) }
     }
 
     pub(super) fn out(self) -> Self {
@@ -50,11 +46,7 @@ impl Port {
     }
 
     fn element(&self) -> Element {
-        let element = Element::new(self.direction).with("name", &self.name);
-        let element = match &self.ty {
-            Some(ty) => element.with("type", ty),
-            None => element,
-        };
+        let element = Element::new(self.direction).with("name", &self.name).with("type", &self.ty);
         match self.default {
             Some(default) => element.with("default", default),
             None => element,
@@ -118,7 +110,8 @@ impl Writer<'_> {
             let what = format!("`{}`, because two different leaves would have this name", leaf.id);
             return self.refuse(path, what);
         }
-        let element = Element::new(leaf.kind).with("ID", leaf.id);
+        // A verifier of BehaviorTree.CPP does not know the long form inside a reactive node.
+        let element = Element::new(leaf.id);
         leaf.values.into_iter().fold(element, |element, (name, value)| element.with(&name, value))
     }
 }

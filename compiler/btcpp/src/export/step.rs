@@ -2,8 +2,8 @@
 
 use motet_graph::draw::Names;
 use motet_graph::{
-    BindingId, CallNode, Condition, Ending, Handler, Node, NodeId, NodeKind, Primitive, Reaction, RegionId,
-    Term, Type, Value, Verdict, Watch,
+    BindingId, CallNode, Comparison, Condition, Ending, Handler, Node, NodeId, NodeKind, Primitive, Reaction,
+    RegionId, Term, Type, Value, Verdict, Watch,
 };
 
 use super::model::{Leaf, Port};
@@ -11,7 +11,7 @@ use super::place::{Around, Place, left};
 use super::value::milliseconds;
 use super::{Writer, set};
 use crate::import::NODE_FAILED;
-use crate::names::{AS, COUNT, FAILURE, FAILURE_IS, IS, MANNER, NEEDS, OF, THAN, VALUE};
+use crate::names::{AS, FAILURE, FAILURE_IS, IS, MANNER, NEEDS, OF, THAN, VALUE};
 use crate::xml::Element;
 
 impl Writer<'_> {
@@ -265,9 +265,9 @@ impl Writer<'_> {
             Element::new("RetryUntilSuccessful").with("num_attempts", times.to_string()).child(round);
         let rounds = self.or_exhausted(rounds);
         let mut is_whole = Leaf::condition(VALUE.to_owned());
-        is_whole.give(Port::any(OF), format!("{{{broken}}}"));
+        is_whole.give(Port::text(OF), format!("{{{broken}}}"));
         is_whole.give(Port::text(IS), "equal".to_owned());
-        is_whole.give(Port::any(THAN), "no".to_owned());
+        is_whole.give(Port::text(THAN), "no".to_owned());
         let is_whole = self.leaf(is_whole, path);
         Element::new("Sequence").with("name", "until").children([set("no", &broken), rounds, is_whole])
     }
@@ -294,8 +294,7 @@ impl Writer<'_> {
         let ty = self.graph.bindings.get(item.index()).map(|binding| &binding.ty);
         let tag = match ty {
             Some(Type::Text | Type::Entity(_) | Type::Case(_)) => "LoopString",
-            Some(Type::Number | Type::Quantity(_)) => "LoopDouble",
-            Some(Type::Int) => "LoopInt",
+            Some(Type::Int | Type::Number | Type::Quantity(_)) => "LoopDouble",
             Some(Type::Bool) => "LoopBool",
             Some(Type::Pose | Type::List(_)) | None => {
                 return vec![
@@ -319,11 +318,8 @@ impl Writer<'_> {
             Some(0) => Vec::new(),
             Some(_) => vec![rounds],
             None => {
-                let mut fits = Leaf::condition(COUNT.to_owned());
-                fits.give(Port::any(OF), queue);
-                fits.give(Port::text(IS), "at_most".to_owned());
-                fits.give(Port::any(THAN), at_most.to_string());
-                let fits = self.leaf(fits, path);
+                let bound = Term::Literal(Value::Int(at_most.into()));
+                let fits = self.count(list, Comparison::AtMost, &bound, path);
                 vec![self.or_exhausted(fits), rounds]
             }
         }

@@ -29,19 +29,17 @@ pub(super) fn entries(graph: &Graph) -> Vec<Option<String>> {
     names.into_iter().map(|name| name.map(&mut entry)).collect()
 }
 
-/// Type of a port in C++; none for a port that takes any.
+/// Type of a port in C++.
 pub(super) fn port_type(ty: &Type) -> String {
     match ty {
         Type::Bool => "bool".to_owned(),
-        Type::Int => "int".to_owned(),
-        Type::Number | Type::Quantity(_) => "double".to_owned(),
+        Type::Int | Type::Number | Type::Quantity(_) => "double".to_owned(),
         Type::Text | Type::Entity(_) | Type::Case(_) => "std::string".to_owned(),
         // Position and quaternion, seven numbers.
         Type::Pose => "std::vector<double>".to_owned(),
         Type::List(inner) => match &**inner {
             Type::Bool => "std::vector<bool>".to_owned(),
-            Type::Int => "std::vector<int>".to_owned(),
-            Type::Number | Type::Quantity(_) => "std::vector<double>".to_owned(),
+            Type::Int | Type::Number | Type::Quantity(_) => "std::vector<double>".to_owned(),
             Type::Text | Type::Entity(_) | Type::Case(_) | Type::Pose | Type::List(_) => {
                 "std::vector<std::string>".to_owned()
             }

@@ -8,30 +8,35 @@ use super::document::{elements, kind};
 use super::value::expr;
 use super::{Context, MAX_DEPTH, Reader};
 use crate::leaves::{PortType, Ports};
-use crate::names::{COUNT, FIELD, FLUENT, IS, MEASURE, OF, THAN, VALUE};
+use crate::names::{COUNT, FIELD, FLUENT, IS, MEASURE, NUMBER, OF, THAN, VALUE};
 
 impl<'a, 't> Reader<'_, 'a, 't> {
-    /// Checks if a node is a condition or made of conditions alone.
+    /// Checks if a node is a condition or made of conditions, with at least one leaf of the library.
     pub(super) fn is_condition(&self, node: Node<'a, 't>) -> bool {
-        let inside = |has_leaf: bool| {
-            let children = elements(node);
-            let is_plain = |child: &Node<'_, '_>| matches!(kind(*child), "AlwaysSuccess" | "AlwaysFailure");
-            children.iter().all(|child| is_plain(child) || self.is_condition(*child))
-                && (!has_leaf || children.iter().any(|child| !is_plain(child)))
-        };
+        let leaves = node.descendants().filter(Node::is_element);
+        self.is_test(node) && leaves.into_iter().any(|leaf| self.is_leaf(leaf))
+    }
+
+    /// Checks if a node is ticked in one instant and calls nothing: the same, or a constant.
+    pub(super) fn is_test(&self, node: Node<'a, 't>) -> bool {
+        let children = elements(node);
         match kind(node) {
+            "AlwaysSuccess" | "AlwaysFailure" => true,
             "Sequence" | "Fallback" | "AsyncSequence" | "AsyncFallback" => {
-                node.attribute("name").is_none() && inside(true)
+                let is_named = node.attribute("name").is_some();
+                !is_named && !children.is_empty() && children.into_iter().all(|child| self.is_test(child))
             }
-            "Inverter" => inside(false) && elements(node).len() == 1,
-            id => {
-                let is_test = id == FIELD || id == COUNT || id == VALUE;
-                let fluent = id.strip_prefix(FLUENT).is_some_and(|name| self.leaves.fluent(name).is_some());
-                let measure =
-                    id.strip_prefix(MEASURE).is_some_and(|name| self.leaves.measure(name).is_some());
-                (is_test || fluent || measure) && self.leaves.action(id).is_none()
-            }
+            "Inverter" => matches!(children.as_slice(), [only] if self.is_test(*only)),
+            _ => self.is_leaf(node),
         }
+    }
+
+    /// Checks if a node is a condition of the library.
+    fn is_leaf(&self, node: Node<'a, 't>) -> bool {
+        let id = kind(node);
+        let fluent = id.strip_prefix(FLUENT).is_some_and(|name| self.leaves.fluent(name).is_some());
+        let measure = id.strip_prefix(MEASURE).is_some_and(|name| self.leaves.measure(name).is_some());
+        ([FIELD, COUNT, VALUE, NUMBER].contains(&id) || fluent || measure) && self.leaves.action(id).is_none()
     }
 
     /// The condition that a node tests. What is unknown is neither it nor its negation.
@@ -100,12 +105,10 @@ impl<'a, 't> Reader<'_, 'a, 't> {
                 let of = self.given(node, OF, &PortType::List(Box::new(PortType::Name)), context)?;
                 (call("count", vec![of], span), PortType::Number)
             }
-            VALUE => {
+            VALUE | NUMBER => {
                 self.ports(node, &[OF, IS, THAN]);
-                let of = self.given(node, OF, &PortType::Name, context)?;
-                let than = self.required(node, THAN)?.0;
-                let is_number = than.trim().parse::<f64>().is_ok();
-                (of, if is_number { PortType::Number } else { PortType::Name })
+                let ty = if id == VALUE { PortType::Name } else { PortType::Number };
+                (self.given(node, OF, &ty, context)?, ty)
             }
             _ => {
                 let name = id.strip_prefix(MEASURE).unwrap_or(id);

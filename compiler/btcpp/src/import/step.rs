@@ -269,8 +269,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
                 return Vec::new();
             }
         };
-        let is_constant = matches!(kind(test), "AlwaysSuccess" | "AlwaysFailure");
-        if !self.is_condition(test) && !is_constant {
+        if !self.is_test(test) {
             let at = self.places.tag(test);
             self.refuse(at, "the condition of `IfThenElse` is no condition".to_owned(), None);
             return Vec::new();
@@ -313,7 +312,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
                 }
                 _ => (*check, None),
             };
-            if !self.is_condition(test) && !matches!(kind(test), "AlwaysSuccess" | "AlwaysFailure") {
+            if !self.is_test(test) {
                 self.refuse(at, format!("a child of `{}` before its last is no condition", kind(node)), None);
                 continue;
             }

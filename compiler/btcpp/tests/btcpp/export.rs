@@ -59,8 +59,8 @@ fn export_inverts_conditions_at_the_leaves() {
     let tree = export(&graph(&steps), &Leaves::default()).unwrap();
     assert!(!tree.contains("<Inverter>"), "{tree}");
     for leaf in [
-        "<Condition ID=\"is_holding\" arg_1=\"mug\" is=\"false\"/>",
-        "<Condition ID=\"compare_distance\" arg_1=\"user\" is=\"at_least\" than=\"0.5\"/>",
+        "<is_holding arg_1=\"mug\" is=\"false\"/>",
+        "<compare_distance arg_1=\"user\" is=\"at_least\" than=\"0.5\"/>",
     ] {
         assert!(tree.contains(leaf), "{tree}");
     }

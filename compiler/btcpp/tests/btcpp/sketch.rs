@@ -2,7 +2,7 @@
 
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, steps};
-use motet_graph::{Condition, Fact, FactArg, Term};
+use motet_graph::{Comparison, Condition, Fact, FactArg, Term};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -60,7 +60,7 @@ fn one(step: &StepSketch, to: Use) -> StepSketch {
                 }
                 _ => WatchSketch {
                     condition: Condition::Literal(true),
-                    hold_secs: 40_000.0,
+                    hold_secs: 500_000.0,
                     react: ReactionSketch::Pause(0.0),
                 },
             };
@@ -87,8 +87,9 @@ fn one(step: &StepSketch, to: Use) -> StepSketch {
         StepSketch::Each(list, most, steps) => {
             let count = if let Term::List(items) = list { items.len() } else { 0 };
             let items = ["mug", "cup", "bowl"].iter().cycle().take(count).map(|id| v::entity(id)).collect();
-            StepSketch::Each(Term::List(items), (*most).max(1), inside(steps))
+            StepSketch::Each(Term::List(items), (*most).max(count as u32).max(1), inside(steps))
         }
+        StepSketch::Parallel(branches) if branches.is_empty() => StepSketch::Sequence(Vec::new()),
         StepSketch::Parallel(branches) => {
             StepSketch::Parallel(branches.iter().map(|steps| inside(steps)).collect())
         }
@@ -103,6 +104,8 @@ fn condition(test: &Condition) -> Condition {
         Condition::Fact(Fact { fluent, args }) if *fluent == v::TRUSTED => {
             Condition::Fact(Fact { fluent: v::HOLDING, args: args.clone() })
         }
+        // Between two constants the compiler decides it.
+        Condition::Compare(Comparison::Equal, ..) => v::nearer("user", 0.5),
         Condition::Not(inner) => Condition::Not(Box::new(condition(inner))),
         Condition::All(parts) => Condition::All(all(parts)),
         Condition::AnyOf(parts) => Condition::AnyOf(all(parts)),
