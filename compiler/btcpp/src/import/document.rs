@@ -1,5 +1,7 @@
 //! XML of behaviour trees, read within limits and with places.
 
+use std::collections::BTreeMap;
+
 use motet_syntax::{FileId, Source, Span};
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
@@ -7,6 +9,9 @@ use crate::errors::NotTree;
 
 /// Greatest number of XML nodes of a document.
 pub const MAX_XML_NODES: u32 = 200_000;
+
+/// Greatest nesting of elements, as BehaviorTree.CPP has it.
+const MAX_XML_DEPTH: u32 = 256;
 
 /// Conversion of XML to places of the file.
 #[derive(Clone, Copy)]
@@ -21,7 +26,13 @@ pub(super) fn parse(source: &Source, file: FileId) -> Result<(Document<'_>, Plac
     let places = Places { file, skipped: source.text.len() - text.len() };
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_XML_NODES, entity_resolver: None };
     match Document::parse_with_options(text, options) {
-        Ok(document) => Ok((document, places)),
+        Ok(document) => match too_deep(&document).map(|node| places.tag(node)) {
+            None => Ok((document, places)),
+            Some(span) => {
+                let problem = format!("elements are nested more than {MAX_XML_DEPTH} deep");
+                Err(NotTree { span, problem })
+            }
+        },
         Err(error) => {
             let at = places.offset(text, &error);
             let problem = match error {
@@ -32,6 +43,17 @@ pub(super) fn parse(source: &Source, file: FileId) -> Result<(Document<'_>, Plac
             Err(NotTree { span: Span::new(file, at, at), problem })
         }
     }
+}
+
+/// The first element that is nested too deep, found without recursion.
+fn too_deep<'a>(document: &'a Document<'_>) -> Option<Node<'a, 'a>> {
+    let mut depths = BTreeMap::new();
+    document.descendants().filter(Node::is_element).find(|node| {
+        let outer = node.parent().and_then(|parent| depths.get(&parent.id().get_usize()).copied());
+        let depth = outer.unwrap_or(0) + 1;
+        depths.insert(node.id().get_usize(), depth);
+        depth > MAX_XML_DEPTH
+    })
 }
 
 impl Places {

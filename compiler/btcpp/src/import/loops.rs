@@ -44,11 +44,12 @@ impl<'a, 't> Reader<'_, 'a, 't> {
             }
         }
         // Another attempt is a handler with a copy of the steps.
-        let copies = count(&steps).saturating_mul(attempts.saturating_sub(1) as usize);
+        let (size, depth) = size(&steps);
+        let copies = size.saturating_mul(attempts.saturating_sub(1) as usize);
         if !self.count(copies, span) {
             return Vec::new();
         }
-        if context.depth + attempts as usize > super::MAX_DEPTH {
+        if context.depth + depth + attempts as usize > super::MAX_DEPTH {
             self.refuse(span, format!("{attempts} attempts of more than an action nest too deep"), None);
             return Vec::new();
         }
@@ -195,25 +196,39 @@ fn round<'a, 't>(rounds: Node<'a, 't>) -> Option<(Node<'a, 't>, Node<'a, 't>, No
     (is_loop && kind(*set) == "SetBlackboard").then_some((retry, *body, *test))
 }
 
-/// Number of steps with those inside.
-fn count(steps: &[Step]) -> usize {
-    let inside = |step: &Step| match &step.kind {
-        StepKind::Sequence { body, .. }
-        | StepKind::Monitor { body, .. }
-        | StepKind::Repeat { body, .. }
-        | StepKind::Each { body, .. }
-        | StepKind::Within { body, .. }
-        | StepKind::Keep { body, .. } => count(&body.steps),
-        StepKind::If { then, otherwise, .. } => {
-            count(&then.steps) + otherwise.as_ref().map_or(0, |otherwise| count(&otherwise.steps))
+/// Number of steps with those inside, and the depth of their blocks.
+fn size(steps: &[Step]) -> (usize, usize) {
+    let inside = |step: &Step| -> Vec<(usize, usize)> {
+        match &step.kind {
+            StepKind::Sequence { body, .. }
+            | StepKind::Monitor { body, .. }
+            | StepKind::Repeat { body, .. }
+            | StepKind::Each { body, .. }
+            | StepKind::Within { body, .. }
+            | StepKind::Keep { body, .. } => vec![size(&body.steps)],
+            StepKind::If { then, otherwise, .. } => [Some(then), otherwise.as_ref()]
+                .into_iter()
+                .flatten()
+                .map(|block| size(&block.steps))
+                .collect(),
+            StepKind::Try { body, catches } => {
+                let handlers = catches.iter().map(|catch| &catch.body);
+                std::iter::once(body).chain(handlers).map(|block| size(&block.steps)).collect()
+            }
+            StepKind::Parallel { branches } => branches.iter().map(|block| size(&block.steps)).collect(),
+            StepKind::Finally { step, cleanup } => {
+                vec![size(std::slice::from_ref(step)), size(&cleanup.steps)]
+            }
+            StepKind::Do(_) | StepKind::Let { .. } | StepKind::Wait { .. } | StepKind::Delay { .. } => {
+                Vec::new()
+            }
+            StepKind::End(_) => Vec::new(),
         }
-        StepKind::Try { body, catches } => {
-            count(&body.steps) + catches.iter().map(|catch| count(&catch.body.steps)).sum::<usize>()
-        }
-        StepKind::Parallel { branches } => branches.iter().map(|branch| count(&branch.steps)).sum(),
-        StepKind::Finally { step, cleanup } => count(std::slice::from_ref(step)) + count(&cleanup.steps),
-        StepKind::Do(_) | StepKind::Let { .. } | StepKind::Wait { .. } | StepKind::Delay { .. } => 0,
-        StepKind::End(_) => 0,
     };
-    steps.iter().map(|step| 1 + inside(step)).sum()
+    let parts = steps.iter().map(|step| {
+        let inside = inside(step);
+        let depth = inside.iter().map(|(_, depth)| depth + 1).max().unwrap_or(1);
+        (1 + inside.iter().map(|(count, _)| count).sum::<usize>(), depth)
+    });
+    parts.fold((0, 0), |(count, deepest), (more, depth)| (count + more, deepest.max(depth)))
 }

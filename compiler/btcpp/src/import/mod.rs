@@ -24,8 +24,8 @@ use scope::Scope;
 
 /// The most steps of an imported policy, with the copies of trees and of attempts.
 pub const MAX_IMPORTED_STEPS: usize = 10_000;
-/// Deepest nesting of nodes; a node is at most two blocks deep.
-const MAX_DEPTH: usize = MAX_NESTING / 2 - 2;
+/// Deepest nesting of nodes, of which each is at most one block or one condition deep.
+const MAX_DEPTH: usize = MAX_NESTING - 4;
 /// Sub-policy that fails as a node does, so that a handler can catch it.
 pub(crate) const NODE_FAILED: &str = "node_failed";
 
