@@ -78,7 +78,7 @@ enum Command {
     Replay(command::replay::ReplayArgs),
     /// Show the journal of a run on a page in a browser, or write the page to a file
     View(command::view::ViewArgs),
-    /// Export the journal of a run to another format
+    /// Export the journal of a run, or a policy, to another format
     Export(command::export::ExportArgs),
     /// Decide which motions are feasible for a robot in a scene
     Feasible(command::feasible::FeasibleArgs),
@@ -150,7 +150,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Run(args) => command::run::run(args, colors),
         Command::Replay(args) => command::replay::run(args),
         Command::View(args) => command::view::run(args, colors),
-        Command::Export(args) => command::export::run(args),
+        Command::Export(args) => command::export::run(args, colors),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Scenes(args) => command::scenes::run(args, colors),

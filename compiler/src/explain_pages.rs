@@ -21,7 +21,7 @@ macro_rules! pages {
 pub const PAGES: &[CodePage] = pages! {
     "M0101" "M0102" "M0103" "M0104" "M0105" "M0106" "M0107" "M0108" "M0109" "M0110" "M0111" "M0112"
     "M0113" "M0114" "M0115" "M0116" "M0117" "M0118" "M0119" "M0120" "M0121" "M0122" "M0123" "M0131"
-    "M0132" "M0133"
+    "M0132" "M0133" "M0141" "M0142" "M0143"
     "M0201" "M0202" "M0203" "M0204" "M0205" "M0206" "M0207" "M0208" "M0209" "M0210" "M0211" "M0212"
     "M0213" "M0214" "M0215" "M0216" "M0217" "M0218" "M0221" "M0222" "M0223" "M0224" "M0225" "M0226"
     "M0301" "M0302" "M0303" "M0304" "M0305" "M0306" "M0307" "M0308" "M0309" "M0310" "M0311" "M0312"
@@ -57,6 +57,7 @@ pub fn page(code: &str) -> Option<&'static CodePage> {
 pub fn all() -> Vec<Code> {
     let stages = [
         motet_pddl::CODES,
+        motet_btcpp::CODES,
         crate::declare::errors::CODES,
         crate::resolve::errors::CODES,
         crate::environment::CODES,

@@ -18,6 +18,7 @@ mod repair;
 mod resolve;
 mod session;
 pub mod signature;
+mod signature_leaves;
 mod syntax_conversion;
 
 pub use declare::{

@@ -1,5 +1,7 @@
 //! `motet export`: the journal of a run as an MCAP file, with the simulated scene if the run was a
-//! simulation.
+//! simulation, and policies as behaviour trees.
+
+mod btcpp;
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -15,7 +17,7 @@ use motet_stdlib::lang;
 use motet_stdlib::lang::kinds;
 
 use crate::error::{CliError, Exit, journal_error};
-use crate::output::{note, replace_with};
+use crate::output::{Colors, note, replace_with};
 
 /// Flags of `motet export`.
 #[derive(Args, Debug)]
@@ -29,6 +31,8 @@ pub(crate) struct ExportArgs {
 enum ExportCommand {
     /// Export a journal as an MCAP file, for Foxglove and other viewers
     Mcap(McapArgs),
+    /// Export a policy as a behaviour tree of BehaviorTree.CPP 4, for Groot2 too
+    Btcpp(btcpp::BtcppArgs),
 }
 
 /// Flags of `motet export mcap`.
@@ -44,8 +48,14 @@ struct McapArgs {
 }
 
 /// Runs the command.
-pub(crate) fn run(args: &ExportArgs) -> Result<Exit, CliError> {
-    let ExportCommand::Mcap(args) = &args.command;
+pub(crate) fn run(args: &ExportArgs, colors: Colors) -> Result<Exit, CliError> {
+    match &args.command {
+        ExportCommand::Mcap(args) => mcap(args),
+        ExportCommand::Btcpp(args) => btcpp::run(args, colors),
+    }
+}
+
+fn mcap(args: &McapArgs) -> Result<Exit, CliError> {
     // An earlier file, which may be the journal itself, stays until the new one is complete.
     let entries = replace_with(&args.output, |file| write(&args.folder, file))?;
     note(&format!("wrote {entries} entries to {}", args.output.display()));

@@ -1,4 +1,7 @@
-//! `motet import`: files of other planning languages as Motet, and rooms of other tools as scenes.
+//! `motet import`: files of other planning languages and behaviour trees as Motet, and rooms of other tools
+//! as scenes.
+
+mod btcpp;
 
 use std::fs::File;
 use std::io::Read as _;
@@ -28,6 +31,8 @@ pub(crate) struct ImportArgs {
 enum ImportCommand {
     /// Import a PDDL domain and problem as declarations, or a plan for them as a policy
     Pddl(PddlArgs),
+    /// Import a behaviour tree of BehaviorTree.CPP 4 as a policy
+    Btcpp(Box<btcpp::BtcppArgs>),
     /// Import a map of occupied cells, as ROS map servers write it, as a scene with walls
     Map(MapArgs),
     /// Import the models of an SDF as a scene
@@ -116,6 +121,7 @@ struct PddlArgs {
 pub(crate) fn run(args: &ImportArgs, colors: Colors) -> Result<Exit, CliError> {
     let (format, output) = match &args.command {
         ImportCommand::Pddl(args) => (args.format.format, &args.output),
+        ImportCommand::Btcpp(args) => (args.format.format, &args.output),
         ImportCommand::Map(args) => (args.format.format, &args.output),
         ImportCommand::Sdf(args) => (args.format.format, &args.output),
     };
@@ -125,6 +131,7 @@ pub(crate) fn run(args: &ImportArgs, colors: Colors) -> Result<Exit, CliError> {
         }
         match &args.command {
             ImportCommand::Pddl(args) => pddl(args, report),
+            ImportCommand::Btcpp(args) => btcpp::run(args, report),
             ImportCommand::Map(args) => map(args, report),
             ImportCommand::Sdf(args) => sdf(args, report),
         }

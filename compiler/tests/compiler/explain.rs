@@ -113,6 +113,8 @@ struct Case {
     has_srdf: bool,
     /// A PDDL domain, a problem and a plan, in this order.
     pddl: Vec<(Source, FileId)>,
+    /// Behaviour trees.
+    trees: Vec<(Source, FileId)>,
 }
 
 impl Case {
@@ -237,6 +239,7 @@ impl Case {
                     }
                     None if [
                         "card", "urdf", "srdf", "scene", "state", "domain", "pddl", "map", "image", "sdf",
+                        "btcpp",
                     ]
                     .contains(&word) =>
                     {
@@ -255,6 +258,10 @@ impl Case {
                 "image" => self.map_image(&bytes),
                 "sdf" => self.sdf(&bytes),
                 "state" => self.state(&bytes),
+                "btcpp" => {
+                    let added = self.add(&bytes);
+                    self.trees.extend(added);
+                }
                 "pddl" => {
                     let added = self.add(&bytes);
                     self.pddl.extend(added);
@@ -309,6 +316,9 @@ impl Case {
             }
             _ => session,
         };
+        for (source, file) in &self.trees {
+            self.said.extend(motet_btcpp::import(source, *file, &session.signatures().leaves()).1);
+        }
         for parsed in &policies {
             self.said.extend(session.check(parsed));
             self.left.extend(session.check_document(parsed).deferred_notes);

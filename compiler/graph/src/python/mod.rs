@@ -10,3 +10,4 @@ mod term;
 mod writer;
 
 pub use step::{Unsayable, script};
+pub use writer::identifier;

@@ -90,8 +90,9 @@ impl<'g> Writer<'g> {
     }
 }
 
-/// A name as Python has it: letters, digits and underscores of ASCII.
-pub(super) fn identifier(name: &str) -> String {
+/// A name as most languages have it: letters, digits and underscores of ASCII.
+#[must_use]
+pub fn identifier(name: &str) -> String {
     let plain = |char: char| if char.is_ascii_alphanumeric() { char } else { '_' };
     let name: String = name.chars().map(plain).collect();
     if name.starts_with(|char: char| char.is_ascii_digit()) || name.is_empty() {
