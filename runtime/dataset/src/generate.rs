@@ -7,9 +7,11 @@ use std::sync::Arc;
 use indexmap::IndexMap;
 use motet_geometry::planning::SearchBudget;
 use motet_robots::scene::Scene;
+use rand_xoshiro::SplitMix64;
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
+use crate::deck::{Deck, Wish};
 use crate::format::{self, About, Row, RowFormat, UPDATE};
 use crate::lesson::{self, Lesson};
 use crate::picture::{Picture, Pictures};
@@ -117,10 +119,12 @@ impl Order {
 
 /// Light of pictures: least and greatest, where 1 is that of the camera.
 const LIGHT: [f64; 2] = [0.5, 1.2];
-/// Share of the cases that are lessons.
-const LESSONS: f64 = 0.5;
-/// Number of draws of a case in a scene that has nothing for the first one.
+/// Number of draws of a conversation of a kind in a scene that has nothing for the first one.
 const DRAWS: usize = 8;
+/// Number of conversations of a kind that are played until one goes as it was drawn, before another kind is.
+const PLAYS: usize = 3;
+/// Number of kinds that are tried for one conversation.
+const KINDS: usize = 3;
 
 /// Makes the rows of one varied scene, by its number below [`Order::scenes`]. Each number by itself gives the
 /// same, so they can be made in any order.
@@ -132,7 +136,8 @@ pub fn part(order: &Order, number: usize) -> SceneRows {
     let mut draw = random::part(order.seed, seed);
     let told = scenery::vary(base, &order.things, &mut draw);
     let name = format_smolstr!("{name}-{}", number + 1);
-    for body in &order.bodies {
+    let mut deck = Deck::new(order.seed, order.taught());
+    for (index, body) in order.bodies.iter().enumerate() {
         let stage = match Stage::new(body, &told, order.effort) {
             Ok(stage) => stage,
             Err(_) => {
@@ -140,25 +145,15 @@ pub fn part(order: &Order, number: usize) -> SceneRows {
                 continue;
             }
         };
-        for _ in 0..order.cases {
+        for case in 0..order.cases {
             let light = draw.within(LIGHT[0], LIGHT[1]);
-            let lessons = order.taught();
-            let is_lesson = !lessons.is_empty() && draw.chance(LESSONS);
-            let drawn = (0..DRAWS).find_map(|_| match is_lesson {
-                true => lesson::draw(&body.robot, &told, lessons, &mut draw),
-                false => case::draw(&body.robot, &told, &order.wordings, &mut draw),
-            });
-            let Some(case) = drawn else {
-                part.leave_out("the scene has nothing for it");
-                continue;
-            };
-            match play(&case, &stage, (order.shown(), light)) {
-                Ok(turns) => {
-                    for (turn, played) in turns.into_iter().enumerate() {
-                        part.turn(order, body, &stage, &name, &case, turn, played);
-                    }
+            let place = (number * order.bodies.len() + index) * order.cases + case;
+            for kind in 0..KINDS {
+                // What a scene cannot give gives way to what comes next in the deck.
+                let wish = deck.at(place + kind);
+                if part.conversation(order, (body, &stage, &name), (wish, light), &mut draw) {
+                    break;
                 }
-                Err(why) => part.leave_out(why),
             }
         }
     }
@@ -200,6 +195,47 @@ pub fn recorded(order: &Order, plans: &[RecordedPlan]) -> SceneRows {
 impl SceneRows {
     fn leave_out(&mut self, why: &'static str) {
         *self.dropped.entry(why).or_default() += 1;
+    }
+
+    /// Draws conversations of a kind and plays them until one gives a row. False if none does.
+    fn conversation(
+        &mut self,
+        order: &Order,
+        (body, stage, name): (&Body, &Stage, &SmolStr),
+        (wish, light): (Wish, f64),
+        draw: &mut SplitMix64,
+    ) -> bool {
+        for _ in 0..PLAYS {
+            let drawn = (0..DRAWS).find_map(|_| {
+                let mut request = |failures, is_changed| {
+                    case::draw(&body.robot, &stage.scene, &order.wordings, (failures, is_changed), draw)
+                };
+                match wish {
+                    Wish::Changed => request(&[], true),
+                    Wish::Request(failures) => request(failures, false),
+                    Wish::Lesson(construct) => {
+                        lesson::draw(&body.robot, &stage.scene, order.taught(), construct, draw)
+                    }
+                }
+            });
+            let Some(case) = drawn else {
+                self.leave_out("the scene has nothing for it");
+                return false;
+            };
+            match play(&case, stage, (order.shown(), light)) {
+                Ok(turns) => {
+                    let before = self.rows.len();
+                    for (turn, played) in turns.into_iter().enumerate() {
+                        self.turn(order, body, stage, name, &case, turn, played);
+                    }
+                    if self.rows.len() > before {
+                        return true;
+                    }
+                }
+                Err(why) => self.leave_out(why),
+            }
+        }
+        false
     }
 
     /// Keeps a turn as a row where its answer can be carried out in the scene as it is then.

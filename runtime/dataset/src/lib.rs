@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod case;
+mod deck;
 pub mod format;
 pub mod generate;
 pub mod lesson;

@@ -5,6 +5,7 @@
 //! several places, such as `{thing}` at each word behind which a noun may end: these are tried in order. So
 //! the work for a rule is linear in its parts for each of them.
 
+use crate::engine::effort;
 use crate::engine::phrases::{List, list};
 use crate::engine::reader::{self, Clause};
 use crate::engine::template::{Part, Side, Template};
@@ -125,6 +126,9 @@ impl Clause<'_> {
 
     /// All ends at which a part fits, in order.
     fn part(&self, part: &'static Part, state: State) -> Vec<State> {
+        if !effort::step() {
+            return Vec::new();
+        }
         match part {
             Part::Word(word) => {
                 let is_it = match (self.tokens.get(state.at), *word) {
