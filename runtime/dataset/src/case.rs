@@ -9,7 +9,7 @@ use rand_xoshiro::SplitMix64;
 use smol_str::SmolStr;
 
 use crate::random::Draw;
-use crate::scenery::{HIGH, is_bin};
+use crate::scenery::{HIGH, TRIES, extents, is_bin, spot};
 use crate::wordings::{Task, Wordings};
 
 /// One conversation to record: a request, and the failures on its way.
@@ -232,8 +232,10 @@ fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Spli
     let places: Vec<&Entity> = real.entities.values().filter(fits).collect();
     let place = (*draw.pick(&places)?).clone();
     let called = the(real, &place, draw)?;
+    let size = thing.shape.as_ref().and_then(extents)?;
+    let pose = (0..TRIES).find_map(|_| spot(real, &place, size, draw))?;
     let hidden = real.entities.get_mut(&thing.id)?;
-    (hidden.on, hidden.inside, hidden.pose) = (None, None, None);
+    (hidden.on, hidden.inside, hidden.pose) = (None, None, Some(pose));
     hidden.visible = Some(false);
     if place.kind == kinds::CONTAINER {
         hidden.inside = Some(place.id);

@@ -11,13 +11,13 @@ use rand_xoshiro::SplitMix64;
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
-use crate::deck::{Deck, Wish};
+use crate::deck::{Deck, DeckWish};
 use crate::format::{self, About, Row, RowFormat, UPDATE};
 use crate::lesson::{self, Lesson};
 use crate::picture::{Picture, Pictures};
 use crate::play::play;
 use crate::random::{self, Draw as _};
-use crate::stage::{Body, Stage};
+use crate::stage::{Body, Posture, Stage};
 use crate::wordings::Wordings;
 use crate::{case, lint, scenery};
 
@@ -80,6 +80,7 @@ impl<'t> FromIterator<&'t str> for HeldOut {
 pub struct SceneRows {
     rows: Vec<Row>,
     scenes: IndexMap<SmolStr, Scene>,
+    postures: IndexMap<SmolStr, Posture>,
     pictures: BTreeMap<SmolStr, Picture>,
     dropped: BTreeMap<&'static str, usize>,
 }
@@ -93,6 +94,8 @@ pub struct Dataset {
     pub test: Vec<Row>,
     /// Every scene of a row, by name.
     pub scenes: IndexMap<SmolStr, Scene>,
+    /// State of the robot's body in scenes where it is not that of the card.
+    pub postures: IndexMap<SmolStr, Posture>,
     /// The picture of each row that has one, by its path: PNGs.
     pub pictures: BTreeMap<SmolStr, Arc<[u8]>>,
     /// Number of dropped cases and turns by reason.
@@ -138,7 +141,7 @@ pub fn part(order: &Order, number: usize) -> SceneRows {
     let name = format_smolstr!("{name}-{}", number + 1);
     let mut deck = Deck::new(order.seed, order.taught());
     for (index, body) in order.bodies.iter().enumerate() {
-        let stage = match Stage::new(body, &told, order.effort) {
+        let stage = match Stage::new(body, (&told, &Posture::new()), order.effort) {
             Ok(stage) => stage,
             Err(_) => {
                 part.leave_out("the robot cannot be in the scene");
@@ -174,7 +177,7 @@ pub struct RecordedPlan {
 pub fn recorded(order: &Order, plans: &[RecordedPlan]) -> SceneRows {
     let mut part = SceneRows::default();
     let (Some((name, scene)), Some(body)) = (order.bases.first(), order.bodies.first()) else { return part };
-    let Ok(stage) = Stage::new(body, scene, order.effort) else {
+    let Ok(stage) = Stage::new(body, (scene, &Posture::new()), order.effort) else {
         part.leave_out("the robot cannot be in the scene");
         return part;
     };
@@ -202,7 +205,7 @@ impl SceneRows {
         &mut self,
         order: &Order,
         (body, stage, name): (&Body, &Stage, &SmolStr),
-        (wish, light): (Wish, f64),
+        (wish, light): (DeckWish, f64),
         draw: &mut SplitMix64,
     ) -> bool {
         for _ in 0..PLAYS {
@@ -211,9 +214,9 @@ impl SceneRows {
                     case::draw(&body.robot, &stage.scene, &order.wordings, (failures, is_changed), draw)
                 };
                 match wish {
-                    Wish::Changed => request(&[], true),
-                    Wish::Request(failures) => request(failures, false),
-                    Wish::Lesson(construct) => {
+                    DeckWish::Changed => request(&[], true),
+                    DeckWish::Request(failures) => request(failures, false),
+                    DeckWish::Lesson(construct) => {
                         lesson::draw(&body.robot, &stage.scene, order.taught(), construct, draw)
                     }
                 }
@@ -258,7 +261,7 @@ impl SceneRows {
             self.leave_out("the plan has no place on the model surface");
             return;
         };
-        let is_start = played.scene == stage.scene;
+        let is_start = played.scene == stage.scene && played.posture == stage.posture;
         let is_update = turn > 0 && case.update.is_some();
         let named = |picture: Picture| (picture.path(scene, &body.robot.name), picture);
         let pictures: Vec<(SmolStr, Picture)> = played.pictures.into_iter().map(named).collect();
@@ -284,7 +287,11 @@ impl SceneRows {
             self.leave_out("the form cannot say it");
             return;
         };
-        let own = if is_start { None } else { Stage::new(body, &played.scene, order.effort).ok() };
+        let own = if is_start {
+            None
+        } else {
+            stage.elsewhere(body, (&played.scene, &played.posture), order.effort).ok()
+        };
         let fault = match &own {
             Some(own) => lint::fault(own, &read.target),
             None if is_start => lint::fault(stage, &read.target),
@@ -295,12 +302,21 @@ impl SceneRows {
             return;
         }
         if !is_start {
-            let known = self.scenes.iter().find(|(_, scene)| **scene == played.scene);
-            row.about.scene = known
+            let posture = |name: &SmolStr| self.postures.get(name).cloned().unwrap_or_default();
+            let is_it = |(name, scene): &(&SmolStr, &Scene)| {
+                **scene == played.scene && posture(name) == played.posture
+            };
+            row.about.scene = self
+                .scenes
+                .iter()
+                .find(is_it)
                 .map(|(name, _)| name.clone())
                 .unwrap_or_else(|| format_smolstr!("{scene}.{}", self.scenes.len() + 1));
         }
         self.scenes.entry(row.about.scene.clone()).or_insert(played.scene);
+        if !played.posture.is_empty() {
+            self.postures.entry(row.about.scene.clone()).or_insert(played.posture);
+        }
         self.pictures.extend(pictures);
         self.rows.push(row);
     }
@@ -328,6 +344,9 @@ pub fn gather(order: &Order, parts: Vec<(usize, SceneRows)>) -> Dataset {
             }
             if let Some(scene) = part.scenes.get(&row.about.scene) {
                 dataset.scenes.entry(row.about.scene.clone()).or_insert_with(|| scene.clone());
+            }
+            if let Some(posture) = part.postures.get(&row.about.scene) {
+                dataset.postures.entry(row.about.scene.clone()).or_insert_with(|| posture.clone());
             }
             for path in &row.images {
                 if let Some((path, picture)) = part.pictures.remove_entry(path) {

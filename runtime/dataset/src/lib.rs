@@ -15,4 +15,4 @@ mod stage;
 pub mod wordings;
 
 pub use format::{About, Row};
-pub use stage::{Body, Stage};
+pub use stage::{Body, Posture, Stage};

@@ -207,3 +207,29 @@ fn understand_tokens(
     }
     deed::understood(tokens, request, situation).unwrap_or(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use motet_robots::builtin;
+
+    use super::{Asked, MAX_REQUEST, RequestContext, RequestError, question, told, turn, understand};
+
+    /// Texts within the limit of bytes whose reading would take seconds to hours, and people's words that are
+    /// as long.
+    #[test]
+    fn understand_text_of_any_length_takes_a_bounded_number_of_steps() {
+        let scene = builtin::scene("kitchen").unwrap();
+        let context = RequestContext::new(&scene);
+        for piece in ["<a>", "the ", "a ", ", ", "coke ", "it is on the table and ", "the xqzzv and ", "in "]
+        {
+            let text = format!("bring {}", piece.repeat((MAX_REQUEST - 6) / piece.len()));
+            let read = understand(&text, &context);
+            assert!(matches!(read, Err(RequestError::Unfit { .. })), "{piece}: {read:?}");
+            // They share the bound.
+            assert!(told(&text, Asked::Where, &context).is_empty(), "{piece}");
+            assert_eq!((turn(&text), question(&text, &context)), (None, None), "{piece}");
+        }
+        let prose = "bring me the coke, then put the apple on the sink. ".repeat(MAX_REQUEST / 52);
+        assert!(understand(&prose, &context).is_ok(), "{:?}", understand(&prose, &context).err());
+    }
+}

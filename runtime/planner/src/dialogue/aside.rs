@@ -9,7 +9,7 @@ use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
 use super::{Conversation, Knowledge};
-use crate::beside::{Beside, CHECK_WITHIN, READ_WITHIN};
+use crate::beside::{CHECK_WITHIN, READ_WITHIN, WorkBeside};
 use crate::builtin::PlannedRequest;
 use crate::model::{ReplyVerdict, judge};
 use crate::runtime_check::CheckMode;
@@ -18,7 +18,7 @@ use crate::runtime_check::CheckMode;
 pub(super) struct LineReading {
     /// Line as it was typed.
     pub(super) said: String,
-    pub(super) read: Beside<LineMeaning>,
+    pub(super) read: WorkBeside<LineMeaning>,
 }
 
 /// Meaning of a line in a run.
@@ -43,18 +43,18 @@ pub(super) struct LineRequest {
 pub(super) struct PolicyCheck {
     /// Request that it is for; none of the rest of an early start.
     pub(super) request: Option<String>,
-    pub(super) check: Beside<Option<Box<PlannedRequest>>>,
+    pub(super) check: WorkBeside<Option<Box<PlannedRequest>>>,
 }
 
-/// World of a conversation with some knowledge, without borrows.
-struct World {
+/// OwnedWorld of a conversation with some knowledge, without borrows.
+struct OwnedWorld {
     base: Session,
     scene: Scene,
     geometry: Option<Arc<Geometry>>,
     known: Knowledge,
 }
 
-impl World {
+impl OwnedWorld {
     fn new(talk: &Conversation<'_>, known: Knowledge) -> Self {
         let (scene, geometry) = (talk.setting.scene.clone(), talk.setting.geometry.clone());
         Self { base: talk.base().clone(), scene, geometry, known }
@@ -83,7 +83,7 @@ impl LineReading {
         tells: bool,
         mode: CheckMode,
     ) -> Self {
-        let (line, world) = (said.clone(), World::new(talk, midway));
+        let (line, world) = (said.clone(), OwnedWorld::new(talk, midway));
         let read = move || {
             let scene = known.scene(&world.scene);
             if let Some(question) = motet_requests::question(&line, &known.situation(&scene)) {
@@ -102,7 +102,7 @@ impl LineReading {
                 })),
             }
         };
-        Self { said, read: Beside::start(mode, READ_WITHIN, read) }
+        Self { said, read: WorkBeside::start(mode, READ_WITHIN, read) }
     }
 }
 
@@ -115,7 +115,7 @@ impl PolicyCheck {
         known: Knowledge,
         mode: CheckMode,
     ) -> Self {
-        let world = World::new(talk, known);
+        let world = OwnedWorld::new(talk, known);
         let check = move || match judge(&world.session().1, &policy) {
             // Other steps than were written are not slipped in: the request is planned anew.
             ReplyVerdict::Good { planned, changed, .. } if changed.is_empty() => {
@@ -123,7 +123,7 @@ impl PolicyCheck {
             }
             ReplyVerdict::Good { .. } | ReplyVerdict::Bad { .. } => None,
         };
-        Self { request, check: Beside::start(mode, CHECK_WITHIN, check) }
+        Self { request, check: WorkBeside::start(mode, CHECK_WITHIN, check) }
     }
 }
 
@@ -132,9 +132,9 @@ pub(super) fn answer(
     talk: &Conversation<'_>,
     (question, said): (String, String),
     mode: CheckMode,
-) -> Beside<Vec<ReportedLocation>> {
+) -> WorkBeside<Vec<ReportedLocation>> {
     let (known, scene) = (talk.known.clone(), talk.setting.scene.clone());
-    Beside::start(mode, READ_WITHIN, move || {
+    WorkBeside::start(mode, READ_WITHIN, move || {
         let scene = known.scene(&scene);
         let situation = known.situation(&scene);
         let spoken_of: Vec<SmolStr> = motet_requests::named(&question, &situation);

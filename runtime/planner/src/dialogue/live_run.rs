@@ -21,7 +21,7 @@ use super::aside::{self, LineMeaning, LineReading, LineRequest, PolicyCheck};
 use super::early_start::EarlyStart;
 use super::problem::named_entity;
 use super::{Conversation, DialogueObserver, OnInstruction, Problem};
-use crate::beside::{Beside, Progress};
+use crate::beside::{WorkBeside, WorkProgress};
 use crate::builtin::PlannedRequest;
 use crate::runtime_check::Guard;
 use crate::{PlanRequest, Planner, RemainingSteps, Wait};
@@ -70,7 +70,7 @@ pub(super) struct LiveRun<'r, 'a> {
     /// A question of the policy that is not answered yet.
     asked: Option<(GoalId, String)>,
     /// Answers to such questions that are being read.
-    answers: VecDeque<Beside<Vec<ReportedLocation>>>,
+    answers: VecDeque<WorkBeside<Vec<ReportedLocation>>>,
     /// Locations that such answers told.
     told: Vec<ReportedLocation>,
     /// Words that the driver heard, the latest last.
@@ -222,7 +222,7 @@ impl<'r, 'a> LiveRun<'r, 'a> {
         };
         while let Some(answer) = self.answers.pop_front() {
             // Nothing moves any more.
-            if let Progress::Done(told) = answer.wait(|| self.watcher.is_stopped()) {
+            if let WorkProgress::Done(told) = answer.wait(|| self.watcher.is_stopped()) {
                 self.hear_told(told);
             }
         }
@@ -259,9 +259,9 @@ impl LiveRun<'_, '_> {
     fn hear_answers(&mut self) {
         while let Some(answer) = self.answers.front() {
             match answer.progress() {
-                Progress::Coming => return,
-                Progress::Done(told) => self.hear_told(told),
-                Progress::Late => {}
+                WorkProgress::Coming => return,
+                WorkProgress::Done(told) => self.hear_told(told),
+                WorkProgress::Late => {}
             }
             self.answers.pop_front();
         }
@@ -292,17 +292,17 @@ impl LiveRun<'_, '_> {
     fn heard_line(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
         let line = self.reading.take()?;
         let meaning = match line.read.progress() {
-            Progress::Coming => {
+            WorkProgress::Coming => {
                 self.reading = Some(line);
                 return None;
             }
-            Progress::Done(LineMeaning::Question(question)) => {
+            WorkProgress::Done(LineMeaning::Question(question)) => {
                 self.reply(&line.said, &question, engine);
                 return None;
             }
-            Progress::Done(meaning) => meaning,
+            WorkProgress::Done(meaning) => meaning,
             // The robot stops, and it is the next request.
-            Progress::Late => {
+            WorkProgress::Late => {
                 self.talk.memory.instruct(now, &line.said);
                 self.pending = Some(StopReason::Request(line.said));
                 return None;
@@ -362,12 +362,12 @@ impl LiveRun<'_, '_> {
         }
         let checking = self.checking.take()?;
         let answered = match checking.check.progress() {
-            Progress::Coming => {
+            WorkProgress::Coming => {
                 self.checking = Some(checking);
                 return None;
             }
-            Progress::Done(answered) => answered,
-            Progress::Late => None,
+            WorkProgress::Done(answered) => answered,
+            WorkProgress::Late => None,
         };
         let prepared = answered.and_then(|answered| {
             let graph = answered.planned.compiled.graph.clone()?;

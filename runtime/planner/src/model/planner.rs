@@ -13,7 +13,7 @@ use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 use super::chat::{ModelEvent, ModelObserver};
 use super::prose;
 use super::stream_reader::{StreamReader, StreamVerdict};
-use crate::beside::{Beside, CHECK_WITHIN, Progress};
+use crate::beside::{CHECK_WITHIN, WorkBeside, WorkProgress};
 use crate::planned::{PlanError, Planned, PlannedRequest};
 use crate::planner::{OwnedRequest, PlanRequest, Planner, RemainingSteps, Wait};
 use crate::prompt::{self, Prompt, StaticPrompt};
@@ -100,7 +100,7 @@ struct KeptParts {
 /// Policy that is being written during a run.
 enum Later {
     /// The prompt is being written, for this session.
-    Asking(Session, Beside<(KeptParts, Vec<Message>)>),
+    Asking(Session, WorkBeside<(KeptParts, Vec<Message>)>),
     /// The rest of a policy, or a policy, is being read.
     Reading(PendingRest),
 }
@@ -252,11 +252,11 @@ impl<'m> ModelPlanner<'m> {
             };
             (verdict, missed)
         };
-        let check = Beside::start(CheckMode::Beside, CHECK_WITHIN, check);
+        let check = WorkBeside::start(CheckMode::Beside, CHECK_WITHIN, check);
         let (verdict, missed) = match check.wait(|| self.listener.is_stopped()) {
-            Progress::Done(checked) => checked,
-            Progress::Coming => return self.failed(round, reply, ModelError::Cancelled),
-            Progress::Late => {
+            WorkProgress::Done(checked) => checked,
+            WorkProgress::Coming => return self.failed(round, reply, ModelError::Cancelled),
+            WorkProgress::Late => {
                 let why = ModelError::TooInvolved { secs: CHECK_WITHIN.as_secs() };
                 return self.failed(round, reply, why);
             }
@@ -397,7 +397,7 @@ impl Planner for ModelPlanner<'_> {
                 (ready, chat)
             })
         };
-        let written = Beside::start(checks, CHECK_WITHIN, write);
+        let written = WorkBeside::start(checks, CHECK_WITHIN, write);
         self.later = Some(Later::Asking(ask.session.clone(), written));
         self.asks_on()
     }
@@ -457,9 +457,9 @@ impl ModelPlanner<'_> {
     fn asks_on(&mut self) -> bool {
         let Some(Later::Asking(session, written)) = &self.later else { return true };
         let (ready, chat) = match written.progress() {
-            Progress::Coming => return true,
-            Progress::Done(written) => written,
-            Progress::Late => {
+            WorkProgress::Coming => return true,
+            WorkProgress::Done(written) => written,
+            WorkProgress::Late => {
                 self.later = None;
                 return false;
             }
@@ -488,8 +488,13 @@ fn sources_of(reply: &str) -> Sources {
 /// same question gives the same chat.
 #[must_use]
 pub fn chat(ask: &PlanRequest<'_>, tokens: usize) -> Vec<Message> {
-    let lasting = StaticPrompt::new(ask.session, ask.robot, ask.situation.scene);
-    written(ask, &lasting, (tokens, Duration::ZERO))
+    chat_with(ask, &StaticPrompt::new(ask.session, ask.robot, ask.situation.scene), tokens)
+}
+
+/// The same with the parts that depend on robot and scene only, which may be kept between requests.
+#[must_use]
+pub fn chat_with(ask: &PlanRequest<'_>, lasting: &StaticPrompt, tokens: usize) -> Vec<Message> {
+    written(ask, lasting, (tokens, Duration::ZERO))
 }
 
 /// Messages with the kept parts, and with the present sightings.

@@ -5,7 +5,7 @@
 use std::cell::Cell;
 
 /// Most steps of one reading. A step is a look-up of a list, a noun, or a part of a rule.
-pub(crate) const MAX_STEPS: u32 = 2_000_000;
+pub(crate) const MAX_STEPS: u32 = 6_000_000;
 
 thread_local! {
     /// Steps that are left to the reading of this thread; `None` outside of a reading.
@@ -13,9 +13,9 @@ thread_local! {
 }
 
 /// End of a reading, also where it panics.
-struct Reading;
+struct ReadingEnd;
 
-impl Drop for Reading {
+impl Drop for ReadingEnd {
     fn drop(&mut self) {
         LEFT.set(None);
     }
@@ -28,11 +28,16 @@ pub(crate) fn bounded<T>(read: impl FnOnce() -> T) -> Option<T> {
         return Some(read());
     }
     LEFT.set(Some(MAX_STEPS));
-    let reading = Reading;
+    let reading = ReadingEnd;
     let found = read();
-    let is_used_up = LEFT.get() == Some(0);
+    let found = (!is_used_up()).then_some(found);
     drop(reading);
-    (!is_used_up).then_some(found)
+    found
+}
+
+/// True once the bound is used up.
+pub(crate) fn is_used_up() -> bool {
+    LEFT.get() == Some(0)
 }
 
 /// Takes a step. False once the bound is used up: nothing more is found then.

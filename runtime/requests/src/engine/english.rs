@@ -75,6 +75,7 @@ pub(crate) const RULES: &[&str] = &[
     "hearsay",
     "hedged",
     "in_another_form",
+    "in_order",
     "leads",
     "met",
     "no_remarks",

@@ -92,7 +92,7 @@ impl Rules {
     /// Rewrites what rules fit, from the first word to the last.
     pub(crate) fn rewrite(&self, tokens: &mut Vec<Token>) {
         let mut at = 0;
-        while at < tokens.len() {
+        while at < tokens.len() && !effort::is_used_up() {
             match self.at(tokens, at) {
                 Some(found) => {
                     let next = at + found.words.len();
