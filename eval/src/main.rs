@@ -10,7 +10,8 @@
 //!   forgetful|[few-shot:]URL|[few-shot:]file:REPLIES` with `--model M`.
 //! - `tasks [FILE…] [--trials N]` plays the tasks of the papers, with the same flags. `--jobs N` plays so
 //!   many trials at once, `--only WORD` those with a word in their name, robot or request (`WORD+WORD` with
-//!   all of them), and `dialogue --every N` each Nth case.
+//!   all of them), `dialogue --every N` each Nth case, and `dialogue --objects unseen` those with things that
+//!   no word list knows.
 //! - `world` takes the number of runs in a world that can fail (`harsh`, unless `--world` names another),
 //!   with `--driver`, `--jobs` and `--only` as above. It exits with 0 if no run ends as done without its
 //!   goal.
@@ -57,6 +58,7 @@ struct Flags {
     planner: Option<String>,
     model: Option<String>,
     trials: Option<usize>,
+    objects: Option<dialogue::Objects>,
     workers: Workers,
     every: Option<usize>,
     only: Vec<String>,
@@ -75,6 +77,7 @@ impl Flags {
                 "--driver" => flags.driver = Some(value()?.parse()?),
                 "--planner" => flags.planner = Some(value()?),
                 "--model" => flags.model = Some(value()?),
+                "--objects" => flags.objects = Some(value()?.parse()?),
                 "--only" => flags.only.push(value()?),
                 "--trials" => flags.trials = Some(number(&value()?)?),
                 "--every" => flags.every = Some(number(&value()?)?),
@@ -112,6 +115,7 @@ impl Flags {
             || self.planner.is_some()
             || self.trials.is_some()
             || self.every.is_some()
+            || self.objects.is_some()
             || !self.only.is_empty()
     }
 }
@@ -165,7 +169,7 @@ fn run() -> Result<bool, String> {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
             "usage: eval {} FILE [--json], eval dialogue FILE|dynamic TRIALS [--world PROFILE] [--driver \
-             kinematic|mujoco] [--planner PLANNER] [--model M] [--jobs N] [--only WORD]… [--every N], \
+             kinematic|mujoco] [--planner PLANNER] [--model M] [--jobs N] [--only WORD]… [--every N] [--objects seen|unseen], \
              eval tasks [FILE…] with the same flags and [--trials N], eval world RUNS with the same flags, \
              eval mutations, \
              eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \
@@ -180,7 +184,8 @@ fn run() -> Result<bool, String> {
         }
         ["dialogue", file] => {
             let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
-            return shown(&spoken(&flags.bench()?, &text)?, only_json);
+            let objects = flags.objects.unwrap_or_default();
+            return shown(&spoken(&flags.bench()?, &text, objects)?, only_json);
         }
         ["tasks", files @ ..] => return shown(&tasked(&flags, files)?, only_json),
         ["world", count] => {
@@ -242,8 +247,8 @@ fn judged(
     })
 }
 
-fn spoken(bench: &Bench, wordings: &str) -> Result<Report, String> {
-    let trials = dialogue::trials(bench, wordings)?;
+fn spoken(bench: &Bench, wordings: &str, objects: dialogue::Objects) -> Result<Report, String> {
+    let trials = dialogue::trials(bench, wordings, objects)?;
     let notes = trials.iter().filter_map(|trial| {
         let case = &trial.case;
         let kinds: Vec<_> = case.failures.iter().map(|kind| kind.name()).collect();

@@ -79,7 +79,9 @@ pub fn runs(folder: &Path, count: usize) -> Result<Vec<WorldRun>, String> {
         let (name, robot, scene) = (example.name, example.robot, example.scene);
         tasks.push(WorldRun { name, robot, scene, seed: 0, work: Work::Policy(example.text) });
     }
-    for case in dialogue::cases(WORDINGS).into_iter().filter(|case| case.failures.is_empty()) {
+    for case in
+        dialogue::cases(WORDINGS, dialogue::Objects::Seen).into_iter().filter(|case| case.failures.is_empty())
+    {
         let (name, robot, scene) = (case.request.clone(), case.robot.clone(), case.scene.clone());
         tasks.push(WorldRun { name, robot, scene, seed: 0, work: Work::Request(Box::new(case)) });
     }

@@ -245,6 +245,10 @@ fn pictures(folder: &Path, dataset: &Dataset) -> Result<(), CliError> {
 fn scenes(dataset: &Dataset) -> impl Iterator<Item = String> + '_ {
     dataset.scenes.iter().map(|(name, scene)| {
         let scene: Value = serde_json::from_str(&scene::write(scene)).unwrap_or_default();
-        json!({"name": name.as_str(), "scene": scene}).to_string()
+        let mut line = json!({"name": name.as_str(), "scene": scene});
+        if let (Value::Object(line), Some(posture)) = (&mut line, dataset.postures.get(name)) {
+            line.insert("robot".to_owned(), json!(posture));
+        }
+        line.to_string()
     })
 }

@@ -60,7 +60,9 @@ pub(super) fn planner(
     // The first step alone does not show whether the whole policy keeps the maximum duration.
     let start =
         if flags.eager && args.session.max_duration.is_none() { Start::FirstStep } else { Start::Whole };
-    let settings = model::Settings { repairs: flags.server.repair, start, ..model::Settings::default() };
+    let checks = speed.verifies();
+    let settings =
+        model::Settings { repairs: flags.server.repair, start, checks, ..model::Settings::default() };
     let planner = ModelPlanner::new(client, log, settings);
     Ok(if flags.fallback { Box::new(FallbackPlanner(planner)) } else { Box::new(planner) })
 }

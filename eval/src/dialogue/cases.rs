@@ -3,6 +3,9 @@
 use motet_planner::dialogue::Kind;
 use motet_robots::scene::Scene;
 
+use super::objects::{CaseThing, Objects, Swap};
+use super::rooms::{Named, ROOMS, Room};
+
 /// One case.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -22,6 +25,8 @@ pub struct Case {
     pub failures: Vec<Kind>,
     /// The thing that is asked for.
     thing: String,
+    /// Unseen things in the room.
+    swaps: Vec<Swap>,
     /// Its true place, where it is not found.
     hidden: Option<(&'static str, String)>,
     /// Answers of the person to the question of each kind.
@@ -78,7 +83,7 @@ impl<'w> Sayings<'w> {
 /// turn. A file may have answers beside the tasks: `where`, `again`, `yes`, and requests that do not say what
 /// to do: `vague`.
 #[must_use]
-pub fn cases(wordings: &str) -> Vec<Case> {
+pub fn cases(wordings: &str, objects: Objects) -> Vec<Case> {
     let lines = wordings.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let lines: Vec<(&str, &str)> = lines
         .filter_map(|line| line.split_once(':').map(|(name, said)| (name.trim(), said.trim())))
@@ -90,11 +95,11 @@ pub fn cases(wordings: &str) -> Vec<Case> {
         for (number, robot) in ["hsr", "anymal_z1"].into_iter().enumerate() {
             for room in ROOMS {
                 let turn = index + number;
-                cases.extend(case((robot, room), (task, wording), turn, &[], &sayings));
+                cases.extend(case((robot, room, objects), (task, wording), turn, &[], &sayings));
                 let carries = !matches!(*task, "go" | "open" | "close");
                 if carries {
                     let trouble = TROUBLES.get(1 + turn % (TROUBLES.len() - 1)).copied().unwrap_or_default();
-                    cases.extend(case((robot, room), (task, wording), turn, trouble, &sayings));
+                    cases.extend(case((robot, room, objects), (task, wording), turn, trouble, &sayings));
                 }
             }
         }
@@ -107,7 +112,7 @@ fn pick<T: Copy>(from: &[T], turn: usize) -> Option<T> {
 }
 
 fn case(
-    (robot, room): (&str, &Room),
+    (robot, room, objects): (&str, &Room, Objects),
     (task, wording): (&str, &str),
     turn: usize,
     failures: &[Kind],
@@ -115,37 +120,38 @@ fn case(
 ) -> Option<Case> {
     // The trouble comes round with the turn: what is said then has to go on from one round to the next.
     let said = |from: &[&str]| pick(from, turn + turn / (TROUBLES.len() - 1)).map(str::to_owned);
-    let mut thing: Named = pick(room.things, turn)?;
+    let mut thing = objects.thing(room, turn)?;
     let mut answers = Vec::new();
     if failures.contains(&Kind::AmbiguousReference) {
-        let (name, id, told) = room.shared;
-        thing = (id, name);
-        answers.push((Kind::AmbiguousReference, pick(told, turn)?.to_owned()));
+        let told;
+        (thing, told) = objects.shared(room, turn)?;
+        answers.push((Kind::AmbiguousReference, told.get(turn % told.len())?.clone()));
     }
+    let CaseThing { id, name, swaps } = thing;
     let place: Named = match task {
         "put" => pick(room.surfaces, turn)?,
         "stow" | "open" | "close" => pick(room.containers, turn)?,
         "go" => pick(room.places, turn)?,
         _ => ("user", "me"),
     };
-    let mut request = wording.replace("{thing}", thing.1).replace("{place}", place.1);
+    let mut request = wording.replace("{thing}", &name).replace("{place}", place.1);
     let atom = |fluent: &str, args: &[&str]| {
         (fluent.to_owned(), args.iter().map(|arg| (*arg).to_owned()).collect::<Vec<_>>())
     };
     let goal = match task {
-        "bring" => vec![atom("at", &[thing.0, "user"])],
-        "put" => vec![atom("on", &[thing.0, place.0])],
-        "stow" => vec![atom("in", &[thing.0, place.0])],
-        "throw" => vec![atom("in", &[thing.0, room.bin])],
+        "bring" => vec![atom("at", &[&id, "user"])],
+        "put" => vec![atom("on", &[&id, place.0])],
+        "stow" => vec![atom("in", &[&id, place.0])],
+        "throw" => vec![atom("in", &[&id, room.bin])],
         "go" => vec![atom("at", &["robot", place.0])],
-        "pick" => vec![atom("holding", &[thing.0])],
+        "pick" => vec![atom("holding", &[&id])],
         "close" => Vec::new(),
         _ => vec![atom("open", &[place.0])],
     };
     if failures.contains(&Kind::AmbiguousTask) {
         // Something shall be done with the thing, and it is not said what; the answer is the wording.
         answers.push((Kind::AmbiguousTask, request));
-        request = said(&sayings.vague)?.replace("{thing}", thing.1);
+        request = said(&sayings.vague)?.replace("{thing}", &name);
     }
     let mut hidden = None;
     if failures.contains(&Kind::NotFound) {
@@ -177,7 +183,8 @@ fn case(
         goal,
         undo: (task == "close").then(|| atom("open", &[place.0])),
         failures: failures.to_vec(),
-        thing: thing.0.to_owned(),
+        thing: id,
+        swaps,
         hidden,
         answers,
     })
@@ -186,6 +193,7 @@ fn case(
 impl Case {
     /// The room as the robot is told that it is.
     pub(crate) fn told(&self, mut scene: Scene) -> Scene {
+        self.swaps.iter().for_each(|swap| swap.make(&mut scene));
         if let Some((_, args)) = &self.undo
             && let Some(entity) = args.first().and_then(|id| scene.entities.get_mut(id.as_str()))
         {
@@ -231,69 +239,3 @@ impl Case {
         self.answers.clone()
     }
 }
-
-/// A thing or a place, and its name with an article.
-pub(super) type Named = (&'static str, &'static str);
-
-/// A room.
-pub(super) struct Room {
-    pub(super) scene: &'static str,
-    /// Things that either robot can carry.
-    pub(super) things: &'static [Named],
-    /// Surfaces to put things on.
-    pub(super) surfaces: &'static [Named],
-    /// Containers with doors.
-    pub(super) containers: &'static [Named],
-    /// Places to go to.
-    pub(super) places: &'static [Named],
-    /// The bin.
-    pub(super) bin: &'static str,
-    /// A name that several things have, with one of them and how it is told apart.
-    pub(super) shared: (&'static str, &'static str, &'static [&'static str]),
-}
-
-pub(super) const ROOMS: &[Room] = &[
-    Room {
-        scene: "kitchen",
-        things: &[
-            ("coke", "the coke can"),
-            ("apple", "the green apple"),
-            ("mug_1", "the red mug"),
-            ("bottle", "the water bottle"),
-            ("sponge", "the sponge"),
-        ],
-        surfaces: &[("kitchen_table", "the kitchen table"), ("counter", "the counter"), ("sink", "the sink")],
-        containers: &[
-            ("drawer_1", "the top drawer"),
-            ("cupboard_1", "the cupboard"),
-            ("fridge_1", "the fridge"),
-        ],
-        places: &[
-            ("kitchen_table", "the kitchen table"),
-            ("sink", "the sink"),
-            ("door", "the kitchen door"),
-            ("charging_dock", "the charging station"),
-        ],
-        bin: "trash",
-        shared: ("the mug", "mug_1", &["the red one", "the red mug", "the one on the table"]),
-    },
-    Room {
-        scene: "living_room",
-        things: &[
-            ("remote_1", "the remote control"),
-            ("magazine", "the magazine"),
-            ("cup", "the tea cup"),
-            ("bottle_1", "the water bottle"),
-        ],
-        surfaces: &[("coffee_table", "the coffee table"), ("cabinet", "the sideboard")],
-        containers: &[("drawer_1", "the drawer")],
-        places: &[
-            ("sofa", "the sofa"),
-            ("bookshelf", "the bookshelf"),
-            ("window", "the window"),
-            ("door", "the door"),
-        ],
-        bin: "trash_bin",
-        shared: ("the toy", "toy", &["the toy car", "the car", "the one on the coffee table"]),
-    },
-];

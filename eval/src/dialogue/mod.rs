@@ -5,6 +5,8 @@
 //! which knows what there is. The planner sees the words alone; the goal is looked at only to judge the end.
 
 mod cases;
+mod objects;
+mod rooms;
 mod tables;
 
 use std::time::Duration;
@@ -15,6 +17,7 @@ use motet_runtime::Time;
 use motet_sim::Faults;
 
 pub use cases::{Case, cases};
+pub use objects::{Objects, UNSEEN};
 pub use tables::{sums, table};
 
 use crate::actions::ActionFaults;
@@ -122,9 +125,9 @@ pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
 /// # Errors
 ///
 /// The reason of [`run`].
-pub fn trials(bench: &Bench, wordings: &str) -> Result<Vec<Trial>, String> {
+pub fn trials(bench: &Bench, wordings: &str, objects: Objects) -> Result<Vec<Trial>, String> {
     let is_injected = |kind: &Kind| matches!(kind, Kind::NotReachable | Kind::ActionFailed);
-    let mut cases = cases(wordings);
+    let mut cases = cases(wordings, objects);
     if bench.driver == DriverKind::Mujoco {
         cases.retain(|case| !case.failures.iter().any(is_injected));
     }

@@ -9,7 +9,7 @@ use rand_xoshiro::SplitMix64;
 use smol_str::SmolStr;
 
 use crate::random::Draw;
-use crate::scenery::{HIGH, is_bin};
+use crate::scenery::{HIGH, TRIES, extents, is_bin, spot};
 use crate::wordings::{Task, Wordings};
 
 /// One conversation to record: a request, and the failures on its way.
@@ -37,34 +37,29 @@ pub struct Case {
     pub update: Option<(f64, String)>,
 }
 
-/// Weights of the failure sequences: none, each kind alone, two in a row.
-const TROUBLES: &[(usize, &[Kind])] = &[
-    (3, &[]),
-    (4, &[Kind::NotFound]),
-    (4, &[Kind::NotReachable]),
-    (3, &[Kind::AmbiguousReference]),
-    (3, &[Kind::AmbiguousTask]),
-    (3, &[Kind::ActionFailed]),
-    (1, &[Kind::AmbiguousReference, Kind::NotFound]),
-    (1, &[Kind::NotFound, Kind::ActionFailed]),
-    (1, &[Kind::AmbiguousTask, Kind::NotReachable]),
-];
 /// Number of attempts of a step that merely failed, before a question and once more.
 const SLIPS: u32 = 3;
-/// Share of the requests without a failure that a person changes while they are carried out.
-const CHANGED: f64 = 0.6;
 /// Seconds after which a person wants something else: at least, and at most.
 const CHANGED_AFTER_SECS: [f64; 2] = [2.0, 14.0];
 
-/// Draws a case for a robot in a scene; none where the scene has nothing for what was drawn. O(things²).
-#[must_use]
-pub fn draw(robot: &Robot, scene: &Scene, wordings: &Wordings, draw: &mut SplitMix64) -> Option<Case> {
-    let task = *draw.pick(&Task::ALL)?;
+/// Draws a request with failures on its way for a robot in a scene, or one that is changed; none where the
+/// scene has nothing for what was drawn. O(things²).
+pub(crate) fn draw(
+    robot: &Robot,
+    scene: &Scene,
+    wordings: &Wordings,
+    (failures, is_changed): (&[Kind], bool),
+    draw: &mut SplitMix64,
+) -> Option<Case> {
+    // What is about a place alone neither fails nor changes.
+    let fits = |task: &Task| task.carries() || (failures.is_empty() && !is_changed);
+    let tasks: Vec<Task> = Task::ALL.into_iter().filter(fits).collect();
+    let task = *draw.pick(&tasks)?;
     let said: Vec<&String> =
         wordings.requests.iter().filter(|(known, _)| *known == task).map(|(_, said)| said).collect();
     let wording = (*draw.pick(&said)?).clone();
     if task.carries() {
-        carried(robot, scene, wordings, task, &wording, draw)
+        carried(robot, scene, wordings, (task, &wording), (failures, is_changed), draw)
     } else {
         plain(scene, task, &wording, draw)
     }
@@ -117,28 +112,27 @@ fn carried(
     robot: &Robot,
     scene: &Scene,
     wordings: &Wordings,
-    task: Task,
-    wording: &str,
+    (task, wording): (Task, &str),
+    (failures, is_changed): (&[Kind], bool),
     draw: &mut SplitMix64,
 ) -> Option<Case> {
-    let mut failures = drawn_failures(draw).to_vec();
     let objects: Vec<&Entity> =
         scene.entities.values().filter(|entity| entity.kind == kinds::OBJECT && !entity.fixed).collect();
     let is_twin = |one: &&&Entity| objects.iter().any(|other| other.id != one.id && other.class == one.class);
     let asks_which = failures.contains(&Kind::AmbiguousReference);
-    // Out of reach is what stands too high.
+    // Out of reach is what stands too high, and nothing helps with what is too heavy.
     let is_far = failures.contains(&Kind::NotReachable);
     let stands_high = |one: &&&Entity| one.on.as_ref().is_some_and(|on| is_high(scene, on));
-    let fits = |one: &&&Entity| (!asks_which || is_twin(one)) && stands_high(one) == is_far;
+    let is_heavy = |one: &&&Entity| !can_carry(robot, one);
+    let fits = |one: &&&Entity| match failures {
+        [Kind::NotReachable] => stands_high(one) || is_heavy(one),
+        _ => (!asks_which || is_twin(one)) && stands_high(one) == is_far && !is_heavy(one),
+    };
     let among: Vec<&Entity> = objects.iter().filter(fits).copied().collect();
     let thing = *draw.pick(&among)?;
-    let is_given_up = !can_carry(robot, thing);
-    if is_given_up {
-        // That alone is trouble enough.
-        failures = vec![Kind::NotReachable];
-    }
+    let is_given_up = is_heavy(&&thing);
     let own = the(scene, thing, draw)?;
-    let called = if asks_which && !is_given_up { format!("the {}", thing.class) } else { own.clone() };
+    let called = if asks_which { format!("the {}", thing.class) } else { own.clone() };
     let holder = match task {
         Task::Put => Some(other_place(scene, kinds::SURFACE, thing, draw)?),
         Task::Stow => Some(other_place(scene, kinds::CONTAINER, thing, draw)?),
@@ -158,7 +152,7 @@ fn carried(
     };
     let mut answers = Vec::new();
     let mut real = scene.clone();
-    for kind in &failures {
+    for kind in failures {
         let answer = match kind {
             Kind::NotReachable if is_given_up => draw.pick(&wordings.leave)?.clone(),
             Kind::ActionFailed => draw.pick(&wordings.again)?.clone(),
@@ -175,14 +169,15 @@ fn carried(
         };
         answers.push((*kind, answer));
     }
-    let faults = if is_given_up { Faults::default() } else { faults(&failures) };
+    let faults = if is_given_up { Faults::default() } else { faults(failures) };
     let mut update = None;
-    if failures.is_empty() && draw.chance(CHANGED) {
+    if is_changed {
         let (words, other) = change(scene, wordings, thing, holder, draw)?;
         (update, goal) = (Some((draw.within(CHANGED_AFTER_SECS[0], CHANGED_AFTER_SECS[1]), words)), other);
     }
     let task = SmolStr::new_static(task.name());
     let goal = Some(goal);
+    let failures = failures.to_vec();
     Some(Case { task, request, goal, failures, real, faults, answers, is_given_up, policy: None, update })
 }
 
@@ -211,18 +206,6 @@ fn change(
     Some((said, (fluents::ON, vec![thing.id.clone(), place.id.clone()], true)))
 }
 
-fn drawn_failures(draw: &mut SplitMix64) -> &'static [Kind] {
-    let whole: usize = TROUBLES.iter().map(|(weight, _)| weight).sum();
-    let mut left = draw.below(whole);
-    for (weight, kinds) in TROUBLES {
-        match left.checked_sub(*weight) {
-            Some(rest) => left = rest,
-            None => return kinds,
-        }
-    }
-    &[]
-}
-
 /// Faults of the steps that pick up.
 fn faults(failures: &[Kind]) -> Faults {
     let fails = |nth: u32, kind: &'static str| CallFault {
@@ -249,8 +232,10 @@ fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Spli
     let places: Vec<&Entity> = real.entities.values().filter(fits).collect();
     let place = (*draw.pick(&places)?).clone();
     let called = the(real, &place, draw)?;
+    let size = thing.shape.as_ref().and_then(extents)?;
+    let pose = (0..TRIES).find_map(|_| spot(real, &place, size, draw))?;
     let hidden = real.entities.get_mut(&thing.id)?;
-    (hidden.on, hidden.inside, hidden.pose) = (None, None, None);
+    (hidden.on, hidden.inside, hidden.pose) = (None, None, Some(pose));
     hidden.visible = Some(false);
     if place.kind == kinds::CONTAINER {
         hidden.inside = Some(place.id);

@@ -7,15 +7,17 @@ use std::sync::Arc;
 use indexmap::IndexMap;
 use motet_geometry::planning::SearchBudget;
 use motet_robots::scene::Scene;
+use rand_xoshiro::SplitMix64;
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
+use crate::deck::{Deck, DeckWish};
 use crate::format::{self, About, Row, RowFormat, UPDATE};
 use crate::lesson::{self, Lesson};
 use crate::picture::{Picture, Pictures};
 use crate::play::play;
 use crate::random::{self, Draw as _};
-use crate::stage::{Body, Stage};
+use crate::stage::{Body, Posture, Stage};
 use crate::wordings::Wordings;
 use crate::{case, lint, scenery};
 
@@ -78,6 +80,7 @@ impl<'t> FromIterator<&'t str> for HeldOut {
 pub struct SceneRows {
     rows: Vec<Row>,
     scenes: IndexMap<SmolStr, Scene>,
+    postures: IndexMap<SmolStr, Posture>,
     pictures: BTreeMap<SmolStr, Picture>,
     dropped: BTreeMap<&'static str, usize>,
 }
@@ -91,6 +94,8 @@ pub struct Dataset {
     pub test: Vec<Row>,
     /// Every scene of a row, by name.
     pub scenes: IndexMap<SmolStr, Scene>,
+    /// State of the robot's body in scenes where it is not that of the card.
+    pub postures: IndexMap<SmolStr, Posture>,
     /// The picture of each row that has one, by its path: PNGs.
     pub pictures: BTreeMap<SmolStr, Arc<[u8]>>,
     /// Number of dropped cases and turns by reason.
@@ -117,10 +122,12 @@ impl Order {
 
 /// Light of pictures: least and greatest, where 1 is that of the camera.
 const LIGHT: [f64; 2] = [0.5, 1.2];
-/// Share of the cases that are lessons.
-const LESSONS: f64 = 0.5;
-/// Number of draws of a case in a scene that has nothing for the first one.
+/// Number of draws of a conversation of a kind in a scene that has nothing for the first one.
 const DRAWS: usize = 8;
+/// Number of conversations of a kind that are played until one goes as it was drawn, before another kind is.
+const PLAYS: usize = 3;
+/// Number of kinds that are tried for one conversation.
+const KINDS: usize = 3;
 
 /// Makes the rows of one varied scene, by its number below [`Order::scenes`]. Each number by itself gives the
 /// same, so they can be made in any order.
@@ -132,33 +139,24 @@ pub fn part(order: &Order, number: usize) -> SceneRows {
     let mut draw = random::part(order.seed, seed);
     let told = scenery::vary(base, &order.things, &mut draw);
     let name = format_smolstr!("{name}-{}", number + 1);
-    for body in &order.bodies {
-        let stage = match Stage::new(body, &told, order.effort) {
+    let mut deck = Deck::new(order.seed, order.taught());
+    for (index, body) in order.bodies.iter().enumerate() {
+        let stage = match Stage::new(body, (&told, &Posture::new()), order.effort) {
             Ok(stage) => stage,
             Err(_) => {
                 part.leave_out("the robot cannot be in the scene");
                 continue;
             }
         };
-        for _ in 0..order.cases {
+        for case in 0..order.cases {
             let light = draw.within(LIGHT[0], LIGHT[1]);
-            let lessons = order.taught();
-            let is_lesson = !lessons.is_empty() && draw.chance(LESSONS);
-            let drawn = (0..DRAWS).find_map(|_| match is_lesson {
-                true => lesson::draw(&body.robot, &told, lessons, &mut draw),
-                false => case::draw(&body.robot, &told, &order.wordings, &mut draw),
-            });
-            let Some(case) = drawn else {
-                part.leave_out("the scene has nothing for it");
-                continue;
-            };
-            match play(&case, &stage, (order.shown(), light)) {
-                Ok(turns) => {
-                    for (turn, played) in turns.into_iter().enumerate() {
-                        part.turn(order, body, &stage, &name, &case, turn, played);
-                    }
+            let place = (number * order.bodies.len() + index) * order.cases + case;
+            for kind in 0..KINDS {
+                // What a scene cannot give gives way to what comes next in the deck.
+                let wish = deck.at(place + kind);
+                if part.conversation(order, (body, &stage, &name), (wish, light), &mut draw) {
+                    break;
                 }
-                Err(why) => part.leave_out(why),
             }
         }
     }
@@ -179,7 +177,7 @@ pub struct RecordedPlan {
 pub fn recorded(order: &Order, plans: &[RecordedPlan]) -> SceneRows {
     let mut part = SceneRows::default();
     let (Some((name, scene)), Some(body)) = (order.bases.first(), order.bodies.first()) else { return part };
-    let Ok(stage) = Stage::new(body, scene, order.effort) else {
+    let Ok(stage) = Stage::new(body, (scene, &Posture::new()), order.effort) else {
         part.leave_out("the robot cannot be in the scene");
         return part;
     };
@@ -202,6 +200,47 @@ impl SceneRows {
         *self.dropped.entry(why).or_default() += 1;
     }
 
+    /// Draws conversations of a kind and plays them until one gives a row. False if none does.
+    fn conversation(
+        &mut self,
+        order: &Order,
+        (body, stage, name): (&Body, &Stage, &SmolStr),
+        (wish, light): (DeckWish, f64),
+        draw: &mut SplitMix64,
+    ) -> bool {
+        for _ in 0..PLAYS {
+            let drawn = (0..DRAWS).find_map(|_| {
+                let mut request = |failures, is_changed| {
+                    case::draw(&body.robot, &stage.scene, &order.wordings, (failures, is_changed), draw)
+                };
+                match wish {
+                    DeckWish::Changed => request(&[], true),
+                    DeckWish::Request(failures) => request(failures, false),
+                    DeckWish::Lesson(construct) => {
+                        lesson::draw(&body.robot, &stage.scene, order.taught(), construct, draw)
+                    }
+                }
+            });
+            let Some(case) = drawn else {
+                self.leave_out("the scene has nothing for it");
+                return false;
+            };
+            match play(&case, stage, (order.shown(), light)) {
+                Ok(turns) => {
+                    let before = self.rows.len();
+                    for (turn, played) in turns.into_iter().enumerate() {
+                        self.turn(order, body, stage, name, &case, turn, played);
+                    }
+                    if self.rows.len() > before {
+                        return true;
+                    }
+                }
+                Err(why) => self.leave_out(why),
+            }
+        }
+        false
+    }
+
     /// Keeps a turn as a row where its answer can be carried out in the scene as it is then.
     #[expect(clippy::too_many_arguments, reason = "what a turn is about")]
     fn turn(
@@ -222,7 +261,7 @@ impl SceneRows {
             self.leave_out("the plan has no place on the model surface");
             return;
         };
-        let is_start = played.scene == stage.scene;
+        let is_start = played.scene == stage.scene && played.posture == stage.posture;
         let is_update = turn > 0 && case.update.is_some();
         let named = |picture: Picture| (picture.path(scene, &body.robot.name), picture);
         let pictures: Vec<(SmolStr, Picture)> = played.pictures.into_iter().map(named).collect();
@@ -248,7 +287,11 @@ impl SceneRows {
             self.leave_out("the form cannot say it");
             return;
         };
-        let own = if is_start { None } else { Stage::new(body, &played.scene, order.effort).ok() };
+        let own = if is_start {
+            None
+        } else {
+            stage.elsewhere(body, (&played.scene, &played.posture), order.effort).ok()
+        };
         let fault = match &own {
             Some(own) => lint::fault(own, &read.target),
             None if is_start => lint::fault(stage, &read.target),
@@ -259,12 +302,21 @@ impl SceneRows {
             return;
         }
         if !is_start {
-            let known = self.scenes.iter().find(|(_, scene)| **scene == played.scene);
-            row.about.scene = known
+            let posture = |name: &SmolStr| self.postures.get(name).cloned().unwrap_or_default();
+            let is_it = |(name, scene): &(&SmolStr, &Scene)| {
+                **scene == played.scene && posture(name) == played.posture
+            };
+            row.about.scene = self
+                .scenes
+                .iter()
+                .find(is_it)
                 .map(|(name, _)| name.clone())
                 .unwrap_or_else(|| format_smolstr!("{scene}.{}", self.scenes.len() + 1));
         }
         self.scenes.entry(row.about.scene.clone()).or_insert(played.scene);
+        if !played.posture.is_empty() {
+            self.postures.entry(row.about.scene.clone()).or_insert(played.posture);
+        }
         self.pictures.extend(pictures);
         self.rows.push(row);
     }
@@ -292,6 +344,9 @@ pub fn gather(order: &Order, parts: Vec<(usize, SceneRows)>) -> Dataset {
             }
             if let Some(scene) = part.scenes.get(&row.about.scene) {
                 dataset.scenes.entry(row.about.scene.clone()).or_insert_with(|| scene.clone());
+            }
+            if let Some(posture) = part.postures.get(&row.about.scene) {
+                dataset.postures.entry(row.about.scene.clone()).or_insert_with(|| posture.clone());
             }
             for path in &row.images {
                 if let Some((path, picture)) = part.pictures.remove_entry(path) {

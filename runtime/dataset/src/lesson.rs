@@ -13,6 +13,7 @@ use thiserror::Error;
 
 use crate::case::{self, Case};
 use crate::random::Draw;
+use crate::share::{self, Construct};
 
 /// The lessons that come with Motet.
 pub const OWN: &str = include_str!("../data/lessons.txt");
@@ -26,6 +27,8 @@ pub struct Lesson {
     pub wordings: Vec<String>,
     /// Steps with slots, in the text syntax.
     pub steps: String,
+    /// Constructs of the steps, in the order of reports.
+    pub constructs: Vec<Construct>,
 }
 
 /// A line that is no part of a lesson.
@@ -101,13 +104,36 @@ pub fn read(text: &str) -> Result<Vec<Lesson>, NoLesson> {
         };
         return Err(NoLesson { line: *line, why: format!("the lesson `{}` has no {lacks}", lesson.name) });
     }
-    Ok(lessons.into_iter().map(|(_, lesson)| lesson).collect())
+    Ok(lessons
+        .into_iter()
+        .map(|(_, lesson)| {
+            let used = share::constructs(&format!("policy p {{\n{}}}\n", without_slots(&lesson.steps)));
+            let constructs =
+                Construct::ALL.into_iter().filter(|construct| used.contains(construct)).collect();
+            Lesson { constructs, ..lesson }
+        })
+        .collect())
 }
 
-/// Draws a lesson for a robot in a scene; none where the scene has nothing for what was drawn. O(things).
-#[must_use]
-pub fn draw(robot: &Robot, scene: &Scene, lessons: &[Lesson], draw: &mut SplitMix64) -> Option<Case> {
-    let lesson = draw.pick(lessons)?;
+/// Steps with something in each slot, so that they can be read.
+fn without_slots(steps: &str) -> String {
+    let filled = steps.replace("<n>", "2").replace("<secs>", "5").replace("<class>", "thing");
+    SLOTS.iter().fold(filled, |steps, (slot, _)| {
+        steps.replace(&format!("<{slot}>"), slot).replace(&format!("<{slot}.name>"), slot)
+    })
+}
+
+/// Draws a lesson with a construct for a robot in a scene; none where the scene has nothing for what was
+/// drawn. O(things + lessons).
+pub(crate) fn draw(
+    robot: &Robot,
+    scene: &Scene,
+    lessons: &[Lesson],
+    construct: Construct,
+    draw: &mut SplitMix64,
+) -> Option<Case> {
+    let with: Vec<&Lesson> = lessons.iter().filter(|lesson| lesson.constructs.contains(&construct)).collect();
+    let lesson = *draw.pick(&with)?;
     let (mut request, mut steps) = (draw.pick(&lesson.wordings)?.clone(), lesson.steps.clone());
     let mut taken: Vec<&SmolStr> = Vec::new();
     for (slot, kind) in SLOTS {
@@ -162,6 +188,7 @@ mod tests {
         assert!(lessons.len() > 20);
         for lesson in lessons {
             assert!(lesson.wordings.len() > 1 && !lesson.steps.is_empty(), "{}", lesson.name);
+            assert!(!lesson.constructs.is_empty(), "{} teaches nothing", lesson.name);
         }
     }
 

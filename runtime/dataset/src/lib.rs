@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod case;
+mod deck;
 pub mod format;
 pub mod generate;
 pub mod lesson;
@@ -14,4 +15,4 @@ mod stage;
 pub mod wordings;
 
 pub use format::{About, Row};
-pub use stage::{Body, Stage};
+pub use stage::{Body, Posture, Stage};

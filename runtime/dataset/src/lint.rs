@@ -10,7 +10,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
 use crate::format::{self, Read, Target};
-use crate::stage::{Body, Stage};
+use crate::stage::{Body, Posture, Stage};
 
 /// RowFault of a row.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -74,6 +74,8 @@ pub struct Worlds {
     pub bodies: IndexMap<SmolStr, Body>,
     /// Scenes by name.
     pub scenes: IndexMap<SmolStr, Scene>,
+    /// State of the robot's body in scenes where it is not that of the card.
+    pub postures: IndexMap<SmolStr, Posture>,
     /// The robot of rows that name none.
     pub robot: Option<SmolStr>,
     /// The scene of rows that name none.
@@ -205,7 +207,10 @@ impl<'w> Linter<'w> {
             let (robot, scene) = &key;
             let body = worlds.bodies.get(robot).ok_or_else(|| format!("there is no robot `{robot}`"))?;
             let known = worlds.scenes.get(scene).ok_or_else(|| format!("there is no scene `{scene}`"))?;
-            self.stage = Some((key, Stage::new(body, known, worlds.effort)));
+            let at_start = Posture::new();
+            let posture = worlds.postures.get(scene).unwrap_or(&at_start);
+            let stage = Stage::new(body, (known, posture), worlds.effort);
+            self.stage = Some((key, stage));
         }
         match self.stage.as_ref().map(|(_, stage)| stage) {
             Some(Ok(stage)) => Ok(fault(stage, &row.target)),

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use motet_compiler::CheckOptions;
-use motet_decode::{Grammar, Subset, canonical};
+use motet_decode::{Grammar, canonical};
 use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::dialogue::{
     Conversation, DialogueObserver, DialogueSetup, Kind, Outcome, Person, Problem,
@@ -24,7 +24,7 @@ use smol_str::SmolStr;
 
 use crate::case::Case;
 use crate::picture::{Picture, Pictures};
-use crate::stage::Stage;
+use crate::stage::{Posture, Stage};
 
 /// Answers from a list.
 struct Scripted(Vec<(Kind, String)>);
@@ -62,7 +62,7 @@ pub(crate) fn play(
     let mut driver = Rc::new(RefCell::new(Sim::new(&stage.robot, &case.real, options)));
     let (told, sim) = (stage.scene.clone(), driver.clone());
     let lesson = case.policy.clone();
-    let mut mind = Mind { told, sim, pictures, light, lesson, is_asking: false, turns: Vec::new() };
+    let mut mind = Mind { stage, told, sim, pictures, light, lesson, is_asking: false, turns: Vec::new() };
     let mut change = Change(case.update.clone());
     let setting = DialogueSetup {
         robot: stage.robot.clone(),
@@ -72,7 +72,7 @@ pub(crate) fn play(
         options: CheckOptions::default(),
     };
     let mut person = Scripted(case.answers.clone());
-    let mut talk = Conversation::new(&setting);
+    let mut talk = Conversation::new(&setting).with_session(stage.base.clone());
     let (outcome, _) =
         talk.carry_out(&case.request, &mut mind, &mut driver, &mut person, &mut change, Time::ZERO);
     if change.0.is_some() {
@@ -105,6 +105,8 @@ pub(crate) fn play(
 pub(crate) struct Turn {
     /// The scene as it is then, as far as it is known.
     pub(crate) scene: Scene,
+    /// State of the robot's body then, where the card does not say it.
+    pub(crate) posture: Posture,
     pub(crate) system: String,
     pub(crate) user: String,
     /// Camera images at that moment.
@@ -122,7 +124,8 @@ pub(crate) struct Turn {
 pub(crate) type Shared = Rc<RefCell<Sim>>;
 
 /// The planner that needs no model, with a memory of its turns.
-pub(crate) struct Mind {
+pub(crate) struct Mind<'s> {
+    stage: &'s Stage,
     /// The scene as the robot was told that it is.
     pub(crate) told: Scene,
     pub(crate) sim: Shared,
@@ -136,7 +139,7 @@ pub(crate) struct Mind {
     pub(crate) turns: Vec<Turn>,
 }
 
-impl Planner for Mind {
+impl Planner for Mind<'_> {
     fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         let answer = match self.lesson.take() {
             Some(policy) => {
@@ -146,7 +149,9 @@ impl Planner for Mind {
             }
             None => Builtin.plan(ask),
         };
-        let mut chat = model::chat(ask, prompt::TOKENS).into_iter().map(|message| message.text);
+        let kept = self.stage.kept();
+        let chat = model::chat_with(ask, &kept.lasting, prompt::TOKENS);
+        let mut chat = chat.into_iter().map(|message| message.text);
         let (system, user) = (chat.next().unwrap_or_default(), chat.next().unwrap_or_default());
         let (scene, situation) = (ask.situation.scene, ask.situation);
         let now = self.scene_now(ask);
@@ -162,15 +167,16 @@ impl Planner for Mind {
             Ok(answered) => {
                 let policy = answered.planned.parsed.file.policies().next();
                 let actions = policy.map(|policy| actions::write(policy, scene).0).unwrap_or_default();
-                (surfaced(ask, &answered.planned.text), actions)
+                (surfaced(&kept.grammar, &answered.planned.text), actions)
             }
             Err(why) => {
                 let question = Problem::of_planning(why, scene).question;
-                (surfaced(ask, &asking(ask, &question)), question)
+                (surfaced(&kept.grammar, &asking(ask, &question)), question)
             }
         };
         self.turns.push(Turn {
             scene: now,
+            posture: self.posture(ask),
             system,
             user,
             pictures: self.pictures(&named),
@@ -189,7 +195,7 @@ impl Planner for Mind {
     }
 }
 
-impl Mind {
+impl Mind<'_> {
     /// Pictures of the room, and of the first named thing that is in view.
     fn pictures(&self, named: &[SmolStr]) -> Vec<Picture> {
         match self.pictures {
@@ -203,6 +209,20 @@ impl Mind {
                 all.map(|image| Picture(image.bytes.into()).lit(self.light)).collect()
             }
         }
+    }
+
+    /// Facts about the robot itself that its card gives for the start, as they are now.
+    fn posture(&self, ask: &PlanRequest<'_>) -> Posture {
+        let sim = self.sim.borrow();
+        if sim.now() == Time::ZERO {
+            return Posture::new();
+        }
+        let initially = ask.robot.initially.iter().filter_map(|fact| {
+            let fact = fact.strip_prefix("not ").unwrap_or(fact);
+            fact.strip_suffix(&format!("({})", entities::ROBOT))
+        });
+        let holds = |fluent: &str| Some((fluent.into(), sim.holds(fluent, &[entities::ROBOT])?));
+        initially.filter_map(holds).collect()
     }
 
     /// The scene as it is known: what is believed of things counts where it is not the case.
@@ -295,11 +315,10 @@ fn taught(ask: &PlanRequest<'_>, policy: &str) -> Result<PlannedRequest, PlanErr
 }
 
 /// A policy as a model writes it.
-fn surfaced(ask: &PlanRequest<'_>, text: &str) -> Result<String, String> {
+fn surfaced(grammar: &Grammar, text: &str) -> Result<String, String> {
     let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
     let policy = parsed.file.policies().next().ok_or_else(|| "there is no policy".to_owned())?;
-    let grammar = Grammar::new(&ask.session.signatures(), Subset::default());
-    canonical(policy, &grammar).map_err(|outside| outside.why)
+    canonical(policy, grammar).map_err(|outside| outside.why)
 }
 
 /// A policy that asks a question, whose answer goes into the next plan.

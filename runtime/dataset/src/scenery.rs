@@ -21,7 +21,7 @@ const MOST: usize = 10;
 /// Probability that a piece of furniture is missing.
 const MISSING: f64 = 0.2;
 /// Probability that a scene has two things of a class.
-const TWINS: f64 = 0.6;
+const TWINS: f64 = 0.75;
 /// Probability that a thing is in a container, if the scene has any.
 const INSIDE: f64 = 0.25;
 /// Probability that a container is open.
@@ -31,7 +31,7 @@ const ELSEWHERE: f64 = 0.4;
 /// Mass that most hands cannot lift, in kg.
 const HEAVY_KG: f64 = 1.0;
 /// Probability that a scene has a shelf above a surface that no robot reaches, with a thing on it.
-const HIGH_SHELF: f64 = 0.7;
+const HIGH_SHELF: f64 = 0.85;
 /// Height of that shelf in m, and its thickness.
 const HIGH_M: [f64; 2] = [1.95, 0.02];
 /// Category of such a shelf.
@@ -82,7 +82,10 @@ pub fn vary(base: &Scene, catalogue: &Scene, draw: &mut SplitMix64) -> Scene {
 fn raise(scene: &mut Scene, draw: &mut SplitMix64) {
     let is_below = |entity: &&Entity| entity.kind == kinds::SURFACE && entity.pose.is_some();
     let surfaces: Vec<&Entity> = scene.entities.values().filter(is_below).collect();
-    let stands = |entity: &&Entity| entity.kind == kinds::OBJECT && !entity.fixed && entity.on.is_some();
+    let is_light = |entity: &Entity| entity.mass_kg.is_none_or(|mass| mass <= HEAVY_KG);
+    let stands = |entity: &&Entity| {
+        entity.kind == kinds::OBJECT && !entity.fixed && entity.on.is_some() && is_light(entity)
+    };
     let things: Vec<&Entity> = scene.entities.values().filter(stands).collect();
     let (Some(below), Some(thing)) = (draw.pick(&surfaces), draw.pick(&things)) else { return };
     let size = below.shape.as_ref().and_then(extents);
@@ -183,7 +186,7 @@ fn free_id(scene: &Scene, id: &SmolStr) -> SmolStr {
 }
 
 /// Number of attempts to find a spot.
-const TRIES: usize = 24;
+pub(crate) const TRIES: usize = 24;
 /// Distance in m from the middle of a thing to the edge of its surface: at least, beside half its own width,
 /// and at most, where the surface is large enough.
 const EDGE: [f64; 2] = [0.03, 0.1];
@@ -204,38 +207,45 @@ pub(crate) fn stand(scene: &mut Scene, thing: &mut Entity, inside: f64, draw: &m
     for _ in 0..TRIES {
         let goes_in = !closets.is_empty() && draw.chance(inside);
         let Some(holder) = draw.pick(if goes_in { &closets } else { &tops }) else { return false };
-        let (Some(pose), Some(size)) = (holder.pose, holder.shape.as_ref().and_then(extents)) else {
-            continue;
-        };
-        let [along, across, height] = size;
-        let radius = wide.max(deep) / 2.0;
-        let (free_x, free_y) = (along / 2.0 - radius - EDGE[0], across / 2.0 - radius - EDGE[0]);
-        if free_x < 0.0 || free_y < 0.0 || (goes_in && high > height - 0.04) {
-            continue;
-        }
-        let (x, y) = if goes_in {
-            (draw.within(-free_x, free_x) / 2.0, draw.within(-free_y, free_y) / 2.0)
-        } else {
-            near_edge(free_x, free_y, draw)
-        };
-        let z = if goes_in { high / 2.0 - height / 2.0 + 0.01 } else { height / 2.0 + high / 2.0 };
-        let [_, _, yaw] = pose.rpy;
-        let (sine, cosine) = libm::sincos(yaw);
-        let [at_x, at_y, at_z] = pose.xyz;
-        let xyz = [at_x + cosine * x - sine * y, at_y + sine * x + cosine * y, at_z + z].map(millimetres);
-        let crowded = scene.entities.values().any(|other| {
-            let stands = other.on.as_ref() == Some(&holder.id) || other.inside.as_ref() == Some(&holder.id);
-            stands && near(other, xyz, radius)
-        });
-        if crowded {
-            continue;
-        }
+        let Some(pose) = spot(scene, holder, [wide, deep, high], draw) else { continue };
         let holder = Some(holder.id.clone());
         (thing.on, thing.inside) = if goes_in { (None, holder) } else { (holder, None) };
-        thing.pose = Some(Placement { xyz, rpy: [0.0; 3] });
+        thing.pose = Some(pose);
         return true;
     }
     false
+}
+
+/// Draws a free pose on a surface, near its edge, or in a container, for a thing of some extents in m. `None`
+/// where the thing does not fit, or where the drawn one is not free.
+pub(crate) fn spot(
+    scene: &Scene,
+    holder: &Entity,
+    [wide, deep, high]: [f64; 3],
+    draw: &mut SplitMix64,
+) -> Option<Placement> {
+    let goes_in = holder.kind == kinds::CONTAINER;
+    let (pose, [along, across, height]) = (holder.pose?, holder.shape.as_ref().and_then(extents)?);
+    let radius = wide.max(deep) / 2.0;
+    let (free_x, free_y) = (along / 2.0 - radius - EDGE[0], across / 2.0 - radius - EDGE[0]);
+    if free_x < 0.0 || free_y < 0.0 || (goes_in && high > height - 0.04) {
+        return None;
+    }
+    let (x, y) = if goes_in {
+        (draw.within(-free_x, free_x) / 2.0, draw.within(-free_y, free_y) / 2.0)
+    } else {
+        near_edge(free_x, free_y, draw)
+    };
+    let z = if goes_in { high / 2.0 - height / 2.0 + 0.01 } else { height / 2.0 + high / 2.0 };
+    let [_, _, yaw] = pose.rpy;
+    let (sine, cosine) = libm::sincos(yaw);
+    let [at_x, at_y, at_z] = pose.xyz;
+    let xyz = [at_x + cosine * x - sine * y, at_y + sine * x + cosine * y, at_z + z].map(millimetres);
+    let crowded = scene.entities.values().any(|other| {
+        let stands = other.on.as_ref() == Some(&holder.id) || other.inside.as_ref() == Some(&holder.id);
+        stands && near(other, xyz, radius)
+    });
+    (!crowded).then_some(Placement { xyz, rpy: [0.0; 3] })
 }
 
 /// A spot near one of the four edges, in the frame of the top's middle.
@@ -263,7 +273,7 @@ fn millimetres(value: f64) -> f64 {
 }
 
 /// The extents of a shape along its own axes, in m; none of a mesh.
-fn extents(shape: &EntityShape) -> Option<[f64; 3]> {
+pub(crate) fn extents(shape: &EntityShape) -> Option<[f64; 3]> {
     Some(match *shape {
         EntityShape::Box(extents) => extents,
         EntityShape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],

@@ -182,14 +182,7 @@ impl Counts {
         self.rows += 1;
         if let Target::Policy(text) = &row.target {
             self.policies += 1;
-            let parsed = motet_syntax::read(&Source::new("row", text.as_str()), FileId(0));
-            let mut used = FxHashSet::default();
-            for policy in parsed.file.policies() {
-                of_policy(policy, &mut used);
-            }
-            for construct in used {
-                self.count(Subject::Construct(construct));
-            }
+            constructs(text).into_iter().for_each(|construct| self.count(Subject::Construct(construct)));
         }
         if row.task.as_deref() == Some(UPDATE) {
             self.count(Subject::Update);
@@ -225,6 +218,14 @@ impl Counts {
         };
         subjects.map(share).collect()
     }
+}
+
+/// Constructs of the policies of a document, in either syntax. O(steps).
+pub(crate) fn constructs(text: &str) -> FxHashSet<Construct> {
+    let parsed = motet_syntax::read(&Source::new("row", text), FileId(0));
+    let mut used = FxHashSet::default();
+    parsed.file.policies().for_each(|policy| of_policy(policy, &mut used));
+    used
 }
 
 fn of_policy(policy: &Policy, used: &mut FxHashSet<Construct>) {

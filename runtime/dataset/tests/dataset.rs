@@ -59,6 +59,7 @@ fn worlds(dataset: &Dataset, effort: Option<SearchBudget>) -> Worlds {
     Worlds {
         bodies: ["hsr", "anymal_z1"].map(|name| (name.into(), body(name))).into_iter().collect(),
         scenes: dataset.scenes.clone(),
+        postures: dataset.postures.clone(),
         effort,
         ..Worlds::default()
     }

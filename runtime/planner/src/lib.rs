@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod beside;
 pub mod builtin;
 mod deed;
 pub mod dialogue;
@@ -12,4 +13,5 @@ mod reply_verdict;
 pub mod runtime_check;
 pub mod vision;
 
+pub use beside::{CHECK_WITHIN, READ_WITHIN};
 pub use planner::{Builtin, BuiltinBeside, PlanRequest, Planner, RemainingSteps, Wait};

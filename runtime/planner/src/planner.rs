@@ -1,15 +1,18 @@
 //! The planner trait: requests in, policies out.
 
-use std::sync::mpsc::{self, Receiver, TryRecvError};
+use std::sync::LazyLock;
 
 use motet_compiler::Session;
 use motet_graph::Value;
 use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
 use motet_runtime::CameraImage;
 use motet_runtime::memory::Memory;
 use smol_str::SmolStr;
 
+use crate::beside::{CHECK_WITHIN, WorkBeside, WorkProgress};
 use crate::builtin::{self, PlanError, PlannedRequest};
+use crate::runtime_check::CheckMode;
 use motet_requests::RequestContext;
 
 /// Planner of policies for requests.
@@ -82,12 +85,70 @@ pub struct PlanRequest<'a> {
     pub image: Option<&'a CameraImage>,
 }
 
+/// A request without borrows, for a thread.
+pub(crate) struct OwnedRequest {
+    session: Session,
+    robot: Robot,
+    request: String,
+    scene: Scene,
+    context: RequestContext<'static>,
+    memory: Memory,
+    bound: Vec<(SmolStr, Value)>,
+    image: Option<CameraImage>,
+}
+
+impl OwnedRequest {
+    /// Copies a request.
+    pub(crate) fn of(ask: &PlanRequest<'_>) -> Self {
+        let RequestContext { scene, holding, supports, spoken_of, came_from, seen_at, meant, prefers } =
+            ask.situation.clone();
+        // The scene stands beside the context.
+        static NOWHERE: LazyLock<Scene> = LazyLock::new(Scene::default);
+        let nowhere: &'static Scene = &NOWHERE;
+        let context = RequestContext {
+            scene: nowhere,
+            holding,
+            supports,
+            spoken_of,
+            came_from,
+            seen_at,
+            meant,
+            prefers,
+        };
+        Self {
+            session: ask.session.clone(),
+            robot: ask.robot.clone(),
+            request: ask.request.to_owned(),
+            scene: scene.clone(),
+            context,
+            memory: ask.memory.clone(),
+            bound: ask.bound.to_vec(),
+            image: ask.image.cloned(),
+        }
+    }
+
+    /// Calls a function with the request.
+    pub(crate) fn with<T>(self, plan: impl FnOnce(&PlanRequest<'_>) -> T) -> T {
+        let Self { session, robot, request, scene, context, memory, bound, image } = self;
+        let situation = RequestContext { scene: &scene, ..context };
+        plan(&PlanRequest {
+            session: &session,
+            robot: &robot,
+            request: &request,
+            situation: &situation,
+            memory: &memory,
+            bound: &bound,
+            image: image.as_ref(),
+        })
+    }
+}
+
 /// The built-in planner, which plans for an instruction during a run on a thread of its own: the run goes on
 /// meanwhile. Other requests are planned in place.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct BuiltinBeside {
-    /// Policy that is being planned, or the reason why there is none.
-    coming: Option<Receiver<Option<String>>>,
+    /// Policy that is being planned, or none where there is none.
+    coming: Option<WorkBeside<Option<String>>>,
 }
 
 impl Planner for BuiltinBeside {
@@ -97,32 +158,22 @@ impl Planner for BuiltinBeside {
     }
 
     fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
-        let (session, robot, request) = (ask.session.clone(), ask.robot.clone(), ask.request.to_owned());
-        let (situation, scene) = (ask.situation.clone(), ask.situation.scene.clone());
-        let RequestContext { holding, supports, spoken_of, came_from, meant, seen_at, prefers, .. } =
-            situation;
-        let (told, coming) = mpsc::channel();
-        std::thread::spawn(move || {
-            let scene = &scene;
-            let context =
-                RequestContext { holding, supports, spoken_of, came_from, ..RequestContext::new(scene) };
-            let situation = RequestContext { meant, seen_at, prefers, ..context };
-            let planned = builtin::answer(&session, Some(&robot), &request, &situation);
-            // Nobody waits for it any more if the run is over.
-            let _ = told.send(planned.ok().map(|answered| answered.planned.text));
-        });
-        self.coming = Some(coming);
+        let owned = OwnedRequest::of(ask);
+        let plan = move || owned.with(|ask| Builtin.plan(ask).ok().map(|answered| answered.planned.text));
+        self.coming = Some(WorkBeside::start(CheckMode::Beside, CHECK_WITHIN, plan));
         true
     }
 
     fn rest(&mut self, wait: Wait) -> RemainingSteps {
         let Some(coming) = &self.coming else { return RemainingSteps::Nothing };
         let planned = match wait {
-            Wait::Not => match coming.try_recv() {
-                Err(TryRecvError::Empty) => return RemainingSteps::Coming,
-                planned => planned.ok().flatten(),
-            },
-            Wait::ToTheEnd => coming.recv().ok().flatten(),
+            Wait::Not => coming.progress(),
+            Wait::ToTheEnd => coming.wait(|| false),
+        };
+        let planned = match planned {
+            WorkProgress::Coming => return RemainingSteps::Coming,
+            WorkProgress::Done(planned) => planned,
+            WorkProgress::Late => None,
         };
         self.coming = None;
         planned.map_or(RemainingSteps::Broken, RemainingSteps::Whole)

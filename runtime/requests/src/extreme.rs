@@ -131,6 +131,8 @@ mod tests {
             ("the mug nearest to me", Some("mug_2")),
             ("the mug closest to you", Some("mug_1")),
             ("the mug that is closest to the sink", Some("mug_1")),
+            ("the closest mug to the sink", Some("mug_1")),
+            ("the farthest mug from the sink", Some("mug_2")),
             ("the mug farthest from the sink", Some("mug_2")),
             // The red one is nearer to the robot, the blue one to the person.
             ("the nearest mug", None),

@@ -20,12 +20,15 @@ mod statement;
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
+use engine::effort::bounded;
 use engine::token::Token;
 
 pub use answer::{called, choose, encourages, named, pick};
 pub use error::RequestError;
 pub use meaning::{Aim, Certainty, Intent};
-pub use polarity::{Polarity, added, holds, is_wordless, polarity, proceeds, refuses, stops, withdrawn};
+pub use polarity::{
+    Polarity, added, holds, is_wordless, polarity, proceeds, refuses, seeks, stops, withdrawn,
+};
 pub use question::{RoomQuestion, Topic, deed, is_question, question};
 
 /// A step that a request asks for by its name.
@@ -107,7 +110,9 @@ pub fn told(answer: &str, asked: Asked, situation: &RequestContext<'_>) -> Vec<R
     if answer.len() > MAX_REQUEST {
         return Vec::new();
     }
-    meaning::told(&engine::frame::without_courtesy(&engine::token::tokens(answer)), asked, situation)
+    let read =
+        || meaning::told(&engine::frame::without_courtesy(&engine::token::tokens(answer)), asked, situation);
+    bounded(read).unwrap_or_default()
 }
 
 /// Question that an answer is given to.
@@ -126,6 +131,10 @@ pub fn turn(answer: &str) -> Option<i32> {
     if answer.len() > MAX_REQUEST {
         return None;
     }
+    bounded(|| turned(answer)).flatten()
+}
+
+fn turned(answer: &str) -> Option<i32> {
     let mut tokens = engine::frame::without_courtesy(&engine::token::tokens(answer));
     tokens.retain(|token| !token.word().is_empty());
     let begin = engine::asking::skip_leads(&tokens, 0);
@@ -139,6 +148,10 @@ pub fn turn(answer: &str) -> Option<i32> {
 /// table, please".
 #[must_use]
 pub fn is_bare(answer: &str) -> bool {
+    answer.len() <= MAX_REQUEST && bounded(|| is_bare_noun(answer)).unwrap_or_default()
+}
+
+fn is_bare_noun(answer: &str) -> bool {
     let mut tokens = engine::token::tokens(answer);
     tokens.retain(|token| !matches!(token.word(), "please" | ""));
     let place = engine::noun::place(&tokens, 0).map(|(_, end)| end);
@@ -148,7 +161,8 @@ pub fn is_bare(answer: &str) -> bool {
 /// The most bytes of a request: what somebody says in one breath, and no document. Longer ones are not read.
 pub const MAX_REQUEST: usize = 4096;
 
-/// Understands a request. The same request and situation give the same goals. O(words · things).
+/// Understands a request. The same request and situation give the same goals. O(words · things) for what
+/// people say; a text that takes more than a bounded number of steps is not read, whatever its length.
 ///
 /// # Errors
 ///
@@ -158,7 +172,11 @@ pub fn understand(request: &str, situation: &RequestContext<'_>) -> Result<Inten
         let why = format!("a request may have at most {MAX_REQUEST} bytes; this one has {}", request.len());
         return Err(RequestError::Unfit { why });
     }
-    understand_tokens(&engine::token::tokens(request), request, situation)
+    let found = bounded(|| understand_tokens(&engine::token::tokens(request), request, situation));
+    found.unwrap_or_else(|| {
+        let why = "the request is too involved for me: say it in shorter sentences".to_owned();
+        Err(RequestError::Unfit { why })
+    })
 }
 
 fn understand_tokens(
@@ -188,4 +206,30 @@ fn understand_tokens(
         return found;
     }
     deed::understood(tokens, request, situation).unwrap_or(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use motet_robots::builtin;
+
+    use super::{Asked, MAX_REQUEST, RequestContext, RequestError, question, told, turn, understand};
+
+    /// Texts within the limit of bytes whose reading would take seconds to hours, and people's words that are
+    /// as long.
+    #[test]
+    fn understand_text_of_any_length_takes_a_bounded_number_of_steps() {
+        let scene = builtin::scene("kitchen").unwrap();
+        let context = RequestContext::new(&scene);
+        for piece in ["<a>", "the ", "a ", ", ", "coke ", "it is on the table and ", "the xqzzv and ", "in "]
+        {
+            let text = format!("bring {}", piece.repeat((MAX_REQUEST - 6) / piece.len()));
+            let read = understand(&text, &context);
+            assert!(matches!(read, Err(RequestError::Unfit { .. })), "{piece}: {read:?}");
+            // They share the bound.
+            assert!(told(&text, Asked::Where, &context).is_empty(), "{piece}");
+            assert_eq!((turn(&text), question(&text, &context)), (None, None), "{piece}");
+        }
+        let prose = "bring me the coke, then put the apple on the sink. ".repeat(MAX_REQUEST / 52);
+        assert!(understand(&prose, &context).is_ok(), "{:?}", understand(&prose, &context).err());
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::engine::english::{
     ADDITIONS, ANSWER_COURTESY, ASKED_TO_STOP, HOLDS_STILL, IGNORANT, MOMENT, NO, PLACE_AFTER_STOP, PROCEEDS,
-    REFUSALS, STOPS, STOPS_ALONE, WITHDRAWALS, YES,
+    REFUSALS, SEEKS, STOPS, STOPS_ALONE, WITHDRAWALS, YES,
 };
 use crate::engine::phrases::Phrases;
 use crate::engine::token::{Token, pieces, tokens};
@@ -125,8 +125,18 @@ pub fn is_wordless(text: &str) -> bool {
 /// True if a text says somewhere that something cannot or will not be done.
 #[must_use]
 pub fn refuses(text: &str) -> bool {
+    has(text, &REFUSALS)
+}
+
+/// True if a text asks to look for something: "find the stapler".
+#[must_use]
+pub fn seeks(text: &str) -> bool {
+    has(text, &SEEKS)
+}
+
+fn has(text: &str, phrases: &Phrases) -> bool {
     let words = tokens(text);
-    (0..words.len()).any(|at| REFUSALS.longest(&words, at).is_some())
+    (0..words.len()).any(|at| phrases.longest(&words, at).is_some())
 }
 
 /// Words of an answer, without the marks between them.

@@ -3,6 +3,7 @@
 use motet_robots::scene::Entity;
 use smol_str::SmolStr;
 
+use crate::engine::effort::bounded;
 use crate::engine::english::{DEEDS, PRONOUNS};
 use crate::engine::rule::Rules;
 use crate::engine::token::{Token, tokens};
@@ -92,7 +93,7 @@ fn read(text: &str) -> Option<(Topic, String, Option<String>)> {
         return None;
     }
     said.truncate(end);
-    let found = Rules("room_questions").at(&said, 0)?;
+    let found = bounded(|| Rules("room_questions").at(&said, 0)).flatten()?;
     let (topic, rest) = found.words.split_first()?;
     let topic = match topic.word() {
         "location" => Topic::Location,

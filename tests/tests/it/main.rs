@@ -11,6 +11,7 @@
 )]
 
 mod advice;
+mod beside;
 mod canonical;
 mod conversation;
 mod corpus;

@@ -44,12 +44,14 @@ fn with_stapler(told: &Scene, xyz: [f64; 3], on: &str) -> Scene {
 struct Beside {
     answers: Vec<&'static str>,
     asked: Vec<Kind>,
+    questions: Vec<String>,
     noticed: Vec<String>,
 }
 
 impl Person for Beside {
     fn ask(&mut self, problem: &Problem) -> Option<String> {
         self.asked.push(problem.kind);
+        self.questions.push(problem.question.clone());
         (!self.answers.is_empty()).then(|| self.answers.remove(0).to_owned())
     }
 }
@@ -66,7 +68,16 @@ impl DialogueObserver for Ears<'_> {
 
 /// Carries out a request of the HSR in a kitchen that is otherwise than it was told.
 fn talk(real: impl Fn(&Scene) -> Scene, request: &str, answers: &[&'static str]) -> (Outcome, Beside, Sim) {
-    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    talk_with("hsr", real, request, answers)
+}
+
+fn talk_with(
+    robot: &str,
+    real: impl Fn(&Scene) -> Scene,
+    request: &str,
+    answers: &[&'static str],
+) -> (Outcome, Beside, Sim) {
+    let (robot, scene) = (setup::robot(robot), setup::scene("kitchen"));
     let options = SimOptions { world: Some(real(&scene)), ..SimOptions::default() };
     let mut sim = Sim::new(&robot, &scene, options);
     let options = CheckOptions::default();
@@ -115,6 +126,27 @@ fn perception_during_a_run_is_noticed_by_the_engine() {
     assert_eq!(outcome, Outcome::Done, "{:?}", person.asked);
     assert_eq!(sim.holds("at", &["mug_2", "user"]), Some(true));
     assert!(person.noticed.contains(&"on(stapler, shelf) = true".to_owned()), "{:?}", person.noticed);
+}
+
+#[test]
+fn perception_thing_that_nobody_saw_is_looked_for() {
+    for robot in ["hsr", "anymal_z1"] {
+        // The shelf is behind the robot at the start.
+        let stapler = |told: &Scene| with_stapler(told, [-1.72, 1.6, 1.03], "shelf");
+        let (outcome, person, sim) = talk_with(robot, stapler, "bring me the stapler", &["Yes, please."]);
+        assert_eq!(outcome, Outcome::Done, "{robot}: {:?}", person.questions);
+        assert_eq!(sim.holds("at", &["stapler", "user"]), Some(true), "{robot}");
+        let question = "I know of no stapler here. Shall I look for it, or what do you mean?";
+        assert_eq!(person.questions, [question], "{robot}");
+        // Who asks to look for it is not asked.
+        let (outcome, person, _) = talk_with(robot, stapler, "find the stapler", &[]);
+        assert_eq!((outcome, person.asked), (Outcome::Done, vec![]), "{robot}");
+        // It is not there: the robot looks once, and says so.
+        let (outcome, person, _) = talk_with(robot, Scene::clone, "bring me the stapler", &["look for it"]);
+        assert!(matches!(outcome, Outcome::Failed(_)), "{robot}: {outcome:?}");
+        let after = "I have looked for it and see no stapler. What do you mean?";
+        assert_eq!(person.questions, [question, after], "{robot}");
+    }
 }
 
 /// Keeps what a model would be shown, and plans without one.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use motet_dataset::lint::{Finding, Linter, Place, RowFault, Shelf, Worlds};
 use motet_dataset::share::{Counts, Share};
-use motet_dataset::{format, picture};
+use motet_dataset::{Posture, format, picture};
 use motet_project::files::Bytes;
 use motet_project::{read_scene, robot_names};
 use motet_robots::builtin::{self, BuiltinScene};
@@ -147,9 +147,12 @@ fn worlds(args: &LintArgs, report: &mut Report) -> Result<Worlds, CliError> {
         let path = folder.join(ROOMS);
         if path.is_file() {
             lines(&path, &mut |number, line| {
-                let (name, room) = room(line).map_err(|why| {
+                let (name, room, posture) = room(line).map_err(|why| {
                     CliError::Message(format!("`{}`, line {number}: {why}", path.display()))
                 })?;
+                if !posture.is_empty() {
+                    worlds.postures.insert(name.clone(), posture);
+                }
                 worlds.scenes.insert(name, room);
                 Ok(Flow::Continue)
             })?;
@@ -159,14 +162,19 @@ fn worlds(args: &LintArgs, report: &mut Report) -> Result<Worlds, CliError> {
 }
 
 /// Reads a line of `scenes.jsonl`: a room with its name.
-fn room(line: &str) -> Result<(SmolStr, Scene), String> {
+fn room(line: &str) -> Result<(SmolStr, Scene, Posture), String> {
     let row: Value = serde_json::from_str(line).map_err(|error| format!("it is not JSON: {error}"))?;
     let name = row.get("name").and_then(Value::as_str).ok_or("it has no `name`")?;
     let text = row.get("scene").ok_or("it has no `scene`")?.to_string();
+    let posture = match row.get("robot") {
+        Some(robot) => serde_json::from_value(robot.clone())
+            .map_err(|_| "its `robot` is no object of facts that are true or false")?,
+        None => Posture::new(),
+    };
     let (scene, diagnostics) = scene::read(&Source::new(name, text), FileId(0));
     let error = diagnostics.iter().find(|found| found.severity == Severity::Error);
     match (scene, error) {
-        (Some(scene), None) => Ok((name.into(), scene)),
+        (Some(scene), None) => Ok((name.into(), scene, posture)),
         (_, error) => {
             Err(error.map_or_else(|| "it is not a scene".to_owned(), |error| error.message.clone()))
         }

@@ -90,7 +90,7 @@ impl ApiError {
             ModelError::Busy { .. } => ErrorKind::UpstreamBusy,
             ModelError::TimedOut { .. } => ErrorKind::UpstreamTooSlow,
             ModelError::Cancelled => ErrorKind::Ending,
-            ModelError::Declined { .. } => ErrorKind::NoPolicy,
+            ModelError::Declined { .. } | ModelError::TooInvolved { .. } => ErrorKind::NoPolicy,
             ModelError::Unreachable { .. }
             | ModelError::Refused { .. }
             | ModelError::TooLong { .. }

@@ -6,23 +6,23 @@ use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, NodeKind, Value};
 use motet_requests::{
-    Asked, Intent, ReportedLocation, RequestContext, added, holds, is_question, proceeds, stops, withdrawn,
+    Intent, ReportedLocation, RequestContext, RoomQuestion, holds, is_question, proceeds, stops,
 };
-use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Heard, Moved, Observer,
-    Outcome as GoalOutcome, Pattern, PreparedSwap, Query, RetiredGraph, RunControl, RunEnd, SwapRefusal,
-    Time, ToldThing, Truth, Verifier,
+    Outcome as GoalOutcome, PreparedSwap, Query, RetiredGraph, RunControl, RunEnd, SwapRefusal, Time,
+    ToldThing, Verifier,
 };
-use motet_stdlib::lang::{entities, failures, fluents, kinds, primitives};
+use motet_stdlib::lang::{failures, primitives};
 use smol_str::SmolStr;
 
+use super::aside::{self, LineMeaning, LineReading, LineRequest, PolicyCheck};
 use super::early_start::EarlyStart;
 use super::problem::named_entity;
 use super::{Conversation, DialogueObserver, OnInstruction, Problem};
+use crate::beside::{WorkBeside, WorkProgress};
 use crate::builtin::PlannedRequest;
-use crate::model::{ReplyVerdict, judge};
 use crate::runtime_check::Guard;
 use crate::{PlanRequest, Planner, RemainingSteps, Wait};
 
@@ -53,8 +53,12 @@ pub(super) struct LiveRun<'r, 'a> {
     task: String,
     /// The request that took over.
     pub(super) request: Option<String>,
+    /// A line that is being read.
+    reading: Option<LineReading>,
     /// A request for which a policy is being written.
     awaited: Option<String>,
+    /// A finished policy that is being checked.
+    checking: Option<PolicyCheck>,
     /// A policy that waits to take over, with its request.
     next: Option<(PlannedRequest, Option<String>)>,
     /// State of an early start, while the rest of the policy is still being written.
@@ -65,7 +69,9 @@ pub(super) struct LiveRun<'r, 'a> {
     guard: Option<Guard>,
     /// A question of the policy that is not answered yet.
     asked: Option<(GoalId, String)>,
-    /// Locations that answers to such questions told.
+    /// Answers to such questions that are being read.
+    answers: VecDeque<WorkBeside<Vec<ReportedLocation>>>,
+    /// Locations that such answers told.
     told: Vec<ReportedLocation>,
     /// Words that the driver heard, the latest last.
     heard: VecDeque<String>,
@@ -107,12 +113,15 @@ impl<'r, 'a> LiveRun<'r, 'a> {
             pending: None,
             task,
             request: None,
+            reading: None,
             awaited: None,
+            checking: None,
             next: None,
             first: None,
             started: Vec::new(),
             guard: None,
             asked: None,
+            answers: VecDeque::new(),
             told: Vec::new(),
             heard: VecDeque::new(),
             said: None,
@@ -211,7 +220,15 @@ impl<'r, 'a> LiveRun<'r, 'a> {
             Some(scribe) => scribe.run(&mut engine, driver, self, from),
             None => motet_runtime::run(&mut engine, driver, self, from),
         };
-        let late = self.awaited.take().or_else(|| self.said.take());
+        while let Some(answer) = self.answers.pop_front() {
+            // Nothing moves any more.
+            if let WorkProgress::Done(told) = answer.wait(|| self.watcher.is_stopped()) {
+                self.hear_told(told);
+            }
+        }
+        let checked = self.checking.take().and_then(|check| check.request);
+        let read = self.reading.take().map(|line| line.said);
+        let late = checked.or_else(|| self.awaited.take()).or(read).or_else(|| self.said.take());
         self.pending = self.pending.take().or(late.map(StopReason::Request));
         // Behind its first step, a policy that is still being written goes on.
         if self.first.is_none() || self.pending.is_some() || !matches!(end, RunEnd::Done { .. }) {
@@ -233,61 +250,155 @@ impl<'r, 'a> LiveRun<'r, 'a> {
 impl LiveRun<'_, '_> {
     /// Takes in the locations that an answer to a question of the policy tells: the driver hears of them at
     /// once, and the next plan.
-    fn hear_answer(&mut self, question: &str, said: &str) {
-        let scene = self.talk.known.scene(&self.talk.setting.scene);
-        let situation = self.talk.known.situation(&scene);
-        let spoken_of = motet_requests::named(question, &situation);
-        let told = motet_requests::told(said, Asked::Where, &RequestContext { spoken_of, ..situation });
+    fn hear_told(&mut self, told: Vec<ReportedLocation>) {
         told.iter().for_each(|one| self.talk.known.hear(one));
         self.told.extend(told);
     }
 
-    /// Answers a question from what is known in the middle of the run. False if the line is none.
-    fn reply(&mut self, said: &str, engine: &Engine) -> bool {
-        let mut known = self.talk.known.clone();
-        known.learn(engine, self.talk.base());
-        let scene = known.scene(&self.talk.setting.scene);
-        let Some(question) = motet_requests::question(said, &known.situation(&scene)) else { return false };
-        let answer = self.talk.known_answer(&question, &known);
-        self.watcher.answered(said, answer.as_deref());
-        true
+    /// Takes in the answers that were read by now.
+    fn hear_answers(&mut self) {
+        while let Some(answer) = self.answers.front() {
+            match answer.progress() {
+                WorkProgress::Coming => return,
+                WorkProgress::Done(told) => self.hear_told(told),
+                WorkProgress::Late => {}
+            }
+            self.answers.pop_front();
+        }
     }
 
-    /// The request after an addition, `also bring the apple`, or a withdrawal, `without the apple`.
-    fn changed(&self, said: String) -> String {
-        let task = self.task.trim_end_matches(['.', '!', ' ']);
-        let names = |words: &str| {
-            let scene = &self.talk.setting.scene;
-            !motet_requests::named(words, &RequestContext::new(scene)).is_empty()
+    /// Answers a question from what is known in the middle of the run.
+    fn reply(&mut self, said: &str, question: &RoomQuestion, engine: &Engine) {
+        let mut known = self.talk.known.clone();
+        known.learn(engine, self.talk.base());
+        let answer = self.talk.known_answer(question, &known);
+        self.watcher.answered(said, answer.as_deref());
+    }
+
+    /// Starts to read a line beside the run.
+    fn read(&mut self, said: String, engine: &Engine) {
+        let mut known = self.talk.known.clone();
+        let mut midway = known.clone();
+        let before = known.places(&self.talk.setting.scene);
+        known.learn(engine, self.talk.base());
+        midway.learn_midway(engine, self.talk.base());
+        midway.presume(&before);
+        let (tells, mode) = (!self.planner.reads_answers(), self.watcher.verifies());
+        let line = (said, self.task.clone());
+        self.reading = Some(LineReading::start(self.talk, line, (known, midway), tells, mode));
+    }
+
+    /// Takes in the line that is being read, once it is: a question is answered, and a request is planned.
+    fn heard_line(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
+        let line = self.reading.take()?;
+        let meaning = match line.read.progress() {
+            WorkProgress::Coming => {
+                self.reading = Some(line);
+                return None;
+            }
+            WorkProgress::Done(LineMeaning::Question(question)) => {
+                self.reply(&line.said, &question, engine);
+                return None;
+            }
+            WorkProgress::Done(meaning) => meaning,
+            // The robot stops, and it is the next request.
+            WorkProgress::Late => {
+                self.talk.memory.instruct(now, &line.said);
+                self.pending = Some(StopReason::Request(line.said));
+                return None;
+            }
         };
-        if let Some(more) = added(&said) {
-            return format!("{task} and {more}");
+        self.talk.memory.instruct(now, &line.said);
+        match meaning {
+            LineMeaning::Request(request) => self.plan(now, *request, engine),
+            LineMeaning::Statement(told) => {
+                self.pending = Some(StopReason::Statement(told));
+                None
+            }
+            LineMeaning::Question(_) => None,
         }
-        match withdrawn(&said).filter(|rest| names(rest)) {
-            Some(rest) => format!("{task}, but without {rest}"),
-            None => said,
+    }
+
+    /// Plans a request: beside the run where the planner can, or at once.
+    fn plan(&mut self, now: Time, line: LineRequest, engine: &Engine) -> Option<PreparedSwap> {
+        let LineRequest { request, known, scene, session } = line;
+        self.talk.bound = engine.snapshot().bindings;
+        let meant = std::mem::take(&mut self.meant);
+        let situation = RequestContext { meant: meant.clone(), ..known.situation(&scene) };
+        let image = self.talk.look(now);
+        let ask = PlanRequest { image: image.as_ref(), ..self.talk.ask(&session, &request, &situation) };
+        self.checking = None;
+        if self.planner.begin(&ask) {
+            (self.awaited, self.first) = (Some(request), None);
+            return None;
+        }
+        let planned =
+            self.talk.plan_for((&request, image.as_ref()), &meant, self.planner, (&session, &scene, &known));
+        let prepared = planned.ok().and_then(|answered| {
+            let graph = answered.planned.compiled.graph.clone()?;
+            Some((PreparedSwap::new(graph, &engine.running()).ok()?, answered))
+        });
+        match prepared {
+            Some((prepared, answered)) => {
+                self.next = Some((answered, Some(request)));
+                Some(prepared)
+            }
+            // It needs a question, or another start: the robot stops, and it is the next request.
+            None => {
+                self.pending = Some(StopReason::Request(request));
+                None
+            }
         }
     }
 
     /// Returns a finished policy that can take over: for a new request, or the rest of an early start.
     fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
-        if let Some(request) = self.awaited.take() {
-            let prepared = match self.planner.rest(Wait::Not) {
-                RemainingSteps::Coming => {
-                    self.awaited = Some(request);
-                    return None;
-                }
-                RemainingSteps::Whole(policy) => {
-                    let understood =
-                        Intent { spoken_of: self.talk.known.spoken_of.clone(), ..Intent::default() };
-                    self.prepared(&policy, understood, Some(request.clone()), engine)
-                }
-                RemainingSteps::Nothing | RemainingSteps::Broken | RemainingSteps::Stopped => None,
-            };
-            if prepared.is_none() {
-                self.pending = Some(StopReason::Request(request));
+        if self.checking.is_none() {
+            let (policy, understood, request) = self.finished()?;
+            let mut known = self.talk.known.clone();
+            known.learn_midway(engine, self.talk.base());
+            let mode = self.watcher.verifies();
+            self.checking = Some(PolicyCheck::start(self.talk, (policy, request), understood, known, mode));
+        }
+        let checking = self.checking.take()?;
+        let answered = match checking.check.progress() {
+            WorkProgress::Coming => {
+                self.checking = Some(checking);
+                return None;
             }
-            return prepared;
+            WorkProgress::Done(answered) => answered,
+            WorkProgress::Late => None,
+        };
+        let prepared = answered.and_then(|answered| {
+            let graph = answered.planned.compiled.graph.clone()?;
+            Some((PreparedSwap::new(graph, &engine.running()).ok()?, *answered))
+        });
+        match prepared {
+            Some((prepared, answered)) => {
+                self.next = Some((answered, checking.request));
+                Some(prepared)
+            }
+            None => {
+                self.pending = checking.request.map(StopReason::Request);
+                None
+            }
+        }
+    }
+
+    /// A policy that has been written since the last call, with its request.
+    fn finished(&mut self) -> Option<(String, Intent, Option<String>)> {
+        if let Some(request) = self.awaited.take() {
+            match self.planner.rest(Wait::Not) {
+                RemainingSteps::Coming => self.awaited = Some(request),
+                RemainingSteps::Whole(policy) => {
+                    let spoken_of = self.talk.known.spoken_of.clone();
+                    return Some((policy, Intent { spoken_of, ..Intent::default() }, Some(request)));
+                }
+                RemainingSteps::Nothing | RemainingSteps::Broken | RemainingSteps::Stopped => {
+                    self.pending = Some(StopReason::Request(request));
+                }
+            }
+            return None;
         }
         let first = self.first.as_mut().filter(|first| first.rest.is_none())?;
         let rest = self.planner.rest(Wait::Not);
@@ -295,32 +406,8 @@ impl LiveRun<'_, '_> {
             return None;
         }
         first.rest = Some(rest.clone());
-        let understood = first.understood.clone();
         let RemainingSteps::Whole(policy) = rest else { return None };
-        self.prepared(&policy, understood, None, engine)
-    }
-
-    /// Prepares a finished policy to take over in the present beliefs.
-    fn prepared(
-        &mut self,
-        policy: &str,
-        understood: Intent,
-        request: Option<String>,
-        engine: &Engine,
-    ) -> Option<PreparedSwap> {
-        let mut known = self.talk.known.clone();
-        known.learn_midway(engine, self.talk.base());
-        let scene = known.scene(&self.talk.setting.scene);
-        // Where the base is while it moves nobody knows beforehand.
-        let judged = judge(&self.talk.session(&scene, &known, None), policy);
-        // Other steps than were written are not slipped in: the request is planned anew.
-        let ReplyVerdict::Good { planned, changed, .. } = judged else { return None };
-        if !changed.is_empty() {
-            return None;
-        }
-        let prepared = PreparedSwap::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
-        self.next = Some((PlannedRequest { understood, planned: *planned }, request));
-        Some(prepared)
+        Some((policy, first.understood.clone(), None))
     }
 }
 
@@ -337,12 +424,6 @@ fn is_call(graph: &Graph, node: NodeId, name: &str) -> bool {
     graph.primitives.get(call.primitive.index()).is_some_and(|primitive| primitive.name == name)
 }
 
-/// Reads locations from a line that states them and requests nothing.
-fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedLocation>> {
-    let understood = motet_requests::understand(said, situation).ok()?;
-    (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
-}
-
 impl Observer for LiveRun<'_, '_> {
     fn event(&mut self, now: Time, event: &Event) {
         self.now = self.now.max(now);
@@ -354,7 +435,9 @@ impl Observer for LiveRun<'_, '_> {
         }) = event
             && let Some((_, question)) = self.asked.take_if(|(asked, _)| asked == goal)
         {
-            self.hear_answer(&question, said);
+            let answer = (question, said.to_string());
+            self.answers.push_back(aside::answer(self.talk, answer, self.watcher.verifies()));
+            self.hear_answers();
         }
     }
 
@@ -417,55 +500,24 @@ impl Observer for LiveRun<'_, '_> {
         if self.pending.is_some() || engine.is_over() {
             return None;
         }
+        self.hear_answers();
         self.listen(now);
         // The robot stops, or keeps still, before anything is planned.
         if self.pending.is_some() || self.wish.is_some() {
             return None;
         }
-        let Some(said) = self.said.take() else { return self.written(engine) };
-        if self.reply(&said, engine) {
-            return None;
-        }
-        self.talk.memory.instruct(now, &said);
-        let request = self.changed(said);
-        let mut known = self.talk.known.clone();
-        let before = known.places(&self.talk.setting.scene);
-        known.learn_midway(engine, self.talk.base());
-        known.presume(&before);
-        self.talk.bound = engine.snapshot().bindings;
-        let scene = known.scene(&self.talk.setting.scene);
-        if !self.planner.reads_answers()
-            && let Some(told) = statement(&request, &known.situation(&scene))
+        if self.reading.is_none()
+            && let Some(said) = self.said.take()
         {
-            self.pending = Some(StopReason::Statement(told));
-            return None;
+            self.read(said, engine);
         }
-        let meant = std::mem::take(&mut self.meant);
-        let session = self.talk.session(&scene, &known, None);
-        let situation = RequestContext { meant: meant.clone(), ..known.situation(&scene) };
-        let image = self.talk.look(now);
-        let ask = PlanRequest { image: image.as_ref(), ..self.talk.ask(&session, &request, &situation) };
-        if self.planner.begin(&ask) {
-            (self.awaited, self.first) = (Some(request), None);
-            return None;
-        }
-        let planned =
-            self.talk.plan_for((&request, image.as_ref()), &meant, self.planner, (&session, &scene, &known));
-        let prepared = planned.ok().and_then(|answered| {
-            let graph = answered.planned.compiled.graph.clone()?;
-            Some((PreparedSwap::new(graph, &engine.running()).ok()?, answered))
-        });
-        match prepared {
-            Some((prepared, answered)) => {
-                self.next = Some((answered, Some(request)));
-                Some(prepared)
-            }
-            // It needs a question, or another start: the robot stops, and it is the next request.
-            None => {
-                self.pending = Some(StopReason::Request(request));
-                None
+        if self.reading.is_some() {
+            let prepared = self.heard_line(now, engine);
+            if prepared.is_some() || self.pending.is_some() || self.next.is_some() {
+                return prepared;
             }
         }
+        self.written(engine)
     }
 
     fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
@@ -498,64 +550,4 @@ impl Observer for LiveRun<'_, '_> {
     fn at_least_every(&self) -> Time {
         self.watcher.at_least_every()
     }
-}
-
-/// Asks a driver for all facts about the robot itself that its card lists as observable. Returns the answers
-/// in order, and the time after them, at most the card's `observe_within` later.
-pub(super) fn sense(
-    driver: &mut dyn Driver,
-    robot: &Robot,
-    scene: &Scene,
-    now: Time,
-) -> (Vec<(Query, Truth)>, Time) {
-    let is = |value: Value| Pattern::Is(value);
-    let entity = |id: &SmolStr| is(Value::Entity(id.clone()));
-    let mut queries = Vec::new();
-    let mut ask = |fluent: &str, args: Vec<Pattern>| {
-        if robot.observes.iter().any(|known| known == fluent) {
-            queries.push(Query::Fact { fluent: fluent.into(), args });
-        }
-    };
-    for hand in robot.hands.keys() {
-        ask(fluents::FREE, vec![is(Value::Case(hand.clone()))]);
-    }
-    for one in scene.entities.values() {
-        if one.kind == kinds::OBJECT {
-            ask(fluents::HOLDING, vec![entity(&one.id)]);
-        } else {
-            ask(fluents::AT, vec![is(Value::Entity(SmolStr::new_static(entities::ROBOT))), entity(&one.id)]);
-        }
-    }
-    self::ask(driver, queries, robot, now)
-}
-
-/// Asks a driver questions. Returns the answers in order, and the time after them, at most the card's
-/// `observe_within` later.
-pub(super) fn ask(
-    driver: &mut dyn Driver,
-    queries: Vec<Query>,
-    robot: &Robot,
-    now: Time,
-) -> (Vec<(Query, Truth)>, Time) {
-    for query in &queries {
-        driver.observe(now, query);
-    }
-    let until = Time::from_secs(now.secs() + robot.observe_within_secs);
-    let (mut seen, mut at, mut left) = (Vec::new(), now, queries.len());
-    while left > 0 {
-        let Some((time, event)) = driver.advance(until) else {
-            at = at.max(until);
-            break;
-        };
-        at = at.max(time);
-        if let DriverEvent::Observed { query, answer } = event
-            && queries.contains(&query)
-        {
-            left -= 1;
-            if let Answer::Truth(holds) = answer {
-                seen.push((query, if holds { Truth::True } else { Truth::False }));
-            }
-        }
-    }
-    (seen, at)
 }

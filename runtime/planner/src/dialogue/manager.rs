@@ -1,10 +1,10 @@
 //! The dialogue manager: plans a request, runs the policy, retries, asks about problems, and plans anew with
 //! the answers.
 
-use motet_requests::{Intent, Polarity, ReportedLocation, RequestError, polarity};
-use motet_robots::scene::Scene;
+use motet_requests::{Intent, Polarity, ReportedLocation, RequestError, polarity, seeks};
+use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Driver, RunEnd, Time};
-use motet_stdlib::lang::{entities, failures, primitives};
+use motet_stdlib::lang::{entities, failures, kinds, primitives};
 use motet_syntax::print;
 use smol_str::SmolStr;
 
@@ -12,7 +12,7 @@ use super::answer::{self, Answer};
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::early_start::Continuation;
 use super::live_run::{LiveRun, RunResult, StopReason};
-use super::problem::{Kind, Problem};
+use super::problem::{Kind, Problem, bare_noun};
 use crate::Planner;
 use crate::model::{ReplyVerdict, judge};
 use crate::planned::{PlanError, PlannedRequest, quoted};
@@ -23,6 +23,8 @@ const MAX_ROUNDS: usize = 12;
 const MAX_QUESTIONS: usize = 6;
 /// Number of new plans for a failed step before the robot asks a person.
 const TRIES: usize = 2;
+/// The most places at which the robot looks for a thing that nobody knows.
+const MAX_PLACES: usize = 8;
 
 impl Conversation<'_> {
     /// Carries out a request to its end, starting at the driver's time `from`. Returns the outcome and the
@@ -78,6 +80,8 @@ struct Task {
     helps: bool,
     /// True while the robot only looks where a person said, before it goes on.
     looks: bool,
+    /// Things that nobody knows and that the robot has looked for, by their names.
+    sought: Vec<String>,
     /// Resolved meanings of ambiguous words.
     meant: Vec<(String, SmolStr)>,
     /// Further places to look for an object, the next one first.
@@ -92,7 +96,8 @@ impl Task {
         let is_other = request.contains("instead") || matches!(polarity(&request), Polarity::No(_));
         let before = before.filter(|before| !is_other && !request.contains(before.as_str()));
         let (meant, elsewhere) = (Vec::new(), Vec::new());
-        Self { request, before, helps: false, looks: false, meant, elsewhere, questions: 0, tries: 0 }
+        let (helps, looks, sought) = (false, false, Vec::new());
+        Self { request, before, helps, looks, sought, meant, elsewhere, questions: 0, tries: 0 }
     }
 }
 
@@ -127,6 +132,8 @@ pub(super) struct DialogueManager<'r, 'a> {
     ready: Option<PlannedRequest>,
     /// Policy that runs if the person agrees to it.
     doubtful: Option<PlannedRequest>,
+    /// Name of the thing that this policy looks for, if nobody knows it.
+    unknown: Option<String>,
 }
 
 impl<'r, 'a> DialogueManager<'r, 'a> {
@@ -137,7 +144,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         now: Time,
     ) -> Self {
         let task = Task::new(request.to_owned(), None);
-        Self { talk, planner, person, watcher, task, now, ready: None, doubtful: None }
+        Self { talk, planner, person, watcher, task, now, ready: None, doubtful: None, unknown: None }
     }
 
     /// Pursues the request to its end.
@@ -152,7 +159,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             };
             let next = match proposed {
                 Ok(answered) => self.run(answered, driver, &scene),
-                Err(why) => self.unplanned(why, &scene),
+                Err(why) => self.unplanned(why, &scene, driver.capabilities().detections),
             };
             let (problem, retry) = match next {
                 RoundResult::Round => continue,
@@ -257,6 +264,12 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             }
         }
         match Problem::of_run(&end, (&graph, &bound), scene) {
+            // It looked for a thing that nobody knows, and did not see it.
+            Some(Problem { kind: Kind::NotFound, about, .. })
+                if looks && about.as_ref().is_none_or(|id| !scene.entities.contains_key(id)) =>
+            {
+                RoundResult::Round
+            }
             Some(problem) => {
                 let is_of_person = matches!(&end, RunEnd::Failed { kind, .. } if kind == failures::REFUSED);
                 let retry = if was_refused || stood_wrong {
@@ -291,6 +304,41 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         let ReplyVerdict::Good { planned, .. } = judge(&session, &text) else { return None };
         let understood = Intent { spoken_of: vec![thing.clone()], ..Intent::default() };
         Some(PlannedRequest { understood, planned: *planned })
+    }
+
+    /// Policy that looks for a thing that nobody knows, at one surface after the other. `None` if it does not
+    /// pass the check.
+    fn seeking(&self, name: &str, scene: &Scene) -> Option<PlannedRequest> {
+        let is_place = |entity: &&Entity| entity.kind == kinds::SURFACE && entity.pose.is_some();
+        let around = scene.entities.values().filter(is_place).take(MAX_PLACES);
+        let around: Vec<String> = around.map(|place| print::identifier(&place.id).to_string()).collect();
+        let robot = print::identifier(&self.talk.setting.robot.name);
+        let (search, what) = (primitives::SEARCH, quoted(name));
+        let text = format!("policy look for {robot} {{ {search}({what}, [{}]) }}", around.join(", "));
+        let session = self.talk.session(scene, &self.talk.known, None);
+        let ReplyVerdict::Good { planned, .. } = judge(&session, &text) else { return None };
+        Some(PlannedRequest { understood: Intent::default(), planned: *planned })
+    }
+
+    /// Offers to look for a thing that nobody knows, or looks for it where the request says so. A thing is
+    /// looked for once.
+    fn unknown(&mut self, what: &str, problem: Problem, scene: &Scene) -> RoundResult {
+        let name = bare_noun(what).to_owned();
+        if self.task.sought.contains(&name) {
+            let question = format!("I have looked for it and see no {name}. What do you mean?");
+            return RoundResult::Problem(Problem { question, ..problem }, Retry::Usual);
+        }
+        let Some(planned) = self.seeking(&name, scene) else {
+            return RoundResult::Problem(problem, Retry::Usual);
+        };
+        if seeks(&self.task.request) {
+            self.task.sought.push(name);
+            (self.ready, self.task.looks) = (Some(planned), true);
+            return RoundResult::Round;
+        }
+        let question = format!("I know of no {name} here. Shall I look for it, or what do you mean?");
+        (self.doubtful, self.unknown) = (Some(planned), Some(name));
+        RoundResult::Problem(Problem { question, ..problem }, Retry::Usual)
     }
 
     /// Takes in the first place of each object; returns the others in order.
@@ -328,7 +376,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     }
 
     /// Handles a request that got no policy.
-    fn unplanned(&mut self, why: PlanError, scene: &Scene) -> RoundResult {
+    fn unplanned(&mut self, why: PlanError, scene: &Scene, sees: bool) -> RoundResult {
         let problem = Problem::of_planning(&why, scene);
         match (why, self.task.before.clone()) {
             (PlanError::Doubtful { planned, .. }, _) => {
@@ -336,6 +384,9 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 let understood = Intent { spoken_of, ..Intent::default() };
                 self.doubtful = Some(PlannedRequest { understood, planned: *planned });
                 RoundResult::Problem(problem, Retry::Usual)
+            }
+            (PlanError::RequestError(RequestError::NotFound { what }), _) if sees => {
+                self.unknown(&what, problem, scene)
             }
             (PlanError::Stopped, _) => RoundResult::Over(Outcome::Stopped),
             // No answer of a person brings a model back.
@@ -363,7 +414,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     /// Asks a person about a problem until the answer is understood. Returns the outcome if the answer ends
     /// the request.
     fn ask(&mut self, problem: Problem, scene: &Scene) -> Option<Outcome> {
-        let doubtful = self.doubtful.take();
+        let (doubtful, unknown) = (self.doubtful.take(), self.unknown.take());
         // What an answer says beside what is understood of it is for who plans.
         let is_told = self.planner.reads_answers();
         let mut question = problem.clone();
@@ -407,6 +458,8 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             Answer::Again => {
                 self.task.tries = 0;
                 self.ready = doubtful;
+                self.task.looks = unknown.is_some();
+                self.task.sought.extend(unknown);
             }
             Answer::Means { said, ids } => {
                 self.task.meant.extend(ids.into_iter().map(|id| (said.clone(), id)));

@@ -6,6 +6,7 @@
 //! and a [`Driver`](motet_runtime::Driver). [`Knowledge`] lasts from one policy to the next.
 
 mod answer;
+mod aside;
 mod conversation;
 mod early_start;
 mod knowledge;
@@ -14,6 +15,7 @@ mod manager;
 mod problem;
 mod reason;
 mod reply;
+mod senses;
 mod sight;
 mod world;
 

@@ -288,7 +288,8 @@ fn described(scene: &Scene, id: &SmolStr) -> String {
     format!("the {}{}", scene.called(id), believed(scene, Some(id)))
 }
 
-fn bare_noun(said: &str) -> &str {
+/// Noun of a phrase, without its article.
+pub(super) fn bare_noun(said: &str) -> &str {
     let articles = ["the ", "a ", "an ", "some ", "my ", "that ", "this "];
     articles.iter().find_map(|article| said.strip_prefix(article)).unwrap_or(said)
 }

@@ -12,9 +12,9 @@ use smol_str::SmolStr;
 
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::knowledge::Knowledge;
-use super::live_run::{ask, sense};
 use super::manager::DialogueManager;
 use super::problem::{Kind, Problem, join};
+use super::senses::{ask, sense};
 use crate::Planner;
 
 /// The most steps that an answer tells.

@@ -8,7 +8,7 @@ use motet_runtime::{Driver, Engine, RunEnd, Time};
 use motet_stdlib::lang::failures;
 
 use super::conversation::Conversation;
-use super::live_run::sense;
+use super::senses::sense;
 
 impl Conversation<'_> {
     /// The scene as it is known now.

@@ -4,7 +4,8 @@
 //! and its motions have witnesses if motions are computed. The rest can still be wrong; then the request is
 //! planned anew from the state after the first step.
 
-use std::time::Duration;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::time::{Duration, Instant};
 
 use motet_compiler::{Library, Session, make_explicit};
 use motet_graph::{Graph, NodeKind, Value, Verdict as Proof};
@@ -14,14 +15,23 @@ use smol_str::SmolStr;
 
 use super::chat::{Finish, ModelError, News, Reply};
 use super::stream_reader::{StreamReader, StreamVerdict};
+use crate::beside::CHECK_WITHIN;
 use crate::planned::Planned;
 use crate::reply_verdict::{ReplyVerdict, errors, judge, read};
+use crate::runtime_check::CheckMode;
 
-/// The rest of a policy whose first step was returned.
+/// Maximum number of bytes of a reply, thoughts included.
+pub(super) const REPLY_BYTES: usize = 256 << 10;
+
+/// The rest of a policy whose first step was returned, or a policy that is written during a run.
 pub(super) struct PendingRest {
-    pub(super) reply: Box<dyn Reply>,
-    pub(super) reading: StreamReader<'static>,
+    reply: Box<dyn Reply>,
+    /// Text of the reply so far.
+    pub(super) text: String,
+    reader: RestReader,
     pub(super) round: u32,
+    /// End of the time for the check, once the reply has ended.
+    until: Option<Instant>,
 }
 
 /// Progress of the remaining policy.
@@ -37,26 +47,124 @@ pub(super) enum RestProgress {
 }
 
 impl PendingRest {
+    /// The rest of a reply of which a reader has read the first pieces.
+    pub(super) fn new(
+        reply: Box<dyn Reply>,
+        reading: StreamReader<'static>,
+        round: u32,
+        mode: CheckMode,
+    ) -> Self {
+        let text = reading.reply().to_owned();
+        Self { reply, text, reader: RestReader::new(reading, mode), round, until: None }
+    }
+
     /// Reads on, waiting at most `wait`.
     pub(super) fn next(&mut self, wait: Duration) -> RestProgress {
+        let is_over = self.until.is_some();
+        if let Some(over) = self.reader.verdict(if is_over { wait } else { Duration::ZERO }) {
+            return over;
+        }
+        if let Some(until) = self.until {
+            if Instant::now() < until {
+                return RestProgress::Nothing;
+            }
+            return RestProgress::Failed(ModelError::TooInvolved { secs: CHECK_WITHIN.as_secs() });
+        }
         match self.reply.next(wait) {
             News::Nothing | News::Used(_) | News::Retrying { .. } => RestProgress::Nothing,
-            News::Piece(piece) => match self.reading.push(&piece) {
-                StreamVerdict::GoOn | StreamVerdict::Steps(_) => RestProgress::Some(piece),
-                StreamVerdict::Whole => RestProgress::Whole(self.reading.policy().to_owned()),
-                StreamVerdict::Wrong(wrong) => RestProgress::Wrong(wrong.findings),
-            },
-            // A reply in the text form is no object that could be followed.
-            News::End(Finish::Stop) if self.reading.policy().is_empty() => {
-                RestProgress::Whole(self.reading.reply().to_owned())
+            News::Piece(piece) => {
+                if self.text.len() + piece.len() > REPLY_BYTES {
+                    return RestProgress::Failed(ModelError::TooLong { bytes: REPLY_BYTES });
+                }
+                self.text.push_str(&piece);
+                self.reader.push(&piece);
+                self.reader.verdict(Duration::ZERO).unwrap_or(RestProgress::Some(piece))
             }
-            News::End(Finish::Stop) => RestProgress::Whole(self.reading.policy().to_owned()),
+            News::End(Finish::Stop) => {
+                self.reader.end();
+                self.until = Some(Instant::now() + CHECK_WITHIN);
+                self.reader.verdict(Duration::ZERO).unwrap_or(RestProgress::Nothing)
+            }
             News::End(Finish::Length) => RestProgress::Failed(ModelError::CutOff {
                 why: "it had written as much as it may".to_owned(),
             }),
             News::Failed(why) => RestProgress::Failed(why),
         }
     }
+}
+
+/// Reader of the pieces of a reply, which checks the steps as they come.
+enum RestReader {
+    AtOnce(Box<StreamReader<'static>>, Option<RestProgress>),
+    /// Thread that reads the pieces and ends with the last sender.
+    Beside {
+        pieces: Option<Sender<String>>,
+        verdicts: Receiver<RestProgress>,
+    },
+}
+
+impl RestReader {
+    fn new(mut reading: StreamReader<'static>, mode: CheckMode) -> Self {
+        match mode {
+            CheckMode::AtOnce => Self::AtOnce(Box::new(reading), None),
+            CheckMode::Beside => {
+                let (pieces, written) = mpsc::channel::<String>();
+                let (told, verdicts) = mpsc::channel();
+                std::thread::spawn(move || {
+                    let over = written.into_iter().find_map(|piece| read_on(&mut reading, &piece));
+                    // Nobody may wait for it any more.
+                    let _ = told.send(over.unwrap_or_else(|| RestProgress::Whole(whole(&reading))));
+                });
+                Self::Beside { pieces: Some(pieces), verdicts }
+            }
+        }
+    }
+
+    fn push(&mut self, piece: &str) {
+        match self {
+            Self::AtOnce(reading, over) => {
+                let read = read_on(reading, piece);
+                *over = over.take().or(read);
+            }
+            Self::Beside { pieces, .. } => {
+                // A thread that has read enough takes no more.
+                let _ = pieces.as_ref().map(|pieces| pieces.send(piece.to_owned()));
+            }
+        }
+    }
+
+    /// Ends the reply.
+    fn end(&mut self) {
+        match self {
+            Self::AtOnce(reading, over) => {
+                over.get_or_insert_with(|| RestProgress::Whole(whole(reading)));
+            }
+            Self::Beside { pieces, .. } => *pieces = None,
+        }
+    }
+
+    /// Verdict on the whole policy, once there is one; waits for it at most `wait`.
+    fn verdict(&mut self, wait: Duration) -> Option<RestProgress> {
+        match self {
+            Self::AtOnce(_, over) => over.take(),
+            Self::Beside { verdicts, .. } => verdicts.recv_timeout(wait).ok(),
+        }
+    }
+}
+
+/// Takes a piece. `None` while the policy goes on.
+fn read_on(reading: &mut StreamReader<'static>, piece: &str) -> Option<RestProgress> {
+    match reading.push(piece) {
+        StreamVerdict::GoOn | StreamVerdict::Steps(_) => None,
+        StreamVerdict::Whole => Some(RestProgress::Whole(reading.policy().to_owned())),
+        StreamVerdict::Wrong(wrong) => Some(RestProgress::Wrong(wrong.findings)),
+    }
+}
+
+/// The policy of a reply that has ended. A reply in the text form is no object that could be followed.
+fn whole(reading: &StreamReader<'static>) -> String {
+    let policy = reading.policy();
+    if policy.is_empty() { reading.reply().to_owned() } else { policy.to_owned() }
 }
 
 /// The first step of an unfinished policy as a policy of its own, if it may start.

@@ -142,6 +142,12 @@ pub enum ModelError {
         /// Limit in bytes.
         bytes: usize,
     },
+    /// The check of the reply took too long.
+    #[error("the check of its reply does not end within {secs} s")]
+    TooInvolved {
+        /// Time limit in s.
+        secs: u64,
+    },
     /// The reply broke off.
     #[error("its reply broke off: {why}")]
     CutOff { why: String },
@@ -163,6 +169,7 @@ impl ModelError {
             | Self::Declined { .. }
             | Self::Busy { .. }
             | Self::TimedOut { .. }
+            | Self::TooInvolved { .. }
             | Self::Cancelled => true,
             Self::TooLong { .. } | Self::CutOff { .. } | Self::Malformed { .. } => false,
         }

@@ -8,23 +8,23 @@ use motet_decode::{AcceptorFactory, Grammar, Subset};
 use motet_runtime::CameraImage;
 use motet_syntax::{Diagnostic, Source, Sources, print, render};
 
-use super::background::{PendingRest, RestProgress, first_step};
+use super::background::{PendingRest, REPLY_BYTES, RestProgress, first_step};
 use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 use super::chat::{ModelEvent, ModelObserver};
 use super::prose;
 use super::stream_reader::{StreamReader, StreamVerdict};
+use crate::beside::{CHECK_WITHIN, WorkBeside, WorkProgress};
 use crate::planned::{PlanError, Planned, PlannedRequest};
-use crate::planner::{PlanRequest, Planner, RemainingSteps, Wait};
+use crate::planner::{OwnedRequest, PlanRequest, Planner, RemainingSteps, Wait};
 use crate::prompt::{self, Prompt, StaticPrompt};
 use crate::reply_verdict::{ReplyVerdict, RequestGoal, judge};
+use crate::runtime_check::CheckMode;
 use motet_requests::{Certainty, Intent};
 
 /// Waiting time for a piece of a reply between two looks at the stop request.
 const SLICE: Duration = Duration::from_millis(50);
 /// Maximum number of bytes of a policy for which the acceptor keeps room.
 const POLICY_BYTES: usize = 16 << 10;
-/// Maximum number of bytes of a reply, thoughts included.
-const REPLY_BYTES: usize = 256 << 10;
 /// Number of times that a reply is asked for again because it did not arrive whole.
 const MOST_FAILURES: u32 = 3;
 
@@ -51,6 +51,8 @@ pub struct Settings {
     pub start: Start,
     /// Position up to which a reply is read.
     pub read_to: ReadTo,
+    /// Schedule of the checks of what is written while a robot moves.
+    pub checks: CheckMode,
 }
 
 /// Position up to which a reply is read.
@@ -71,6 +73,7 @@ impl Default for Settings {
             surface: Subset::default(),
             start: Start::Whole,
             read_to: ReadTo::Policy,
+            checks: CheckMode::AtOnce,
         }
     }
 }
@@ -80,8 +83,8 @@ pub struct ModelPlanner<'m> {
     model: Box<dyn Model + 'm>,
     listener: Box<dyn ModelObserver + 'm>,
     settings: Settings,
-    /// The rest of a policy whose first step was returned.
-    later: Option<PendingRest>,
+    /// A policy that is being written during a run.
+    later: Option<Later>,
     ready: Option<KeptParts>,
 }
 
@@ -92,6 +95,31 @@ struct KeptParts {
     lasting: Arc<StaticPrompt>,
     grammar: Arc<Grammar>,
     acceptors: AcceptorFactory,
+}
+
+/// Policy that is being written during a run.
+enum Later {
+    /// The prompt is being written, for this session.
+    Asking(Session, WorkBeside<(KeptParts, Vec<Message>)>),
+    /// The rest of a policy, or a policy, is being read.
+    Reading(PendingRest),
+}
+
+impl KeptParts {
+    /// Returns the kept parts for a request's session, and builds them anew if the robot or the objects have
+    /// changed.
+    fn renewed(kept: Option<Self>, ask: &PlanRequest<'_>, surface: Subset) -> Self {
+        let signatures = ask.session.signatures();
+        match kept.filter(|kept| Arc::ptr_eq(&kept.signatures, &signatures)) {
+            Some(kept) => Self { acceptors: kept.acceptors.elsewhere(ask.session), ..kept },
+            None => Self {
+                lasting: Arc::new(StaticPrompt::new(ask.session, ask.robot, ask.situation.scene)),
+                grammar: Arc::new(Grammar::new(&signatures, surface)),
+                acceptors: AcceptorFactory::new(ask.session, surface),
+                signatures,
+            },
+        }
+    }
 }
 
 /// Position in a reply up to which it is read.
@@ -125,20 +153,8 @@ impl<'m> ModelPlanner<'m> {
         Self { model: Box::new(model), listener: Box::new(listener), settings, later: None, ready: None }
     }
 
-    /// Returns the kept parts for a request's session, and rebuilds them if the robot or the objects have
-    /// changed.
     fn ready(&mut self, ask: &PlanRequest<'_>) -> KeptParts {
-        let signatures = ask.session.signatures();
-        let kept = self.ready.take().filter(|kept| Arc::ptr_eq(&kept.signatures, &signatures));
-        let ready = match kept {
-            Some(kept) => KeptParts { acceptors: kept.acceptors.elsewhere(ask.session), ..kept },
-            None => KeptParts {
-                lasting: Arc::new(StaticPrompt::new(ask.session, ask.robot, ask.situation.scene)),
-                grammar: Arc::new(Grammar::new(&signatures, self.settings.surface)),
-                acceptors: AcceptorFactory::new(ask.session, self.settings.surface),
-                signatures,
-            },
-        };
+        let ready = KeptParts::renewed(self.ready.take(), ask, self.settings.surface);
         self.ready = Some(ready.clone());
         ready
     }
@@ -204,7 +220,8 @@ impl<'m> ModelPlanner<'m> {
         match self.read(&mut reading, &mut *reply, session) {
             Ok(ReadEnd::First(planned)) => {
                 self.listener.hear(&ModelEvent::Begun { reply: reading.reply() });
-                self.later = Some(PendingRest { reply, reading: reading.into_owned(), round });
+                let rest = PendingRest::new(reply, reading.into_owned(), round, self.settings.checks);
+                self.later = Some(Later::Reading(rest));
                 RoundResult::Good(planned)
             }
             Ok(ReadEnd::Whole) => self.judged(session, reading.reply(), goal, round),
@@ -225,15 +242,32 @@ impl<'m> ModelPlanner<'m> {
             return RoundResult::Said(words);
         }
         let bad = |findings, otherwise| RoundResult::Bad { reply: reply.to_owned(), findings, otherwise };
-        match judge(session, reply) {
+        // A person can stop the planner while it checks.
+        let (own, text, wanted) = (session.clone(), reply.to_owned(), goal.cloned());
+        let check = move || {
+            let verdict = judge(&own, &text);
+            let missed = match &verdict {
+                ReplyVerdict::Good { planned, .. } => wanted.and_then(|goal| goal.missed(&own, planned)),
+                ReplyVerdict::Bad { .. } => None,
+            };
+            (verdict, missed)
+        };
+        let check = WorkBeside::start(CheckMode::Beside, CHECK_WITHIN, check);
+        let (verdict, missed) = match check.wait(|| self.listener.is_stopped()) {
+            WorkProgress::Done(checked) => checked,
+            WorkProgress::Coming => return self.failed(round, reply, ModelError::Cancelled),
+            WorkProgress::Late => {
+                let why = ModelError::TooInvolved { secs: CHECK_WITHIN.as_secs() };
+                return self.failed(round, reply, why);
+            }
+        };
+        match verdict {
             ReplyVerdict::Good { planned, mended, changed } => {
                 // Other steps than were written are the model's to write, as long as it may.
                 if !changed.is_empty() && round < self.settings.repairs {
                     return bad(changed, Some(planned));
                 }
-                if let Some((goal, missed)) =
-                    goal.and_then(|goal| Some((goal, goal.missed(session, &planned)?)))
-                {
+                if let Some((goal, missed)) = goal.zip(missed) {
                     if goal.certainty == Certainty::Certain {
                         return bad(vec![missed], Some(planned));
                     }
@@ -354,27 +388,45 @@ impl Planner for ModelPlanner<'_> {
     }
 
     fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
-        self.later = None;
-        let ready = self.ready(ask);
-        let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
-        let name = self.model.name();
-        self.listener.hear(&ModelEvent::Asked { round: 0, model: &name, chat: &chat });
-        let Ok(reply) = self.model.ask(&chat, &ready.grammar) else { return false };
-        let acceptor = ready.acceptors.acceptor(POLICY_BYTES);
-        let reading = StreamReader::new(ask.session, acceptor).into_owned();
-        self.later = Some(PendingRest { reply, reading, round: 0 });
-        true
+        let (owned, kept) = (OwnedRequest::of(ask), self.ready.clone());
+        let (tokens, surface, checks) = (self.settings.tokens, self.settings.surface, self.settings.checks);
+        let write = move || {
+            owned.with(|ask| {
+                let ready = KeptParts::renewed(kept, ask, surface);
+                let chat = written(ask, &ready.lasting, (tokens, prompt::TIME));
+                (ready, chat)
+            })
+        };
+        let written = WorkBeside::start(checks, CHECK_WITHIN, write);
+        self.later = Some(Later::Asking(ask.session.clone(), written));
+        self.asks_on()
     }
 
     fn rest(&mut self, wait: Wait) -> RemainingSteps {
         loop {
-            let Some(later) = &mut self.later else { return RemainingSteps::Nothing };
+            if self.later.is_none() {
+                return RemainingSteps::Nothing;
+            }
             if self.listener.is_stopped() {
                 self.later = None;
                 return RemainingSteps::Stopped;
             }
-            let came = later.next(if wait == Wait::ToTheEnd { SLICE } else { Duration::ZERO });
-            let (round, reply) = (later.round, later.reading.reply());
+            if !self.asks_on() {
+                return RemainingSteps::Broken;
+            }
+            let time = if wait == Wait::ToTheEnd { SLICE } else { Duration::ZERO };
+            let (later, came) = match &mut self.later {
+                Some(Later::Reading(later)) => {
+                    let came = later.next(time);
+                    (later, came)
+                }
+                Some(Later::Asking(..)) if wait == Wait::ToTheEnd => {
+                    std::thread::sleep(SLICE);
+                    continue;
+                }
+                Some(Later::Asking(..)) | None => return RemainingSteps::Coming,
+            };
+            let (round, reply) = (later.round, later.text.as_str());
             match came {
                 RestProgress::Some(piece) => self.listener.hear(&ModelEvent::Wrote(&piece)),
                 RestProgress::Nothing if wait == Wait::ToTheEnd => {}
@@ -400,6 +452,31 @@ impl Planner for ModelPlanner<'_> {
     }
 }
 
+impl ModelPlanner<'_> {
+    /// Asks the model once the prompt is written. False if it cannot be asked.
+    fn asks_on(&mut self) -> bool {
+        let Some(Later::Asking(session, written)) = &self.later else { return true };
+        let (ready, chat) = match written.progress() {
+            WorkProgress::Coming => return true,
+            WorkProgress::Done(written) => written,
+            WorkProgress::Late => {
+                self.later = None;
+                return false;
+            }
+        };
+        let name = self.model.name();
+        self.listener.hear(&ModelEvent::Asked { round: 0, model: &name, chat: &chat });
+        let acceptor = ready.acceptors.acceptor(POLICY_BYTES);
+        let reading = StreamReader::new(session, acceptor).into_owned();
+        self.later = match self.model.ask(&chat, &ready.grammar) {
+            Ok(reply) => Some(Later::Reading(PendingRest::new(reply, reading, 0, self.settings.checks))),
+            Err(_) => None,
+        };
+        self.ready = Some(ready);
+        self.later.is_some()
+    }
+}
+
 /// A reply as the file of its findings.
 fn sources_of(reply: &str) -> Sources {
     let mut sources = Sources::default();
@@ -411,8 +488,13 @@ fn sources_of(reply: &str) -> Sources {
 /// same question gives the same chat.
 #[must_use]
 pub fn chat(ask: &PlanRequest<'_>, tokens: usize) -> Vec<Message> {
-    let lasting = StaticPrompt::new(ask.session, ask.robot, ask.situation.scene);
-    written(ask, &lasting, (tokens, Duration::ZERO))
+    chat_with(ask, &StaticPrompt::new(ask.session, ask.robot, ask.situation.scene), tokens)
+}
+
+/// The same with the parts that depend on robot and scene only, which may be kept between requests.
+#[must_use]
+pub fn chat_with(ask: &PlanRequest<'_>, lasting: &StaticPrompt, tokens: usize) -> Vec<Message> {
+    written(ask, lasting, (tokens, Duration::ZERO))
 }
 
 /// Messages with the kept parts, and with the present sightings.

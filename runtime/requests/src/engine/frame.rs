@@ -7,6 +7,7 @@
 //! what politeness puts before them. They stand in `rewrites.phrases`; this module applies them in order.
 
 use crate::engine::asking::skip_leads;
+use crate::engine::effort;
 use crate::engine::english::{CLAUSE_JOINTS, NEED_NOT, PLAIN_AND};
 use crate::engine::rule::Rules;
 use crate::engine::token::Token;
@@ -40,7 +41,7 @@ pub(crate) fn plain(tokens: &[Token]) -> Vec<Token> {
     let mut tokens = tokens.to_vec();
     // What is left out may stand between other words that are.
     // `I cannot open it, could you?` has to be read before courtesy is left out.
-    for pass in ["possessed", "elliptic", "courtesy", "dropped", "courtesy"] {
+    for pass in ["in_order", "possessed", "elliptic", "courtesy", "dropped", "courtesy"] {
         Rules(pass).rewrite(&mut tokens);
     }
     delegated(&mut tokens);
@@ -49,7 +50,7 @@ pub(crate) fn plain(tokens: &[Token]) -> Vec<Token> {
     // Every rewriting takes words away or goes on behind what it wrote: the bound only guards against a slip
     // of that.
     let mut left = tokens.len() * 4 + 16;
-    while at < tokens.len() && left > 0 {
+    while at < tokens.len() && left > 0 && !effort::is_used_up() {
         left -= 1;
         if starts {
             let begin = skip_leads(&tokens, at);
@@ -102,7 +103,7 @@ fn in_series(tokens: &mut [Token], begin: usize) {
 /// for me?`
 fn delegated(tokens: &mut Vec<Token>) {
     let mut at = 0;
-    while at < tokens.len() {
+    while at < tokens.len() && !effort::is_used_up() {
         if let Some((begin, end, said)) = asked_for(tokens, at) {
             tokens.splice(begin..end, said);
             at = begin;
@@ -138,7 +139,7 @@ pub(crate) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usize> {
 /// A remark goes on to the end of its sentence, or to a comma or a joint behind which something is asked for.
 pub(crate) fn remark_end(tokens: &[Token], begin: usize) -> usize {
     let mut at = begin;
-    while let Some(token) = tokens.get(at) {
+    while let Some(token) = tokens.get(at).filter(|_| effort::step()) {
         let is_joint = matches!(token, Token::Comma) || CLAUSE_JOINTS.has(token.word());
         let asks = || begins(tokens, at + 1) || asks_for_it(tokens, at + 1).is_some();
         if matches!(token, Token::Stop) || (at > begin && is_joint && asks()) {

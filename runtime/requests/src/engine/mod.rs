@@ -3,6 +3,7 @@
 //! what they read into goals and answers.
 
 pub(crate) mod asking;
+pub(crate) mod effort;
 pub(crate) mod english;
 pub(crate) mod frame;
 pub(crate) mod noun;

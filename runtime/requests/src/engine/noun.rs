@@ -1,10 +1,12 @@
 //! Noun phrases: a noun with its article, its count and what narrows it down; and places, a noun with a
 //! preposition.
 
+use crate::engine::effort;
 use crate::engine::english::{
-    BEHIND_REPORT, DEICTICS, DETERMINERS, ENDS_AT_CAN, IT, KINDS_OF, LOOK_THERE, NARROWED_IS, NARROWED_LIKED,
-    NEXT_PLACE, NOUN_ENDS, OPEN_NOUNS, PARTS_OF_THINGS, PHRASE_SOMETHING, PREPOSITIONS_OF_DIRECTION,
-    PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS, SPOTS_GOES_ON, SUPERLATIVES, THAT_IS, USE_ENDS,
+    BEHIND_REPORT, DEICTICS, DETERMINERS, ENDS_AT_CAN, GOES_NOWHERE, IT, KINDS_OF, LOOK_THERE, NARROWED_IS,
+    NARROWED_LIKED, NEXT_PLACE, NOUN_ENDS, OPEN_NOUNS, PARTS_OF_THINGS, PHRASE_SOMETHING,
+    PREPOSITIONS_OF_DIRECTION, PREPOSITIONS_OF_PLACE, PRONOUNS, SPEAKERS, SPOTS_GOES_ON, SUPERLATIVES,
+    THAT_IS, USE_ENDS,
 };
 use crate::engine::phrases::Phrases;
 use crate::engine::token::{Token, singular};
@@ -84,6 +86,15 @@ pub(crate) enum Viewpoint {
 }
 
 impl ExtremeKind {
+    /// True for a measure that depends on a viewpoint.
+    const fn is_distance(self) -> bool {
+        match self {
+            Self::Nearest | Self::Farthest => true,
+            Self::Largest | Self::Smallest | Self::Tallest | Self::Shortest => false,
+            Self::Heaviest | Self::Lightest => false,
+        }
+    }
+
     /// The measure of a name in the list of superlatives.
     pub(crate) fn named(name: &str) -> Option<Self> {
         Some(match name {
@@ -102,7 +113,7 @@ impl ExtremeKind {
 
 /// A noun that begins at a place, and where it ends.
 pub(crate) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
-    let word = tokens.get(at)?.word();
+    let word = tokens.get(at).filter(|_| effort::step())?.word();
     if let Some(count) = SPEAKERS.longest(tokens, at) {
         return Some((Noun::Speaker, at + count));
     }
@@ -172,6 +183,14 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
     let is_counted = matches!(which, Some(Which::All | Which::Count(_)));
     if words.is_empty() && !is_open && !is_counted && extreme.is_none() {
         return None;
+    }
+    // `the closest mug to the sink`
+    if let Some(Extreme { from: from @ Viewpoint::Open, kind }) = &mut extreme
+        && kind.is_distance()
+        && let Some((point, after)) =
+            viewpoint(tokens, at).filter(|(_, after)| is_viewpoint(tokens, (begin, at, *after)))
+    {
+        (*from, at) = (point, after);
     }
     let mut phrase = Phrase {
         said: String::new(),
@@ -250,16 +269,40 @@ fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
 fn superlative(tokens: &[Token], at: usize) -> Option<(Extreme, usize)> {
     let (count, name) = SUPERLATIVES.valued(tokens, at)?;
     let (kind, at) = (ExtremeKind::named(name)?, at + count);
-    let is_place = matches!(kind, ExtremeKind::Nearest | ExtremeKind::Farthest);
-    let joint = tokens.get(at).map_or("", Token::word);
-    if !is_place || !matches!(joint, "to" | "from") {
+    if !kind.is_distance() || !is_joint(tokens, at) {
         return Some((Extreme { kind, from: Viewpoint::Open }, at));
     }
+    let (from, after) = viewpoint(tokens, at)?;
+    Some((Extreme { kind, from }, after))
+}
+
+fn is_joint(tokens: &[Token], at: usize) -> bool {
+    tokens.get(at).is_some_and(|token| matches!(token.word(), "to" | "from"))
+}
+
+/// `to the sink`, `from me`: from where a distance counts, and where it ends.
+fn viewpoint(tokens: &[Token], at: usize) -> Option<(Viewpoint, usize)> {
+    if !is_joint(tokens, at) {
+        return None;
+    }
     if tokens.get(at + 1).is_some_and(|token| token.word() == "you") {
-        return Some((Extreme { kind, from: Viewpoint::Robot }, at + 2));
+        return Some((Viewpoint::Robot, at + 2));
     }
     let (noun, after) = noun(tokens, at + 1)?;
-    Some((Extreme { kind, from: Viewpoint::Thing(Box::new(noun)) }, after))
+    Some((Viewpoint::Thing(Box::new(noun)), after))
+}
+
+/// True if what stands behind `the closest mug` says to what it is closest, and not where it is taken: the
+/// place is said otherwise, or there is none.
+fn is_viewpoint(tokens: &[Token], (begin, at, after): (usize, usize, usize)) -> bool {
+    if tokens.get(at).is_some_and(|token| token.word() == "from") {
+        return true;
+    }
+    let goes_nowhere =
+        (begin.saturating_sub(2)..begin).any(|from| GOES_NOWHERE.longest(tokens, from) == Some(begin - from));
+    let is_for_somebody = begin > 0 && SPEAKERS.longest(tokens, begin - 1) == Some(1);
+    let is_alone = begin == 0 && matches!(tokens.get(after), None | Some(Token::Stop));
+    goes_nowhere || is_for_somebody || is_alone || place(tokens, after).is_some()
 }
 
 /// `to clean it up with`: what still belongs to the use.

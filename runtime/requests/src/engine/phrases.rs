@@ -4,9 +4,12 @@
 //! words at its first use, by subset construction; matching then takes one look-up a word, whatever the size
 //! of the list.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::{LazyLock, OnceLock};
 
+use rustc_hash::FxHashMap;
+
+use crate::engine::effort;
 use crate::engine::template::{self, Lists, Part, Template};
 use crate::engine::token::Token;
 
@@ -25,7 +28,7 @@ pub(crate) enum List {
 
 /// A list by its name.
 pub(crate) fn list(name: &str) -> Option<&'static List> {
-    static LISTS: LazyLock<HashMap<&'static str, List>> = LazyLock::new(|| {
+    static LISTS: LazyLock<FxHashMap<&'static str, List>> = LazyLock::new(|| {
         let list = |(name, templates): (&&'static str, &'static Vec<Template>)| {
             let is_rule = templates.iter().any(|template| is_rule(&template.part));
             (*name, if is_rule { List::Rules(templates) } else { List::Phrases(Phrases::new(name)) })
@@ -49,7 +52,7 @@ fn is_rule(part: &Part) -> bool {
 /// A deterministic automaton over words. State 0 is the first.
 #[derive(Default, Debug)]
 struct Automaton {
-    words: HashMap<&'static str, u32>,
+    words: FxHashMap<&'static str, u32>,
     /// For each state the next one by word, in the order of words.
     next: Vec<Vec<(u32, u32)>>,
     /// For each state whether a phrase ends there, and the value it stands for.
@@ -118,6 +121,9 @@ impl Phrases {
     }
 
     fn find(&self, tokens: &[Token], at: usize) -> Option<(usize, Option<&'static str>)> {
+        if !effort::step() {
+            return None;
+        }
         let automaton = self.automaton();
         let (mut state, mut found) = (0, None);
         for (index, token) in tokens.get(at..)?.iter().enumerate() {

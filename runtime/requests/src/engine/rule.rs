@@ -5,6 +5,7 @@
 //! several places, such as `{thing}` at each word behind which a noun may end: these are tried in order. So
 //! the work for a rule is linear in its parts for each of them.
 
+use crate::engine::effort;
 use crate::engine::phrases::{List, list};
 use crate::engine::reader::{self, Clause};
 use crate::engine::template::{Part, Side, Template};
@@ -91,7 +92,7 @@ impl Rules {
     /// Rewrites what rules fit, from the first word to the last.
     pub(crate) fn rewrite(&self, tokens: &mut Vec<Token>) {
         let mut at = 0;
-        while at < tokens.len() {
+        while at < tokens.len() && !effort::is_used_up() {
             match self.at(tokens, at) {
                 Some(found) => {
                     let next = at + found.words.len();
@@ -125,6 +126,9 @@ impl Clause<'_> {
 
     /// All ends at which a part fits, in order.
     fn part(&self, part: &'static Part, state: State) -> Vec<State> {
+        if !effort::step() {
+            return Vec::new();
+        }
         match part {
             Part::Word(word) => {
                 let is_it = match (self.tokens.get(state.at), *word) {

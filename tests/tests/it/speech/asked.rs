@@ -198,3 +198,31 @@ fn request_what_is_left_out_is_what_was_named_just_before() {
         "Open up! The milk is warm.",
     ]);
 }
+
+#[test]
+fn request_things_that_are_told_apart_by_their_distance() {
+    mean(
+        &["at(mug_1, user)"],
+        &[
+            "Bring me the closest mug to the sink.",
+            "bring me the mug nearest to the sink",
+            "Could you fetch me the mug that is closest to the sink?",
+        ],
+    );
+    mean(&["holding(mug_1)"], &["Pick up the nearest mug to the sink."]);
+    mean(&["in(mug_1, cupboard_1)"], &["Put the closest mug to the sink in the cupboard."]);
+    // It says where to, and not which.
+    not_taken(&["Take the closest mug to the sink."]);
+}
+
+#[test]
+fn request_order_and_choice_that_are_said_the_other_way_round() {
+    mean(
+        &["at(robot, counter)", "open(fridge_1)"],
+        &["Before you open the fridge, go to the counter.", "Go to the counter before you open the fridge."],
+    );
+    mean(
+        &["at(sponge, user)"],
+        &["Bring me not the coke but the sponge.", "Fetch me not the red mug, but rather the sponge."],
+    );
+}
