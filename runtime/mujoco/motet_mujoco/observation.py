@@ -18,6 +18,7 @@ class Observer:
         self.standing = True
         self.posture = "home"
         self.driven, self.last = 0.0, world.base()
+        self.start = world.base()[:2].copy()
         self.told = {}
         self.unmoved = True
         self.moved = set()
@@ -56,6 +57,8 @@ class Observer:
     def fact(self, fluent, args):
         """A fluent of entities."""
         world, model = self.world, self.model
+        if len(args) == 2 and fluent in ("at", "on", "in") and args[0] in model.entities and args[1] not in model.entities:
+            return self.is_beside(args[0]) if (fluent, args[1]) == ("at", "start") else False
         if any(one not in model.entities and one not in ("robot", "hand") for one in args):
             return None
         if len(args) == 2:
@@ -102,8 +105,10 @@ class Observer:
         world, model = self.world, self.model
         if one == "robot":
             return self.serves(to) if fluent == "at" else None
-        if to in ("robot", "hand") or one == "hand" or one == to:
+        if one == "hand":
             return None
+        if one == to:
+            return False if fluent in ("at", "on", "in") else None
         kind = model.entities[to]["kind"]
         if fluent == "on":
             return one in model.free and world.is_on(one, to)
@@ -113,13 +118,17 @@ class Observer:
             if kind == "Person":
                 return world.carried_by.get(one, (None,))[0] == to
             if kind in ("Place", "Zone"):
-                pose = world.pose(one)
                 place = model.entities[to].get("pose")
-                if pose is None or place is None or world.is_lifted(one):
-                    return False
-                return bool(np.hypot(*(pose[0][:2] - np.array(place["xyz"][:2]))) <= AT_PLACE)
+                return place is not None and self.is_beside(one, place["xyz"][:2])
             return one in model.free and (world.is_on(one, to) or self.relation("in", one, to))
         return None
+
+    def is_beside(self, one, place=None):
+        """True if an entity is at a point, or at the one from which the robot began; what is lifted is nowhere."""
+        pose = self.world.pose(one)
+        if pose is None or self.world.is_lifted(one):
+            return False
+        return bool(np.hypot(*(pose[0][:2] - np.array(self.start if place is None else place))) <= AT_PLACE)
 
     @property
     def radius(self):

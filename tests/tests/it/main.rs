@@ -18,6 +18,7 @@ mod dialect;
 mod dynamic;
 mod engines;
 mod explanation;
+mod fault_classes;
 mod fix;
 mod formats;
 mod forms;
