@@ -14,6 +14,7 @@ pub mod repairs;
 pub mod saycan;
 pub mod scenarios;
 pub mod setup;
+pub mod soundness;
 pub mod tasks;
 pub mod world;
 

@@ -17,6 +17,8 @@
 //!   goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
 //!   passes without a word fails by a need that was not listed.
+//! - `soundness N [--seed S]` makes N random policies, runs what the check accepts in random worlds, and exits
+//!   with 0 if every need that is proven, or that a guard has passed, holds.
 //! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are
 //!   repaired.
 //! - `reach [SCENE|--rooms N --seed S]` asks motion queries.
@@ -34,8 +36,8 @@ use motet_eval::bench::{Bench, DriverKind};
 use motet_eval::planners::PlannerKind;
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, summary,
-    tasks, world,
+    Judged, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, soundness,
+    summary, tasks, world,
 };
 
 /// Suite over the lines of a file.
@@ -61,6 +63,7 @@ struct Flags {
     objects: Option<dialogue::Objects>,
     workers: Workers,
     every: Option<usize>,
+    seed: Option<u64>,
     only: Vec<String>,
     words: Vec<String>,
 }
@@ -78,6 +81,10 @@ impl Flags {
                 "--planner" => flags.planner = Some(value()?),
                 "--model" => flags.model = Some(value()?),
                 "--objects" => flags.objects = Some(value()?.parse()?),
+                "--seed" => {
+                    let text = value()?;
+                    flags.seed = Some(text.parse().map_err(|_| format!("`{text}` is no seed"))?);
+                }
                 "--only" => flags.only.push(value()?),
                 "--trials" => flags.trials = Some(number(&value()?)?),
                 "--every" => flags.every = Some(number(&value()?)?),
@@ -171,7 +178,7 @@ fn run() -> Result<bool, String> {
             "usage: eval {} FILE [--json], eval dialogue FILE|dynamic TRIALS [--world PROFILE] [--driver \
              kinematic|mujoco] [--planner PLANNER] [--model M] [--jobs N] [--only WORD]… [--every N] [--objects seen|unseen], \
              eval tasks [FILE…] with the same flags and [--trials N], eval world RUNS with the same flags, \
-             eval mutations, \
+             eval mutations, eval soundness POLICIES [--seed S], \
              eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \
              eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
             names.join("|")
@@ -193,6 +200,11 @@ fn run() -> Result<bool, String> {
             return shown(&failing(&flags.bench_in("harsh")?, count)?, only_json);
         }
         _ if flags.is_benched() => return Err(usage()),
+        ["soundness", count] => {
+            let count = number(count)?;
+            return shown(&fuzzed(flags.workers, count, flags.seed.unwrap_or(1))?, only_json);
+        }
+        _ if flags.seed.is_some() => return Err(usage()),
         _ => {}
     }
     if words == ["mutations"] {
@@ -324,6 +336,15 @@ fn mutated(workers: Workers) -> Result<Report, String> {
         lines: notes.collect(),
         is_good: sums.unlisted * 50 <= sums.silent,
         summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}
+
+fn fuzzed(workers: Workers, count: usize, seed: u64) -> Result<Report, String> {
+    let found = soundness::fuzz(workers, count, seed)?;
+    Ok(Report {
+        is_good: found.sums.findings.is_empty(),
+        lines: found.findings,
+        summary: serde_json::to_value(found.sums).map_err(|error| error.to_string())?,
     })
 }
 

@@ -24,17 +24,36 @@ class Echo(motet.Driver):
 
     def __init__(self, args):
         self.seconds, self.refuse, self.owns_clock = args.seconds, args.refuse, args.clock == "driver"
+        self.places = {}  # by thing that a goal has moved: what it is on, in or at; None in the hand
 
-    async def perform(self, goal, **_):
+    def begin_run(self, run):
+        self.places = {}
+
+    async def perform(self, goal, **args):
         if goal.primitive in self.refuse:
             raise motet.Refused("unreachable")
         await goal.sleep(self.seconds)
         self.report_moved(base=[0.0, 0.0, 0.0])
+        if "object" in args:
+            moves = {"pick": None, "grasp": None, "place": args.get("on"), "place_at": args.get("on"), "handover": args.get("to")}
+            self.places.update({args["object"]: moves[name] for name in [goal.primitive] if name in moves})
         return example(goal.result_type)
 
     def observe(self, query):
-        """Every fact holds, all is 1 m away, and any other measure is 0.05."""
-        return True if "fact" in query else 1.0 if query.get("measure", {}).get("measure") == "distance" else 0.05
+        """Every fact holds but those of where things are not; all is 1 m away, and any other measure is 0.05."""
+        if "fact" in query:
+            return self.holds(query["fact"]["fluent"], query["fact"]["args"])
+        return 1.0 if query.get("measure", {}).get("measure") == "distance" else 0.05
+
+    def holds(self, fluent, args):
+        """A thing is in one place: where the last goal put it, or else in none that is closed."""
+        thing, place = ([*args, None, None])[:2]
+        if fluent not in ("at", "on", "in") or thing == "any" or thing["is"] == {"entity": "robot"}:
+            return True
+        known = self.places.get(thing["is"].get("entity"), ...)
+        if known is ...:
+            return fluent != "in"
+        return known is not None and (place == "any" or place == {"is": {"entity": known}})
 
 
 if __name__ == "__main__":

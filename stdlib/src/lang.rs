@@ -12,6 +12,9 @@ pub const PLACING: [&str; 3] = [fluents::ON, fluents::IN, fluents::AT];
 /// Primitives that wait for an answer of a person.
 pub const ASKING: [&str; 2] = [primitives::ASK, primitives::CHOOSE];
 
+/// Parameter of a primitive that offers a list of things, one of which is the result.
+pub const AMONG: &str = "among";
+
 macro_rules! names {
     ($($(#[$doc:meta])* $module:ident { $($constant:ident = $name:literal)* })*) => {$(
         $(#[$doc])*

@@ -41,6 +41,10 @@ impl Elaborator<'_> {
             Base::Quantity(result)
         };
         let ty = Ty::plain(base);
+        if op == ArithOp::Divide && literal(&right) == Some(0.0) {
+            self.report(errors::DivisionByZero { span });
+            return (Term::Unknown, ty);
+        }
         let known = literal(&left).zip(literal(&right)).map(|(a, b)| match op {
             ArithOp::Add => a + b,
             ArithOp::Subtract => a - b,
@@ -165,6 +169,8 @@ fn literal(term: &Term) -> Option<f64> {
 pub const MAX_COUNT: u32 = 1_000_000;
 /// Maximal deadline in seconds: a week.
 pub const MAX_SECONDS: f64 = 604_800.0;
+/// Least deadline, in seconds.
+const LEAST_DEADLINE_SECS: f64 = 0.001;
 /// Maximal distance in m that a `keep` can ask for.
 const MAX_DISTANCE_M: f64 = 1000.0;
 
@@ -195,13 +201,22 @@ impl Elaborator<'_> {
 
     /// Elaborates a constant duration, in seconds.
     pub(crate) fn seconds(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {
+        self.seconds_from(0.0, expr, place)
+    }
+
+    /// A deadline in seconds. Within no time at all nothing is done.
+    pub(crate) fn deadline(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {
+        self.seconds_from(LEAST_DEADLINE_SECS, expr, place)
+    }
+
+    fn seconds_from(&mut self, least: f64, expr: &Expr, place: &'static str) -> Option<f64> {
         let wanted = Expected { ty: Ty::DURATION, place: ValueRole::Named(place) };
         match self.term_of(expr, wanted) {
-            Term::Number(value) if value.is_finite() && (0.0..=MAX_SECONDS).contains(&value) => Some(value),
+            Term::Number(value) if value.is_finite() && (least..=MAX_SECONDS).contains(&value) => Some(value),
             Term::Number(value) => {
                 // In the unit in which it is written.
                 let unit = expr.unit().unwrap_or(Unit::Second);
-                let (least, greatest) = (unit.show(0.0), unit.show(MAX_SECONDS));
+                let (least, greatest) = (unit.show(if value < least { least } else { 0.0 }), unit.show(MAX_SECONDS));
                 let actual = unit.show(value);
                 self.report(errors::OutOfRange {
                     span: expr.span,

@@ -349,6 +349,11 @@ motet_syntax::mistakes! {
     message(m) { m.what.clone() }
     help(m) { Some(m.remedy.clone()) }
 
+    /// Division by a number that is written out as zero.
+    DivisionByZero("M0321", Error) { }
+    message(_m) { "a division by zero has no value".to_owned() }
+    help(_m) { Some("divide by another number".to_owned()) }
+
     /// Limit of the library that is exceeded, such as the parameters of a fluent.
     LimitExceeded("M0314", Error) { what: &'static str, limit: usize }
     message(m) { format!("more than {} {}", m.limit, m.what) }

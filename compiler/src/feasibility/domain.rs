@@ -318,9 +318,15 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
         self.call(id, call);
     }
 
-    fn assume_at(&mut self, _id: StepId, condition: &Condition, truth: bool) -> bool {
+    fn assume_at(&mut self, id: StepId, condition: &Condition, truth: bool) -> bool {
         let mut worlds = std::mem::take(&mut self.worlds);
-        worlds.known.retain(|it| self.truth(condition, &it.at).is_none_or(|value| value == truth));
+        // What the robot does not see to be true may be unknown to it, whatever is so.
+        let may_be_unknown = !truth && self.proof.unknown_tests.contains(&id);
+        worlds.known.retain_mut(|it| {
+            let is_so = self.truth(condition, &it.at).is_none_or(|value| value == truth);
+            it.is_certain &= is_so;
+            is_so || may_be_unknown
+        });
         self.worlds = worlds;
         self.is_live()
     }

@@ -142,22 +142,37 @@ fn finite((least, greatest): Bounds) -> Bounds {
     (least.min(f64::MAX), greatest.min(f64::MAX))
 }
 
+/// Reports the blocks of a step that have no steps of their own. An empty handler ignores a failure, and an
+/// empty `else` is none.
 fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagnostic>) {
     let (what, body) = match kind {
+        StepKind::Sequence { body, .. } => ("`sequence`", body),
+        StepKind::If { then, .. } => ("`if`", then),
         StepKind::Repeat { body, .. } => ("`repeat`", body),
         StepKind::Each { body, .. } => ("`each`", body),
         StepKind::Monitor { body, .. } if kind.deadline().is_some() => ("`within`", body),
-        StepKind::Monitor { body, .. } => ("`monitor`", body),
+        StepKind::Monitor { body, whens } => {
+            for when in whens {
+                if matches!(&when.reaction, Reaction::Resume { body, .. } if body.is_empty()) {
+                    diagnostics.push(EmptyBlock { span: when.span, what: "`resume`" }.into());
+                }
+            }
+            ("`monitor`", body)
+        }
         StepKind::Try { body, .. } => ("`try`", body),
         StepKind::Finally { cleanup, .. } => ("`finally`", cleanup),
+        StepKind::Parallel { branches } => {
+            let what = if branches.is_empty() { "`parallel`" } else { "branch of a `parallel`" };
+            if branches.is_empty() || branches.iter().any(Vec::is_empty) {
+                diagnostics.push(EmptyBlock { span, what }.into());
+            }
+            return;
+        }
         StepKind::Call(_)
         | StepKind::Let { .. }
-        | StepKind::Sequence { .. }
         | StepKind::Inline { .. }
-        | StepKind::If { .. }
         | StepKind::Wait { .. }
         | StepKind::Delay { .. }
-        | StepKind::Parallel { .. }
         | StepKind::End { .. }
         | StepKind::Unknown => return,
     };

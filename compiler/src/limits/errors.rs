@@ -85,7 +85,7 @@ motet_syntax::mistakes! {
     help(_m) { Some("set shorter deadlines with `within`, or allow fewer rounds".to_owned()) }
 
     /// Block without steps.
-    EmptyBlock("M0802", Warning) { what: &'static str }
+    EmptyBlock("M0802", Error) { what: &'static str }
     message(m) { format!("this {} has no steps", m.what) }
     help(_m) { Some("add a step, or remove it".to_owned()) }
 

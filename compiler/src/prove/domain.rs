@@ -130,6 +130,9 @@ impl<'a> Domain<'a> for Prover<'a> {
     fn assume_at(&mut self, id: StepId, condition: &Condition, truth: bool) -> bool {
         // What the run does not see to be true may be unknown.
         let outcome = if truth { Outcome::True } else { Outcome::NotTrue };
+        if !truth && self.evaluate(condition, CallFrame::default()).open.is_some() {
+            self.proof.unknown_tests.insert(id);
+        }
         self.assume(condition, outcome, Cause::step(id), CallFrame::default())
     }
 

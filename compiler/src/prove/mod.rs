@@ -22,7 +22,7 @@ pub(crate) mod symbols;
 pub(crate) mod tested;
 
 use motet_syntax::{Diagnostic, Span};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 pub(crate) use self::assume::mentions;
@@ -67,6 +67,8 @@ pub(crate) struct Proof {
     pub(crate) unknown_of: FxHashMap<(StepId, usize), Entity>,
     /// By step, whether it is reachable.
     pub(crate) reached: Vec<bool>,
+    /// Steps whose test may stay unknown in the run, so that their `else` says nothing.
+    pub(crate) unknown_tests: FxHashSet<StepId>,
     /// Certain facts just before a step with a motion.
     pub(crate) certain: FxHashMap<StepId, Vec<CertainFact>>,
     /// Verdict on the goal; `None` without a goal or an end.

@@ -159,7 +159,7 @@ impl StepResolver<'_> {
         let is_faulty = has_error && args.contains(&Term::Unknown);
         let manner = call.manner.as_ref().and_then(|manner| self.manner(manner, def));
         let within_secs =
-            call.within.as_ref().and_then(|within| self.elaborator.seconds(within, "a deadline"));
+            call.within.as_ref().and_then(|within| self.elaborator.deadline(within, "a deadline"));
         let retries =
             call.retry.as_ref().and_then(|retry| self.elaborator.count(retry, "the count of a `retry`", 0));
         let binds = match (def.result, &call.bind) {

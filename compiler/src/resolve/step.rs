@@ -315,7 +315,7 @@ impl<'a> StepResolver<'a> {
                 ir::StepKind::Monitor { whens, body: self.only_block(body, (id, BlockSlot::During)) }
             }
             StepKind::Within { time, body } => {
-                let hold_secs = self.elaborator.seconds(time, "the time of a `within`").unwrap_or(0.0);
+                let hold_secs = self.elaborator.deadline(time, "the time of a `within`").unwrap_or(0.0);
                 let condition = ir::Condition::Literal(true);
                 let when =
                     ir::When { condition, span: time.span, hold_secs, reaction: ir::Reaction::Timeout };
@@ -425,7 +425,7 @@ impl<'a> StepResolver<'a> {
     }
 
     fn seconds_or(&mut self, expr: Option<&Expr>, place: &'static str) -> f64 {
-        expr.and_then(|expr| self.elaborator.seconds(expr, place)).unwrap_or(DEFAULT_WAIT_SECS)
+        expr.and_then(|expr| self.elaborator.deadline(expr, place)).unwrap_or(DEFAULT_WAIT_SECS)
     }
 
     fn when(&mut self, when: &When, monitor: StepId, index: usize) -> ir::When {

@@ -19,6 +19,7 @@ class Own:
         self.visited, self.moved = set(), set()
         self.standing, self.posture = True, "home"
         self.driven, self.last, self.unmoved = 0.0, world.base(), True
+        self.start = world.base()[:2].copy()
 
     def tick(self, world):
         """Counts the way that was driven."""
@@ -62,6 +63,9 @@ class Observer:
     def fact(self, fluent, args):
         """A fluent of entities."""
         model = self.model
+        if len(args) == 2 and fluent in ("at", "on", "in") and args[0] in model.entities and args[1] not in model.entities:
+            is_start = (fluent, args[1]) == ("at", "start") and not self.room.is_lifted(args[0])
+            return self.stands(args[0], self.own.start) if is_start else False
         if any(one not in model.entities and one not in ("robot", "hand") for one in args):
             return None
         if len(args) == 2:
@@ -112,28 +116,35 @@ class Observer:
         room, model = self.room, self.model
         if one == "robot":
             return self.serves(to) if fluent == "at" else None
-        if to in ("robot", "hand") or one == "hand" or one == to or fluent not in ("on", "in", "at"):
+        if one == "hand" or fluent not in ("on", "in", "at"):
             return None
+        if one == to:
+            return False
+        kind = model.entities[to]["kind"]
         if one not in model.free:
-            return False if fluent != "at" or model.entities[to]["kind"] not in ("Place", "Zone") else self.stands(one, to)
+            return self.stands(one, self.point(to)) if fluent == "at" and kind in ("Place", "Zone") else False
         if fluent == "on":
             return room.is_on(one, to)
         if fluent == "in":
             return False if room.is_lifted(one) else room.is_in(one, to)
-        kind = model.entities[to]["kind"]
         if kind == "Person":
             return room.is_given(one, to)
         if kind in ("Place", "Zone"):
-            return False if room.is_lifted(one) else self.stands(one, to)
+            return False if room.is_lifted(one) else self.stands(one, self.point(to))
         is_on, is_in = room.is_on(one, to), self.relation("in", one, to)
         return True if is_on or is_in else None if None in (is_on, is_in) else False
 
-    def stands(self, one, place):
-        """True if an entity stands about where a place is."""
+    def point(self, place):
+        """Where a place is in the plane; None if nobody says."""
+        at = self.model.entities[place].get("pose")
+        return None if at is None else np.array(at["xyz"][:2])
+
+    def stands(self, one, point):
+        """True if an entity stands about at a point; None where it is not known."""
         if self.room.pose(one) is None:
             return None if one in self.model.free else False
-        pose, at = self.room.pose(one)[0], self.model.entities[place].get("pose")
-        return at is not None and bool(np.hypot(*(pose[:2] - np.array(at["xyz"][:2]))) <= AT_PLACE)
+        pose = self.room.pose(one)[0]
+        return point is not None and bool(np.hypot(*(pose[:2] - point)) <= AT_PLACE)
 
     @property
     def radius(self):

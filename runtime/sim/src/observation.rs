@@ -109,7 +109,11 @@ impl SimWorld {
     }
 
     fn relation(&self, fluent: &str, id: &str, to: &str) -> Option<bool> {
-        let (thing, target) = (self.thing(id)?, self.thing(to)?);
+        let thing = self.thing(id)?;
+        // Nothing rests on the robot, in a hand, or on what is not in this world: each thing has its place.
+        let Some(target) = self.thing(to) else {
+            return matches!(fluent, "on" | "in" | "at").then_some(false);
+        };
         let rests = thing.rest.support().is_some_and(|support| support == to);
         match fluent {
             "on" => Some(rests && matches!(thing.rest, Rest::On(_))),

@@ -19,6 +19,7 @@ mod dialect;
 mod dynamic;
 mod engines;
 mod explanation;
+mod fault_classes;
 mod fix;
 mod formats;
 mod forms;

@@ -1,12 +1,12 @@
 //! Needs that only a guard can vouch for: the compiler may not prove them from a test that stayed unknown, or
 //! from a guard that has refused.
 
-use motet_graph::{Graph, NodeKind, Verdict};
+use motet_graph::{Graph, NodeKind, Value, Verdict};
 use motet_runtime::{Answer, DriverEvent, Effect, Engine, Event, Outcome, Query, StartState, Time};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
 
-const DOMAIN: &str = "
+pub(crate) const DOMAIN: &str = "
 entity a: Object
 fluent f(o: Object)
 fluent g(o: Object)
@@ -32,7 +32,7 @@ action wave()
 ";
 
 /// Graph of a policy over [`DOMAIN`].
-fn compiled(policy: &str) -> Graph {
+pub(crate) fn compiled(policy: &str) -> Graph {
     let (session, _) = setup::session(None, None, &mut Sources::default());
     let source = Source::new("p.motet", format!("{DOMAIN}\n{policy}"));
     let checked = session.check_document(&motet_syntax::read(&source, FileId(99)));
@@ -46,7 +46,11 @@ type Answers<'a> = &'a mut dyn FnMut(&Effect) -> Vec<DriverEvent>;
 /// Requests to the driver in a run, in order. Each effect is answered at once, and each event comes 10 ms
 /// after the one before.
 fn requests(policy: &str, answers: Answers<'_>) -> Vec<String> {
-    let mut engine = Engine::new(compiled(policy), &StartState::default()).unwrap();
+    requests_of(compiled(policy), answers)
+}
+
+fn requests_of(graph: Graph, answers: Answers<'_>) -> Vec<String> {
+    let mut engine = Engine::new(graph, &StartState::default()).unwrap();
     let (mut events, mut found) = (std::collections::VecDeque::from([Event::Begin]), Vec::new());
     let mut now = 0.0;
     while let Some(event) = events.pop_front() {
@@ -76,7 +80,7 @@ fn honest(effect: &Effect, see: impl Fn(&Query) -> Option<bool>) -> Vec<DriverEv
 }
 
 /// Verdicts on the needs of the last call of a primitive in a policy over [`DOMAIN`].
-fn verdicts(callee: &str, policy: &str) -> Vec<Verdict> {
+pub(crate) fn verdicts(callee: &str, policy: &str) -> Vec<Verdict> {
     let graph = compiled(policy);
     let mut calls = graph.nodes.iter().filter_map(|node| match &node.kind {
         NodeKind::Call(call) if graph.primitives[call.primitive.index()].name == callee => Some(call),
@@ -163,7 +167,7 @@ perception look(what: Text) -> Object
 }
 
 /// Codes of the findings on a document, perhaps for the HSR in a scene.
-fn session_codes(scene: Option<&str>, document: &str) -> Vec<&'static str> {
+pub(crate) fn session_codes(scene: Option<&str>, document: &str) -> Vec<&'static str> {
     let (robot, scene) = (scene.map(|_| setup::robot("hsr")), scene.map(setup::scene));
     let (session, _) = setup::session(robot.as_ref(), scene.as_ref(), &mut Sources::default());
     let parsed = motet_syntax::read(&Source::new("p.motet", document), FileId(99));
@@ -209,6 +213,80 @@ fn soundness_a_need_of_each_object_asks_of_those_that_no_step_names() {
     assert!(!starts("use_all(a)", |query| Some(query == "f(a)")));
     // The robot is no object.
     assert!(starts("use_all(a)", |query| Some(query == "f(a)" || query == "f(b)")));
+}
+
+#[test]
+fn soundness_a_need_under_an_unknown_condition_asks_both() {
+    let domain = "
+entity b: Object
+action use_some(o: Object)
+    needs f(x) for each x: Object when g(x)
+action use_if(o: Object)
+    needs f(o) when g(o)
+";
+    let starts = |call: &str, see: &dyn Fn(&str) -> Option<bool>| {
+        let policy = format!("{domain}\npolicy p {{ {call} }}");
+        let found = requests(&policy, &mut |effect| honest(effect, |query| see(&query.to_string())));
+        found.iter().any(|request| request.starts_with("start"))
+    };
+    for call in ["use_some(a)", "use_if(a)"] {
+        // Nothing is known of either.
+        assert!(!starts(call, &|_| None), "{call}");
+        // The condition is unknown, and what it would ask is false.
+        assert!(!starts(call, &|query| query.starts_with('f').then_some(false)), "{call}");
+        // Either the condition is false or the need holds.
+        assert!(starts(call, &|query| query.starts_with('f').then_some(true)), "{call}");
+        assert!(starts(call, &|query| query.starts_with('g').then_some(false)), "{call}");
+        assert!(!starts(call, &|query| Some(query.starts_with('g'))), "{call}");
+    }
+    assert!(!starts("use_some(a)", &|query| Some(query == "f(a)" || query == "g(b)")));
+    assert!(starts("use_some(a)", &|query| Some(query == "f(b)" || query == "g(b)")));
+}
+
+/// Steps that start in a policy for the HSR in the kitchen, beside a driver that finds what `find` gives.
+fn started_with(policy: &str, find: impl Fn(&str) -> Option<Value>) -> Vec<String> {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    let parsed = motet_syntax::read(&Source::new("p.motet", policy), FileId(99));
+    let checked = session.check_document(&parsed);
+    let graph = checked.policies.iter().find_map(|policy| policy.graph.clone());
+    let graph = graph.unwrap_or_else(|| panic!("{policy}: {:#?}", checked.diagnostics));
+    let mut answers = |effect: &Effect| match effect {
+        Effect::Start { goal, command, .. } => {
+            vec![DriverEvent::Ended { goal: *goal, outcome: Outcome::Success(find(&command.primitive)) }]
+        }
+        effect => honest(effect, |_| None),
+    };
+    requests_of(graph, &mut answers).into_iter().filter(|request| request.starts_with("start")).collect()
+}
+
+#[test]
+fn soundness_a_person_chooses_what_was_offered() {
+    let policy = "policy p { let m = choose(\"which?\", [mug_1, apple]) say(\"this\") go(m) }";
+    let chosen = |id: &'static str| {
+        started_with(policy, move |callee| (callee == "choose").then(|| Value::Entity(id.into())))
+    };
+    assert_eq!(chosen("apple").len(), 3);
+    assert_eq!(chosen("mug_2").len(), 1);
+}
+
+#[test]
+fn soundness_what_a_name_stands_for_is_seen_where_it_is_bound() {
+    // The proof is about `mug_1`; the first of what the run finds is another thing.
+    let policy =
+        "policy p { go(kitchen_table) let all = detect_all(\"red mug\") let m = first(all) locate(m) }";
+    let found = |id: &'static str| {
+        let list = Value::List(vec![Value::Entity(id.into())]);
+        started_with(policy, move |callee| match callee {
+            "detect_all" => Some(list.clone()),
+            "locate" => {
+                Some(Value::Pose(motet_graph::Pose { xyz: [0.0; 3], quaternion: [0.0, 0.0, 0.0, 1.0] }))
+            }
+            _ => None,
+        })
+    };
+    // Its needs are then asked of that one, which nobody has seen.
+    assert_eq!(found("bottle").len(), 2, "{:?}", found("bottle"));
 }
 
 #[test]

@@ -11,6 +11,7 @@ use smol_str::{SmolStr, format_smolstr};
 use super::OutsideSubset;
 use super::print::{Item, Node, Value};
 use super::value::{Completer, argument, numbered, outside};
+use crate::subset::NumberRange;
 use crate::grammar::{Grammar, LetValue, NodeKind, ValuePlace};
 use crate::subset::{MAX_CONDITION_DEPTH, MAX_COUNT, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS, Modifiers};
 
@@ -103,7 +104,7 @@ impl Completer<'_> {
                 let condition = self.asked(condition)?;
                 (NodeKind::Wait, [condition].into_iter().chain(self.within(within.as_ref())?).collect())
             }
-            StepKind::Delay { time } => (NodeKind::Delay, vec![self.seconds(time)?]),
+            StepKind::Delay { time } => (NodeKind::Delay, vec![self.seconds(time, NumberRange::DURATION)?]),
             StepKind::Finally { step, cleanup } => {
                 let mut node = self.step(step, depth)?;
                 // It stands behind the parts of the step, where no cleanup is nothing.
@@ -112,7 +113,7 @@ impl Completer<'_> {
                 return Ok(node);
             }
             StepKind::Within { time, body } => {
-                (NodeKind::Within, vec![self.seconds(time)?, self.inner(body, depth, 1)?])
+                (NodeKind::Within, vec![self.seconds(time, NumberRange::DEADLINE)?, self.inner(body, depth, 1)?])
             }
             StepKind::Keep { keeps, body } => {
                 (NodeKind::Keep, vec![self.keeps(keeps, step.span)?, self.inner(body, depth, 1)?])
@@ -321,7 +322,7 @@ impl Completer<'_> {
 
     fn when(&mut self, when: &ast::When, depth: usize) -> Result<Node, OutsideSubset> {
         let condition = self.asked(&when.condition)?;
-        let hold = when.hold.as_ref().map(|hold| self.seconds(hold)).transpose()?;
+        let hold = when.hold.as_ref().map(|hold| self.seconds(hold, NumberRange::DURATION)).transpose()?;
         let (kind, items) = match &when.reaction {
             ast::Reaction::Pause { within, .. } => {
                 (NodeKind::Pause, self.within(within.as_ref())?.into_iter().collect())
@@ -432,7 +433,7 @@ impl Completer<'_> {
     }
 
     fn within(&self, within: Option<&Expr>) -> Result<Option<Item>, OutsideSubset> {
-        self.modifier(within, |within| self.seconds(within))
+        self.modifier(within, |within| self.seconds(within, NumberRange::DEADLINE))
     }
 
     /// A modifier, for which only a subset with modifiers has a place.

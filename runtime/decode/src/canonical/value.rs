@@ -294,10 +294,10 @@ impl Completer<'_> {
         if is_alike { Ok(list) } else { Err(outside(expr.span, why)) }
     }
 
-    /// A time in seconds.
-    pub(super) fn seconds(&self, expr: &Expr) -> Result<Item, OutsideSubset> {
+    /// A time in seconds, within a range.
+    pub(super) fn seconds(&self, expr: &Expr, range: NumberRange) -> Result<Item, OutsideSubset> {
         match self.value(expr, &Type::Quantity(Dimension::DURATION), None)? {
-            Value::Number(number, _) if NumberRange::DURATION.contains(number) => Ok(Item::Number(number)),
+            Value::Number(number, _) if range.contains(number) => Ok(Item::Number(number)),
             _ => Err(outside(expr.span, "a time is a number of seconds in the canonical subset")),
         }
     }

@@ -90,7 +90,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
             ],
         );
         let mut wait = vec![Part::Condition(ConditionUse::Wait)];
-        wait.extend(grammar.modifier("within", NumberRange::DURATION));
+        wait.extend(grammar.modifier("within", NumberRange::DEADLINE));
         add("wait\":", grammar.when_observed(Guard::Wait), NodeKind::Wait, wait);
         let whens = Part::repeat(["[", ",", "]"], [1, MAX_MEMBERS], when(grammar));
         let monitor = vec![whens, literal(",\"during\":"), Part::Block(Role::During, 1)];
@@ -132,7 +132,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
     }
     let branches = Part::repeat(["[", ",", "]"], [2, MAX_MEMBERS], vec![Part::Block(Role::Branch, 1)]);
     add("parallel\":", Guard::Fix, NodeKind::Parallel, vec![branches, Part::Action(Action::Meet)]);
-    let timed = [vec![Part::Number(NumberRange::DURATION)], body(Role::During).into()].concat();
+    let timed = [vec![Part::Number(NumberRange::DEADLINE)], body(Role::During).into()].concat();
     add("within\":", Guard::Interrupt, NodeKind::Within, timed);
     if let Some(rule) = grammar.keep_rule(ValuePlace::Plain) {
         let rules = Part::repeat(["[", ",", "]"], [1, MAX_MEMBERS], rule);
@@ -154,7 +154,7 @@ fn when(grammar: &Grammar) -> Vec<Part> {
         Alternative::new(word, Guard::React(kind), parts)
     };
     let resume = vec![COUNT, literal(",\"steps\":"), Part::Block(BlockRole::Reaction, 1)];
-    let pause = grammar.modifier("within", NumberRange::DURATION).into_iter().collect();
+    let pause = grammar.modifier("within", NumberRange::DEADLINE).into_iter().collect();
     let reactions = vec![
         reacts("react\":\"pause\"", NodeKind::Pause, pause).named("pause"),
         reacts("react\":\"restart\",\"at_most\":", NodeKind::Restart, vec![COUNT]).named("restart"),

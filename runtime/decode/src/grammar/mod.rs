@@ -222,7 +222,7 @@ impl Grammar {
                 parts.push(Part::Manner);
             }
             if !callable.is_policy {
-                parts.extend(self.modifier("within", NumberRange::DURATION));
+                parts.extend(self.modifier("within", NumberRange::DEADLINE));
                 parts.extend(self.modifier("retry", NumberRange::whole(0, MAX_RETRIES)));
             }
             if let Some(ty) = &callable.result {

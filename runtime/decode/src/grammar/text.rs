@@ -75,7 +75,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
         ];
         add("if ", grammar.when_observed(Guard::If), NodeKind::If, parts);
         let mut wait = vec![Part::Condition(ConditionUse::Wait)];
-        wait.extend(grammar.modifier("within", NumberRange::DURATION));
+        wait.extend(grammar.modifier("within", NumberRange::DEADLINE));
         add("wait until ", grammar.when_observed(Guard::Wait), NodeKind::Wait, wait);
         let whens = Part::repeat([" when ", " when ", " } during "], [1, MAX_MEMBERS], when(grammar));
         let monitor = vec![whens, block(BlockRole::During)];
@@ -111,7 +111,7 @@ pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
     }
     let branches = Part::repeat([" ", " ", " }"], [2, MAX_MEMBERS], vec![block(BlockRole::Branch)]);
     add("parallel {", Guard::Fix, NodeKind::Parallel, vec![branches, meet]);
-    let timed = vec![Part::Number(NumberRange::DURATION), literal(" "), block(BlockRole::During)];
+    let timed = vec![Part::Number(NumberRange::DEADLINE), literal(" "), block(BlockRole::During)];
     add("within ", Guard::Interrupt, NodeKind::Within, timed);
     if let Some(rule) = grammar.keep_rule(ValuePlace::Plain) {
         let rules = Part::repeat(["", ", ", " "], [1, MAX_MEMBERS], rule);
@@ -132,7 +132,7 @@ fn when(grammar: &Grammar) -> Vec<Part> {
         let parts = std::iter::once(Part::open(kind)).chain(parts).collect();
         Alternative::new(word, Guard::React(kind), parts)
     };
-    let pause = grammar.modifier("within", NumberRange::DURATION).into_iter().collect();
+    let pause = grammar.modifier("within", NumberRange::DEADLINE).into_iter().collect();
     let mut reactions = endings(Guard::DoneWhen, Part::Given { lead: " ", end: "" });
     let resume = vec![COUNT, literal(" "), block(BlockRole::Reaction)];
     reactions.extend([

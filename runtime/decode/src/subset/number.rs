@@ -20,7 +20,10 @@ pub(crate) struct NumberRange {
 }
 
 impl NumberRange {
-    /// Deadlines and times: 0 to 9999.999 s.
+    /// Deadlines: 0.001 to 9999.999 s.
+    pub(crate) const DEADLINE: Self = Self { least: 1, ..Self::DURATION };
+
+    /// Times: 0 to 9999.999 s.
     pub(crate) const DURATION: Self =
         Self { least: 0, greatest: 9_999_999, decimals: 3, unit: Some(Unit::Second) };
 

@@ -255,6 +255,32 @@ fn acceptor_forces_text_and_explains_refusals() {
 }
 
 #[test]
+fn acceptor_has_no_empty_blocks() {
+    let session = session("hsr", "kitchen");
+    let json = r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"steps":["#;
+    let cases = [
+        (Syntax::Json, json, "]"),
+        (Syntax::Json, &format!(r#"{json}{{"sequence":"group","steps":["#), "]"),
+        (Syntax::Json, &format!(r#"{json}{{"repeat":2,"steps":["#), "]"),
+        (Syntax::Json, &format!(r#"{json}{{"try":["#), "]"),
+        (Syntax::Json, &format!(r#"{json}{{"parallel":[["#), "]"),
+        (Syntax::Json, &format!(r#"{json}{{"within":5,"steps":["#), "]"),
+        (Syntax::Json, &format!(r#"{json}{{"if":{{"is":"visible","entity":"mug_1"}},"then":["#), "]"),
+        (Syntax::Text, "policy p for hsr { sequence group { ", "}"),
+        (Syntax::Text, "policy p for hsr { try { ", "}"),
+        (Syntax::Text, "policy p for hsr { repeat 2 { ", "}"),
+        (Syntax::Text, "policy p for hsr { if visible(mug_1) { ", "}"),
+    ];
+    for (syntax, start, end) in cases {
+        let factory = AcceptorFactory::new(&session, Subset { syntax, ..subset(Modifiers::Default) });
+        let mut acceptor = factory.acceptor(1000).unwrap();
+        let taken = acceptor.accept(start.as_bytes());
+        assert_eq!(&start[..taken], start, "{start}");
+        assert_eq!(acceptor.accept(end.as_bytes()), 0, "{start}{end}");
+    }
+}
+
+#[test]
 fn acceptor_excludes_infeasible_arguments() {
     let session = session("hsr", "kitchen");
     let start = concat!(

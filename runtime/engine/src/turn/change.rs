@@ -68,28 +68,39 @@ impl Turn<'_> {
     /// True if a need holds; of a quantified one, whether it holds for every entity that the engine has heard
     /// of.
     pub(super) fn need(&mut self, need: &Need, fresh: Freshness) -> Truth {
-        let Some(kind) = need.each else {
-            let mut judge = self.judge_missing(fresh);
-            let asked = need.when.as_ref().is_none_or(|when| judge.condition(when) == Truth::True);
-            return if asked { judge.condition(&need.condition) } else { Truth::True };
-        };
+        let Some(kind) = need.each else { return self.need_of(need, None, fresh) };
         let mut truth = Truth::True;
         let sorting = self.run.beliefs.entities.sorting(&self.plan.graph, kind);
         for index in 0..self.run.beliefs.entities.len() {
             let Some((id, of_kind)) = self.run.beliefs.entities.get(index, &sorting) else { continue };
-            if of_kind == OfKind::No {
-                continue;
-            }
-            // Whether it is asked is judged by what is believed; only what it asks is worth an observation.
-            let mut judge = self.judge(fresh);
-            judge.each = Some(Value::Entity(id.clone()));
-            if need.when.as_ref().is_none_or(|when| judge.condition(when) == Truth::True) {
-                let mut judge = self.judge_missing(fresh);
-                judge.each = Some(Value::Entity(id));
-                truth = truth.and(judge.condition(&need.condition));
+            if of_kind != OfKind::No {
+                truth = truth.and(self.need_of(need, Some(Value::Entity(id)), fresh));
             }
         }
         truth
+    }
+
+    /// True if a need holds of one entity: what it asks holds, or the condition under which it asks does not.
+    /// Where neither is known, both are worth an observation.
+    fn need_of(&mut self, need: &Need, each: Option<Value>, fresh: Freshness) -> Truth {
+        let Some(when) = &need.when else {
+            let mut judge = self.judge_missing(fresh);
+            judge.each = each;
+            return judge.condition(&need.condition);
+        };
+        let mut judge = self.judge(fresh);
+        judge.each.clone_from(&each);
+        // What is believed may settle it without an observation.
+        let is_asked = judge.condition(when);
+        if is_asked == Truth::False
+            || is_asked == Truth::Unknown && judge.condition(&need.condition) == Truth::True
+        {
+            return Truth::True;
+        }
+        let mut judge = self.judge_missing(fresh);
+        judge.each = each;
+        let is_asked = if is_asked == Truth::Unknown { judge.condition(when) } else { is_asked };
+        is_asked.negated().or(judge.condition(&need.condition))
     }
 }
 

@@ -123,11 +123,12 @@ impl Turn<'_> {
         }
     }
 
-    /// Binds a name.
+    /// Binds a name. Behind a value that the proofs do not assume, nothing counts as proven any more.
     pub(super) fn bind(&mut self, binding: BindingId, value: Value) {
         let graph = &self.plan.graph;
-        let ty = graph.bindings.get(binding.index()).map(|binding| &binding.ty);
-        self.run.beliefs.entities.hear_value(graph, &value, ty);
+        let declared = graph.bindings.get(binding.index());
+        self.run.is_unproven |= declared.is_some_and(|it| !it.is_assumed(&value));
+        self.run.beliefs.entities.hear_value(graph, &value, declared.map(|binding| &binding.ty));
         let bound = Box::new(value.clone());
         self.report(move || TraceEventKind::Bound { binding, value: bound });
         if let Some(slot) = self.run.bindings.get_mut(binding.index()) {

@@ -11,7 +11,8 @@ use crate::schedule::{NodeExit, Transition};
 use crate::state::{GoalIntent, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use motet_graph::draw::Names;
-use motet_graph::{FailureId, NodeId, TIMEOUT, Value};
+use motet_graph::{CallNode, FailureId, NodeId, TIMEOUT, Value};
+use motet_stdlib::lang;
 use smol_str::SmolStr;
 
 impl Turn<'_> {
@@ -199,11 +200,10 @@ impl Turn<'_> {
         if let Some(binding) = call.binds {
             let declared = plan.graph.bindings.get(binding.index());
             let entities = &self.run.beliefs.entities;
-            match value.filter(|value| declared.is_some_and(|it| entities.fits(&plan.graph, value, &it.ty))) {
-                Some(value) => {
-                    self.run.is_unproven |= declared.is_some_and(|it| !it.is_assumed(&value));
-                    self.bind(binding, value);
-                }
+            let value =
+                value.filter(|value| declared.is_some_and(|it| entities.fits(&plan.graph, value, &it.ty)));
+            match value.filter(|value| self.is_offered(call, value)) {
+                Some(value) => self.bind(binding, value),
                 None => {
                     self.goal_failed(node, goal, plan.failed, EndCause::BadValue);
                     return;
@@ -213,6 +213,19 @@ impl Turn<'_> {
         self.make(node);
         self.strike(node);
         self.succeed(node);
+    }
+
+    /// Returns whether a result is one of those that the call offers, where it offers some: a person who is to
+    /// choose among things can choose nothing else.
+    fn is_offered(&mut self, call: &CallNode, value: &Value) -> bool {
+        let params =
+            self.plan.graph.primitives.get(call.primitive.index()).map(|primitive| &primitive.params);
+        let among = params.and_then(|params| params.iter().position(|param| param.name == lang::AMONG));
+        let Some(among) = among.and_then(|index| call.args.get(index)) else { return true };
+        match self.judge(Freshness::Readings(self.run.now)).term(among) {
+            Some(Value::List(offered)) => offered.contains(value),
+            Some(_) | None => true,
+        }
     }
 
     /// A goal failed as its driver reports.

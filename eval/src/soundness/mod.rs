@@ -1,0 +1,167 @@
+//! Differential fuzzer of proofs and guards: random domains and policies, and worlds that keep to the contracts.
+//!
+//! What the check accepts is run by the real engine through the driver trait in virtual time. When a step begins,
+//! the needs of its contract are judged by the true state of the world, with a reading of the language that shares
+//! nothing with the compiler and the engine. A policy that the check refuses is run with the needs taken out of
+//! the domain, to see if any run breaks one.
+
+mod contract;
+mod make;
+mod policy;
+mod shrink;
+mod trial;
+mod world;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::SeedableRng as _;
+use serde::Serialize;
+
+use self::contract::Domain;
+use self::policy::{Policy, domain_text, policy_text};
+use self::shrink::{Reduced, shrink};
+use self::trial::{Bench, Checked, Mistake, Needs};
+use crate::Workers;
+
+/// Number of policies over one domain.
+const PER_DOMAIN: usize = 20;
+/// Number of runs of a policy.
+const RUNS: u64 = 24;
+/// Number of findings of each sort that are made small and shown.
+const SHOWN: usize = 4;
+
+/// Sums over policies.
+#[derive(Clone, Default, PartialEq, Eq, Debug, Serialize)]
+pub struct Sums {
+    /// Policies that were made.
+    pub policies: usize,
+    /// Of these, policies that the check accepts.
+    pub accepted: usize,
+    /// Policies with a refuted need.
+    pub refuted: usize,
+    /// Of these, policies of which no run breaks a need.
+    pub refuted_in_vain: usize,
+    /// Policies with another error, by its codes.
+    pub other: BTreeMap<String, usize>,
+    pub runs: usize,
+    /// Accepted policies with a mistake, by its sort.
+    pub findings: BTreeMap<String, usize>,
+}
+
+/// Result of fuzzing.
+#[derive(Clone, Default, Debug)]
+pub struct Fuzzed {
+    pub sums: Sums,
+    /// Findings, made small, as text.
+    pub findings: Vec<String>,
+}
+
+/// Policy with a mistake, before it is made small.
+struct Found {
+    domain: Domain,
+    policy: Policy,
+    mistake: Mistake,
+    seeds: Vec<u64>,
+}
+
+/// Fuzzes so many policies from a seed.
+///
+/// # Errors
+///
+/// A domain that was made has diagnostics.
+pub fn fuzz(workers: Workers, count: usize, seed: u64) -> Result<Fuzzed, String> {
+    let domains: Vec<(u64, usize)> = (0..count.div_ceil(PER_DOMAIN))
+        .map(|index| (index as u64, PER_DOMAIN.min(count - index * PER_DOMAIN)))
+        .collect();
+    let parts = workers.spread(domains, |(index, policies)| fuzz_domain(seed, index, policies));
+    let (mut fuzzed, mut found) = (Fuzzed::default(), Vec::new());
+    for part in parts {
+        let (sums, more) = part?;
+        fuzzed.sums.add(&sums);
+        found.extend(more);
+    }
+    let mut shown: BTreeMap<Mistake, usize> = BTreeMap::new();
+    found.retain(|found| {
+        let count = shown.entry(found.mistake).or_default();
+        *count += 1;
+        *count <= SHOWN
+    });
+    let reduce = |found: Found| shrink(&found.domain, &found.policy, (found.mistake, &found.seeds));
+    // Each part of a shared run shows what it has found.
+    let reduced = Workers { shard: Workers::default().shard, ..workers }.spread(found, reduce);
+    fuzzed.findings = reduced.iter().flatten().map(Reduced::text).collect();
+    Ok(fuzzed)
+}
+
+/// Fuzzes the policies of one domain.
+fn fuzz_domain(seed: u64, index: u64, count: usize) -> Result<(Sums, Vec<Found>), String> {
+    let first = seed.wrapping_mul(1_000_003).wrapping_add(index);
+    let mut dice = SplitMix64::seed_from_u64(first);
+    let domain = make::domain(&mut dice);
+    let (bench, bare) = (Bench::new(&domain, true)?, Bench::new(&domain, false)?);
+    let (mut sums, mut found) = (Sums { policies: count, ..Sums::default() }, Vec::new());
+    for number in 0..count as u64 {
+        let policy = make::policy(&mut dice, &domain);
+        let base = first.wrapping_mul(997).wrapping_add(number * RUNS) & !3;
+        let seeds: Vec<u64> = (0..RUNS).map(|run| base.wrapping_add(run)).collect();
+        match bench.check(&policy) {
+            Checked::Accepted(graph) => {
+                sums.accepted += 1;
+                let mut mistakes = BTreeSet::new();
+                for seed in &seeds {
+                    sums.runs += 1;
+                    let findings = bench.run(&graph, *seed, Needs::Compiled);
+                    mistakes.extend(findings.iter().map(|finding| finding.mistake));
+                }
+                for mistake in mistakes {
+                    *sums.findings.entry(format!("{mistake:?}").to_lowercase()).or_default() += 1;
+                    let (domain, policy, seeds) = (domain.clone(), policy.clone(), seeds.clone());
+                    found.push(Found { domain, policy, mistake, seeds });
+                }
+            }
+            Checked::Refuted => {
+                sums.refuted += 1;
+                if let Checked::Accepted(graph) = bare.check(&policy) {
+                    let breaks = |seed: &u64| {
+                        let findings = bare.run(&graph, *seed, Needs::Dropped);
+                        findings.iter().any(|found| found.mistake == Mistake::Proven)
+                    };
+                    sums.refuted_in_vain += usize::from(!seeds.iter().any(breaks));
+                }
+            }
+            Checked::Other(codes) => *sums.other.entry(codes.join(" ")).or_default() += 1,
+        }
+    }
+    Ok((sums, found))
+}
+
+impl Sums {
+    fn add(&mut self, other: &Self) {
+        self.policies += other.policies;
+        self.accepted += other.accepted;
+        self.refuted += other.refuted;
+        self.refuted_in_vain += other.refuted_in_vain;
+        self.runs += other.runs;
+        for (code, count) in &other.other {
+            *self.other.entry(code.clone()).or_default() += count;
+        }
+        for (mistake, count) in &other.findings {
+            *self.findings.entry(mistake.clone()).or_default() += count;
+        }
+    }
+}
+
+impl Reduced {
+    fn text(&self) -> String {
+        let what = match self.finding.mistake {
+            Mistake::Proven => "is called proven, and is false when its step begins",
+            Mistake::Passed => "was passed by its guard, and is false when its step begins",
+            Mistake::Refused => "was refused by its guard as false, and holds",
+            Mistake::Unseen => "was refused by its guard as unknown, and can be observed",
+            Mistake::Endless => "",
+        };
+        let (domain, policy) = (domain_text(&self.domain, true), policy_text(&self.domain, &self.policy));
+        format!("// {} {what} (run {})\n{domain}{policy}", self.finding.place, self.seed)
+    }
+}

@@ -1,0 +1,226 @@
+//! Trial of a policy: what the check says of it, and runs of it in worlds that keep to the contracts.
+
+use motet_compiler::Session;
+use motet_graph::{Graph, NodeId, NodeKind, Verdict};
+use motet_runtime::{
+    Command, Driver as _, Effect, Engine, Event, RunEnd, StartState, Time, TraceEventKind, Truth,
+};
+use motet_syntax::{Severity, Source, Sources};
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::SeedableRng as _;
+
+use super::contract::Domain;
+use super::policy::{Policy, domain_text, policy_text};
+use super::world::{Mood, World};
+
+/// Greatest number of events of a run.
+const MAX_EVENTS: usize = 5000;
+/// Code of a need that is refuted.
+const REFUTED: &str = "M0501";
+
+/// Mistake of the prover or of the engine.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Mistake {
+    /// A need that the graph calls proven is false when its step begins.
+    Proven,
+    /// A need that a guard has passed is false when its step begins.
+    Passed,
+    /// A guard refuses a need as false that holds.
+    Refused,
+    /// A guard refuses a need as unknown although everything can be observed.
+    Unseen,
+    /// The run does not end.
+    Endless,
+}
+
+/// Mistake with its place.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Finding {
+    pub(super) mistake: Mistake,
+    /// Call and need, in words.
+    pub(super) place: String,
+}
+
+/// Result of checking a policy.
+#[derive(Debug)]
+pub(super) enum Checked {
+    Accepted(Box<Graph>),
+    /// A need is refuted.
+    Refuted,
+    /// Something else is wrong with the document, with the codes.
+    Other(Vec<&'static str>),
+}
+
+/// A session over a domain.
+pub(super) struct Bench<'d> {
+    pub(super) domain: &'d Domain,
+    session: Session,
+}
+
+impl<'d> Bench<'d> {
+    /// Reads a domain, perhaps without the needs of its actions.
+    ///
+    /// # Errors
+    ///
+    /// The domain has diagnostics: their texts.
+    pub(super) fn new(domain: &'d Domain, with_needs: bool) -> Result<Self, String> {
+        let mut sources = Sources::default();
+        let source = Source::new("domain.motet", domain_text(domain, with_needs));
+        let id = sources.add(source.clone());
+        let parsed = motet_syntax::read(&source, id);
+        let mut said = parsed.diagnostics;
+        let session = Session::builder().domains(&[parsed.file]).build(&mut sources);
+        said.extend(session.input_diagnostics().iter().cloned());
+        match said.iter().find(|said| said.severity == Severity::Error) {
+            Some(wrong) => Err(format!("{}: {}\n{}", wrong.code.0, wrong.message, source.text)),
+            None => Ok(Self { domain, session }),
+        }
+    }
+
+    /// Checks a policy.
+    #[must_use]
+    pub(super) fn check(&self, policy: &Policy) -> Checked {
+        let mut sources = Sources::default();
+        let source = Source::new("policy.motet", policy_text(self.domain, policy));
+        let id = sources.add(source.clone());
+        let parsed = motet_syntax::read(&source, id);
+        let compiled = self.session.compile(&parsed, Some("p"));
+        let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error);
+        let mut codes: Vec<&'static str> = errors.map(|said| said.code.0).collect();
+        codes.sort_unstable();
+        codes.dedup();
+        match compiled.graph {
+            Some(graph) if codes.is_empty() => Checked::Accepted(Box::new(graph)),
+            _ if codes == [REFUTED] => Checked::Refuted,
+            _ => Checked::Other(codes),
+        }
+    }
+
+    /// Runs a graph in a world of a seed.
+    #[must_use]
+    pub(super) fn run(&self, graph: &Graph, seed: u64, needs: Needs) -> Vec<Finding> {
+        let mood = match seed % 4 {
+            0 => Mood::Honest,
+            1 | 2 => Mood::Adversarial,
+            _ => Mood::Veiled,
+        };
+        let world = World::new(self.domain, mood, SplitMix64::seed_from_u64(seed));
+        let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else { return Vec::new() };
+        let engine = engine.with_capabilities(world.capabilities());
+        Run { engine, world, mood, needs, findings: Vec::new() }.whole()
+    }
+}
+
+/// Needs that a run is judged by.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Needs {
+    /// Those of the graph, with their verdicts.
+    Compiled,
+    /// Those of the domain, which the graph lacks: all count as proven.
+    Dropped,
+}
+
+struct Run<'d> {
+    engine: Engine,
+    world: World<'d>,
+    mood: Mood,
+    needs: Needs,
+    findings: Vec<Finding>,
+}
+
+impl Run<'_> {
+    fn whole(mut self) -> Vec<Finding> {
+        let (mut now, mut event, mut effects) = (Time::ZERO, Event::Begin, Vec::new());
+        for _ in 0..MAX_EVENTS {
+            self.engine.handle(now, event, &mut effects);
+            for effect in std::mem::take(&mut effects) {
+                match &effect {
+                    Effect::Finished(end) => {
+                        if matches!(**end, RunEnd::Fault(_)) {
+                            self.note(Mistake::Endless, format!("{end}"));
+                        }
+                        return self.findings;
+                    }
+                    Effect::Start { node, command, .. } => self.started(*node, command),
+                    Effect::Report(trace) => self.reported(&trace.what),
+                    _ => {}
+                }
+                self.world.carry_out(now, &effect);
+            }
+            let wake = self.engine.wake_at().unwrap_or(Time::NEVER);
+            (now, event) = match self.world.advance(wake) {
+                Some((at, report)) => (at.max(now), Event::Driver(report)),
+                None if wake == Time::NEVER => {
+                    self.note(Mistake::Endless, "nothing is left to wait for".to_owned());
+                    return self.findings;
+                }
+                None => (wake, Event::Tick),
+            };
+        }
+        self.note(Mistake::Endless, format!("more than {MAX_EVENTS} events"));
+        self.findings
+    }
+
+    fn note(&mut self, mistake: Mistake, place: String) {
+        self.findings.push(Finding { mistake, place });
+    }
+
+    /// Verdicts on the needs of a call.
+    fn verdicts(&self, node: NodeId) -> Vec<Verdict> {
+        match self.engine.graph().nodes.get(node.index()).map(|node| &node.kind) {
+            Some(NodeKind::Call(call)) => call.needs.iter().map(|need| need.verdict).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// A step begins: do its needs hold?
+    fn started(&mut self, node: NodeId, command: &Command) {
+        let Some((action, frame)) = self.world.called(command) else { return };
+        let verdicts = self.verdicts(node);
+        for (index, need) in action.needs.iter().enumerate() {
+            if self.world.domain().meets(need, &frame, &self.world.state) {
+                continue;
+            }
+            let mistake = match verdicts.get(index) {
+                Some(Verdict::Proven) => Mistake::Proven,
+                None if self.needs == Needs::Dropped => Mistake::Proven,
+                // What another branch changes meanwhile, a look just before cannot know.
+                _ if self.world.is_moving(&self.world.domain().asked(need, &frame)) => continue,
+                _ => Mistake::Passed,
+            };
+            self.note(mistake, format!("need {} of `{command}`", index + 1));
+        }
+    }
+
+    /// A guard refuses: is it right?
+    fn reported(&mut self, what: &TraceEventKind) {
+        let TraceEventKind::Guard { node, need, truth } = what else { return };
+        if self.mood != Mood::Honest || *truth == Truth::True {
+            return;
+        }
+        let Some(NodeKind::Call(call)) = self.engine.graph().nodes.get(node.index()).map(|node| &node.kind)
+        else {
+            return;
+        };
+        let (graph, index) = (self.engine.graph(), *need as usize);
+        let primitive = graph.primitives.get(call.primitive.index());
+        let Some(action) = primitive.and_then(|primitive| self.world.action(&primitive.name)) else { return };
+        let args = call.args.iter().filter_map(|arg| match arg {
+            motet_graph::Term::Literal(value) => Some(value.clone()),
+            motet_graph::Term::Binding(binding) => self.engine.binding(*binding).cloned(),
+            _ => None,
+        });
+        let frame = self.world.frame(args);
+        let Some(need) = action.needs.get(index) else { return };
+        let (domain, state) = (self.world.domain(), &self.world.state);
+        if self.world.is_moving(&domain.asked(need, &frame)) {
+            return;
+        }
+        let place = || format!("need {} of a call", index + 1);
+        if *truth == Truth::Unknown {
+            self.note(Mistake::Unseen, place());
+        } else if domain.meets(need, &frame, state) {
+            self.note(Mistake::Refused, place());
+        }
+    }
+}

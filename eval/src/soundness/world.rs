@@ -1,0 +1,428 @@
+//! World of a made-up domain, as a driver: it keeps to the contracts, and is otherwise as bad as its mood.
+
+use std::collections::VecDeque;
+
+use motet_graph::Value;
+use motet_runtime::{
+    Answer, Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Pattern, PrimitiveSet, Query, Time,
+};
+use rand::RngExt as _;
+use rand_xoshiro::SplitMix64;
+
+use super::contract::{Action, Domain, Frame, Kind, State};
+use super::make::{chance, one_of};
+
+/// Behaviour of a world.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Mood {
+    /// Every question is answered at once, and effects come at the end of their step.
+    Honest,
+    /// Answers are late, effects come at any time of their step, what is watched changes by itself.
+    Adversarial,
+    /// Some facts can never be observed, and others not always.
+    Veiled,
+}
+
+/// Longest time that an answer, an end or a change takes beyond its step, in s.
+const LATE_SECS: f64 = 0.2;
+
+/// Goal that runs.
+struct Running {
+    id: GoalId,
+    /// Cells that it may change.
+    touches: Vec<usize>,
+    /// Changes that are still to come, each at its time.
+    flips: Vec<(Time, usize, bool)>,
+    ends: Time,
+    outcome: Outcome,
+    /// Time at which it was held.
+    held: Option<Time>,
+}
+
+/// The world, at a moment.
+pub(super) struct World<'d> {
+    domain: &'d Domain,
+    mood: Mood,
+    dice: SplitMix64,
+    now: Time,
+    /// Truth of every fact.
+    pub(super) state: State,
+    veiled: Vec<bool>,
+    running: Vec<Running>,
+    watches: Vec<(Query, Answer)>,
+    /// Reports, each at its time.
+    outbox: VecDeque<(Time, DriverEvent)>,
+    holds: bool,
+    /// Number of changes that nobody made, so far.
+    whims: u32,
+    next_whim: Time,
+}
+
+impl<'d> World<'d> {
+    /// A world that agrees with what a domain states of the start.
+    pub(super) fn new(domain: &'d Domain, mood: Mood, mut dice: SplitMix64) -> Self {
+        let mut state: State =
+            (0..domain.size()).map(|_| !domain.is_closed && chance(&mut dice, 50)).collect();
+        for (atom, truth) in &domain.start {
+            for cell in domain.cells_in(atom, &Frame::default()) {
+                put(&mut state, cell, *truth);
+            }
+        }
+        let veiled = (0..state.len()).map(|_| mood == Mood::Veiled && chance(&mut dice, 35)).collect();
+        let holds = chance(&mut dice, 50);
+        let mut world = Self {
+            domain,
+            mood,
+            dice,
+            now: Time::ZERO,
+            state,
+            veiled,
+            running: Vec::new(),
+            watches: Vec::new(),
+            outbox: VecDeque::new(),
+            holds,
+            whims: 0,
+            next_whim: Time::NEVER,
+        };
+        if mood == Mood::Adversarial {
+            world.next_whim = world.later(4.0);
+        }
+        world
+    }
+
+    /// The domain of the world.
+    #[must_use]
+    pub(super) fn domain(&self) -> &'d Domain {
+        self.domain
+    }
+
+    /// The action of a name.
+    #[must_use]
+    pub(super) fn action(&self, name: &str) -> Option<&'d Action> {
+        let index: usize = name.strip_prefix('a')?.parse().ok()?;
+        self.domain.actions.get(index)
+    }
+
+    /// The frame of the arguments of a call.
+    pub(super) fn frame(&self, args: impl Iterator<Item = Value>) -> Frame {
+        let params = args.filter_map(|value| match value {
+            Value::Entity(id) => self.domain.entity(&id),
+            _ => None,
+        });
+        Frame { params: params.collect(), ..Frame::default() }
+    }
+
+    /// The action of a command, with its arguments.
+    #[must_use]
+    pub(super) fn called(&self, command: &Command) -> Option<(&'d Action, Frame)> {
+        let action = self.action(&command.primitive)?;
+        Some((action, self.frame(command.args.iter().map(|(_, value)| value.clone()))))
+    }
+
+    /// Returns whether a step that runs may change one of these facts.
+    #[must_use]
+    pub(super) fn is_moving(&self, cells: &[usize]) -> bool {
+        self.running.iter().any(|goal| goal.touches.iter().any(|cell| cells.contains(cell)))
+    }
+
+    /// Returns whether a fact is never observed.
+    #[must_use]
+    pub(super) fn is_hidden(&self, cells: &[usize]) -> bool {
+        cells.iter().any(|cell| self.veiled.get(*cell).copied().unwrap_or(false))
+    }
+
+    fn later(&mut self, within_secs: f64) -> Time {
+        self.now.after(Time::from_secs(within_secs * self.dice.random::<f64>()))
+    }
+
+    /// Some time from now on until another.
+    fn between(&mut self, end: Time) -> Time {
+        let span = if end == Time::NEVER { 4.0 } else { end.since(self.now).secs() };
+        self.later(span)
+    }
+
+    fn say(&mut self, at: Time, event: DriverEvent) {
+        let place = self.outbox.iter().rposition(|(before, _)| *before <= at).map_or(0, |index| index + 1);
+        self.outbox.insert(place, (at, event));
+    }
+
+    fn late(&mut self) -> Time {
+        let is_late = self.mood == Mood::Adversarial && chance(&mut self.dice, 30);
+        if is_late { self.later(LATE_SECS) } else { self.now }
+    }
+
+    fn answer(&self, query: &Query) -> Answer {
+        let Query::Fact { fluent, args } = query else { return Answer::Unknown };
+        let fluent = fluent.strip_prefix('f').and_then(|index| index.parse().ok());
+        let args = args.iter().map(|arg| match arg {
+            Pattern::Any => Some(None),
+            Pattern::Is(Value::Entity(id)) => self.domain.entity(id).map(Some),
+            Pattern::Is(_) => None,
+        });
+        let Some((fluent, args)) = fluent.zip(args.collect::<Option<Vec<_>>>()) else {
+            return Answer::Unknown;
+        };
+        let cells = self.domain.cells(fluent, &args);
+        let (hidden, seen): (Vec<usize>, Vec<usize>) =
+            cells.into_iter().partition(|cell| self.is_hidden(&[*cell]));
+        if seen.iter().any(|cell| self.state.get(*cell) == Some(&true)) {
+            return Answer::Truth(true);
+        }
+        if hidden.is_empty() { Answer::Truth(false) } else { Answer::Unknown }
+    }
+
+    fn is_watched(&self, query: &Query) -> bool {
+        let name = |query: &Query| match query {
+            Query::Fact { fluent, .. } => Some(fluent.clone()),
+            Query::Measure { .. } | Query::Field { .. } => None,
+        };
+        self.watches.iter().any(|(watched, _)| name(watched) == name(query))
+    }
+
+    /// Changes a fact, and reports what is watched of it.
+    fn flip(&mut self, cell: usize, truth: bool) {
+        if self.state.get(cell) == Some(&truth) {
+            return;
+        }
+        put(&mut self.state, cell, truth);
+        for (query, known) in std::mem::take(&mut self.watches) {
+            let answer = self.answer(&query);
+            if answer != known {
+                self.say(self.now, DriverEvent::Observed { query: query.clone(), answer: answer.clone() });
+            }
+            self.watches.push((query, answer));
+        }
+    }
+
+    /// Something that is watched changes, and nobody did it.
+    fn whim(&mut self) {
+        self.next_whim = if self.whims < 4 { self.later(6.0) } else { Time::NEVER };
+        self.whims += 1;
+        if self.outbox.iter().any(|(_, event)| matches!(event, DriverEvent::Observed { .. })) {
+            return;
+        }
+        let place = self.dice.random_range(0..self.watches.len().max(1));
+        let Some((Query::Fact { fluent, args }, _)) = self.watches.get(place) else { return };
+        let fluent = fluent.strip_prefix('f').and_then(|index| index.parse().ok());
+        let args = args.iter().map(|arg| match arg {
+            Pattern::Is(Value::Entity(id)) => self.domain.entity(id),
+            Pattern::Is(_) | Pattern::Any => None,
+        });
+        let (Some(fluent), args) = (fluent, args.collect::<Vec<_>>()) else { return };
+        let cells = self.domain.cells(fluent, &args);
+        if let Some(cell) = one_of(&mut self.dice, &cells).filter(|cell| !self.is_moving(&[*cell])) {
+            let truth = self.state.get(cell) == Some(&true);
+            self.flip(cell, !truth);
+        }
+    }
+
+    /// Plans a goal whose action succeeds or does not: its changes and its end.
+    fn plan(&mut self, id: GoalId, action: &Action, frame: &Frame, outcome: Outcome) -> Running {
+        let succeeds = matches!(outcome, Outcome::Success(_));
+        let made = self.domain.changed(&action.makes, frame, &self.state);
+        let unsettled = self.domain.changed(&action.unsettles, frame, &self.state);
+        let span = if self.mood == Mood::Honest { 1.0 } else { 0.2 + 3.6 * self.dice.random::<f64>() };
+        let ends = self.now.after(Time::from_secs(span));
+        let mut finally: Vec<(usize, bool)> =
+            unsettled.iter().map(|(cell, _)| (*cell, chance(&mut self.dice, 50))).collect();
+        // What is made wins over what is unmade, and both over what is unsettled.
+        for truth in [false, true] {
+            for (cell, made) in made.iter().filter(|(_, made)| *made == truth) {
+                let truth = if succeeds { *made } else { chance(&mut self.dice, 50) };
+                finally.retain(|(other, _)| other != cell);
+                if succeeds || chance(&mut self.dice, 60) {
+                    finally.push((*cell, truth));
+                }
+            }
+        }
+        let mut flips = Vec::new();
+        if self.mood != Mood::Honest && chance(&mut self.dice, 40) {
+            // Meanwhile anything may be so of what it changes.
+            for (cell, _) in made.iter().chain(&unsettled) {
+                let (at, truth) = (self.between(ends), chance(&mut self.dice, 50));
+                flips.push((at, *cell, truth));
+            }
+            flips.sort_by_key(|(at, ..)| *at);
+        }
+        flips.extend(finally.into_iter().map(|(cell, truth)| (ends, cell, truth)));
+        let touches = made.iter().chain(&unsettled).map(|(cell, _)| *cell).collect();
+        Running { id, touches, flips, ends, outcome, held: None }
+    }
+
+    /// Interrupts a goal: what it would have changed may have changed.
+    fn interrupt(&mut self, id: GoalId, event: DriverEvent) {
+        let Some(place) = self.running.iter().position(|goal| goal.id == id) else { return };
+        let at = self.late();
+        let Some(goal) = self.running.get_mut(place) else { return };
+        goal.held = None;
+        if self.mood != Mood::Honest && goal.ends != Time::NEVER && chance(&mut self.dice, 20) {
+            // It was done already.
+            let shift = at;
+            goal.flips.iter_mut().for_each(|(time, ..)| *time = shift);
+            goal.ends = shift;
+            return;
+        }
+        let goal = self.running.remove(place);
+        for cell in goal.touches {
+            if chance(&mut self.dice, 50) {
+                let truth = chance(&mut self.dice, 50);
+                self.flip(cell, truth);
+            }
+        }
+        self.say(at, event);
+    }
+
+    /// Time of what happens next in the world.
+    fn next(&self) -> Time {
+        let goals = self.running.iter().filter(|goal| goal.held.is_none());
+        let goals = goals.map(|goal| goal.flips.first().map_or(goal.ends, |(at, ..)| (*at).min(goal.ends)));
+        goals.chain([self.next_whim]).min().unwrap_or(Time::NEVER)
+    }
+
+    /// Lets happen what happens next.
+    fn happen(&mut self) {
+        if self.next_whim <= self.now {
+            return self.whim();
+        }
+        let now = self.now;
+        let is_due = |goal: &Running| {
+            goal.held.is_none() && (goal.ends <= now || goal.flips.first().is_some_and(|(at, ..)| *at <= now))
+        };
+        let Some(place) = self.running.iter().position(is_due) else { return };
+        let Some(goal) = self.running.get_mut(place) else { return };
+        if let Some((at, cell, truth)) = goal.flips.first().copied()
+            && at <= now
+        {
+            goal.flips.remove(0);
+            return self.flip(cell, truth);
+        }
+        let goal = self.running.remove(place);
+        self.say(now, DriverEvent::Ended { goal: goal.id, outcome: goal.outcome });
+    }
+
+    /// The end that an action will have.
+    fn outcome(&mut self, action: &Action, frame: &mut Frame) -> Outcome {
+        if !action.fails.is_empty() && chance(&mut self.dice, 30) {
+            let kind = one_of(&mut self.dice, &action.fails).unwrap_or("failed");
+            return Outcome::Failure(kind.into());
+        }
+        if !action.finds {
+            return Outcome::Success(None);
+        }
+        let objects: Vec<usize> = self.domain.of_kind(Kind::Object).collect();
+        frame.result = one_of(&mut self.dice, &objects);
+        let name = frame.result.and_then(|one| self.domain.entities.get(one));
+        Outcome::Success(name.map(|(name, _)| Value::Entity(name.as_str().into())))
+    }
+}
+
+fn put(state: &mut State, cell: usize, truth: bool) {
+    if let Some(slot) = state.get_mut(cell) {
+        *slot = truth;
+    }
+}
+
+impl Driver for World<'_> {
+    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.now = now;
+        let Some((action, mut frame)) = self.called(command) else {
+            // A primitive of the standard library that changes nothing.
+            let chosen = match command.arg("among") {
+                Some(Value::List(items)) => items.get(self.dice.random_range(0..items.len().max(1))).cloned(),
+                Some(_) | None => None,
+            };
+            self.say(now, DriverEvent::Acknowledged { goal });
+            let ends = now.after(Time::from_secs(0.5));
+            let (touches, flips) = (Vec::new(), Vec::new());
+            let outcome = Outcome::Success(chosen);
+            self.running.push(Running { id: goal, touches, flips, ends, outcome, held: None });
+            return;
+        };
+        if self.mood != Mood::Honest && chance(&mut self.dice, 3) {
+            return self.say(now, DriverEvent::Refused { goal, failure: "blocked".into() });
+        }
+        self.say(now, DriverEvent::Acknowledged { goal });
+        let outcome = self.outcome(action, &mut frame);
+        let mut running = self.plan(goal, action, &frame, outcome);
+        if self.mood != Mood::Honest && chance(&mut self.dice, 4) {
+            running.ends = Time::NEVER;
+            running.flips.retain(|(at, ..)| *at < now.after(Time::from_secs(3.0)));
+        }
+        self.running.push(running);
+    }
+
+    fn cancel(&mut self, now: Time, goal: GoalId) {
+        self.now = now;
+        self.interrupt(goal, DriverEvent::Ended { goal, outcome: Outcome::Interrupted });
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        let none = PrimitiveSet::Only(std::collections::BTreeSet::new());
+        Capabilities { hold: if self.holds { PrimitiveSet::All } else { none }, ..Capabilities::default() }
+    }
+
+    fn update(&mut self, now: Time, _goal: GoalId, _command: &Command) {
+        self.now = now;
+    }
+
+    fn hold(&mut self, now: Time, goal: GoalId) {
+        self.now = now;
+        if let Some(goal) = self.running.iter_mut().find(|running| running.id == goal) {
+            goal.held = Some(now);
+        }
+    }
+
+    fn proceed(&mut self, now: Time, goal: GoalId) {
+        self.now = now;
+        let goal = self.running.iter_mut().find(|running| running.id == goal);
+        if let Some((goal, since)) = goal.and_then(|goal| goal.held.take().map(|since| (goal, since))) {
+            let by = now.since(since);
+            goal.flips.iter_mut().for_each(|(at, ..)| *at = at.after(by));
+            goal.ends = goal.ends.after(by);
+        }
+    }
+
+    fn safe_stop(&mut self, now: Time, goal: GoalId) {
+        self.now = now;
+        self.interrupt(goal, DriverEvent::Stopped { goal });
+    }
+
+    fn observe(&mut self, now: Time, query: &Query) {
+        self.now = now;
+        let mut answer = self.answer(query);
+        if self.mood == Mood::Veiled && chance(&mut self.dice, 10) {
+            answer = Answer::Unknown;
+        }
+        // No answer is overtaken by a report of what is watched.
+        let at = if self.is_watched(query) { now } else { self.late() };
+        self.say(at, DriverEvent::Observed { query: query.clone(), answer });
+    }
+
+    fn watch(&mut self, now: Time, query: &Query) {
+        self.now = now;
+        let answer = self.answer(query);
+        self.watches.push((query.clone(), answer.clone()));
+        self.say(now, DriverEvent::Observed { query: query.clone(), answer });
+    }
+
+    fn unwatch(&mut self, now: Time, query: &Query) {
+        self.now = now;
+        self.watches.retain(|(watched, _)| watched != query);
+    }
+
+    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        loop {
+            let (said, next) = (self.outbox.front().map_or(Time::NEVER, |(at, _)| *at), self.next());
+            if said <= next && said <= until && said != Time::NEVER {
+                self.now = self.now.max(said);
+                return self.outbox.pop_front();
+            }
+            if next > until || next == Time::NEVER {
+                self.now = if until == Time::NEVER { self.now } else { self.now.max(until) };
+                return None;
+            }
+            self.now = self.now.max(next);
+            self.happen();
+        }
+    }
+}
