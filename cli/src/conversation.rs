@@ -7,7 +7,6 @@ pub(crate) mod operator;
 mod planner;
 mod record;
 
-use std::path::Path;
 use std::rc::Rc;
 
 use motet::run::run_id;
@@ -19,7 +18,6 @@ use observer::RunObserver;
 use operator::{AskingDriver, OperatorInput, OperatorPrompt};
 use record::ConversationRecord;
 
-use crate::documents::HERE;
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
 use crate::interrupt::{catch_interrupts, is_interrupted};
@@ -36,7 +34,7 @@ pub(crate) fn converse(
     report: &mut Report,
 ) -> Result<Exit, CliError> {
     args.driver.refuse_flags()?;
-    let mut project = args.session.project_in(Path::new(HERE))?.open_with(report)?;
+    let mut project = args.session.project().open_with(report)?;
     let opened = project.session(report)?;
     let Some(robot) = opened.robot.clone() else {
         return Err(CliError::Message("a request needs a robot: give --robot NAME".to_owned()));
@@ -51,8 +49,7 @@ pub(crate) fn converse(
     let record = args.record.as_deref().map(ConversationRecord::create).transpose()?;
     let run = run_id();
     let subject = RunSubject { run: &run, policy: None, opened };
-    let ready =
-        open_driver(&args.driver, &args.session.environment.in_folder(Path::new(HERE))?, &subject, report)?;
+    let ready = open_driver(&args.driver, &args.session.environment, &subject, report)?;
     if args.model.camera && !ready.driver.capabilities().look {
         return Err(CliError::Message("--camera needs a driver that takes pictures".to_owned()));
     }

@@ -16,14 +16,6 @@ use serde::de::IgnoredAny;
 
 use crate::error::CliError;
 
-/// Present folder.
-pub(crate) const HERE: &str = ".";
-
-/// Folder of a file; the present one for a name alone, such as `-`.
-pub(crate) fn folder_of(file: &Path) -> &Path {
-    file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new(HERE))
-}
-
 /// Reads all of stdin.
 pub(crate) fn read_stdin() -> Result<Bytes, CliError> {
     read_bounded(io::stdin().lock(), None).map_err(|source| CliError::read("-", source))
@@ -194,7 +186,8 @@ impl Document {
     /// Folder of the file, or else the present one.
     pub(crate) fn folder(&self) -> PathBuf {
         let file = self.path.as_deref().or_else(|| self.line_of.as_ref().map(|(file, _)| Path::new(file)));
-        file.map_or(Path::new(HERE), folder_of).to_owned()
+        let folder = file.and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
+        folder.unwrap_or(Path::new(".")).to_owned()
     }
 
     /// Parses the document. Bytes that are not text, or are too many, are diagnostics.

@@ -4,7 +4,6 @@
 mod batch;
 mod driver;
 mod key;
-mod names;
 mod server;
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
@@ -21,7 +20,6 @@ use crate::error::CliError;
 pub(crate) use batch::{JobArgs, ResultArgs};
 pub(crate) use driver::{DriverArgs, DriverChoice, Speed, seed};
 pub(crate) use key::{KeyArgs, token_from};
-pub(crate) use names::{CODES, ROBOTS, SCENES};
 pub(crate) use server::{CarrierArg, ServerArgs, ServerDialect, refuse_carrier};
 
 /// Documents to read.
@@ -38,10 +36,10 @@ pub(crate) struct DocumentArgs {
 pub(crate) struct EnvironmentArgs {
     /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml [default: the policy's
     /// `for NAME`]
-    #[arg(long, value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FOLDER")]
     pub(crate) robot: Option<String>,
     /// Scene: a built-in name, or a JSON file
-    #[arg(long, value_name = "NAME|FILE", value_parser = SCENES, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FILE")]
     pub(crate) scene: Option<String>,
     /// Facts at the start: a JSON object such as '{"holding(mug_1)": true, "free(hand)": false}', or a file
     /// with one
@@ -52,24 +50,10 @@ pub(crate) struct EnvironmentArgs {
     pub(crate) domain: Vec<PathBuf>,
 }
 
-/// Inputs of the nearest `motet.toml` at or above a folder.
-fn config_of(folder: &Path) -> Result<Option<ProjectBuilder>, CliError> {
-    Ok(find_config(folder).map(|path| read_config(&path)).transpose()?)
-}
-
 impl EnvironmentArgs {
-    /// The same with the robot and the scene of the nearest `motet.toml`, where these have none.
-    pub(crate) fn in_folder(&self, folder: &Path) -> Result<Self, CliError> {
-        let Some(config) = config_of(folder)? else { return Ok(self.clone()) };
-        let or = |own: &Option<String>, other: Option<&str>| own.clone().or_else(|| other.map(str::to_owned));
-        let (robot, scene) = (or(&self.robot, config.robot_name()), or(&self.scene, config.scene_name()));
-        Ok(Self { robot, scene, ..self.clone() })
-    }
-
-    /// Project of these inputs in which no motion is searched. Those that are missing are those of the
-    /// nearest `motet.toml` at or above a folder.
-    pub(crate) fn without_motions(&self, folder: &Path) -> Result<ProjectBuilder, CliError> {
-        Ok(self.over(config_of(folder)?.unwrap_or_else(Project::builder)).without_motions())
+    /// Project of these inputs in which no motion is searched.
+    pub(crate) fn without_motions(&self) -> ProjectBuilder {
+        self.over(Project::builder().without_motions())
     }
 
     /// Project of these inputs, in which those that are missing are the given ones.
@@ -100,10 +84,16 @@ pub(crate) struct SessionArgs {
 }
 
 impl SessionArgs {
+    /// Project of these inputs.
+    pub(crate) fn project(&self) -> ProjectBuilder {
+        self.over(Project::builder())
+    }
+
     /// Project of these inputs, in which those that are missing are those of the nearest `motet.toml` at
     /// or above a folder.
     pub(crate) fn project_in(&self, folder: &Path) -> Result<ProjectBuilder, CliError> {
-        Ok(self.over(config_of(folder)?.unwrap_or_else(Project::builder)))
+        let config = find_config(folder).map(|path| read_config(&path)).transpose()?;
+        Ok(self.over(config.unwrap_or_else(Project::builder)))
     }
 
     fn over(&self, project: ProjectBuilder) -> ProjectBuilder {

@@ -48,8 +48,6 @@ pub(crate) struct Cli {
 /// Subcommands; each has a file of its name in `command`.
 #[derive(Subcommand, Debug)]
 enum Command {
-    /// Make a folder for policies, with settings, a scene and a policy that runs
-    New(command::new::NewArgs),
     /// Check policies before a robot moves
     Check(command::check::CheckArgs),
     /// Format policies, or convert them between text and JSON
@@ -84,8 +82,6 @@ enum Command {
     Feasible(command::feasible::FeasibleArgs),
     /// List, show and check robots, or write the card of a new one
     Robots(command::robots::RobotsArgs),
-    /// List, show, check and draw scenes
-    Scenes(command::scenes::ScenesArgs),
     /// Serve agents over the Model Context Protocol: check, plan, simulate, and run policies
     Mcp(Box<command::mcp::McpArgs>),
     /// Explain a diagnostic code
@@ -135,7 +131,6 @@ fn is_drive(error: &clap::Error) -> bool {
 
 fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
     match command {
-        Command::New(args) => command::new::run(args, colors),
         Command::Check(args) => command::check::run(args, colors),
         Command::Fmt(args) => command::fmt::run(args, colors),
         Command::Compile(args) => command::compile::run(args, colors),
@@ -153,7 +148,6 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Export(args) => command::export::run(args, colors),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
-        Command::Scenes(args) => command::scenes::run(args, colors),
         Command::Mcp(args) => command::mcp::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Grammar(args) => command::grammar::run(args, colors),

@@ -72,9 +72,8 @@ pub(crate) fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, CliError> 
 }
 
 fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let document = one_document(&args.file)?;
-    let (source, parsed) = document.parse();
-    let mut project = args.session.project_in(&document.folder())?.open_with(report)?;
+    let (source, parsed) = one_document(&args.file)?.parse();
+    let mut project = args.session.project().open_with(report)?;
     let opened = project.session_for(&parsed.file, report)?;
     let policy = args.policy.as_deref();
     let compiled = opened.session.compile(&parsed, policy);

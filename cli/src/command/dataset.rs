@@ -26,7 +26,7 @@ use self::from_journal::FromJournalArgs;
 use self::inputs::{RowFormat, body, effort, write};
 use self::lint::LintArgs;
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, JobArgs, MotionArgs, ROBOTS, SCENES};
+use crate::flags::{DiagnosticFormat, JobArgs, MotionArgs};
 use crate::output::{Colors, count, note};
 use crate::report::{Progress, Report};
 
@@ -73,10 +73,10 @@ struct MakeArgs {
     #[arg(long)]
     images: bool,
     /// Robot: a built-in name, or a folder with a robot.toml; repeatable
-    #[arg(long, value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true, default_values = ["hsr", "anymal_z1"])]
+    #[arg(long, value_name = "NAME|FOLDER", default_values = ["hsr", "anymal_z1"])]
     robot: Vec<String>,
     /// Scene to vary: a built-in name, or a JSON file; repeatable
-    #[arg(long, value_name = "NAME|FILE", value_parser = SCENES, hide_possible_values = true, default_values = ["kitchen", "living_room", "lab"])]
+    #[arg(long, value_name = "NAME|FILE", default_values = ["kitchen", "living_room", "lab"])]
     room: Vec<String>,
     /// File with the wordings of requests and answers, one `KEY: WORDING` per line [default: built in]
     #[arg(long, value_name = "FILE")]

@@ -11,7 +11,7 @@ use motet_project::files::{Bytes, read_small};
 use motet_syntax::ast::MAX_BYTES;
 use motet_syntax::{Sources, Syntax, render};
 
-use crate::documents::{HERE, read_stdin};
+use crate::documents::read_stdin;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
 use crate::output::Colors;
@@ -59,7 +59,7 @@ pub(crate) fn run(args: &DecodeArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.environment.without_motions(Path::new(HERE))?.open_with(report)?;
+    let mut project = args.environment.without_motions().open_with(report)?;
     let session = project.session(report)?.session.clone();
     let mut prefix = read(&args.path)?;
     let syntax = args.syntax.into();

@@ -15,7 +15,6 @@ use motet_project::{DOCUMENT, ProjectSession};
 use motet_robots::scene::Scene;
 use motet_syntax::{Severity, Source};
 
-use crate::documents::{HERE, folder_of};
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
 use crate::output::{Colors, note};
@@ -52,10 +51,7 @@ pub(crate) fn run(args: &DialogArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn converse(args: &DialogArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args
-        .session
-        .project_in(args.file.as_deref().map_or(Path::new(HERE), folder_of))?
-        .open_with(report)?;
+    let mut project = args.session.project().open_with(report)?;
     let opened = project.session(report)?;
     match (&args.write, &args.file) {
         (Some(request), _) => write(request, opened, report),

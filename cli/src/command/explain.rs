@@ -5,7 +5,6 @@ use motet_compiler::explain_pages;
 use motet_syntax::suggest;
 
 use crate::error::{CliError, Exit};
-use crate::flags::CODES;
 use crate::output::Output;
 use crate::report;
 
@@ -14,7 +13,7 @@ use crate::report;
 #[command(after_help = "Example:\n  motet explain M0501")]
 pub(crate) struct ExplainArgs {
     /// Code such as M0501; without one, all codes are listed
-    #[arg(value_name = "CODE", value_parser = CODES, hide_possible_values = true)]
+    #[arg(value_name = "CODE")]
     code: Option<String>,
 }
 

@@ -7,7 +7,7 @@ use motet::feasible::{FeasibilityQuestion, Motions, decide};
 use motet_geometry::planning::MotionAnswer;
 
 use crate::error::{CliError, Exit};
-use crate::flags::{ClearanceArgs, OutputFormat, ROBOTS, SCENES};
+use crate::flags::{ClearanceArgs, OutputFormat};
 use crate::output::{Colors, replace_file};
 use crate::report::Report;
 
@@ -26,10 +26,10 @@ use crate::report::Report;
     Exit codes: 0 all motions of --for are feasible, 1 one is not or is unknown, 2 could not run.")]
 pub(crate) struct FeasibleArgs {
     /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml
-    #[arg(long, value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FOLDER")]
     robot: String,
     /// Scene: a built-in name, or a JSON file
-    #[arg(long, value_name = "NAME|FILE", value_parser = SCENES, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FILE")]
     scene: String,
     /// Motion to decide; repeatable
     #[arg(long = "for", value_name = "MOTION", required_unless_present = "all")]

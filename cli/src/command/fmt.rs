@@ -1,16 +1,16 @@
 //! `motet fmt`: formats policies in the canonical layout, or converts them between text and JSON. Comments
 //! of a text stay.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use motet::document::{self, is_broken, is_reply};
 use motet_project::Project;
 use motet_project::files::Bytes;
 
-use crate::documents::{self, Document, Flow, HERE, Input};
+use crate::documents::{self, Document, Flow, Input};
 use crate::error::{CliError, Exit};
-use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, ROBOTS, SyntaxArg};
+use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, SyntaxArg};
 use crate::output::{Colors, count, note, replace_file};
 use crate::report::Report;
 
@@ -31,7 +31,7 @@ pub(crate) struct FmtArgs {
     #[arg(long, value_enum, value_name = "SYNTAX", conflicts_with = "check")]
     to: Option<SyntaxArg>,
     /// Robot whose signatures name and order the arguments: a built-in name, or a folder with a robot.toml
-    #[arg(long, value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FOLDER")]
     robot: Option<String>,
     /// File with further declarations; repeatable
     #[arg(long, value_name = "FILE")]
@@ -55,7 +55,7 @@ fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, CliError> {
     let inputs = documents::collect(&args.documents.paths)?;
     let (robot, domain) = (args.robot.clone(), args.domain.clone());
     let environment = EnvironmentArgs { robot, domain, ..EnvironmentArgs::default() };
-    let mut project = environment.without_motions(Path::new(HERE))?.open_with(report)?;
+    let mut project = environment.without_motions().open_with(report)?;
     let mut tally = Tally { is_batch: is_batch(&inputs.inputs), ..Tally::default() };
     for input in &inputs.inputs {
         let flow = input.documents(&mut |found| {

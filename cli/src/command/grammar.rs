@@ -1,6 +1,5 @@
 //! `motet grammar`: the grammar of policies for constrained decoding, or a chat request that uses it.
 
-use std::path::Path;
 use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
@@ -9,7 +8,6 @@ use motet_decode::export::{self, Dialect, Format as Notation, Header, Prompt, pr
 use motet_decode::{Grammar, Modifiers, Subset};
 use serde_json::Value;
 
-use crate::documents::HERE;
 use crate::error::{CliError, Exit};
 use crate::flags::{
     CarrierArg, DiagnosticFormat, EnvironmentArgs, KeyArgs, ServerDialect, SyntaxArg, refuse_carrier,
@@ -126,7 +124,7 @@ pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, CliError> 
 }
 
 fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.environment.without_motions(Path::new(HERE))?.open_with(report)?;
+    let mut project = args.environment.without_motions().open_with(report)?;
     let signatures = project.session(report)?.session.signatures();
     let subset = Subset {
         syntax: args.syntax.into(),

@@ -19,7 +19,7 @@ mod tool;
 mod watch;
 mod world;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 use std::thread;
 use std::time::Duration;
@@ -33,7 +33,6 @@ use self::robot::RobotInputs;
 use self::run_table::RunTable;
 use self::server::{DrivenRobot, MotetServer};
 use self::situation::Situations;
-use crate::documents::HERE;
 use crate::error::{CliError, Exit};
 use crate::flags::{DriverArgs, DriverChoice, SessionArgs, Speed, seed};
 use crate::interrupt::{SLICE, catch_interrupts, is_interrupted};
@@ -109,9 +108,8 @@ pub(crate) fn run(args: &McpArgs) -> Result<Exit, CliError> {
     let driver = args.driver();
     driver.iter().try_for_each(DriverArgs::refuse_flags)?;
     let access = args.access()?;
-    let environment = args.session.environment.in_folder(Path::new(HERE))?;
-    let project = args.session.project_in(Path::new(HERE))?;
-    let situations = Arc::new(Situations::open(project, environment.scene.clone())?);
+    let scene = args.session.environment.scene.clone();
+    let situations = Arc::new(Situations::open(args.session.project(), scene)?);
     catch_interrupts()?;
     let runs = Arc::new(RunTable::default());
     let (orders, ordered) = mpsc::channel();
@@ -128,7 +126,7 @@ pub(crate) fn run(args: &McpArgs) -> Result<Exit, CliError> {
                     .map_err(|source| CliError::Write { path: journals.clone(), source })?;
                 let inputs = RobotInputs {
                     driver,
-                    environment: &environment,
+                    environment: &args.session.environment,
                     max_duration: args.session.max_duration,
                     journals: &args.journals,
                     situations: &situations,

@@ -4,9 +4,7 @@ use clap::Args;
 use motet_compiler::plan::NoPlan;
 use motet_planner::builtin::PlanError;
 use motet_syntax::Source;
-use std::path::Path;
 
-use crate::documents::HERE;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs, SyntaxArg};
 use crate::output::{Colors, note};
@@ -37,7 +35,7 @@ pub(crate) fn run(args: &PlanArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project_in(Path::new(HERE))?.open_with(report)?;
+    let mut project = args.session.project().open_with(report)?;
     let opened = project.session(report)?;
     let planned = match &args.request {
         Some(request) => motet::plan::for_request(opened, request).map(|answered| {

@@ -5,9 +5,7 @@ use motet_planner::dialogue::Knowledge;
 use motet_planner::prompt::{self, Prompt, StaticPrompt};
 use motet_runtime::Time;
 use motet_runtime::memory::{Memory, MemoryLimits};
-use std::path::Path;
 
-use crate::documents::HERE;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs};
 use crate::output::{Colors, note};
@@ -33,7 +31,7 @@ pub(crate) fn run(args: &PromptArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project_in(Path::new(HERE))?.open_with(report)?;
+    let mut project = args.session.project().open_with(report)?;
     let opened = project.session(report)?;
     let Some(robot) = &opened.robot else {
         return Err(CliError::Message("a prompt needs a robot: give --robot NAME".to_owned()));

@@ -21,7 +21,7 @@ use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Source, Sources};
 
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, ROBOTS};
+use crate::flags::DiagnosticFormat;
 use crate::output::{Colors, count, replace_file};
 use crate::report::Report;
 
@@ -41,13 +41,13 @@ enum RobotsCommand {
     /// Show a robot: its body, its observations, and the signature of each primitive
     Show {
         /// Built-in name, or folder with a robot.toml
-        #[arg(value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true)]
+        #[arg(value_name = "NAME|FOLDER")]
         name: String,
     },
     /// Check that a robot's card and URDF are correct and fit each other
     Check {
         /// Built-in name, or folder with a robot.toml
-        #[arg(value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true)]
+        #[arg(value_name = "NAME|FOLDER")]
         name: String,
     },
     /// Write a MuJoCo model of a robot in a scene

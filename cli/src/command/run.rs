@@ -24,7 +24,7 @@ use motet_runtime::{Driver, DriverClock, Event, Time, Verifier as _};
 use motet_syntax::{Parsed, Severity, Syntax};
 
 use crate::conversation::operator::{AskingDriver, OperatorInput, OperatorPrompt};
-use crate::documents::{Document, folder_of, one_document};
+use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit, journal_error};
 use crate::flags::{
     DriverArgs, DriverChoice, JobArgs, OutputFormat, PageArgs, ResultArgs, SessionArgs, Speed,
@@ -116,8 +116,7 @@ pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project_in(folder_of(file))?.open_with(report)?;
-    let environment = args.session.environment.in_folder(folder_of(file))?;
+    let mut project = args.session.project().open_with(report)?;
     let policy = args.policy.as_deref();
     let document = one_document(file)?;
     let Some(compiled) = compile(&document, policy, args.format, &mut project, report)? else {
@@ -127,7 +126,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let run = run_id();
     let wanted = RunSubject { run: &run, policy: Some((&graph, &parsed)), opened };
     let ReadyDriver { mut driver, saved, clock, speed, settings, .. } =
-        open_driver(&args.driver, &environment, &wanted, report)?;
+        open_driver(&args.driver, &args.session.environment, &wanted, report)?;
     let page = LivePage::shared(args.page, opened, TAKES)?;
     let written = (text.text.clone(), parsed.syntax);
     page.iter().for_each(|page| page.borrow_mut().text(text.clone()));

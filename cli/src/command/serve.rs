@@ -7,12 +7,10 @@ mod http;
 mod request;
 
 use std::net::SocketAddr;
-use std::path::Path;
 use std::sync::Arc;
 
 use clap::{Args, value_parser};
 
-use crate::documents::HERE;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, ServerArgs, SessionArgs, SyntaxArg, token_from};
 use crate::interrupt::catch_interrupts;
@@ -66,7 +64,7 @@ fn serve(args: &ServeArgs, report: &mut Report) -> Result<Exit, CliError> {
                 .to_owned(),
         });
     }
-    let opened = args.session.project_in(Path::new(HERE))?.open_with(report)?.into_session(report)?;
+    let opened = args.session.project().open_with(report)?.into_session(report)?;
     let Some(robot) = opened.robot.clone() else {
         return Err(CliError::Message("policies need a robot: give --robot NAME".to_owned()));
     };

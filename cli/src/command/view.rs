@@ -10,7 +10,6 @@ use clap::Args;
 use motet::workbench::Workbench;
 use motet_project::{DiagnosticSink, ProjectSession};
 
-use crate::documents::HERE;
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, address};
 use crate::interrupt::{SLICE, catch_interrupts, is_interrupted};
@@ -114,9 +113,9 @@ fn show(args: &ViewArgs, report: &mut Report) -> Result<Exit, CliError> {
 
 /// Serves a workbench until Ctrl-C.
 fn workbench(args: &ViewArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let environment = args.environment.in_folder(Path::new(HERE))?;
+    let environment = &args.environment;
     // What the page cannot open is told here, with its places.
-    environment.without_motions(Path::new(HERE))?.motion_effort(1).open_with(report)?;
+    environment.without_motions().motion_effort(1).open_with(report)?;
     let bench = Workbench::new().with_room(environment.robot.as_deref(), environment.scene.as_deref());
     let page = LivePage::workbench(args.address, bench)?;
     catch_interrupts()?;
@@ -136,6 +135,6 @@ fn world(
     if environment.robot.is_none() && environment.scene.is_none() {
         return Ok(session(folder, sink));
     }
-    let project = environment.without_motions(Path::new(HERE))?.motion_effort(1).open_with(sink)?;
+    let project = environment.without_motions().motion_effort(1).open_with(sink)?;
     Ok(Some(project.into_session(sink)?))
 }

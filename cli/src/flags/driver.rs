@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::str::FromStr;
 
-use super::names::{PROFILES, SCENES};
 use clap::Args;
 use motet_host::remote::{DriverAddress, DriverAddressError};
 use motet_planner::runtime_check::CheckMode;
@@ -32,11 +31,11 @@ pub(crate) struct DriverArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) faults: Option<PathBuf>,
     /// Profile of what goes wrong by itself: `ideal`, `typical`, `harsh`, or a TOML file [default: typical]
-    #[arg(long, value_name = "NAME|FILE", value_parser = PROFILES, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FILE")]
     pub(crate) profile: Option<String>,
     /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON
     /// file
-    #[arg(long, alias = "real", value_name = "NAME|FILE", value_parser = SCENES, hide_possible_values = true)]
+    #[arg(long, alias = "real", value_name = "NAME|FILE")]
     pub(crate) world: Option<String>,
     /// JSON file with the answers of the simulated person
     #[arg(long, value_name = "FILE")]

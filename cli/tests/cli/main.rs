@@ -25,7 +25,6 @@ mod journal;
 mod many;
 mod mcp;
 mod model;
-mod project;
 mod run;
 mod serve;
 mod support;

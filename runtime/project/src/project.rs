@@ -53,18 +53,6 @@ impl Default for ProjectBuilder {
 }
 
 impl ProjectBuilder {
-    /// Name, folder or JSON of the robot, if one is set.
-    #[must_use]
-    pub fn robot_name(&self) -> Option<&str> {
-        self.robot.as_deref()
-    }
-
-    /// Name, file or JSON of the scene, if one is set.
-    #[must_use]
-    pub fn scene_name(&self) -> Option<&str> {
-        self.scene.as_deref()
-    }
-
     /// Sets the robot: a built-in name, a folder with a `robot.toml`, or the content of one as a JSON object,
     /// whose files are looked up in the present folder. Without one, the `for NAME` of each document names a
     /// built-in robot.

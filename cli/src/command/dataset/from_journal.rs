@@ -16,7 +16,7 @@ use super::inputs::{RowFormat, body, effort, write};
 use super::lint::lines;
 use crate::documents::Flow;
 use crate::error::{CliError, Exit};
-use crate::flags::{MotionArgs, ROBOTS, SCENES};
+use crate::flags::MotionArgs;
 use crate::output::{count, note};
 use crate::report::Report;
 
@@ -37,10 +37,10 @@ pub(super) struct FromJournalArgs {
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Robot of the conversations: a built-in name, or a folder with a robot.toml
-    #[arg(long, value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FOLDER")]
     robot: String,
     /// Scene of the conversations: a built-in name, or a JSON file
-    #[arg(long, value_name = "NAME|FILE", value_parser = SCENES, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FILE")]
     scene: String,
     /// Row format, by trainer
     #[arg(long, value_enum, default_value_t, value_name = "FORM")]

@@ -19,7 +19,7 @@ use smol_str::SmolStr;
 use super::inputs::{body, effort};
 use crate::documents::{Flow, Input};
 use crate::error::{CliError, Exit};
-use crate::flags::{MotionArgs, OutputFormat, ROBOTS, SCENES};
+use crate::flags::{MotionArgs, OutputFormat};
 use crate::output::{count, note};
 use crate::report::Report;
 
@@ -34,10 +34,10 @@ pub(super) struct LintArgs {
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Robot of rows that name none: a built-in name, or a folder with a robot.toml
-    #[arg(long, value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FOLDER")]
     robot: Option<String>,
     /// Scene of rows that name none: a built-in name, or a JSON file
-    #[arg(long, value_name = "NAME|FILE", value_parser = SCENES, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
     #[command(flatten)]
     motions: MotionArgs,

@@ -10,7 +10,6 @@ use motet_robots::scene;
 use motet_syntax::Sources;
 
 use crate::error::{CliError, Exit};
-use crate::flags::{ROBOTS, SCENES};
 use crate::output::replace_file;
 use crate::report::Report;
 
@@ -22,10 +21,10 @@ use crate::report::Report;
     named by the ids of the scene, links `robot/LINK`, and drawers and doors `ID/door`.")]
 pub(crate) struct MjcfArgs {
     /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml
-    #[arg(long, value_name = "NAME|FOLDER", value_parser = ROBOTS, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FOLDER")]
     robot: String,
     /// Scene: a built-in name, or a JSON file
-    #[arg(long, value_name = "NAME|FILE", value_parser = SCENES, hide_possible_values = true)]
+    #[arg(long, value_name = "NAME|FILE")]
     scene: String,
     /// File for the model [default: standard output]
     #[arg(short, long, value_name = "FILE")]

@@ -12,7 +12,7 @@ use motet_runtime::Time;
 use serde_json::json;
 
 use super::{CompiledPolicy, RunArgs, compile};
-use crate::documents::{Document, HERE, folder_of, one_document};
+use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
 use crate::interrupt::{catch_interrupts, is_interrupted};
@@ -25,17 +25,15 @@ const ROBOT: &str = "hsr";
 
 /// Runs the scenes and prints the laws that are broken.
 pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let folder = file.map_or(Path::new(HERE), folder_of);
-    let mut project = args.session.project_in(folder)?.open_with(report)?;
-    let environment = args.session.environment.in_folder(folder)?;
+    let mut project = args.session.project().open_with(report)?;
     let document = match file {
         Some(file) => one_document(file)?,
-        None => test_policy(environment.robot.is_some()),
+        None => test_policy(args.session.environment.robot.is_some()),
     };
     let compiled = compile(&document, args.policy.as_deref(), args.format, &mut project, report)?;
     let Some(CompiledPolicy { graph, parsed, .. }) = compiled else { return Ok(Exit::Findings) };
     let command = first_call(&graph).map_err(CliError::Message)?;
-    let Some(address) = address(&args.driver, &environment, &parsed.file)? else {
+    let Some(address) = address(&args.driver, &args.session.environment, &parsed.file)? else {
         let why = "`--check` leads a driver in another process: name it with `--driver`";
         return Err(CliError::Message(why.to_owned()));
     };
