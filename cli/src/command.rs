@@ -14,6 +14,7 @@ pub(crate) mod feasible;
 pub(crate) mod fmt;
 pub(crate) mod grammar;
 pub(crate) mod import;
+pub(crate) mod lsp;
 pub(crate) mod mcp;
 pub(crate) mod plan;
 pub(crate) mod prompt;

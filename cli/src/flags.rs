@@ -72,7 +72,7 @@ impl EnvironmentArgs {
 }
 
 /// Environment and limits of a check.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct SessionArgs {
     #[command(flatten)]
     pub(crate) environment: EnvironmentArgs,
@@ -115,7 +115,7 @@ impl SessionArgs {
 }
 
 /// Search for motions.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct MotionArgs {
     /// Do not search motions: defer all of them to the run
     #[arg(long)]

@@ -84,6 +84,8 @@ enum Command {
     Robots(command::robots::RobotsArgs),
     /// Serve agents over the Model Context Protocol: check, plan, simulate, and run policies
     Mcp(Box<command::mcp::McpArgs>),
+    /// Serve editors over the Language Server Protocol: diagnostics, fixes, completion, facts
+    Lsp(Box<command::lsp::LspArgs>),
     /// Explain a diagnostic code
     Explain(command::explain::ExplainArgs),
     /// Print the grammar of policies for constrained decoding, or a request that uses it
@@ -149,6 +151,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Mcp(args) => command::mcp::run(args),
+        Command::Lsp(args) => command::lsp::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Grammar(args) => command::grammar::run(args, colors),
         Command::Decode(args) => command::decode::run(args, colors),
