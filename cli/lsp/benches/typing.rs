@@ -56,7 +56,8 @@ fn typing(criterion: &mut Criterion) {
             bencher.iter(|| {
                 version += 1;
                 // A blank more or less at the end of a line.
-                let edit = if version % 2 == 0 { ([line, 0, line, 0], " ") } else { ([line, 0, line, 1], "") };
+                let edit =
+                    if version % 2 == 0 { ([line, 0, line, 0], " ") } else { ([line, 0, line, 1], "") };
                 client.change(URI, version, edit.0, edit.1);
                 client.diagnostics(URI, version)
             });

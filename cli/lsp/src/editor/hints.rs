@@ -87,8 +87,13 @@ mod tests {
 
     #[test]
     fn hints_say_what_is_proven_and_what_is_left() {
-        let text = "policy p for hsr {\n    go(kitchen_table)\n    sequence s {\n        pick(mug_1)\n    }\n\
-            \    go(user)\n}";
+        let text = "policy p for hsr {
+    go(kitchen_table)
+    sequence s {
+        pick(mug_1)
+    }
+    go(user)
+}";
         let project = Project::builder().robot("hsr").scene("kitchen").without_motions();
         let project = project.open().unwrap().into_session(&mut Discard).unwrap();
         let parsed = motet_syntax::read(&Source::new("", text), DOCUMENT);
