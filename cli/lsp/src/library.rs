@@ -20,15 +20,8 @@ pub(crate) struct LibraryFolder {
 }
 
 impl LibraryFolder {
-    /// Folder in the cache of the user, or else in that for temporary files.
-    pub(crate) fn of_user() -> Self {
-        let variable =
-            |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-        let cache = variable("XDG_CACHE_HOME")
-            .or_else(|| variable("LOCALAPPDATA"))
-            .or_else(|| variable("HOME").map(|home| home.join(".cache")))
-            .unwrap_or_else(std::env::temp_dir);
-        Self { folder: cache.join("motet").join(env!("CARGO_PKG_VERSION")) }
+    pub(crate) fn new(folder: PathBuf) -> Self {
+        Self { folder }
     }
 
     /// File with the text of a source: the user's own, or a copy. `None` if it cannot be written.

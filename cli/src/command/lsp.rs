@@ -1,6 +1,7 @@
 //! `motet lsp`: a language server for editors on stdin and stdout.
 
-use std::io;
+use std::path::{Path, PathBuf};
+use std::{env, io};
 
 use clap::Args;
 use motet_lsp::{ServerEnd, serve};
@@ -26,16 +27,26 @@ pub(crate) struct LspArgs {
 /// Runs the command.
 pub(crate) fn run(args: &LspArgs) -> Result<Exit, CliError> {
     let session = args.session.clone();
-    let open = move |folder: &std::path::Path| {
+    let open = move |folder: &Path| {
         session.project_in(folder).map_err(|error| match error.help() {
             Some(help) => format!("{error}; {help}"),
             None => error.to_string(),
         })
     };
-    let served = serve(io::BufReader::new(io::stdin()), io::stdout(), Box::new(open));
+    let served = serve(io::BufReader::new(io::stdin()), io::stdout(), Box::new(open), cache());
     match served {
         Ok(ServerEnd::Ordered) => Ok(Exit::Success),
         Ok(ServerEnd::Abrupt) => Ok(Exit::Findings),
         Err(error) => Err(CliError::Message(error.to_string())),
     }
+}
+
+/// Folder in the cache of the user, or else in that for temporary files.
+fn cache() -> PathBuf {
+    let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let cache = variable("XDG_CACHE_HOME")
+        .or_else(|| variable("LOCALAPPDATA"))
+        .or_else(|| variable("HOME").map(|home| home.join(".cache")))
+        .unwrap_or_else(env::temp_dir);
+    cache.join("motet").join(env!("CARGO_PKG_VERSION"))
 }

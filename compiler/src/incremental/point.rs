@@ -84,7 +84,7 @@ impl IncrementalChecker {
     }
 
     /// Facts at the program point, over all states in which control reaches it: those that a step has
-    /// changed first, in the order of the steps, then those of the start. O(states × facts).
+    /// changed first, the latest step before the others, then those of the start. O(states × facts).
     pub fn known_facts(&mut self, session: &Session) -> Vec<KnownFact> {
         let (library, environment) = session.parts();
         let Self { proof, program, inside, .. } = self;
@@ -110,7 +110,7 @@ impl IncrementalChecker {
             let facts = atoms.iter().zip(&values);
             facts.filter_map(|(atom, value)| prover.known(*atom, *value)).collect::<Vec<_>>()
         });
-        known.sort_by_key(|(order, _)| *order);
+        known.sort_by_key(|(step, _)| (step.is_none(), std::cmp::Reverse(*step)));
         known.into_iter().map(|(_, fact)| fact).collect()
     }
 }
@@ -128,8 +128,12 @@ impl Prover<'_> {
         atoms
     }
 
-    /// Description of a fact, with the number of the step that caused it; `None` if nothing was ever said.
-    fn known(&self, (fluent, key): (Fluent, FactKey), value: TruthSet) -> Option<(u32, KnownFact)> {
+    /// Description of a fact, with the step that caused it; `None` if nothing was ever said.
+    fn known(
+        &self,
+        (fluent, key): (Fluent, FactKey),
+        value: TruthSet,
+    ) -> Option<(Option<StepId>, KnownFact)> {
         let def = self.library.fluent(fluent)?;
         let truth = match (value.yes.is_some(), value.no.is_some(), value.open.is_some()) {
             (true, false, false) => KnownTruth::Holds,
@@ -141,14 +145,14 @@ impl Prover<'_> {
         let cause = causes.into_iter().filter(|cause| cause.is_some()).max_by_key(|cause| cause.as_step());
         let cause = cause.unwrap_or(Cause::NOTHING);
         let step = cause.as_step();
-        let (order, cause) = match step.and_then(|id| self.program.step(id)) {
+        let (step, cause) = match step.and_then(|id| self.program.step(id)) {
             Some(step_of) => {
                 let name = self.cause_name(cause);
-                (step.map_or(u32::MAX, |id| id.0), FactCause::Step { span: step_of.span, name })
+                (step, FactCause::Step { span: step_of.span, name })
             }
-            None if cause == Cause::START => (u32::MAX, FactCause::Start),
+            None if cause == Cause::START => (None, FactCause::Start),
             None if truth == KnownTruth::Unobserved => return None,
-            None => (u32::MAX, FactCause::Nothing),
+            None => (None, FactCause::Nothing),
         };
         let args = (0..def.params.len()).map(|index| match key.arg(index) {
             ANY => SmolStr::new_static("any"),
@@ -157,6 +161,6 @@ impl Prover<'_> {
         let text =
             show(&def.name, key, def.params.len(), |index, arg| self.argument_name(fluent, index, arg));
         let text = text.trim_matches('`').to_owned();
-        Some((order, KnownFact { text, args: args.collect(), truth, cause }))
+        Some((step, KnownFact { text, args: args.collect(), truth, cause }))
     }
 }

@@ -36,7 +36,7 @@ pub struct CallInspection {
 /// Verdict on the motion of a call.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MotionInspection {
-    /// The call has no motion, or none was searched.
+    /// The call has no motion.
     Absent,
     /// Feasible in every possible world, with a witness.
     Feasible,
@@ -69,6 +69,8 @@ pub(crate) fn inspect(
                     needs: def.needs.len(),
                     guards: needs_left(&prover, proof, verdict, id, (call, def)),
                     motion: match verdict {
+                        // Without a geometry nothing was searched.
+                        None if def.motion.is_some() => MotionInspection::Deferred(None),
                         None => MotionInspection::Absent,
                         Some(MotionVerdict::Feasible(..)) => MotionInspection::Feasible,
                         Some(MotionVerdict::Deferred(why)) => MotionInspection::Deferred(why.clone()),

@@ -13,7 +13,7 @@ use super::names::{NameSpace, Occurrence, name_at, occurrences};
 use super::point::{PointState, step_at};
 
 /// Greatest number of facts that are shown of one group.
-const MAX_FACTS: usize = 12;
+const MAX_FACTS: usize = 24;
 
 /// Document with what its names mean.
 pub(crate) struct HoverSource<'a> {

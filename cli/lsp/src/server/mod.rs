@@ -9,6 +9,7 @@ mod task;
 
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -41,7 +42,8 @@ pub enum ServerEnd {
     Abrupt,
 }
 
-/// Serves one client on two streams until it leaves.
+/// Serves one client on two streams until it leaves. `cache` is a folder for copies of the library's files, to
+/// which definitions lead, and for drawings; it is made when it is needed.
 ///
 /// # Errors
 ///
@@ -50,6 +52,7 @@ pub fn serve(
     input: impl BufRead + Send + 'static,
     mut output: impl Write + Send + 'static,
     open: OpenFolder,
+    cache: PathBuf,
 ) -> io::Result<ServerEnd> {
     let (incoming, messages) = unbounded();
     let (answers, outgoing) = unbounded::<Value>();
@@ -67,7 +70,8 @@ pub fn serve(
     let writer = thread::spawn(move || {
         outgoing.iter().try_for_each(|message| transport::write(&mut output, &message))
     });
-    let mut server = Server::new(Arc::new(Workspace::new(open)), Client::new(answers));
+    let library = LibraryFolder::new(cache);
+    let mut server = Server::new(Arc::new(Workspace::new(open)), Client::new(answers), library);
     let end = server.run(&messages);
     server.tasks.stop_all();
     drop(server);
@@ -112,14 +116,14 @@ struct ClientFeatures {
 }
 
 impl Server {
-    fn new(workspace: Arc<Workspace>, client: Client) -> Self {
+    fn new(workspace: Arc<Workspace>, client: Client, library: LibraryFolder) -> Self {
         Self {
             tasks: Tasks::new(client.clone()),
             client,
             checker: Checker::start(&workspace),
             workspace,
             documents: OpenDocuments::default(),
-            library: LibraryFolder::of_user(),
+            library,
             checked: BTreeMap::new(),
             waiting: BTreeMap::new(),
             stage: Stage::Uninitialized,

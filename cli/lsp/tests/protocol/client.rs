@@ -48,7 +48,9 @@ impl Client {
                 Ok(if with_motions { project } else { project.without_motions() })
             }
         };
-        let server = thread::spawn(move || serve(BufReader::new(server_in), server_out, Box::new(open)));
+        let cache = Path::new(env!("CARGO_TARGET_TMPDIR")).join("lsp").join("cache");
+        let server =
+            thread::spawn(move || serve(BufReader::new(server_in), server_out, Box::new(open), cache));
         Self {
             to: Some(to),
             from: BufReader::new(from),

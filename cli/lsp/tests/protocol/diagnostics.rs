@@ -17,7 +17,7 @@ fn diagnostics_follow_the_edits() {
     assert_eq!(short(&client.diagnostics(URI, 2)), [""; 0]);
     client.change(URI, 3, [2, 0, 2, 0], "    handover(mug_1, user)\n");
     let found = client.diagnostics(URI, 3);
-    assert_eq!(short(&found), ["M0501 2:4-2:25"]);
+    assert_eq!(short(&found), ["M0501 2:4-2:25", "M0501 2:4-2:25"], "in no hand, and not at the user");
     client.end();
 }
 
