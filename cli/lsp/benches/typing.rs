@@ -1,5 +1,14 @@
 //! Time from an edit to its diagnostics, over the protocol: a key is pressed in a policy of 500 lines.
 
+#![allow(
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::unwrap_used,
+    missing_docs,
+    reason = "a benchmark that cannot be set up has failed"
+)]
+
 #[path = "../tests/protocol/client.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod client;

@@ -1,6 +1,15 @@
 //! The grammar of the editors against the one of the compiler, on all texts of the repository and on texts
 //! that are broken in many ways; and the generated files against their source.
 
+#![allow(
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::string_slice,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking"
+)]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

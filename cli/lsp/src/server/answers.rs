@@ -170,7 +170,7 @@ impl Answers<'_> {
     }
 
     /// Edits of the document; those of other files are left out.
-    #[expect(clippy::mutable_key_type, reason = "the protocol's map of edits has URIs as keys")]
+    #[allow(clippy::mutable_key_type, reason = "the protocol's map of edits has URIs as keys")]
     fn workspace_edit(&self, edits: &[Edit]) -> Answer<lsp::WorkspaceEdit> {
         let uri = self.snapshot.uri.parse().map_err(|_| RequestError::failed("the URI cannot be read"))?;
         let edits = edits.iter().filter(|edit| edit.span.file == DOCUMENT);

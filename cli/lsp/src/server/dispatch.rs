@@ -247,7 +247,7 @@ fn shown(
         policy.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '_' }).collect();
     let file = drawing.and_then(|svg| library.write(&PathBuf::from(format!("feasible-{name}.svg")), &svg));
     if let Some(file) = &file {
-        value["drawing"] = file.display().to_string().into();
+        add(&mut value, "drawing", file.display().to_string());
         let uri = convert::uri(file).filter(|_| shows_documents);
         match uri.and_then(|uri| {
             let params =
@@ -258,7 +258,14 @@ fn shown(
             None => summary.push_str(&format!(", drawn in {}", file.display())),
         }
     }
-    value["summary"] = summary.clone().into();
+    add(&mut value, "summary", summary.clone());
     client.show(summary, is_success);
     value
+}
+
+/// Adds a member to an object.
+fn add(object: &mut Value, key: &str, text: String) {
+    if let Value::Object(members) = object {
+        members.insert(key.to_owned(), text.into());
+    }
 }

@@ -1,5 +1,7 @@
 //! Compiles the generated parser.
 
+#![allow(clippy::print_stdout, reason = "cargo reads what a build script prints")]
+
 fn main() {
     cc::Build::new()
         .std("c11")
