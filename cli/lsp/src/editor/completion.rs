@@ -510,8 +510,8 @@ mod tests {
         check("policy p {\n    if |\n}", &["holding", "distance", "mug_1"], &["go"]);
         check("policy p {\n    try { go(user) } catch |\n}", &["timeout", "any"], &["go", "user"]);
         check("policy p {\n    let x = |\n}", &["detect", "ask"], &["say"]);
-        check("policy p {\n    go(user)\n    pick(mug_1, |)\n}", &["approach:"], &["object:"]);
-        check("policy p {\n    pick(mug_1, approach: |)\n}", &["top", "side"], &["mug_1"]);
+        check("policy p {\n    go(user)\n    pick(mug_1, |)\n}", &["from:"], &["object:"]);
+        check("policy p {\n    pick(mug_1, from: |)\n}", &["top", "side"], &["mug_1"]);
         check("policy p(x: |) {}", &["Object", "Length"], &["mug_1"]);
         check("policy p { say(\"|\") }", &[], &["go", "mug_1"]);
     }

@@ -64,7 +64,7 @@ pub(crate) struct Declarations {
 }
 
 impl Declarations {
-    /// No declarations.
+    /// Empty table, of a document without a project.
     pub(crate) const fn none() -> Self {
         Self { by_name: BTreeMap::new() }
     }

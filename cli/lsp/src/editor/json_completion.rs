@@ -228,7 +228,7 @@ mod tests {
         check(&format!(r#"{go}{{"do": "pick", "object": "|"}}"#), &["mug_1"], &["mug_2", "user"]);
         let detect = r#"{"do": "detect", "what": "red mug", "as": "m"}, "#;
         check(&format!(r#"{go}{detect}{{"do": "pick", "object": "|"}}"#), &["$m"], &["m"]);
-        check(r#"{"do": "pick", "|"}"#, &["object", "approach", "as"], &["do", "if"]);
+        check(r#"{"do": "pick", "|"}"#, &["object", "from", "as"], &["do", "if"]);
         check(r#"{|"#, &["\"do\": ", "\"if\": "], &["do"]);
         check(r#"{"end": "|"}"#, &["done", "replan"], &["go"]);
         check(r#"{"try": [], "catch": [{"on": ["|"]}]}"#, &["timeout"], &["go"]);

@@ -28,7 +28,7 @@ pub(crate) enum NameSpace {
     Robot,
     Resource,
     Motion,
-    /// Named sequences.
+    /// Names of sequences.
     Group,
 }
 
@@ -453,7 +453,7 @@ mod tests {
     fn occurrences_keep_local_names_apart() {
         check(TEXT, "cup:", &["=1:8", "3:15", "3:22"]);
         check(TEXT, "cup: Object) {", &["=2:10", "2:28"]);
-        check(TEXT, "x = ", &["=2:37", "2:52", "2:70", "2:80"]);
+        check(TEXT, "x = ", &["=2:37", "2:52", "2:68", "2:78"]);
         check(TEXT, "x) } catch", &["3:36", "=3:58", "3:67"]);
         check(TEXT, "a(cup)", &["=2:8", "3:20"]);
     }

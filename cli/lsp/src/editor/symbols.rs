@@ -1,6 +1,6 @@
 //! Outline of a document: its declarations, and the named parts of policies.
 
-use motet_syntax::ast::{Block, Item, Name, Policy, StepKind};
+use motet_syntax::ast::{Block, Item, Name, Policy, Step, StepKind};
 use motet_syntax::{Parsed, Span};
 
 use super::declarations::DeclarationKind;
@@ -85,22 +85,27 @@ fn of_policy(policy: &Policy) -> Vec<Symbol> {
 }
 
 fn of_block(block: &Block) -> Vec<Symbol> {
-    let mut found = Vec::new();
-    for step in &block.steps {
-        let mut inner = blocks(step).into_iter().flat_map(of_block).collect::<Vec<_>>();
-        match &step.kind {
-            StepKind::Sequence { name, .. } => {
-                let children = std::mem::take(&mut inner);
-                found.push(Symbol { children, ..leaf(SymbolKind::Group, name, step.span) });
-            }
-            StepKind::Do(step) => {
-                found.extend(step.bind.iter().map(|name| leaf(SymbolKind::Binding, name, name.span)));
-            }
-            StepKind::Let { name, .. } => found.push(leaf(SymbolKind::Binding, name, step.span)),
-            _ => {}
-        }
-        found.append(&mut inner);
+    block.steps.iter().flat_map(of_step).collect()
+}
+
+fn of_step(step: &Step) -> Vec<Symbol> {
+    if let StepKind::Finally { step, cleanup } = &step.kind {
+        return of_step(step).into_iter().chain(of_block(cleanup)).collect();
     }
+    let mut inner: Vec<Symbol> = blocks(step).into_iter().flat_map(of_block).collect();
+    let mut found = Vec::new();
+    match &step.kind {
+        StepKind::Sequence { name, .. } => {
+            let children = std::mem::take(&mut inner);
+            found.push(Symbol { children, ..leaf(SymbolKind::Group, name, step.span) });
+        }
+        StepKind::Do(step) => {
+            found.extend(step.bind.iter().map(|name| leaf(SymbolKind::Binding, name, name.span)));
+        }
+        StepKind::Let { name, .. } => found.push(leaf(SymbolKind::Binding, name, step.span)),
+        _ => {}
+    }
+    found.append(&mut inner);
     found
 }
 

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::answers::{self, Answers};
 use super::client::{Client, RequestError, read, written};
-use super::task::guarded;
+use super::pending::guarded;
 use super::{ClientFeatures, Server, Stage};
 use crate::checker::Snapshot;
 use crate::commands::{self, CommandResult};

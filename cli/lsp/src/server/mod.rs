@@ -4,8 +4,7 @@
 mod answers;
 mod client;
 mod dispatch;
-mod inbox;
-mod task;
+mod pending;
 
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
@@ -19,8 +18,7 @@ use lsp_server::{Message, Notification as Note};
 use serde_json::Value;
 
 pub(crate) use self::client::{Client, RequestError};
-use self::inbox::Inbox;
-use self::task::Tasks;
+use self::pending::{Inbox, Tasks};
 use crate::checker::{CheckedSnapshot, Checker, Snapshot};
 use crate::convert;
 use crate::documents::OpenDocuments;
@@ -42,8 +40,8 @@ pub enum ServerEnd {
     Abrupt,
 }
 
-/// Serves one client on two streams until it leaves. `cache` is a folder for copies of the library's files, to
-/// which definitions lead, and for drawings; it is made when it is needed.
+/// Serves one client on two streams until it leaves. `cache` is a folder for copies of the library's files,
+/// to which definitions lead, and for drawings; it is made when it is needed.
 ///
 /// # Errors
 ///
@@ -212,7 +210,7 @@ impl Server {
             }
             protocol::Cancel::METHOD => {
                 if let Ok(protocol::CancelParams { id }) = client::read(params) {
-                    self.tasks.cancel(&inbox::request_id(id));
+                    self.tasks.cancel(&pending::request_id(id));
                 }
             }
             _ => {}
