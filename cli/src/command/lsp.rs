@@ -12,8 +12,8 @@ use crate::flags::SessionArgs;
 /// Flags of `motet lsp`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "An editor starts it, and speaks the Language Server Protocol on stdin and stdout. The nearest\n\
-    `motet.toml` of each document says what it is checked against; a flag goes before it.\n\
+    after_help = "An editor starts it, and speaks the Language Server Protocol on stdin and stdout. The\n\
+    nearest `motet.toml` of each document says what it is checked against; a flag goes before it.\n\
     Exit codes: 0 the editor ended it, 1 the editor left without a word, 2 could not run."
 )]
 pub(crate) struct LspArgs {

@@ -245,7 +245,7 @@ impl Completer<'_> {
         &mut self,
         callable: &Callable,
         choices: &[Vec<Option<ArgumentValue>>],
-        args: &mut Vec<Option<ArgumentValue>>,
+        args: &mut [Option<ArgumentValue>],
         tries: &mut usize,
     ) -> bool {
         let index = callable.params.len() - choices.len();
