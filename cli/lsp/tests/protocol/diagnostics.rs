@@ -96,3 +96,20 @@ fn only_the_newest_version_counts() {
     assert_eq!(short(&found), ["M0201 1:4-1:7"]);
     client.end();
 }
+
+#[test]
+fn a_domain_is_checked_beside_the_other_domains() {
+    let folder = folder("domain");
+    let settings = "robot = \"hsr\"\nscene = \"kitchen\"\ngeometry = false\ndomains = [\"lamp.motet\"]\n";
+    std::fs::write(folder.join("motet.toml"), settings).unwrap();
+    let domain = "entity lamp: Object\n";
+    std::fs::write(folder.join("lamp.motet"), domain).unwrap();
+    let mut client = Client::new();
+    let uri = |name: &str| format!("file://{}/{name}", folder.display());
+    client.open(&uri("lamp.motet"), domain);
+    assert_eq!(short(&client.diagnostics(&uri("lamp.motet"), 1)), [""; 0], "it declares no name twice");
+    client.open(&uri("p.motet"), "policy p {\n    go(lamp)\n    go(lampe)\n}\n");
+    let found = client.diagnostics(&uri("p.motet"), 1);
+    assert_eq!(short(&found), ["M0202 2:7-2:12"]);
+    client.end();
+}
