@@ -34,7 +34,7 @@ pub(crate) fn converse(
     report: &mut Report,
 ) -> Result<Exit, CliError> {
     args.driver.refuse_flags()?;
-    let mut project = args.session.project().open_with(report)?;
+    let mut project = args.session.project_here()?.open_with(report)?;
     let opened = project.session(report)?;
     let Some(robot) = opened.robot.clone() else {
         return Err(CliError::Message("a request needs a robot: give --robot NAME".to_owned()));

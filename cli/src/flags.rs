@@ -10,7 +10,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum, value_parser};
-use motet_project::{Project, ProjectBuilder, find_config, read_config};
+use motet_project::{Project, ProjectBuilder, ProjectSession, find_config, read_config};
 use motet_robots::clearance::{ClearanceOverride, GREATEST_CLEARANCE};
 use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
@@ -56,6 +56,20 @@ impl EnvironmentArgs {
         self.over(Project::builder().without_motions())
     }
 
+    /// Project of these inputs over the nearest `motet.toml` at or above a folder, in which no motion is
+    /// searched.
+    pub(crate) fn without_motions_in(&self, folder: &Path) -> Result<ProjectBuilder, CliError> {
+        Ok(self.over(settings_of(folder)?).without_motions())
+    }
+
+    /// Robot and scene of an open project where none is given.
+    pub(crate) fn or_of(&self, opened: &ProjectSession) -> Self {
+        let inputs = opened.inputs();
+        let or = |given: &Option<String>, other: Option<&str>| given.clone().or(other.map(str::to_owned));
+        let (robot, scene) = (or(&self.robot, inputs.robot_name()), or(&self.scene, inputs.scene_name()));
+        Self { robot, scene, ..self.clone() }
+    }
+
     /// Project of these inputs, in which those that are missing are the given ones.
     fn over(&self, mut project: ProjectBuilder) -> ProjectBuilder {
         if let Some(robot) = &self.robot {
@@ -72,7 +86,7 @@ impl EnvironmentArgs {
 }
 
 /// Environment and limits of a check.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct SessionArgs {
     #[command(flatten)]
     pub(crate) environment: EnvironmentArgs,
@@ -84,16 +98,15 @@ pub(crate) struct SessionArgs {
 }
 
 impl SessionArgs {
-    /// Project of these inputs.
-    pub(crate) fn project(&self) -> ProjectBuilder {
-        self.over(Project::builder())
-    }
-
     /// Project of these inputs, in which those that are missing are those of the nearest `motet.toml` at
     /// or above a folder.
     pub(crate) fn project_in(&self, folder: &Path) -> Result<ProjectBuilder, CliError> {
-        let config = find_config(folder).map(|path| read_config(&path)).transpose()?;
-        Ok(self.over(config.unwrap_or_else(Project::builder)))
+        Ok(self.over(settings_of(folder)?))
+    }
+
+    /// Project of these inputs over the nearest `motet.toml` at or above the present folder.
+    pub(crate) fn project_here(&self) -> Result<ProjectBuilder, CliError> {
+        self.project_in(Path::new("."))
     }
 
     fn over(&self, project: ProjectBuilder) -> ProjectBuilder {
@@ -114,8 +127,19 @@ impl SessionArgs {
     }
 }
 
+/// Settings of the nearest `motet.toml` at or above a folder; none where there is no such file.
+pub(crate) fn settings_of(folder: &Path) -> Result<ProjectBuilder, CliError> {
+    let config = find_config(folder).map(|path| read_config(&path)).transpose()?;
+    Ok(config.unwrap_or_else(Project::builder))
+}
+
+/// Folder of a file that is named on the command line; the present one for `-`.
+pub(crate) fn folder_of(file: &Path) -> &Path {
+    file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 /// Search for motions.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct MotionArgs {
     /// Do not search motions: defer all of them to the run
     #[arg(long)]

@@ -82,8 +82,14 @@ enum Command {
     Feasible(command::feasible::FeasibleArgs),
     /// List, show and check robots, or write the card of a new one
     Robots(command::robots::RobotsArgs),
+    /// List, show, check and draw scenes
+    Scenes(command::scenes::ScenesArgs),
+    /// Make a folder with settings, a scene and a first policy
+    New(command::new::NewArgs),
     /// Serve agents over the Model Context Protocol: check, plan, simulate, and run policies
     Mcp(Box<command::mcp::McpArgs>),
+    /// Serve editors over the Language Server Protocol: diagnostics, fixes, completion, facts
+    Lsp(Box<command::lsp::LspArgs>),
     /// Explain a diagnostic code
     Explain(command::explain::ExplainArgs),
     /// Print the grammar of policies for constrained decoding, or a request that uses it
@@ -148,7 +154,10 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Export(args) => command::export::run(args, colors),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
+        Command::Scenes(args) => command::scenes::run(args, colors),
+        Command::New(args) => command::new::run(args, colors),
         Command::Mcp(args) => command::mcp::run(args),
+        Command::Lsp(args) => command::lsp::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Grammar(args) => command::grammar::run(args, colors),
         Command::Decode(args) => command::decode::run(args, colors),

@@ -71,7 +71,7 @@ pub(crate) fn open_driver(
 ) -> Result<ReadyDriver, CliError> {
     let none = File::default();
     let file = subject.policy.map_or(&none, |(_, parsed)| &parsed.file);
-    match address(args, environment, file)? {
+    match address(args, &environment.or_of(subject.opened), file)? {
         Some(address) => remote(&address, args, subject),
         None => kinematic(args, subject, report),
     }

@@ -3,6 +3,8 @@
 //! The only place that knows the order of the stages. Fed by `motet_syntax::read`; [`crate::fix`] applies
 //! the fixes.
 
+use std::sync::Arc;
+
 use motet_graph::Graph;
 use motet_syntax::ast::{Item, Policy};
 use motet_syntax::{Diagnostic, Parsed, Related, Severity, Span};
@@ -13,6 +15,7 @@ use crate::environment::Environment;
 use crate::feasibility::{Geometry, MotionVerdicts};
 use crate::ir::{Program, StepKind};
 use crate::limits::errors::NoPolicy;
+use crate::lower::StepInspection;
 use crate::prove::{GoalVerdict, Proof};
 use crate::repair::{Finding, RepairFinder};
 use crate::session::Session;
@@ -85,6 +88,51 @@ impl Session {
     /// ```
     #[must_use]
     pub fn check_document(&self, parsed: &Parsed) -> DocumentCheck {
+        self.document(parsed, &mut |_, _, _| {})
+    }
+
+    /// Checks a document as [`Self::check_document`] does, and inspects the steps of its policies, in the
+    /// order of the document.
+    ///
+    /// ```
+    /// use motet_compiler::Session;
+    /// use motet_syntax::{FileId, Source, Sources};
+    ///
+    /// let session = Session::builder().build(&mut Sources::default());
+    /// let source = Source::new("greet.motet", "policy greet { say(\"hello\") }");
+    /// let (_, steps) = session.inspect_document(&motet_syntax::read(&source, FileId(99)));
+    /// assert_eq!(source.slice(steps[0].span), "say(\"hello\")");
+    /// assert!(steps[0].call.as_ref().is_some_and(|call| call.guards.is_empty()));
+    /// ```
+    #[must_use]
+    pub fn inspect_document(&self, parsed: &Parsed) -> (DocumentCheck, Vec<StepInspection>) {
+        let mut steps = Vec::new();
+        let checked = self.document(parsed, &mut |analysis, library, environment| {
+            let Analysis { program, proof, motions, .. } = analysis;
+            steps.extend(crate::lower::inspect(program, proof, motions, library, environment));
+        });
+        (checked, steps)
+    }
+
+    /// The session with the declarations of a document, for questions about its policies; without geometry.
+    #[must_use]
+    pub fn with_declarations(&self, parsed: &Parsed) -> Self {
+        let mut session = self.clone();
+        self.within(parsed, &mut Vec::new(), |library, environment, _| {
+            if !std::ptr::eq(library, &*self.library) {
+                session.library = Arc::new(library.clone());
+                session.environment = Arc::new(environment.clone());
+                session.signatures = Arc::default();
+            }
+        });
+        session.without_geometry()
+    }
+
+    fn document(
+        &self,
+        parsed: &Parsed,
+        each: &mut dyn FnMut(&Analysis, &Library, &Environment),
+    ) -> DocumentCheck {
         let mut diagnostics = parsed.diagnostics.clone();
         let (mut findings, mut policies, mut left) = (Vec::new(), Vec::new(), Vec::new());
         self.within(parsed, &mut diagnostics, |library, environment, diagnostics| {
@@ -92,6 +140,7 @@ impl Session {
             for policy in parsed.file.policies() {
                 let mut analysis =
                     self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
+                each(&analysis, library, environment);
                 findings.append(&mut analysis.findings);
                 if policy.params.is_empty() {
                     left.extend(analysis.deferred_notes(policy, parsed, library, environment));

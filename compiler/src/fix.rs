@@ -110,6 +110,37 @@ pub fn fix_parsed(
     FixedDocument { text: at.text, parsed: at.parsed, applied, diagnostics }
 }
 
+/// A diagnostic with all fixes that are known for it.
+#[derive(Clone, Debug)]
+pub struct FixOffer {
+    pub diagnostic: Diagnostic,
+    /// Fixes with their applicability, the best first.
+    pub fixes: Vec<(Fix, Applicability)>,
+}
+
+/// Finds the fixes for each diagnostic of a document, without applying any. Diagnostics without a fix are
+/// left out, and so are those about motions.
+///
+/// ```
+/// use motet_compiler::Session;
+/// use motet_compiler::fix::offers;
+/// use motet_syntax::{FileId, Source, Sources};
+///
+/// let session = Session::builder().build(&mut Sources::default());
+/// let source = Source::new("greet.motet", "policy greet { sya(\"hello\") }");
+/// let offers = offers(&session, &motet_syntax::read(&source, FileId(99)));
+/// assert_eq!(offers[0].fixes[0].0.title, "write `say`");
+/// ```
+#[must_use]
+pub fn offers(session: &Session, parsed: &Parsed) -> Vec<FixOffer> {
+    let findings = session.findings(parsed, None).into_iter();
+    let offers = findings.map(|found| {
+        let fixes = found.fixes().map(|(fix, applicability)| (fix.clone(), applicability)).collect();
+        FixOffer { diagnostic: found.diagnostic, fixes }
+    });
+    offers.filter(|offer| !offer.fixes.is_empty()).collect()
+}
+
 /// A version of the document with its findings.
 struct Candidate {
     text: String,

@@ -28,6 +28,7 @@ pub use document::{Compiled, DocumentCheck, PolicyOutcome};
 pub use environment::{Environment, InitialState};
 pub use feasibility::{Access, Forecast, Geometry, WorldTracker};
 pub use ir::MAX_ENTITIES;
+pub use lower::{CallInspection, MotionInspection, StepInspection};
 pub use prove::MAX_FIXPOINTS;
 pub use resolve::MAX_NODES;
 pub use session::{CheckOptions, InitialFact, Session, SessionBuilder};

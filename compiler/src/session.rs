@@ -48,7 +48,7 @@ pub struct Session {
     pub(crate) options: CheckOptions,
     pub(crate) geometry: Option<Arc<Geometry>>,
     /// Built on first use.
-    signatures: Arc<OnceLock<Arc<Signatures>>>,
+    pub(crate) signatures: Arc<OnceLock<Arc<Signatures>>>,
     diagnostics: Arc<[Diagnostic]>,
 }
 
@@ -189,6 +189,12 @@ impl Session {
     pub fn with_geometry(mut self, geometry: Arc<Geometry>) -> Self {
         self.geometry = Some(geometry);
         self
+    }
+
+    /// The same session without geometry: every motion is deferred.
+    #[must_use]
+    pub fn without_geometry(&self) -> Self {
+        Self { geometry: None, ..self.clone() }
     }
 
     /// Returns whether the session answers motion queries.

@@ -245,7 +245,7 @@ impl Signatures {
 }
 
 /// Type of a signature; `None` after an error.
-fn of_type(ty: Ty) -> Option<Type> {
+pub(crate) fn of_type(ty: Ty) -> Option<Type> {
     let base = match ty.base {
         Base::Bool => Type::Bool,
         Base::Int => Type::Int,

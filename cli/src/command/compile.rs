@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 
 use crate::documents::one_document;
 use crate::error::{CliError, Exit};
-use crate::flags::{FormatArgs, SessionArgs};
+use crate::flags::{FormatArgs, SessionArgs, folder_of};
 use crate::output::{Colors, note};
 use crate::report::Report;
 
@@ -73,7 +73,7 @@ pub(crate) fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, CliError> 
 
 fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
     let (source, parsed) = one_document(&args.file)?.parse();
-    let mut project = args.session.project().open_with(report)?;
+    let mut project = args.session.project_in(folder_of(&args.file))?.open_with(report)?;
     let opened = project.session_for(&parsed.file, report)?;
     let policy = args.policy.as_deref();
     let compiled = opened.session.compile(&parsed, policy);

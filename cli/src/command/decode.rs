@@ -59,7 +59,7 @@ pub(crate) fn run(args: &DecodeArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.environment.without_motions().open_with(report)?;
+    let mut project = args.environment.without_motions_in(Path::new("."))?.open_with(report)?;
     let session = project.session(report)?.session.clone();
     let mut prefix = read(&args.path)?;
     let syntax = args.syntax.into();

@@ -51,7 +51,7 @@ pub(crate) fn run(args: &DialogArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn converse(args: &DialogArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project().open_with(report)?;
+    let mut project = args.session.project_here()?.open_with(report)?;
     let opened = project.session(report)?;
     match (&args.write, &args.file) {
         (Some(request), _) => write(request, opened, report),

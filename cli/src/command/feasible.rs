@@ -1,13 +1,14 @@
 //! `motet feasible`: decides which motions are feasible for a robot in a scene, with the path or the reason.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, value_parser};
 use motet::feasible::{FeasibilityQuestion, Motions, decide};
 use motet_geometry::planning::MotionAnswer;
+use motet_robots::clearance::ClearanceOverride;
 
 use crate::error::{CliError, Exit};
-use crate::flags::{ClearanceArgs, OutputFormat};
+use crate::flags::{ClearanceArgs, OutputFormat, settings_of};
 use crate::output::{Colors, replace_file};
 use crate::report::Report;
 
@@ -25,12 +26,13 @@ use crate::report::Report;
     \"robot\": {\"holding\": …}.\n\
     Exit codes: 0 all motions of --for are feasible, 1 one is not or is unknown, 2 could not run.")]
 pub(crate) struct FeasibleArgs {
-    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml
+    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml [default: that of
+    /// motet.toml]
     #[arg(long, value_name = "NAME|FOLDER")]
-    robot: String,
-    /// Scene: a built-in name, or a JSON file
+    robot: Option<String>,
+    /// Scene: a built-in name, or a JSON file [default: that of motet.toml]
     #[arg(long, value_name = "NAME|FILE")]
-    scene: String,
+    scene: Option<String>,
     /// Motion to decide; repeatable
     #[arg(long = "for", value_name = "MOTION", required_unless_present = "all")]
     motions: Vec<String>,
@@ -38,10 +40,9 @@ pub(crate) struct FeasibleArgs {
     /// each from the start; the exit code is 0
     #[arg(long, conflicts_with = "motions")]
     all: bool,
-    /// Search budget of a motion: 4 tries four times as often
-    #[arg(long, value_name = "FACTOR", default_value_t = 1,
-          value_parser = value_parser!(u16).range(1..=1000))]
-    effort: u16,
+    /// Search budget of a motion: 4 tries four times as often [default: 1]
+    #[arg(long, value_name = "FACTOR", value_parser = value_parser!(u16).range(1..=1000))]
+    effort: Option<u16>,
     #[command(flatten)]
     clearance: ClearanceArgs,
     /// Format of the answers
@@ -58,12 +59,20 @@ pub(crate) fn run(args: &FeasibleArgs, colors: Colors) -> Result<Exit, CliError>
 }
 
 fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
+    let settings = settings_of(Path::new("."))?;
+    let missing = |what: &str| CliError::Advised {
+        problem: format!("no {what} is named"),
+        help: format!("give --{what}, or name one in `motet.toml`"),
+    };
+    let robot = args.robot.as_deref().or(settings.robot_name()).ok_or_else(|| missing("robot"))?;
+    let scene = args.scene.as_deref().or(settings.scene_name()).ok_or_else(|| missing("scene"))?;
+    let (clearance, effort) = settings.motions().unwrap_or((ClearanceOverride::default(), 1));
     let question = FeasibilityQuestion {
-        robot: &args.robot,
-        scene: &args.scene,
+        robot,
+        scene,
         motions: if args.all { Motions::All } else { Motions::These(&args.motions) },
-        effort: args.effort,
-        clearance: args.clearance.given(),
+        effort: args.effort.unwrap_or(effort),
+        clearance: args.clearance.given().or(clearance),
     };
     let mut exit = Exit::Success;
     let drawing = decide(&question, report, &mut |report, verdict| {

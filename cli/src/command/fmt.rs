@@ -1,7 +1,7 @@
 //! `motet fmt`: formats policies in the canonical layout, or converts them between text and JSON. Comments
 //! of a text stay.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motet::document::{self, is_broken, is_reply};
@@ -10,7 +10,7 @@ use motet_project::files::Bytes;
 
 use crate::documents::{self, Document, Flow, Input};
 use crate::error::{CliError, Exit};
-use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, SyntaxArg};
+use crate::flags::{DocumentArgs, EnvironmentArgs, FormatArgs, SyntaxArg, folder_of};
 use crate::output::{Colors, count, note, replace_file};
 use crate::report::Report;
 
@@ -55,7 +55,11 @@ fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, CliError> {
     let inputs = documents::collect(&args.documents.paths)?;
     let (robot, domain) = (args.robot.clone(), args.domain.clone());
     let environment = EnvironmentArgs { robot, domain, ..EnvironmentArgs::default() };
-    let mut project = environment.without_motions().open_with(report)?;
+    let folder = args.documents.paths.first().map_or(Path::new("."), |path| match path.is_dir() {
+        true => path.as_path(),
+        false => folder_of(path),
+    });
+    let mut project = environment.without_motions_in(folder)?.open_with(report)?;
     let mut tally = Tally { is_batch: is_batch(&inputs.inputs), ..Tally::default() };
     for input in &inputs.inputs {
         let flow = input.documents(&mut |found| {

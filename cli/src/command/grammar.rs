@@ -1,5 +1,6 @@
 //! `motet grammar`: the grammar of policies for constrained decoding, or a chat request that uses it.
 
+use std::path::Path;
 use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
@@ -124,7 +125,7 @@ pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, CliError> 
 }
 
 fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.environment.without_motions().open_with(report)?;
+    let mut project = args.environment.without_motions_in(Path::new("."))?.open_with(report)?;
     let signatures = project.session(report)?.session.signatures();
     let subset = Subset {
         syntax: args.syntax.into(),

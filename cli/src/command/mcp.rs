@@ -108,8 +108,9 @@ pub(crate) fn run(args: &McpArgs) -> Result<Exit, CliError> {
     let driver = args.driver();
     driver.iter().try_for_each(DriverArgs::refuse_flags)?;
     let access = args.access()?;
-    let scene = args.session.environment.scene.clone();
-    let situations = Arc::new(Situations::open(args.session.project(), scene)?);
+    let project = args.session.project_here()?;
+    let scene = project.scene_name().map(str::to_owned);
+    let situations = Arc::new(Situations::open(project, scene)?);
     catch_interrupts()?;
     let runs = Arc::new(RunTable::default());
     let (orders, ordered) = mpsc::channel();

@@ -35,7 +35,7 @@ pub(crate) fn run(args: &PlanArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project().open_with(report)?;
+    let mut project = args.session.project_here()?.open_with(report)?;
     let opened = project.session(report)?;
     let planned = match &args.request {
         Some(request) => motet::plan::for_request(opened, request).map(|answered| {

@@ -31,7 +31,7 @@ pub(crate) fn run(args: &PromptArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project().open_with(report)?;
+    let mut project = args.session.project_here()?.open_with(report)?;
     let opened = project.session(report)?;
     let Some(robot) = &opened.robot else {
         return Err(CliError::Message("a prompt needs a robot: give --robot NAME".to_owned()));

@@ -27,7 +27,7 @@ use crate::conversation::operator::{AskingDriver, OperatorInput, OperatorPrompt}
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit, journal_error};
 use crate::flags::{
-    DriverArgs, DriverChoice, JobArgs, OutputFormat, PageArgs, ResultArgs, SessionArgs, Speed,
+    DriverArgs, DriverChoice, JobArgs, OutputFormat, PageArgs, ResultArgs, SessionArgs, Speed, folder_of,
 };
 use crate::interrupt::note_open;
 use crate::output::{Colors, count, escape, note, replace_file};
@@ -116,7 +116,7 @@ pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, CliError> {
 }
 
 fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project().open_with(report)?;
+    let mut project = args.session.project_in(folder_of(file))?.open_with(report)?;
     let policy = args.policy.as_deref();
     let document = one_document(file)?;
     let Some(compiled) = compile(&document, policy, args.format, &mut project, report)? else {

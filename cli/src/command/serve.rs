@@ -64,7 +64,7 @@ fn serve(args: &ServeArgs, report: &mut Report) -> Result<Exit, CliError> {
                 .to_owned(),
         });
     }
-    let opened = args.session.project().open_with(report)?.into_session(report)?;
+    let opened = args.session.project_here()?.open_with(report)?.into_session(report)?;
     let Some(robot) = opened.robot.clone() else {
         return Err(CliError::Message("policies need a robot: give --robot NAME".to_owned()));
     };

@@ -299,3 +299,26 @@ fn check_takes_robot_and_scene_from_the_folder_of_each_policy() {
         place.run("check a.motet").check(2, &[&format!("err:{said}")]);
     }
 }
+
+#[test]
+fn other_commands_take_robot_and_scene_from_the_folder() {
+    let place = Place::new("commands_config")
+        .file("motet.toml", "robot = \"hsr\"\nscene = \"kitchen\"\n")
+        .file("a.motet", "policy a { go(counter) }\n")
+        .file("other/motet.toml", "robot = \"panda\"\nscene = \"lab\"\n")
+        .file("other/b.motet", "policy b { say(\"hello\") }\n")
+        .file("wrong/motet.toml", "robot = 3\n")
+        .file("wrong/c.motet", "policy c { done }\n");
+    place.run("run a.motet --speed max").check(0, &[]);
+    place.run("compile a.motet").check(0, &["out:\"robot\":\"hsr\""]);
+    place.run("compile other/b.motet").check(0, &["out:\"robot\":\"panda\""]);
+    place.run("compile other/b.motet --robot hsr --scene kitchen").check(0, &["out:\"robot\":\"hsr\""]);
+    place.run_args(&["plan", "go to the counter"].map(str::to_owned)).check(0, &["out:go(counter)"]);
+    place
+        .run_args(&["feasible", "--for", "go_to(counter)"].map(str::to_owned))
+        .check(0, &["out:go_to(counter): feasible"]);
+    place.run_args(&["do", "go to the counter", "--speed", "max"].map(str::to_owned)).check(0, &[]);
+    place.run("compile wrong/c.motet").check(2, &["err:line 1"]);
+    let nowhere = Place::new("commands_no_config");
+    nowhere.run("feasible --all").check(2, &["err:no robot is named", "err:motet.toml"]);
+}

@@ -73,7 +73,7 @@ fn answers() {
         ("explain M9999", 2, &["err:no diagnostic code `M9999`"]),
         ("schema", 2, &["err:Usage"]),
         ("schema dog", 2, &["err:policy, scene, robot, diagnostic"]),
-        ("completions bash", 0, &["out:_motet"]),
+        ("completions bash", 0, &["out:_motet", "out:anymal_z1", "out:living_room", "out:M0501"]),
         ("completions zsh", 0, &["out:#compdef motet"]),
         ("completions fish", 0, &["out:complete -c motet"]),
         ("completions cmd", 2, &["err:possible values"]),
@@ -408,4 +408,35 @@ fn the_declarations_beside_a_card_are_read_with_it() {
     let place =
         own_card("own_good", "say = {}", "say = {}\nwave = {}", Some("action wave()\n    uses arm\n"));
     place.run("robots check rb").check(0, &["out:no errors"]);
+}
+
+#[test]
+fn scenes_are_listed_shown_checked_and_drawn() {
+    let place = Place::new("scenes").file(
+        "bad.json",
+        "{\"motet_scene\": 1, \"entities\": [{\"id\": \"cup\", \"kind\": \"Object\", \"on\": \"table\"}]}",
+    );
+    place.run("scenes").check(0, &["out:kitchen ", "out:lab ", "out: Surface"]);
+    place.run("scenes show kitchen").check(0, &["out:mug_1 ", "out:on kitchen_table", "out:\"red mug\""]);
+    place.run("scenes check kitchen --robot hsr").check(0, &["out:no errors", "out:hsr can act in it"]);
+    place.run("scenes check bad.json").check(2, &["out:M0", "out:table"]);
+    place.run("scenes draw kitchen --robot hsr -o kitchen.svg").check(0, &[]);
+    assert!(place.read("kitchen.svg").starts_with("<svg"));
+    place.run("scenes draw kitchen").check(2, &["err:give --robot"]);
+    place.run("scenes show").check(2, &["err:no scene is named"]);
+    place.run("scenes show kitchn").check(2, &["err:did you mean `kitchen`?"]);
+}
+
+#[test]
+fn new_makes_a_folder_whose_policy_runs() {
+    let place = Place::new("new");
+    place.run("new help").check(0, &["out:motet.toml", "out:hello.motet", "err:run it: motet run"]);
+    place.run("check help").check(0, &["err:no errors"]);
+    place.run("run help/policies/hello.motet --speed max").check(0, &[]);
+    place.run("new help").check(2, &["err:exists and is not empty"]);
+    place
+        .run("new arm --robot panda --scene lab --card")
+        .check(0, &["out:robot.urdf", "out:primitives.motet"]);
+    place.run("run arm/policies/hello.motet --speed max").check(0, &[]);
+    place.run("new other --robot pandda").check(2, &["err:did you mean `panda`?"]);
 }

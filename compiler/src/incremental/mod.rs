@@ -7,6 +7,7 @@
 //!
 //! Guarded by the tests of `runtime/decode`, above all the properties of its acceptor.
 
+mod point;
 mod template;
 
 use std::hash::Hasher;
@@ -17,6 +18,7 @@ use rustc_hash::FxHasher;
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
+pub use self::point::{FactCause, KnownFact, KnownTruth};
 pub use self::template::PolicyTemplate;
 use crate::declare::name::{Scope, ScopeMark};
 use crate::ir::{Condition, Entity, EnumId, Fact, Fluent, Program, StepId, StepKind, Term};

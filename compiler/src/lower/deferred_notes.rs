@@ -48,7 +48,7 @@ pub(crate) fn deferred_notes(
         if matches!(verdict, Some(MotionVerdict::Caught(_))) {
             continue;
         }
-        let mut left = needs(&prover, proof, verdict, StepId(id), (call, def));
+        let mut left = needs_left(&prover, proof, verdict, StepId(id), (call, def));
         if let (Some(MotionVerdict::Deferred(_)), Some((kind, args))) = (verdict, &def.motion) {
             let frame = CallFrame { args: &call.args, ..CallFrame::default() };
             let is_asked = |(index, arg): &(usize, &Term)| {
@@ -71,7 +71,7 @@ pub(crate) fn deferred_notes(
 }
 
 /// The guards of a call, in words.
-fn needs(
+pub(super) fn needs_left(
     prover: &Prover<'_>,
     proof: &Proof,
     placed: Option<&MotionVerdict>,

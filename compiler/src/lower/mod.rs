@@ -4,6 +4,7 @@
 //! Guarded by the graph snapshots of `tests/tests` and the validation in `motet_graph`.
 
 mod deferred_notes;
+mod inspection;
 mod table;
 
 use motet_graph as graph;
@@ -12,6 +13,8 @@ use motet_stdlib::lang;
 use motet_syntax::ast::EndKind;
 
 pub(crate) use self::deferred_notes::deferred_notes;
+pub(crate) use self::inspection::inspect;
+pub use self::inspection::{CallInspection, MotionInspection, StepInspection};
 use self::table::Tables;
 use crate::declare::{EffectDef, Library, NeedDef, PrimitiveDef};
 use crate::environment::Environment;

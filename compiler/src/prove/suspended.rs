@@ -137,6 +137,16 @@ impl SuspendedProof {
         })
     }
 
+    /// Proves all steps of a program, and returns the states in which control reaches one of them.
+    pub(crate) fn states_at(&mut self, point: StepId, given: ProofInput<'_>) -> Vec<AbstractState<'static>> {
+        self.with(given, |prover| {
+            prover.target = ProofTarget { point: Some(point), choice: None, grows: false };
+            let program = prover.program;
+            prover.block(&program.body);
+            std::mem::take(&mut prover.states_at_point)
+        })
+    }
+
     /// Evaluates a question in the present state, which stays as it is.
     pub(crate) fn here<T>(&mut self, given: ProofInput<'_>, ask: impl FnOnce(&mut Prover<'_>) -> T) -> T {
         self.with(given, ask)

@@ -39,6 +39,21 @@ pub(crate) fn resolve(
     (program, steps.finish())
 }
 
+/// Resolves one policy, and records the scope before the step with the span `point`.
+pub(crate) fn resolve_at(
+    policy: &Policy,
+    point: Span,
+    form: Syntax,
+    library: &Library,
+    environment: &Environment,
+) -> (Program, Option<Scope>) {
+    let elaborator = Elaborator::new(library, environment.entities(), environment.has_scene(), form);
+    let mut steps = StepResolver::new(elaborator);
+    steps.point = Some(point);
+    let program = steps.policy(policy);
+    (program, steps.scope_at_point)
+}
+
 /// A step that was resolved by itself.
 #[derive(Debug)]
 pub(crate) struct ResolvedStep {

@@ -112,6 +112,46 @@ impl ProjectBuilder {
         self
     }
 
+    /// Name, folder or JSON of the robot.
+    #[must_use]
+    pub fn robot_name(&self) -> Option<&str> {
+        self.robot.as_deref()
+    }
+
+    /// Name, file or JSON of the scene.
+    #[must_use]
+    pub fn scene_name(&self) -> Option<&str> {
+        self.scene.as_deref()
+    }
+
+    /// Distances from obstacles in place of those of the scene and the robot, and the search budget of
+    /// motions; `None` if every motion is deferred.
+    #[must_use]
+    pub fn motions(&self) -> Option<(ClearanceOverride, u16)> {
+        Some((self.clearance, self.effort?))
+    }
+
+    /// Leaves out the domain with a path, as for a check of that file itself.
+    #[must_use]
+    pub fn without_domain(mut self, path: &Path) -> Self {
+        self.domains.retain(|domain| !is_same_file(domain, path));
+        self
+    }
+
+    /// Files that the project is read from, as far as names and paths say: those of a robot's body are named
+    /// by its card.
+    #[must_use]
+    pub fn files(&self) -> Vec<PathBuf> {
+        let robot = self.robot.iter().filter(|name| RobotFiles::built_in(name).is_none() && !is_inline(name));
+        let robot = robot.flat_map(|folder| {
+            let folder = Path::new(folder);
+            [folder.join("robot.toml"), folder.join("primitives.motet"), folder.to_owned()]
+        });
+        let scene = self.scene.iter().filter(|name| builtin::scene_text(name).is_none() && !is_inline(name));
+        let state = self.state.iter().filter(|path| !path.to_str().is_some_and(is_inline));
+        robot.chain(scene.map(PathBuf::from)).chain(state.cloned()).chain(self.domains.clone()).collect()
+    }
+
     /// Reads the files. Warnings about them are dropped; see [`ProjectBuilder::open_with`].
     ///
     /// # Errors
@@ -370,6 +410,12 @@ pub struct ProjectSession {
 }
 
 impl ProjectSession {
+    /// Inputs of the project, as they were given.
+    #[must_use]
+    pub fn inputs(&self) -> &ProjectBuilder {
+        &self.inputs
+    }
+
     /// Facts that the state says beside or against the scene, in order. What it makes unknown comes first.
     #[must_use]
     pub fn told_facts(&self) -> Vec<(Query, Truth)> {
@@ -461,6 +507,11 @@ pub fn read_scene(
     diagnostics.extend(more);
     require("scene", &diagnostics, sources, sink)?;
     scene.ok_or_else(|| invalid("scene", diagnostics, sources))
+}
+
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    one == other || real(one) == real(other)
 }
 
 pub(crate) fn looks_like_file(name: &str) -> bool {

@@ -14,7 +14,7 @@ use serde_json::json;
 use super::{CompiledPolicy, RunArgs, compile};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
-use crate::flags::OutputFormat;
+use crate::flags::{OutputFormat, folder_of};
 use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{count, escape, note};
 use crate::ready_driver::address;
@@ -25,15 +25,18 @@ const ROBOT: &str = "hsr";
 
 /// Runs the scenes and prints the laws that are broken.
 pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project().open_with(report)?;
+    let folder = file.map_or(Path::new("."), folder_of);
+    let settings = args.session.project_in(folder)?;
+    let has_robot = settings.robot_name().is_some();
+    let mut project = settings.open_with(report)?;
     let document = match file {
         Some(file) => one_document(file)?,
-        None => test_policy(args.session.environment.robot.is_some()),
+        None => test_policy(has_robot),
     };
     let compiled = compile(&document, args.policy.as_deref(), args.format, &mut project, report)?;
-    let Some(CompiledPolicy { graph, parsed, .. }) = compiled else { return Ok(Exit::Findings) };
+    let Some(CompiledPolicy { graph, parsed, opened, .. }) = compiled else { return Ok(Exit::Findings) };
     let command = first_call(&graph).map_err(CliError::Message)?;
-    let Some(address) = address(&args.driver, &args.session.environment, &parsed.file)? else {
+    let Some(address) = address(&args.driver, &args.session.environment.or_of(opened), &parsed.file)? else {
         let why = "`--check` leads a driver in another process: name it with `--driver`";
         return Err(CliError::Message(why.to_owned()));
     };

@@ -14,7 +14,7 @@ use crate::unit::number_length;
 
 /// Kind of a token.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum TokenKind {
+pub enum TokenKind {
     /// A word: `pick`, `let`.
     Word,
     /// A back-quoted name: `` `7up` ``.
@@ -35,33 +35,36 @@ pub(crate) enum TokenKind {
 
 /// One token of a text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Token<'s> {
-    pub(crate) kind: TokenKind,
-    pub(crate) text: &'s str,
+pub struct Token<'s> {
+    pub kind: TokenKind,
+    pub text: &'s str,
     /// Offset of its first byte.
-    pub(crate) start: usize,
+    pub start: usize,
 }
 
 impl Token<'_> {
-    /// One past its last byte.
-    pub(crate) fn end(&self) -> usize {
+    /// Offset one past its last byte.
+    #[must_use]
+    pub fn end(&self) -> usize {
         self.start + self.text.len()
     }
 
     /// Range of the token.
-    pub(crate) fn span(&self, file: FileId) -> Span {
+    #[must_use]
+    pub fn span(&self, file: FileId) -> Span {
         Span::new(file, self.start, self.end())
     }
 }
 
 /// The tokens of a text from an offset on, white space left out. Linear, and total: every text has tokens.
-pub(crate) fn tokens(text: &str, from: usize) -> Tokens<'_> {
+#[must_use]
+pub fn tokens(text: &str, from: usize) -> Tokens<'_> {
     Tokens { text, at: from }
 }
 
 /// Iterator that [`tokens`] returns.
-#[derive(Clone)]
-pub(crate) struct Tokens<'s> {
+#[derive(Clone, Debug)]
+pub struct Tokens<'s> {
     text: &'s str,
     at: usize,
 }

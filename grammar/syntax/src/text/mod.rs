@@ -4,7 +4,7 @@
 mod brackets;
 mod builder;
 mod expr;
-pub(crate) mod lexer;
+pub mod lexer;
 mod recover;
 mod step;
 mod syntax_error;

@@ -1,0 +1,10 @@
+[
+  (block)
+  (monitor)
+  (parallel)
+  (fields)
+  (cases)
+  (parameters)
+  (arguments)
+  (list)
+] @fold

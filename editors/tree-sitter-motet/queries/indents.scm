@@ -1,0 +1,13 @@
+[
+  (block)
+  (monitor)
+  (parallel)
+  (fields)
+  (cases)
+  (parameters)
+  (arguments)
+  (list)
+] @indent.begin
+
+["}" ")" "]"] @indent.branch @indent.end
+(comment) @indent.ignore
