@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
 use motet_host::journal::{JournalWriter, RunRecorder as JournalObserver, read};
 use motet_host::remote::protocol::Hello;
@@ -26,6 +27,10 @@ use crate::tasks::half_height;
 
 /// Interpreter of the physics driver.
 const PYTHON: &str = "python3";
+/// Times that a driver of physics has to start and to answer: time stands still meanwhile, and a machine that
+/// plays many trials is slow.
+const GREETING: Duration = Duration::from_secs(120);
+const STEP: Duration = Duration::from_secs(300);
 /// Distance in m between things that lie in a container, and of the least of them from its lower end.
 const ASIDE: f64 = 0.08;
 const BOTTOM: f64 = 0.02;
@@ -134,7 +139,8 @@ impl Bench {
         let hello = Hello { run: format!("eval-{seed}"), robot: robot.name.to_string(), ..Hello::default() };
         let address = DriverAddress::Command(words);
         let log = Box::new(|_: &str| {});
-        let driver = RemoteDriver::connect(address, hello, DriverTimeouts::default(), Time::ZERO, log);
+        let patience = DriverTimeouts { greeting: GREETING, step: STEP, ..DriverTimeouts::default() };
+        let driver = RemoteDriver::connect(address, hello, patience, Time::ZERO, log);
         let driver = driver.map_err(|error| format!("the physics driver does not start: {error}"))?;
         Ok(TrialRobot::Physics(Box::new(driver), folder))
     }

@@ -11,7 +11,7 @@ from .model import ModelError, motet
 # Clearances of a robot that stands too near to something.
 LEAST = "base=0.01,arm=0.005"
 # Search budgets of a motion that the usual one did not decide.
-EFFORTS = ("10", "100", "1000")
+EFFORTS = ("10", "100")
 
 
 class Planner:
