@@ -176,7 +176,8 @@ fn run() -> Result<bool, String> {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
             "usage: eval {} FILE [--json], eval dialogue FILE|dynamic TRIALS [--world PROFILE] [--driver \
-             kinematic|mujoco] [--planner PLANNER] [--model M] [--jobs N] [--only WORD]… [--every N] [--objects seen|unseen], \
+             kinematic|mujoco] [--planner PLANNER] [--model M] [--jobs N] [--only WORD]… [--every N] \
+             [--objects seen|unseen], \
              eval tasks [FILE…] with the same flags and [--trials N], eval world RUNS with the same flags, \
              eval mutations, eval soundness POLICIES [--seed S], \
              eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \

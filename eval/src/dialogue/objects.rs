@@ -1,5 +1,5 @@
-//! Things of the cases, as in InteLiPlan's table II: those of the rooms, or others that no word list, scene or
-//! row of a dataset knows, in their places.
+//! Things of the cases, as in InteLiPlan's table II: those of the rooms, or others in their places that no
+//! word list, scene or row of a dataset knows.
 
 use std::str::FromStr;
 

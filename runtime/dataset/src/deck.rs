@@ -1,8 +1,8 @@
 //! Deck of the kinds of conversations: they are drawn without replacement, so that each has its share of the
 //! rows, however few conversations there are.
 //!
-//! The deck goes on over all scenes of a dataset, and its order depends on the seed alone. So each scene knows
-//! its place in it, whoever makes the others.
+//! The deck goes on over all scenes of a dataset, and its order depends on the seed alone. So each scene
+//! knows its place in it, whoever makes the others.
 
 use motet_planner::dialogue::Kind;
 
@@ -21,13 +21,13 @@ pub(crate) enum DeckWish {
     Lesson(Construct),
 }
 
-/// Number of the requests in a deck, by the failures on their way. A failed step has more rows than the others.
+/// Number of the requests in a deck, by the failures on their way. A failed step has more rows than others.
 const REQUESTS: &[(usize, DeckWish)] = &[
     (2, DeckWish::Request(&[])),
     (4, DeckWish::Changed),
-    (4, DeckWish::Request(&[Kind::NotFound])),
-    (4, DeckWish::Request(&[Kind::NotReachable])),
-    (3, DeckWish::Request(&[Kind::AmbiguousReference])),
+    (5, DeckWish::Request(&[Kind::NotFound])),
+    (8, DeckWish::Request(&[Kind::NotReachable])),
+    (4, DeckWish::Request(&[Kind::AmbiguousReference])),
     (3, DeckWish::Request(&[Kind::AmbiguousTask])),
     (2, DeckWish::Request(&[Kind::ActionFailed])),
     (1, DeckWish::Request(&[Kind::AmbiguousReference, Kind::NotFound])),

@@ -137,7 +137,8 @@ fn perception_thing_that_nobody_saw_is_looked_for() {
         assert_eq!(outcome, Outcome::Done, "{robot}: {:?}", person.questions);
         assert_eq!(sim.holds("at", &["stapler", "user"]), Some(true), "{robot}");
         let question = "I know of no stapler here. Shall I look for it, or what do you mean?";
-        assert_eq!(person.questions, [question], "{robot}");
+        // The camera at the wrist of the ANYmal sees the shelf from the start.
+        assert!(person.questions.iter().eq([question].iter().filter(|_| robot == "hsr")), "{robot}");
         // Who asks to look for it is not asked.
         let (outcome, person, _) = talk_with(robot, stapler, "find the stapler", &[]);
         assert_eq!((outcome, person.asked), (Outcome::Done, vec![]), "{robot}");

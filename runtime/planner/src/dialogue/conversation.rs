@@ -107,8 +107,8 @@ impl<'a> Conversation<'a> {
         Self { runs: (id.to_owned(), 0), settings, on_instruction, ..self }
     }
 
-    /// Takes a session of the setting's robot, domains, scene and options, without geometry, in the place of one
-    /// that would be built. Many conversations in one setting share it.
+    /// Takes a session of the setting's robot, domains, scene and options, without geometry, in the place of
+    /// one that would be built. Many conversations in one setting share it.
     #[must_use]
     pub fn with_session(self, session: Session) -> Self {
         Self { base: OnceCell::from(session), ..self }
