@@ -216,7 +216,8 @@ impl Elaborator<'_> {
             Term::Number(value) => {
                 // In the unit in which it is written.
                 let unit = expr.unit().unwrap_or(Unit::Second);
-                let (least, greatest) = (unit.show(if value < least { least } else { 0.0 }), unit.show(MAX_SECONDS));
+                let (least, greatest) =
+                    (unit.show(if value < least { least } else { 0.0 }), unit.show(MAX_SECONDS));
                 let actual = unit.show(value);
                 self.report(errors::OutOfRange {
                     span: expr.span,

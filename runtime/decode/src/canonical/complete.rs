@@ -11,8 +11,8 @@ use smol_str::{SmolStr, format_smolstr};
 use super::OutsideSubset;
 use super::print::{Item, Node, Value};
 use super::value::{Completer, argument, numbered, outside};
-use crate::subset::NumberRange;
 use crate::grammar::{Grammar, LetValue, NodeKind, ValuePlace};
+use crate::subset::NumberRange;
 use crate::subset::{MAX_CONDITION_DEPTH, MAX_COUNT, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS, Modifiers};
 
 /// Completes a policy to a tree of the canonical subset.
@@ -112,9 +112,10 @@ impl Completer<'_> {
                 node.items.push(self.cleanup(Some(cleanup), depth)?);
                 return Ok(node);
             }
-            StepKind::Within { time, body } => {
-                (NodeKind::Within, vec![self.seconds(time, NumberRange::DEADLINE)?, self.inner(body, depth, 1)?])
-            }
+            StepKind::Within { time, body } => (
+                NodeKind::Within,
+                vec![self.seconds(time, NumberRange::DEADLINE)?, self.inner(body, depth, 1)?],
+            ),
             StepKind::Keep { keeps, body } => {
                 (NodeKind::Keep, vec![self.keeps(keeps, step.span)?, self.inner(body, depth, 1)?])
             }
