@@ -17,8 +17,8 @@
 //!   goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
 //!   passes without a word fails by a need that was not listed.
-//! - `soundness N [--seed S]` makes N random policies, runs what the check accepts in random worlds, and exits
-//!   with 0 if every need that is proven, or that a guard has passed, holds.
+//! - `soundness N [--seed S]` makes N random policies, runs what the check accepts in random worlds, and
+//!   exits with 0 if every need that is proven, or that a guard has passed, holds.
 //! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are
 //!   repaired.
 //! - `reach [SCENE|--rooms N --seed S]` asks motion queries.

@@ -1,4 +1,5 @@
-//! Contracts of the actions of a made-up domain, and states of its world, in which every fact is true or false.
+//! Contracts of the actions of a made-up domain, and states of its world, in which every fact is true or
+//! false.
 //!
 //! This is a reading of the language of its own: it shares nothing with the compiler and the engine.
 

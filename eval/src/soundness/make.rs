@@ -1,5 +1,5 @@
-//! Random domains and policies, the same for the same seed. Domains are small, so that policies often meet what
-//! they have changed.
+//! Random domains and policies, the same for the same seed. Domains are small, so that policies often meet
+//! what they have changed.
 
 use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;

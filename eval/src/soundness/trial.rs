@@ -194,6 +194,10 @@ impl Run<'_> {
 
     /// A guard refuses: is it right?
     fn reported(&mut self, what: &TraceEventKind) {
+        if matches!(what, TraceEventKind::Fired { .. }) {
+            // A reaction goes by what has set it off.
+            self.world.calm();
+        }
         let TraceEventKind::Guard { node, need, truth } = what else { return };
         if self.mood != Mood::Honest || *truth == Truth::True {
             return;

@@ -131,6 +131,12 @@ impl<'d> World<'d> {
         cells.iter().any(|cell| self.veiled.get(*cell).copied().unwrap_or(false))
     }
 
+    /// From now on nothing changes by itself.
+    pub(super) fn calm(&mut self) {
+        self.next_whim = Time::NEVER;
+        self.whims = u32::MAX;
+    }
+
     fn later(&mut self, within_secs: f64) -> Time {
         self.now.after(Time::from_secs(within_secs * self.dice.random::<f64>()))
     }

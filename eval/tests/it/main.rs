@@ -14,5 +14,6 @@ mod mutations;
 mod planbench;
 mod saycan;
 mod scenarios;
+mod soundness;
 mod tasks;
 mod world;

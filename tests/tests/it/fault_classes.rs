@@ -1,5 +1,5 @@
-//! Faults of behaviour trees that their engines run without a word: each is refused by the check, or left to a
-//! guard that asks before the step.
+//! Faults of behaviour trees that their engines run without a word: each is refused by the check, or left to
+//! a guard that asks before the step.
 
 use motet_graph::Verdict;
 
@@ -85,7 +85,8 @@ fn fault_monitor_that_its_own_body_sets_off() {
         &[
             "policy p { monitor when f(a) then fail \"no\" during { make(a) } }",
             "policy p { monitor when f(a) then restart at most 1 during { make(a) pass() } }",
-            "policy p { monitor when f(a) then resume at most 1 { wave() } during { repeat 2 { make(a) pass() } } }",
+            "policy p { monitor when f(a) then resume at most 1 { wave() } \
+             during { repeat 2 { make(a) pass() } } }",
             "policy p { monitor when f(a) then pause during { parallel { { make(a) pass() } { wave() } } } }",
             "policy p { monitor when not f(a) then pause during { sequence s { undo(a) wave() } } }",
         ],
@@ -128,8 +129,10 @@ action turn_over(o: Object)
 ";
     // The body begins again where the first round has left it.
     for policy in [
-        "initially f(a)\npolicy p { monitor when g(a) then restart at most 1 during { use(a) turn_over(a) wave() } }",
-        "initially f(a), not g(a)\npolicy p { monitor when holding(any) then restart at most 1 during { turn_over(a) wave() } }",
+        "initially f(a)\npolicy p { monitor when g(a) then restart at most 1 \
+         during { use(a) turn_over(a) wave() } }",
+        "initially f(a), not g(a)\npolicy p { monitor when holding(any) then restart at most 1 \
+         during { turn_over(a) wave() } }",
         "initially f(a)\npolicy p { turn_over(a) retry 1 }",
         "initially f(a)\npolicy p { repeat 2 { turn_over(a) } }",
         "initially f(a)\npolicy p { try { turn_over(a) } catch slipped { turn_over(a) } }",

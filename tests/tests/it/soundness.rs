@@ -290,6 +290,31 @@ fn soundness_what_a_name_stands_for_is_seen_where_it_is_bound() {
 }
 
 #[test]
+fn soundness_what_a_perception_unsettles_of_its_result_is_asked_again() {
+    let policy = "perception find(what: Text) -> Object\n    unsettles f(result)\n\
+                  initially f(a)\npolicy p { let m = find(\"it\") use(a) use(m) }";
+    let found = requests(policy, &mut |effect| match effect {
+        Effect::Start { goal, command, .. } if command.primitive == "find" => {
+            let outcome = Outcome::Success(Some(Value::Entity("a".into())));
+            vec![DriverEvent::Ended { goal: *goal, outcome }]
+        }
+        effect => honest(effect, |_| Some(false)),
+    });
+    assert!(!found.iter().any(|request| request.contains("use")), "{found:#?}");
+}
+
+#[test]
+fn soundness_that_some_fit_takes_back_that_none_did() {
+    let found = requests("policy p { wait until f(any) within 1 s avoid(a) }", &mut |effect| match effect {
+        Effect::Watch { query } => [false, true]
+            .map(|truth| DriverEvent::Observed { query: Query::clone(query), answer: Answer::Truth(truth) })
+            .into(),
+        effect => honest(effect, |_| Some(true)),
+    });
+    assert!(!found.iter().any(|request| request.contains("avoid")), "{found:#?}");
+}
+
+#[test]
 fn soundness_an_effect_of_a_retry_is_that_of_what_the_try_before_left() {
     let policy = |retry: &str| format!("{EACH}\ninitially h(a)\npolicy p {{ rub(a) {retry} use(a) }}");
     assert_eq!(verdicts("use", &policy("")), [Verdict::Proven]);

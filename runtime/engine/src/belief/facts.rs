@@ -125,6 +125,10 @@ impl Beliefs {
             // That none fits says something of each; that some does, or that it is not known, says nothing of
             // any.
             if args.contains(&Pattern::Any) && value != Truth::False {
+                if value == Truth::True && self.fact(fluent, args).0 == Truth::False {
+                    // One fits although none was believed to: which one it is, is not known.
+                    self.apply(&BeliefChange { value: Truth::Unknown, ..change }, now);
+                }
                 self.set(id, answer, now);
             } else {
                 self.apply(&change, now);

@@ -4,7 +4,7 @@ use super::Turn;
 use crate::belief::{BeliefChange, Beliefs, Evaluator, Freshness, OfKind};
 use crate::query::{Pattern, Truth};
 use crate::time::Time;
-use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, KindId, Need, NodeId, Term, Value};
+use motet_graph::{BindingId, CallNode, Condition, Fact, FactArg, Graph, KindId, Need, NodeId, Term, Value};
 use smol_str::SmolStr;
 
 /// An entry of `makes` or `unsettles`.
@@ -14,6 +14,22 @@ struct ContractEntry<'a> {
     value: Truth,
     when: Option<&'a Condition>,
     each: Option<KindId>,
+}
+
+/// True if a binding is an argument of a fact.
+fn is_about(fact: &Fact, binding: BindingId) -> bool {
+    fact.args.iter().any(|arg| matches!(arg, FactArg::Term(Term::Binding(id)) if *id == binding))
+}
+
+/// True if a condition may depend on a binding.
+fn depends_on(condition: &Condition, binding: BindingId) -> bool {
+    match condition {
+        Condition::Literal(_) => false,
+        Condition::Fact(fact) => is_about(fact, binding),
+        Condition::Compare(..) => true,
+        Condition::Not(inner) => depends_on(inner, binding),
+        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(|part| depends_on(part, binding)),
+    }
 }
 
 /// An id that no entity has: it stands for all that nobody has heard of.
@@ -40,6 +56,11 @@ impl Turn<'_> {
     /// Applies what a call unsettles as soon as it starts.
     pub(super) fn unsettle(&mut self, call: &CallNode) {
         self.contracts().unsettle(call);
+    }
+
+    /// Applies what a call unsettles of what it has found, once that has its name.
+    pub(super) fn unsettle_found(&mut self, call: &CallNode, found: BindingId) {
+        self.contracts().unsettle_found(call, found);
     }
 
     /// After a failure or an interruption nothing is known of what a call makes or unsettles.
@@ -123,6 +144,19 @@ impl Contracts<'_> {
     pub(super) fn unsettle(&mut self, call: &CallNode) {
         let mut changes = Vec::new();
         self.expand_unsettled(call, &mut changes);
+        self.apply(&changes);
+    }
+
+    /// Makes the facts unknown that a call unsettles of what it has found: at its start that had no name.
+    fn unsettle_found(&mut self, call: &CallNode, found: BindingId) {
+        let mut changes = Vec::new();
+        for unsettled in &call.unsettles {
+            let (fact, when) = (&unsettled.fact, unsettled.when.as_ref());
+            if is_about(fact, found) || when.is_some_and(|when| depends_on(when, found)) {
+                let entry = ContractEntry { fact, value: Truth::Unknown, when, each: unsettled.each };
+                self.expand(entry, &mut changes);
+            }
+        }
         self.apply(&changes);
     }
 

@@ -203,7 +203,12 @@ impl Turn<'_> {
             let value =
                 value.filter(|value| declared.is_some_and(|it| entities.fits(&plan.graph, value, &it.ty)));
             match value.filter(|value| self.is_offered(call, value)) {
-                Some(value) => self.bind(binding, value),
+                Some(value) => {
+                    self.bind(binding, value);
+                    if !call.unsettles.is_empty() {
+                        self.unsettle_found(call, binding);
+                    }
+                }
                 None => {
                     self.goal_failed(node, goal, plan.failed, EndCause::BadValue);
                     return;
@@ -215,8 +220,8 @@ impl Turn<'_> {
         self.succeed(node);
     }
 
-    /// Returns whether a result is one of those that the call offers, where it offers some: a person who is to
-    /// choose among things can choose nothing else.
+    /// Returns whether a result is one of those that the call offers, where it offers some: a person who is
+    /// to choose among things can choose nothing else.
     fn is_offered(&mut self, call: &CallNode, value: &Value) -> bool {
         let params =
             self.plan.graph.primitives.get(call.primitive.index()).map(|primitive| &primitive.params);
