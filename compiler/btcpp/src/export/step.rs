@@ -376,12 +376,13 @@ impl Writer<'_> {
         }
         let mut leaf = Leaf::action(name.to_owned());
         leaf.note("fails; the reason is for people");
+        let port = Port::text("why").or("");
         match why {
             Some(why) => {
                 let why = self.port(why, path);
-                leaf.give(Port::text("why"), why);
+                leaf.give(port, why);
             }
-            None => leaf.has(Port::text("why").or("")),
+            None => leaf.has(port),
         }
         let mut steps: Vec<Element> = self.set_failure("failed").into_iter().collect();
         steps.push(self.leaf(leaf, path));

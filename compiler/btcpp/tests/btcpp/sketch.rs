@@ -43,10 +43,8 @@ fn one(step: &StepSketch, to: Use) -> StepSketch {
         }
         StepSketch::Wait(test, _) if to == Use::RoundTrip => StepSketch::Wait(condition(test), 1.25),
         StepSketch::Delay(_) if to == Use::RoundTrip => StepSketch::Delay(0.75),
-        StepSketch::Let(Term::Literal(_)) | StepSketch::Wait(..) | StepSketch::Delay(_) => {
-            StepSketch::say("so")
-        }
-        StepSketch::Let(_) => StepSketch::say("let"),
+        StepSketch::Let(Term::Literal(_)) | StepSketch::Wait(..) | StepSketch::Delay(_) => say("so", to),
+        StepSketch::Let(_) => say("let", to),
         StepSketch::Finally(body, cleanup) => StepSketch::Sequence([inside(body), inside(cleanup)].concat()),
         StepSketch::Monitor(watches, steps) => {
             let ends = watches.iter().find_map(|watch| match &watch.react {
@@ -95,6 +93,11 @@ fn one(step: &StepSketch, to: Use) -> StepSketch {
         }
         StepSketch::End(_) => step.clone(),
     }
+}
+
+/// A call with a deadline that does not pass.
+fn say(text: &str, to: Use) -> StepSketch {
+    one(&StepSketch::say(text), to)
 }
 
 /// The condition without what a tree does not know.
