@@ -25,6 +25,8 @@ pub struct Case {
     pub failures: Vec<Kind>,
     /// The scene as it is, where that is not as the robot was told.
     pub real: Scene,
+    /// The thing that is elsewhere than the robot was told.
+    pub hidden: Option<SmolStr>,
     /// Injected faults of steps.
     pub faults: Faults,
     /// Answers of the person to questions of each kind.
@@ -73,6 +75,7 @@ pub(crate) fn recorded(scene: &Scene, request: &str, policy: &str) -> Case {
         goal: None,
         failures: Vec::new(),
         real: scene.clone(),
+        hidden: None,
         faults: Faults::default(),
         answers: Vec::new(),
         is_given_up: false,
@@ -100,6 +103,7 @@ fn plain(scene: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Opt
         goal: Some(goal),
         failures: Vec::new(),
         real: scene.clone(),
+        hidden: None,
         faults: Faults::default(),
         answers: Vec::new(),
         is_given_up: false,
@@ -152,6 +156,7 @@ fn carried(
     };
     let mut answers = Vec::new();
     let mut real = scene.clone();
+    let mut is_hidden = false;
     for kind in failures {
         let answer = match kind {
             Kind::NotReachable if is_given_up => draw.pick(&wordings.leave)?.clone(),
@@ -164,6 +169,7 @@ fn carried(
             // The person takes it down.
             Kind::NotReachable | Kind::NotFound => {
                 let hidden = hide(&mut real, thing, holder, draw)?;
+                is_hidden = true;
                 fill(draw.pick(&wordings.places)?, "{at}", &hidden)
             }
         };
@@ -177,8 +183,20 @@ fn carried(
     }
     let task = SmolStr::new_static(task.name());
     let goal = Some(goal);
-    let failures = failures.to_vec();
-    Some(Case { task, request, goal, failures, real, faults, answers, is_given_up, policy: None, update })
+    let (failures, hidden) = (failures.to_vec(), is_hidden.then(|| thing.id.clone()));
+    Some(Case {
+        task,
+        request,
+        goal,
+        failures,
+        real,
+        hidden,
+        faults,
+        answers,
+        is_given_up,
+        policy: None,
+        update,
+    })
 }
 
 /// Fact that shall hold, as a case has it.

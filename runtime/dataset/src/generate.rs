@@ -15,7 +15,7 @@ use crate::deck::{Deck, DeckWish};
 use crate::format::{self, About, Row, RowFormat, UPDATE};
 use crate::lesson::{self, Lesson};
 use crate::picture::{Picture, Pictures};
-use crate::play::play;
+use crate::play::{IN_VIEW, play};
 use crate::random::{self, Draw as _};
 use crate::stage::{Body, Posture, Stage};
 use crate::wordings::Wordings;
@@ -208,7 +208,11 @@ impl SceneRows {
         (wish, light): (DeckWish, f64),
         draw: &mut SplitMix64,
     ) -> bool {
-        for _ in 0..PLAYS {
+        let mut plays = 0;
+        for _ in 0..DRAWS {
+            if plays == PLAYS {
+                return false;
+            }
             let drawn = (0..DRAWS).find_map(|_| {
                 let mut request = |failures, is_changed| {
                     case::draw(&body.robot, &stage.scene, &order.wordings, (failures, is_changed), draw)
@@ -234,8 +238,12 @@ impl SceneRows {
                     if self.rows.len() > before {
                         return true;
                     }
+                    plays += 1;
                 }
-                Err(why) => self.leave_out(why),
+                Err(why) => {
+                    plays += usize::from(why != IN_VIEW);
+                    self.leave_out(why);
+                }
             }
         }
         false

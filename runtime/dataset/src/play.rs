@@ -16,7 +16,7 @@ use motet_planner::model::ReplyVerdict;
 use motet_planner::{Builtin, PlanRequest, Planner, model, prompt};
 use motet_requests::Intent;
 use motet_robots::scene::{Entity, Scene};
-use motet_runtime::{Perception as _, Time};
+use motet_runtime::{Driver as _, Perception as _, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_stdlib::lang::{entities, fluents, kinds};
 use motet_syntax::{FileId, Source, print};
@@ -49,6 +49,9 @@ impl DialogueObserver for Change {
     }
 }
 
+/// Reason why a case is not played: nothing would go wrong.
+pub(crate) const IN_VIEW: &str = "what should be missing is in view";
+
 /// Plays a case where the robot was told the scene of a stage. Gives its turns, or why it did not go as it
 /// was drawn: it came to another end, its goal does not hold, or something that should go wrong was never
 /// asked about.
@@ -60,6 +63,14 @@ pub(crate) fn play(
     let eye = stage.geometry.as_ref().and_then(|geometry| geometry.eye());
     let options = SimOptions { faults: case.faults.clone(), eye, ..SimOptions::default() };
     let mut driver = Rc::new(RefCell::new(Sim::new(&stage.robot, &case.real, options)));
+    // What is not where the robot was told that it is would be seen at once.
+    let is_in_view = |id: &SmolStr| {
+        let seen = driver.borrow_mut().detections(Time::ZERO);
+        seen.iter().any(|one| one.entity.as_ref() == Some(id))
+    };
+    if case.hidden.as_ref().is_some_and(is_in_view) {
+        return Err(IN_VIEW);
+    }
     let (told, sim) = (stage.scene.clone(), driver.clone());
     let lesson = case.policy.clone();
     let mut mind = Mind { stage, told, sim, pictures, light, lesson, is_asking: false, turns: Vec::new() };
@@ -231,24 +242,26 @@ impl Mind<'_> {
         let mut scene = self.told.clone();
         let base = sim.base();
         scene.robot.base = [base.x, base.y, base.heading];
-        if sim.now() == Time::ZERO {
-            return scene;
+        let has_moved = sim.now() > Time::ZERO;
+        if has_moved {
+            scene.robot.joints.clear();
+            scene.robot.holding = Some(ask.situation.holding.clone());
+            let serves = |id: &str| sim.holds(fluents::AT, &[entities::ROBOT, id]) == Some(true);
+            scene.robot.at = scene.entities.keys().find(|id| serves(id)).cloned();
         }
-        scene.robot.joints.clear();
-        scene.robot.holding = Some(ask.situation.holding.clone());
-        let serves = |id: &str| sim.holds(fluents::AT, &[entities::ROBOT, id]) == Some(true);
-        scene.robot.at = scene.entities.keys().find(|id| serves(id)).cloned();
         let kinds: Vec<_> =
             scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
         for (id, entity) in &mut scene.entities {
-            if entity.travel.is_some() {
+            if has_moved && entity.travel.is_some() {
                 entity.open = sim.holds(fluents::OPEN, &[id.as_str()]);
             }
             if entity.kind != kinds::OBJECT || entity.fixed {
                 continue;
             }
             // What was in view was so from where the robot stood.
-            entity.visible = None;
+            if has_moved {
+                entity.visible = None;
+            }
             let believed = ask.situation.supports.iter().find(|(known, _)| known == id);
             let Some((_, support)) = believed else { continue };
             let is_held = ask.situation.holding.as_ref() == Some(id);
@@ -256,7 +269,7 @@ impl Mind<'_> {
             if !is_held && before == support.as_ref() {
                 continue;
             }
-            (entity.on, entity.inside, entity.pose) = (None, None, None);
+            (entity.on, entity.inside, entity.pose, entity.visible) = (None, None, None, None);
             let Some(support) = support.as_ref().filter(|_| !is_held) else { continue };
             let is_container = kinds.iter().any(|(known, kind)| known == support && kind == kinds::CONTAINER);
             if is_container {
