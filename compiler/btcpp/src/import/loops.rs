@@ -37,11 +37,10 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         let mut steps = self.node(only, &is_once);
         if let [Step { kind: StepKind::Do(call), .. }] = steps.as_mut_slice()
             && call.call.name.text != super::NODE_FAILED
+            && call.retry.is_none()
         {
-            if call.retry.is_none() {
-                call.retry = (attempts > 1).then(|| number(f64::from(attempts - 1), span));
-                return steps;
-            }
+            call.retry = (attempts > 1).then(|| number(f64::from(attempts - 1), span));
+            return steps;
         }
         // Another attempt is a handler with a copy of the steps.
         let (size, depth) = size(&steps);
