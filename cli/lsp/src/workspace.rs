@@ -45,8 +45,11 @@ impl Deref for OpenedSession {
 /// Sessions of all documents.
 pub(crate) struct Workspace {
     open: OpenFolder,
-    sessions: Mutex<BTreeMap<SessionKey, (Vec<FileStamp>, Arc<OpenedSession>)>>,
+    sessions: Mutex<BTreeMap<SessionKey, StampedSession>>,
 }
+
+/// Session with the files that it was opened from.
+type StampedSession = (Vec<FileStamp>, Arc<OpenedSession>);
 
 /// Inputs of a session: the settings, and the robot that a document names.
 type SessionKey = (String, Option<String>);

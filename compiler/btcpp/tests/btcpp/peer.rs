@@ -202,7 +202,7 @@ fn still(mut graph: Graph, seed: u64) -> Graph {
                 call.unsettles.clear();
             }
             // What is unknown fires a monitor in the tree at once, and in the engine after a time.
-            NodeKind::Monitor { watches, .. } if seed % 2 == 0 => {
+            NodeKind::Monitor { watches, .. } if seed.is_multiple_of(2) => {
                 watches.retain(|watch| watch.condition == motet_graph::Condition::Literal(true));
             }
             _ => {}
