@@ -113,10 +113,10 @@ fn show(args: &ViewArgs, report: &mut Report) -> Result<Exit, CliError> {
 
 /// Serves a workbench until Ctrl-C.
 fn workbench(args: &ViewArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let environment = &args.environment;
+    let project = args.environment.without_motions_in(Path::new("."))?.motion_effort(1);
+    let bench = Workbench::new().with_room(project.robot_name(), project.scene_name());
     // What the page cannot open is told here, with its places.
-    environment.without_motions().motion_effort(1).open_with(report)?;
-    let bench = Workbench::new().with_room(environment.robot.as_deref(), environment.scene.as_deref());
+    project.open_with(report)?;
     let page = LivePage::workbench(args.address, bench)?;
     catch_interrupts()?;
     while !is_interrupted() {

@@ -356,7 +356,7 @@ mod tests {
 
     fn served() -> Served {
         let hub = Arc::new(Hub::default());
-        let server = Server::start("127.0.0.1:0".parse().unwrap(), Arc::clone(&hub)).unwrap();
+        let server = Server::start("127.0.0.1:0".parse().unwrap(), Arc::clone(&hub), None).unwrap();
         Served { server, hub }
     }
 

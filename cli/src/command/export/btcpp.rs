@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::documents::one_document;
 use crate::error::{CliError, Exit};
-use crate::flags::{FormatArgs, SessionArgs};
+use crate::flags::{FormatArgs, SessionArgs, folder_of};
 use crate::output::{Colors, note};
 use crate::report::Report;
 
@@ -37,7 +37,7 @@ pub(super) fn run(args: &BtcppArgs, colors: Colors) -> Result<Exit, CliError> {
             report.hold();
         }
         let (source, parsed) = one_document(&args.file)?.parse();
-        let mut project = args.session.project().open_with(report)?;
+        let mut project = args.session.project_in(folder_of(&args.file))?.open_with(report)?;
         let opened = project.session_for(&parsed.file, report)?;
         let compiled = opened.session.compile(&parsed, args.policy.as_deref());
         report.print(&compiled.diagnostics, &opened.sources(source));

@@ -32,7 +32,7 @@ pub(super) struct BtcppArgs {
 
 /// Runs the command: writes the policy, and prints what its check finds with the places in the XML.
 pub(super) fn run(args: &BtcppArgs, report: &mut Report) -> Result<Exit, CliError> {
-    let mut project = args.session.project().open_with(report)?;
+    let mut project = args.session.project_here()?.open_with(report)?;
     let opened = project.session_for(&File::default(), report)?;
     let mut read = Sources::default();
     let (source, file, broken) =
