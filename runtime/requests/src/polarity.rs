@@ -128,7 +128,7 @@ pub fn refuses(text: &str) -> bool {
     has(text, &REFUSALS)
 }
 
-/// True if a text asks to look for something: "find the stapler".
+/// True if a text asks to look for something: "find the spanner".
 #[must_use]
 pub fn seeks(text: &str) -> bool {
     has(text, &SEEKS)

@@ -483,8 +483,8 @@ mod tests {
         check("policy p for hsr {\n    |\n}", &["go", "detect", "if"], &["handover", "place"]);
         check(
             "policy p for hsr {\n    go(kitchen_table)\n    pick(mug_1)\n    |\n}",
-            &["handover", "place"],
-            &["pick"],
+            &["place"],
+            &["pick", "handover"],
         );
         check(
             "policy p for hsr {\n    go(kitchen_table)\n    pick(|)\n}",

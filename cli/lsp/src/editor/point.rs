@@ -170,7 +170,7 @@ mod tests {
         assert!(!facts("go(kitchen_table)").iter().any(|fact| fact.contains("holding")));
         let picked = facts("if visible");
         assert!(picked.contains(&"holding(mug_1) Holds pick(mug_1)".to_owned()), "{picked:?}");
-        let inner = facts("handover");
+        let inner = facts("go(user)");
         assert!(inner.contains(&"visible(user) Holds if".to_owned()), "{inner:?}");
         let after = facts("say(");
         let differs = format!("holding(mug_1) {:?}", KnownTruth::Differs);

@@ -33,6 +33,16 @@ pub(super) fn fail(why: &str, span: Span) -> Step {
     end(End { kind: EndKind::Fail, result: None, why, span })
 }
 
+/// Block of a branch that has steps in any case. Without others, it has one that takes no time: an `else`
+/// alone would need a condition whose opposite is known.
+fn branch(steps: Vec<Step>, span: Span) -> Block {
+    if !steps.is_empty() {
+        return block(steps, span);
+    }
+    let condition = expr(ExprKind::Bool(true), span);
+    block(vec![step(StepKind::Wait { condition, within: None }, span)], span)
+}
+
 impl<'a, 't> Reader<'_, 'a, 't> {
     /// Steps of a node.
     pub(super) fn node(&mut self, node: Node<'a, 't>, context: &Context) -> Vec<Step> {
@@ -153,7 +163,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
             return Vec::new();
         }
         let otherwise = Some(block(self.failing(span), span));
-        vec![step(StepKind::If { condition, then: block(Vec::new(), span), otherwise }, span)]
+        vec![step(StepKind::If { condition, then: branch(Vec::new(), span), otherwise }, span)]
     }
 
     /// Steps of nodes that run one after the other.
@@ -207,7 +217,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         if self.is_condition(*first) {
             let Some(condition) = self.condition(*first, context) else { return Vec::new() };
             let otherwise = self.fallback(rest, &deeper, span);
-            let then = block(Vec::new(), span);
+            let then = branch(Vec::new(), span);
             return vec![step(
                 StepKind::If { condition, then, otherwise: Some(block(otherwise, span)) },
                 span,
@@ -282,7 +292,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         };
         let otherwise = (!otherwise.is_empty()).then(|| block(otherwise, span));
         let condition =
-            condition.map(|condition| StepKind::If { condition, then: block(then, span), otherwise });
+            condition.map(|condition| StepKind::If { condition, then: branch(then, span), otherwise });
         condition.map(|kind| step(kind, span)).into_iter().collect()
     }
 

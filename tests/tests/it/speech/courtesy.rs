@@ -219,7 +219,6 @@ fn request_why_and_by_when_is_passed_over_and_a_condition_is_not() {
         "Put the sponge on the counter when nobody's looking.",
         "Put the sponge on the counter unless it stinks.",
         "Put the sponge in the drawer before opening the fridge.",
-        "Close the fridge before you bring me the coke.",
         "Put the sponge on the counter so you can close the fridge.",
         "Be careful with the sponge.",
         "Wouldn't the sponge look nice on the counter?",
