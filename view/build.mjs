@@ -13,7 +13,7 @@ const MOST_BYTES = 250_000;
 const MOST_PLAYGROUND_BYTES = 1_800_000;
 const LIBRARIES = ["@dagrejs/dagre", "@dagrejs/graphlib", "preact", "three"];
 
-const common = { bundle: true, minify: true, write: false, legalComments: "none", logLevel: "warning", charset: "ascii" };
+const common = { absWorkingDir: fileURLToPath(new URL(".", import.meta.url)), bundle: true, minify: true, write: false, legalComments: "none", logLevel: "warning", charset: "ascii" };
 const bundle = async (entry) => {
   const built = await build({ ...common, entryPoints: [entry], format: "iife", target: "es2022", jsx: "automatic", jsxImportSource: "preact" });
   return built.outputFiles[0].text;

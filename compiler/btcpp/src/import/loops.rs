@@ -7,7 +7,7 @@ use roxmltree::Node;
 use super::document::{elements, kind};
 use super::leaf::Around;
 use super::scope::pointer;
-use super::step::{attempt, block, catch_any, step};
+use super::step::{attempt, branch, catch_any, step};
 use super::value::number;
 use super::{Context, Reader};
 use crate::leaves::PortType;
@@ -23,7 +23,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         if self.is_action(only) {
             return self.call(only, context, Around { within: Some(time), retry: None });
         }
-        let body = block(self.node(only, context), span);
+        let body = branch(self.node(only, context), span);
         vec![step(StepKind::Within { time, body }, span)]
     }
 
@@ -65,7 +65,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         let (Some(times), Some(only)) = (self.times(node, "num_cycles"), self.only(node)) else {
             return Vec::new();
         };
-        let body = block(self.node(only, &context.not_last()), span);
+        let body = branch(self.node(only, &context.not_last()), span);
         vec![step(StepKind::Repeat { times: number(f64::from(times), span), body, until: None }, span)]
     }
 
@@ -97,7 +97,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         };
         let span = self.places.tag(retry);
         let times = self.times(retry, "num_attempts");
-        let body = block(self.node(body, &context.not_last()), span);
+        let body = branch(self.node(body, &context.not_last()), span);
         let until = self.condition(test, context);
         let times = times.map(|times| number(f64::from(times), span));
         let kind =
@@ -142,7 +142,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         };
         let list = self.value("queue", queue, &PortType::List(Box::new(ty)), &context.scope);
         let item = self.output("value", value, context);
-        let body = block(self.node(only, &context.not_last()), span);
+        let body = branch(self.node(only, &context.not_last()), span);
         let kind = list.zip(item).map(|(list, item)| StepKind::Each {
             item: Name { text: item.text, span: item.span },
             list,
@@ -180,7 +180,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         let inner = context.not_last();
         let branches = children.into_iter().map(|child| (self.places.tag(child), child));
         let branches: Vec<(Span, Node<'a, 't>)> = branches.collect();
-        let branches = branches.into_iter().map(|(at, child)| block(self.node(child, &inner), at)).collect();
+        let branches = branches.into_iter().map(|(at, child)| branch(self.node(child, &inner), at)).collect();
         vec![step(StepKind::Parallel { branches }, span)]
     }
 }

@@ -33,14 +33,33 @@ pub(super) fn fail(why: &str, span: Span) -> Step {
     end(End { kind: EndKind::Fail, result: None, why, span })
 }
 
-/// Block of a branch that has steps in any case. Without others, it has one that takes no time: an `else`
-/// alone would need a condition whose opposite is known.
-fn branch(steps: Vec<Step>, span: Span) -> Block {
-    if !steps.is_empty() {
-        return block(steps, span);
+/// Step that does nothing and takes no time, for a block that must have one: an `else` alone would need a
+/// condition whose opposite is known.
+fn nothing(span: Span) -> Step {
+    step(StepKind::Wait { condition: expr(ExprKind::Bool(true), span), within: None }, span)
+}
+
+/// True for a step that does nothing.
+fn is_nothing(step: &Step) -> bool {
+    matches!(&step.kind, StepKind::Wait { condition, within: None } if condition.kind == ExprKind::Bool(true))
+}
+
+/// Block of a branch, with a step in any case.
+pub(super) fn branch(mut steps: Vec<Step>, span: Span) -> Block {
+    if steps.is_empty() {
+        steps.push(nothing(span));
     }
-    let condition = expr(ExprKind::Bool(true), span);
-    block(vec![step(StepKind::Wait { condition, within: None }, span)], span)
+    block(steps, span)
+}
+
+/// Block of a handler or an `else`, which may be empty.
+fn reaction(mut steps: Vec<Step>, span: Span) -> Block {
+    if let [only] = steps.as_slice()
+        && is_nothing(only)
+    {
+        steps.clear();
+    }
+    block(steps, span)
 }
 
 impl<'a, 't> Reader<'_, 'a, 't> {
@@ -68,7 +87,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
                     Some((name, at)) => {
                         let steps = self.sequence(&children, &inner);
                         let name = motet_syntax::ast::Name { text: name.into(), span: at };
-                        vec![step(StepKind::Sequence { name, body: block(steps, span) }, span)]
+                        vec![step(StepKind::Sequence { name, body: branch(steps, span) }, span)]
                     }
                     None => self.sequence(&children, &inner),
                 }
@@ -160,7 +179,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
     /// A step that fails unless a condition is known to hold.
     fn assertion(&mut self, condition: Expr, span: Span) -> Vec<Step> {
         if condition.kind == ExprKind::Bool(true) {
-            return Vec::new();
+            return vec![nothing(span)];
         }
         let otherwise = Some(block(self.failing(span), span));
         vec![step(StepKind::If { condition, then: branch(Vec::new(), span), otherwise }, span)]
@@ -250,7 +269,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
             if kind(at) != "IfThenElse" || kind(*test) != FAILURE_IS {
                 return None;
             }
-            let body = block(self.node(*then, context), span);
+            let body = reaction(self.node(*then, context), span);
             if let Some(on) = self.kinds(*test) {
                 catches.push(Catch { on, bind: None, body, span });
             }
@@ -287,7 +306,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         let condition = self.condition(test, context);
         let then = self.node(then, context);
         let otherwise = match otherwise {
-            Some(otherwise) => self.node(otherwise, context),
+            Some(otherwise) => reaction(self.node(otherwise, context), span).steps,
             None => self.failing(span),
         };
         let otherwise = (!otherwise.is_empty()).then(|| block(otherwise, span));
@@ -353,7 +372,7 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         if whens.is_empty() {
             return steps;
         }
-        vec![step(StepKind::Monitor { whens, body: block(steps, span) }, span)]
+        vec![step(StepKind::Monitor { whens, body: branch(steps, span) }, span)]
     }
 
     /// Checks if a node ends the policy.
@@ -405,9 +424,9 @@ fn is_register(node: Node<'_, '_>) -> bool {
 }
 
 pub(super) fn attempt(body: Vec<Step>, catches: Vec<Catch>, span: Span) -> Step {
-    step(StepKind::Try { body: block(body, span), catches }, span)
+    step(StepKind::Try { body: branch(body, span), catches }, span)
 }
 
 pub(super) fn catch_any(steps: Vec<Step>, span: Span) -> Catch {
-    Catch { on: CatchOn::Any(span), bind: None, body: block(steps, span), span }
+    Catch { on: CatchOn::Any(span), bind: None, body: reaction(steps, span), span }
 }

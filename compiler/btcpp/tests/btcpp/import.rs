@@ -62,7 +62,7 @@ fn import_inlines_trees_with_their_ports() {
          <BehaviorTree ID=\"find\"><Sequence><detect what=\"{what}\" as=\"{own}\"/><go to=\"{own}\"/>
          <detect what=\"{what}\" as=\"{it}\"/></Sequence></BehaviorTree></root>",
     );
-    let graph = compiled(&session, text).unwrap();
+    let (graph, _) = compiled(&session, text).unwrap();
     let drawn = motet_graph::draw::text(&graph);
     assert!(
         drawn.contains("find_1_own = detect(what: \"mug\")") && drawn.contains("pick(object: thing"),
