@@ -32,7 +32,7 @@ async function request_with_question() {
   check((await exit) === 0, "the run is done");
   await tab(page, "Talk");
   const talk = await page.locator(".talk").innerText();
-  check(/You\s+mug_1/.test(talk), `the answer is in the talk: ${talk}`);
+  check(/You\s+red mug \(mug_1\)/.test(talk), `the answer is in the talk: ${talk}`);
   check(faults.length === 0, faults.join("; "));
   await close();
   child.kill();

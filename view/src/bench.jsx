@@ -75,7 +75,7 @@ export function useBench({ ask, examples, isTaken, show }) {
     else then(answer);
   };
   return {
-    isOn: isTaken && rooms !== null,
+    isOn: rooms !== null,
     rooms,
     room,
     open,

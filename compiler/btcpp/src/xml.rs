@@ -32,7 +32,7 @@ impl Element {
         self
     }
 
-    /// Adds children.
+    /// Adds several children, in order.
     pub(crate) fn children(mut self, children: impl IntoIterator<Item = Self>) -> Self {
         self.children.extend(children);
         self

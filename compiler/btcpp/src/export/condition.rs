@@ -3,13 +3,13 @@
 //! An unknown condition is neither true nor false, so a negation goes down to the leaves: an inverter above
 //! would turn what is unknown into what holds.
 
-use motet_graph::{Comparison, Condition, Fact, FactArg, Term, Type, Value};
+use motet_graph::{BindingId, Comparison, Condition, Fact, FactArg, Term, Type, Value};
 
 use super::Writer;
 use super::model::{Leaf, Port};
-use super::value::port_type;
+use super::value::{literal, port_type};
 use crate::leaves::{PortType, Ports};
-use crate::names::{COUNT, FIELD, FLUENT, IS, MEASURE, NUMBER, OF, THAN, VALUE};
+use crate::names::{COUNT, FIELD, FLUENT, IS, MEASURE, NUMBER, OF, THAN, VALUE, is_node_name, is_port_name};
 use crate::xml::Element;
 
 impl Writer<'_> {
@@ -188,5 +188,80 @@ fn mirrored(comparison: Comparison) -> Comparison {
         Comparison::AtMost => Comparison::AtLeast,
         Comparison::More => Comparison::Less,
         Comparison::AtLeast => Comparison::AtMost,
+    }
+}
+
+/// Leaves and values.
+impl Writer<'_> {
+    /// Writes a leaf and adds it to the models.
+    pub(super) fn leaf(&mut self, leaf: Leaf, path: &str) -> Element {
+        if !is_node_name(&leaf.id) {
+            return self.refuse(path, format!("`{}`, which is no name for a node", leaf.id));
+        }
+        let wrong = leaf.ports.iter().find(|port| !is_port_name(&port.name));
+        if let Some(port) = wrong {
+            return self
+                .refuse(path, format!("`{}` of `{}`, which is no name for a port", port.name, leaf.id));
+        }
+        let (kind, ports, _) =
+            self.models.0.entry(leaf.id.clone()).or_insert_with(|| (leaf.kind, Vec::new(), leaf.note));
+        let is_other = *kind != leaf.kind;
+        let mut clash = None;
+        for port in leaf.ports {
+            match ports.iter().find(|known| known.name == port.name) {
+                None => ports.push(port),
+                Some(known) if *known == port => {}
+                Some(_) => clash = Some(port.name),
+            }
+        }
+        if is_other || clash.is_some() {
+            let what = format!("`{}`, because two different leaves would have this name", leaf.id);
+            return self.refuse(path, what);
+        }
+        // A verifier of BehaviorTree.CPP does not know the long form inside a reactive node.
+        let element = Element::new(leaf.id);
+        leaf.values.into_iter().fold(element, |element, (name, value)| element.with(&name, value))
+    }
+}
+
+impl Writer<'_> {
+    /// The entry of a binding as a port refers to it.
+    pub(super) fn entry(&self, id: BindingId) -> Option<&str> {
+        self.entries.get(id.index())?.as_deref()
+    }
+
+    /// A term as the text of a port: a constant or the entry of a binding; refused otherwise.
+    pub(super) fn port(&mut self, term: &Term, path: &str) -> String {
+        let what = match term {
+            Term::Literal(value) => match literal(value) {
+                Ok(text) => return text,
+                Err(why) => why,
+            },
+            Term::Binding(id) => match self.entry(*id) {
+                Some(entry) => return format!("{{{entry}}}"),
+                None => "a result without a name",
+            },
+            Term::Each => "a value of each entity of a kind",
+            Term::Field(..) => "a field as an argument: a port holds a constant or an entry",
+            Term::Measure(..) => "a measure as an argument: a port holds a constant or an entry",
+            Term::List(items) => {
+                let items = items.iter().map(|item| match item {
+                    Term::Literal(value) => Some(value.clone()),
+                    _ => None,
+                });
+                match items.collect::<Option<Vec<Value>>>().map(|items| literal(&Value::List(items))) {
+                    Some(Ok(text)) => return text,
+                    Some(Err(why)) => why,
+                    None => "a list of bindings: a port holds a constant or one entry",
+                }
+            }
+            Term::Arith(..) => "a calculation: a port holds a constant or an entry",
+            Term::Count(_) | Term::First(_) => {
+                "`count` or `first` as an argument: a port holds a constant or an entry"
+            }
+            Term::Template(_) => "a text with values: a port holds a constant or an entry",
+        };
+        self.refuse(path, what);
+        String::new()
     }
 }

@@ -4,28 +4,26 @@ use std::collections::BTreeMap;
 
 use motet_graph::Type;
 
-use super::Writer;
 use super::value::port_type;
-use crate::names::{is_node_name, is_port_name};
 use crate::xml::Element;
 
 /// Leaf with the ports that its kind has and the values that it gives them.
 pub(super) struct Leaf {
-    kind: &'static str,
-    id: String,
-    ports: Vec<Port>,
-    values: Vec<(String, String)>,
-    note: String,
+    pub(super) kind: &'static str,
+    pub(super) id: String,
+    pub(super) ports: Vec<Port>,
+    pub(super) values: Vec<(String, String)>,
+    pub(super) note: String,
 }
 
 /// Port of a leaf.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Port {
-    direction: &'static str,
-    name: String,
+    pub(super) direction: &'static str,
+    pub(super) name: String,
     /// Type in C++: an entry that a port without a type reads first could not be written as a text.
-    ty: String,
-    default: Option<&'static str>,
+    pub(super) ty: String,
+    pub(super) default: Option<&'static str>,
 }
 
 impl Port {
@@ -82,39 +80,7 @@ impl Leaf {
 
 /// Leaves of a document by their names, with ports in order and a note.
 #[derive(Default)]
-pub(super) struct Models(BTreeMap<String, (&'static str, Vec<Port>, String)>);
-
-impl Writer<'_> {
-    /// Writes a leaf and adds it to the models.
-    pub(super) fn leaf(&mut self, leaf: Leaf, path: &str) -> Element {
-        if !is_node_name(&leaf.id) {
-            return self.refuse(path, format!("`{}`, which is no name for a node", leaf.id));
-        }
-        let wrong = leaf.ports.iter().find(|port| !is_port_name(&port.name));
-        if let Some(port) = wrong {
-            return self
-                .refuse(path, format!("`{}` of `{}`, which is no name for a port", port.name, leaf.id));
-        }
-        let (kind, ports, _) =
-            self.models.0.entry(leaf.id.clone()).or_insert_with(|| (leaf.kind, Vec::new(), leaf.note));
-        let is_other = *kind != leaf.kind;
-        let mut clash = None;
-        for port in leaf.ports {
-            match ports.iter().find(|known| known.name == port.name) {
-                None => ports.push(port),
-                Some(known) if *known == port => {}
-                Some(_) => clash = Some(port.name),
-            }
-        }
-        if is_other || clash.is_some() {
-            let what = format!("`{}`, because two different leaves would have this name", leaf.id);
-            return self.refuse(path, what);
-        }
-        // A verifier of BehaviorTree.CPP does not know the long form inside a reactive node.
-        let element = Element::new(leaf.id);
-        leaf.values.into_iter().fold(element, |element, (name, value)| element.with(&name, value))
-    }
-}
+pub(super) struct Models(pub(super) BTreeMap<String, (&'static str, Vec<Port>, String)>);
 
 impl Models {
     /// The list of the leaves, and of the trees that a policy calls.

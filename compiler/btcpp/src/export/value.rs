@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use motet_graph::python::identifier;
-use motet_graph::{BindingId, Graph, Term, Type, Value};
+use motet_graph::{Graph, Type, Value};
 
-use super::Writer;
 use crate::names::is_plain;
 
 /// Names of the bindings on the blackboard: letters, digits and underscores, a letter first; none for a
@@ -81,48 +80,6 @@ pub(super) fn literal(value: &Value) -> Result<String, &'static str> {
             }
             Ok(texts.join(";"))
         }
-    }
-}
-
-impl Writer<'_> {
-    /// The entry of a binding as a port refers to it.
-    pub(super) fn entry(&self, id: BindingId) -> Option<&str> {
-        self.entries.get(id.index())?.as_deref()
-    }
-
-    /// A term as the text of a port: a constant or the entry of a binding; refused otherwise.
-    pub(super) fn port(&mut self, term: &Term, path: &str) -> String {
-        let what = match term {
-            Term::Literal(value) => match literal(value) {
-                Ok(text) => return text,
-                Err(why) => why,
-            },
-            Term::Binding(id) => match self.entry(*id) {
-                Some(entry) => return format!("{{{entry}}}"),
-                None => "a result without a name",
-            },
-            Term::Each => "a value of each entity of a kind",
-            Term::Field(..) => "a field as an argument: a port holds a constant or an entry",
-            Term::Measure(..) => "a measure as an argument: a port holds a constant or an entry",
-            Term::List(items) => {
-                let items = items.iter().map(|item| match item {
-                    Term::Literal(value) => Some(value.clone()),
-                    _ => None,
-                });
-                match items.collect::<Option<Vec<Value>>>().map(|items| literal(&Value::List(items))) {
-                    Some(Ok(text)) => return text,
-                    Some(Err(why)) => why,
-                    None => "a list of bindings: a port holds a constant or one entry",
-                }
-            }
-            Term::Arith(..) => "a calculation: a port holds a constant or an entry",
-            Term::Count(_) | Term::First(_) => {
-                "`count` or `first` as an argument: a port holds a constant or an entry"
-            }
-            Term::Template(_) => "a text with values: a port holds a constant or an entry",
-        };
-        self.refuse(path, what);
-        String::new()
     }
 }
 

@@ -13,16 +13,9 @@ use super::document::kind;
 use super::scope::{Entry, pointer};
 use super::step::{end, step};
 use super::value::{expr, seconds};
-use super::{Context, NODE_FAILED, Reader};
+use super::{Around, Context, NODE_FAILED, Reader};
 use crate::leaves::PortType;
 use crate::names::{AS, ENDINGS, FAILURE, MANNER};
-
-/// Decorators that were around an action, as parts of its call.
-#[derive(Clone, Default)]
-pub(super) struct Around {
-    pub(super) within: Option<Expr>,
-    pub(super) retry: Option<Expr>,
-}
 
 impl<'a, 't> Reader<'_, 'a, 't> {
     /// Checks that a node has no attributes but these ports and its names.

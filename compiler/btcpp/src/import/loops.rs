@@ -5,11 +5,10 @@ use motet_syntax::ast::{Name, Step, StepKind};
 use roxmltree::Node;
 
 use super::document::{elements, kind};
-use super::leaf::Around;
 use super::scope::pointer;
 use super::step::{attempt, branch, catch_any, step};
 use super::value::number;
-use super::{Context, Reader};
+use super::{Around, Context, Reader};
 use crate::leaves::PortType;
 use crate::names::{COUNT, IS, OF, THAN};
 

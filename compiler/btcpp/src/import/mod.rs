@@ -29,6 +29,13 @@ const MAX_DEPTH: usize = MAX_NESTING - 4;
 /// Sub-policy that fails as a node does, so that a handler can catch it.
 pub(crate) const NODE_FAILED: &str = "node_failed";
 
+/// Decorators that were around an action, as parts of its call.
+#[derive(Clone, Default)]
+pub(super) struct Around {
+    pub(super) within: Option<Expr>,
+    pub(super) retry: Option<Expr>,
+}
+
 /// Imports the main tree of a document as a policy for the library that has these leaves. `None` where there
 /// is an error among the diagnostics.
 ///

@@ -9,9 +9,8 @@ use roxmltree::Node;
 
 use super::condition::negated;
 use super::document::{elements, kind};
-use super::leaf::Around;
 use super::value::expr;
-use super::{Context, MAX_DEPTH, Reader};
+use super::{Around, Context, MAX_DEPTH, Reader};
 use crate::names::{ENDINGS, FAILURE, FAILURE_IS, NEEDS};
 
 pub(super) fn step(kind: StepKind, span: Span) -> Step {

@@ -155,7 +155,8 @@ fn import_bounds_depth_and_copies() {
     assert!(found.iter().any(|one| one.2.contains(&MAX_IMPORTED_STEPS.to_string())), "{found:?}");
     let attempts = |inner: &str| {
         format!(
-            "<RetryUntilSuccessful num_attempts=\"9\"><Sequence>{inner}{inner}</Sequence></RetryUntilSuccessful>"
+            "<RetryUntilSuccessful num_attempts=\"9\"><Sequence>{inner}{inner}</Sequence>\
+             </RetryUntilSuccessful>"
         )
     };
     let nested = (0..5).fold("<say text=\"a\"/>".to_owned(), |inner, _| attempts(&inner));

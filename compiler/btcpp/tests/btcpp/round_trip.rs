@@ -81,7 +81,7 @@ fn imported_tree_is_exported_as_it_was() {
             Ok((again, is_cut)) => {
                 let again = export(&again, &leaves).unwrap();
                 let bare = |text: &str| text.replace("main_tree_to_execute=\"sketch\" ", "");
-                // The list of leaves also has those of steps that no tree shows, since they are never reached.
+                // The list of leaves also has those of steps that are never reached.
                 // Nodes that do nothing, and sequences of one step, may come back as another number of them.
                 let steps = |text: &str| {
                     let text = bare(text);
