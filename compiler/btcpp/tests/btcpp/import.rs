@@ -36,8 +36,8 @@ fn import_reads_a_tree_as_people_write_it() {
          <IfThenElse><Inverter><Condition ID=\"is_holding\" object=\"mug\"/></Inverter>
          <Timeout msec=\"1500\"><go to=\"table\"/></Timeout><AlwaysSuccess/></IfThenElse></Sequence>",
     );
-    let wanted = "policy main {\n    let found = detect(\"mug\")\n    try {\n        pick(found) retry 2\n    \
-                  } catch any {\n        say(\"no\")\n    }\n    if not holding(mug) {\n        \
+    let wanted = "policy main {\n    let found = detect(\"mug\")\n    try {\n        pick(found) retry 2\n\
+                  \x20   } catch any {\n        say(\"no\")\n    }\n    if not holding(mug) {\n        \
                   go(table) within 1.5 s\n    }\n}\n";
     let plain = text.replace("what: ", "").replace("object: ", "").replace("text: ", "").replace("to: ", "");
     assert_eq!(plain.replace('$', ""), wanted);
