@@ -239,8 +239,8 @@ fn exported_tree_makes_the_calls_of_the_engine() {
         if motet_graph::validate(&graph).is_err() {
             continue;
         }
-        // The engine observes before it starts a branch, and the tree does not, so that the order of branches and
-        // how far each comes before another one fails differ.
+        // The engine observes before it starts a branch, and the tree does not. So the order of branches
+        // differs, and how far each comes before another one fails.
         if graph.nodes.iter().any(|node| matches!(node.kind, NodeKind::Parallel { .. })) {
             continue;
         }
