@@ -15,6 +15,7 @@ use motet_syntax::{Parsed, Source};
 use serde::de::IgnoredAny;
 
 use crate::error::CliError;
+use crate::flags::folder_of;
 
 /// Reads all of stdin.
 pub(crate) fn read_stdin() -> Result<Bytes, CliError> {
@@ -186,8 +187,7 @@ impl Document {
     /// Folder of the file, or else the present one.
     pub(crate) fn folder(&self) -> PathBuf {
         let file = self.path.as_deref().or_else(|| self.line_of.as_ref().map(|(file, _)| Path::new(file)));
-        let folder = file.and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
-        folder.unwrap_or(Path::new(".")).to_owned()
+        file.map_or(Path::new("."), folder_of).to_owned()
     }
 
     /// Parses the document. Bytes that are not text, or are too many, are diagnostics.

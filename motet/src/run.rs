@@ -117,9 +117,13 @@ pub fn remote_settings() -> EngineSettings {
 /// Head of the journal of a run of this id that begins now, at time 0, without a description of the driver.
 #[must_use]
 pub fn journal_head(run: &str, engine: &Engine, start: &StartState) -> JournalHead {
+    JournalHead { began_unix_ns: unix_ns(), ..undated_head(run, engine, start) }
+}
+
+/// The same for a run of which nobody asks when it began: no clock is read.
+pub(crate) fn undated_head(run: &str, engine: &Engine, start: &StartState) -> JournalHead {
     JournalHead {
         run: run.to_owned(),
-        began_unix_ns: unix_ns(),
         start: start.clone(),
         settings: *engine.settings(),
         capabilities: engine.capabilities().clone(),

@@ -4,10 +4,8 @@
 mod simulated;
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use motet_compiler::fix::{FixLimits, fix};
-use motet_geometry::planning::RobotModel;
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeKind, Term};
 use motet_project::{DOCUMENT, Discard, Project, ProjectError, ProjectSession};
@@ -17,7 +15,6 @@ use motet_syntax::{Diagnostic, Parsed, Severity, Source, Sources, render};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::Error;
 use crate::document::{MAX_FIXES, is_broken, listed, write};
 use crate::feasible::{Motions, decide_in, queries};
 use crate::page::source::PolicyText;
@@ -67,9 +64,10 @@ enum Question {
 /// ```
 #[derive(Debug, Default)]
 pub struct Workbench {
-    opened: Option<Arc<ProjectSession>>,
-    /// Names of robots and scenes beside the built-in ones.
-    own: [Vec<String>; 2],
+    opened: Option<ProjectSession>,
+    /// Robot and scene beside the built-in ones.
+    own_robot: Option<String>,
+    own_scene: Option<String>,
 }
 
 impl Workbench {
@@ -81,11 +79,8 @@ impl Workbench {
 
     /// The same with a robot and a scene of its own, by name or path.
     #[must_use]
-    pub fn with_room(mut self, robot: Option<&str>, scene: Option<&str>) -> Self {
-        for (own, name) in self.own.iter_mut().zip([robot, scene]) {
-            own.extend(name.map(str::to_owned));
-        }
-        self
+    pub fn with_room(self, robot: Option<&str>, scene: Option<&str>) -> Self {
+        Self { own_robot: robot.map(str::to_owned), own_scene: scene.map(str::to_owned), ..self }
     }
 
     /// Answers a question. The answer is a JSON object; one with `error` says why there is no other.
@@ -100,7 +95,7 @@ impl Workbench {
 
     fn answered(&mut self, question: Question) -> Result<Value, String> {
         match question {
-            Question::Rooms => Ok(json!({"robots": self.names(0), "scenes": self.names(1)})),
+            Question::Rooms => Ok(json!({"robots": self.robots(), "scenes": self.scenes()})),
             Question::Open { robot, scene } => self.open(&robot, &scene),
             Question::Check { text, name } => {
                 let opened = self.opened()?;
@@ -151,24 +146,21 @@ impl Workbench {
     }
 
     fn opened(&self) -> Result<&ProjectSession, String> {
-        self.opened.as_deref().ok_or_else(|| "no robot is open".to_owned())
+        self.opened.as_ref().ok_or_else(|| "no robot is open".to_owned())
     }
 
-    /// Names of robots (0) or scenes (1).
-    fn names(&self, which: usize) -> Vec<&str> {
-        let built_in: Vec<&str> = match which {
-            0 => builtin::ROBOTS.iter().map(|robot| robot.name).collect(),
-            _ => builtin::SCENES.iter().map(|scene| scene.name).collect(),
-        };
-        let own = self.own.get(which).into_iter().flatten().map(String::as_str);
-        let own = own.filter(|name| !built_in.contains(name));
-        own.chain(built_in.iter().copied()).collect()
+    fn robots(&self) -> Vec<&str> {
+        offered(self.own_robot.as_deref(), builtin::ROBOTS.iter().map(|robot| robot.name))
+    }
+
+    fn scenes(&self) -> Vec<&str> {
+        offered(self.own_scene.as_deref(), builtin::SCENES.iter().map(|scene| scene.name))
     }
 
     fn open(&mut self, robot: &str, scene: &str) -> Result<Value, String> {
         // A page may name what it was offered, and no file.
-        for (which, name) in [robot, scene].into_iter().enumerate() {
-            if !self.names(which).contains(&name) {
+        for (names, name) in [(self.robots(), robot), (self.scenes(), scene)] {
+            if !names.contains(&name) {
                 return Err(format!("there is no robot or scene `{name}` to choose"));
             }
         }
@@ -179,9 +171,14 @@ impl Workbench {
             .and_then(|project| project.into_session(&mut Discard));
         let opened = opened.map_err(|error| said(&error))?;
         let world = PageWorld::of(&opened).map(|mut world| world.item());
-        self.opened = Some(Arc::new(opened));
+        self.opened = Some(opened);
         Ok(json!({ "world": world }))
     }
+}
+
+/// Names to choose from: the one of its own first.
+fn offered<'n>(own: Option<&'n str>, built_in: impl Iterator<Item = &'n str>) -> Vec<&'n str> {
+    own.into_iter().chain(built_in.filter(|name| Some(*name) != own)).collect()
 }
 
 /// Reads a policy of a page.
@@ -206,17 +203,14 @@ fn built_in_profile(name: Option<&str>) -> Result<Profile, String> {
 /// Decides the motions of a policy with known arguments, each from the start of the scene; without a policy
 /// that passes the check, motions of the scene.
 fn feasible(opened: &ProjectSession, text: &str) -> Result<Value, String> {
-    let (Some(robot), Some(files), Some(scene)) = (&opened.robot, &opened.files, &opened.scene) else {
-        return Err("motions need a robot and a scene".to_owned());
+    let (Some(geometry), Some(scene)) = (&opened.geometry, &opened.scene) else {
+        return Err("motions need a robot with a body, and a scene".to_owned());
     };
-    let body = files.body(robot, &mut Sources::default(), &mut Discard).map_err(|error| said(&error))?;
-    let body = body.ok_or_else(|| Error::NoBody(robot.name.to_string()).to_string())?;
-    let machine = RobotModel::new(robot, &body);
     let (_, parsed) = read(text, None)?;
     let graph = opened.session.compile(&parsed, None).graph;
     let named: Vec<String> = graph.iter().flat_map(known_motions).collect();
     let wanted = if named.is_empty() { Motions::All } else { Motions::These(&named) };
-    let room = (&machine, scene);
+    let room = (geometry.machine(), scene);
     let queries = queries(wanted, room, &opened.session, &mut Sources::default(), &mut Discard);
     let mut queries = queries.map_err(|error| error.to_string())?;
     let left_out = queries.len().saturating_sub(MAX_MOTIONS);

@@ -5,7 +5,7 @@ import { createServer } from "node:http";
 import { mkdtempSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
-import { PATIENCE, check, launch, open, run, serve } from "../view/browser.mjs";
+import { PATIENCE, check, chip, launch, open, play, run, serve } from "../view/browser.mjs";
 
 const [motet, folder, pictures] = process.argv.slice(2);
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".txt": "text/plain" };
@@ -24,7 +24,6 @@ const address = `http://127.0.0.1:${files.address().port}/`;
 const browser = await launch();
 
 const picture = async (page, name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
-const chip = (page, word) => page.locator(".chip", { hasText: word }).first().waitFor({ timeout: PATIENCE });
 const area = (page) => page.getByLabel("Text of the policy");
 const button = (page, name) => page.getByRole("button", { name, exact: true });
 const clean = (page) => page.locator(".clean").waitFor({ timeout: PATIENCE });
@@ -201,20 +200,7 @@ async function hostile() {
 }
 
 if (pictures) mkdirSync(pictures, { recursive: true });
-const TESTS = { playground_by_hand, workbench_by_hand, same_findings, examples, hostile };
-const only = process.env.ONLY?.split(",");
-let failed = 0;
-for (const [name, test] of Object.entries(TESTS)) {
-  if (only && !only.includes(name)) continue;
-  const begun = Date.now();
-  try {
-    await test();
-    console.log(`${name}: well (${((Date.now() - begun) / 1000).toFixed(1)} s)`);
-  } catch (error) {
-    failed += 1;
-    console.error(`${name}: ${error.message}`);
-  }
-}
+const failed = await play({ playground_by_hand, workbench_by_hand, same_findings, examples, hostile });
 await browser.close();
 files.close();
 process.exit(failed === 0 ? 0 : 1);

@@ -15,6 +15,27 @@ export const PATIENCE = 30_000;
 
 export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM, headless: true, args: FLAGS.split(" ") });
 
+/** Waits for a word in the head of a page. */
+export const chip = (page, word) => page.locator(".chip", { hasText: word }).first().waitFor({ timeout: PATIENCE });
+
+/** Runs tests by their names, all or those that `ONLY` names. Gives the number of those that failed. */
+export async function play(tests) {
+  const only = process.env.ONLY?.split(",");
+  let failed = 0;
+  for (const [name, test] of Object.entries(tests)) {
+    if (only && !only.includes(name)) continue;
+    const begun = Date.now();
+    try {
+      await test();
+      console.log(`${name}: well (${((Date.now() - begun) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+      failed += 1;
+      console.error(`${name}: ${error.message}`);
+    }
+  }
+  return failed;
+}
+
 export function check(is, what) {
   if (!is) throw new Error(`not so: ${what}`);
 }

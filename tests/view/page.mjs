@@ -3,7 +3,7 @@
 import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { PATIENCE, cable, check, launch, open, run, serve } from "./browser.mjs";
+import { PATIENCE, cable, check, chip, launch, open, play, run, serve } from "./browser.mjs";
 
 const [motet, pictures] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "motet-view-"));
@@ -14,7 +14,6 @@ async function picture(page, name) {
   if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
 }
 
-const chip = (page, word) => page.locator(".chip", { hasText: word }).first().waitFor({ timeout: PATIENCE });
 const tab = (page, name) => page.getByRole("tab", { name, exact: true }).click();
 
 /** A run from a request to the handover, whose question is answered on the page. */
@@ -293,19 +292,6 @@ async function refused() {
   child.kill();
 }
 
-const TESTS = { request_with_question, free_text, swap, reconnect, scrub, blocked, hostile, thousand, refused };
-const only = process.env.ONLY?.split(",");
-let failed = 0;
-for (const [name, test] of Object.entries(TESTS)) {
-  if (only && !only.includes(name)) continue;
-  const begun = Date.now();
-  try {
-    await test();
-    console.log(`${name}: well (${((Date.now() - begun) / 1000).toFixed(1)} s)`);
-  } catch (error) {
-    failed += 1;
-    console.error(`${name}: ${error.message}`);
-  }
-}
+const failed = await play({ request_with_question, free_text, swap, reconnect, scrub, blocked, hostile, thousand, refused });
 await browser.close();
 process.exit(failed === 0 ? 0 : 1);

@@ -1,6 +1,7 @@
 // The workbench: choose a room, write a policy or ask for one, see its findings and motions, and run it.
 
 import { useEffect, useRef, useState } from "preact/hooks";
+import { Finding } from "./parts.jsx";
 import { WORDS } from "./words.js";
 
 const PAUSE = 150;
@@ -277,25 +278,24 @@ export function Writer({ bench }) {
       <div class="findings" role="region" aria-live="polite" aria-label={WORDS.text}>
         {found?.every((one) => one.severity === "note") && <p class="clean">{WORDS.clean}</p>}
         {found?.map((one, i) => (
-          <div key={i} class={`finding ${one.severity}`}>
-            <button class="link" onClick={() => goTo(one)}>
-              {WORDS.line(one.span.line)}
-            </button>{" "}
-            <b>
-              {WORDS.severity[one.severity]} {one.code}
-            </b>{" "}
-            {one.message}
-            {one.help && (
-              <div>
-                {WORDS.help}: {one.help}
-              </div>
-            )}
-            {one.fix && (
-              <button class="small" onClick={() => bench.setText(edited(text, one.fix.edits))}>
-                {WORDS.fixOne(one.fix.title)}
-              </button>
-            )}
-          </div>
+          <Finding
+            key={i}
+            of={one}
+            place={
+              <>
+                <button class="link" onClick={() => goTo(one)}>
+                  {WORDS.line(one.span.line)}
+                </button>{" "}
+              </>
+            }
+            fix={
+              one.fix && (
+                <button class="small" onClick={() => bench.setText(edited(text, one.fix.edits))}>
+                  {WORDS.fixOne(one.fix.title)}
+                </button>
+              )
+            }
+          />
         ))}
       </div>
     </div>

@@ -14,6 +14,23 @@ export const Sign = ({ is }) => (
 /** Time for people. */
 export const secs = (value) => WORDS.secs(value);
 
+/** Finding of a check; `place` leads to it, and `fix` mends it. */
+export const Finding = ({ of, place, fix }) => (
+  <div class={`finding ${of.severity}`}>
+    {place}
+    <b>
+      {WORDS.severity[of.severity]} {of.code}
+    </b>{" "}
+    {of.message}
+    {of.help && (
+      <div>
+        {WORDS.help}: {of.help}
+      </div>
+    )}
+    {fix}
+  </div>
+);
+
 /** Value of a reading without more digits than a person reads. */
 export function short(value) {
   const number = Number(value);

@@ -2,7 +2,7 @@
 
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { current } from "./state.js";
-import { secs } from "./parts.jsx";
+import { Finding, secs } from "./parts.jsx";
 import { WORDS } from "./words.js";
 
 export function PolicyText({ state, chosen, choose }) {
@@ -34,17 +34,7 @@ export function PolicyText({ state, chosen, choose }) {
               <code>{text || " "}</code>
             </div>
             {found.get(number)?.map((one, k) => (
-              <div key={k} class={`finding ${one.severity}`}>
-                <b>
-                  {WORDS.severity[one.severity]} {one.code}
-                </b>{" "}
-                {one.message}
-                {one.help && (
-                  <div>
-                    {WORDS.help}: {one.help}
-                  </div>
-                )}
-              </div>
+              <Finding key={k} of={one} />
             ))}
           </div>
         );

@@ -21,7 +21,7 @@ use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Source, Sources};
 
 use crate::error::{CliError, Exit};
-use crate::flags::DiagnosticFormat;
+use crate::flags::{DiagnosticFormat, folder_of};
 use crate::output::{Colors, count, replace_file};
 use crate::report::Report;
 
@@ -398,10 +398,6 @@ fn stance_of(folder: &Path, card: &str) -> Option<DraftStance> {
     let robot = files.card(&mut sources, &mut Discard).ok()?;
     let body = files.body(&robot, &mut sources, &mut Discard).ok()??;
     Some(find_stance(&robot, &body))
-}
-
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// SRDF beside a URDF: the one of the same name, or else the only one.

@@ -305,11 +305,16 @@ fn other_commands_take_robot_and_scene_from_the_folder() {
     let place = Place::new("commands_config")
         .file("motet.toml", "robot = \"hsr\"\nscene = \"kitchen\"\n")
         .file("a.motet", "policy a { go(counter) }\n")
+        .file(
+            "many.jsonl",
+            "{\"motet\": 1, \"policy\": \"a\", \"steps\": [{\"do\": \"go\", \"to\": \"counter\"}]}\n",
+        )
         .file("other/motet.toml", "robot = \"panda\"\nscene = \"lab\"\n")
         .file("other/b.motet", "policy b { say(\"hello\") }\n")
         .file("wrong/motet.toml", "robot = 3\n")
         .file("wrong/c.motet", "policy c { done }\n");
     place.run("run a.motet --speed max").check(0, &[]);
+    place.run("run many.jsonl --profile ideal").check(0, &["err:1 done"]);
     place.run("compile a.motet").check(0, &["out:\"robot\":\"hsr\""]);
     place.run("compile other/b.motet").check(0, &["out:\"robot\":\"panda\""]);
     place.run("compile other/b.motet --robot hsr --scene kitchen").check(0, &["out:\"robot\":\"hsr\""]);

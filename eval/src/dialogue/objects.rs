@@ -69,7 +69,7 @@ pub(super) struct Swap {
     of: &'static str,
     /// Number of the unseen thing.
     index: usize,
-    /// What tells it apart from another of its kind.
+    /// Word that tells it apart from another of its kind.
     colour: Option<&'static str>,
 }
 

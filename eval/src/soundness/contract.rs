@@ -39,7 +39,7 @@ pub(super) enum Arg {
     Entity(usize),
     /// A parameter of the action.
     Param(usize),
-    /// What a quantified clause is about.
+    /// Subject of a quantified clause.
     Each,
     /// The result of the perception.
     Result,

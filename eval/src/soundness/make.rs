@@ -63,7 +63,7 @@ pub(super) fn domain(dice: &mut SplitMix64) -> Domain {
     domain
 }
 
-/// What may stand as an argument in some place.
+/// Arguments that may stand in some place.
 #[derive(Clone, Default)]
 struct Terms {
     /// Arguments with their kinds.

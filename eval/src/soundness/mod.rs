@@ -1,8 +1,8 @@
 //! Differential fuzzer of proofs and guards: random domains and policies, and worlds that keep to the
 //! contracts.
 //!
-//! What the check accepts is run by the real engine through the driver trait in virtual time. When a step
-//! begins, the needs of its contract are judged by the true state of the world, with a reading of the
+//! Policies that the check accepts are run by the real engine through the driver trait in virtual time. When
+//! a step begins, the needs of its contract are judged by the true state of the world, with a reading of the
 //! language that shares nothing with the compiler and the engine. A policy that the check refuses is run with
 //! the needs taken out of the domain, to see if any run breaks one.
 

@@ -3,7 +3,7 @@
 use motet_graph::Graph;
 use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_project::{ProjectSession, SimulationInputs};
-use motet_runtime::journal::{JournalEntry, JournalHead};
+use motet_runtime::journal::JournalEntry;
 use motet_runtime::{
     Answer, Detection, Driver as _, Effect, Engine, EngineSettings, Event, Moved, Observer, Query,
     RunControl, Time, ToldThing, Verifier,
@@ -16,7 +16,7 @@ use crate::page::entries::EntryTracker;
 use crate::page::feed::PageFeed;
 use crate::page::source::PolicyText;
 use crate::page::world::PageWorld;
-use crate::run::{Room, engine, simulator, start_state};
+use crate::run::{Room, engine, simulator, start_state, undated_head};
 
 /// Number of items after which a run stops.
 const MAX_ITEMS: usize = 20_000;
@@ -42,13 +42,7 @@ pub(super) fn items(
     let settings = EngineSettings::default();
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings);
     let mut engine = engine.map_err(|error| error.to_string())?;
-    let head = JournalHead {
-        run: RUN.to_owned(),
-        start,
-        settings: *engine.settings(),
-        capabilities: engine.capabilities().clone(),
-        ..JournalHead::new(engine.graph())
-    };
+    let head = undated_head(RUN, &engine, &start);
     let mut world = PageWorld::of(opened);
     let mut items = vec![json!({"t": "hello", "takes": []})];
     items.extend(world.as_mut().map(PageWorld::item));

@@ -20,7 +20,7 @@ pub(crate) struct WorkBeside<T> {
     until: Option<Instant>,
 }
 
-/// WorkProgress of some work.
+/// Progress of some work.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum WorkProgress<T> {
     Coming,

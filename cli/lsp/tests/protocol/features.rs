@@ -1,4 +1,4 @@
-//! What an editor asks about an open document.
+//! Questions of an editor about an open document.
 
 use serde_json::{Value, json};
 

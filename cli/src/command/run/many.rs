@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 use super::RunArgs;
 use crate::documents::{self, Document};
 use crate::error::{CliError, Exit};
-use crate::flags::{DriverChoice, Speed};
+use crate::flags::{DriverChoice, Speed, folder_of};
 use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{count_irregular, note};
 use crate::projects::Projects;
@@ -78,7 +78,7 @@ struct PolicyRun {
 pub(super) fn run(file: &Path, args: &RunArgs, report: &mut Report) -> Result<Exit, CliError> {
     let inputs = documents::collect(&[file.to_owned()])?;
     let mut projects = Projects::new(&args.session);
-    projects.of(file.parent().unwrap_or(Path::new(".")), report)?;
+    projects.of(folder_of(file), report)?;
     let simulation = args.driver.inputs(None, report)?;
     let flags = format!("run {:?} {:?} {:?}", args.session, args.driver, args.policy);
     let results = RefCell::new(ResultFile::open(&args.results, &flags)?);

@@ -102,7 +102,7 @@ impl Turn<'_> {
     }
 
     /// True if a need holds of one entity: what it asks holds, or the condition under which it asks does not.
-    /// Where neither is known, both are worth an observation.
+    /// If neither is known, both are worth an observation.
     fn need_of(&mut self, need: &Need, each: Option<Value>, fresh: Freshness) -> Truth {
         let Some(when) = &need.when else {
             let mut judge = self.judge_missing(fresh);

@@ -1,5 +1,5 @@
-//! What a person types while the robot moves, and what a model writes for it, read and checked beside the
-//! run: the loop of the run only starts the work and takes its result.
+//! Lines that a person types while the robot moves, and replies of a model to them, read and checked beside
+//! the run: the loop of the run only starts the work and takes its result.
 
 use std::sync::Arc;
 
@@ -46,7 +46,7 @@ pub(super) struct PolicyCheck {
     pub(super) check: WorkBeside<Option<Box<PlannedRequest>>>,
 }
 
-/// OwnedWorld of a conversation with some knowledge, without borrows.
+/// World of a conversation with some knowledge, without borrows.
 struct OwnedWorld {
     base: Session,
     scene: Scene,
