@@ -132,6 +132,10 @@ pub(crate) trait Domain<'p> {
     /// Assumes that the run sees a condition of a step to hold, or that it does not. Returns false if that
     /// cannot be.
     fn assume_at(&mut self, id: StepId, condition: &Condition, is_seen: bool) -> bool;
+    /// Lets a wait fail, while what it waits for is still not so.
+    fn fail_wait(&mut self, _id: StepId, _condition: &Condition) {
+        self.throw(Some(TIMEOUT), usize::MAX);
+    }
     /// Assumes the condition of a wait, which something outside may have changed.
     fn await_at(&mut self, id: StepId, condition: &Condition);
     /// Walks over a wait for a time.
@@ -219,7 +223,7 @@ pub(crate) trait Domain<'p> {
                 self.branch(id, condition, then, otherwise.as_deref().unwrap_or_default());
             }
             StepKind::Wait { condition, .. } => {
-                self.throw(Some(TIMEOUT), usize::MAX);
+                self.fail_wait(id, condition);
                 self.await_at(id, condition);
             }
             StepKind::Delay { .. } => self.pass_time(id),

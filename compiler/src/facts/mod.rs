@@ -46,32 +46,37 @@ pub(crate) struct FactStore<'w> {
     start: &'w [FluentTable],
     tables: Vec<FluentTable>,
     trail: Vec<TrailEntry>,
+    /// The least argument that is a symbol, an entity that may be one of several; the greatest number without
+    /// symbols. What is known of such an entity is no entry of its own until a step writes one.
+    first_symbol: u16,
 }
 
 impl FactStore<'static> {
     /// Empty tables for a number of fluents; every fact has the value `default`.
     pub(crate) fn new(fluents: usize, default: TruthSet) -> Self {
-        Self { start: &[], tables: vec![FluentTable::new(default); fluents], trail: Vec::new() }
+        let tables = vec![FluentTable::new(default); fluents];
+        Self { start: &[], tables, trail: Vec::new(), first_symbol: ANY }
     }
 }
 
 impl<'w> FactStore<'w> {
-    /// A store above the facts at the start. O(fluents).
-    pub(crate) fn above(start: &'w FactStore<'static>) -> Self {
+    /// A store above the facts at the start, in which the arguments from `first_symbol` on are symbols.
+    /// O(fluents).
+    pub(crate) fn above(start: &'w FactStore<'static>, first_symbol: u16) -> Self {
         // One more for a table that is added.
         let mut tables = Vec::with_capacity(start.tables.len() + 1);
         tables.extend(start.tables.iter().map(|table| FluentTable::new(table.default)));
-        Self { start: &start.tables, tables, trail: Vec::with_capacity(256) }
+        Self { start: &start.tables, tables, trail: Vec::with_capacity(256), first_symbol }
     }
 
     /// Lays the writes above another start, which must have the same facts as their own.
     pub(crate) fn over<'b>(self, start: &'b FactStore<'static>) -> FactStore<'b> {
-        FactStore { start: &start.tables, tables: self.tables, trail: self.trail }
+        FactStore { start: &start.tables, ..self }
     }
 
     /// Takes the writes alone, to be laid [`Self::over`] the start again.
     pub(crate) fn lift(self) -> FactStore<'static> {
-        FactStore { start: &[], tables: self.tables, trail: self.trail }
+        FactStore { start: &[], ..self }
     }
 
     /// Adds a table; its fluent is the next index.
@@ -96,6 +101,21 @@ impl<'w> FactStore<'w> {
         let Some(table) = self.table(fluent) else { return TruthSet::NOTHING_KNOWN };
         let below = || self.below(fluent)?.get(key);
         table.get(key).or_else(below).unwrap_or(table.default)
+    }
+
+    /// Value of a fact at a join: one about a symbol without an entry is unknown.
+    pub(crate) fn get_joined(&self, fluent: Fluent, key: FactKey) -> TruthSet {
+        if self.is_symbolic(fluent, key) && !key.is_pattern() {
+            return self.entry(fluent, key).unwrap_or(TruthSet::NOTHING_KNOWN);
+        }
+        self.get(fluent, key)
+    }
+
+    /// Returns whether a fact is about a symbol.
+    fn is_symbolic(&self, fluent: Fluent, key: FactKey) -> bool {
+        // Tables that were added have no entities in their keys.
+        fluent.index() < self.start.len()
+            && (0..4).any(|index| (self.first_symbol..ANY).contains(&key.arg(index)))
     }
 
     /// Entry of a single fact, if it has one.
@@ -188,10 +208,11 @@ impl<'w> FactStore<'w> {
 
     fn set_single(&mut self, fluent: Fluent, key: FactKey, value: TruthSet) {
         let time = u32::try_from(self.trail.len()).unwrap_or(u32::MAX);
-        let start = self.start;
+        let (start, is_symbolic) = (self.start, self.is_symbolic(fluent, key));
         let Some(table) = self.tables.get_mut(fluent.index()) else { return };
         let (undo, before) = match table.put(TableEntry { key, value, time }) {
             Some(old) => (Undo::Put(old.value, old.time), old.value),
+            None if is_symbolic => (Undo::Drop, TruthSet::NOTHING_KNOWN),
             None => {
                 let below = || start.get(fluent.index())?.get(key);
                 (Undo::Drop, table.covering(key).or_else(below).unwrap_or(table.default))

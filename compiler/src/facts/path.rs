@@ -82,7 +82,14 @@ impl Delta {
             let (other, pattern) = rank.atom();
             other == fluent && pattern.covers(key)
         });
-        covering.last().map_or_else(|| base.get(fluent, key), |(_, value)| *value)
+        let covering = covering.last().map(|(_, value)| *value);
+        if base.is_symbolic(fluent, key) && !key.is_pattern() {
+            // Without an entry it is what all that it may be agree on.
+            let open = TruthSet::NOTHING_KNOWN;
+            return covering
+                .map_or_else(|| base.entry(fluent, key).unwrap_or(open), |value| value.join(open));
+        }
+        covering.unwrap_or_else(|| base.get(fluent, key))
     }
 }
 

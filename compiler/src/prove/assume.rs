@@ -124,7 +124,8 @@ impl Prover<'_> {
         !open.is_empty()
     }
 
-    fn narrow(
+    /// As [`assume`](Self::assume), without the paths of earlier joins.
+    pub(super) fn narrow(
         &mut self,
         condition: &Condition,
         outcome: Outcome,

@@ -12,7 +12,9 @@ use crate::analysis::{Domain, Enclosing};
 use crate::declare::{EffectDef, LastsDef, NeedDef, PrimitiveDef, ResourceSet};
 use crate::environment::base_pose_facts;
 use crate::facts::{ANY, Cause, FactKey, TruthSet};
-use crate::ir::{Base, BindingId, Call, Condition, Entity, Fluent, MotionKind, StepId, StepKind, Term, Ty};
+use crate::ir::{
+    Base, BindingId, Call, Condition, Entity, Fluent, MotionKind, Reaction, StepId, StepKind, Term, Ty, When,
+};
 
 impl<'a> Prover<'a> {
     pub(crate) fn call(&mut self, id: StepId, call: &Call, span: Span) {
@@ -43,7 +45,7 @@ impl<'a> Prover<'a> {
         let lasting = self.lasting(id);
         self.make_stale(id, def, frame);
         self.unsettle(&unsettles, cause);
-        if call.retries > 0 {
+        if call.retries > 0 || self.may_begin_again() {
             self.effects_of_retries(id, def, frame, (&mut makes, &mut unsettles));
         }
         self.check_lasting(&lasting);
@@ -122,6 +124,13 @@ impl<'a> Prover<'a> {
         weaken(makes, &made);
         weaken(unsettles, &unsettled);
         self.unsettle(unsettles, Cause::step(id));
+        // What the last attempt need not make, an earlier one has left unknown.
+        let doubtful: Vec<FactChange> = makes
+            .iter()
+            .filter(|change| !change.is_sure())
+            .map(|change| FactChange { sure: Certainty::Sometimes, ..*change })
+            .collect();
+        self.unsettle(&doubtful, Cause::step(id));
     }
 
     /// Propagates the facts after a failure of the step, and rechecks its needs for a retry.
@@ -134,8 +143,8 @@ impl<'a> Prover<'a> {
         makes: &[FactChange],
         verdicts: &mut [NeedVerdict],
     ) {
-        let retried = call.retries > 0;
-        if self.control.enclosing.is_empty() && !retried {
+        let (retried, may_begin_again) = (call.retries > 0, self.may_begin_again());
+        if self.control.enclosing.is_empty() && !retried && !may_begin_again {
             return;
         }
         let mark = self.state.facts.mark();
@@ -143,17 +152,31 @@ impl<'a> Prover<'a> {
         self.erode();
         self.see_states();
         self.throw_all(&def.fails);
-        if retried {
-            if self.mode == Mode::Explain && !verdicts.contains(&NeedVerdict::Refuted) {
-                self.check_retry(id, call, def, frame);
-            }
+        if retried && self.mode == Mode::Explain && !verdicts.contains(&NeedVerdict::Refuted) {
+            self.check_retry(id, call, def, frame);
+        }
+        if retried || may_begin_again {
             for (need, verdict) in def.needs.iter().zip(verdicts) {
-                if *verdict == NeedVerdict::Proven && !self.need(need, frame).0.is_true() {
+                if *verdict != NeedVerdict::Proven || self.need(need, frame).0.is_true() {
+                    continue;
+                }
+                // What begins again after an interruption is asked again by the run, whatever the verdict.
+                if retried {
                     *verdict = NeedVerdict::Deferred;
                 }
+                self.throw(self.library.lang_items.need_failure(&need.condition, &def.fails), usize::MAX);
             }
         }
         self.back_to(mark);
+    }
+
+    /// Returns whether a monitor around the step may interrupt it and let it begin again.
+    fn may_begin_again(&self) -> bool {
+        let goes_on = |when: &When| matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
+        self.state.watched.iter().any(|watched| {
+            let kind = self.program.step(watched.by).map(|step| &step.kind);
+            matches!(kind, Some(StepKind::Monitor { whens, .. }) if whens.iter().any(goes_on))
+        })
     }
 
     /// Reports the use of a pose that was perceived before something moved.

@@ -64,7 +64,7 @@ impl Collector {
         for patterns in [false, true] {
             for (fluent, key, before) in facts.writes(from).filter(|(_, key, _)| key.is_pattern() == patterns)
             {
-                let now = facts.get(fluent, key);
+                let now = facts.get_joined(fluent, key);
                 if let Some(value) = self.pending.get_mut(&(fluent, key)) {
                     *value = value.join(now);
                     continue;
@@ -78,7 +78,7 @@ impl Collector {
         }
         if self.hit && last.is_none() {
             for ((fluent, key), value) in &mut self.pending {
-                *value = value.join(facts.get(*fluent, *key));
+                *value = value.join(facts.get_joined(*fluent, *key));
             }
         }
         self.hit = true;

@@ -14,13 +14,13 @@ use super::{MAX_FIXPOINTS, PolicyEnd, Prover, Volatile};
 use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
 use crate::declare::Library;
 use crate::facts::{Atom, Cause, Delta, TruthSet, show};
-use crate::ir::{BindingId, Call, Catch, Condition, Failure, Program, StepId, StepKind, When};
+use crate::ir::{BindingId, Call, Catch, Condition, Failure, Program, StepId, StepKind, TIMEOUT, When};
 
 impl<'a> Domain<'a> for Prover<'a> {
     type Mark = usize;
     type Path = Delta;
     type Collector = Collector;
-    /// Facts and patterns that a branch writes, with their values behind it.
+    /// Facts and patterns that a branch writes, with their values behind it where it runs alone.
     type Changes = Vec<(Atom, TruthSet)>;
 
     fn program(&self) -> &'a Program {
@@ -136,8 +136,16 @@ impl<'a> Domain<'a> for Prover<'a> {
         self.assume(condition, outcome, Cause::step(id), CallFrame::default())
     }
 
+    fn fail_wait(&mut self, id: StepId, condition: &Condition) {
+        let mark = self.state.facts.mark();
+        self.doubt_free(condition, (false, true), Cause::step(id));
+        self.see_states();
+        self.throw(Some(TIMEOUT), usize::MAX);
+        self.back_to(mark);
+    }
+
     fn await_at(&mut self, id: StepId, condition: &Condition) {
-        self.await_condition(condition, Cause::step(id));
+        self.await_condition(condition, true, Cause::step(id));
     }
 
     fn pass_time(&mut self, id: StepId) {
@@ -157,14 +165,21 @@ impl<'a> Domain<'a> for Prover<'a> {
     fn branch_changes(&mut self, branches: &'a [Vec<StepId>]) -> Vec<Vec<(Atom, TruthSet)>> {
         let (mark, findings) = (self.mark(), self.findings());
         let mut changes = Vec::with_capacity(branches.len());
+        let around = self.control.written.take();
+        let mut all = Vec::new();
         for branch in branches {
+            self.control.written = Some(Vec::new());
             self.block(branch);
-            let touched = self.state.facts.touched(mark).into_iter();
-            changes.push(
-                touched.map(|(fluent, key)| ((fluent, key), self.state.facts.get(fluent, key))).collect(),
-            );
+            let mut written = self.control.written.take().unwrap_or_default();
+            written.extend(self.state.facts.touched(mark));
+            written.sort_unstable();
+            written.dedup();
+            all.extend(written.iter().copied());
+            let alone = |atom: Atom| (atom, self.state.facts.get(atom.0, atom.1));
+            changes.push(written.into_iter().map(alone).collect());
             self.restore(&mark);
         }
+        self.control.written = around.map(|around| [around, all].concat());
         self.drop_findings(findings);
         changes
     }
@@ -172,19 +187,17 @@ impl<'a> Domain<'a> for Prover<'a> {
     fn disturb(&mut self, id: StepId, changes: &[Vec<(Atom, TruthSet)>], index: usize) {
         self.control.branches.push((self.control.disturbed.len(), self.state.volatile.len()));
         let others = changes.iter().enumerate().filter(|(other, _)| *other != index);
-        for (atom, value) in others.flat_map(|(_, touched)| touched) {
-            self.disturb_by_branch(id, *atom);
+        let touched = others.flat_map(|(_, touched)| touched);
+        let touched: Vec<Atom> = touched.flat_map(|(atom, _)| self.instances(*atom)).collect();
+        for atom in touched {
+            self.disturb_by_branch(id, atom);
             // Of a choice only one step is there, and it may be another.
             if self.target.choice.is_some() {
                 continue;
             }
-            self.control.disturbed.push(*atom);
-            // What both branches make is made; if one makes it and one undoes it, that is a conflict.
-            if value.open.is_some() {
-                let (fluent, key) = *atom;
-                let value = TruthSet::open(Cause::step(id));
-                self.state.volatile.push(Volatile { fluent, key, value, when: None });
-            }
+            self.control.disturbed.push(atom);
+            let ((fluent, key), value) = (atom, TruthSet::open(Cause::step(id)));
+            self.state.volatile.push(Volatile { fluent, key, value, when: None });
         }
     }
 
@@ -242,6 +255,12 @@ impl<'a> Domain<'a> for Prover<'a> {
 
     fn begin_cleanup(&mut self) {
         let watched = std::mem::take(&mut self.state.watched);
+        // What has interrupted the step may be a monitor whose condition holds now.
+        for by in watched.iter().map(|watched| watched.by) {
+            if let Some(StepKind::Monitor { whens, .. }) = self.program.step(by).map(|step| &step.kind) {
+                whens.iter().for_each(|when| self.doubt(&when.condition, Cause::step(by)));
+            }
+        }
         self.control.unwatched.push(watched);
     }
 
@@ -297,30 +316,34 @@ impl Prover<'_> {
         }
     }
 
-    /// Assumes the condition of a wait, whatever was known before: something outside may have changed it.
-    pub(super) fn await_condition(&mut self, condition: &Condition, cause: Cause) {
+    /// Assumes that a condition has become `truth`, whatever was known before: something outside may have
+    /// changed it.
+    pub(super) fn await_condition(&mut self, condition: &Condition, truth: bool, cause: Cause) {
         match condition {
             Condition::Fact(fact) => {
+                let Some(key) = self.key(fact, CallFrame::default()) else { return };
+                if key.is_pattern() && truth {
+                    // Some entity has it, but which is not known.
+                    return self.doubt(condition, cause);
+                }
                 let known = self.evaluate(condition, CallFrame::default());
-                let key = self.key(fact, CallFrame::default()).filter(|key| !key.is_pattern());
-                if let (Some(key), false) = (key, known.is_true()) {
-                    let seen = known.narrow(true, cause).unwrap_or(TruthSet::yes(cause));
-                    self.learn(fact.fluent, key, seen);
+                if !(if truth { known.is_true() } else { known.is_false() }) {
+                    let new = TruthSet::of(truth, cause);
+                    self.see_change(fact.fluent, key, known.narrow(truth, cause).unwrap_or(new), cause);
                 }
             }
-            Condition::All(parts) => parts.iter().for_each(|part| self.await_condition(part, cause)),
-            Condition::Not(inner) => {
-                if let Condition::Fact(fact) = &**inner
-                    && let Some(key) = self.key(fact, CallFrame::default())
-                {
-                    self.learn(fact.fluent, key, TruthSet::no(cause));
+            Condition::Not(inner) => self.await_condition(inner, !truth, cause),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                if truth == matches!(condition, Condition::All(_)) {
+                    parts.iter().for_each(|part| self.await_condition(part, truth, cause));
+                } else {
+                    self.doubt(condition, cause);
                 }
             }
             Condition::Literal(_)
             | Condition::Compare(..)
             | Condition::MonitoredMeasure(_)
             | Condition::MonitoredFluent(_)
-            | Condition::AnyOf(_)
             | Condition::Unknown => {}
         }
     }
@@ -377,25 +400,30 @@ impl Prover<'_> {
 
     /// Joins the effects of all branches. Branches that leave different values in a fact are an error.
     fn compose_effects(&mut self, id: StepId, changed: &[Vec<(Atom, TruthSet)>], deltas: &[Delta]) -> Delta {
-        let mut written: FxHashMap<Atom, TruthSet> = FxHashMap::default();
+        // What a branch leaves, whatever the others may do to it meanwhile, if it is not unknown anyway.
+        let left = |(value, alone): (TruthSet, TruthSet)| {
+            let is_others = value.open.as_step() == Some(id) && !alone.open.is_some();
+            if is_others { TruthSet { open: Cause::NONE, ..value } } else { value }
+        };
+        let mut written: FxHashMap<Atom, (TruthSet, TruthSet)> = FxHashMap::default();
         for (touched, delta) in changed.iter().zip(deltas) {
-            for (atom, _) in touched.iter().copied() {
+            for (atom, alone) in touched.iter().copied() {
                 let value = delta.get(&self.state.facts, atom);
-                match written.get(&atom).copied() {
-                    None => {
-                        written.insert(atom, value);
-                    }
-                    Some(first) if first.same_set(value) => {}
-                    Some(first) => {
-                        if self.is_conflict(first, value) || self.is_conflict(value, first) {
-                            self.conflict(id, atom, first, value);
-                        }
-                        written.insert(atom, TruthSet::open(Cause::step(id)));
-                    }
+                let Some(first) = written.get(&atom).copied() else {
+                    written.insert(atom, (value, alone));
+                    continue;
+                };
+                let (one, other) = (left(first), left((value, alone)));
+                if self.is_conflict(one, other) || self.is_conflict(other, one) {
+                    self.conflict(id, atom, one, other);
                 }
+                // What both branches make is made, whichever ends last.
+                let both = (one.is_true() && other.is_true()) || (one.is_false() && other.is_false());
+                let value = if both { one } else { TruthSet::open(Cause::step(id)) };
+                written.insert(atom, (value, value));
             }
         }
-        Delta::new(written.into_iter())
+        Delta::new(written.into_iter().map(|(atom, (value, _))| (atom, value)))
     }
 
     /// Returns whether one branch leaves a fact true that another leaves false; with a choice, whether it

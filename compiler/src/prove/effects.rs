@@ -5,7 +5,7 @@ use motet_syntax::ast::{CompareOp, PrimitiveKind};
 use super::Prover;
 use super::call::pose_step;
 use super::evaluation::{CallFrame, MAX_ALIASES};
-use crate::facts::{ANY, Cause, FactKey, TruthSet};
+use crate::facts::{ANY, Atom, Cause, FactKey, TruthSet};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
@@ -25,6 +25,11 @@ pub(crate) struct FactChange {
 }
 
 impl FactChange {
+    /// A fact that may have changed on some path.
+    pub(super) fn perhaps(fluent: Fluent, key: FactKey) -> Self {
+        Self { fluent, key, truth: true, sure: Certainty::Sometimes }
+    }
+
     /// Returns whether the change happens on every path.
     pub(crate) fn is_sure(&self) -> bool {
         self.sure == Certainty::Always
@@ -104,6 +109,10 @@ impl Prover<'_> {
         }
         let Some(sure) = rest else { return };
         if self.covers(effect, kind) {
+            // Without an argument that tells them apart, it happens if there is one of them.
+            let is_about = effect.fact.args.contains(&Some(Term::Each));
+            let is_one = is_about || effect.when.is_none() && !self.of_kind(kind, 1).is_empty();
+            let sure = if is_one { sure } else { sure.max(Certainty::Unknown) };
             // Those of which nothing is known by name: one pattern for all of them.
             if let Some(key) = self.key(&effect.fact, CallFrame { each: None, ..frame }) {
                 changes.push(FactChange { fluent: effect.fact.fluent, key, truth: effect.value, sure });
@@ -161,7 +170,13 @@ impl Prover<'_> {
                 let Some(place) = place else { return (self.of_kind(kind, usize::MAX).into(), None) };
                 let mut known = Entities::new();
                 let mut rest = TruthSet::default();
-                let Some(aliases) = self.aliases(fact.fluent, pattern) else {
+                let has_entry = self.state.facts.entry(fact.fluent, pattern).is_some();
+                let aliases = if has_entry {
+                    Some(SmallVec::from_slice(&[pattern]))
+                } else {
+                    self.aliases(fact.fluent, pattern)
+                };
+                let Some(aliases) = aliases else {
                     return (Entities::new(), Some(Certainty::Unknown));
                 };
                 for pattern in aliases {
@@ -181,11 +196,20 @@ impl Prover<'_> {
         }
     }
 
+    /// A fact or pattern with all that it may be, whatever its symbols are.
+    pub(super) fn instances(&self, (fluent, key): Atom) -> Vec<Atom> {
+        let all = self.aliases(fluent, key);
+        all.map_or_else(
+            || vec![(fluent, FactKey::ALL)],
+            |all| all.into_iter().map(|key| (fluent, key)).collect(),
+        )
+    }
+
     /// A pattern with all its instances under the entities that its symbols may be; `None` if these are too
     /// many.
     fn aliases(&self, fluent: Fluent, pattern: FactKey) -> Option<SmallVec<[FactKey; 4]>> {
         let mut found: SmallVec<[FactKey; 4]> = SmallVec::from_slice(&[pattern]);
-        if self.symbols.is_empty() || self.state.facts.entry(fluent, pattern).is_some() {
+        if self.symbols.is_empty() {
             return Some(found);
         }
         let params = self.library.fluent(fluent).map(|def| def.params.as_slice()).unwrap_or_default();
@@ -262,6 +286,9 @@ impl Prover<'_> {
             let known = self.read(fluent, key);
             self.state.facts.set(fluent, key, new(known));
         }
+        if let Some(written) = &mut self.control.written {
+            written.push((fluent, key));
+        }
         if self.symbols.is_empty() {
             return;
         }
@@ -289,6 +316,15 @@ impl Prover<'_> {
         }
     }
 
+    /// Writes a fact that something outside may have changed, as [`learn`](Self::learn) does, and weakens the
+    /// facts that may be the same.
+    pub(super) fn see_change(&mut self, fluent: Fluent, key: FactKey, value: TruthSet, cause: Cause) {
+        if !self.is_disturbed(fluent, key) {
+            let change = FactChange { fluent, key, truth: true, sure: Certainty::Always };
+            self.write(&change, cause, |_| value);
+        }
+    }
+
     /// Returns whether a branch beside the present one may change a fact, or one of a pattern.
     fn is_disturbed(&self, fluent: Fluent, key: FactKey) -> bool {
         self.control.disturbed.iter().any(|(other, changed)| {
@@ -298,7 +334,7 @@ impl Prover<'_> {
     }
 
     /// Returns whether an argument of a fact is a symbol.
-    fn has_symbol(&self, fluent: Fluent, key: FactKey) -> bool {
+    pub(super) fn has_symbol(&self, fluent: Fluent, key: FactKey) -> bool {
         self.library.fluent(fluent).is_some_and(|def| {
             let entities = def.params.iter().enumerate().filter(|(_, (_, ty))| ty.kind().is_some());
             entities.into_iter().any(|(index, _)| self.symbols.get(Entity(key.arg(index))).is_some())
@@ -333,8 +369,10 @@ impl Prover<'_> {
             let known = instances.clone();
             instances.extend(candidates.iter().flat_map(|it| known.iter().map(|key| key.with(index, it.0))));
         }
-        for other in instances.into_iter().filter(|other| *other != key && !other.is_pattern()) {
-            if self.state.facts.entry(fluent, other).is_none() {
+        for other in instances.into_iter().filter(|other| *other != key) {
+            if other.is_pattern() {
+                self.state.facts.change(fluent, other, |_, old| old.maybe(value, cause));
+            } else if self.state.facts.entry(fluent, other).is_none() {
                 targets.push((other, self.state.facts.get(fluent, other)));
             }
         }

@@ -174,8 +174,26 @@ impl Prover<'_> {
         self.state.facts.parts(fluent, key, |key| known.push(key));
         known.sort_unstable();
         known.dedup();
-        let rest = self.read(fluent, key);
+        let mut rest = self.read(fluent, key);
+        if rest.yes.is_some() && !known.is_empty() && self.are_all(fluent, key, &known) {
+            // There may be no rest that has it.
+            rest = rest.join(TruthSet::no(Cause::NOTHING));
+        }
         known.into_iter().fold(rest, |some, key| self.read(fluent, key).or(some))
+    }
+
+    /// Returns whether some facts are all that a pattern covers, of the entities of the environment.
+    fn are_all(&self, fluent: Fluent, pattern: FactKey, known: &[FactKey]) -> bool {
+        let Some(def) = self.library.fluent(fluent) else { return false };
+        let open = def.params.iter().enumerate().filter(|(index, _)| pattern.arg(*index) == ANY);
+        let counts = open.map(|(_, (_, ty))| match (ty.kind(), ty.base) {
+            (Some(kind), _) => self.of_kind(kind, known.len() + 1).len(),
+            (None, Base::Enum(of)) => self.library.enums.get(of.index()).map_or(0, |of| of.cases.len()),
+            (None, _) => 0,
+        });
+        let all = counts.fold(1, usize::saturating_mul);
+        let single = |key: &&FactKey| !key.is_pattern() && !self.has_symbol(fluent, **key);
+        all <= known.len() && known.iter().filter(single).count() >= all
     }
 
     fn compare(&self, op: CompareOp, left: &Term, right: &Term, frame: CallFrame<'_>) -> TruthSet {

@@ -137,7 +137,7 @@ pub(crate) struct AbstractState<'w> {
 impl<'w> AbstractState<'w> {
     /// State before the first step, the table of poses that are not stale, and that of tests.
     fn at_start(environment: &'w Environment) -> (Self, Fluent, TestTable) {
-        let mut facts = FactStore::above(&environment.facts);
+        let mut facts = FactStore::above(&environment.facts, Symbols::first(environment));
         // A pose that no step has bound here is neither fresh nor stale.
         let fresh = facts.add_table(TruthSet::default());
         let tested = TestTable::new(facts.add_table(TruthSet::NOTHING_KNOWN));
@@ -179,6 +179,8 @@ pub(crate) struct Control {
     unwatched: Vec<Vec<Watched>>,
     /// Facts that a branch beside the present one may change at any moment.
     disturbed: Vec<Atom>,
+    /// Facts that steps have written, also on paths that were rolled back, while branches are proved alone.
+    written: Option<Vec<Atom>>,
     /// By enclosing branch, the numbers of disturbed and volatile facts around it.
     branches: Vec<(usize, usize)>,
     /// The call that is being proved.

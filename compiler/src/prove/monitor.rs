@@ -3,13 +3,15 @@
 use motet_syntax::ast::EndKind;
 use motet_syntax::{Diagnostic, Mistake as _};
 
+use super::assume::{Outcome, mentions};
 use super::collector::Collector;
+use super::effects::FactChange;
 use super::errors::{BodyFires, NeverFires};
 use super::evaluation::CallFrame;
 use super::{Mode, Prover, Volatile, Watched};
 use crate::analysis::{Domain, Enclosing};
-use crate::facts::{Cause, Delta, FactKey};
-use crate::ir::{BlockSlot, Condition, Entity, Reaction, Step, StepId, StepKind, Term, When};
+use crate::facts::{Cause, Delta, FactKey, TruthSet};
+use crate::ir::{BlockSlot, Condition, Entity, Fact, Reaction, Step, StepId, StepKind, Term, When};
 
 impl<'a> Prover<'a> {
     /// Proves a monitor to a fixed point: its reactions may run in any state of the body, and again in what
@@ -27,13 +29,12 @@ impl<'a> Prover<'a> {
         self.rehearse(id, whens, &Delta::default(), mark, volatile);
         let watched = self.watched_by(id, whens);
         self.state.watched.push(watched);
+        self.free(id, whens);
         let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
         let restarts: Vec<_> = restarts.collect();
         self.erode();
         let before = self.state.facts.delta(mark);
-        for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-            self.control.live &= self.assume_at(id, &when.condition, false);
-        }
+        self.enter_body(id, whens);
         // Else it fires at once, and only a restart begins the body.
         let mut head = self.control.live.then(|| self.state.facts.delta(mark));
         self.back_to(mark);
@@ -47,7 +48,7 @@ impl<'a> Prover<'a> {
             self.see_states();
             if self.control.live {
                 self.block(body);
-                self.erode();
+                self.leave_body(id, whens);
             }
             let end = self.control.live.then(|| self.state.facts.delta(mark));
             let states = match self.control.enclosing.pop() {
@@ -60,6 +61,7 @@ impl<'a> Prover<'a> {
             let grown = self.rehearse(id, whens, &states, mark, volatile);
             let mut next = head.clone();
             for when in &restarts {
+                let partitions = self.state.partitions.clone();
                 self.state.facts.replay(&states);
                 if self.overtake(id, &when.condition) {
                     let path = self.state.facts.delta(mark);
@@ -71,6 +73,7 @@ impl<'a> Prover<'a> {
                 } else {
                     self.back_to(mark);
                 }
+                self.state.partitions = partitions;
             }
             let is_same = match (&next, &head) {
                 (Some(next), Some(head)) => next.same_sets(head, &self.state.facts),
@@ -118,15 +121,65 @@ impl<'a> Prover<'a> {
 
     /// Proves the body of a monitor whose reactions need no proof.
     fn watch(&mut self, id: StepId, whens: &'a [When], body: &'a [StepId]) {
-        for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-            self.control.live &= self.assume_at(id, &when.condition, false);
-        }
+        self.enter_body(id, whens);
         let watched = self.watched_by(id, whens);
         self.state.watched.push(watched);
+        let volatile = self.state.volatile.len();
+        self.free(id, whens);
         if self.control.live {
             self.block(body);
+            self.leave_body(id, whens);
         }
+        self.state.volatile.truncate(volatile);
         self.state.watched.pop();
+    }
+
+    /// Assumes that no condition that fires at once holds where the body begins. Behind a pause or a
+    /// reaction that goes on, the world may have changed what holds now.
+    fn enter_body(&mut self, id: StepId, whens: &'a [When]) {
+        for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
+            let here = self.state.facts.mark();
+            if self.assume_at(id, &when.condition, false) {
+                continue;
+            }
+            let goes_on = matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
+            if !goes_on || constant(&when.condition) {
+                self.control.live = false;
+                continue;
+            }
+            self.back_to(here);
+            self.undo(&when.condition, Cause::step(id));
+            self.await_condition(&when.condition, false, Cause::step(id));
+            // It may also go on while the condition is unknown.
+            self.doubt(&when.condition, Cause::step(id));
+        }
+    }
+
+    /// Weakens the facts at the end of a body: it may end while a condition holds that has made it pause, or
+    /// run a reaction.
+    fn leave_body(&mut self, id: StepId, whens: &'a [When]) {
+        self.erode();
+        for when in whens {
+            if matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. }) {
+                self.doubt(&when.condition, Cause::step(id));
+            }
+        }
+    }
+
+    /// Records the watched facts that the world may change without a reaction as volatile: those of one
+    /// part of a conjunction, and those of a condition that has to hold for a time.
+    fn free(&mut self, id: StepId, whens: &'a [When]) {
+        let mut free = Vec::new();
+        for when in whens {
+            free_facts(&when.condition, (false, when.hold_secs == 0.0), &mut free);
+        }
+        for fact in free {
+            let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
+            let Some(key) = self.key(fact, CallFrame::default()).filter(|_| !is_derived) else { continue };
+            let value = TruthSet::open(Cause::step(id));
+            let row = |(fluent, key)| Volatile { fluent, key, value, when: None };
+            self.state.volatile.extend(self.instances((fact.fluent, key)).into_iter().map(row));
+        }
     }
 
     /// Records the facts that `resume` reactions change from any of these states as volatile in the body;
@@ -135,7 +188,7 @@ impl<'a> Prover<'a> {
         let mut grown = false;
         for when in whens {
             let Reaction::Resume { body, .. } = &when.reaction else { continue };
-            let said = self.findings();
+            let (said, partitions) = (self.findings(), self.state.partitions.clone());
             self.control.live = true;
             self.state.facts.replay(states);
             self.overtake(id, &when.condition);
@@ -158,6 +211,7 @@ impl<'a> Prover<'a> {
                 }
             }
             self.back_to(mark);
+            self.state.partitions = partitions;
             self.drop_findings(said);
             self.control.rehearsals -= 1;
             self.control.live = true;
@@ -184,8 +238,9 @@ impl<'a> Prover<'a> {
                 when.hold_secs == 0.0 && !is_end
             };
             for when in whens.iter().filter(fires) {
-                let held = self.evaluate(&when.condition, CallFrame::default()).is_true();
-                armed.push(ArmedWhen { when, held });
+                let by = watched.by;
+                let held = self.is_met(when, by);
+                armed.push(ArmedWhen { when, by, held });
             }
         }
         armed
@@ -193,7 +248,7 @@ impl<'a> Prover<'a> {
 
     /// Conditions with a time, of the monitors around a step, that an earlier step of their bodies has made
     /// certain, each with that step. The step lasts at least as long as they have to hold.
-    pub(super) fn lasting(&self, id: StepId) -> Vec<(&'a When, StepId)> {
+    pub(super) fn lasting(&self, id: StepId) -> Vec<LastingWhen<'a>> {
         let program = self.program;
         let least_secs = program.step(id).map_or(0.0, |step| step.bounds.0);
         if least_secs <= 0.0 || self.control.rehearsals > 0 || self.is_in_reaction(id) {
@@ -216,18 +271,18 @@ impl<'a> Prover<'a> {
             };
             let made = whens.iter().filter(fires).filter_map(|when| {
                 let value = self.evaluate(&when.condition, CallFrame::default());
-                let step = value.yes.as_step().filter(is_in).filter(|_| value.is_true())?;
-                Some((when, step))
+                let step = value.yes.as_step().filter(is_in).filter(|_| self.is_met(when, watched.by))?;
+                Some(LastingWhen { when, by: watched.by, step })
             });
-            lasting.extend(made.filter(|(_, step)| !self.is_in_reaction(*step)));
+            lasting.extend(made.filter(|lasting| !self.is_in_reaction(lasting.step)));
         }
         lasting
     }
 
     /// Reports the monitors whose condition, made certain by an earlier step, stays so while this step runs.
-    pub(super) fn check_lasting(&mut self, lasting: &[(&'a When, StepId)]) {
-        for (when, step) in lasting {
-            if self.evaluate(&when.condition, CallFrame::default()).is_true() {
+    pub(super) fn check_lasting(&mut self, lasting: &[LastingWhen<'a>]) {
+        for LastingWhen { when, by, step } in lasting {
+            if self.is_met(when, *by) {
                 self.body_fires(when, *step);
             }
         }
@@ -242,11 +297,18 @@ impl<'a> Prover<'a> {
 
     /// Reports the monitors whose condition the effects of a step have made certain.
     pub(super) fn check_fired(&mut self, armed: &[ArmedWhen<'a>], id: StepId) {
-        for ArmedWhen { when, held } in armed {
-            if !*held && self.evaluate(&when.condition, CallFrame::default()).is_true() {
+        for ArmedWhen { when, by, held } in armed {
+            if !*held && self.is_met(when, *by) {
                 self.body_fires(when, id);
             }
         }
+    }
+
+    /// Returns whether the condition of a monitor holds, unless the world changes what it watches.
+    fn is_met(&self, when: &When, by: StepId) -> bool {
+        let value = self.evaluate(&when.condition, CallFrame::default());
+        let is_open = value.open.is_some() && value.open.as_step() != Some(by);
+        value.yes.is_some() && !value.no.is_some() && !is_open
     }
 
     /// Reports a monitor that a step of its body fires.
@@ -299,13 +361,46 @@ impl<'a> Prover<'a> {
     /// made. Returns false if the condition cannot hold in any world.
     fn overtake(&mut self, id: StepId, condition: &Condition) -> bool {
         let here = self.state.facts.mark();
-        if self.assume_at(id, condition, true) {
+        let cause = Cause::step(id);
+        // The paths that have met tell nothing of what the world has changed since.
+        // It also fires when the condition has been unknown for long, and the step that it interrupts may
+        // change what has set it off.
+        self.state.partitions.retain(|partition| !partition.differs(|fluent| mentions(condition, fluent)));
+        if self.narrow(condition, Outcome::NotFalse, cause, CallFrame::default()) {
+            self.doubt(condition, cause);
             return true;
         }
         if constant(condition) {
             return false;
         }
         self.back_to(here);
+        self.undo(condition, cause);
+        self.await_condition(condition, true, cause);
+        self.doubt(condition, cause);
+        true
+    }
+
+    /// Makes the facts of a condition that are known to hold unknown as well.
+    pub(super) fn doubt(&mut self, condition: &Condition, cause: Cause) {
+        self.doubt_free(condition, (false, false), cause);
+    }
+
+    /// Makes the facts of a condition unknown as well that do not follow from its truth; `known` is that
+    /// truth, and whether it says anything.
+    pub(super) fn doubt_free(&mut self, condition: &Condition, known: (bool, bool), cause: Cause) {
+        let (mut doubtful, mut free) = (Vec::new(), Vec::new());
+        free_facts(condition, known, &mut free);
+        for fact in free {
+            let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
+            if let Some(key) = self.key(fact, CallFrame::default()).filter(|_| !is_derived) {
+                doubtful.push(FactChange::perhaps(fact.fluent, key));
+            }
+        }
+        self.unsettle(&doubtful, cause);
+    }
+
+    /// Makes unknown what the steps have made that decide a condition.
+    fn undo(&mut self, condition: &Condition, cause: Cause) {
         let (mut makers, mut rest) = (Vec::new(), vec![condition]);
         while let Some(part) = rest.pop() {
             rest.extend(part.parts());
@@ -314,21 +409,21 @@ impl<'a> Prover<'a> {
                 makers.extend(known.yes.as_step().into_iter().chain(known.no.as_step()));
             }
         }
-        let (cause, program) = (Cause::step(id), self.program);
         for maker in makers {
-            let Some(StepKind::Call(call)) = program.step(maker).map(|step| &step.kind) else { continue };
+            let Some(StepKind::Call(call)) = self.program.step(maker).map(|step| &step.kind) else {
+                continue;
+            };
             let Some(def) = self.library.primitive(call.primitive) else { continue };
             let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
             let mut made = Vec::new();
             self.changes(&def.makes, CallFrame { args: &call.args, result, each: None }, &mut made);
             self.unsettle(&made, cause);
         }
-        self.await_condition(condition, cause);
-        true
     }
 
     /// Proves a reaction from the states in which it can start.
     fn fire(&mut self, id: StepId, when: &'a When, states: &Delta, mark: usize) {
+        let partitions = self.state.partitions.clone();
         self.follow(states);
         self.control.live = self.overtake(id, &when.condition);
         if self.control.live {
@@ -337,6 +432,7 @@ impl<'a> Prover<'a> {
             self.diagnostics.push(NeverFires { span: when.span }.into());
         }
         self.restore(&mark);
+        self.state.partitions = partitions;
     }
 }
 
@@ -344,8 +440,20 @@ impl<'a> Prover<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ArmedWhen<'a> {
     when: &'a When,
+    /// Step of the monitor.
+    by: StepId,
     /// True if it was certain before the step.
     held: bool,
+}
+
+/// Condition of a monitor that has to hold for a time, and that a step has made certain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LastingWhen<'a> {
+    when: &'a When,
+    /// Step of the monitor.
+    by: StepId,
+    /// Step of its body that has made it certain.
+    step: StepId,
 }
 
 /// Returns whether a condition is constant.
@@ -366,6 +474,26 @@ fn constant(condition: &Condition) -> bool {
         )
     };
     !condition.any(&is_open) && !condition.any_term(&is_variable)
+}
+
+/// Collects the facts whose truth does not follow from that of the condition; `known` is the truth of the
+/// condition, and whether it says anything.
+fn free_facts<'c>(condition: &'c Condition, (truth, is_known): (bool, bool), free: &mut Vec<&'c Fact>) {
+    match condition {
+        // That none has it says so of each; of some that have it, others may take the place.
+        Condition::Fact(fact) if is_known && !(truth && fact.args.contains(&None)) => {}
+        Condition::Fact(fact) => free.push(fact),
+        Condition::Not(inner) => free_facts(inner, (!truth, is_known), free),
+        Condition::All(parts) | Condition::AnyOf(parts) => {
+            let decides = truth == matches!(condition, Condition::All(_)) || parts.len() == 1;
+            parts.iter().for_each(|part| free_facts(part, (truth, is_known && decides), free));
+        }
+        Condition::Literal(_)
+        | Condition::Compare(..)
+        | Condition::MonitoredMeasure(_)
+        | Condition::MonitoredFluent(_)
+        | Condition::Unknown => {}
+    }
 }
 
 /// Callback that finds the entity of a term.

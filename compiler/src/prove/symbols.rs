@@ -44,11 +44,16 @@ pub(crate) fn described(
 
 impl Symbols {
     pub(crate) fn new(program: &Program, library: &Library, environment: &Environment) -> Self {
-        let first = u16::try_from(environment.entities().len()).unwrap_or(u16::MAX);
+        let first = Self::first(environment);
         let mut table =
             Self { bindings: Vec::with_capacity(program.bindings.len()), symbols: Vec::new(), first };
         table.extend(program, library, environment);
         table
+    }
+
+    /// The number of the first symbol: they follow the entities.
+    pub(crate) fn first(environment: &Environment) -> u16 {
+        u16::try_from(environment.entities().len()).unwrap_or(u16::MAX)
     }
 
     /// Adds the bindings that the program has gained.

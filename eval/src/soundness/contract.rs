@@ -161,6 +161,27 @@ impl Domain {
         cells
     }
 
+    /// The fact of a cell, with its truth, in words.
+    #[must_use]
+    pub(super) fn said(&self, cell: usize, truth: bool) -> String {
+        let mut first = 0;
+        for (fluent, params) in self.fluents.iter().enumerate() {
+            let count = self.cells_of(params.len());
+            if cell < first + count {
+                let mut rest = cell - first;
+                let args = params.iter().map(|_| {
+                    let name = self.entities.get(rest % self.entities.len()).map_or("", |(name, _)| name);
+                    rest /= self.entities.len();
+                    name
+                });
+                let args: Vec<&str> = args.collect();
+                return format!("f{fluent}({}) becomes {truth}", args.join(", "));
+            }
+            first += count;
+        }
+        String::new()
+    }
+
     /// Cells of an atom; none where an argument has no value.
     #[must_use]
     pub(super) fn cells_in(&self, atom: &Atom, frame: &Frame) -> Vec<usize> {

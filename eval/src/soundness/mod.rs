@@ -22,6 +22,7 @@ use serde::Serialize;
 use self::contract::Domain;
 use self::policy::{Policy, domain_text, policy_text};
 use self::shrink::{Reduced, shrink};
+pub use self::trial::SeededFault;
 use self::trial::{Bench, Checked, Mistake, Needs};
 use crate::Workers;
 
@@ -31,6 +32,9 @@ const PER_DOMAIN: usize = 20;
 const RUNS: u64 = 24;
 /// Number of findings of each sort that are made small and shown.
 const SHOWN: usize = 4;
+
+/// Most lines of a run that are shown.
+const MAX_TRACE: usize = 80;
 
 /// Sums over policies.
 #[derive(Clone, Default, PartialEq, Eq, Debug, Serialize)]
@@ -72,10 +76,24 @@ struct Found {
 ///
 /// A domain that was made has diagnostics.
 pub fn fuzz(workers: Workers, count: usize, seed: u64) -> Result<Fuzzed, String> {
+    fuzz_with(workers, count, seed, None)
+}
+
+/// Fuzzes so many policies from a seed, perhaps with a fault in every graph.
+///
+/// # Errors
+///
+/// A domain that was made has diagnostics.
+pub fn fuzz_with(
+    workers: Workers,
+    count: usize,
+    seed: u64,
+    fault: Option<SeededFault>,
+) -> Result<Fuzzed, String> {
     let domains: Vec<(u64, usize)> = (0..count.div_ceil(PER_DOMAIN))
         .map(|index| (index as u64, PER_DOMAIN.min(count - index * PER_DOMAIN)))
         .collect();
-    let parts = workers.spread(domains, |(index, policies)| fuzz_domain(seed, index, policies));
+    let parts = workers.spread(domains, |(index, policies)| fuzz_domain((seed, index), policies, fault));
     let (mut fuzzed, mut found) = (Fuzzed::default(), Vec::new());
     for part in parts {
         let (sums, more) = part?;
@@ -88,7 +106,7 @@ pub fn fuzz(workers: Workers, count: usize, seed: u64) -> Result<Fuzzed, String>
         *count += 1;
         *count <= SHOWN
     });
-    let reduce = |found: Found| shrink(&found.domain, &found.policy, (found.mistake, &found.seeds));
+    let reduce = |found: Found| shrink(&found.domain, &found.policy, (found.mistake, &found.seeds, fault));
     // Each part of a shared run shows what it has found.
     let reduced = Workers { shard: Workers::default().shard, ..workers }.spread(found, reduce);
     fuzzed.findings = reduced.iter().flatten().map(Reduced::text).collect();
@@ -96,11 +114,15 @@ pub fn fuzz(workers: Workers, count: usize, seed: u64) -> Result<Fuzzed, String>
 }
 
 /// Fuzzes the policies of one domain.
-fn fuzz_domain(seed: u64, index: u64, count: usize) -> Result<(Sums, Vec<Found>), String> {
+fn fuzz_domain(
+    (seed, index): (u64, u64),
+    count: usize,
+    fault: Option<SeededFault>,
+) -> Result<(Sums, Vec<Found>), String> {
     let first = seed.wrapping_mul(1_000_003).wrapping_add(index);
     let mut dice = SplitMix64::seed_from_u64(first);
     let domain = make::domain(&mut dice);
-    let (bench, bare) = (Bench::new(&domain, true)?, Bench::new(&domain, false)?);
+    let (bench, bare) = (Bench::new(&domain, true, fault)?, Bench::new(&domain, false, None)?);
     let (mut sums, mut found) = (Sums { policies: count, ..Sums::default() }, Vec::new());
     for number in 0..count as u64 {
         let policy = make::policy(&mut dice, &domain);
@@ -163,6 +185,7 @@ impl Reduced {
             Mistake::Endless => "",
         };
         let (domain, policy) = (domain_text(&self.domain, true), policy_text(&self.domain, &self.policy));
-        format!("// {} {what} (run {})\n{domain}{policy}", self.finding.place, self.seed)
+        let trace: String = self.trace.iter().take(MAX_TRACE).map(|line| format!("// {line}\n")).collect();
+        format!("// {} {what} (run {})\n{domain}{policy}{trace}", self.finding.place, self.seed)
     }
 }

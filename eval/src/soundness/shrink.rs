@@ -2,7 +2,7 @@
 
 use super::contract::{Action, Domain};
 use super::policy::{Policy, Reaction, Step};
-use super::trial::{Bench, Checked, Finding, Mistake, Needs};
+use super::trial::{Bench, Checked, Finding, Mistake, Needs, SeededFault};
 
 /// Greatest number of candidates that are tried.
 const MAX_CANDIDATES: usize = 1500;
@@ -15,6 +15,8 @@ pub(super) struct Reduced {
     pub(super) finding: Finding,
     /// Seed of a run that shows it.
     pub(super) seed: u64,
+    /// What happens in it, line by line.
+    pub(super) trace: Vec<String>,
 }
 
 /// Makes a policy with a mistake smaller, as long as some of the runs with these seeds still show it.
@@ -22,9 +24,10 @@ pub(super) struct Reduced {
 pub(super) fn shrink(
     domain: &Domain,
     policy: &Policy,
-    (mistake, seeds): (Mistake, &[u64]),
+    (mistake, seeds, fault): (Mistake, &[u64], Option<SeededFault>),
 ) -> Option<Reduced> {
-    let mut best = shows(domain, policy, mistake, seeds)?;
+    let shows = |domain: &Domain, policy: &Policy| shows(domain, policy, mistake, (seeds, fault));
+    let mut best = shows(domain, policy)?;
     let mut tried = 0;
     loop {
         let smaller = policies(&best.policy)
@@ -37,7 +40,7 @@ pub(super) fn shrink(
             if tried > MAX_CANDIDATES {
                 return Some(best);
             }
-            found = shows(&domain, &policy, mistake, seeds);
+            found = shows(&domain, &policy);
             if found.is_some() {
                 break;
             }
@@ -49,13 +52,19 @@ pub(super) fn shrink(
     }
 }
 
-fn shows(domain: &Domain, policy: &Policy, mistake: Mistake, seeds: &[u64]) -> Option<Reduced> {
-    let bench = Bench::new(domain, true).ok()?;
+fn shows(
+    domain: &Domain,
+    policy: &Policy,
+    mistake: Mistake,
+    (seeds, fault): (&[u64], Option<SeededFault>),
+) -> Option<Reduced> {
+    let bench = Bench::new(domain, true, fault).ok()?;
     let Checked::Accepted(graph) = bench.check(policy) else { return None };
     seeds.iter().find_map(|seed| {
         let mut findings = bench.run(&graph, *seed, Needs::Compiled).into_iter();
         let finding = findings.find(|finding| finding.mistake == mistake)?;
-        Some(Reduced { domain: domain.clone(), policy: policy.clone(), finding, seed: *seed })
+        let (domain, policy) = (domain.clone(), policy.clone());
+        Some(Reduced { domain, policy, finding, seed: *seed, trace: bench.trace(&graph, *seed) })
     })
 }
 

@@ -1,7 +1,7 @@
 //! Trial of a policy: what the check says of it, and runs of it in worlds that keep to the contracts.
 
 use motet_compiler::Session;
-use motet_graph::{Graph, NodeId, NodeKind, Verdict};
+use motet_graph::{Graph, NodeId, NodeKind, Value, Verdict};
 use motet_runtime::{
     Command, Driver as _, Effect, Engine, Event, RunEnd, StartState, Time, TraceEventKind, Truth,
 };
@@ -17,6 +17,29 @@ use super::world::{Mood, World};
 const MAX_EVENTS: usize = 5000;
 /// Code of a need that is refuted.
 const REFUTED: &str = "M0501";
+
+/// Fault that is put into every graph, to show that the fuzzer finds it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SeededFault {
+    /// The prover calls every need proven that it has left to the run.
+    ProvesTooMuch,
+    /// The engine does not know what a step unsettles.
+    ForgetsUnsettled,
+}
+
+impl SeededFault {
+    fn put_into(self, graph: &mut Graph) {
+        for node in &mut graph.nodes {
+            let NodeKind::Call(call) = &mut node.kind else { continue };
+            match self {
+                Self::ProvesTooMuch => {
+                    call.needs.iter_mut().for_each(|need| need.verdict = Verdict::Proven);
+                }
+                Self::ForgetsUnsettled => call.unsettles.clear(),
+            }
+        }
+    }
+}
 
 /// Mistake of the prover or of the engine.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -55,6 +78,7 @@ pub(super) enum Checked {
 pub(super) struct Bench<'d> {
     pub(super) domain: &'d Domain,
     session: Session,
+    fault: Option<SeededFault>,
 }
 
 impl<'d> Bench<'d> {
@@ -63,7 +87,11 @@ impl<'d> Bench<'d> {
     /// # Errors
     ///
     /// The domain has diagnostics: their texts.
-    pub(super) fn new(domain: &'d Domain, with_needs: bool) -> Result<Self, String> {
+    pub(super) fn new(
+        domain: &'d Domain,
+        with_needs: bool,
+        fault: Option<SeededFault>,
+    ) -> Result<Self, String> {
         let mut sources = Sources::default();
         let source = Source::new("domain.motet", domain_text(domain, with_needs));
         let id = sources.add(source.clone());
@@ -73,7 +101,7 @@ impl<'d> Bench<'d> {
         said.extend(session.input_diagnostics().iter().cloned());
         match said.iter().find(|said| said.severity == Severity::Error) {
             Some(wrong) => Err(format!("{}: {}\n{}", wrong.code.0, wrong.message, source.text)),
-            None => Ok(Self { domain, session }),
+            None => Ok(Self { domain, session, fault }),
         }
     }
 
@@ -90,7 +118,10 @@ impl<'d> Bench<'d> {
         codes.sort_unstable();
         codes.dedup();
         match compiled.graph {
-            Some(graph) if codes.is_empty() => Checked::Accepted(Box::new(graph)),
+            Some(mut graph) if codes.is_empty() => {
+                self.fault.into_iter().for_each(|fault| fault.put_into(&mut graph));
+                Checked::Accepted(Box::new(graph))
+            }
             _ if codes == [REFUTED] => Checked::Refuted,
             _ => Checked::Other(codes),
         }
@@ -99,15 +130,44 @@ impl<'d> Bench<'d> {
     /// Runs a graph in a world of a seed.
     #[must_use]
     pub(super) fn run(&self, graph: &Graph, seed: u64, needs: Needs) -> Vec<Finding> {
+        let world = self.world(seed);
+        let mood = world.mood();
+        let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else { return Vec::new() };
+        let engine = engine.with_capabilities(world.capabilities());
+        Run { engine, world, mood, needs, findings: Vec::new(), bindings: Vec::new(), log: None }
+            .whole()
+            .findings
+    }
+
+    /// Runs a graph, and returns what happened, line by line.
+    #[must_use]
+    pub(super) fn trace(&self, graph: &Graph, seed: u64) -> Vec<String> {
+        let mut world = self.world(seed);
+        world.changes = Some(Vec::new());
+        let mood = world.mood();
+        let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else { return Vec::new() };
+        let engine = engine.with_capabilities(world.capabilities());
+        let log = Some(vec![format!("{mood:?} world")]);
+        let run = Run {
+            engine,
+            world,
+            mood,
+            needs: Needs::Compiled,
+            findings: Vec::new(),
+            bindings: Vec::new(),
+            log,
+        };
+        run.whole().log.unwrap_or_default()
+    }
+
+    /// A world of a seed, which also decides its mood.
+    fn world(&self, seed: u64) -> World<'_> {
         let mood = match seed % 4 {
             0 => Mood::Honest,
             1 | 2 => Mood::Adversarial,
             _ => Mood::Veiled,
         };
-        let world = World::new(self.domain, mood, SplitMix64::seed_from_u64(seed));
-        let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else { return Vec::new() };
-        let engine = engine.with_capabilities(world.capabilities());
-        Run { engine, world, mood, needs, findings: Vec::new() }.whole()
+        World::new(self.domain, mood, SplitMix64::seed_from_u64(seed))
     }
 }
 
@@ -126,20 +186,30 @@ struct Run<'d> {
     mood: Mood,
     needs: Needs,
     findings: Vec<Finding>,
+    /// Values of the names, by what the run has reported so far.
+    bindings: Vec<Option<Value>>,
+    /// What happens, line by line, if it is to be shown.
+    log: Option<Vec<String>>,
 }
 
 impl Run<'_> {
-    fn whole(mut self) -> Vec<Finding> {
+    /// Runs to the end.
+    fn whole(mut self) -> Self {
         let (mut now, mut event, mut effects) = (Time::ZERO, Event::Begin, Vec::new());
         for _ in 0..MAX_EVENTS {
+            self.log(now, || format!("< {event:?}"));
             self.engine.handle(now, event, &mut effects);
             for effect in std::mem::take(&mut effects) {
+                match &effect {
+                    Effect::Report(trace) => self.log(now, || format!("    {:?}", trace.what)),
+                    effect => self.log(now, || format!("> {effect:?}")),
+                }
                 match &effect {
                     Effect::Finished(end) => {
                         if matches!(**end, RunEnd::Fault(_)) {
                             self.note(Mistake::Endless, format!("{end}"));
                         }
-                        return self.findings;
+                        return self;
                     }
                     Effect::Start { node, command, .. } => self.started(*node, command),
                     Effect::Report(trace) => self.reported(&trace.what),
@@ -152,13 +222,23 @@ impl Run<'_> {
                 Some((at, report)) => (at.max(now), Event::Driver(report)),
                 None if wake == Time::NEVER => {
                     self.note(Mistake::Endless, "nothing is left to wait for".to_owned());
-                    return self.findings;
+                    return self;
                 }
                 None => (wake, Event::Tick),
             };
         }
         self.note(Mistake::Endless, format!("more than {MAX_EVENTS} events"));
-        self.findings
+        self
+    }
+
+    /// Logs a line, if the run is to be shown.
+    fn log(&mut self, now: Time, line: impl FnOnce() -> String) {
+        if let Some(log) = &mut self.log {
+            for (at, fact) in self.world.changes.iter_mut().flat_map(|changes| changes.drain(..)) {
+                log.push(format!("{:.2}   {fact}", at.secs()));
+            }
+            log.push(format!("{:.2} {}", now.secs(), line()));
+        }
     }
 
     fn note(&mut self, mistake: Mistake, place: String) {
@@ -194,6 +274,13 @@ impl Run<'_> {
 
     /// A guard refuses: is it right?
     fn reported(&mut self, what: &TraceEventKind) {
+        if let TraceEventKind::Bound { binding, value } = what {
+            self.bindings.resize(self.bindings.len().max(binding.index() + 1), None);
+            self.bindings
+                .get_mut(binding.index())
+                .into_iter()
+                .for_each(|slot| *slot = Some((**value).clone()));
+        }
         if matches!(what, TraceEventKind::Fired { .. }) {
             // A reaction goes by what has set it off.
             self.world.calm();
@@ -211,7 +298,7 @@ impl Run<'_> {
         let Some(action) = primitive.and_then(|primitive| self.world.action(&primitive.name)) else { return };
         let args = call.args.iter().filter_map(|arg| match arg {
             motet_graph::Term::Literal(value) => Some(value.clone()),
-            motet_graph::Term::Binding(binding) => self.engine.binding(*binding).cloned(),
+            motet_graph::Term::Binding(binding) => self.bindings.get(binding.index()).cloned().flatten(),
             _ => None,
         });
         let frame = self.world.frame(args);

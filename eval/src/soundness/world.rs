@@ -31,6 +31,8 @@ struct Running {
     id: GoalId,
     /// Cells that it may change.
     touches: Vec<usize>,
+    /// Cells that it may change without a result: a fact of a result begins with it.
+    unfinished: Vec<usize>,
     /// Changes that are still to come, each at its time.
     flips: Vec<(Time, usize, bool)>,
     ends: Time,
@@ -49,6 +51,8 @@ pub(super) struct World<'d> {
     pub(super) state: State,
     veiled: Vec<bool>,
     running: Vec<Running>,
+    /// Cells that a goal has touched whose end the host has not heard of.
+    unheard: Vec<(GoalId, Vec<usize>)>,
     watches: Vec<(Query, Answer)>,
     /// Reports, each at its time.
     outbox: VecDeque<(Time, DriverEvent)>,
@@ -56,6 +60,8 @@ pub(super) struct World<'d> {
     /// Number of changes that nobody made, so far.
     whims: u32,
     next_whim: Time,
+    /// Changes of facts that nobody has read yet, in words, if somebody reads them.
+    pub(super) changes: Option<Vec<(Time, String)>>,
 }
 
 impl<'d> World<'d> {
@@ -68,7 +74,9 @@ impl<'d> World<'d> {
                 put(&mut state, cell, *truth);
             }
         }
-        let veiled = (0..state.len()).map(|_| mood == Mood::Veiled && chance(&mut dice, 35)).collect();
+        // What a closed world says needs no observation.
+        let is_veiled = mood == Mood::Veiled && !domain.is_closed;
+        let veiled = (0..state.len()).map(|_| is_veiled && chance(&mut dice, 35)).collect();
         let holds = chance(&mut dice, 50);
         let mut world = Self {
             domain,
@@ -78,11 +86,13 @@ impl<'d> World<'d> {
             state,
             veiled,
             running: Vec::new(),
+            unheard: Vec::new(),
             watches: Vec::new(),
             outbox: VecDeque::new(),
             holds,
             whims: 0,
             next_whim: Time::NEVER,
+            changes: None,
         };
         if mood == Mood::Adversarial {
             world.next_whim = world.later(4.0);
@@ -94,6 +104,12 @@ impl<'d> World<'d> {
     #[must_use]
     pub(super) fn domain(&self) -> &'d Domain {
         self.domain
+    }
+
+    /// The mood of the world.
+    #[must_use]
+    pub(super) fn mood(&self) -> Mood {
+        self.mood
     }
 
     /// The action of a name.
@@ -122,7 +138,9 @@ impl<'d> World<'d> {
     /// Returns whether a step that runs may change one of these facts.
     #[must_use]
     pub(super) fn is_moving(&self, cells: &[usize]) -> bool {
-        self.running.iter().any(|goal| goal.touches.iter().any(|cell| cells.contains(cell)))
+        let running = self.running.iter().map(|goal| &goal.touches);
+        let mut touched = running.chain(self.unheard.iter().map(|(_, touches)| touches)).flatten();
+        touched.any(|cell| cells.contains(cell))
     }
 
     /// Returns whether a fact is never observed.
@@ -191,6 +209,9 @@ impl<'d> World<'d> {
             return;
         }
         put(&mut self.state, cell, truth);
+        if let Some(changes) = &mut self.changes {
+            changes.push((self.now, self.domain.said(cell, truth)));
+        }
         for (query, known) in std::mem::take(&mut self.watches) {
             let answer = self.answer(&query);
             if answer != known {
@@ -208,7 +229,8 @@ impl<'d> World<'d> {
             return;
         }
         let place = self.dice.random_range(0..self.watches.len().max(1));
-        let Some((Query::Fact { fluent, args }, _)) = self.watches.get(place) else { return };
+        let Some((query, known)) = self.watches.get(place).cloned() else { return };
+        let Query::Fact { fluent, args } = &query else { return };
         let fluent = fluent.strip_prefix('f').and_then(|index| index.parse().ok());
         let args = args.iter().map(|arg| match arg {
             Pattern::Is(Value::Entity(id)) => self.domain.entity(id),
@@ -218,7 +240,13 @@ impl<'d> World<'d> {
         let cells = self.domain.cells(fluent, &args);
         if let Some(cell) = one_of(&mut self.dice, &cells).filter(|cell| !self.is_moving(&[*cell])) {
             let truth = self.state.get(cell) == Some(&true);
-            self.flip(cell, !truth);
+            put(&mut self.state, cell, !truth);
+            let is_seen = self.answer(&query) != known;
+            put(&mut self.state, cell, truth);
+            // What a watch does not show, nobody was told to expect.
+            if is_seen {
+                self.flip(cell, !truth);
+            }
         }
     }
 
@@ -241,18 +269,23 @@ impl<'d> World<'d> {
                 }
             }
         }
+        let without = Frame { result: None, ..frame.clone() };
+        let [made_without, unsettled_without] =
+            [&action.makes, &action.unsettles].map(|all| self.domain.changed(all, &without, &self.state));
+        let touches: Vec<usize> = made.iter().chain(&unsettled).map(|(cell, _)| *cell).collect();
+        let without = made_without.iter().chain(&unsettled_without).map(|(cell, _)| *cell);
+        let unfinished: Vec<usize> = without.filter(|cell| touches.contains(cell)).collect();
         let mut flips = Vec::new();
         if self.mood != Mood::Honest && chance(&mut self.dice, 40) {
             // Meanwhile anything may be so of what it changes.
-            for (cell, _) in made.iter().chain(&unsettled) {
+            for cell in &unfinished {
                 let (at, truth) = (self.between(ends), chance(&mut self.dice, 50));
                 flips.push((at, *cell, truth));
             }
             flips.sort_by_key(|(at, ..)| *at);
         }
         flips.extend(finally.into_iter().map(|(cell, truth)| (ends, cell, truth)));
-        let touches = made.iter().chain(&unsettled).map(|(cell, _)| *cell).collect();
-        Running { id, touches, flips, ends, outcome, held: None }
+        Running { id, touches, unfinished, flips, ends, outcome, held: None }
     }
 
     /// Interrupts a goal: what it would have changed may have changed.
@@ -269,7 +302,8 @@ impl<'d> World<'d> {
             return;
         }
         let goal = self.running.remove(place);
-        for cell in goal.touches {
+        self.unheard.push((id, goal.touches));
+        for cell in goal.unfinished {
             if chance(&mut self.dice, 50) {
                 let truth = chance(&mut self.dice, 50);
                 self.flip(cell, truth);
@@ -303,6 +337,7 @@ impl<'d> World<'d> {
             return self.flip(cell, truth);
         }
         let goal = self.running.remove(place);
+        self.unheard.push((goal.id, goal.touches));
         self.say(now, DriverEvent::Ended { goal: goal.id, outcome: goal.outcome });
     }
 
@@ -339,9 +374,9 @@ impl Driver for World<'_> {
             };
             self.say(now, DriverEvent::Acknowledged { goal });
             let ends = now.after(Time::from_secs(0.5));
-            let (touches, flips) = (Vec::new(), Vec::new());
+            let (touches, unfinished, flips) = (Vec::new(), Vec::new(), Vec::new());
             let outcome = Outcome::Success(chosen);
-            self.running.push(Running { id: goal, touches, flips, ends, outcome, held: None });
+            self.running.push(Running { id: goal, touches, unfinished, flips, ends, outcome, held: None });
             return;
         };
         if self.mood != Mood::Honest && chance(&mut self.dice, 3) {
@@ -352,7 +387,8 @@ impl Driver for World<'_> {
         let mut running = self.plan(goal, action, &frame, outcome);
         if self.mood != Mood::Honest && chance(&mut self.dice, 4) {
             running.ends = Time::NEVER;
-            running.flips.retain(|(at, ..)| *at < now.after(Time::from_secs(3.0)));
+            let until = now.after(Time::from_secs(3.0));
+            running.flips.retain(|(at, cell, _)| *at < until && running.unfinished.contains(cell));
         }
         self.running.push(running);
     }
@@ -396,7 +432,7 @@ impl Driver for World<'_> {
     fn observe(&mut self, now: Time, query: &Query) {
         self.now = now;
         let mut answer = self.answer(query);
-        if self.mood == Mood::Veiled && chance(&mut self.dice, 10) {
+        if self.mood == Mood::Veiled && !self.domain.is_closed && chance(&mut self.dice, 10) {
             answer = Answer::Unknown;
         }
         // No answer is overtaken by a report of what is watched.
@@ -421,7 +457,11 @@ impl Driver for World<'_> {
             let (said, next) = (self.outbox.front().map_or(Time::NEVER, |(at, _)| *at), self.next());
             if said <= next && said <= until && said != Time::NEVER {
                 self.now = self.now.max(said);
-                return self.outbox.pop_front();
+                let next = self.outbox.pop_front();
+                if let Some((_, DriverEvent::Ended { goal, .. } | DriverEvent::Stopped { goal })) = &next {
+                    self.unheard.retain(|(ended, _)| ended != goal);
+                }
+                return next;
             }
             if next > until || next == Time::NEVER {
                 self.now = if until == Time::NEVER { self.now } else { self.now.max(until) };

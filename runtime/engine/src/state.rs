@@ -96,6 +96,8 @@ pub(crate) struct NodeRun {
     pub(crate) wish: GoalIntent,
     /// Call: attempts begun. Loop: runs of the body begun.
     pub(crate) count: u32,
+    /// Call: it was interrupted after it had begun, and begins again.
+    pub(crate) begins_again: bool,
     pub(crate) goal: Option<GoalId>,
     /// Time at which the observations that count began.
     pub(crate) since: Time,
@@ -233,6 +235,7 @@ impl Run {
             phase: Phase::Idle,
             wish: GoalIntent::None,
             count: 0,
+            begins_again: false,
             goal: None,
             since: Time::ZERO,
             seen: 0,

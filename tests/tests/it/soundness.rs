@@ -2,7 +2,7 @@
 //! from a guard that has refused.
 
 use motet_graph::{Graph, NodeKind, Value, Verdict};
-use motet_runtime::{Answer, DriverEvent, Effect, Engine, Event, Outcome, Query, StartState, Time};
+use motet_runtime::{Answer, DriverEvent, Effect, Engine, Event, Outcome, Pattern, Query, StartState, Time};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
 
@@ -133,6 +133,77 @@ fn soundness_a_branch_does_not_trust_what_another_may_change() {
     assert_eq!(verdicts("use", made), [Verdict::Deferred]);
     let apart = "policy p { parallel { { make(a) pass() use(a) } { wave() } } }";
     assert_eq!(verdicts("use", apart), [Verdict::Proven]);
+}
+
+#[test]
+fn soundness_what_a_monitor_watches_the_world_may_change() {
+    let watched =
+        |begins: &str, monitor: &str| verdicts("use", &format!("{begins}\npolicy p {{ {monitor} }}"));
+    // A change that fires the monitor ends the body; that of one part of a conjunction does not.
+    let alone = "monitor when not f(a) then fail \"no\" during { pass() use(a) }";
+    assert_eq!(watched("initially f(a)", alone), [Verdict::Proven]);
+    let part = "monitor when not f(a) and g(a) then fail \"no\" during { pass() use(a) }";
+    assert_eq!(watched("initially f(a)", part), [Verdict::Deferred]);
+    let held = "monitor when not f(a) for 1 s then fail \"no\" during { pass() use(a) }";
+    assert_eq!(watched("initially f(a)", held), [Verdict::Deferred]);
+    // The body may end while the monitor pauses it.
+    let behind = "monitor when not f(a) then pause during { pass() } use(a)";
+    assert_eq!(watched("initially f(a)", behind), [Verdict::Deferred]);
+    // A cleanup may run because the pause has taken too long.
+    let cleaned = "monitor when not f(a) then pause during { sequence s { pass() } finally { use(a) } }";
+    assert_eq!(watched("initially f(a)", cleaned), [Verdict::Deferred]);
+    // A monitor also fires when its condition has been unknown for long.
+    let reacting = "monitor when f(a) then resume at most 1 { use(a) } during { pass() }";
+    assert_eq!(watched("", reacting), [Verdict::Deferred]);
+}
+
+#[test]
+fn soundness_what_is_waited_for_the_world_may_change() {
+    let one_of_two = "initially not f(a), not g(a)\npolicy p { wait until f(a) or g(a) within 3 s avoid(a) }";
+    assert_eq!(verdicts("avoid", one_of_two), [Verdict::Deferred]);
+    let in_vain = "initially f(a)\npolicy p { try { wait until not f(a) and not g(a) within 3 s } \
+                   catch any { use(a) } }";
+    assert_eq!(verdicts("use", in_vain), [Verdict::Deferred]);
+}
+
+#[test]
+fn soundness_an_effect_for_each_of_a_kind_needs_one() {
+    let fill = "action fill(o: Object)\n    makes f(o) for each c: Container\n";
+    let none = format!("{fill}policy p {{ fill(a) use(a) }}");
+    assert_eq!(verdicts("use", &none), [Verdict::Deferred]);
+    let one = format!("{fill}entity box: Container\npolicy p {{ fill(a) use(a) }}");
+    assert_eq!(verdicts("use", &one), [Verdict::Proven]);
+}
+
+/// A proven need is asked again where the step itself may have changed it before it was interrupted.
+#[test]
+fn soundness_a_step_that_begins_again_asks_what_it_may_have_changed() {
+    let policy = "action use_up(o: Object)\n    needs f(o)\n    makes not f(o)\ninitially f(a)\n\
+                  policy p { monitor when g(a) then resume at most 1 { pass() } during { use_up(a) } }";
+    let mut fired = false;
+    let found = requests(policy, &mut |effect| match effect {
+        Effect::Start { goal, command, .. } => {
+            let mut said = vec![DriverEvent::Acknowledged { goal: *goal }];
+            let args = vec![Pattern::Is(Value::Entity("a".into()))];
+            let query = Query::Fact { fluent: "g".into(), args };
+            let begins = command.primitive == "use_up" && !std::mem::replace(&mut fired, true);
+            said.push(DriverEvent::Observed { query, answer: Answer::Truth(begins) });
+            if !begins {
+                said.push(DriverEvent::Ended { goal: *goal, outcome: Outcome::Success(None) });
+            }
+            said
+        }
+        Effect::Cancel { goal } => {
+            vec![DriverEvent::Ended { goal: *goal, outcome: Outcome::Interrupted }]
+        }
+        effect => honest(effect, |query| Some(query.to_string() == "f(a)")),
+    });
+    let begun: Vec<&String> = found.iter().filter(|request| request.contains("use_up")).collect();
+    assert_eq!(begun.len(), 2, "{found:?}");
+    assert!(
+        found.iter().any(|request| request.starts_with("observe") && request.contains("f(a)")),
+        "{found:?}"
+    );
 }
 
 #[test]

@@ -13,6 +13,8 @@ pub(crate) enum Freshness {
     Readings(Time),
     /// Also a fact that can be observed counts only if it was seen after the observation of this number.
     Facts(Time, u64),
+    /// As [`Self::Readings`], and no fact counts that was seen after the observation of this number.
+    Before(Time, u64),
 }
 
 /// The fluent that is derived from a motion. No effect says when it changes, so what was seen of it does not
@@ -176,7 +178,11 @@ impl Evaluator<'_> {
         if let Freshness::Facts(_, since) = self.fresh
             && fluent.observable
             && seen <= since
+            && !self.is_live(&fluent.name, &args)
         {
+            truth = Truth::Unknown;
+        }
+        if matches!(self.fresh, Freshness::Before(_, last) if seen > last) {
             truth = Truth::Unknown;
         }
         if self.missing.is_some() && self.beliefs.is_tainted(&fluent.name, &args) {
@@ -193,16 +199,29 @@ impl Evaluator<'_> {
         derived(&query)
     }
 
+    /// Time from which on readings count.
+    fn since(&self) -> Time {
+        let (Freshness::Readings(since) | Freshness::Facts(since, _) | Freshness::Before(since, _)) =
+            self.fresh;
+        since
+    }
+
+    /// True if a fact is watched, so that what is known of it is current.
+    fn is_live(&self, fluent: &str, args: &[Pattern]) -> bool {
+        let cell = self.beliefs.find_fact(fluent, args).and_then(|id| self.beliefs.cell(id));
+        cell.is_some_and(|cell| cell.live)
+    }
+
     /// True if a fact was seen since what counts began, or is watched.
     fn is_current(&self, fluent: &str, args: &[Pattern]) -> bool {
-        let (Freshness::Readings(since) | Freshness::Facts(since, _)) = self.fresh;
+        let since = self.since();
         let cell = self.beliefs.find_fact(fluent, args).and_then(|id| self.beliefs.cell(id));
         cell.is_some_and(|cell| cell.live || cell.at >= since)
     }
 
     fn reading(&mut self, query: Query) -> Option<Value> {
         let lasting = matches!(query, Query::Field { .. });
-        let (Freshness::Readings(since) | Freshness::Facts(since, _)) = self.fresh;
+        let since = self.since();
         let cell = self.beliefs.find_query(&query).and_then(|id| self.beliefs.cell(id));
         let value = cell.filter(|cell| lasting || cell.live || cell.at >= since).and_then(|cell| match &cell
             .answer

@@ -184,8 +184,10 @@ impl Beliefs {
         let id = self.intern(query);
         let old = self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer));
         let new = if change.sure { change.value } else { old.joined(change.value) };
-        self.set(id, answer_of(new), now);
-        self.unsettle_patterns(change, new, now);
+        self.write_cell(id, new, now);
+        // An observation changes nothing: what was not known to hold is not what made a pattern true.
+        let was_so = old == Truth::True || (old == Truth::Unknown && self.observing == 0);
+        self.unsettle_patterns(change, (was_so, new), now);
     }
 
     fn write_wide(&mut self, change: &BeliefChange, now: Time) {
@@ -195,18 +197,19 @@ impl Beliefs {
         for id in ids {
             let old = self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer));
             let new = if change.sure { change.value } else { old.joined(change.value) };
-            self.set(id, answer_of(new), now);
+            self.write_cell(id, new, now);
         }
         let seen = self.observing;
         if let Some(facts) = self.fluents.get_mut(&change.fluent) {
             facts.wides.retain(|wide| !covers(&change.args, &wide.args));
             facts.wides.push(PatternWrite { args: change.args.clone(), answer: answer_of(written), seen });
         }
-        self.unsettle_patterns(change, written, now);
+        self.unsettle_patterns(change, (true, written), now);
     }
 
-    /// Cells with `any` that a write touches.
-    fn unsettle_patterns(&mut self, change: &BeliefChange, written: Truth, now: Time) {
+    /// Updates the cells with `any` that a write touches; `was_so` is true if what is written may have held
+    /// before.
+    fn unsettle_patterns(&mut self, change: &BeliefChange, (was_so, written): (bool, Truth), now: Time) {
         let Some(facts) = self.fluents.get(&change.fluent) else { return };
         let mut touched = Vec::new();
         for id in &facts.patterns {
@@ -219,6 +222,7 @@ impl Beliefs {
             let new = match (own, written) {
                 (_, written) if covers(&change.args, args) => written,
                 (_, Truth::True) => Truth::True,
+                (own, Truth::False) if !was_so => own,
                 // It may have been the one that held, or it may be the one that holds.
                 (Truth::True | Truth::Unknown, _) | (Truth::False, Truth::Unknown) => Truth::Unknown,
                 (Truth::False, Truth::False) => Truth::False,
@@ -226,9 +230,18 @@ impl Beliefs {
             touched.push((*id, new));
         }
         for (id, new) in touched {
-            self.set(id, answer_of(new), now);
+            self.write_cell(id, new, now);
             // What fits the pattern may have changed even where its own answer has not.
             self.note(id);
+        }
+    }
+
+    /// Writes what an observation or an effect says of a cell. An effect takes nothing back that is watched:
+    /// its driver reports every change.
+    fn write_cell(&mut self, id: CellId, truth: Truth, now: Time) {
+        let is_live = self.cell(id).is_some_and(|cell| cell.live);
+        if self.observing != 0 || truth != Truth::Unknown || !is_live {
+            self.set(id, answer_of(truth), now);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Calls up to their start: resources, then guards, then the goal goes out.
 
 use super::Turn;
+use super::change::changes_need;
 use crate::belief::Freshness;
 use crate::effect::{Command, DeferredMotion, Effect};
 use crate::prepared_graph::PreparedNode;
@@ -8,7 +9,7 @@ use crate::query::Truth;
 use crate::schedule::{NodeExit, Transition};
 use crate::state::{GoalIntent, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
-use motet_graph::{FailureId, NodeId, Term, Value, Verdict};
+use motet_graph::{CallNode, FailureId, Need, NodeId, Term, Value, Verdict};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -57,8 +58,9 @@ impl Turn<'_> {
             // A goal of the policy before goes on for it.
         } else if !self.reserve(step) {
             self.enqueue(node);
-        } else if let Some(command) = step.command.as_ref().filter(|_| step.is_ready && !self.run.is_unproven)
-        {
+        } else if let Some(command) = step.command.as_ref().filter(|_| {
+            step.is_ready && !self.run.is_unproven && !self.run.nodes.at(node.index()).begins_again
+        }) {
             self.launch(node, step, command.clone());
         } else {
             self.check(node);
@@ -105,6 +107,8 @@ impl Turn<'_> {
         self.run.missing.clear();
         match self.look(node) {
             GuardCheck::Unknown(_) if self.awaits(node) => {}
+            // What an answer has left open may depend on something else.
+            GuardCheck::Unknown(_) if self.ask_more(node) => {}
             // What was known when the motion was asked for may have become unknown since.
             GuardCheck::Unknown(_) if self.is_verifying(node) && self.ask(node) => {}
             GuardCheck::Unknown(refusal) => self.go_without(node, refusal),
@@ -160,7 +164,7 @@ impl Turn<'_> {
         let fresh = Freshness::Readings(since);
         let mut unknown = None;
         for (index, need) in call.needs.iter().enumerate() {
-            if !self.is_open(need.verdict) {
+            if !self.is_asked(node, call, need) {
                 continue;
             }
             let mut truth = self.need(need, fresh);
@@ -186,6 +190,12 @@ impl Turn<'_> {
             (None, None) => GuardCheck::Unknown(StartRefusal::Argument),
             (None, Some(command)) => self.look_at_motion(node, call, Arc::new(command)),
         }
+    }
+
+    /// Returns whether a need is to be checked before its step: also if it is proven, once the step was
+    /// interrupted and may have changed it.
+    fn is_asked(&self, node: NodeId, call: &CallNode, need: &Need) -> bool {
+        self.is_open(need.verdict) || self.run.nodes.at(node.index()).begins_again && changes_need(call, need)
     }
 
     /// Returns whether a need or a motion with this verdict is to be checked before its step.
@@ -258,7 +268,7 @@ impl Turn<'_> {
         let plan = self.plan;
         let Some(call) = plan.call(node) else { return };
         for (index, need) in call.needs.iter().enumerate() {
-            if self.is_open(need.verdict) {
+            if self.is_asked(node, call, need) {
                 self.report(move || TraceEventKind::Guard { node, need: index as u32, truth: Truth::True });
             }
         }
@@ -273,7 +283,9 @@ impl Turn<'_> {
         let goal = self.run.goals.open(node);
         let deadline = self.run.now.after(step.deadline);
         self.run.timers.set(self.plan.node_key(node), deadline);
+        let seen = self.run.beliefs.observations;
         let state = self.run.nodes.at_mut(node.index());
+        state.seen = seen;
         state.phase = Phase::Starting;
         state.wish = GoalIntent::None;
         state.goal = Some(goal);

@@ -4,7 +4,9 @@ use super::Turn;
 use crate::belief::{BeliefChange, Beliefs, Evaluator, Freshness, OfKind};
 use crate::query::{Pattern, Truth};
 use crate::time::Time;
-use motet_graph::{BindingId, CallNode, Condition, Fact, FactArg, Graph, KindId, Need, NodeId, Term, Value};
+use motet_graph::{
+    BindingId, CallNode, Condition, Fact, FactArg, FluentId, Graph, KindId, Need, NodeId, Term, Value,
+};
 use smol_str::SmolStr;
 
 /// An entry of `makes` or `unsettles`.
@@ -32,6 +34,23 @@ fn depends_on(condition: &Condition, binding: BindingId) -> bool {
     }
 }
 
+/// True if a call may change what a need of it asks.
+pub(super) fn changes_need(call: &CallNode, need: &Need) -> bool {
+    let effects = call.effects.iter().map(|effect| effect.fact.fluent);
+    let own: Vec<_> = effects.chain(call.unsettles.iter().map(|entry| entry.fact.fluent)).collect();
+    std::iter::once(&need.condition).chain(&need.when).any(|condition| mentions(condition, &own))
+}
+
+/// True if a condition is about one of some fluents.
+fn mentions(condition: &Condition, fluents: &[FluentId]) -> bool {
+    match condition {
+        Condition::Literal(_) | Condition::Compare(..) => false,
+        Condition::Fact(fact) => fluents.contains(&fact.fluent),
+        Condition::Not(inner) => mentions(inner, fluents),
+        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(|part| mentions(part, fluents)),
+    }
+}
+
 /// An id that no entity has: it stands for all that nobody has heard of.
 const NOBODY: SmolStr = SmolStr::new_static("");
 
@@ -42,14 +61,21 @@ pub(super) struct Contracts<'a> {
     pub(super) bindings: &'a [Option<Value>],
     pub(super) beliefs: &'a mut Beliefs,
     pub(super) now: Time,
+    /// Number of the last observation before the call began: its conditions are about the state before it.
+    /// The greatest number if all observations count.
+    pub(super) begun: u64,
 }
 
 impl Turn<'_> {
-    /// Applies a call's declared effects.
+    /// Applies a call's declared effects. What it unsettles is unknown until its end: an observation of it in
+    /// between does not last.
     pub(super) fn make(&mut self, node: NodeId) {
         let plan = self.plan;
-        if let Some(call) = plan.call(node).filter(|call| !call.effects.is_empty()) {
-            self.contracts().make(call);
+        if let Some(call) =
+            plan.call(node).filter(|call| !call.effects.is_empty() || !call.unsettles.is_empty())
+        {
+            self.contracts_at(node).unsettle(call);
+            self.contracts_at(node).make(call);
         }
     }
 
@@ -67,7 +93,7 @@ impl Turn<'_> {
     pub(super) fn doubt(&mut self, node: NodeId) {
         let plan = self.plan;
         if let Some(call) = plan.call(node) {
-            self.contracts().doubt(call);
+            self.contracts_at(node).doubt(call);
         }
     }
 
@@ -83,7 +109,14 @@ impl Turn<'_> {
             bindings: &self.run.bindings,
             beliefs: &mut self.run.beliefs,
             now: self.run.now,
+            begun: u64::MAX,
         }
+    }
+
+    /// Contracts for the end of a call.
+    fn contracts_at(&mut self, node: NodeId) -> Contracts<'_> {
+        let begun = self.run.nodes.at(node.index()).seen;
+        Contracts { begun, ..self.contracts() }
     }
 
     /// True if a need holds; of a quantified one, whether it holds for every entity that the engine has heard
@@ -253,7 +286,7 @@ impl Contracts<'_> {
             beliefs: self.beliefs,
             bindings: self.bindings,
             each,
-            fresh: Freshness::Readings(self.now),
+            fresh: Freshness::Before(self.now, self.begun),
             vague: false,
             missing: None,
         }

@@ -297,6 +297,30 @@ impl Turn<'_> {
         true
     }
 
+    /// Asks for what `run.missing` holds beyond what was asked for before, within the same time. False where
+    /// there is nothing to ask for.
+    pub(super) fn ask_more(&mut self, node: NodeId) -> bool {
+        let key = self.plan.node_key(node);
+        let asks = self.run.subscriptions.at_mut(key as usize);
+        let known = asks.len();
+        if known == 0 {
+            return false;
+        }
+        for id in &self.run.missing {
+            if asks.contains(id) {
+                continue;
+            }
+            asks.push(*id);
+            self.run.asked.push((*id, node));
+            if let Some(cell) = self.run.beliefs.cell_mut(*id) {
+                cell.dependents.push(key);
+                cell.due += 1;
+                self.out.push(Effect::Observe { query: cell.query.clone() });
+            }
+        }
+        asks.len() > known
+    }
+
     /// True if an answer is outstanding.
     pub(super) fn awaits(&self, node: NodeId) -> bool {
         self.run.asked.iter().any(|(_, asker)| *asker == node)

@@ -294,7 +294,9 @@ impl Turn<'_> {
         self.report(move || TraceEventKind::GoalEnded { node, goal, ending, cause });
         if stopped.is_none() && wish == GoalIntent::Suspend {
             // It starts again: at once where what suspended it has gone on already.
-            self.run.nodes.at_mut(node.index()).phase = Phase::Entering;
+            let state = self.run.nodes.at_mut(node.index());
+            state.phase = Phase::Entering;
+            state.begins_again = true;
             self.push(Transition::Acquire(node));
         } else {
             self.exit(node, NodeExit { ending, cause, origin: node });

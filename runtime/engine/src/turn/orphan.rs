@@ -248,6 +248,7 @@ impl Turn<'_> {
             bindings: &orphan.bindings,
             beliefs: &mut self.run.beliefs,
             now: self.run.now,
+            begun: u64::MAX,
         }
     }
 }

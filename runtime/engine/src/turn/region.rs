@@ -48,7 +48,9 @@ impl Turn<'_> {
         } else {
             self.report(move || TraceEventKind::Entered { node });
             if step.is_call {
-                self.run.nodes.at_mut(node.index()).count = 1;
+                let state = self.run.nodes.at_mut(node.index());
+                state.count = 1;
+                state.begins_again = false;
                 self.begin(node, step);
             } else {
                 self.enter_other(node);
