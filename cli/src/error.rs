@@ -2,7 +2,6 @@
 
 use std::io;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use motet_host::journal::JournalError;
 use motet_project::{ProjectError, reason};
@@ -33,15 +32,16 @@ impl Exit {
     }
 }
 
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> Self {
-        Self::from(match exit {
-            Exit::Success => 0,
-            Exit::Findings => 1,
-            Exit::CouldNotRun => 2,
-            Exit::Failed => 3,
-            Exit::Interrupted => 130,
-        })
+impl Exit {
+    /// Exit status of the process.
+    pub(crate) const fn status(self) -> u8 {
+        match self {
+            Self::Success => 0,
+            Self::Findings => 1,
+            Self::CouldNotRun => 2,
+            Self::Failed => 3,
+            Self::Interrupted => 130,
+        }
     }
 }
 

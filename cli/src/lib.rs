@@ -1,4 +1,11 @@
 //! The `motet` command: reads the command line, calls the subcommand, and turns its result into an exit code.
+//!
+//! The executable `motet` and the Python package call it. Programs that embed Motet use the crate `motet`.
+//!
+//! ```
+//! let status = motet_cli::run(["motet", "explain", "M0501"].map(Into::into), None);
+//! assert_eq!(status, 0);
+//! ```
 
 mod command;
 mod conversation;
@@ -17,7 +24,9 @@ mod shared_sessions;
 mod typed_line;
 mod view;
 
-use std::process::ExitCode;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
@@ -102,8 +111,24 @@ enum Command {
     Completions(command::completions::CompletionsArgs),
 }
 
-fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+/// Program that other processes call for this command, where it is not the executable of this process.
+static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+
+/// Runs a command line, whose first word is the name of the command, and returns the exit status: 0 to 3,
+/// or 130 for an interrupted run. Output goes to stdout and stderr of the process.
+///
+/// `program` is the path of a program that runs this command, for drivers that call it; without one it is
+/// the executable of this process. A command takes over SIGINT, SIGTERM and SIGHUP of the process while it
+/// runs a policy.
+pub fn run(words: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
+    program.into_iter().for_each(|program| {
+        let _ = PROGRAM.set(program);
+    });
+    main(words).status()
+}
+
+fn main(words: impl IntoIterator<Item = OsString>) -> Exit {
+    let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(error) if is_drive(&error) => {
             let moved = CliError::Advised {
@@ -112,20 +137,20 @@ fn main() -> ExitCode {
                     .to_owned(),
             };
             print_error(&moved, Colors::new(ColorChoice::default()));
-            return Exit::CouldNotRun.into();
+            return Exit::CouldNotRun;
         }
         Err(error) => {
             // Nobody reads the help: a closed pipe is no error.
             let _ = error.print();
-            return if error.use_stderr() { Exit::CouldNotRun.into() } else { Exit::Success.into() };
+            return if error.use_stderr() { Exit::CouldNotRun } else { Exit::Success };
         }
     };
     let colors = Colors::new(cli.color);
     match dispatch(&cli.command, colors) {
-        Ok(exit) => exit.into(),
+        Ok(exit) => exit,
         Err(error) => {
             print_error(&error, colors);
-            Exit::CouldNotRun.into()
+            Exit::CouldNotRun
         }
     }
 }

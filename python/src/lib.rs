@@ -1,6 +1,7 @@
 //! Native part of the Python package `motet`: checks, runs and decoders over the facade. The classes that
 //! people see are in `motet/*.py`; what passes between is text, mostly JSON.
 
+mod command;
 mod conformance;
 mod decoder;
 mod errors;
@@ -24,6 +25,7 @@ fn _motet(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<project::Project>()?;
     module.add_class::<run::Run>()?;
     module.add_function(wrap_pyfunction!(conformance::harmless_steps, module)?)?;
+    module.add_function(wrap_pyfunction!(command::command, module)?)?;
     module.add_function(wrap_pyfunction!(feasible::feasible, module)?)?;
     module.add_function(wrap_pyfunction!(run::replay, module)?)?;
     module.add_function(wrap_pyfunction!(errors::explain, module)?)

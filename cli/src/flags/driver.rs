@@ -234,7 +234,7 @@ const OWN_PROGRAM: &str = "--motet";
 
 /// Arguments of the physics driver that let it read the model from this very program.
 fn own_program() -> Vec<String> {
-    let own = std::env::current_exe().ok();
+    let own = crate::PROGRAM.get().cloned().or_else(|| std::env::current_exe().ok());
     let own = own.as_deref().and_then(Path::to_str);
     own.map_or_else(Vec::new, |own| vec![OWN_PROGRAM.to_owned(), own.to_owned()])
 }
