@@ -29,3 +29,4 @@ mod run;
 mod serve;
 mod support;
 mod talk;
+mod trees;
