@@ -20,21 +20,21 @@ use self::client::Client;
 /// Policy of 500 lines that passes: monitors, branches, loops and handlers around calls.
 fn policy() -> String {
     let round = "    go(kitchen_table)
-    let mug = detect(\"red mug\")
+    let NAME = detect(\"red mug\")
     try {
-        pick(mug) within 20 s retry 1
+        pick(NAME) within 20 s retry 1
     } catch unreachable {
-        replan \"I cannot reach the mug\"
+        replan \"I cannot reach it\"
     }
     monitor {
         when distance(user) < 0.5 m for 200 ms then pause
     } during {
         go(counter)
     }
-    place(mug, counter)
-    pick(mug)
+    place(NAME, counter)
+    pick(NAME)
     go(kitchen_table)
-    place(mug, kitchen_table)
+    place(NAME, kitchen_table)
     if visible(user) {
         say(\"One more time.\")
     } else {
@@ -42,8 +42,11 @@ fn policy() -> String {
     }
 ";
     let mut text = "policy rounds for hsr {\n".to_owned();
+    let mut rounds = 0;
     while text.lines().count() + round.lines().count() < 500 {
-        text.push_str(round);
+        rounds += 1;
+        // A name is bound once.
+        text.push_str(&round.replace("NAME", &format!("mug{rounds}")));
     }
     while text.lines().count() < 499 {
         text.push_str("    say(\"done\")\n");

@@ -179,7 +179,9 @@ fn failed(
     });
     let thing = about.as_ref().map_or_else(|| "what I need".to_owned(), |id| reason::named(scene, id));
     let name = primitive.map_or("do", |primitive| primitive.name.as_str());
-    let doing = reason::deed(scene, name, about.as_ref());
+    // A thing is put onto its place, whatever the failure is about.
+    let onto = (name == primitives::PLACE).then(|| args().filter_map(entity).next_back()).flatten();
+    let doing = reason::deed(scene, name, onto.as_ref().or(about.as_ref()));
     let why = why.map(|why| reason::in_words(why, scene));
     let (kind, question, options): (Kind, String, Vec<SmolStr>) = match kind {
         failures::NOT_FOUND => (
