@@ -25,7 +25,8 @@ fn what_no_tree_can_say_is_an_error_with_its_place() {
     let place = Place::new("trees_refused")
         .file(
             "pauses.motet",
-            "policy p for hsr {\n    monitor when distance(user) < 1 m then pause during { say(\"hi\") }\n}\n",
+            "policy p for hsr {\n    monitor when distance(user) < 1 m then pause during { \
+             say(\"hi\") }\n}\n",
         )
         .file("wrong.motet", "policy p for hsr { pick(mug_1) }\n")
         .file("torn.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\"><Sequence>")
