@@ -21,6 +21,7 @@ mod result_file;
 mod run_view;
 mod runner;
 mod shared_sessions;
+mod sibling;
 mod typed_line;
 mod view;
 
@@ -81,6 +82,9 @@ enum Command {
     Serve(Box<command::serve::ServeArgs>),
     /// Check a policy and run it in simulation or on a driver, or check a driver
     Run(command::run::RunArgs),
+    /// Check bindings for robots that speak ROS 2, and serve ROS 2; needs the executable `motet-ros2`
+    #[command(disable_help_flag = true)]
+    Ros2(SiblingArgs),
     /// Replay the journal of a run and report the first difference
     Replay(command::replay::ReplayArgs),
     /// Show the journal of a run on a page in a browser, or write the page to a file
@@ -109,6 +113,13 @@ enum Command {
     Schema(command::schema::SchemaArgs),
     /// Print completions for a shell
     Completions(command::completions::CompletionsArgs),
+}
+
+/// Arguments of a command in an executable of its own, which reads them.
+#[derive(clap::Args, Debug)]
+struct SiblingArgs {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGUMENTS")]
+    arguments: Vec<OsString>,
 }
 
 /// Program that other processes call for this command, where it is not the executable of this process.
@@ -174,6 +185,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Plan(args) => command::plan::run(args, colors),
         Command::Serve(args) => command::serve::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
+        Command::Ros2(args) => sibling::run("motet-ros2", &args.arguments),
         Command::Replay(args) => command::replay::run(args),
         Command::View(args) => command::view::run(args, colors),
         Command::Export(args) => command::export::run(args, colors),

@@ -12,14 +12,16 @@ use motet_project::{DiagnosticSink, ProjectError, SimulationInputs, read_profile
 use motet_syntax::Sources;
 
 use crate::error::CliError;
+use crate::sibling;
 
 /// Driver with its settings.
 #[derive(Args, Debug)]
 pub(crate) struct DriverArgs {
     /// Driver: `kinematic`, the simulator without physics; `mujoco`, physics, for which Python needs the
-    /// package `motet-mujoco`; a command that speaks the driver protocol on its stdin and stdout; or
+    /// package `motet-mujoco`; `ros2:BINDING`, a robot that speaks ROS 2, which needs the executable
+    /// `motet-ros2`; a command that speaks the driver protocol on its stdin and stdout; or
     /// tcp://127.0.0.1:PORT
-    #[arg(long, default_value = "kinematic", value_name = "kinematic|mujoco|COMMAND|ADDRESS")]
+    #[arg(long, default_value = "kinematic", value_name = "kinematic|mujoco|ros2:BINDING|COMMAND|ADDRESS")]
     pub(crate) driver: DriverChoice,
     /// Speed relative to real time: a factor, or `max` for as fast as possible [default: 1]
     #[arg(long, value_name = "max|FACTOR", allow_negative_numbers = true)]
@@ -137,6 +139,9 @@ impl FromStr for Speed {
 const PYTHON: &str = "python3";
 /// Package of the physics driver.
 const PACKAGE: &str = "motet_mujoco";
+/// Executable of the driver for ROS 2, and its subcommand.
+const ROS2: &str = "motet-ros2";
+const DRIVE: &str = "drive";
 /// Modules that the physics driver imports.
 const MODULES: [&str; 3] = [PACKAGE, "mujoco", "numpy"];
 /// Program that prints the modules that are missing, of those that are its arguments.
@@ -150,6 +155,8 @@ pub(crate) enum DriverChoice {
     Kinematic,
     /// The physics driver with the robot, the scene and the seed of the flags.
     Mujoco,
+    /// The driver for ROS 2 with a binding, and the robot and the scene of the flags.
+    Ros2(String),
     /// A driver in another process.
     Process(DriverAddress),
 }
@@ -161,7 +168,10 @@ impl FromStr for DriverChoice {
         match text.trim() {
             "kinematic" => Ok(Self::Kinematic),
             "mujoco" => Ok(Self::Mujoco),
-            other => Ok(Self::Process(other.parse()?)),
+            other => match other.strip_prefix("ros2:") {
+                Some(binding) => Ok(Self::Ros2(binding.to_owned())),
+                None => Ok(Self::Process(other.parse()?)),
+            },
         }
     }
 }
@@ -177,6 +187,16 @@ impl DriverChoice {
         match self {
             Self::Kinematic => Ok(None),
             Self::Process(address) => Ok(Some(address.clone())),
+            Self::Ros2(binding) => {
+                let missing = "`--driver ros2:BINDING` needs a scene: give --scene NAME|FILE";
+                let scene = scene.ok_or_else(|| CliError::Message(missing.to_owned()))?;
+                let program = sibling::find(ROS2)?.to_string_lossy().into_owned();
+                let mut words = vec![program, DRIVE.to_owned(), binding.clone()];
+                words.extend(["--scene".to_owned(), scene.to_owned()]);
+                words.extend(robot.into_iter().flat_map(|robot| ["--robot".to_owned(), robot.to_owned()]));
+                words.extend(own_program());
+                Ok(Some(DriverAddress::Command(words)))
+            }
             Self::Mujoco => {
                 let missing = |what: &str, flag: &str| {
                     CliError::Message(format!("`--driver mujoco` needs a {what}: give {flag}"))
@@ -210,7 +230,14 @@ impl DriverChoice {
                 let start = [python, flag, package].map(Clone::clone).into_iter();
                 Some(DriverAddress::Command(start.chain(arguments).chain(own_program()).collect()))
             }
-            (Self::Kinematic | Self::Mujoco, _) => None,
+            (Self::Ros2(binding), DriverAddress::Command(words)) => {
+                let [_, command, _, arguments @ ..] = words.as_slice() else { return None };
+                let program = sibling::find(ROS2).ok().filter(|_| command == DRIVE)?;
+                let start = [program.to_string_lossy().into_owned(), command.clone(), binding.clone()];
+                let arguments = arguments.iter().take_while(|word| *word != OWN_PROGRAM).cloned();
+                Some(DriverAddress::Command(start.into_iter().chain(arguments).chain(own_program()).collect()))
+            }
+            (Self::Kinematic | Self::Mujoco | Self::Ros2(_), _) => None,
         }
     }
 
@@ -218,6 +245,13 @@ impl DriverChoice {
     pub(crate) fn flag_for(saved: &DriverAddress) -> String {
         if Self::Mujoco.again(saved).is_some() {
             return "--driver mujoco".to_owned();
+        }
+        if let DriverAddress::Command(words) = saved
+            && let [program, command, binding, ..] = words.as_slice()
+            && Path::new(program).ends_with(ROS2)
+            && command == DRIVE
+        {
+            return format!("--driver {}", quoted(&format!("ros2:{binding}")));
         }
         let words = match saved {
             DriverAddress::Tcp(_) => saved.to_string(),
@@ -291,6 +325,8 @@ mod tests {
         };
         assert_eq!(flag(&["python3", "my driver.py"]), "--driver \"python3 'my driver.py'\"");
         assert_eq!(flag(&["python3", "-m", "motet_mujoco", "--robot", "hsr"]), "--driver mujoco");
+        assert_eq!("ros2:hsr".parse(), Ok(DriverChoice::Ros2("hsr".to_owned())));
+        assert_eq!(flag(&["bin/motet-ros2", "drive", "hsr", "--scene", "kitchen"]), "--driver ros2:hsr");
         assert!("".parse::<DriverChoice>().is_err());
         assert!("tcp://192.0.2.1:1".parse::<DriverChoice>().is_err());
     }

@@ -2,7 +2,7 @@
 
 use motet_geometry::planning::{
     Configuration, GraspSide, InfeasibleReason, MIN_CLEARANCE, Misfit, MotionAnswer, MotionQuery,
-    MotionWitness, RobotModel, UnknownReason, components,
+    MotionLimits, MotionWitness, PathTime, RobotModel, SpeedShare, UnknownReason, components,
 };
 use serde_json::{Map, Value, json};
 
@@ -121,8 +121,9 @@ fn witness_json(machine: &RobotModel, witness: &MotionWitness) -> Value {
             "tip_from_object": pose(components(&grasp.tip_from_object)),
         })
     });
+    let times = MotionLimits::of(machine).times(&witness.path, SpeedShare::FULL);
     json!({
-        "path": witness.path.iter().map(|at| state(machine, at)).collect::<Vec<_>>(),
+        "path": witness.path.iter().zip(times).map(|(at, time)| state(machine, at, time)).collect::<Vec<_>>(),
         "grasp": grasp,
         "margins": {
             "clearance": witness.margins.clearance,
@@ -133,10 +134,10 @@ fn witness_json(machine: &RobotModel, witness: &MotionWitness) -> Value {
     })
 }
 
-fn state(machine: &RobotModel, state: &Configuration) -> Value {
+fn state(machine: &RobotModel, state: &Configuration, time: PathTime) -> Value {
     let names = machine.tree().dofs().iter().map(|dof| dof.name.to_string());
     let joints: Map<String, Value> = names.zip(state.joints.iter().map(|value| json!(value))).collect();
-    json!({"base": state.base, "joints": joints})
+    json!({"base": state.base, "joints": joints, "at": time.at, "ramp": time.ramp})
 }
 
 #[cfg(test)]

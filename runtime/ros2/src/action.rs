@@ -1,0 +1,337 @@
+//! Goals of an action server. The end of every goal is known, or it is said to be lost.
+//!
+//! The client chooses the id of a goal. So it can cancel a goal whose acceptance it never heard of: a server
+//! may carry out a goal although its response was lost.
+
+use crate::cdr::{Message, decode};
+use crate::dds::{Dds, Quality, Received, Source, dds_topic, dds_type};
+use crate::layout::Layouts;
+use crate::service::{Client, Interface, Middleware, Ticket};
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+/// Id of a goal.
+pub type Uuid = [u8; 16];
+
+/// Number of sources of one action: responses to goals, cancels and results, feedback, and states.
+pub const SOURCES: Source = 5;
+
+/// Time limit for a response to a goal.
+const ACCEPTS: Duration = Duration::from_secs(2);
+/// Time after which a result is asked for again, once the goal has ended or its server may have changed.
+const ASKS_AGAIN: Duration = Duration::from_secs(2);
+/// Time after which a cancel without a response is sent again.
+const CANCELS_AGAIN: Duration = Duration::from_millis(500);
+/// Number of times that a cancel is sent.
+const CANCELS: u32 = 6;
+
+/// Codes of the state of a goal in `action_msgs/GoalStatus`.
+mod status {
+    pub const UNKNOWN: i64 = 0;
+    pub const EXECUTING: i64 = 2;
+    pub const CANCELING: i64 = 3;
+    pub const SUCCEEDED: i64 = 4;
+    pub const CANCELED: i64 = 5;
+    pub const ABORTED: i64 = 6;
+}
+
+/// End of a goal.
+#[derive(Clone, PartialEq, Debug)]
+pub enum End {
+    /// The server refused it: nothing has moved.
+    Rejected,
+    Succeeded(Message),
+    Aborted(Message),
+    Canceled,
+    /// Nobody knows what became of it, for a reason in words.
+    Lost(String),
+}
+
+/// News of a goal.
+#[derive(Clone, PartialEq, Debug)]
+pub enum News {
+    Accepted(Uuid),
+    Feedback(Uuid, Message),
+    Ended(Uuid, End),
+}
+
+#[derive(Debug)]
+struct Goal {
+    id: Uuid,
+    sent: Instant,
+    ticket: Option<Ticket>,
+    is_accepted: bool,
+    /// Call for the result, with its time.
+    asked: Option<(Ticket, Instant)>,
+    /// Cancels: number, and time of the last.
+    cancels: u32,
+    canceled: Option<Instant>,
+    is_cancel_heard: bool,
+    /// Endpoints that it began with have been missing since.
+    missing: Option<Instant>,
+}
+
+/// Client of an action server.
+pub struct ActionClient {
+    /// Name of the action, such as `/arm_controller/follow_joint_trajectory`.
+    pub name: String,
+    type_name: String,
+    send: Client,
+    cancel: Client,
+    result: Client,
+    first: Source,
+    goals: Vec<Goal>,
+    /// Goals that were given up. A late acceptance of one is canceled.
+    lost: Vec<Uuid>,
+}
+
+impl ActionClient {
+    /// A client whose messages come with the numbers `first` to `first + SOURCES - 1`.
+    ///
+    /// # Errors
+    ///
+    /// Why DDS refuses its topics.
+    pub fn new(
+        dds: &Dds,
+        middleware: Middleware,
+        name: &str,
+        type_name: &str,
+        first: Source,
+    ) -> Result<Self, String> {
+        let client = |service: &str, interface: Interface<'_>, at: Source| {
+            Client::new(dds, middleware, &format!("{name}/_action/{service}"), interface, first + at)
+        };
+        let own = |end| Interface { name: type_name, kind: "action", end };
+        let send = client("send_goal", own("_SendGoal"), 0)?;
+        let result = client("get_result", own("_GetResult"), 1)?;
+        let cancel = Interface { name: "action_msgs/CancelGoal", kind: "srv", end: "" };
+        let cancel = client("cancel_goal", cancel, 2)?;
+        let feedback = dds_topic("rt", name, "/_action/feedback");
+        dds.subscribe(&feedback, &dds_type(type_name, "action", "_FeedbackMessage"), Quality::Reliable, first + 3)?;
+        let states = dds_topic("rt", name, "/_action/status");
+        dds.subscribe(&states, &dds_type("action_msgs/GoalStatusArray", "msg", ""), Quality::Latched, first + 4)?;
+        let (name, type_name) = (name.to_owned(), type_name.to_owned());
+        Ok(Self { name, type_name, send, cancel, result, first, goals: Vec::new(), lost: Vec::new() })
+    }
+
+    /// Endpoints of the server that DDS has not discovered, of all five. A goal that is sent before all are
+    /// there could run without a way to hear of it.
+    #[must_use]
+    pub fn missing(&self, dds: &Dds) -> Vec<String> {
+        let (readers, writers) = (dds.readers(), dds.writers());
+        let mut missing = Vec::new();
+        for client in [&self.send, &self.cancel, &self.result] {
+            let [request, reply] = &client.topics;
+            if readers.iter().all(|one| one.topic != *request) || writers.iter().all(|one| one.topic != *reply) {
+                missing.push(request.trim_start_matches("rq/").trim_end_matches("Request").to_owned());
+            }
+        }
+        for end in ["feedback", "status"] {
+            let topic = dds_topic("rt", &self.name, &format!("/_action/{end}"));
+            if writers.iter().all(|one| one.topic != topic) {
+                missing.push(topic.trim_start_matches("rt/").to_owned());
+            }
+        }
+        missing
+    }
+
+    /// True for a message of this action.
+    #[must_use]
+    pub fn is_source(&self, source: Source) -> bool {
+        (self.first..self.first + SOURCES).contains(&source)
+    }
+
+    /// Sends a goal; its id.
+    ///
+    /// # Errors
+    ///
+    /// The field that the layout lacks, or why DDS did not take it.
+    pub fn start(&mut self, layouts: &Layouts, goal: &Value) -> Result<Uuid, String> {
+        let mut id: Uuid = [0; 16];
+        getrandom::fill(&mut id).map_err(|error| format!("no random number: {error}"))?;
+        let ticket = self.send.call(layouts, &json!({"goal_id": {"uuid": id}, "goal": goal}))?;
+        self.goals.push(Goal {
+            id,
+            sent: Instant::now(),
+            ticket: Some(ticket),
+            is_accepted: false,
+            asked: None,
+            cancels: 0,
+            canceled: None,
+            is_cancel_heard: false,
+            missing: None,
+        });
+        Ok(id)
+    }
+
+    /// Cancels a goal, whether or not its server has accepted it. `tick` sends the cancel again until it is
+    /// answered.
+    pub fn cancel(&mut self, layouts: &Layouts, id: Uuid) {
+        if let Some(goal) = self.goals.iter_mut().find(|goal| goal.id == id) {
+            goal.cancels += 1;
+            goal.canceled = Some(Instant::now());
+        }
+        // A cancel that DDS does not take is sent again.
+        let _ = self.cancel.call(layouts, &json!({"goal_info": {"goal_id": {"uuid": id}}}));
+    }
+
+    /// Takes in a message of this action.
+    ///
+    /// # Errors
+    ///
+    /// Why it is none of its layout.
+    pub fn hear(&mut self, layouts: &Layouts, received: &Received) -> Result<Vec<News>, String> {
+        let bytes = &received.bytes;
+        match received.source - self.first {
+            0 => Ok(self.send.hear(layouts, received)?.map_or_else(Vec::new, |(ticket, response)| {
+                self.answered(layouts, ticket, response.is_true("accepted"))
+            })),
+            1 => Ok(self.result.hear(layouts, received)?.map_or_else(Vec::new, |(ticket, response)| {
+                self.ended(layouts, ticket, response)
+            })),
+            2 => {
+                if let Some((_, response)) = self.cancel.hear(layouts, received)? {
+                    let listed = response.list("goals_canceling").iter().filter_map(|info| uuid(info, "goal_id"));
+                    let listed: Vec<Uuid> = listed.collect();
+                    self.goals.iter_mut().for_each(|goal| goal.is_cancel_heard |= listed.contains(&goal.id));
+                }
+                Ok(Vec::new())
+            }
+            3 => {
+                let message = decode(layouts, &format!("{}_FeedbackMessage", self.type_name), bytes)?;
+                let id = uuid(&message, "goal_id").filter(|id| self.goals.iter().any(|goal| goal.id == *id));
+                let feedback = message.get("feedback").cloned();
+                Ok(id.zip(feedback).map(|(id, feedback)| News::Feedback(id, feedback)).into_iter().collect())
+            }
+            _ => {
+                let message = decode(layouts, "action_msgs/GoalStatusArray", bytes)?;
+                Ok(self.states(layouts, &message))
+            }
+        }
+    }
+
+    /// Takes in the response to a goal.
+    fn answered(&mut self, layouts: &Layouts, ticket: Ticket, is_accepted: bool) -> Vec<News> {
+        let Some(at) = self.goals.iter().position(|goal| goal.ticket == Some(ticket)) else { return Vec::new() };
+        self.goals[at].ticket = None;
+        if is_accepted {
+            return self.accepted(layouts, at).into_iter().collect();
+        }
+        if self.goals[at].is_accepted {
+            return Vec::new();
+        }
+        let goal = self.goals.swap_remove(at);
+        vec![News::Ended(goal.id, End::Rejected)]
+    }
+
+    /// Notes that the server carries a goal out, and asks for its result.
+    fn accepted(&mut self, layouts: &Layouts, at: usize) -> Option<News> {
+        let id = self.goals[at].id;
+        if self.goals[at].is_accepted {
+            return None;
+        }
+        self.goals[at].is_accepted = true;
+        self.ask(layouts, at);
+        Some(News::Accepted(id))
+    }
+
+    fn ask(&mut self, layouts: &Layouts, at: usize) {
+        let id = self.goals[at].id;
+        if let Some((ticket, _)) = self.goals[at].asked.take() {
+            self.result.forget(ticket);
+        }
+        let ticket = self.result.call(layouts, &json!({"goal_id": {"uuid": id}}));
+        self.goals[at].asked = ticket.ok().map(|ticket| (ticket, Instant::now()));
+    }
+
+    /// Takes in the result of a goal.
+    fn ended(&mut self, layouts: &Layouts, ticket: Ticket, response: Message) -> Vec<News> {
+        let is_asked = |goal: &Goal| goal.asked.is_some_and(|(asked, _)| asked == ticket);
+        let Some(at) = self.goals.iter().position(is_asked) else { return Vec::new() };
+        let result = response.get("result").cloned().unwrap_or(Message::Bool(false));
+        #[allow(clippy::cast_possible_truncation, reason = "a status is small")]
+        let end = match response.number("status") as i64 {
+            status::SUCCEEDED => End::Succeeded(result),
+            status::ABORTED => End::Aborted(result),
+            status::CANCELED => End::Canceled,
+            // The server does not know the goal, such as one that was started anew. It may know it later.
+            status::UNKNOWN => return self.lose(layouts, at, "the action server does not know the goal"),
+            other => return self.lose(layouts, at, &format!("the action server answers with the status {other}")),
+        };
+        vec![News::Ended(self.goals.swap_remove(at).id, end)]
+    }
+
+    /// Gives a goal up. A server may still carry it out, so it is canceled by its id.
+    fn lose(&mut self, layouts: &Layouts, at: usize, why: &str) -> Vec<News> {
+        let goal = self.goals.swap_remove(at);
+        goal.ticket.into_iter().for_each(|ticket| self.send.forget(ticket));
+        goal.asked.into_iter().for_each(|(ticket, _)| self.result.forget(ticket));
+        self.cancel(layouts, goal.id);
+        self.lost.push(goal.id);
+        if self.lost.len() > 1_000 {
+            self.lost.remove(0);
+        }
+        vec![News::Ended(goal.id, End::Lost(format!("{why} ({})", self.name)))]
+    }
+
+    /// Takes in the states of all goals of the server.
+    fn states(&mut self, layouts: &Layouts, message: &Message) -> Vec<News> {
+        let mut news = Vec::new();
+        for state in message.list("status_list") {
+            let Some(id) = uuid(state, "goal_info.goal_id") else { continue };
+            #[allow(clippy::cast_possible_truncation, reason = "a status is small")]
+            let status = state.number("status") as i64;
+            if self.lost.contains(&id) && status == status::EXECUTING {
+                self.cancel(layouts, id);
+            }
+            let Some(at) = self.goals.iter().position(|goal| goal.id == id) else { continue };
+            if (status::EXECUTING..=status::ABORTED).contains(&status) {
+                // The response to the goal may be lost: its state says that it was accepted.
+                news.extend(self.accepted(layouts, at));
+            }
+            self.goals[at].is_cancel_heard |= status == status::CANCELING;
+            let is_over = status > status::CANCELING;
+            if is_over && self.goals[at].asked.is_none_or(|(_, asked)| asked.elapsed() > ASKS_AGAIN) {
+                self.ask(layouts, at);
+            }
+        }
+        news
+    }
+
+    /// Lets time pass: repeats what was not answered, and gives up goals that nobody answers for.
+    /// `is_there` says if DDS knows the endpoints of the server.
+    pub fn tick(&mut self, layouts: &Layouts, is_there: bool) -> Vec<News> {
+        let mut news = Vec::new();
+        let mut at = 0;
+        while at < self.goals.len() {
+            let goal = &mut self.goals[at];
+            goal.missing = if is_there { None } else { goal.missing.or(Some(Instant::now())) };
+            let is_unheard = goal.cancels > 0 && goal.cancels < CANCELS && !goal.is_cancel_heard;
+            if is_unheard && goal.canceled.is_some_and(|sent| sent.elapsed() > CANCELS_AGAIN) {
+                let id = goal.id;
+                self.cancel(layouts, id);
+            }
+            let goal = &self.goals[at];
+            if !goal.is_accepted && goal.sent.elapsed() > ACCEPTS {
+                news.extend(self.lose(layouts, at, "the action server did not answer the goal within 2 s"));
+            } else if goal.missing.is_some_and(|since| since.elapsed() > ASKS_AGAIN) {
+                news.extend(self.lose(layouts, at, "the action server has left"));
+            } else {
+                // A server that was started anew does not know the goal, and says so.
+                if goal.is_accepted && goal.asked.is_none_or(|(_, asked)| asked.elapsed() > 5 * ASKS_AGAIN) {
+                    self.ask(layouts, at);
+                }
+                at += 1;
+            }
+        }
+        news
+    }
+}
+
+/// Id of a goal at a path.
+fn uuid(message: &Message, path: &str) -> Option<Uuid> {
+    match message.get(&format!("{path}.uuid"))? {
+        Message::Bytes(bytes) => bytes.as_slice().try_into().ok(),
+        _ => None,
+    }
+}

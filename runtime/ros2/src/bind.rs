@@ -1,0 +1,574 @@
+//! The binding of a robot: a TOML file that says which actions, services and topics carry out its primitives.
+
+use crate::layout::Distribution;
+use crate::service::Middleware;
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::net::IpAddr;
+use std::path::Path;
+
+/// Greatest size of a binding in bytes.
+const MAX_BYTES: u64 = 1024 * 1024;
+
+/// Bindings that come with the program: name and text.
+const BUILT_IN: [(&str, &str); 4] = [
+    ("hsr", include_str!("../bindings/hsr.toml")),
+    ("nav2_arm", include_str!("../bindings/nav2_arm.toml")),
+    ("anymal_z1", include_str!("../bindings/anymal_z1.toml")),
+    ("tiago", include_str!("../bindings/tiago.toml")),
+];
+
+/// Binding of a robot.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Binding {
+    /// Robot that it is for, as the command line names it.
+    #[serde(default)]
+    pub robot: Option<String>,
+    #[serde(default)]
+    pub ros: Ros,
+    #[serde(default)]
+    pub frames: FrameNames,
+    pub joints: Joints,
+    #[serde(default)]
+    pub base: Base,
+    #[serde(default)]
+    pub standstill: Standstill,
+    #[serde(default)]
+    pub start: StartTolerance,
+    #[serde(default)]
+    pub controllers: Vec<Controller>,
+    #[serde(default)]
+    pub navigation: Option<Navigation>,
+    #[serde(default)]
+    pub gripper: Option<Gripper>,
+    #[serde(default)]
+    pub primitives: BTreeMap<String, Primitive>,
+    #[serde(default)]
+    pub facts: BTreeMap<String, Observation>,
+    #[serde(default)]
+    pub measures: BTreeMap<String, Observation>,
+    #[serde(default)]
+    pub cameras: Vec<CameraTopics>,
+    #[serde(default)]
+    pub detections: Option<DetectionTopic>,
+    /// Services and topics that stop the robot at a safe stop, beside the trajectories that stand still.
+    #[serde(default)]
+    pub stop: Vec<Call>,
+}
+
+/// How the robot's nodes are reached.
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Ros {
+    pub distribution: Distribution,
+    pub middleware: Middleware,
+    /// `ROS_DOMAIN_ID`. The variable of the environment counts where the binding has none.
+    pub domain: Option<u16>,
+    /// Addresses of the networks to use; all without one.
+    pub networks: Vec<IpAddr>,
+    /// Namespace before names that do not begin with `/`.
+    pub namespace: String,
+    /// Seconds to wait for the robot's nodes at the start.
+    pub discovery_secs: Option<f64>,
+}
+
+/// Names of frames.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FrameNames {
+    /// Frame of the scene.
+    pub map: String,
+    /// Frame of the base on the floor.
+    pub base: String,
+    /// Greatest age of a transform in s.
+    pub age_secs: f64,
+}
+
+impl Default for FrameNames {
+    fn default() -> Self {
+        Self { map: "map".to_owned(), base: "base_footprint".to_owned(), age_secs: 0.5 }
+    }
+}
+
+/// States of the joints.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Joints {
+    /// Topic of `sensor_msgs/JointState`.
+    pub topic: String,
+    /// Joints whose name in ROS differs from that in the URDF of the card: `card = "ros"`.
+    #[serde(default)]
+    pub names: BTreeMap<String, String>,
+}
+
+/// Pose and speed of the base.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Base {
+    /// Topic of `nav_msgs/Odometry`; a robot without one does not drive.
+    pub odometry: Option<String>,
+    /// Topic of `geometry_msgs/PoseWithCovarianceStamped` of the localisation.
+    pub localization: Option<String>,
+    /// Number of standard deviations of the localisation that the clearance of a path must have.
+    pub sigmas: f64,
+}
+
+impl Default for Base {
+    fn default() -> Self {
+        Self { odometry: None, localization: None, sigmas: 2.0 }
+    }
+}
+
+/// When the robot stands still.
+#[derive(Clone, Copy, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Standstill {
+    /// Greatest speed of a joint in rad/s or m/s.
+    pub joints: f64,
+    /// Greatest speed of the base in m/s, and of its turning in rad/s.
+    pub base: f64,
+    pub turn: f64,
+    /// Seconds for which all speeds are below.
+    pub secs: f64,
+}
+
+impl Default for Standstill {
+    fn default() -> Self {
+        Self { joints: 0.02, base: 0.01, turn: 0.02, secs: 0.2 }
+    }
+}
+
+/// Distances from the start of a path up to which the robot may follow it.
+#[derive(Clone, Copy, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct StartTolerance {
+    /// m.
+    pub base: f64,
+    /// rad.
+    pub turn: f64,
+    /// rad or m.
+    pub joints: f64,
+}
+
+impl Default for StartTolerance {
+    fn default() -> Self {
+        Self { base: 0.03, turn: 0.05, joints: 0.05 }
+    }
+}
+
+/// Controller that follows trajectories.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Controller {
+    /// Action of `control_msgs/FollowJointTrajectory`.
+    pub action: String,
+    /// Its joints as ROS names them.
+    #[serde(default)]
+    pub joints: Vec<String>,
+    /// Names of its axes x, y and yaw, if it drives the base.
+    #[serde(default)]
+    pub base: Vec<String>,
+    /// Frame of these axes.
+    #[serde(default = "odom")]
+    pub frame: String,
+    /// Seconds that a trajectory may take longer than it says.
+    #[serde(default = "late")]
+    pub late_secs: f64,
+}
+
+fn odom() -> String {
+    "odom".to_owned()
+}
+
+const fn late() -> f64 {
+    10.0
+}
+
+/// Navigation of the base.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Navigation {
+    /// Action of `nav2_msgs/NavigateToPose`.
+    pub action: String,
+    #[serde(default)]
+    pub behavior_tree: String,
+    /// Topic that a stop sends zero speeds to.
+    #[serde(default)]
+    pub stop: Option<String>,
+    /// `geometry_msgs/Twist` or `geometry_msgs/TwistStamped`.
+    #[serde(default = "twist")]
+    pub stop_type: String,
+}
+
+fn twist() -> String {
+    "geometry_msgs/Twist".to_owned()
+}
+
+/// The hand. `{width}` in a message stands for the opening in m times `scale` plus `offset`.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gripper {
+    pub action: String,
+    #[serde(rename = "type")]
+    pub type_name: String,
+    pub open: Value,
+    pub close: Value,
+    /// Goal for the opening that a grasp asks for; `open` without one.
+    #[serde(default)]
+    pub width: Option<Value>,
+    #[serde(default = "one")]
+    pub scale: f64,
+    #[serde(default)]
+    pub offset: f64,
+    #[serde(default = "late")]
+    pub timeout_secs: f64,
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+/// Primitive as steps, one after the other.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Primitive {
+    pub steps: Vec<StepTable>,
+}
+
+/// Step as the file writes it: exactly one of its first ten keys.
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct StepTable {
+    motion: Option<Direction>,
+    gripper: Option<Opening>,
+    action: Option<String>,
+    service: Option<String>,
+    topic: Option<String>,
+    wait_secs: Option<f64>,
+    require: Option<String>,
+    look: Option<bool>,
+    detect: Option<bool>,
+    answer: Option<String>,
+    #[serde(rename = "type")]
+    type_name: Option<String>,
+    message: Option<Value>,
+    timeout_secs: Option<f64>,
+    /// Failure of the step.
+    fails: Option<String>,
+    /// Words of the failure.
+    text: Option<String>,
+    /// Expression of the result.
+    value: Option<String>,
+}
+
+/// Way along a path.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Direction {
+    There,
+    Back,
+}
+
+/// Goal of the hand.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Opening {
+    Open,
+    Close,
+    /// As wide as the grasp of the path asks for.
+    Width,
+}
+
+/// Message to an action, a service or a topic.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Call {
+    pub kind: CallKind,
+    pub name: String,
+    #[serde(rename = "type")]
+    pub type_name: String,
+    #[serde(default)]
+    pub message: Value,
+    #[serde(default = "late")]
+    pub timeout_secs: f64,
+}
+
+/// Kind of interface.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CallKind {
+    Action,
+    Service,
+    Topic,
+}
+
+/// Step of a primitive.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Step {
+    pub deed: Deed,
+    /// Failure if the step does not succeed; the first that the primitive declares without one.
+    pub fails: Option<String>,
+    pub text: Option<String>,
+}
+
+/// What a step does.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Deed {
+    Motion(Direction),
+    Gripper(Opening),
+    Call(Call),
+    Wait(f64),
+    /// Expression that must hold.
+    Require(String),
+    /// Turn the camera to the entity that the first argument is or describes, if it is known where that is.
+    Look,
+    /// Wait for a detection of what the first argument describes.
+    Detect,
+    /// Wait for a message of a topic; the expression over it is the result.
+    Answer { topic: String, type_name: String, value: String, timeout_secs: f64 },
+}
+
+impl StepTable {
+    /// The step.
+    ///
+    /// # Errors
+    ///
+    /// The keys that are missing, or are too many.
+    pub fn step(&self) -> Result<Step, String> {
+        let call = |kind, name: &String| -> Result<Deed, String> {
+            let type_name = self.type_name.clone().ok_or_else(|| format!("`{name}` needs a `type`"))?;
+            let message = self.message.clone().unwrap_or_default();
+            let timeout_secs = self.timeout_secs.unwrap_or_else(late);
+            Ok(Deed::Call(Call { kind, name: name.clone(), type_name, message, timeout_secs }))
+        };
+        let answer = |topic: &String| -> Result<Deed, String> {
+            let type_name = self.type_name.clone().ok_or_else(|| format!("`{topic}` needs a `type`"))?;
+            let value = self.value.clone().ok_or_else(|| format!("`{topic}` needs a `value`"))?;
+            let timeout_secs = self.timeout_secs.unwrap_or(60.0);
+            Ok(Deed::Answer { topic: topic.clone(), type_name, value, timeout_secs })
+        };
+        let deeds = [
+            self.motion.map(|direction| Ok(Deed::Motion(direction))),
+            self.gripper.map(|opening| Ok(Deed::Gripper(opening))),
+            self.action.as_ref().map(|name| call(CallKind::Action, name)),
+            self.service.as_ref().map(|name| call(CallKind::Service, name)),
+            self.topic.as_ref().map(|name| call(CallKind::Topic, name)),
+            self.wait_secs.map(|secs| Ok(Deed::Wait(secs))),
+            self.require.as_ref().map(|text| Ok(Deed::Require(text.clone()))),
+            self.look.filter(|is_set| *is_set).map(|_| Ok(Deed::Look)),
+            self.detect.filter(|is_set| *is_set).map(|_| Ok(Deed::Detect)),
+            self.answer.as_ref().map(answer),
+        ];
+        let mut deeds = deeds.into_iter().flatten();
+        let deed = match (deeds.next(), deeds.next()) {
+            (Some(deed), None) => deed?,
+            _ => {
+                return Err("a step has exactly one of motion, gripper, action, service, topic, wait_secs, \
+                            require, look, detect and answer"
+                    .to_owned());
+            }
+        };
+        Ok(Step { deed, fails: self.fails.clone(), text: self.text.clone() })
+    }
+}
+
+/// Fact or measure from the messages of a topic.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Observation {
+    pub topic: String,
+    #[serde(rename = "type")]
+    pub type_name: String,
+    /// Expression over the fields of the message, `args` and `joints`.
+    pub value: String,
+    /// Greatest age of the message in s.
+    #[serde(default = "one")]
+    pub age_secs: f64,
+}
+
+/// Topics of a camera.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraTopics {
+    pub name: String,
+    pub image: String,
+    #[serde(default)]
+    pub depth: Option<String>,
+    pub info: String,
+}
+
+/// Topic of `vision_msgs/Detection3DArray`.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DetectionTopic {
+    pub topic: String,
+    /// Words for the classes of the detector: `class = "red mug"`.
+    #[serde(default)]
+    pub labels: BTreeMap<String, String>,
+    /// Seconds that `detect` waits for a detection.
+    #[serde(default = "patience")]
+    pub timeout_secs: f64,
+}
+
+const fn patience() -> f64 {
+    5.0
+}
+
+impl Binding {
+    /// Reads a binding: a built-in name, or a TOML file.
+    ///
+    /// # Errors
+    ///
+    /// Why the file cannot be read, or the place that is wrong.
+    pub fn read(name: &str) -> Result<Self, String> {
+        if let Some((_, text)) = BUILT_IN.iter().find(|(own, _)| *own == name) {
+            return Self::parse(text, name);
+        }
+        let path = Path::new(name);
+        let size = std::fs::metadata(path).map(|data| data.len()).map_err(|error| {
+            let own: Vec<&str> = BUILT_IN.iter().map(|(own, _)| *own).collect();
+            format!("cannot read the binding `{name}`: {error}; built in are {}", own.join(", "))
+        })?;
+        if size > MAX_BYTES {
+            return Err(format!("the binding `{name}` has more than {MAX_BYTES} bytes"));
+        }
+        let text = std::fs::read_to_string(path).map_err(|error| format!("cannot read `{name}`: {error}"))?;
+        Self::parse(&text, name)
+    }
+
+    /// Reads the text of a binding.
+    ///
+    /// # Errors
+    ///
+    /// The place that is wrong.
+    pub fn parse(text: &str, name: &str) -> Result<Self, String> {
+        let mut binding: Self = toml::from_str(text).map_err(|error| format!("{name}: {error}"))?;
+        for (primitive, steps) in &binding.primitives {
+            for (at, step) in steps.steps.iter().enumerate() {
+                let step = step.step().map_err(|wrong| format!("{name}: step {} of {primitive}: {wrong}", at + 1))?;
+                if matches!(step.deed, Deed::Gripper(_)) && binding.gripper.is_none() {
+                    return Err(format!("{name}: step {} of {primitive} needs a table [gripper]", at + 1));
+                }
+                if step.deed == Deed::Detect && binding.detections.is_none() {
+                    return Err(format!("{name}: step {} of {primitive} needs a table [detections]", at + 1));
+                }
+            }
+        }
+        for controller in &binding.controllers {
+            let is_base = controller.base.len() == 3 && controller.joints.is_empty();
+            let is_arm = controller.base.is_empty() && !controller.joints.is_empty();
+            if !is_base && !is_arm {
+                let action = &controller.action;
+                return Err(format!("{name}: the controller `{action}` has either joints or a base of three axes"));
+            }
+        }
+        binding.resolve_names();
+        Ok(binding)
+    }
+
+    /// Puts the namespace before relative names.
+    fn resolve_names(&mut self) {
+        let namespace = self.ros.namespace.trim_matches('/').to_owned();
+        let full = |name: &mut String| {
+            if !name.starts_with('/') {
+                *name = if namespace.is_empty() { format!("/{name}") } else { format!("/{namespace}/{name}") };
+            }
+        };
+        full(&mut self.joints.topic);
+        self.base.odometry.iter_mut().for_each(full);
+        self.base.localization.iter_mut().for_each(full);
+        self.controllers.iter_mut().for_each(|one| full(&mut one.action));
+        if let Some(navigation) = &mut self.navigation {
+            full(&mut navigation.action);
+            navigation.stop.iter_mut().for_each(full);
+        }
+        self.gripper.iter_mut().for_each(|one| full(&mut one.action));
+        for step in self.primitives.values_mut().flat_map(|one| &mut one.steps) {
+            step.action.iter_mut().for_each(full);
+            step.service.iter_mut().for_each(full);
+            step.topic.iter_mut().for_each(full);
+            step.answer.iter_mut().for_each(full);
+        }
+        self.facts.values_mut().chain(self.measures.values_mut()).for_each(|one| full(&mut one.topic));
+        for camera in &mut self.cameras {
+            full(&mut camera.image);
+            full(&mut camera.info);
+            camera.depth.iter_mut().for_each(full);
+        }
+        self.detections.iter_mut().for_each(|one| full(&mut one.topic));
+        self.stop.iter_mut().for_each(|one| full(&mut one.name));
+    }
+
+    /// Name of a joint in ROS.
+    #[must_use]
+    pub fn ros_joint<'a>(&'a self, joint: &'a str) -> &'a str {
+        self.joints.names.get(joint).map_or(joint, String::as_str)
+    }
+
+    /// Name of a joint in the card.
+    #[must_use]
+    pub fn card_joint<'a>(&'a self, joint: &'a str) -> &'a str {
+        self.joints.names.iter().find(|(_, ros)| *ros == joint).map_or(joint, |(card, _)| card)
+    }
+
+    /// True if a controller moves a joint, by its name in ROS.
+    #[must_use]
+    pub fn controls(&self, joint: &str) -> bool {
+        self.controllers.iter().any(|controller| controller.joints.iter().any(|own| own == joint))
+    }
+
+    /// Steps of a primitive; `None` if it is not bound.
+    #[must_use]
+    pub fn steps(&self, primitive: &str) -> Option<Vec<Step>> {
+        let steps = &self.primitives.get(primitive)?.steps;
+        steps.iter().map(|step| step.step().ok()).collect()
+    }
+
+    /// Domain of DDS.
+    #[must_use]
+    pub fn domain(&self) -> u16 {
+        let of_environment = || std::env::var("ROS_DOMAIN_ID").ok()?.trim().parse().ok();
+        self.ros.domain.or_else(of_environment).unwrap_or(0)
+    }
+
+    /// Names of the built-in bindings.
+    pub fn built_in() -> impl Iterator<Item = &'static str> {
+        BUILT_IN.iter().map(|(name, _)| *name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn built_in_bindings_are_whole() {
+        for name in Binding::built_in() {
+            let binding = Binding::read(name).unwrap();
+            assert!(binding.primitives.contains_key("go"), "{name}");
+        }
+    }
+
+    #[test]
+    fn wrong_bindings_name_their_place() {
+        let wrong = |text: &str| Binding::parse(text, "own").unwrap_err();
+        assert!(wrong("speed = 3").contains("unknown field `speed`"));
+        let joints = "[joints]\ntopic = \"joint_states\"\n";
+        let steps = wrong(&format!("{joints}[primitives.go]\nsteps = [{{ motion = \"there\", wait_secs = 1.0 }}]"));
+        assert!(steps.starts_with("own: step 1 of go: a step has exactly one of"), "{steps}");
+        let hand = wrong(&format!("{joints}[primitives.pick]\nsteps = [{{ gripper = \"open\" }}]"));
+        assert_eq!(hand, "own: step 1 of pick needs a table [gripper]");
+        let arm = wrong(&format!("{joints}[[controllers]]\naction = \"arm\""));
+        assert_eq!(arm, "own: the controller `arm` has either joints or a base of three axes");
+    }
+
+    #[test]
+    fn names_get_the_namespace() {
+        let text = "[ros]\nnamespace = \"robot_1\"\n[joints]\ntopic = \"joint_states\"\n[base]\nodometry = \"/odom\"";
+        let binding = Binding::parse(text, "own").unwrap();
+        assert_eq!(binding.joints.topic, "/robot_1/joint_states");
+        assert_eq!(binding.base.odometry.as_deref(), Some("/odom"));
+    }
+}

@@ -1,0 +1,561 @@
+//! The driver protocol on standard input and output, in front of the robot.
+
+use crate::observe::Found;
+use crate::robot::{Heard, Robot};
+use crate::state::Parts;
+use crate::task::{Finish, Surroundings, Task, stand_still, whole};
+use crate::world::{Place, World};
+use crossbeam_channel::{Receiver, select, tick};
+use motet_graph::Value as Argument;
+use motet_host::remote::protocol::{
+    DriverCall, DriverReport, EndedParams, FeedbackParams, GoalParams, GoalState, GoalStatus, Hello, MovedParams,
+    ObservedParams, QueryResult, RefusedData, StartParams, StatusResult, ToldParams, VERSION, Welcome,
+};
+use motet_host::remote::protocol::{Detections, REFUSED};
+use motet_runtime::{Answer, Capabilities, FailureReport, GoalId, Pattern, PrimitiveSet, Query, ToldSupport};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, HashMap};
+use std::io::{BufRead, Write};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Time between two looks at what runs.
+const TICK: Duration = Duration::from_millis(10);
+/// Time between two reports of telemetry.
+const MOVES: Duration = Duration::from_millis(50);
+/// Time between two looks at what the host watches.
+const WATCHES: Duration = Duration::from_millis(50);
+/// Silence after which the host is gone.
+const SILENCE: Duration = Duration::from_secs(5);
+/// Time for everything to stand still before the process ends.
+const FAREWELL: Duration = Duration::from_millis(4500);
+/// Longest line in bytes.
+const MAX_LINE: u64 = 1024 * 1024;
+/// Error codes of JSON-RPC.
+const INVALID: i64 = -32602;
+const UNKNOWN_METHOD: i64 = -32601;
+
+/// State of a goal.
+enum Goal {
+    Running(Box<Task>),
+    Refused(FailureReport),
+    Ended(motet_runtime::Outcome),
+    Stopped,
+    /// It does not run any more, and nobody knows how it ended.
+    Lost,
+}
+
+/// The driver: goals, watched queries, and the robot.
+pub struct Driver<W> {
+    robot: Robot,
+    world: World,
+    card: String,
+    planner: Option<PathBuf>,
+    out: W,
+    run: Option<String>,
+    fails: HashMap<String, Vec<String>>,
+    goals: BTreeMap<u64, Goal>,
+    /// Safe stops of goals that do not run any more: the whole robot is to stand still.
+    stopping: BTreeMap<u64, Instant>,
+    watched: Vec<(Query, Answer)>,
+    detections: Vec<motet_host::remote::protocol::DetectedThing>,
+    instance: String,
+    heard: Instant,
+    moved: Instant,
+    looked: Instant,
+    is_greeted: bool,
+}
+
+/// Line of the host, or the end of its lines.
+pub enum Line {
+    Text(String),
+    Wrong(String),
+    End,
+}
+
+/// Reads the lines of the host on a thread.
+pub fn read_lines(mut input: impl BufRead + Send + 'static) -> Receiver<Line> {
+    let (sender, lines) = crossbeam_channel::bounded(1024);
+    std::thread::spawn(move || {
+        loop {
+            let mut bytes = Vec::new();
+            let read = std::io::Read::take(&mut input, MAX_LINE + 1).read_until(b'\n', &mut bytes);
+            let line = match read {
+                Ok(0) | Err(_) => Line::End,
+                Ok(_) if bytes.len() as u64 > MAX_LINE => Line::Wrong(format!("a line has more than {MAX_LINE} bytes")),
+                Ok(_) => String::from_utf8(bytes).map_or_else(|_| Line::Wrong("a line is not UTF-8".to_owned()), Line::Text),
+            };
+            let is_last = !matches!(line, Line::Text(_));
+            if sender.send(line).is_err() || is_last {
+                return;
+            }
+        }
+    });
+    lines
+}
+
+impl<W: Write> Driver<W> {
+    /// A driver of a robot in a room. `card` is the robot as the command line names it, `planner` the command
+    /// that plans paths.
+    pub fn new(robot: Robot, world: World, card: String, planner: Option<PathBuf>, out: W) -> Self {
+        let started = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+        let now = Instant::now();
+        Self {
+            robot,
+            world,
+            card,
+            planner,
+            out,
+            run: None,
+            fails: HashMap::new(),
+            goals: BTreeMap::new(),
+            stopping: BTreeMap::new(),
+            watched: Vec::new(),
+            detections: Vec::new(),
+            instance: format!("{}-{}", std::process::id(), started.as_nanos()),
+            heard: now,
+            moved: now,
+            looked: now,
+            is_greeted: false,
+        }
+    }
+
+    /// Serves the host until it leaves. Everything stands still at the end, if the robot heeds.
+    ///
+    /// # Errors
+    ///
+    /// Why a line of the host cannot be read, or an answer cannot be written.
+    pub fn serve(&mut self, lines: &Receiver<Line>) -> Result<(), String> {
+        let ticks = tick(TICK);
+        let received = self.robot.received.clone();
+        loop {
+            select! {
+                recv(lines) -> line => match line {
+                    Ok(Line::Text(line)) => {
+                        self.heard = Instant::now();
+                        if !self.answer(&line)? {
+                            return self.leave();
+                        }
+                    }
+                    Ok(Line::Wrong(why)) => {
+                        let _ = self.leave();
+                        return Err(why);
+                    }
+                    Ok(Line::End) | Err(_) => return self.leave(),
+                },
+                recv(received) -> message => {
+                    if let Ok(message) = message {
+                        self.take(&message);
+                    }
+                    // Whatever else has come, before anything moves on.
+                    while let Ok(message) = received.try_recv() {
+                        self.take(&message);
+                    }
+                }
+                recv(ticks) -> _ => {
+                    let heard = self.robot.tick();
+                    self.pass(&heard);
+                    if self.is_greeted && self.heard.elapsed() > SILENCE {
+                        eprintln!("motet-ros2: the host has said nothing for 5 s; everything stops");
+                        return self.leave();
+                    }
+                }
+            }
+            self.advance()?;
+        }
+    }
+
+    fn take(&mut self, message: &crate::dds::Received) {
+        let entities = &self.world.scene.entities;
+        let heard = self.robot.hear(message, &|id| entities.contains_key(id));
+        self.pass(&heard);
+    }
+
+    /// Passes news on to the goals.
+    fn pass(&mut self, heard: &[Heard]) {
+        for news in heard {
+            if let Heard::Detected(things) = news {
+                for thing in things {
+                    if let Some(id) = &thing.id {
+                        let pose = thing.pose.map(|pose| crate::tf::Transform { xyz: pose.xyz, quaternion: pose.quaternion });
+                        self.world.saw(id, pose);
+                    }
+                }
+                self.detections.clone_from(things);
+            }
+            let mut around = Surroundings {
+                robot: &mut self.robot,
+                world: &mut self.world,
+                card: &self.card,
+                planner: self.planner.as_ref(),
+            };
+            for goal in self.goals.values_mut() {
+                if let Goal::Running(task) = goal {
+                    task.hear(&mut around, news);
+                }
+            }
+        }
+    }
+
+    /// Lets all goals go on, and reports what has changed.
+    fn advance(&mut self) -> Result<(), String> {
+        let mut reports = Vec::new();
+        for (number, goal) in &mut self.goals {
+            let Goal::Running(task) = goal else { continue };
+            let mut around = Surroundings {
+                robot: &mut self.robot,
+                world: &mut self.world,
+                card: &self.card,
+                planner: self.planner.as_ref(),
+            };
+            let finish = task.advance(&mut around);
+            let id = GoalId::from_number(*number);
+            for text in task.feedback.drain(..) {
+                reports.push(DriverReport::Feedback(FeedbackParams { goal: id, text }));
+            }
+            let Some(finish) = finish else { continue };
+            let (primitive, args) = (task.command.primitive.to_string(), task.args());
+            match finish {
+                Finish::Ended(outcome) => {
+                    match &outcome {
+                        motet_runtime::Outcome::Success(_) => self.world.done(&primitive, &args),
+                        _ => self.world.failed(&primitive, &args),
+                    }
+                    reports.push(DriverReport::Ended(EndedParams { goal: id, outcome: outcome.clone() }));
+                    *goal = Goal::Ended(outcome);
+                }
+                Finish::Stopped => {
+                    self.world.failed(&primitive, &args);
+                    reports.push(DriverReport::Stopped(GoalParams { goal: id }));
+                    *goal = Goal::Stopped;
+                }
+                Finish::Lost => {
+                    self.world.failed(&primitive, &args);
+                    reports.push(DriverReport::Lost(GoalParams { goal: id }));
+                    *goal = Goal::Lost;
+                }
+            }
+        }
+        reports.extend(self.stopped_goals());
+        reports.extend(self.changes());
+        reports.extend(self.telemetry());
+        reports.iter().try_for_each(|report| self.report(report))
+    }
+
+    /// Goals of safe stops for which the whole robot now stands still.
+    fn stopped_goals(&mut self) -> Vec<DriverReport> {
+        if self.stopping.is_empty() {
+            return Vec::new();
+        }
+        if self.robot.body.is_still(&Parts::All, &self.robot.binding) {
+            let stopped = std::mem::take(&mut self.stopping).into_keys().map(GoalId::from_number);
+            return stopped.map(|goal| DriverReport::Stopped(GoalParams { goal })).collect();
+        }
+        let is_due = self.stopping.values().any(|sent| sent.elapsed() > Duration::from_millis(500));
+        if is_due && self.goals.values().all(|goal| !matches!(goal, Goal::Running(_))) {
+            self.stopping.values_mut().for_each(|sent| *sent = Instant::now());
+            let parts = whole(&self.robot);
+            stand_still(&mut self.robot, &parts);
+        }
+        Vec::new()
+    }
+
+    /// Answers of watched queries that have changed.
+    fn changes(&mut self) -> Vec<DriverReport> {
+        if self.looked.elapsed() < WATCHES {
+            return Vec::new();
+        }
+        self.looked = Instant::now();
+        let watched = std::mem::take(&mut self.watched);
+        let mut reports = Vec::new();
+        for (query, before) in watched {
+            let answer = self.observe(&query);
+            if answer != before {
+                reports.push(DriverReport::Observed(ObservedParams { query: query.clone(), answer: answer.clone() }));
+            }
+            self.watched.push((query, answer));
+        }
+        reports
+    }
+
+    fn telemetry(&mut self) -> Option<DriverReport> {
+        if !self.is_greeted || self.moved.elapsed() < MOVES {
+            return None;
+        }
+        self.moved = Instant::now();
+        let base = match self.robot.body.base(&self.robot.binding) {
+            Ok(base) => [base.x, base.y, base.yaw],
+            Err(_) if self.robot.binding.base.odometry.is_none() => self.world.scene.robot.base,
+            Err(_) => return None,
+        };
+        let joints = self.robot.body.positions();
+        let joints = joints.iter().map(|(name, value)| (self.robot.binding.card_joint(name).into(), *value)).collect();
+        Some(DriverReport::Moved(MovedParams { at: None, base, joints, things: Vec::new() }))
+    }
+
+    /// Answer to a query: by a bound topic, or by what the driver believes.
+    fn observe(&mut self, query: &Query) -> Answer {
+        let (bound, args) = match query {
+            Query::Fact { fluent, args } => (self.robot.binding.facts.get(fluent.as_str()), words(args)),
+            Query::Measure { measure, args } => {
+                let args = args.iter().map(word).collect();
+                (self.robot.binding.measures.get(measure.as_str()), Some(args))
+            }
+            Query::Field { .. } => (None, None),
+        };
+        if let Some((bound, args)) = bound.cloned().zip(args) {
+            return match self.robot.observe(&bound, &args) {
+                Some(Found::Truth(truth)) => Answer::Truth(truth),
+                Some(Found::Number(number)) => Answer::Value(Argument::Number(number)),
+                Some(Found::Text(text)) => Answer::Value(Argument::Text(text.into())),
+                None => Answer::Unknown,
+            };
+        }
+        let base = self.robot.body.base(&self.robot.binding).ok().map(|base| [base.x, base.y]);
+        match self.world.answer(query, base) {
+            Some(Argument::Bool(truth)) => Answer::Truth(truth),
+            Some(value) => Answer::Value(value),
+            None => Answer::Unknown,
+        }
+    }
+
+    // Calls.
+
+    /// Answers a line of the host. `false` if the host leaves.
+    fn answer(&mut self, line: &str) -> Result<bool, String> {
+        let Ok(mut message) = serde_json::from_str::<Value>(line) else {
+            return self.say(&json!({"jsonrpc": "2.0", "id": null, "error": {"code": -32700, "message": "no JSON"}})).map(|()| true);
+        };
+        let id = message.get("id").cloned();
+        if let Some(fields) = message.as_object_mut() {
+            fields.remove("jsonrpc");
+            fields.remove("id");
+        }
+        let method = message.get("method").and_then(Value::as_str).unwrap_or_default().to_owned();
+        let result = match serde_json::from_value::<DriverCall>(message) {
+            Ok(DriverCall::Bye(_)) => return Ok(false),
+            Ok(call) => self.call(call),
+            Err(error) if KNOWN.contains(&method.as_str()) => Err((INVALID, error.to_string(), Value::Null)),
+            Err(_) => Err((UNKNOWN_METHOD, format!("no method `{}`", method.escape_debug()), Value::Null)),
+        };
+        let Some(id) = id else { return Ok(true) };
+        let answer = match result {
+            Ok(result) => json!({"jsonrpc": "2.0", "id": id, "result": result}),
+            Err((code, message, data)) => {
+                json!({"jsonrpc": "2.0", "id": id, "error": {"code": code, "message": message, "data": data}})
+            }
+        };
+        self.say(&answer)?;
+        Ok(true)
+    }
+
+    fn call(&mut self, call: DriverCall) -> Result<Value, (i64, String, Value)> {
+        let nothing = Ok(json!({}));
+        match call {
+            DriverCall::Hello(hello) => self.greet(&hello),
+            DriverCall::Start(start) => self.start(&start),
+            DriverCall::Update(_) => Err((INVALID, "no goal takes new arguments".to_owned(), Value::Null)),
+            DriverCall::Cancel(GoalParams { goal }) => {
+                self.with_task(goal, Task::cancel);
+                nothing
+            }
+            DriverCall::Hold(GoalParams { goal }) => {
+                self.with_task(goal, Task::hold);
+                nothing
+            }
+            DriverCall::Proceed(GoalParams { goal }) => {
+                self.with_task(goal, |task, _| task.proceed());
+                nothing
+            }
+            DriverCall::SafeStop(GoalParams { goal }) => {
+                if !self.with_task(goal, Task::safe_stop) {
+                    self.goals.entry(goal.number()).or_insert(Goal::Stopped);
+                    self.stopping.insert(goal.number(), Instant::now());
+                    let parts = whole(&self.robot);
+                    if !self.robot.body.is_still(&Parts::All, &self.robot.binding) {
+                        stand_still(&mut self.robot, &parts);
+                    }
+                }
+                nothing
+            }
+            DriverCall::Observe(asked) => value(&QueryResult { answer: self.observe(&asked.query) }),
+            DriverCall::Watch(asked) => {
+                let answer = self.observe(&asked.query);
+                self.watched.retain(|(query, _)| *query != asked.query);
+                self.watched.push((asked.query, answer.clone()));
+                value(&QueryResult { answer })
+            }
+            DriverCall::Unwatch(asked) => {
+                self.watched.retain(|(query, _)| *query != asked.query);
+                nothing
+            }
+            DriverCall::Look(asked) => match self.robot.look(asked.camera.as_deref()) {
+                Ok(picture) => value(&picture),
+                Err(why) => Err((INVALID, why, Value::Null)),
+            },
+            DriverCall::Detections(_) => value(&Detections { detections: self.detections.clone() }),
+            DriverCall::Told(ToldParams { thing }) => {
+                let place = match thing.support {
+                    Some(ToldSupport::On(at)) => Place::On(at.to_string()),
+                    Some(ToldSupport::In(at)) => Place::In(at.to_string()),
+                    Some(ToldSupport::At(at)) => Place::At(at.to_string()),
+                    None => Place::Unknown,
+                };
+                self.world.told(&thing.id, place);
+                nothing
+            }
+            DriverCall::Status(asked) => {
+                let state = |goal: &GoalId| GoalState { goal: *goal, state: self.status(*goal) };
+                value(&StatusResult { goals: asked.goals.iter().map(state).collect() })
+            }
+            DriverCall::Ping(_) => nothing,
+            DriverCall::Truth(_) => Err((UNKNOWN_METHOD, "a robot knows no more than it sees".to_owned(), Value::Null)),
+            DriverCall::Advance(_) => Err((UNKNOWN_METHOD, "time is that of the wall".to_owned(), Value::Null)),
+            DriverCall::Bye(_) => nothing,
+        }
+    }
+
+    fn greet(&mut self, hello: &Hello) -> Result<Value, (i64, String, Value)> {
+        if hello.protocol != VERSION {
+            let text = format!("this driver speaks version {VERSION} of the protocol");
+            return Err((INVALID, text, Value::Null));
+        }
+        if self.run.as_ref().is_some_and(|run| *run != hello.run) {
+            self.stop_all();
+            self.goals.clear();
+            self.stopping.clear();
+            self.watched.clear();
+        }
+        self.run = Some(hello.run.clone());
+        self.is_greeted = true;
+        let fails = |fails: &[smol_str::SmolStr]| fails.iter().map(ToString::to_string).collect();
+        self.fails = hello.primitives.iter().map(|one| (one.name.clone(), fails(&one.fails))).collect();
+        let capabilities = Capabilities {
+            hold: PrimitiveSet::All,
+            update: PrimitiveSet::Only(std::collections::BTreeSet::new()),
+            moved: true,
+            look: !self.robot.binding.cameras.is_empty(),
+            detections: self.robot.binding.detections.is_some(),
+            told: true,
+            ..Capabilities::default()
+        };
+        let driver = concat!("motet-ros2 ", env!("CARGO_PKG_VERSION")).to_owned();
+        value(&Welcome { protocol: VERSION, driver, instance: self.instance.clone(), capabilities })
+    }
+
+    fn start(&mut self, start: &StartParams) -> Result<Value, (i64, String, Value)> {
+        let number = start.goal.number();
+        if !self.goals.contains_key(&number) {
+            let primitive = start.command.primitive.as_str();
+            let fails = self.fails.get(primitive).cloned().unwrap_or_default();
+            let goal = match self.robot.binding.steps(primitive) {
+                Some(steps) => Goal::Running(Box::new(Task::new(start.command.clone(), steps, fails))),
+                None => {
+                    let kind = fails.first().map_or("refused", String::as_str);
+                    let text = format!("the binding has no steps for `{primitive}`");
+                    Goal::Refused(FailureReport { kind: kind.into(), text: Some(text.into()) })
+                }
+            };
+            self.goals.insert(number, goal);
+        }
+        match self.goals.get(&number) {
+            Some(Goal::Refused(failure)) => {
+                let data = serde_json::to_value(RefusedData { failure: failure.clone() }).unwrap_or_default();
+                Err((REFUSED, "the goal is refused".to_owned(), data))
+            }
+            _ => Ok(json!({})),
+        }
+    }
+
+    fn status(&self, goal: GoalId) -> GoalStatus {
+        match self.goals.get(&goal.number()) {
+            // Of a goal that was lost nobody knows more.
+            None | Some(Goal::Lost) => GoalStatus::Unknown,
+            Some(Goal::Running(_)) => GoalStatus::Running,
+            Some(Goal::Refused(failure)) => GoalStatus::Refused(failure.clone()),
+            Some(Goal::Ended(outcome)) => GoalStatus::Ended(outcome.clone()),
+            Some(Goal::Stopped) => GoalStatus::Stopped,
+        }
+    }
+
+    /// Does something with a task that runs; `false` if the goal does not run.
+    fn with_task(&mut self, goal: GoalId, act: impl FnOnce(&mut Task, &mut Surroundings<'_>)) -> bool {
+        let Some(Goal::Running(task)) = self.goals.get_mut(&goal.number()) else { return false };
+        let mut around = Surroundings {
+            robot: &mut self.robot,
+            world: &mut self.world,
+            card: &self.card,
+            planner: self.planner.as_ref(),
+        };
+        act(task, &mut around);
+        true
+    }
+
+    fn stop_all(&mut self) {
+        let running: Vec<u64> = self.goals.keys().copied().collect();
+        for number in running {
+            self.with_task(GoalId::from_number(number), Task::safe_stop);
+        }
+    }
+
+    /// Stops everything, and waits for standstill.
+    fn leave(&mut self) -> Result<(), String> {
+        self.stop_all();
+        let (begun, received) = (Instant::now(), self.robot.received.clone());
+        loop {
+            let is_running = self.goals.values().any(|goal| matches!(goal, Goal::Running(_)));
+            if !is_running {
+                return Ok(());
+            }
+            if begun.elapsed() > FAREWELL {
+                return Err("the robot still moves, or nobody says that it stands still".to_owned());
+            }
+            if let Ok(message) = received.recv_timeout(TICK) {
+                self.take(&message);
+            }
+            let heard = self.robot.tick();
+            self.pass(&heard);
+            // The host may not listen any more.
+            let _ = self.advance();
+        }
+    }
+
+    fn report(&mut self, report: &DriverReport) -> Result<(), String> {
+        let mut message = serde_json::to_value(report).map_err(|error| error.to_string())?;
+        if let Some(fields) = message.as_object_mut() {
+            fields.insert("jsonrpc".to_owned(), json!("2.0"));
+        }
+        self.say(&message)
+    }
+
+    fn say(&mut self, message: &Value) -> Result<(), String> {
+        let written = writeln!(self.out, "{message}").and_then(|()| self.out.flush());
+        written.map_err(|error| format!("the host does not listen: {error}"))
+    }
+}
+
+/// Methods of the protocol.
+const KNOWN: [&str; 18] = [
+    "hello", "start", "update", "cancel", "hold", "proceed", "safe_stop", "observe", "watch", "unwatch", "advance",
+    "look", "detections", "told", "truth", "status", "ping", "bye",
+];
+
+fn value(result: &impl serde::Serialize) -> Result<Value, (i64, String, Value)> {
+    serde_json::to_value(result).map_err(|error| (-32603, error.to_string(), Value::Null))
+}
+
+/// Arguments of a fact as words; none where one is open.
+fn words(args: &[Pattern]) -> Option<Vec<String>> {
+    let word = |pattern: &Pattern| match pattern {
+        Pattern::Is(value) => Some(word(value)),
+        Pattern::Any => None,
+    };
+    args.iter().map(word).collect()
+}
+
+fn word(value: &Argument) -> String {
+    match value {
+        Argument::Entity(text) | Argument::Text(text) | Argument::Case(text) => text.to_string(),
+        other => other.to_string(),
+    }
+}

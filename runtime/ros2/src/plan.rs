@@ -1,0 +1,128 @@
+//! Paths from where the robot really stands, by the command `motet feasible`.
+
+use crate::tf::Planar;
+use motet_graph::{Value, Witness};
+use motet_robots::scene::{Scene, write};
+use motet_runtime::PlannedMotion;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Question that another thread answers: does a motion exist from here?
+#[derive(Clone, Debug)]
+pub struct Question {
+    pub program: PathBuf,
+    pub robot: String,
+    pub scene: Scene,
+    /// Motion as the language writes it, such as `reach(mug_1)`.
+    pub motion: String,
+}
+
+impl Question {
+    /// Question for a motion from a pose of the base and positions of joints by their names in the card.
+    #[must_use]
+    pub fn new(
+        program: PathBuf,
+        robot: &str,
+        scene: &Scene,
+        motion: String,
+        base: Planar,
+        joints: &BTreeMap<String, f64>,
+    ) -> Self {
+        let mut scene = scene.clone();
+        scene.robot.base = [base.x, base.y, base.yaw];
+        scene.robot.joints.extend(joints.iter().map(|(name, value)| (name.as_str().into(), *value)));
+        Self { program, robot: robot.to_owned(), scene, motion }
+    }
+
+    /// Asks, and waits for the answer.
+    ///
+    /// # Errors
+    ///
+    /// The reason that no motion exists, or why nobody could say.
+    pub fn ask(&self) -> Result<Witness, String> {
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("motet-ros2-{}-{number}.json", std::process::id()));
+        std::fs::write(&path, write(&self.scene)).map_err(|error| format!("{}: {error}", path.display()))?;
+        let asked = Command::new(&self.program)
+            .args(["feasible", "--robot", &self.robot, "--for", &self.motion, "--format", "json", "--scene"])
+            .arg(&path)
+            .output();
+        let _ = std::fs::remove_file(&path);
+        let output = asked.map_err(|error| format!("`{}` cannot be started: {error}", self.program.display()))?;
+        let line = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned();
+        let answer: serde_json::Value = serde_json::from_str(&line).map_err(|_| {
+            let said = String::from_utf8_lossy(&output.stderr);
+            format!("`motet feasible` has no answer: {}", said.lines().next().unwrap_or("it printed nothing"))
+        })?;
+        match answer.get("witness") {
+            Some(witness) => witness_of(witness).ok_or_else(|| "`motet feasible` wrote no path".to_owned()),
+            None => {
+                let says = answer.get("says").and_then(serde_json::Value::as_str);
+                Err(says.unwrap_or("no motion was found").to_owned())
+            }
+        }
+    }
+}
+
+/// Motion of a command as the language writes it.
+#[must_use]
+pub fn motion(planned: &PlannedMotion) -> String {
+    let args: Vec<String> = planned.args.iter().map(written).collect();
+    format!("{}({})", planned.query, args.join(", "))
+}
+
+/// Witness in the form that `motet feasible` prints: joints by name at each waypoint.
+fn witness_of(json: &serde_json::Value) -> Option<Witness> {
+    let path = json.get("path")?.as_array()?;
+    let number = |value: Option<&serde_json::Value>| value.and_then(serde_json::Value::as_f64);
+    let mut names: Vec<smol_str::SmolStr> = Vec::new();
+    for waypoint in path {
+        for name in waypoint.get("joints")?.as_object()?.keys() {
+            if !names.iter().any(|own| own == name) {
+                names.push(name.as_str().into());
+            }
+        }
+    }
+    let waypoint = |waypoint: &serde_json::Value| {
+        let base = waypoint.get("base")?.as_array()?;
+        let base = [number(base.first())?, number(base.get(1))?, number(base.get(2))?];
+        let joints = waypoint.get("joints")?;
+        let joints: Option<Vec<f64>> = names.iter().map(|name| number(joints.get(name.as_str()))).collect();
+        let (at, ramp) = (number(waypoint.get("at")).unwrap_or(0.0), number(waypoint.get("ramp")).unwrap_or(0.0));
+        Some(motet_graph::Waypoint { base, joints: joints?, at, ramp })
+    };
+    let path: Option<Vec<_>> = path.iter().map(waypoint).collect();
+    let path = path.filter(|path| !path.is_empty())?;
+    let numbers = |value: Option<&serde_json::Value>| -> Option<Vec<f64>> {
+        value?.as_array()?.iter().map(serde_json::Value::as_f64).collect()
+    };
+    let grasp = json.get("grasp").and_then(|grasp| {
+        let tip = grasp.get("map_from_tip")?;
+        let xyz = numbers(tip.get("xyz"))?.try_into().ok()?;
+        let quaternion = numbers(tip.get("quaternion_xyzw"))?.try_into().ok()?;
+        Some(motet_graph::Grasp { xyz, quaternion, width: number(grasp.get("width"))? })
+    });
+    let clearance = number(json.pointer("/margins/clearance")).unwrap_or(0.0);
+    let keeps = motet_graph::Clearance::default();
+    Some(Witness { joints: names, path, grasp, clearance, keeps, limit: None, payload: None })
+}
+
+/// A value as the language writes it.
+pub fn written(value: &Value) -> String {
+    match value {
+        Value::Entity(id) => {
+            let is_plain = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+            let is_name = id.starts_with(|first: char| first.is_ascii_alphabetic()) && id.chars().all(is_plain);
+            if is_name { id.to_string() } else { format!("`{id}`") }
+        }
+        Value::Pose(pose) => {
+            let [x, y, z] = pose.xyz;
+            let yaw = crate::tf::Transform { xyz: pose.xyz, quaternion: pose.quaternion }.planar().yaw;
+            format!("pose({x:.4} m, {y:.4} m, {z:.4} m, {yaw:.5} rad)")
+        }
+        other => other.to_string(),
+    }
+}

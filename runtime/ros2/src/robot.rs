@@ -1,0 +1,471 @@
+//! The robot behind its topics: everything that a binding names, open over DDS.
+
+use crate::action::{ActionClient, News, SOURCES};
+use crate::bind::{Binding, Call, CallKind, Deed, Observation};
+use crate::cdr::{Message, decode, encode};
+use crate::dds::{Dds, Quality, Received, Source, Writer, dds_topic, dds_type};
+use crate::layout::Layouts;
+use crate::observe::{Expression, Found};
+use crate::perceive::{CameraFeed, Feed, detections};
+use crate::service::{Client, Interface, Ticket};
+use crate::state::Body;
+use bytes::Bytes;
+use crossbeam_channel::{Receiver, unbounded};
+use motet_host::remote::protocol::DetectedThing;
+use serde_json::Value;
+use std::collections::{BTreeMap, HashMap};
+use std::time::{Duration, Instant};
+
+/// Time between two looks at which endpoints DDS knows.
+const LOOKS: Duration = Duration::from_millis(200);
+
+/// Meaning of a source.
+#[derive(Clone, Debug)]
+enum Channel {
+    Action(usize),
+    Service(usize),
+    Joints,
+    Odometry,
+    Localization,
+    Frames(bool),
+    /// Topic whose last message is kept.
+    Kept(String),
+    Camera(usize, Feed),
+    Detections,
+}
+
+/// Something that a message told.
+#[derive(Clone, Debug)]
+pub enum Heard {
+    /// News of a goal of the action of this number.
+    Goal(usize, News),
+    /// Response to a call of the service of this number.
+    Response(usize, Ticket, Message),
+    /// Things that were detected.
+    Detected(Vec<DetectedThing>),
+    /// A message that is kept has come on this topic.
+    Kept(String),
+}
+
+/// The robot.
+pub struct Robot {
+    pub binding: Binding,
+    pub layouts: Layouts,
+    pub body: Body,
+    pub actions: Vec<ActionClient>,
+    pub services: Vec<Client>,
+    /// Messages of ROS, for the main loop.
+    pub received: Receiver<Received>,
+    dds: Dds,
+    channels: Vec<Channel>,
+    service_names: Vec<String>,
+    writers: HashMap<String, (Writer, String)>,
+    cameras: Vec<CameraFeed>,
+    kept: HashMap<String, (Bytes, Instant, String)>,
+    expressions: HashMap<String, Expression>,
+    /// Endpoints that each action lacks, and when DDS was asked.
+    missing: Vec<Vec<String>>,
+    looked: Option<Instant>,
+    /// Reasons that were reported, so that each is reported once.
+    told: std::collections::BTreeSet<String>,
+}
+
+impl Robot {
+    /// Opens everything that the binding names.
+    ///
+    /// # Errors
+    ///
+    /// A type without a layout, an expression that is wrong, or why DDS does not start.
+    pub fn open(binding: Binding, layouts: Layouts) -> Result<Self, String> {
+        let (sender, received) = unbounded();
+        let dds = Dds::join(binding.domain(), &binding.ros.networks, sender)?;
+        let cameras = binding.cameras.iter().map(|_| CameraFeed::default()).collect();
+        let mut robot = Self {
+            binding,
+            layouts,
+            body: Body::default(),
+            actions: Vec::new(),
+            services: Vec::new(),
+            received,
+            dds,
+            channels: Vec::new(),
+            service_names: Vec::new(),
+            writers: HashMap::new(),
+            cameras,
+            kept: HashMap::new(),
+            expressions: HashMap::new(),
+            missing: Vec::new(),
+            looked: None,
+            told: std::collections::BTreeSet::new(),
+        };
+        robot.open_body()?;
+        robot.open_perception()?;
+        robot.open_primitives()?;
+        robot.missing = robot.actions.iter().map(|_| vec!["DDS has not looked yet".to_owned()]).collect();
+        Ok(robot)
+    }
+
+    fn open_body(&mut self) -> Result<(), String> {
+        let binding = self.binding.clone();
+        self.listen(&binding.joints.topic, "sensor_msgs/JointState", Quality::Sensor, Channel::Joints)?;
+        if let Some(topic) = &binding.base.odometry {
+            self.listen(topic, "nav_msgs/Odometry", Quality::Sensor, Channel::Odometry)?;
+        }
+        if let Some(topic) = &binding.base.localization {
+            let type_name = "geometry_msgs/PoseWithCovarianceStamped";
+            self.listen(topic, type_name, Quality::Reliable, Channel::Localization)?;
+        }
+        self.listen("/tf", "tf2_msgs/TFMessage", Quality::Reliable, Channel::Frames(false))?;
+        self.listen("/tf_static", "tf2_msgs/TFMessage", Quality::Latched, Channel::Frames(true))?;
+        for controller in &binding.controllers {
+            self.action(&controller.action, "control_msgs/FollowJointTrajectory")?;
+        }
+        if let Some(navigation) = &binding.navigation {
+            self.action(&navigation.action, "nav2_msgs/NavigateToPose")?;
+            if let Some(stop) = &navigation.stop {
+                self.writer(stop, &navigation.stop_type)?;
+            }
+        }
+        if let Some(gripper) = &binding.gripper {
+            self.action(&gripper.action, &gripper.type_name)?;
+        }
+        Ok(())
+    }
+
+    fn open_perception(&mut self) -> Result<(), String> {
+        let binding = self.binding.clone();
+        for (at, camera) in binding.cameras.iter().enumerate() {
+            let image = "sensor_msgs/Image";
+            self.listen(&camera.image, image, Quality::Sensor, Channel::Camera(at, Feed::Image))?;
+            if let Some(depth) = &camera.depth {
+                self.listen(depth, image, Quality::Sensor, Channel::Camera(at, Feed::Depth))?;
+            }
+            let info = "sensor_msgs/CameraInfo";
+            self.listen(&camera.info, info, Quality::Sensor, Channel::Camera(at, Feed::Info))?;
+        }
+        if let Some(topic) = &binding.detections {
+            self.listen(&topic.topic, "vision_msgs/Detection3DArray", Quality::Sensor, Channel::Detections)?;
+        }
+        for observation in binding.facts.values().chain(binding.measures.values()) {
+            self.keep(&observation.topic, &observation.type_name)?;
+            self.expression(&observation.value)?;
+        }
+        Ok(())
+    }
+
+    fn open_primitives(&mut self) -> Result<(), String> {
+        let binding = self.binding.clone();
+        let names = binding.primitives.keys();
+        let steps = names.flat_map(|name| binding.steps(name).unwrap_or_default());
+        for deed in steps.map(|step| step.deed) {
+            match deed {
+                Deed::Call(call) => self.open_call(&call)?,
+                Deed::Require(text) => self.expression(&text)?,
+                Deed::Answer { topic, type_name, value, .. } => {
+                    self.keep(&topic, &type_name)?;
+                    self.expression(&value)?;
+                }
+                Deed::Motion(_) | Deed::Gripper(_) | Deed::Wait(_) | Deed::Look | Deed::Detect => {}
+            }
+        }
+        for call in &binding.stop {
+            if call.kind == CallKind::Action {
+                return Err(format!("a stop is a service or a topic, not the action `{}`", call.name));
+            }
+            self.open_call(call)?;
+        }
+        Ok(())
+    }
+
+    fn open_call(&mut self, call: &Call) -> Result<(), String> {
+        match call.kind {
+            CallKind::Action => self.action(&call.name, &call.type_name).map(|_| ()),
+            CallKind::Service => self.service(&call.name, &call.type_name).map(|_| ()),
+            CallKind::Topic => self.writer(&call.name, &call.type_name),
+        }
+    }
+
+    fn listen(&mut self, topic: &str, type_name: &str, quality: Quality, channel: Channel) -> Result<(), String> {
+        self.known(type_name, "message")?;
+        let source = self.next();
+        self.dds.subscribe(&dds_topic("rt", topic, ""), &dds_type(type_name, "msg", ""), quality, source)?;
+        self.channels.push(channel);
+        Ok(())
+    }
+
+    fn keep(&mut self, topic: &str, type_name: &str) -> Result<(), String> {
+        let is_open = |channel: &Channel| matches!(channel, Channel::Kept(own) if own == topic);
+        if self.channels.iter().any(is_open) {
+            return Ok(());
+        }
+        self.listen(topic, type_name, Quality::Sensor, Channel::Kept(topic.to_owned()))
+    }
+
+    fn expression(&mut self, text: &str) -> Result<(), String> {
+        let compiled = Expression::compile(text)?;
+        self.expressions.insert(text.to_owned(), compiled);
+        Ok(())
+    }
+
+    /// Refuses a type without a layout.
+    fn known(&self, type_name: &str, what: &str) -> Result<(), String> {
+        let kind = self.layouts.kind(type_name).map(|kind| format!("{kind:?}").to_lowercase());
+        match kind {
+            Some(kind) if kind == what => Ok(()),
+            Some(kind) => Err(format!("`{type_name}` is the layout of a {kind}, not of a {what}")),
+            None => Err(format!("no layout of `{type_name}`; write one into a folder and give --layouts")),
+        }
+    }
+
+    fn next(&self) -> Source {
+        Source::try_from(self.channels.len()).unwrap_or(Source::MAX)
+    }
+
+    /// Number of an action, which is opened if it is not.
+    fn action(&mut self, name: &str, type_name: &str) -> Result<usize, String> {
+        if let Some(at) = self.actions.iter().position(|action| action.name == name) {
+            return Ok(at);
+        }
+        self.known(type_name, "action")?;
+        let (first, at) = (self.next(), self.actions.len());
+        self.actions.push(ActionClient::new(&self.dds, self.binding.ros.middleware, name, type_name, first)?);
+        self.channels.extend((0..SOURCES).map(|_| Channel::Action(at)));
+        Ok(at)
+    }
+
+    fn service(&mut self, name: &str, type_name: &str) -> Result<usize, String> {
+        if let Some(at) = self.service_names.iter().position(|own| own == name) {
+            return Ok(at);
+        }
+        self.known(type_name, "service")?;
+        let (source, at) = (self.next(), self.services.len());
+        let interface = Interface { name: type_name, kind: "srv", end: "" };
+        self.services.push(Client::new(&self.dds, self.binding.ros.middleware, name, interface, source)?);
+        self.service_names.push(name.to_owned());
+        self.channels.push(Channel::Service(at));
+        Ok(at)
+    }
+
+    fn writer(&mut self, topic: &str, type_name: &str) -> Result<(), String> {
+        self.known(type_name, "message")?;
+        if !self.writers.contains_key(topic) {
+            let quality = Quality::Reliable;
+            let writer = self.dds.publish(&dds_topic("rt", topic, ""), &dds_type(type_name, "msg", ""), quality)?;
+            self.writers.insert(topic.to_owned(), (writer, type_name.to_owned()));
+        }
+        Ok(())
+    }
+
+    /// Number of an action that is open.
+    #[must_use]
+    pub fn action_at(&self, name: &str) -> Option<usize> {
+        self.actions.iter().position(|action| action.name == name)
+    }
+
+    /// Number of a service that is open.
+    #[must_use]
+    pub fn service_at(&self, name: &str) -> Option<usize> {
+        self.service_names.iter().position(|own| own == name)
+    }
+
+    /// Endpoints of an action that DDS has not discovered.
+    #[must_use]
+    pub fn missing(&self, action: usize) -> &[String] {
+        self.missing.get(action).map_or(&[], Vec::as_slice)
+    }
+
+    /// Interfaces of other participants: topics that they read, and topics that they write.
+    #[must_use]
+    pub fn graph(&self) -> [Vec<crate::dds::Endpoint>; 2] {
+        [self.dds.readers(), self.dds.writers()]
+    }
+
+    /// Takes in a message. `known` says if an id is an entity of the scene.
+    pub fn hear(&mut self, received: &Received, known: &dyn Fn(&str) -> bool) -> Vec<Heard> {
+        let channel = self.channels.get(received.source as usize).cloned();
+        let heard = match channel {
+            Some(channel) => self.hear_on(&channel, received, known),
+            None => Ok(Vec::new()),
+        };
+        heard.unwrap_or_else(|wrong| {
+            self.tell(&format!("a message is left out: {wrong}"));
+            Vec::new()
+        })
+    }
+
+    fn hear_on(
+        &mut self,
+        channel: &Channel,
+        received: &Received,
+        known: &dyn Fn(&str) -> bool,
+    ) -> Result<Vec<Heard>, String> {
+        let read = |name: &str| decode(&self.layouts, name, &received.bytes).map_err(|wrong| format!("{name}: {wrong}"));
+        match channel {
+            Channel::Action(at) => {
+                let news = self.actions[*at].hear(&self.layouts, received)?;
+                return Ok(news.into_iter().map(|news| Heard::Goal(*at, news)).collect());
+            }
+            Channel::Service(at) => {
+                let response = self.services[*at].hear(&self.layouts, received)?;
+                return Ok(response.into_iter().map(|(ticket, message)| Heard::Response(*at, ticket, message)).collect());
+            }
+            Channel::Joints => {
+                let message = read("sensor_msgs/JointState")?;
+                self.body.hear_joints(&message, &self.binding.standstill, received.at);
+            }
+            Channel::Odometry => {
+                let message = read("nav_msgs/Odometry")?;
+                self.body.hear_odometry(&message, &self.binding.standstill, received.at);
+            }
+            Channel::Localization => {
+                let message = read("geometry_msgs/PoseWithCovarianceStamped")?;
+                self.body.hear_localization(&message);
+            }
+            Channel::Frames(is_static) => {
+                let message = read("tf2_msgs/TFMessage")?;
+                self.body.frames.hear(&message, *is_static);
+            }
+            Channel::Kept(topic) => {
+                let type_name = self.type_of(topic);
+                self.kept.insert(topic.clone(), (received.bytes.clone(), received.at, type_name));
+                return Ok(vec![Heard::Kept(topic.clone())]);
+            }
+            Channel::Camera(at, feed) => {
+                self.cameras[*at].hear(*feed, received.bytes.clone(), received.at);
+            }
+            Channel::Detections => {
+                let message = read("vision_msgs/Detection3DArray")?;
+                let (things, wrong) = detections(&message, &self.binding, &self.body.frames, known);
+                if let Some(wrong) = wrong {
+                    self.tell(&format!("a detection is left out: {wrong}"));
+                }
+                return Ok(vec![Heard::Detected(things)]);
+            }
+        }
+        Ok(Vec::new())
+    }
+
+    /// Type of a topic whose messages are kept.
+    fn type_of(&self, topic: &str) -> String {
+        let observations = self.binding.facts.values().chain(self.binding.measures.values());
+        let observed = observations.filter(|one| one.topic == topic).map(|one| one.type_name.clone()).next();
+        let answers = || {
+            let names = self.binding.primitives.keys();
+            let deeds = names.flat_map(|name| self.binding.steps(name).unwrap_or_default()).map(|step| step.deed);
+            let mut types = deeds.filter_map(|deed| match deed {
+                Deed::Answer { topic: own, type_name, .. } if own == topic => Some(type_name),
+                _ => None,
+            });
+            types.next()
+        };
+        observed.or_else(answers).unwrap_or_default()
+    }
+
+    /// Lets time pass for all actions.
+    pub fn tick(&mut self) -> Vec<Heard> {
+        if self.looked.is_none_or(|looked| looked.elapsed() > LOOKS) {
+            self.look_for_servers();
+        }
+        let mut heard = Vec::new();
+        for (at, action) in self.actions.iter_mut().enumerate() {
+            let is_there = self.missing[at].is_empty();
+            let news = action.tick(&self.layouts, is_there);
+            heard.extend(news.into_iter().map(|news| Heard::Goal(at, news)));
+        }
+        heard
+    }
+
+    fn look_for_servers(&mut self) {
+        self.looked = Some(Instant::now());
+        self.missing = self.actions.iter().map(|action| action.missing(&self.dds)).collect();
+    }
+
+    /// Answer to a bound fact or measure; `None` without a message that is fresh, or where the expression has
+    /// no value for it.
+    pub fn observe(&mut self, observation: &Observation, args: &[String]) -> Option<Found> {
+        let fresh = Duration::from_secs_f64(observation.age_secs.clamp(0.0, 1e6));
+        self.evaluate(&observation.topic, &observation.value, args, fresh)
+    }
+
+    /// Value of an expression over the last message of a topic.
+    pub fn evaluate(&mut self, topic: &str, text: &str, args: &[String], fresh: Duration) -> Option<Found> {
+        let (bytes, at, type_name) = self.kept.get(topic)?;
+        if at.elapsed() > fresh {
+            return None;
+        }
+        let message = decode(&self.layouts, type_name, bytes);
+        let joints = self.body.positions();
+        let expression = self.expressions.get(text)?;
+        let found = message.and_then(|message| expression.evaluate(Some(&message), args, &joints));
+        found.map_err(|wrong| self.tell(&wrong)).ok()
+    }
+
+    /// True if an expression over the joints holds.
+    ///
+    /// # Errors
+    ///
+    /// Why it has no truth.
+    pub fn holds(&self, text: &str, args: &[String]) -> Result<bool, String> {
+        let expression = self.expressions.get(text).ok_or("an expression was not compiled")?;
+        let joints: BTreeMap<String, f64> = self.body.positions();
+        match expression.evaluate(None, args, &joints)? {
+            Found::Truth(truth) => Ok(truth),
+            _ => Err(format!("the expression `{text}` is neither true nor false")),
+        }
+    }
+
+    /// Forgets the last message of a topic, so that the next one is new.
+    pub fn forget(&mut self, topic: &str) {
+        self.kept.remove(topic);
+    }
+
+    /// Publishes a message.
+    ///
+    /// # Errors
+    ///
+    /// The field that the layout lacks, or why DDS did not take it.
+    pub fn publish(&self, topic: &str, message: &Value) -> Result<(), String> {
+        let (writer, type_name) = self.writers.get(topic).ok_or_else(|| format!("`{topic}` is not open"))?;
+        writer.write(encode(&self.layouts, type_name, message)?, None).map(|_| ())
+    }
+
+    /// Sends everything that stops the robot beside its trajectories: zero speeds, and what the binding names.
+    pub fn send_stops(&mut self) {
+        let stops = self.binding.stop.clone();
+        let navigation = self.binding.navigation.clone().and_then(|navigation| navigation.stop);
+        if let Some(topic) = navigation
+            && let Err(wrong) = self.publish(&topic, &Value::Null)
+        {
+            self.tell(&wrong);
+        }
+        for call in stops {
+            let sent = match (call.kind, self.service_at(&call.name)) {
+                (CallKind::Service, Some(at)) => self.services[at].call(&self.layouts, &call.message).map(|_| ()),
+                _ => self.publish(&call.name, &call.message),
+            };
+            sent.unwrap_or_else(|wrong| self.tell(&wrong));
+        }
+    }
+
+    /// Picture of a camera; of the first one without a name.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    pub fn look(&self, camera: Option<&str>) -> Result<motet_host::remote::protocol::LookResult, String> {
+        let cameras = &self.binding.cameras;
+        let at = match camera {
+            Some(name) => cameras.iter().position(|own| own.name == name),
+            None => (!cameras.is_empty()).then_some(0),
+        };
+        let at = at.ok_or_else(|| format!("no camera `{}` is bound", camera.unwrap_or_default()))?;
+        self.cameras[at].look(&cameras[at], &self.binding, &self.layouts, &self.body.frames)
+    }
+
+    /// Prints a problem once.
+    pub fn tell(&mut self, text: &str) {
+        if self.told.len() < 1_000 && self.told.insert(text.to_owned()) {
+            eprintln!("motet-ros2: {}", text.escape_debug());
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! What the robot's topics say of its body: joints, base, frames, and whether it stands still.
+
+use crate::bind::{Binding, Standstill};
+use crate::cdr::Message;
+use crate::tf::{Frames, Planar};
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// Age from which a state of the joints or of the base counts no more.
+const FRESH: Duration = Duration::from_millis(500);
+/// Greatest number of joints.
+const MAX_JOINTS: usize = 1_000;
+
+/// Position and speed of a joint.
+#[derive(Clone, Copy, Debug)]
+struct JointState {
+    position: f64,
+    speed: f64,
+    at: Instant,
+    /// The joint has been slow since; `None` while it moves.
+    still: Option<Instant>,
+}
+
+/// Body of the robot as it is now.
+#[derive(Default)]
+pub struct Body {
+    /// Joints by their names in ROS.
+    joints: BTreeMap<String, JointState>,
+    base: Option<BaseState>,
+    /// Greatest standard deviation of the localisation in the plane in m.
+    pub sigma: Option<f64>,
+    pub frames: Frames,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct BaseState {
+    pose: Planar,
+    at: Instant,
+    still: Option<Instant>,
+}
+
+/// Parts of the robot whose standstill is asked for.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Parts {
+    /// Every joint, and the base.
+    All,
+    /// Joints by their names in ROS, and the base if `true`.
+    Some(Vec<String>, bool),
+}
+
+impl Body {
+    /// Takes in a `sensor_msgs/JointState`.
+    pub fn hear_joints(&mut self, message: &Message, limits: &Standstill, now: Instant) {
+        let (positions, speeds) = (message.numbers("position"), message.numbers("velocity"));
+        for (at, name) in message.list("name").iter().enumerate() {
+            let (Message::Text(name), Some(position)) = (name, positions.get(at)) else { continue };
+            let before = self.joints.get(name).copied();
+            if !position.is_finite() || (before.is_none() && self.joints.len() >= MAX_JOINTS) {
+                continue;
+            }
+            // Without a speed it follows from the positions.
+            let speed = speeds.get(at).copied().filter(|speed| speed.is_finite()).unwrap_or_else(|| {
+                let since = before.map_or(0.0, |before| now.duration_since(before.at).as_secs_f64());
+                before.filter(|_| since > 1e-4).map_or(0.0, |before| (position - before.position) / since)
+            });
+            let still = still_since(speed.abs() < limits.joints, before.map(|before| (before.still, before.at)), now);
+            self.joints.insert(name.clone(), JointState { position: *position, speed, at: now, still });
+        }
+    }
+
+    /// Takes in a `nav_msgs/Odometry`.
+    pub fn hear_odometry(&mut self, message: &Message, limits: &Standstill, now: Instant) {
+        let speed = message.number("twist.twist.linear.x").hypot(message.number("twist.twist.linear.y"));
+        let turn = message.number("twist.twist.angular.z").abs();
+        let before = self.base.map(|before| (before.still, before.at));
+        let still = still_since(speed < limits.base && turn < limits.turn, before, now);
+        let pose = crate::tf::Transform::of(message, "pose.pose.position", "pose.pose.orientation");
+        if let Some(pose) = pose {
+            self.base = Some(BaseState { pose: pose.planar(), at: now, still });
+        }
+    }
+
+    /// Takes in a `geometry_msgs/PoseWithCovarianceStamped`: how exactly the robot knows its place.
+    pub fn hear_localization(&mut self, message: &Message) {
+        let covariance = message.numbers("pose.covariance");
+        let variance = [0, 7].map(|at| covariance.get(at).copied().unwrap_or(f64::NAN));
+        let greatest = variance[0].max(variance[1]);
+        self.sigma = (greatest.is_finite() && greatest >= 0.0).then(|| greatest.sqrt());
+    }
+
+    /// Position of a joint by its name in ROS, if it is fresh.
+    #[must_use]
+    pub fn position(&self, joint: &str) -> Option<f64> {
+        self.joints.get(joint).filter(|state| state.at.elapsed() < FRESH).map(|state| state.position)
+    }
+
+    /// Positions of all joints by their names in ROS.
+    #[must_use]
+    pub fn positions(&self) -> BTreeMap<String, f64> {
+        self.joints.iter().map(|(name, state)| (name.clone(), state.position)).collect()
+    }
+
+    /// Greatest speed of the joints of some parts, for a report.
+    #[must_use]
+    pub fn fastest(&self, parts: &Parts) -> Option<(&str, f64)> {
+        let asked = self.joints.iter().filter(|(name, _)| match parts {
+            Parts::All => true,
+            Parts::Some(joints, _) => joints.contains(name),
+        });
+        let speeds = asked.map(|(name, state)| (name.as_str(), state.speed.abs()));
+        speeds.max_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    /// True if all joints and the base, of some parts, have been slow for long enough, and are known to be.
+    #[must_use]
+    pub fn is_still(&self, parts: &Parts, binding: &Binding) -> bool {
+        let secs = Duration::from_secs_f64(binding.standstill.secs.clamp(0.0, 10.0));
+        let is_since = |still: Option<Instant>, at: Instant| {
+            at.elapsed() < FRESH && still.is_some_and(|since| since.elapsed() >= secs)
+        };
+        let is_joint = |state: &JointState| is_since(state.still, state.at);
+        let is_base = || {
+            binding.base.odometry.is_none() || self.base.is_some_and(|base| is_since(base.still, base.at))
+        };
+        match parts {
+            Parts::All => !self.joints.is_empty() && self.joints.values().all(is_joint) && is_base(),
+            Parts::Some(joints, drives) => {
+                joints.iter().all(|joint| self.joints.get(joint).is_some_and(is_joint)) && (!drives || is_base())
+            }
+        }
+    }
+
+    /// Pose of the base in the frame of the map: by the frames, or by the odometry where they have no map.
+    ///
+    /// # Errors
+    ///
+    /// Why nobody knows it.
+    pub fn base(&self, binding: &Binding) -> Result<Planar, String> {
+        let names = &binding.frames;
+        let newest = self.frames.newest(&names.base);
+        let told = self.frames.look_up(&names.map, &names.base, newest, names.age_secs);
+        match (told, self.base) {
+            (Ok(transform), _) if newest.is_some() => Ok(transform.planar()),
+            (_, Some(base)) if binding.base.localization.is_none() && base.at.elapsed() < FRESH => Ok(base.pose),
+            (Err(why), _) => Err(why),
+            (Ok(_), _) => Err(format!("no transform of `{}` yet", names.base)),
+        }
+    }
+}
+
+/// Since when something is slow. A gap in the reports begins anew.
+fn still_since(is_slow: bool, before: Option<(Option<Instant>, Instant)>, now: Instant) -> Option<Instant> {
+    if !is_slow {
+        return None;
+    }
+    let before = before.filter(|(_, at)| now.duration_since(*at) < FRESH);
+    before.and_then(|(still, _)| still).or(Some(now))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cdr::{decode, encode};
+    use crate::layout::{Distribution, Layouts};
+    use serde_json::json;
+
+    fn heard(body: &mut Body, speed: Option<f64>, position: f64, now: Instant) {
+        let layouts = Layouts::of(Distribution::Jazzy, None).unwrap();
+        let speeds: Vec<f64> = speed.into_iter().collect();
+        let value = json!({"name": ["a"], "position": [position], "velocity": speeds});
+        let bytes = encode(&layouts, "sensor_msgs/JointState", &value).unwrap();
+        let message = decode(&layouts, "sensor_msgs/JointState", &bytes).unwrap();
+        body.hear_joints(&message, &Standstill::default(), now);
+    }
+
+    fn binding() -> Binding {
+        Binding::parse("[joints]\ntopic = \"j\"", "own").unwrap()
+    }
+
+    #[test]
+    fn standstill_takes_time_and_fresh_states() {
+        let (mut body, binding, now) = (Body::default(), binding(), Instant::now());
+        let parts = Parts::Some(vec!["a".to_owned()], false);
+        assert!(!body.is_still(&parts, &binding), "nothing is known");
+        let ago = |millis| now.checked_sub(Duration::from_millis(millis)).unwrap();
+        heard(&mut body, Some(0.5), 1.0, ago(400));
+        heard(&mut body, Some(0.0), 1.0, ago(100));
+        assert!(!body.is_still(&parts, &binding), "slow for 0.1 s only");
+        heard(&mut body, Some(0.5), 1.0, ago(400));
+        heard(&mut body, Some(0.0), 1.0, ago(300));
+        heard(&mut body, Some(0.0), 1.0, now);
+        assert!(body.is_still(&parts, &binding));
+        let other = Parts::Some(vec!["b".to_owned()], false);
+        assert!(!body.is_still(&other, &binding), "a joint that nobody reports");
+    }
+
+    #[test]
+    fn speeds_follow_from_positions() {
+        let (mut body, now) = (Body::default(), Instant::now());
+        let ago = |millis| now.checked_sub(Duration::from_millis(millis)).unwrap();
+        heard(&mut body, None, 1.0, ago(400));
+        heard(&mut body, None, 1.2, ago(200));
+        assert!(body.fastest(&Parts::All).unwrap().1 > 0.9);
+        assert!(!body.is_still(&Parts::All, &binding()));
+    }
+}

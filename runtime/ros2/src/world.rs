@@ -1,0 +1,262 @@
+//! What the driver believes of the room: the scene, what its own goals changed, and what was detected.
+
+use crate::tf::Transform;
+use motet_graph::Value;
+use motet_robots::scene::{Placement, Scene};
+use motet_runtime::{Pattern, Query};
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::{Duration, Instant};
+
+/// Distance in m up to which something is near, from the middle of the base.
+const NEAR: f64 = 1.7;
+/// Time for which a thing that was detected counts as in view.
+const IN_VIEW: Duration = Duration::from_secs(2);
+
+/// Where a thing is.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Place {
+    On(String),
+    In(String),
+    /// With a person, or at a place.
+    At(String),
+    Hand,
+    Unknown,
+}
+
+/// Things and containers of the room.
+pub struct World {
+    pub scene: Scene,
+    places: BTreeMap<String, Place>,
+    open: BTreeMap<String, bool>,
+    at: BTreeSet<String>,
+    visited: BTreeSet<String>,
+    seen: BTreeMap<String, Instant>,
+    posture: Option<&'static str>,
+}
+
+impl World {
+    /// The room as its scene says.
+    #[must_use]
+    pub fn new(scene: Scene) -> Self {
+        let mut places = BTreeMap::new();
+        for entity in scene.entities.values().filter(|entity| !entity.fixed) {
+            let on = entity.on.as_ref().map(|on| Place::On(on.to_string()));
+            let inside = entity.inside.as_ref().map(|inside| Place::In(inside.to_string()));
+            places.insert(entity.id.to_string(), inside.or(on).unwrap_or(Place::Unknown));
+        }
+        if let Some(Some(held)) = &scene.robot.holding {
+            places.insert(held.to_string(), Place::Hand);
+        }
+        let open = scene.entities.values().filter_map(|entity| Some((entity.id.to_string(), entity.open?))).collect();
+        let at = scene.robot.at.iter().map(ToString::to_string).collect();
+        let (visited, seen) = (BTreeSet::new(), BTreeMap::new());
+        Self { scene, places, open, at, visited, seen, posture: Some("arm_home") }
+    }
+
+    /// The thing in the hand.
+    #[must_use]
+    pub fn held(&self) -> Option<&str> {
+        self.places.iter().find(|(_, place)| **place == Place::Hand).map(|(thing, _)| thing.as_str())
+    }
+
+    /// Takes in the success of a primitive.
+    pub fn done(&mut self, primitive: &str, args: &[(String, Value)]) {
+        let entity = |name: &str| {
+            let found = args.iter().find(|(own, _)| own == name);
+            if let Some((_, Value::Entity(id))) = found { Some(id.to_string()) } else { None }
+        };
+        let (object, on, to, what) = (entity("object"), entity("on"), entity("to"), entity("what"));
+        match primitive {
+            "go" => {
+                self.visited.extend(to.clone());
+                self.at = to.into_iter().collect();
+            }
+            "go_to_pose" | "turn" => self.at.clear(),
+            "home" => self.posture = Some("arm_home"),
+            "start_pose" => self.posture = Some("arm_ready"),
+            "pick" | "grasp" => self.put(object, Place::Hand),
+            "place" | "place_at" => {
+                let place = on.map_or(Place::Unknown, |on| {
+                    let kind = self.scene.entities.get(on.as_str()).map(|entity| entity.kind.as_str());
+                    if kind == Some("Container") { Place::In(on) } else { Place::On(on) }
+                });
+                self.put(object, place);
+            }
+            "handover" => self.put(object, to.map_or(Place::Unknown, Place::At)),
+            "open" | "close" => self.open.extend(what.map(|what| (what, primitive == "open"))),
+            _ => {}
+        }
+    }
+
+    /// Takes in a failure or an interruption: what the goal handled may be anywhere.
+    pub fn failed(&mut self, primitive: &str, args: &[(String, Value)]) {
+        if matches!(primitive, "go" | "go_to_pose") {
+            self.at.clear();
+        }
+        for (_, value) in args {
+            if let Value::Entity(id) = value
+                && self.places.get(id.as_str()) == Some(&Place::Hand)
+                && primitive != "go"
+            {
+                self.places.insert(id.to_string(), Place::Unknown);
+            }
+        }
+    }
+
+    fn put(&mut self, thing: Option<String>, place: Place) {
+        self.places.extend(thing.map(|thing| (thing, place)));
+    }
+
+    /// Takes in that a thing was told to be somewhere.
+    pub fn told(&mut self, thing: &str, place: Place) {
+        self.put(Some(thing.to_owned()), place);
+    }
+
+    /// Takes in a detection of a known thing. A thing that is not where it was believed has no place until
+    /// somebody says.
+    pub fn saw(&mut self, thing: &str, pose: Option<Transform>) {
+        self.seen.insert(thing.to_owned(), Instant::now());
+        let (Some(pose), Some(entity)) = (pose, self.scene.entities.get_mut(thing)) else { return };
+        let moved = entity.pose.as_ref().is_none_or(|before| distance(before.xyz, pose.xyz) > 0.3);
+        let is_held = self.places.get(thing) == Some(&Place::Hand);
+        if moved && !is_held && entity.pose.is_some() {
+            self.places.insert(thing.to_owned(), Place::Unknown);
+        }
+        if !is_held {
+            entity.pose = Some(Placement { xyz: pose.xyz, rpy: pose.rpy() });
+        }
+    }
+
+    /// Things that a description fits: an id, a name, a class, or words of a name.
+    #[must_use]
+    pub fn matches(&self, what: &str) -> Vec<String> {
+        let wanted = what.trim().to_lowercase();
+        let fits = |text: &str| text.to_lowercase().replace('_', " ") == wanted;
+        let entities = self.scene.entities.values();
+        let found = entities.filter(|entity| {
+            fits(&entity.id) || fits(&entity.class) || entity.names.iter().any(|name| fits(name))
+        });
+        found.map(|entity| entity.id.to_string()).collect()
+    }
+
+    /// Pose of an entity.
+    #[must_use]
+    pub fn pose(&self, id: &str) -> Option<Transform> {
+        let pose = self.scene.entities.get(id)?.pose.as_ref()?;
+        Some(Transform::from_rpy(pose.xyz, pose.rpy))
+    }
+
+    /// Answer to a fact or a measure; `None` if it is unknown. `base` is the position of the robot in m.
+    #[must_use]
+    pub fn answer(&self, query: &Query, base: Option<[f64; 2]>) -> Option<Value> {
+        match query {
+            Query::Fact { fluent, args } => {
+                let patterns: Option<Vec<Option<&str>>> = args.iter().map(pattern).collect();
+                self.some(fluent, &patterns?, &mut Vec::new(), base).map(Value::Bool)
+            }
+            Query::Measure { measure, args } if measure == "distance" => {
+                let Some(Value::Entity(id)) = args.first() else { return None };
+                self.distance(id, base?).map(Value::Number)
+            }
+            _ => None,
+        }
+    }
+
+    /// True if the fact holds for the arguments, or for some where a pattern has none.
+    fn some<'a>(
+        &'a self,
+        fluent: &str,
+        patterns: &[Option<&'a str>],
+        chosen: &mut Vec<&'a str>,
+        base: Option<[f64; 2]>,
+    ) -> Option<bool> {
+        let Some((first, rest)) = patterns.split_first() else { return self.fact(fluent, chosen, base) };
+        if let Some(one) = first {
+            chosen.push(one);
+            let truth = self.some(fluent, rest, chosen, base);
+            chosen.pop();
+            return truth;
+        }
+        let mut all = Some(false);
+        for id in self.scene.entities.keys().map(smol_str::SmolStr::as_str).chain(["robot", "hand"]) {
+            chosen.push(id);
+            match self.some(fluent, rest, chosen, base) {
+                Some(true) => {
+                    chosen.pop();
+                    return Some(true);
+                }
+                // What makes no sense for an entity is not what was asked for.
+                None if self.is_sensible(fluent, chosen) => all = None,
+                _ => {}
+            }
+            chosen.pop();
+        }
+        all
+    }
+
+    fn is_sensible(&self, fluent: &str, args: &[&str]) -> bool {
+        match (fluent, args) {
+            ("holding" | "lifted" | "at" | "on" | "in", [thing, ..]) => self.places.contains_key(*thing),
+            _ => true,
+        }
+    }
+
+    fn fact(&self, fluent: &str, args: &[&str], base: Option<[f64; 2]>) -> Option<bool> {
+        let place = |thing: &str| self.places.get(thing);
+        match (fluent, args) {
+            ("holding" | "lifted", [thing]) => place(thing).map(|place| *place == Place::Hand),
+            ("free", ["hand"]) => Some(self.held().is_none()),
+            ("standing", _) => Some(true),
+            ("at", ["robot", to]) => Some(self.at.contains(*to) || self.stands(to)),
+            ("at", [thing, to]) => match place(thing)? {
+                Place::Unknown => None,
+                Place::Hand => Some(false),
+                Place::On(at) | Place::In(at) | Place::At(at) => Some(at == to),
+            },
+            ("on", [thing, to]) => match place(thing)? {
+                Place::Unknown => None,
+                place => Some(*place == Place::On((*to).to_owned())),
+            },
+            ("in", [thing, to]) => match place(thing)? {
+                Place::Unknown => None,
+                place => Some(*place == Place::In((*to).to_owned())),
+            },
+            ("open", [what]) => self.open.get(*what).copied(),
+            ("locked", [what]) => self.scene.entities.get(*what)?.locked,
+            ("clear", [what]) => Some(!self.places.values().any(|place| *place == Place::On((*what).to_owned()))),
+            ("near", [what]) => Some(self.distance(what, base?)? < NEAR),
+            ("visited", [what]) => Some(self.visited.contains(*what)),
+            ("visible" | "located", [what]) => {
+                self.seen.get(*what).is_some_and(|at| at.elapsed() < IN_VIEW).then_some(true)
+            }
+            ("arm_home" | "arm_ready" | "arm_carry", ["robot"]) => Some(self.posture == Some(fluent)),
+            _ => None,
+        }
+    }
+
+    /// True if the robot stands where it serves what bears a thing.
+    fn stands(&self, thing: &str) -> bool {
+        match self.places.get(thing) {
+            Some(Place::On(at) | Place::In(at) | Place::At(at)) => self.at.contains(at),
+            _ => false,
+        }
+    }
+
+    fn distance(&self, id: &str, base: [f64; 2]) -> Option<f64> {
+        let [x, y, _] = self.scene.entities.get(id)?.pose.as_ref()?.xyz;
+        Some((x - base[0]).hypot(y - base[1]))
+    }
+}
+
+/// Argument of a fact: an id, or `None` for some entity. No pattern where the argument is no entity.
+fn pattern(arg: &Pattern) -> Option<Option<&str>> {
+    match arg {
+        Pattern::Any => Some(None),
+        Pattern::Is(Value::Entity(id) | Value::Case(id)) => Some(Some(id)),
+        Pattern::Is(_) => None,
+    }
+}
+
+fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum::<f64>().sqrt()
+}

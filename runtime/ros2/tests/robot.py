@@ -1,0 +1,394 @@
+"""A robot that speaks ROS 2 over Cyclone DDS, for tests: FollowJointTrajectory, NavigateToPose, a gripper, joint states,
+odometry, tf, pictures and detections, in front of a body without physics or of the world of MuJoCo.
+
+Faults of all its action servers: `reject`, `ignore-cancel` (goes on after a cancel that it promised to heed), `deaf`
+(a new trajectory does not stop the old one either), `die` (ends in the middle of a motion), `silent` (never answers
+a goal), `mute` (and never tells its state), `late` (answers after 3 s), `twice` (answers everything twice, the second
+time otherwise), `other-goal` (answers calls that nobody made).
+"""
+
+import argparse
+import json
+import math
+import os
+import signal
+import sys
+import time
+import tomllib
+
+from cyclone import ABORTED, CANCELED, RELIABLE, LATCHED, SUCCEEDED, ActionServer, Node, Types, stamp
+
+# Where the joints of a body without physics begin, apart from 0.
+START = {"arm_roll_joint": -1.57, "wrist_flex_joint": -1.57, "hand_motor_joint": 0.0}
+
+
+def spline(points, names, time_now):
+    """Positions and speeds of joints at a time of a trajectory, by cubic splines."""
+    at = next((i for i, point in enumerate(points) if point[0] >= time_now), len(points) - 1)
+    before, after = points[max(at - 1, 0)], points[at]
+    span = after[0] - before[0]
+    if span <= 0.0 or time_now >= points[-1][0]:
+        return dict(zip(names, after[1])), dict.fromkeys(names, 0.0)
+    t = min(max((time_now - before[0]) / span, 0.0), 1.0)
+    a, b, c, d = 2 * t**3 - 3 * t**2 + 1, t**3 - 2 * t**2 + t, 3 * t**2 - 2 * t**3, t**3 - t**2
+    places = [a * p + b * span * v + c * q + d * span * w for p, v, q, w in zip(before[1], before[2], after[1], after[2])]
+    e, f, g = 6 * t**2 - 6 * t, 3 * t**2 - 4 * t + 1, 3 * t**2 - 2 * t
+    speeds = [(e * p - e * q) / span + f * v + g * w for p, v, q, w in zip(before[1], before[2], after[1], after[2])]
+    return dict(zip(names, places)), dict(zip(names, speeds))
+
+
+class Still:
+    """A body without physics: joints are where they are told to be."""
+
+    def __init__(self, joints, base):
+        self.joints, self.speeds, self.base, self.moves = dict(joints), {}, list(base), [0.0, 0.0, 0.0]
+        self.held = None
+
+    def aim(self, positions, speeds):
+        for name, value in positions.items():
+            self.joints[name], self.speeds[name] = value, speeds.get(name, 0.0)
+
+    def drive(self, place, speed):
+        self.base, self.moves = list(place), list(speed)
+
+    def step(self, _now):
+        pass
+
+    def grip(self, closed):
+        self.joints["hand_motor_joint"] = 0.0 if closed else 1.0
+        return closed
+
+    def things(self):
+        return []
+
+    def picture(self):
+        return None
+
+
+class Physics:
+    """The world of MuJoCo."""
+
+    def __init__(self, robot, scene, motet):
+        from motet_mujoco.model import load
+        from motet_mujoco.world import World
+        self.world = World(load(robot, scene, motet))
+        self.model = self.world.model
+        self.goal = self.world.target.copy()
+        self.held, self.grips, self.begun = None, None, None
+        self.world.wait(0.3)
+        self.started = self.world.now
+
+    @property
+    def joints(self):
+        qpos = self.world.data.qpos[self.model.control_qpos]
+        return {name: float(qpos[at]) for name, at in self.model.controls.items()}
+
+    @property
+    def speeds(self):
+        qvel = {}
+        for name, at in self.model.controls.items():
+            joint = self.model.mj.actuator_trnid[at][0]
+            qvel[name] = float(self.world.data.qvel[self.model.mj.jnt_dofadr[joint]])
+        return qvel
+
+    @property
+    def base(self):
+        return [float(part) for part in self.world.base()]
+
+    @property
+    def moves(self):
+        names = sorted(self.model.controls, key=self.model.controls.get)[:3]
+        return [self.speeds[name] for name in names]
+
+    def aim(self, positions, _speeds):
+        for name, value in positions.items():
+            if self.model.controls.get(name) not in self.model.grips:
+                self.goal[self.model.controls[name]] = value
+
+    def drive(self, place, _speed):
+        self.goal[:3] = place
+
+    def grip(self, closed):
+        """Begins to close or open the hand. Answers nothing: `step` ends it."""
+        start = {at: float(self.world.data.qpos[self.model.control_qpos[at]]) for at in self.model.grips}
+        if not closed:
+            self.give()
+        self.grips = (closed, self.world.now, start)
+
+    def is_gripping(self):
+        return self.grips is not None
+
+    def give(self):
+        """A person takes what is held out to them."""
+        world = self.world
+        for thing in world.held():
+            for person, at in self.model.people.items():
+                far = math.dist(world.tip()[0][:2], world.data.mocap_pos[at][:2])
+                if far < 1.0:
+                    world.carried_by[thing] = (person, world.pose(thing)[0] - world.data.mocap_pos[at])
+
+    def step(self, now):
+        """Lets the world go on to a time in s since the start."""
+        end = min(now, self.world.now - self.started + 0.1)
+        while self.world.now - self.started < end:
+            if self.grips is not None:
+                closed, since, start = self.grips
+                share = min((self.world.now - since) / 0.4, 1.0)
+                for at, (opened, shut) in self.model.grips.items():
+                    self.goal[at] = start[at] + ((shut if closed else opened) - start[at]) * share
+                if self.world.now - since > 0.9:
+                    self.grips = None
+            self.world.step(self.goal)
+        return now - end
+
+    def things(self):
+        """Things in view with their poses: (id, position, quaternion w x y z, sides)."""
+        found = []
+        for thing in self.model.free:
+            if self.world.is_visible(thing):
+                position, quaternion = self.world.pose(thing)
+                low, high = self.world.bounds(thing)
+                found.append((thing, [float(x) for x in position], [float(x) for x in quaternion], [float(x) for x in high - low]))
+        return found
+
+    def picture(self):
+        return None
+
+
+class Robot:
+    """Topics and action servers of a robot that a binding names."""
+
+    def __init__(self, binding, body, faults, domain, log, sigma=0.0):
+        ros = binding.get("ros", {})
+        self.types = Types(ros.get("distribution", "jazzy"))
+        self.node, self.body, self.faults, self.log = Node(self.types, domain), body, set(faults), log
+        self.map, self.frame = binding.get("frames", {}).get("map", "map"), binding["frames"]["base"]
+        self.begun, self.last = time.monotonic(), {}
+        publish = self.node.publisher
+        self.joint_states = publish(binding["joints"]["topic"], "sensor_msgs/JointState")
+        self.odometry = publish(binding["base"]["odometry"], "nav_msgs/Odometry")
+        self.tf, self.tf_static = publish("/tf", "tf2_msgs/TFMessage"), publish("/tf_static", "tf2_msgs/TFMessage", LATCHED)
+        self.localization = None
+        if "localization" in binding["base"]:
+            self.localization = publish(binding["base"]["localization"], "geometry_msgs/PoseWithCovarianceStamped")
+        self.sigma = sigma
+        self.detections = publish(binding["detections"]["topic"], "vision_msgs/Detection3DArray") if "detections" in binding else None
+        self.camera = None
+        if binding.get("cameras"):
+            camera = binding["cameras"][0]
+            self.camera = [publish(camera["image"], "sensor_msgs/Image"), publish(camera["info"], "sensor_msgs/CameraInfo")]
+        self.servers, self.trajectories = [], {}
+        for controller in binding.get("controllers", []):
+            self.serve_trajectories(controller)
+        if "navigation" in binding:
+            self.serve_navigation(binding["navigation"]["action"])
+        if "gripper" in binding:
+            self.serve_gripper(binding["gripper"])
+        self.hand = None
+
+    def note(self, event, **values):
+        if self.log:
+            self.log.write(json.dumps({"at": time.time(), "event": event, **values}) + "\n")
+            self.log.flush()
+
+    # Trajectories.
+
+    def serve_trajectories(self, controller):
+        names = controller.get("base") or controller["joints"]
+        is_base, key = "base" in controller, controller["action"]
+
+        def accept(goal):
+            return "reject" not in self.faults and sorted(goal.trajectory.joint_names) == sorted(names)
+
+        def begin(goal):
+            points = [(one.time_from_start.sec + one.time_from_start.nanosec * 1e-9, list(one.positions),
+                       list(one.velocities) or [0.0] * len(one.positions)) for one in goal.goal.trajectory.points]
+            own = list(goal.goal.trajectory.joint_names)
+            self.note("trajectory", action=key, id=list(goal.id), joints=own, points=points)
+            running = self.trajectories.get(key)
+            if running and "deaf" in self.faults:
+                server.end(goal, ABORTED, error_code=-1, error_string="deaf")
+                return
+            if running:
+                server.end(running[0], ABORTED, error_code=-4, error_string="another goal took its place")
+            start = [self.body.base[at] for at in range(3)] if is_base else [self.body.joints[name] for name in own]
+            if points[0][0] > 0.0:
+                points.insert(0, (0.0, start, [0.0] * len(start)))
+            self.trajectories[key] = (goal, points, own, is_base, time.monotonic())
+
+        def cancel(goal):
+            self.note("cancel", action=key, id=list(goal.id))
+            running = self.trajectories.get(key)
+            if running and running[0] is goal:
+                del self.trajectories[key]
+                self.halt(running)
+            server.end(goal, CANCELED)
+
+        server = ActionServer(self.node, key, "control_msgs/FollowJointTrajectory", accept, begin, cancel, self.faults)
+        self.servers.append(server)
+        server.finish = lambda goal: server.end(goal, SUCCEEDED)
+
+    def halt(self, running):
+        _, _, own, is_base, _ = running
+        if is_base:
+            self.body.drive(self.body.base, [0.0] * 3)
+        else:
+            self.body.aim({name: self.body.joints[name] for name in own}, {})
+
+    def follow(self):
+        now = time.monotonic()
+        for key, running in list(self.trajectories.items()):
+            goal, points, own, is_base, begun = running
+            places, speeds = spline(points, own, now - begun)
+            if is_base:
+                self.body.drive([places[name] for name in own], [speeds[name] for name in own])
+            else:
+                self.body.aim(places, speeds)
+            if "die" in self.faults and now - begun > 0.4:
+                os.kill(os.getpid(), signal.SIGKILL)
+            if now - begun >= points[-1][0] + self.settles(places, own, is_base, now - begun - points[-1][0]):
+                del self.trajectories[key]
+                self.note("done", action=key, id=list(goal.id))
+                if goal.status < SUCCEEDED:
+                    next(server for server in self.servers if server.name == key).finish(goal)
+
+    def settles(self, places, own, is_base, late):
+        """Seconds that a body still needs to arrive."""
+        if late < 0.0:
+            return 0.0
+        off = [abs(places[name] - (self.body.base[at] if is_base else self.body.joints[name])) for at, name in enumerate(own)]
+        return late + 1.0 if max(off) > 0.01 and late < 3.0 else 0.0
+
+    # Navigation and hand.
+
+    def serve_navigation(self, key):
+        def begin(goal):
+            pose = goal.goal.pose.pose
+            yaw = 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
+            end, start = [pose.position.x, pose.position.y, yaw], list(self.body.base)
+            secs = max(math.dist(end[:2], start[:2]) / 0.3, 0.5)
+            self.note("navigate", id=list(goal.id), goal=end)
+            self.trajectories[key] = (goal, [(0.0, start, [0.0] * 3), (secs, end, [0.0] * 3)], ["x", "y", "yaw"], True, time.monotonic())
+
+        def cancel(goal):
+            running = self.trajectories.pop(key, None)
+            if running:
+                self.halt(running)
+            server.end(goal, CANCELED)
+
+        server = ActionServer(self.node, key, "nav2_msgs/NavigateToPose", lambda _: "reject" not in self.faults, begin, cancel, self.faults)
+        server.finish = lambda goal: server.end(goal, SUCCEEDED)
+        self.servers.append(server)
+
+    def serve_gripper(self, gripper):
+        def begin(goal):
+            closed = goal.goal.command.position < 0.5
+            self.note("gripper", closed=closed)
+            self.body.grip(closed)
+            self.hand = (goal, time.monotonic())
+
+        server = ActionServer(self.node, gripper["action"], gripper["type"], lambda _: True, begin, lambda goal: server.end(goal, CANCELED))
+        self.servers.append(server)
+        self.gripper = server
+
+    def serve_hand(self):
+        if self.hand is None:
+            return
+        goal, begun = self.hand
+        is_done = not self.body.is_gripping() if hasattr(self.body, "is_gripping") else time.monotonic() - begun > 0.1
+        if is_done:
+            self.hand = None
+            self.gripper.end(goal, SUCCEEDED, position=0.0, stalled=True, reached_goal=True)
+
+    # Topics.
+
+    def is_due(self, key, period):
+        now = time.monotonic()
+        if now - self.last.get(key, 0.0) < period:
+            return False
+        self.last[key] = now
+        return True
+
+    def tell(self):
+        zero, body = self.types.zero, self.body
+        header = {"stamp": stamp(), "frame_id": "odom"}
+        if self.is_due("joints", 0.01):
+            names = list(body.joints)
+            joints, speeds = body.joints, body.speeds
+            self.joint_states.write(zero("sensor_msgs/JointState", header=header, name=names, position=[joints[name] for name in names],
+                                         velocity=[speeds.get(name, 0.0) for name in names]))
+        if self.is_due("base", 0.02):
+            x, y, yaw = body.base
+            turn = {"z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)}
+            vx, vy, wz = body.moves
+            self.odometry.write(zero("nav_msgs/Odometry", header=header, child_frame_id=self.frame,
+                                     pose={"pose": {"position": {"x": x, "y": y}, "orientation": turn}},
+                                     twist={"twist": {"linear": {"x": vx, "y": vy}, "angular": {"z": wz}}}))
+            self.tf.write(zero("tf2_msgs/TFMessage", transforms=[{"header": header, "child_frame_id": self.frame, "transform": {
+                "translation": {"x": x, "y": y}, "rotation": turn}}]))
+        if self.is_due("slow", 0.5):
+            still = {"translation": {}, "rotation": {"w": 1.0}}
+            self.tf_static.write(zero("tf2_msgs/TFMessage", transforms=[{"header": {"frame_id": self.map}, "child_frame_id": "odom", "transform": still}]))
+            if self.localization:
+                covariance = [0.0] * 36
+                covariance[0] = covariance[7] = self.sigma**2
+                self.localization.write(zero("geometry_msgs/PoseWithCovarianceStamped", header=header, pose={"covariance": covariance}))
+        if self.detections and self.is_due("detections", 0.2):
+            found = []
+            for thing, position, (w, x, y, z), sides in body.things():
+                found.append({"results": [{"hypothesis": {"class_id": thing, "score": 0.9}}], "id": thing, "bbox": {
+                    "center": {"position": dict(zip("xyz", position)), "orientation": {"x": x, "y": y, "z": z, "w": w}},
+                    "size": dict(zip("xyz", sides))}})
+            self.detections.write(zero("vision_msgs/Detection3DArray", header={"stamp": stamp(), "frame_id": self.map}, detections=found))
+        if self.camera and self.is_due("camera", 0.5):
+            head = {"stamp": stamp(), "frame_id": self.frame}
+            data = [at % 251 for at in range(3 * 64 * 48)]
+            self.camera[0].write(zero("sensor_msgs/Image", header=head, width=64, height=48, step=192, encoding="rgb8", data=data))
+            self.camera[1].write(zero("sensor_msgs/CameraInfo", header=head, width=64, height=48, k=[60.0, 0.0, 32.0, 0.0, 60.0, 24.0, 0.0, 0.0, 1.0]))
+
+    def run(self):
+        while True:
+            now = time.monotonic()
+            self.follow()
+            behind = self.body.step(now - self.begun)
+            if behind:
+                # Time of a world that does not keep up stands still meanwhile.
+                self.begun += behind
+                self.trajectories = {key: (*one[:4], one[4] + behind) for key, one in self.trajectories.items()}
+            for server in self.servers:
+                server.step()
+            self.serve_hand()
+            self.tell()
+            time.sleep(max(0.0, 0.002 - (time.monotonic() - now)))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("binding")
+    parser.add_argument("--scene", default="kitchen")
+    parser.add_argument("--robot", default="hsr")
+    parser.add_argument("--physics", action="store_true")
+    parser.add_argument("--motet", default="motet")
+    parser.add_argument("--fault", action="append", default=[])
+    parser.add_argument("--domain", type=int, default=0)
+    parser.add_argument("--log", help="file for what happens, one JSON object a line")
+    parser.add_argument("--sigma", type=float, default=0.005, help="standard deviation of the localisation in m")
+    args = parser.parse_args()
+    with open(args.binding, "rb") as file:
+        binding = tomllib.load(file)
+    if args.physics:
+        body = Physics(args.robot, args.scene, args.motet)
+    else:
+        names = [name for one in binding["controllers"] for name in one.get("joints", [])]
+        body = Still({**dict.fromkeys(names, 0.0), **START}, [0.0, 0.0, 0.0])
+    log = open(args.log, "a") if args.log else None
+    robot = Robot(binding, body, args.fault, args.domain, log, args.sigma)
+    print("ready", flush=True)
+    robot.run()
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit(0)
