@@ -30,7 +30,8 @@ pub(crate) fn run(name: &str, arguments: &[OsString]) -> Result<Exit, CliError> 
     // A signal for both is handled there; this process waits for the end.
     let _ = ctrlc::set_handler(|| {});
     let status = Command::new(&program).args(arguments).status();
-    let status = status.map_err(|error| CliError::Message(format!("cannot start `{}`: {error}", program.display())))?;
+    let status = status
+        .map_err(|error| CliError::Message(format!("cannot start `{}`: {error}", program.display())))?;
     Ok(match status.code() {
         Some(0) => Exit::Success,
         Some(1) => Exit::Findings,

@@ -235,7 +235,9 @@ impl DriverChoice {
                 let program = sibling::find(ROS2).ok().filter(|_| command == DRIVE)?;
                 let start = [program.to_string_lossy().into_owned(), command.clone(), binding.clone()];
                 let arguments = arguments.iter().take_while(|word| *word != OWN_PROGRAM).cloned();
-                Some(DriverAddress::Command(start.into_iter().chain(arguments).chain(own_program()).collect()))
+                Some(DriverAddress::Command(
+                    start.into_iter().chain(arguments).chain(own_program()).collect(),
+                ))
             }
             (Self::Kinematic | Self::Mujoco | Self::Ros2(_), _) => None,
         }

@@ -1,8 +1,8 @@
 //! Answers to motion queries, for people and as JSON.
 
 use motet_geometry::planning::{
-    Configuration, GraspSide, InfeasibleReason, MIN_CLEARANCE, Misfit, MotionAnswer, MotionQuery,
-    MotionLimits, MotionWitness, PathTime, RobotModel, SpeedShare, UnknownReason, components,
+    Configuration, GraspSide, InfeasibleReason, MIN_CLEARANCE, Misfit, MotionAnswer, MotionLimits,
+    MotionQuery, MotionWitness, PathTime, RobotModel, SpeedShare, UnknownReason, components,
 };
 use serde_json::{Map, Value, json};
 

@@ -11,10 +11,10 @@ use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
 /// Id of a goal.
-pub type Uuid = [u8; 16];
+pub(crate) type Uuid = [u8; 16];
 
 /// Number of sources of one action: responses to goals, cancels and results, feedback, and states.
-pub const SOURCES: Source = 5;
+pub(crate) const SOURCES: Source = 5;
 
 /// Time limit for a response to a goal.
 const ACCEPTS: Duration = Duration::from_secs(2);
@@ -27,17 +27,17 @@ const CANCELS: u32 = 6;
 
 /// Codes of the state of a goal in `action_msgs/GoalStatus`.
 mod status {
-    pub const UNKNOWN: i64 = 0;
-    pub const EXECUTING: i64 = 2;
-    pub const CANCELING: i64 = 3;
-    pub const SUCCEEDED: i64 = 4;
-    pub const CANCELED: i64 = 5;
-    pub const ABORTED: i64 = 6;
+    pub(crate) const UNKNOWN: i64 = 0;
+    pub(crate) const EXECUTING: i64 = 2;
+    pub(crate) const CANCELING: i64 = 3;
+    pub(crate) const SUCCEEDED: i64 = 4;
+    pub(crate) const CANCELED: i64 = 5;
+    pub(crate) const ABORTED: i64 = 6;
 }
 
 /// End of a goal.
 #[derive(Clone, PartialEq, Debug)]
-pub enum End {
+pub(crate) enum End {
     /// The server refused it: nothing has moved.
     Rejected,
     Succeeded(Message),
@@ -49,7 +49,7 @@ pub enum End {
 
 /// News of a goal.
 #[derive(Clone, PartialEq, Debug)]
-pub enum News {
+pub(crate) enum News {
     Accepted(Uuid),
     Feedback(Uuid, Message),
     Ended(Uuid, End),
@@ -72,9 +72,9 @@ struct Goal {
 }
 
 /// Client of an action server.
-pub struct ActionClient {
+pub(crate) struct ActionClient {
     /// Name of the action, such as `/arm_controller/follow_joint_trajectory`.
-    pub name: String,
+    pub(crate) name: String,
     type_name: String,
     send: Client,
     cancel: Client,
@@ -91,7 +91,7 @@ impl ActionClient {
     /// # Errors
     ///
     /// Why DDS refuses its topics.
-    pub fn new(
+    pub(crate) fn new(
         dds: &Dds,
         middleware: Middleware,
         name: &str,
@@ -107,9 +107,19 @@ impl ActionClient {
         let cancel = Interface { name: "action_msgs/CancelGoal", kind: "srv", end: "" };
         let cancel = client("cancel_goal", cancel, 2)?;
         let feedback = dds_topic("rt", name, "/_action/feedback");
-        dds.subscribe(&feedback, &dds_type(type_name, "action", "_FeedbackMessage"), Quality::Reliable, first + 3)?;
+        dds.subscribe(
+            &feedback,
+            &dds_type(type_name, "action", "_FeedbackMessage"),
+            Quality::Reliable,
+            first + 3,
+        )?;
         let states = dds_topic("rt", name, "/_action/status");
-        dds.subscribe(&states, &dds_type("action_msgs/GoalStatusArray", "msg", ""), Quality::Latched, first + 4)?;
+        dds.subscribe(
+            &states,
+            &dds_type("action_msgs/GoalStatusArray", "msg", ""),
+            Quality::Latched,
+            first + 4,
+        )?;
         let (name, type_name) = (name.to_owned(), type_name.to_owned());
         Ok(Self { name, type_name, send, cancel, result, first, goals: Vec::new(), lost: Vec::new() })
     }
@@ -117,12 +127,14 @@ impl ActionClient {
     /// Endpoints of the server that DDS has not discovered, of all five. A goal that is sent before all are
     /// there could run without a way to hear of it.
     #[must_use]
-    pub fn missing(&self, dds: &Dds) -> Vec<String> {
+    pub(crate) fn missing(&self, dds: &Dds) -> Vec<String> {
         let (readers, writers) = (dds.readers(), dds.writers());
         let mut missing = Vec::new();
         for client in [&self.send, &self.cancel, &self.result] {
             let [request, reply] = &client.topics;
-            if readers.iter().all(|one| one.topic != *request) || writers.iter().all(|one| one.topic != *reply) {
+            if readers.iter().all(|one| one.topic != *request)
+                || writers.iter().all(|one| one.topic != *reply)
+            {
                 missing.push(request.trim_start_matches("rq/").trim_end_matches("Request").to_owned());
             }
         }
@@ -135,18 +147,12 @@ impl ActionClient {
         missing
     }
 
-    /// True for a message of this action.
-    #[must_use]
-    pub fn is_source(&self, source: Source) -> bool {
-        (self.first..self.first + SOURCES).contains(&source)
-    }
-
     /// Sends a goal; its id.
     ///
     /// # Errors
     ///
     /// The field that the layout lacks, or why DDS did not take it.
-    pub fn start(&mut self, layouts: &Layouts, goal: &Value) -> Result<Uuid, String> {
+    pub(crate) fn start(&mut self, layouts: &Layouts, goal: &Value) -> Result<Uuid, String> {
         let mut id: Uuid = [0; 16];
         getrandom::fill(&mut id).map_err(|error| format!("no random number: {error}"))?;
         let ticket = self.send.call(layouts, &json!({"goal_id": {"uuid": id}, "goal": goal}))?;
@@ -166,7 +172,7 @@ impl ActionClient {
 
     /// Cancels a goal, whether or not its server has accepted it. `tick` sends the cancel again until it is
     /// answered.
-    pub fn cancel(&mut self, layouts: &Layouts, id: Uuid) {
+    pub(crate) fn cancel(&mut self, layouts: &Layouts, id: Uuid) {
         if let Some(goal) = self.goals.iter_mut().find(|goal| goal.id == id) {
             goal.cancels += 1;
             goal.canceled = Some(Instant::now());
@@ -180,18 +186,20 @@ impl ActionClient {
     /// # Errors
     ///
     /// Why it is none of its layout.
-    pub fn hear(&mut self, layouts: &Layouts, received: &Received) -> Result<Vec<News>, String> {
+    pub(crate) fn hear(&mut self, layouts: &Layouts, received: &Received) -> Result<Vec<News>, String> {
         let bytes = &received.bytes;
         match received.source - self.first {
             0 => Ok(self.send.hear(layouts, received)?.map_or_else(Vec::new, |(ticket, response)| {
                 self.answered(layouts, ticket, response.is_true("accepted"))
             })),
-            1 => Ok(self.result.hear(layouts, received)?.map_or_else(Vec::new, |(ticket, response)| {
-                self.ended(layouts, ticket, response)
-            })),
+            1 => Ok(self
+                .result
+                .hear(layouts, received)?
+                .map_or_else(Vec::new, |(ticket, response)| self.ended(layouts, ticket, response))),
             2 => {
                 if let Some((_, response)) = self.cancel.hear(layouts, received)? {
-                    let listed = response.list("goals_canceling").iter().filter_map(|info| uuid(info, "goal_id"));
+                    let listed =
+                        response.list("goals_canceling").iter().filter_map(|info| uuid(info, "goal_id"));
                     let listed: Vec<Uuid> = listed.collect();
                     self.goals.iter_mut().for_each(|goal| goal.is_cancel_heard |= listed.contains(&goal.id));
                 }
@@ -212,7 +220,9 @@ impl ActionClient {
 
     /// Takes in the response to a goal.
     fn answered(&mut self, layouts: &Layouts, ticket: Ticket, is_accepted: bool) -> Vec<News> {
-        let Some(at) = self.goals.iter().position(|goal| goal.ticket == Some(ticket)) else { return Vec::new() };
+        let Some(at) = self.goals.iter().position(|goal| goal.ticket == Some(ticket)) else {
+            return Vec::new();
+        };
         self.goals[at].ticket = None;
         if is_accepted {
             return self.accepted(layouts, at).into_iter().collect();
@@ -256,7 +266,9 @@ impl ActionClient {
             status::CANCELED => End::Canceled,
             // The server does not know the goal, such as one that was started anew. It may know it later.
             status::UNKNOWN => return self.lose(layouts, at, "the action server does not know the goal"),
-            other => return self.lose(layouts, at, &format!("the action server answers with the status {other}")),
+            other => {
+                return self.lose(layouts, at, &format!("the action server answers with the status {other}"));
+            }
         };
         vec![News::Ended(self.goals.swap_remove(at).id, end)]
     }
@@ -300,7 +312,7 @@ impl ActionClient {
 
     /// Lets time pass: repeats what was not answered, and gives up goals that nobody answers for.
     /// `is_there` says if DDS knows the endpoints of the server.
-    pub fn tick(&mut self, layouts: &Layouts, is_there: bool) -> Vec<News> {
+    pub(crate) fn tick(&mut self, layouts: &Layouts, is_there: bool) -> Vec<News> {
         let mut news = Vec::new();
         let mut at = 0;
         while at < self.goals.len() {
@@ -329,7 +341,8 @@ impl ActionClient {
 }
 
 /// Id of a goal at a path.
-fn uuid(message: &Message, path: &str) -> Option<Uuid> {
+#[must_use]
+pub(crate) fn uuid(message: &Message, path: &str) -> Option<Uuid> {
     match message.get(&format!("{path}.uuid"))? {
         Message::Bytes(bytes) => bytes.as_slice().try_into().ok(),
         _ => None,

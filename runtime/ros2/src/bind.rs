@@ -22,68 +22,68 @@ const BUILT_IN: [(&str, &str); 4] = [
 /// Binding of a robot.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Binding {
+pub(crate) struct Binding {
     /// Robot that it is for, as the command line names it.
     #[serde(default)]
-    pub robot: Option<String>,
+    pub(crate) robot: Option<String>,
     #[serde(default)]
-    pub ros: Ros,
+    pub(crate) ros: Ros,
     #[serde(default)]
-    pub frames: FrameNames,
-    pub joints: Joints,
+    pub(crate) frames: FrameNames,
+    pub(crate) joints: Joints,
     #[serde(default)]
-    pub base: Base,
+    pub(crate) base: Base,
     #[serde(default)]
-    pub standstill: Standstill,
+    pub(crate) standstill: Standstill,
     #[serde(default)]
-    pub start: StartTolerance,
+    pub(crate) start: StartTolerance,
     #[serde(default)]
-    pub controllers: Vec<Controller>,
+    pub(crate) controllers: Vec<Controller>,
     #[serde(default)]
-    pub navigation: Option<Navigation>,
+    pub(crate) navigation: Option<Navigation>,
     #[serde(default)]
-    pub gripper: Option<Gripper>,
+    pub(crate) gripper: Option<Gripper>,
     #[serde(default)]
-    pub primitives: BTreeMap<String, Primitive>,
+    pub(crate) primitives: BTreeMap<String, Primitive>,
     #[serde(default)]
-    pub facts: BTreeMap<String, Observation>,
+    pub(crate) facts: BTreeMap<String, Observation>,
     #[serde(default)]
-    pub measures: BTreeMap<String, Observation>,
+    pub(crate) measures: BTreeMap<String, Observation>,
     #[serde(default)]
-    pub cameras: Vec<CameraTopics>,
+    pub(crate) cameras: Vec<CameraTopics>,
     #[serde(default)]
-    pub detections: Option<DetectionTopic>,
+    pub(crate) detections: Option<DetectionTopic>,
     /// Services and topics that stop the robot at a safe stop, beside the trajectories that stand still.
     #[serde(default)]
-    pub stop: Vec<Call>,
+    pub(crate) stop: Vec<Call>,
 }
 
 /// How the robot's nodes are reached.
 #[derive(Clone, PartialEq, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Ros {
-    pub distribution: Distribution,
-    pub middleware: Middleware,
+pub(crate) struct Ros {
+    pub(crate) distribution: Distribution,
+    pub(crate) middleware: Middleware,
     /// `ROS_DOMAIN_ID`. The variable of the environment counts where the binding has none.
-    pub domain: Option<u16>,
+    pub(crate) domain: Option<u16>,
     /// Addresses of the networks to use; all without one.
-    pub networks: Vec<IpAddr>,
+    pub(crate) networks: Vec<IpAddr>,
     /// Namespace before names that do not begin with `/`.
-    pub namespace: String,
+    pub(crate) namespace: String,
     /// Seconds to wait for the robot's nodes at the start.
-    pub discovery_secs: Option<f64>,
+    pub(crate) discovery_secs: Option<f64>,
 }
 
 /// Names of frames.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct FrameNames {
+pub(crate) struct FrameNames {
     /// Frame of the scene.
-    pub map: String,
+    pub(crate) map: String,
     /// Frame of the base on the floor.
-    pub base: String,
+    pub(crate) base: String,
     /// Greatest age of a transform in s.
-    pub age_secs: f64,
+    pub(crate) age_secs: f64,
 }
 
 impl Default for FrameNames {
@@ -95,24 +95,24 @@ impl Default for FrameNames {
 /// States of the joints.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Joints {
+pub(crate) struct Joints {
     /// Topic of `sensor_msgs/JointState`.
-    pub topic: String,
+    pub(crate) topic: String,
     /// Joints whose name in ROS differs from that in the URDF of the card: `card = "ros"`.
     #[serde(default)]
-    pub names: BTreeMap<String, String>,
+    pub(crate) names: BTreeMap<String, String>,
 }
 
 /// Pose and speed of the base.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Base {
+pub(crate) struct Base {
     /// Topic of `nav_msgs/Odometry`; a robot without one does not drive.
-    pub odometry: Option<String>,
+    pub(crate) odometry: Option<String>,
     /// Topic of `geometry_msgs/PoseWithCovarianceStamped` of the localisation.
-    pub localization: Option<String>,
+    pub(crate) localization: Option<String>,
     /// Number of standard deviations of the localisation that the clearance of a path must have.
-    pub sigmas: f64,
+    pub(crate) sigmas: f64,
 }
 
 impl Default for Base {
@@ -124,14 +124,14 @@ impl Default for Base {
 /// When the robot stands still.
 #[derive(Clone, Copy, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Standstill {
+pub(crate) struct Standstill {
     /// Greatest speed of a joint in rad/s or m/s.
-    pub joints: f64,
+    pub(crate) joints: f64,
     /// Greatest speed of the base in m/s, and of its turning in rad/s.
-    pub base: f64,
-    pub turn: f64,
+    pub(crate) base: f64,
+    pub(crate) turn: f64,
     /// Seconds for which all speeds are below.
-    pub secs: f64,
+    pub(crate) secs: f64,
 }
 
 impl Default for Standstill {
@@ -143,13 +143,13 @@ impl Default for Standstill {
 /// Distances from the start of a path up to which the robot may follow it.
 #[derive(Clone, Copy, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct StartTolerance {
-    /// m.
-    pub base: f64,
-    /// rad.
-    pub turn: f64,
-    /// rad or m.
-    pub joints: f64,
+pub(crate) struct StartTolerance {
+    /// Distance of the base in m.
+    pub(crate) base: f64,
+    /// Turn of the base in rad.
+    pub(crate) turn: f64,
+    /// Difference of a joint in rad or m.
+    pub(crate) joints: f64,
 }
 
 impl Default for StartTolerance {
@@ -161,21 +161,21 @@ impl Default for StartTolerance {
 /// Controller that follows trajectories.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Controller {
+pub(crate) struct Controller {
     /// Action of `control_msgs/FollowJointTrajectory`.
-    pub action: String,
+    pub(crate) action: String,
     /// Its joints as ROS names them.
     #[serde(default)]
-    pub joints: Vec<String>,
+    pub(crate) joints: Vec<String>,
     /// Names of its axes x, y and yaw, if it drives the base.
     #[serde(default)]
-    pub base: Vec<String>,
+    pub(crate) base: Vec<String>,
     /// Frame of these axes.
     #[serde(default = "odom")]
-    pub frame: String,
+    pub(crate) frame: String,
     /// Seconds that a trajectory may take longer than it says.
     #[serde(default = "late")]
-    pub late_secs: f64,
+    pub(crate) late_secs: f64,
 }
 
 fn odom() -> String {
@@ -189,17 +189,17 @@ const fn late() -> f64 {
 /// Navigation of the base.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Navigation {
+pub(crate) struct Navigation {
     /// Action of `nav2_msgs/NavigateToPose`.
-    pub action: String,
+    pub(crate) action: String,
     #[serde(default)]
-    pub behavior_tree: String,
+    pub(crate) behavior_tree: String,
     /// Topic that a stop sends zero speeds to.
     #[serde(default)]
-    pub stop: Option<String>,
+    pub(crate) stop: Option<String>,
     /// `geometry_msgs/Twist` or `geometry_msgs/TwistStamped`.
     #[serde(default = "twist")]
-    pub stop_type: String,
+    pub(crate) stop_type: String,
 }
 
 fn twist() -> String {
@@ -209,21 +209,21 @@ fn twist() -> String {
 /// The hand. `{width}` in a message stands for the opening in m times `scale` plus `offset`.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Gripper {
-    pub action: String,
+pub(crate) struct Gripper {
+    pub(crate) action: String,
     #[serde(rename = "type")]
-    pub type_name: String,
-    pub open: Value,
-    pub close: Value,
+    pub(crate) type_name: String,
+    pub(crate) open: Value,
+    pub(crate) close: Value,
     /// Goal for the opening that a grasp asks for; `open` without one.
     #[serde(default)]
-    pub width: Option<Value>,
+    pub(crate) width: Option<Value>,
     #[serde(default = "one")]
-    pub scale: f64,
+    pub(crate) scale: f64,
     #[serde(default)]
-    pub offset: f64,
+    pub(crate) offset: f64,
     #[serde(default = "late")]
-    pub timeout_secs: f64,
+    pub(crate) timeout_secs: f64,
 }
 
 const fn one() -> f64 {
@@ -233,14 +233,14 @@ const fn one() -> f64 {
 /// Primitive as steps, one after the other.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Primitive {
-    pub steps: Vec<StepTable>,
+pub(crate) struct Primitive {
+    pub(crate) steps: Vec<StepTable>,
 }
 
 /// Step as the file writes it: exactly one of its first ten keys.
 #[derive(Clone, PartialEq, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct StepTable {
+pub(crate) struct StepTable {
     motion: Option<Direction>,
     gripper: Option<Opening>,
     action: Option<String>,
@@ -266,7 +266,7 @@ pub struct StepTable {
 /// Way along a path.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Direction {
+pub(crate) enum Direction {
     There,
     Back,
 }
@@ -274,7 +274,7 @@ pub enum Direction {
 /// Goal of the hand.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Opening {
+pub(crate) enum Opening {
     Open,
     Close,
     /// As wide as the grasp of the path asks for.
@@ -284,21 +284,21 @@ pub enum Opening {
 /// Message to an action, a service or a topic.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Call {
-    pub kind: CallKind,
-    pub name: String,
+pub(crate) struct Call {
+    pub(crate) kind: CallKind,
+    pub(crate) name: String,
     #[serde(rename = "type")]
-    pub type_name: String,
+    pub(crate) type_name: String,
     #[serde(default)]
-    pub message: Value,
+    pub(crate) message: Value,
     #[serde(default = "late")]
-    pub timeout_secs: f64,
+    pub(crate) timeout_secs: f64,
 }
 
 /// Kind of interface.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum CallKind {
+pub(crate) enum CallKind {
     Action,
     Service,
     Topic,
@@ -306,16 +306,16 @@ pub enum CallKind {
 
 /// Step of a primitive.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Step {
-    pub deed: Deed,
+pub(crate) struct Step {
+    pub(crate) deed: Deed,
     /// Failure if the step does not succeed; the first that the primitive declares without one.
-    pub fails: Option<String>,
-    pub text: Option<String>,
+    pub(crate) fails: Option<String>,
+    pub(crate) text: Option<String>,
 }
 
 /// What a step does.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Deed {
+pub(crate) enum Deed {
     Motion(Direction),
     Gripper(Opening),
     Call(Call),
@@ -327,7 +327,12 @@ pub enum Deed {
     /// Wait for a detection of what the first argument describes.
     Detect,
     /// Wait for a message of a topic; the expression over it is the result.
-    Answer { topic: String, type_name: String, value: String, timeout_secs: f64 },
+    Answer {
+        topic: String,
+        type_name: String,
+        value: String,
+        timeout_secs: f64,
+    },
 }
 
 impl StepTable {
@@ -336,7 +341,7 @@ impl StepTable {
     /// # Errors
     ///
     /// The keys that are missing, or are too many.
-    pub fn step(&self) -> Result<Step, String> {
+    pub(crate) fn step(&self) -> Result<Step, String> {
         let call = |kind, name: &String| -> Result<Deed, String> {
             let type_name = self.type_name.clone().ok_or_else(|| format!("`{name}` needs a `type`"))?;
             let message = self.message.clone().unwrap_or_default();
@@ -377,39 +382,39 @@ impl StepTable {
 /// Fact or measure from the messages of a topic.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Observation {
-    pub topic: String,
+pub(crate) struct Observation {
+    pub(crate) topic: String,
     #[serde(rename = "type")]
-    pub type_name: String,
+    pub(crate) type_name: String,
     /// Expression over the fields of the message, `args` and `joints`.
-    pub value: String,
+    pub(crate) value: String,
     /// Greatest age of the message in s.
     #[serde(default = "one")]
-    pub age_secs: f64,
+    pub(crate) age_secs: f64,
 }
 
 /// Topics of a camera.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CameraTopics {
-    pub name: String,
-    pub image: String,
+pub(crate) struct CameraTopics {
+    pub(crate) name: String,
+    pub(crate) image: String,
     #[serde(default)]
-    pub depth: Option<String>,
-    pub info: String,
+    pub(crate) depth: Option<String>,
+    pub(crate) info: String,
 }
 
 /// Topic of `vision_msgs/Detection3DArray`.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct DetectionTopic {
-    pub topic: String,
+pub(crate) struct DetectionTopic {
+    pub(crate) topic: String,
     /// Words for the classes of the detector: `class = "red mug"`.
     #[serde(default)]
-    pub labels: BTreeMap<String, String>,
+    pub(crate) labels: BTreeMap<String, String>,
     /// Seconds that `detect` waits for a detection.
     #[serde(default = "patience")]
-    pub timeout_secs: f64,
+    pub(crate) timeout_secs: f64,
 }
 
 const fn patience() -> f64 {
@@ -422,7 +427,7 @@ impl Binding {
     /// # Errors
     ///
     /// Why the file cannot be read, or the place that is wrong.
-    pub fn read(name: &str) -> Result<Self, String> {
+    pub(crate) fn read(name: &str) -> Result<Self, String> {
         if let Some((_, text)) = BUILT_IN.iter().find(|(own, _)| *own == name) {
             return Self::parse(text, name);
         }
@@ -443,11 +448,13 @@ impl Binding {
     /// # Errors
     ///
     /// The place that is wrong.
-    pub fn parse(text: &str, name: &str) -> Result<Self, String> {
+    pub(crate) fn parse(text: &str, name: &str) -> Result<Self, String> {
         let mut binding: Self = toml::from_str(text).map_err(|error| format!("{name}: {error}"))?;
         for (primitive, steps) in &binding.primitives {
             for (at, step) in steps.steps.iter().enumerate() {
-                let step = step.step().map_err(|wrong| format!("{name}: step {} of {primitive}: {wrong}", at + 1))?;
+                let step = step
+                    .step()
+                    .map_err(|wrong| format!("{name}: step {} of {primitive}: {wrong}", at + 1))?;
                 if matches!(step.deed, Deed::Gripper(_)) && binding.gripper.is_none() {
                     return Err(format!("{name}: step {} of {primitive} needs a table [gripper]", at + 1));
                 }
@@ -461,7 +468,9 @@ impl Binding {
             let is_arm = controller.base.is_empty() && !controller.joints.is_empty();
             if !is_base && !is_arm {
                 let action = &controller.action;
-                return Err(format!("{name}: the controller `{action}` has either joints or a base of three axes"));
+                return Err(format!(
+                    "{name}: the controller `{action}` has either joints or a base of three axes"
+                ));
             }
         }
         binding.resolve_names();
@@ -473,7 +482,8 @@ impl Binding {
         let namespace = self.ros.namespace.trim_matches('/').to_owned();
         let full = |name: &mut String| {
             if !name.starts_with('/') {
-                *name = if namespace.is_empty() { format!("/{name}") } else { format!("/{namespace}/{name}") };
+                *name =
+                    if namespace.is_empty() { format!("/{name}") } else { format!("/{namespace}/{name}") };
             }
         };
         full(&mut self.joints.topic);
@@ -503,39 +513,34 @@ impl Binding {
 
     /// Name of a joint in ROS.
     #[must_use]
-    pub fn ros_joint<'a>(&'a self, joint: &'a str) -> &'a str {
+    pub(crate) fn ros_joint<'a>(&'a self, joint: &'a str) -> &'a str {
         self.joints.names.get(joint).map_or(joint, String::as_str)
     }
 
     /// Name of a joint in the card.
     #[must_use]
-    pub fn card_joint<'a>(&'a self, joint: &'a str) -> &'a str {
+    pub(crate) fn card_joint<'a>(&'a self, joint: &'a str) -> &'a str {
         self.joints.names.iter().find(|(_, ros)| *ros == joint).map_or(joint, |(card, _)| card)
     }
 
     /// True if a controller moves a joint, by its name in ROS.
     #[must_use]
-    pub fn controls(&self, joint: &str) -> bool {
+    pub(crate) fn controls(&self, joint: &str) -> bool {
         self.controllers.iter().any(|controller| controller.joints.iter().any(|own| own == joint))
     }
 
     /// Steps of a primitive; `None` if it is not bound.
     #[must_use]
-    pub fn steps(&self, primitive: &str) -> Option<Vec<Step>> {
+    pub(crate) fn steps(&self, primitive: &str) -> Option<Vec<Step>> {
         let steps = &self.primitives.get(primitive)?.steps;
         steps.iter().map(|step| step.step().ok()).collect()
     }
 
     /// Domain of DDS.
     #[must_use]
-    pub fn domain(&self) -> u16 {
+    pub(crate) fn domain(&self) -> u16 {
         let of_environment = || std::env::var("ROS_DOMAIN_ID").ok()?.trim().parse().ok();
         self.ros.domain.or_else(of_environment).unwrap_or(0)
-    }
-
-    /// Names of the built-in bindings.
-    pub fn built_in() -> impl Iterator<Item = &'static str> {
-        BUILT_IN.iter().map(|(name, _)| *name)
     }
 }
 
@@ -545,7 +550,7 @@ mod tests {
 
     #[test]
     fn built_in_bindings_are_whole() {
-        for name in Binding::built_in() {
+        for (name, _) in BUILT_IN {
             let binding = Binding::read(name).unwrap();
             assert!(binding.primitives.contains_key("go"), "{name}");
         }
@@ -556,7 +561,8 @@ mod tests {
         let wrong = |text: &str| Binding::parse(text, "own").unwrap_err();
         assert!(wrong("speed = 3").contains("unknown field `speed`"));
         let joints = "[joints]\ntopic = \"joint_states\"\n";
-        let steps = wrong(&format!("{joints}[primitives.go]\nsteps = [{{ motion = \"there\", wait_secs = 1.0 }}]"));
+        let steps =
+            wrong(&format!("{joints}[primitives.go]\nsteps = [{{ motion = \"there\", wait_secs = 1.0 }}]"));
         assert!(steps.starts_with("own: step 1 of go: a step has exactly one of"), "{steps}");
         let hand = wrong(&format!("{joints}[primitives.pick]\nsteps = [{{ gripper = \"open\" }}]"));
         assert_eq!(hand, "own: step 1 of pick needs a table [gripper]");
@@ -566,7 +572,8 @@ mod tests {
 
     #[test]
     fn names_get_the_namespace() {
-        let text = "[ros]\nnamespace = \"robot_1\"\n[joints]\ntopic = \"joint_states\"\n[base]\nodometry = \"/odom\"";
+        let text = "ros = { namespace = \"robot_1\" }\njoints = { topic = \"joint_states\" }\n\
+                    base = { odometry = \"/odom\" }";
         let binding = Binding::parse(text, "own").unwrap();
         assert_eq!(binding.joints.topic, "/robot_1/joint_states");
         assert_eq!(binding.base.odometry.as_deref(), Some("/odom"));

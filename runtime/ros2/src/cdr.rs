@@ -11,7 +11,7 @@ const MAX_VALUES: usize = 1_000_000;
 
 /// A message, or a part of one.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Message {
+pub(crate) enum Message {
     Bool(bool),
     Int(i64),
     Uint(u64),
@@ -26,7 +26,7 @@ pub enum Message {
 impl Message {
     /// Field of a record, or of records inside, by names with dots such as `pose.position.x`.
     #[must_use]
-    pub fn get(&self, path: &str) -> Option<&Self> {
+    pub(crate) fn get(&self, path: &str) -> Option<&Self> {
         path.split('.').try_fold(self, |message, name| {
             let Self::Record(layout, values) = message else { return None };
             values.get(layout.iter().position(|field| &*field.name == name)?)
@@ -35,7 +35,7 @@ impl Message {
 
     /// Number at a path; 0 where there is none.
     #[must_use]
-    pub fn number(&self, path: &str) -> f64 {
+    pub(crate) fn number(&self, path: &str) -> f64 {
         match self.get(path) {
             Some(Self::Float(number)) => *number,
             #[allow(clippy::cast_precision_loss, reason = "counts and codes are small")]
@@ -48,7 +48,7 @@ impl Message {
 
     /// Text at a path; empty where there is none.
     #[must_use]
-    pub fn text(&self, path: &str) -> &str {
+    pub(crate) fn text(&self, path: &str) -> &str {
         match self.get(path) {
             Some(Self::Text(text)) => text,
             _ => "",
@@ -57,7 +57,7 @@ impl Message {
 
     /// List at a path; empty where there is none.
     #[must_use]
-    pub fn list(&self, path: &str) -> &[Self] {
+    pub(crate) fn list(&self, path: &str) -> &[Self] {
         match self.get(path) {
             Some(Self::List(values)) => values,
             _ => &[],
@@ -66,20 +66,20 @@ impl Message {
 
     /// True where the path has a true value.
     #[must_use]
-    pub fn is_true(&self, path: &str) -> bool {
+    pub(crate) fn is_true(&self, path: &str) -> bool {
         self.get(path) == Some(&Self::Bool(true))
     }
 
     /// Numbers of a list.
     #[must_use]
-    pub fn numbers(&self, path: &str) -> Vec<f64> {
+    pub(crate) fn numbers(&self, path: &str) -> Vec<f64> {
         let number = |value: &Self| if let Self::Float(number) = value { *number } else { 0.0 };
         self.list(path).iter().map(number).collect()
     }
 
     /// Seconds of a time or a duration at a path.
     #[must_use]
-    pub fn secs(&self, path: &str) -> f64 {
+    pub(crate) fn secs(&self, path: &str) -> f64 {
         self.number(&format!("{path}.sec")) + self.number(&format!("{path}.nanosec")) * 1e-9
     }
 }
@@ -110,7 +110,7 @@ impl Serialize for Message {
 /// # Errors
 ///
 /// The field that the layout lacks, or whose value is of another type.
-pub fn encode(layouts: &Layouts, name: &str, value: &Value) -> Result<Vec<u8>, String> {
+pub(crate) fn encode(layouts: &Layouts, name: &str, value: &Value) -> Result<Vec<u8>, String> {
     let mut writer = Writer { layouts, bytes: Vec::new() };
     writer.message(name, value, name)?;
     Ok(writer.bytes)
@@ -121,7 +121,7 @@ pub fn encode(layouts: &Layouts, name: &str, value: &Value) -> Result<Vec<u8>, S
 /// # Errors
 ///
 /// The field at which the bytes end, or are not of the layout.
-pub fn decode(layouts: &Layouts, name: &str, bytes: &[u8]) -> Result<Message, String> {
+pub(crate) fn decode(layouts: &Layouts, name: &str, bytes: &[u8]) -> Result<Message, String> {
     let mut reader = Reader { layouts, bytes, at: 0, values: 0 };
     reader.message(name)
 }
@@ -140,7 +140,9 @@ impl Writer<'_> {
             Value::Null => &nothing,
             _ => return Err(format!("`{place}` is a message `{name}`, not {value}")),
         };
-        if let Some(unknown) = given.keys().find(|key| fields.iter().all(|field| &*field.name != key.as_str())) {
+        if let Some(unknown) =
+            given.keys().find(|key| fields.iter().all(|field| &*field.name != key.as_str()))
+        {
             let names: Vec<&str> = fields.iter().map(|field| &*field.name).collect();
             return Err(format!("`{name}` has no field `{unknown}`; it has {}", names.join(", ")));
         }
@@ -208,7 +210,11 @@ impl Writer<'_> {
                 self.aligned(&value.to_le_bytes()[..*size]);
             }
             Primitive::Uint(size) => {
-                let value = if value.is_null() { Some(0) } else { value.as_u64().or_else(|| u64::try_from(whole(value)?).ok()) };
+                let value = if value.is_null() {
+                    Some(0)
+                } else {
+                    value.as_u64().or_else(|| u64::try_from(whole(value)?).ok())
+                };
                 let value = value.filter(|value| *size == 8 || *value < 1 << (8 * size));
                 let value = value.ok_or_else(|| wrong("a whole number that is not negative"))?;
                 self.aligned(&value.to_le_bytes()[..*size]);
@@ -217,7 +223,11 @@ impl Writer<'_> {
                 let value = if value.is_null() { Some(0.0) } else { value.as_f64() };
                 let value = value.ok_or_else(|| wrong("a number"))?;
                 #[allow(clippy::cast_possible_truncation, reason = "the layout has 4 bytes")]
-                if *size == 4 { self.aligned(&(value as f32).to_le_bytes()) } else { self.aligned(&value.to_le_bytes()) }
+                if *size == 4 {
+                    self.aligned(&(value as f32).to_le_bytes())
+                } else {
+                    self.aligned(&value.to_le_bytes())
+                }
             }
             Primitive::Text => {
                 let text = if value.is_null() { Some("") } else { value.as_str() };
@@ -234,7 +244,9 @@ impl Writer<'_> {
 /// A whole number, also one that is written with a fraction of zero.
 fn whole(value: &Value) -> Option<i64> {
     #[allow(clippy::cast_possible_truncation, reason = "the range is checked")]
-    let rounded = || value.as_f64().filter(|value| value.fract() == 0.0 && value.abs() < 1e15).map(|value| value as i64);
+    let rounded = || {
+        value.as_f64().filter(|value| value.fract() == 0.0 && value.abs() < 1e15).map(|value| value as i64)
+    };
     value.as_i64().or_else(rounded)
 }
 
@@ -264,7 +276,10 @@ impl Reader<'_> {
                 let count = u32::from_le_bytes(bytes) as usize;
                 // Every element has at least one byte.
                 if count > most || count > self.bytes.len() - self.at {
-                    return Err(format!("`{}` has {count} elements, more than the message can have", field.name));
+                    return Err(format!(
+                        "`{}` has {count} elements, more than the message can have",
+                        field.name
+                    ));
                 }
                 count
             }
@@ -272,7 +287,8 @@ impl Reader<'_> {
         if field.element == Element::Primitive(Primitive::Uint(1)) {
             return Ok(Message::Bytes(self.take(count, &field.name)?.to_vec()));
         }
-        let values: Result<_, String> = (0..count).map(|_| self.element(&field.element, &field.name)).collect();
+        let values: Result<_, String> =
+            (0..count).map(|_| self.element(&field.element, &field.name)).collect();
         Ok(Message::List(values?))
     }
 
@@ -344,7 +360,8 @@ mod tests {
 
     #[test]
     fn bytes_are_aligned_as_cdr_has_it() {
-        let bytes = encode(&layouts(), "std_srvs/SetBool_Response", &json!({"success": true, "message": "ab"}));
+        let bytes =
+            encode(&layouts(), "std_srvs/SetBool_Response", &json!({"success": true, "message": "ab"}));
         assert_eq!(bytes.unwrap(), [1, 0, 0, 0, 3, 0, 0, 0, b'a', b'b', 0]);
         assert_eq!(encode(&layouts(), "std_msgs/Empty", &Value::Null).unwrap(), [0]);
     }

@@ -4,40 +4,42 @@ use bytes::Bytes;
 use crossbeam_channel::Sender;
 use futures::StreamExt as _;
 use futures::executor::ThreadPool;
+use rustdds::RTPSEntity as _;
 use rustdds::no_key::{Decode, DefaultDecoder, DeserializerAdapter, SerializerAdapter};
 use rustdds::policy::{Durability, History, Reliability};
 use rustdds::rpc::SampleIdentity;
 use rustdds::with_key::WriteOptionsBuilder;
 use rustdds::{
-    DomainParticipant, DomainParticipantBuilder, QosPolicies, QosPolicyBuilder, RepresentationIdentifier, Topic,
-    TopicKind,
+    DomainParticipant, DomainParticipantBuilder, QosPolicies, QosPolicyBuilder, RepresentationIdentifier,
+    Topic, TopicKind,
 };
-use rustdds::RTPSEntity as _;
 use std::convert::Infallible;
 use std::net::IpAddr;
 use std::time::Instant;
 
 /// Number of a subscription.
-pub type Source = u32;
+pub(crate) type Source = u32;
 
 /// Message of a subscription.
 #[derive(Clone, Debug)]
-pub struct Received {
-    pub source: Source,
+pub(crate) struct Received {
+    pub(crate) source: Source,
     /// CDR bytes without the header of the encoding.
-    pub bytes: Bytes,
+    pub(crate) bytes: Bytes,
     /// Request that this message answers, if the middleware says so beside it.
-    pub answers: Option<Request>,
-    /// Arrival.
-    pub at: Instant,
+    pub(crate) answers: Option<Request>,
+    /// Identity of the message itself.
+    pub(crate) identity: Request,
+    /// Time of arrival.
+    pub(crate) at: Instant,
 }
 
 /// Identity of a request: its writer, and its number.
-pub type Request = ([u8; 16], i64);
+pub(crate) type Request = ([u8; 16], i64);
 
 /// Quality of service of a topic, as ROS 2 names its profiles.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Quality {
+pub(crate) enum Quality {
     /// Reliable; only for who listens now.
     Reliable,
     /// Whatever arrives, such as pictures.
@@ -63,7 +65,7 @@ impl Quality {
 }
 
 /// Participant of a DDS domain.
-pub struct Dds {
+pub(crate) struct Dds {
     participant: DomainParticipant,
     publisher: rustdds::Publisher,
     subscriber: rustdds::Subscriber,
@@ -72,13 +74,13 @@ pub struct Dds {
 }
 
 /// Writer of a topic.
-pub struct Writer(rustdds::no_key::DataWriter<Bytes, Raw>);
+pub(crate) struct Writer(rustdds::no_key::DataWriter<Bytes, Raw>);
 
 /// Reader or writer of any participant.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub struct Endpoint {
-    pub topic: String,
-    pub type_name: String,
+pub(crate) struct Endpoint {
+    pub(crate) topic: String,
+    pub(crate) type_name: String,
 }
 
 impl Dds {
@@ -88,16 +90,19 @@ impl Dds {
     /// # Errors
     ///
     /// Why DDS cannot start, such as ports that are taken.
-    pub fn join(domain: u16, networks: &[IpAddr], sender: Sender<Received>) -> Result<Self, String> {
-        let wrong = |what: &str, error: &dyn std::fmt::Display| format!("{what} of DDS domain {domain}: {error}");
+    pub(crate) fn join(domain: u16, networks: &[IpAddr], sender: Sender<Received>) -> Result<Self, String> {
+        let wrong =
+            |what: &str, error: &dyn std::fmt::Display| format!("{what} of DDS domain {domain}: {error}");
         let mut builder = DomainParticipantBuilder::new(domain);
         if !networks.is_empty() {
             builder = builder.with_only_networks(networks.iter().copied());
         }
         let participant = builder.build().map_err(|error| wrong("a participant", &error))?;
         let policies = Quality::Reliable.policies();
-        let publisher = participant.create_publisher(&policies).map_err(|error| wrong("a publisher", &error))?;
-        let subscriber = participant.create_subscriber(&policies).map_err(|error| wrong("a subscriber", &error))?;
+        let publisher =
+            participant.create_publisher(&policies).map_err(|error| wrong("a publisher", &error))?;
+        let subscriber =
+            participant.create_subscriber(&policies).map_err(|error| wrong("a subscriber", &error))?;
         let pool = ThreadPool::builder().pool_size(1).name_prefix("dds-").create();
         let pool = pool.map_err(|error| format!("a thread for DDS: {error}"))?;
         Ok(Self { participant, publisher, subscriber, pool, sender })
@@ -108,7 +113,7 @@ impl Dds {
     /// # Errors
     ///
     /// Why DDS refuses it.
-    pub fn publish(&self, topic: &str, type_name: &str, quality: Quality) -> Result<Writer, String> {
+    pub(crate) fn publish(&self, topic: &str, type_name: &str, quality: Quality) -> Result<Writer, String> {
         let policies = quality.policies();
         let own = self.topic(topic, type_name, &policies)?;
         let writer = self.publisher.create_datawriter_no_key::<Bytes, Raw>(&own, Some(policies));
@@ -120,7 +125,13 @@ impl Dds {
     /// # Errors
     ///
     /// Why DDS refuses it.
-    pub fn subscribe(&self, topic: &str, type_name: &str, quality: Quality, source: Source) -> Result<(), String> {
+    pub(crate) fn subscribe(
+        &self,
+        topic: &str,
+        type_name: &str,
+        quality: Quality,
+        source: Source,
+    ) -> Result<(), String> {
         let policies = quality.policies();
         let own = self.topic(topic, type_name, &policies)?;
         let reader = self.subscriber.create_datareader_no_key::<Bytes, Raw>(&own, Some(policies));
@@ -132,7 +143,9 @@ impl Dds {
                 // A sample that cannot be read is left out; a reliable writer sends it again.
                 let Ok(sample) = sample else { continue };
                 let related = sample.sample_info().related_sample_identity().map(request);
-                let received = Received { source, answers: related, at: Instant::now(), bytes: sample.into_value() };
+                let identity = request(sample.sample_info().sample_identity());
+                let (at, bytes) = (Instant::now(), sample.into_value());
+                let received = Received { source, answers: related, identity, at, bytes };
                 if sender.send(received).is_err() {
                     return;
                 }
@@ -143,7 +156,7 @@ impl Dds {
 
     /// Readers of other participants that DDS has discovered, in order.
     #[must_use]
-    pub fn readers(&self) -> Vec<Endpoint> {
+    pub(crate) fn readers(&self) -> Vec<Endpoint> {
         let own = self.participant.guid_prefix();
         let readers = self.participant.discovered_readers().into_iter();
         let others = readers.filter(|reader| reader.reader_proxy.remote_reader_guid.prefix != own);
@@ -159,7 +172,7 @@ impl Dds {
 
     /// Writers of other participants that DDS has discovered, in order.
     #[must_use]
-    pub fn writers(&self) -> Vec<Endpoint> {
+    pub(crate) fn writers(&self) -> Vec<Endpoint> {
         let own = self.participant.guid_prefix();
         let writers = self.participant.discovered_writers().into_iter();
         let others = writers.filter(|writer| writer.writer_proxy.remote_writer_guid.prefix != own);
@@ -186,7 +199,7 @@ impl Writer {
     /// # Errors
     ///
     /// Why DDS did not take it, such as a receiver that does not keep up.
-    pub fn write(&self, bytes: Vec<u8>, answers: Option<Request>) -> Result<Request, String> {
+    pub(crate) fn write(&self, bytes: Vec<u8>, answers: Option<Request>) -> Result<Request, String> {
         let related = answers.map(|(writer, number)| SampleIdentity {
             writer_guid: rustdds::GUID::from_bytes(writer),
             sequence_number: number.into(),
@@ -203,23 +216,23 @@ fn request(identity: SampleIdentity) -> Request {
 
 /// Name of a topic in DDS: `rt` for topics, `rq` and `rr` for requests and responses of services.
 #[must_use]
-pub fn dds_topic(prefix: &str, name: &str, end: &str) -> String {
+pub(crate) fn dds_topic(prefix: &str, name: &str, end: &str) -> String {
     format!("{prefix}/{}{end}", name.trim_start_matches('/'))
 }
 
 /// Name of a type in DDS, of `kind` `msg`, `srv` or `action`: `std_msgs::msg::dds_::Bool_`.
 #[must_use]
-pub fn dds_type(name: &str, kind: &str, end: &str) -> String {
+pub(crate) fn dds_type(name: &str, kind: &str, end: &str) -> String {
     let (package, own) = name.split_once('/').unwrap_or(("", name));
     format!("{package}::{kind}::dds_::{own}{end}_")
 }
 
 /// Adapter of DDS that leaves the bytes as they are.
-pub struct Raw;
+pub(crate) struct Raw;
 
 /// Decoder of [`Raw`].
 #[derive(Clone)]
-pub struct RawDecoder;
+pub(crate) struct RawDecoder;
 
 impl DeserializerAdapter<Bytes> for Raw {
     type Error = Infallible;

@@ -7,11 +7,12 @@ use crate::task::{Finish, Surroundings, Task, stand_still, whole};
 use crate::world::{Place, World};
 use crossbeam_channel::{Receiver, select, tick};
 use motet_graph::Value as Argument;
-use motet_host::remote::protocol::{
-    DriverCall, DriverReport, EndedParams, FeedbackParams, GoalParams, GoalState, GoalStatus, Hello, MovedParams,
-    ObservedParams, QueryResult, RefusedData, StartParams, StatusResult, ToldParams, VERSION, Welcome,
-};
 use motet_host::remote::protocol::{Detections, REFUSED};
+use motet_host::remote::protocol::{
+    DriverCall, DriverReport, EndedParams, FeedbackParams, GoalParams, GoalState, GoalStatus, Hello,
+    MovedParams, ObservedParams, QueryResult, RefusedData, StartParams, StatusResult, ToldParams, VERSION,
+    Welcome,
+};
 use motet_runtime::{Answer, Capabilities, FailureReport, GoalId, Pattern, PrimitiveSet, Query, ToldSupport};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
@@ -46,7 +47,7 @@ enum Goal {
 }
 
 /// The driver: goals, watched queries, and the robot.
-pub struct Driver<W> {
+pub(crate) struct Driver<W> {
     robot: Robot,
     world: World,
     card: String,
@@ -67,14 +68,14 @@ pub struct Driver<W> {
 }
 
 /// Line of the host, or the end of its lines.
-pub enum Line {
+pub(crate) enum Line {
     Text(String),
     Wrong(String),
     End,
 }
 
 /// Reads the lines of the host on a thread.
-pub fn read_lines(mut input: impl BufRead + Send + 'static) -> Receiver<Line> {
+pub(crate) fn read_lines(mut input: impl BufRead + Send + 'static) -> Receiver<Line> {
     let (sender, lines) = crossbeam_channel::bounded(1024);
     std::thread::spawn(move || {
         loop {
@@ -82,8 +83,11 @@ pub fn read_lines(mut input: impl BufRead + Send + 'static) -> Receiver<Line> {
             let read = std::io::Read::take(&mut input, MAX_LINE + 1).read_until(b'\n', &mut bytes);
             let line = match read {
                 Ok(0) | Err(_) => Line::End,
-                Ok(_) if bytes.len() as u64 > MAX_LINE => Line::Wrong(format!("a line has more than {MAX_LINE} bytes")),
-                Ok(_) => String::from_utf8(bytes).map_or_else(|_| Line::Wrong("a line is not UTF-8".to_owned()), Line::Text),
+                Ok(_) if bytes.len() as u64 > MAX_LINE => {
+                    Line::Wrong(format!("a line has more than {MAX_LINE} bytes"))
+                }
+                Ok(_) => String::from_utf8(bytes)
+                    .map_or_else(|_| Line::Wrong("a line is not UTF-8".to_owned()), Line::Text),
             };
             let is_last = !matches!(line, Line::Text(_));
             if sender.send(line).is_err() || is_last {
@@ -97,7 +101,7 @@ pub fn read_lines(mut input: impl BufRead + Send + 'static) -> Receiver<Line> {
 impl<W: Write> Driver<W> {
     /// A driver of a robot in a room. `card` is the robot as the command line names it, `planner` the command
     /// that plans paths.
-    pub fn new(robot: Robot, world: World, card: String, planner: Option<PathBuf>, out: W) -> Self {
+    pub(crate) fn new(robot: Robot, world: World, card: String, planner: Option<PathBuf>, out: W) -> Self {
         let started = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
         let now = Instant::now();
         Self {
@@ -125,7 +129,7 @@ impl<W: Write> Driver<W> {
     /// # Errors
     ///
     /// Why a line of the host cannot be read, or an answer cannot be written.
-    pub fn serve(&mut self, lines: &Receiver<Line>) -> Result<(), String> {
+    pub(crate) fn serve(&mut self, lines: &Receiver<Line>) -> Result<(), String> {
         let ticks = tick(TICK);
         let received = self.robot.received.clone();
         loop {
@@ -177,7 +181,9 @@ impl<W: Write> Driver<W> {
             if let Heard::Detected(things) = news {
                 for thing in things {
                     if let Some(id) = &thing.id {
-                        let pose = thing.pose.map(|pose| crate::tf::Transform { xyz: pose.xyz, quaternion: pose.quaternion });
+                        let pose = thing
+                            .pose
+                            .map(|pose| crate::tf::Transform { xyz: pose.xyz, quaternion: pose.quaternion });
                         self.world.saw(id, pose);
                     }
                 }
@@ -271,7 +277,10 @@ impl<W: Write> Driver<W> {
         for (query, before) in watched {
             let answer = self.observe(&query);
             if answer != before {
-                reports.push(DriverReport::Observed(ObservedParams { query: query.clone(), answer: answer.clone() }));
+                reports.push(DriverReport::Observed(ObservedParams {
+                    query: query.clone(),
+                    answer: answer.clone(),
+                }));
             }
             self.watched.push((query, answer));
         }
@@ -289,7 +298,8 @@ impl<W: Write> Driver<W> {
             Err(_) => return None,
         };
         let joints = self.robot.body.positions();
-        let joints = joints.iter().map(|(name, value)| (self.robot.binding.card_joint(name).into(), *value)).collect();
+        let joints =
+            joints.iter().map(|(name, value)| (self.robot.binding.card_joint(name).into(), *value)).collect();
         Some(DriverReport::Moved(MovedParams { at: None, base, joints, things: Vec::new() }))
     }
 
@@ -324,7 +334,9 @@ impl<W: Write> Driver<W> {
     /// Answers a line of the host. `false` if the host leaves.
     fn answer(&mut self, line: &str) -> Result<bool, String> {
         let Ok(mut message) = serde_json::from_str::<Value>(line) else {
-            return self.say(&json!({"jsonrpc": "2.0", "id": null, "error": {"code": -32700, "message": "no JSON"}})).map(|()| true);
+            return self
+                .say(&json!({"jsonrpc": "2.0", "id": null, "error": {"code": -32700, "message": "no JSON"}}))
+                .map(|()| true);
         };
         let id = message.get("id").cloned();
         if let Some(fields) = message.as_object_mut() {
@@ -409,8 +421,12 @@ impl<W: Write> Driver<W> {
                 value(&StatusResult { goals: asked.goals.iter().map(state).collect() })
             }
             DriverCall::Ping(_) => nothing,
-            DriverCall::Truth(_) => Err((UNKNOWN_METHOD, "a robot knows no more than it sees".to_owned(), Value::Null)),
-            DriverCall::Advance(_) => Err((UNKNOWN_METHOD, "time is that of the wall".to_owned(), Value::Null)),
+            DriverCall::Truth(_) => {
+                Err((UNKNOWN_METHOD, "a robot knows no more than it sees".to_owned(), Value::Null))
+            }
+            DriverCall::Advance(_) => {
+                Err((UNKNOWN_METHOD, "time is that of the wall".to_owned(), Value::Null))
+            }
             DriverCall::Bye(_) => nothing,
         }
     }
@@ -536,8 +552,24 @@ impl<W: Write> Driver<W> {
 
 /// Methods of the protocol.
 const KNOWN: [&str; 18] = [
-    "hello", "start", "update", "cancel", "hold", "proceed", "safe_stop", "observe", "watch", "unwatch", "advance",
-    "look", "detections", "told", "truth", "status", "ping", "bye",
+    "hello",
+    "start",
+    "update",
+    "cancel",
+    "hold",
+    "proceed",
+    "safe_stop",
+    "observe",
+    "watch",
+    "unwatch",
+    "advance",
+    "look",
+    "detections",
+    "told",
+    "truth",
+    "status",
+    "ping",
+    "bye",
 ];
 
 fn value(result: &impl serde::Serialize) -> Result<Value, (i64, String, Value)> {

@@ -1,8 +1,8 @@
 //! Trajectories of joints from a certified path.
 //!
 //! From one waypoint to the next a path accelerates evenly, moves evenly, and brakes evenly. Controllers
-//! interpolate between points with positions and velocities by cubic splines, which such a profile is made of:
-//! four points for each pair of waypoints give the path exactly.
+//! interpolate between points with positions and velocities by cubic splines. Such a profile consists of
+//! these, so four points for each pair of waypoints give the path exactly.
 
 use crate::tf::Planar;
 use motet_graph::Witness;
@@ -10,23 +10,23 @@ use serde_json::{Value, json};
 
 /// Motion of one controller: positions and velocities of its joints at times in s.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Trajectory {
-    pub joints: Vec<String>,
-    pub points: Vec<Point>,
+pub(crate) struct Trajectory {
+    pub(crate) joints: Vec<String>,
+    pub(crate) points: Vec<Point>,
 }
 
 /// Point of a trajectory.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Point {
+pub(crate) struct Point {
     /// Seconds from the start.
-    pub at: f64,
-    pub positions: Vec<f64>,
-    pub velocities: Vec<f64>,
+    pub(crate) at: f64,
+    pub(crate) positions: Vec<f64>,
+    pub(crate) velocities: Vec<f64>,
 }
 
 /// One degree of freedom of a controller.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Axis<'a> {
+pub(crate) enum Axis<'a> {
     /// x, y or yaw of the base: 0, 1 or 2.
     Base(usize),
     /// Joint of the path, by its name in Motet; where the path lacks it, it stays at this position.
@@ -35,25 +35,26 @@ pub enum Axis<'a> {
 
 /// Waypoints of a part of a path, with the times between them.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Part {
+pub(crate) struct Part {
     /// Pose of the base at each waypoint, with the positions of the joints of the path.
-    pub waypoints: Vec<([f64; 3], Vec<f64>)>,
+    pub(crate) waypoints: Vec<([f64; 3], Vec<f64>)>,
     /// Duration and ramp in s from each waypoint to the next.
-    pub legs: Vec<[f64; 2]>,
+    pub(crate) legs: Vec<[f64; 2]>,
 }
 
 impl Part {
     /// The whole path of a witness.
     #[must_use]
-    pub fn of(witness: &Witness) -> Self {
-        let waypoints = witness.path.iter().map(|waypoint| (waypoint.base, waypoint.joints.clone())).collect();
+    pub(crate) fn of(witness: &Witness) -> Self {
+        let waypoints =
+            witness.path.iter().map(|waypoint| (waypoint.base, waypoint.joints.clone())).collect();
         let pairs = witness.path.windows(2);
         Self { waypoints, legs: pairs.map(|pair| [pair[1].at - pair[0].at, pair[1].ramp]).collect() }
     }
 
     /// The same way from its end to its start.
     #[must_use]
-    pub fn reversed(&self) -> Self {
+    pub(crate) fn reversed(&self) -> Self {
         let waypoints = self.waypoints.iter().rev().cloned().collect();
         Self { waypoints, legs: self.legs.iter().rev().copied().collect() }
     }
@@ -61,7 +62,7 @@ impl Part {
     /// Parts in which only the base moves (`true`) and in which only joints move (`false`), in order. `None`
     /// where both move at once.
     #[must_use]
-    pub fn phases(&self) -> Option<Vec<(bool, Self)>> {
+    pub(crate) fn phases(&self) -> Option<Vec<(bool, Self)>> {
         let mut phases: Vec<(bool, Self)> = Vec::new();
         for (pair, leg) in self.waypoints.windows(2).zip(&self.legs) {
             let drives = moves(&pair[0].0, &pair[1].0);
@@ -81,21 +82,21 @@ impl Part {
 
     /// True if the base moves.
     #[must_use]
-    pub fn drives(&self) -> bool {
+    pub(crate) fn drives(&self) -> bool {
         self.waypoints.windows(2).any(|pair| moves(&pair[0].0, &pair[1].0))
     }
 
     /// Seconds from its start to its end.
     #[must_use]
-    pub fn secs(&self) -> f64 {
+    pub(crate) fn secs(&self) -> f64 {
         self.legs.iter().map(|[secs, _]| secs).sum()
     }
 
-    /// Motion of a controller with these axes, whose names are `joints`. Poses of the base are given in the
-    /// frame `map`, and the trajectory has them in the frame of the controller, which `frame` has as seen from
-    /// the map. `None` if none of its axes moves.
+    /// Motion of a controller with the axes `axes`, which it calls `names`; `joints` are those of the path.
+    /// The trajectory has poses of the base in the controller's frame, whose pose in the map is `frame`.
+    /// `None` if no axis moves.
     #[must_use]
-    pub fn trajectory(
+    pub(crate) fn trajectory(
         &self,
         names: &[String],
         axes: &[Axis<'_>],
@@ -126,10 +127,15 @@ impl Part {
             let along = |share: f64| -> Vec<f64> {
                 pair[0].iter().zip(&pair[1]).map(|(from, to)| from + share * (to - from)).collect()
             };
-            let velocities: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(from, to)| speed * (to - from)).collect();
+            let velocities: Vec<f64> =
+                pair[0].iter().zip(&pair[1]).map(|(from, to)| speed * (to - from)).collect();
             if ramp > 0.0 {
                 let gone = speed * ramp / 2.0;
-                points.push(Point { at: start + ramp, positions: along(gone), velocities: velocities.clone() });
+                points.push(Point {
+                    at: start + ramp,
+                    positions: along(gone),
+                    velocities: velocities.clone(),
+                });
                 if secs - 2.0 * ramp > 1e-6 {
                     points.push(Point { at: start + secs - ramp, positions: along(1.0 - gone), velocities });
                 }
@@ -157,7 +163,7 @@ fn moves(one: &[f64], other: &[f64]) -> bool {
 impl Trajectory {
     /// Goal of `control_msgs/FollowJointTrajectory`.
     #[must_use]
-    pub fn goal(&self) -> Value {
+    pub(crate) fn goal(&self) -> Value {
         let point = |point: &Point| {
             json!({"positions": point.positions, "velocities": point.velocities,
                 "time_from_start": duration(point.at)})
@@ -168,17 +174,51 @@ impl Trajectory {
 
     /// Trajectory that keeps joints where they are.
     #[must_use]
-    pub fn standing(joints: &[String], positions: &[f64]) -> Self {
+    pub(crate) fn standing(joints: &[String], positions: &[f64]) -> Self {
         let point = |at| Point { at, positions: positions.to_vec(), velocities: vec![0.0; positions.len()] };
         Self { joints: joints.to_vec(), points: vec![point(0.1)] }
     }
+}
 
-    /// Greatest difference of a waypoint's positions from those of the trajectory at its time, by cubic
-    /// splines as controllers have them.
-    #[must_use]
-    pub fn at(&self, time: f64) -> Vec<f64> {
-        let after = self.points.iter().position(|point| point.at >= time).unwrap_or(self.points.len() - 1);
-        let (from, to) = (&self.points[after.saturating_sub(1)], &self.points[after]);
+/// Seconds as `builtin_interfaces/Duration`.
+#[must_use]
+pub(crate) fn duration(secs: f64) -> Value {
+    #[allow(clippy::cast_possible_truncation, reason = "times of a path are bounded")]
+    let nanos = (secs.clamp(0.0, 1e6) * 1e9).round() as i64;
+    json!({"sec": nanos / 1_000_000_000, "nanosec": nanos % 1_000_000_000})
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motet_graph::Waypoint;
+
+    fn witness() -> Witness {
+        let waypoint =
+            |base, joints: [f64; 2], at, ramp| Waypoint { base, joints: joints.to_vec(), at, ramp };
+        Witness {
+            joints: vec!["lift".into(), "wrist".into()],
+            path: vec![
+                waypoint([0.0; 3], [0.0, 0.1], 0.0, 0.0),
+                waypoint([0.0; 3], [0.4, -1.2], 3.0, 0.5),
+                waypoint([1.0, 0.5, 0.3], [0.4, -1.2], 7.0, 2.0),
+            ],
+            grasp: None,
+            clearance: 0.1,
+            keeps: motet_graph::Clearance::default(),
+            limit: None,
+            payload: None,
+        }
+    }
+
+    /// Positions at a time by cubic splines, as controllers have them.
+    fn at(trajectory: &Trajectory, time: f64) -> Vec<f64> {
+        let after = trajectory
+            .points
+            .iter()
+            .position(|point| point.at >= time)
+            .unwrap_or(trajectory.points.len() - 1);
+        let (from, to) = (&trajectory.points[after.saturating_sub(1)], &trajectory.points[after]);
         let span = to.at - from.at;
         if span <= 0.0 {
             return to.positions.clone();
@@ -194,37 +234,6 @@ impl Trajectory {
                 + weights[3] * to.velocities[at]
         };
         (0..from.positions.len()).map(axis).collect()
-    }
-}
-
-/// Seconds as `builtin_interfaces/Duration`.
-#[must_use]
-pub fn duration(secs: f64) -> Value {
-    #[allow(clippy::cast_possible_truncation, reason = "times of a path are bounded")]
-    let nanos = (secs.clamp(0.0, 1e6) * 1e9).round() as i64;
-    json!({"sec": nanos / 1_000_000_000, "nanosec": nanos % 1_000_000_000})
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use motet_graph::Waypoint;
-
-    fn witness() -> Witness {
-        let waypoint = |base, joints: [f64; 2], at, ramp| Waypoint { base, joints: joints.to_vec(), at, ramp };
-        Witness {
-            joints: vec!["lift".into(), "wrist".into()],
-            path: vec![
-                waypoint([0.0; 3], [0.0, 0.1], 0.0, 0.0),
-                waypoint([0.0; 3], [0.4, -1.2], 3.0, 0.5),
-                waypoint([1.0, 0.5, 0.3], [0.4, -1.2], 7.0, 2.0),
-            ],
-            grasp: None,
-            clearance: 0.1,
-            keeps: motet_graph::Clearance::default(),
-            limit: None,
-            payload: None,
-        }
     }
 
     /// Share of a leg of 3 s with ramps of 0.5 s that is done at a time.
@@ -247,9 +256,12 @@ mod tests {
         let trajectory = part.trajectory(&names, &axes, &["lift", "wrist"], Planar::default()).unwrap();
         for step in 0..=300 {
             let time = f64::from(step) / 100.0;
-            let is = trajectory.at(time);
+            let is = at(&trajectory, time);
             let expected = [0.4 * done(time), 0.1 - 1.3 * done(time), 0.7];
-            assert!(is.iter().zip(expected).all(|(is, wanted)| (is - wanted).abs() < 1e-12), "{time}: {is:?}");
+            assert!(
+                is.iter().zip(expected).all(|(is, wanted)| (is - wanted).abs() < 1e-12),
+                "{time}: {is:?}"
+            );
         }
         assert!(trajectory.points.windows(2).all(|pair| pair[0].at < pair[1].at));
         assert_eq!(trajectory.points.last().unwrap().positions, [0.4, -1.2, 0.7]);

@@ -17,23 +17,23 @@ const MAX_TYPES: usize = 10_000;
 /// Distribution of ROS 2.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Distribution {
-    /// May 2022.
+pub(crate) enum Distribution {
+    /// The one of May 2022.
     Humble,
-    /// May 2023.
+    /// The one of May 2023.
     Iron,
-    /// May 2024.
+    /// The one of May 2024.
     #[default]
     Jazzy,
-    /// May 2025.
+    /// The one of May 2025.
     Kilted,
-    /// May 2026.
+    /// The one of May 2026.
     Lyrical,
 }
 
 impl Distribution {
     /// All distributions with layouts, the oldest first.
-    pub const ALL: [Self; 5] = [Self::Humble, Self::Iron, Self::Jazzy, Self::Kilted, Self::Lyrical];
+    pub(crate) const ALL: [Self; 5] = [Self::Humble, Self::Iron, Self::Jazzy, Self::Kilted, Self::Lyrical];
 
     const fn own_layouts(self) -> &'static str {
         match self {
@@ -69,7 +69,7 @@ impl FromStr for Distribution {
 
 /// Type of one value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Primitive {
+pub(crate) enum Primitive {
     /// One byte, 0 or 1.
     Bool,
     /// Signed integer of so many bytes.
@@ -78,13 +78,13 @@ pub enum Primitive {
     Uint(usize),
     /// Number of 4 or 8 bytes.
     Float(usize),
-    /// UTF-8 text.
+    /// Text in UTF-8.
     Text,
 }
 
 /// Type of an element of a field.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Element {
+pub(crate) enum Element {
     /// A single value.
     Primitive(Primitive),
     /// A message, by its full name, such as `geometry_msgs/Pose`.
@@ -93,7 +93,7 @@ pub enum Element {
 
 /// Number of elements of a field.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Count {
+pub(crate) enum Count {
     /// A single one.
     One,
     /// As many as stated.
@@ -104,29 +104,29 @@ pub enum Count {
 
 /// Field of a message.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Field {
+pub(crate) struct Field {
     /// Name as the layout writes it.
-    pub name: Arc<str>,
+    pub(crate) name: Arc<str>,
     /// Type of its elements.
-    pub element: Element,
+    pub(crate) element: Element,
     /// Number of its elements.
-    pub count: Count,
+    pub(crate) count: Count,
 }
 
 /// Layout of a message: its fields in order.
-pub type Layout = Arc<[Field]>;
+pub(crate) type Layout = Arc<[Field]>;
 
 /// Layouts of one distribution, by full name. Parts of services and actions have names such as
 /// `nav2_msgs/NavigateToPose_Goal`.
 #[derive(Clone, Debug, Default)]
-pub struct Layouts {
+pub(crate) struct Layouts {
     messages: BTreeMap<Arc<str>, Layout>,
     kinds: BTreeMap<Arc<str>, Kind>,
 }
 
 /// Kind of an interface.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// Data of a topic.
     Message,
     /// Request and response.
@@ -141,19 +141,21 @@ impl Layouts {
     /// # Errors
     ///
     /// The place that is wrong, or a type that no layout has.
-    pub fn of(distribution: Distribution, folder: Option<&Path>) -> Result<Self, String> {
+    pub(crate) fn of(distribution: Distribution, folder: Option<&Path>) -> Result<Self, String> {
         let mut layouts = Self::default();
         layouts.read(COMMON, "common.layouts")?;
         layouts.read(distribution.own_layouts(), &format!("{distribution}.layouts"))?;
         let mut files = Vec::new();
         if let Some(folder) = folder {
-            let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+            let entries =
+                std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
             files.extend(entries.filter_map(|entry| Some(entry.ok()?.path())));
             files.retain(|path| path.extension().is_some_and(|end| end == "layouts"));
             files.sort();
         }
         for file in files {
-            let text = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+            let text =
+                std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
             layouts.read(&text, &file.display().to_string())?;
         }
         layouts.check()?;
@@ -162,18 +164,18 @@ impl Layouts {
 
     /// Layout of a message, by its full name.
     #[must_use]
-    pub fn message(&self, name: &str) -> Option<&Layout> {
+    pub(crate) fn message(&self, name: &str) -> Option<&Layout> {
         self.messages.get(name)
     }
 
     /// Kind of an interface, by its full name.
     #[must_use]
-    pub fn kind(&self, name: &str) -> Option<Kind> {
+    pub(crate) fn kind(&self, name: &str) -> Option<Kind> {
         self.kinds.get(name).copied()
     }
 
     /// Names of all interfaces with their kinds, in order.
-    pub fn interfaces(&self) -> impl Iterator<Item = (&str, Kind)> {
+    pub(crate) fn interfaces(&self) -> impl Iterator<Item = (&str, Kind)> {
         self.kinds.iter().map(|(name, kind)| (&**name, *kind))
     }
 
@@ -235,7 +237,10 @@ impl Layouts {
                 ("_SendGoal_Request", vec![uuid(), part("goal", &own("_Goal"))]),
                 ("_SendGoal_Response", vec![single("accepted", Primitive::Bool), stamp]),
                 ("_GetResult_Request", vec![uuid()]),
-                ("_GetResult_Response", vec![single("status", Primitive::Int(1)), part("result", &own("_Result"))]),
+                (
+                    "_GetResult_Response",
+                    vec![single("status", Primitive::Int(1)), part("result", &own("_Result"))],
+                ),
                 ("_FeedbackMessage", vec![uuid(), part("feedback", &own("_Feedback"))]),
             ] {
                 self.messages.insert(own(end).into(), fields.into());
@@ -299,7 +304,8 @@ fn field(line: &str, package: &str) -> Result<Field, String> {
         Some((ty, rest)) => {
             let number = rest.trim_end_matches(']');
             let bound = number.strip_prefix("<=");
-            let count = bound.unwrap_or(number).parse().map_err(|_| format!("`{rest}` is no number of elements"))?;
+            let count =
+                bound.unwrap_or(number).parse().map_err(|_| format!("`{rest}` is no number of elements"))?;
             (ty, if bound.is_some() { Count::AtMost(count) } else { Count::Exactly(count) })
         }
     };

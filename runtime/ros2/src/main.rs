@@ -15,6 +15,7 @@ mod robot;
 mod service;
 mod state;
 mod task;
+mod tasks;
 mod template;
 mod tf;
 mod world;
@@ -22,7 +23,7 @@ mod world;
 use bind::Binding;
 use clap::{Parser, Subcommand};
 use layout::{Distribution, Layouts};
-use std::io::BufReader;
+use std::io::{BufReader, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -40,6 +41,8 @@ enum Command {
     Drive(DriveArgs),
     /// Show what a binding binds of a robot's primitives, facts and joints, and what not
     Check(CheckArgs),
+    /// Serve an action that runs policies, so that ROS 2 nodes can ask Motet
+    Tasks(tasks::TasksArgs),
     /// List the interfaces that have layouts, or write a message of zeros in hexadecimal digits
     Layouts(LayoutsArgs),
 }
@@ -54,7 +57,7 @@ struct DriveArgs {
     /// Scene: a built-in name, or a JSON file
     #[arg(long, value_name = "NAME|FILE")]
     scene: String,
-    /// Command `motet`, which plans where the robot does not stand at the start of a path [default: from PATH]
+    /// Command `motet`, which plans if the robot does not stand at the start of a path [default: from PATH]
     #[arg(long, value_name = "FILE")]
     motet: Option<PathBuf>,
     /// Folder with further layouts, in files that end in `.layouts`
@@ -96,7 +99,10 @@ struct LayoutsArgs {
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Drive(args) => drive(args),
-        Command::Check(args) => check::check(&args.binding, args.robot.as_deref(), args.live, args.layouts.as_deref()),
+        Command::Check(args) => {
+            check::check(&args.binding, args.robot.as_deref(), args.live, args.layouts.as_deref())
+        }
+        Command::Tasks(args) => tasks::serve(&args),
         Command::Layouts(args) => layouts(&args),
     };
     match result {
@@ -140,11 +146,13 @@ fn layouts(args: &LayoutsArgs) -> Result<u8, String> {
             None => serde_json::Value::Null,
         };
         let bytes = cdr::encode(&layouts, name, &value)?;
-        println!("{}", bytes.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
+        let digits: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+        let _ = writeln!(std::io::stdout(), "{digits}");
         return Ok(0);
     }
-    for (name, kind) in layouts.interfaces() {
-        println!("{:<8} {name}", format!("{kind:?}").to_lowercase());
-    }
+    let line = |(name, kind)| format!("{:<8} {name}\n", format!("{kind:?}").to_lowercase());
+    let lines: String = layouts.interfaces().map(line).collect();
+    // Nobody may read to the end.
+    let _ = write!(std::io::stdout(), "{lines}");
     Ok(0)
 }

@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Expression over the fields of a message, `args` and `joints`.
-pub struct Expression {
+pub(crate) struct Expression {
     text: String,
     program: Program,
 }
 
 /// Value of an expression.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Found {
+pub(crate) enum Found {
     Truth(bool),
     Number(f64),
     Text(String),
@@ -25,7 +25,7 @@ impl Expression {
     /// # Errors
     ///
     /// Where it is wrong.
-    pub fn compile(text: &str) -> Result<Self, String> {
+    pub(crate) fn compile(text: &str) -> Result<Self, String> {
         // The parser is generated, and panics at some texts.
         let compiled = catch_unwind(AssertUnwindSafe(|| Program::compile(text)));
         let program = match compiled {
@@ -42,7 +42,7 @@ impl Expression {
     /// # Errors
     ///
     /// The variable that is unknown, or the types that do not fit.
-    pub fn evaluate(
+    pub(crate) fn evaluate(
         &self,
         message: Option<&Message>,
         args: &[String],

@@ -24,7 +24,7 @@ const MAX_DETECTIONS: usize = 1_000;
 
 /// Messages of a camera as they came.
 #[derive(Default)]
-pub struct CameraFeed {
+pub(crate) struct CameraFeed {
     images: VecDeque<(Instant, Bytes)>,
     depths: VecDeque<(Instant, Bytes)>,
     info: Option<Bytes>,
@@ -32,7 +32,7 @@ pub struct CameraFeed {
 
 /// Part of a camera.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Feed {
+pub(crate) enum Feed {
     Image,
     Depth,
     Info,
@@ -40,7 +40,7 @@ pub enum Feed {
 
 impl CameraFeed {
     /// Keeps a message. It is read when somebody looks.
-    pub fn hear(&mut self, feed: Feed, bytes: Bytes, at: Instant) {
+    pub(crate) fn hear(&mut self, feed: Feed, bytes: Bytes, at: Instant) {
         let kept = match feed {
             Feed::Image => &mut self.images,
             Feed::Depth => &mut self.depths,
@@ -60,7 +60,7 @@ impl CameraFeed {
     /// # Errors
     ///
     /// What is missing, too old or wrong.
-    pub fn look(
+    pub(crate) fn look(
         &self,
         camera: &CameraTopics,
         binding: &Binding,
@@ -69,7 +69,8 @@ impl CameraFeed {
     ) -> Result<LookResult, String> {
         let name = &camera.name;
         let latest = self.images.back().filter(|(at, _)| at.elapsed() < FRESH);
-        let (_, bytes) = latest.ok_or_else(|| format!("no picture of `{name}` within 2 s on {}", camera.image))?;
+        let (_, bytes) =
+            latest.ok_or_else(|| format!("no picture of `{name}` within 2 s on {}", camera.image))?;
         let info = self.info.as_ref().ok_or_else(|| format!("no message on {}", camera.info))?;
         let image = decode(layouts, "sensor_msgs/Image", bytes)?;
         let info = decode(layouts, "sensor_msgs/CameraInfo", info)?;
@@ -90,7 +91,8 @@ impl CameraFeed {
 
     /// Depth of about the same time and of the same size.
     fn depth(&self, layouts: &Layouts, at: f64, width: u32, height: u32) -> Option<DepthMap> {
-        let read = self.depths.iter().filter_map(|(_, bytes)| decode(layouts, "sensor_msgs/Image", bytes).ok());
+        let read =
+            self.depths.iter().filter_map(|(_, bytes)| decode(layouts, "sensor_msgs/Image", bytes).ok());
         let apart = |image: &Message| (image.secs("header.stamp") - at).abs();
         let near = read.filter(|image| apart(image) <= APART && size(image) == Ok((width, height)));
         let image = near.min_by(|one, other| apart(one).total_cmp(&apart(other)))?;
@@ -125,7 +127,11 @@ fn png(image: &Message, width: u32, height: u32) -> Result<Vec<u8>, String> {
         "rgba8" => (4, &[0, 1, 2]),
         "bgra8" => (4, &[2, 1, 0]),
         "mono8" | "8UC1" => (1, &[0, 0, 0]),
-        _ => return Err(format!("pictures of the encoding `{encoding}` are not read: rgb8, bgr8, rgba8, bgra8 and mono8 are")),
+        _ => {
+            return Err(format!(
+                "pictures of the encoding `{encoding}` are not read: rgb8, bgr8, rgba8, bgra8 and mono8 are"
+            ));
+        }
     };
     let rows = rows(image, width, height, pixel).ok_or("a picture has fewer bytes than its size says")?;
     let pixels = rows.into_iter().flat_map(|row| row.chunks_exact(pixel));
@@ -146,7 +152,9 @@ fn millimetres(image: &Message, width: u32, height: u32) -> Option<Vec<u8>> {
         "16UC1" | "mono16" => {
             let rows = rows(image, width, height, 2)?;
             let pairs = rows.into_iter().flat_map(|row| row.chunks_exact(2));
-            Some(pairs.flat_map(|pair| if is_big { [pair[1], pair[0]] } else { [pair[0], pair[1]] }).collect())
+            Some(
+                pairs.flat_map(|pair| if is_big { [pair[1], pair[0]] } else { [pair[0], pair[1]] }).collect(),
+            )
         }
         "32FC1" => {
             let rows = rows(image, width, height, 4)?;
@@ -154,7 +162,11 @@ fn millimetres(image: &Message, width: u32, height: u32) -> Option<Vec<u8>> {
                 let bytes: [u8; 4] = bytes.try_into().unwrap_or_default();
                 let metres = if is_big { f32::from_be_bytes(bytes) } else { f32::from_le_bytes(bytes) };
                 let mm = f64::from(metres) * 1000.0;
-                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "the range is checked"
+                )]
                 let mm = if mm.is_finite() && (0.0..65_535.0).contains(&mm) { mm.round() as u16 } else { 0 };
                 mm.to_le_bytes()
             };
@@ -166,7 +178,7 @@ fn millimetres(image: &Message, width: u32, height: u32) -> Option<Vec<u8>> {
 
 /// Things of a `vision_msgs/Detection3DArray`, in the frame of the map. `known` says if an id is an entity.
 /// Detections whose frame is unknown or too old are left out, with the reason.
-pub fn detections(
+pub(crate) fn detections(
     message: &Message,
     binding: &Binding,
     frames: &Frames,
@@ -188,9 +200,10 @@ pub fn detections(
                 continue;
             }
         };
-        let best = seen.list("results").iter().max_by(|one, other| {
-            one.number("hypothesis.score").total_cmp(&other.number("hypothesis.score"))
-        });
+        let best = seen
+            .list("results")
+            .iter()
+            .max_by(|one, other| one.number("hypothesis.score").total_cmp(&other.number("hypothesis.score")));
         let Some(best) = best else { continue };
         let class = best.text("hypothesis.class_id");
         let words = binding.detections.as_ref().and_then(|topic| topic.labels.get(class));
@@ -219,8 +232,9 @@ mod tests {
     use crate::layout::Distribution;
     use serde_json::{Value, json};
 
-    const BINDING: &str = "[joints]\ntopic = \"j\"\n[[cameras]]\nname = \"head\"\nimage = \"i\"\ndepth = \"d\"\n\
-        info = \"n\"\n[detections]\ntopic = \"t\"\nlabels = { cup = \"red mug\" }";
+    const BINDING: &str = "joints = { topic = \"j\" }\n\
+        detections = { topic = \"t\", labels = { cup = \"red mug\" } }\n\
+        [[cameras]]\nname = \"head\"\nimage = \"i\"\ndepth = \"d\"\ninfo = \"n\"";
 
     fn layouts() -> Layouts {
         Layouts::of(Distribution::Jazzy, None).unwrap()
@@ -231,16 +245,23 @@ mod tests {
     }
 
     fn frames(sec: i32) -> Frames {
-        let value = json!({"transforms": [{"header": {"frame_id": "map", "stamp": {"sec": sec}}, "child_frame_id": "eye",
+        let header = json!({"frame_id": "map", "stamp": {"sec": sec}});
+        let value = json!({"transforms": [{"header": header, "child_frame_id": "eye",
             "transform": {"translation": {"x": 1.0}, "rotation": {"w": 1.0}}}]});
         let mut frames = Frames::default();
-        frames.hear(&decode(&layouts(), "tf2_msgs/TFMessage", &bytes("tf2_msgs/TFMessage", &value)).unwrap(), false);
+        frames.hear(
+            &decode(&layouts(), "tf2_msgs/TFMessage", &bytes("tf2_msgs/TFMessage", &value)).unwrap(),
+            false,
+        );
         frames
     }
 
     fn image(encoding: &str, step: u32, data: &[u8]) -> Bytes {
-        bytes("sensor_msgs/Image", &json!({"header": {"frame_id": "eye", "stamp": {"sec": 7}}, "width": 2, "height": 1,
-            "encoding": encoding, "step": step, "data": data}))
+        bytes(
+            "sensor_msgs/Image",
+            &json!({"header": {"frame_id": "eye", "stamp": {"sec": 7}}, "width": 2, "height": 1,
+            "encoding": encoding, "step": step, "data": data}),
+        )
     }
 
     #[test]
@@ -250,7 +271,8 @@ mod tests {
         feed.hear(Feed::Image, image("bgr8", 6, &[1, 2, 3, 4, 5, 6]), Instant::now());
         let metres: Vec<u8> = [1.5_f32, f32::NAN].iter().flat_map(|metre| metre.to_le_bytes()).collect();
         feed.hear(Feed::Depth, image("32FC1", 8, &metres), Instant::now());
-        let look = |feed: &CameraFeed, sec| feed.look(&binding.cameras[0], &binding, &layouts(), &frames(sec));
+        let look =
+            |feed: &CameraFeed, sec| feed.look(&binding.cameras[0], &binding, &layouts(), &frames(sec));
         assert!(look(&feed, 7).unwrap_err().contains("no message on /n"));
         let k = [500.0, 0.0, 1.0, 0.0, 501.0, 0.5, 0.0, 0.0, 1.0];
         feed.hear(Feed::Info, bytes("sensor_msgs/CameraInfo", &json!({"k": k})), Instant::now());
@@ -267,7 +289,8 @@ mod tests {
         let binding = Binding::parse(BINDING, "own").unwrap();
         let value = json!({"header": {"frame_id": "eye", "stamp": {"sec": 7}}, "detections": [{
             "results": [{"hypothesis": {"class_id": "cup", "score": 0.8}}], "id": "mug_1",
-            "bbox": {"center": {"position": {"x": 0.5}, "orientation": {"w": 1.0}}, "size": {"x": 0.1, "y": 0.1, "z": 0.1}}}]});
+            "bbox": {"center": {"position": {"x": 0.5}, "orientation": {"w": 1.0}},
+                "size": {"x": 0.1, "y": 0.1, "z": 0.1}}}]});
         let name = "vision_msgs/Detection3DArray";
         let message = decode(&layouts(), name, &bytes(name, &value)).unwrap();
         let (things, wrong) = detections(&message, &binding, &frames(7), &|id| id == "mug_1");

@@ -11,18 +11,18 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Question that another thread answers: does a motion exist from here?
 #[derive(Clone, Debug)]
-pub struct Question {
-    pub program: PathBuf,
-    pub robot: String,
-    pub scene: Scene,
+pub(crate) struct Question {
+    pub(crate) program: PathBuf,
+    pub(crate) robot: String,
+    pub(crate) scene: Scene,
     /// Motion as the language writes it, such as `reach(mug_1)`.
-    pub motion: String,
+    pub(crate) motion: String,
 }
 
 impl Question {
     /// Question for a motion from a pose of the base and positions of joints by their names in the card.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         program: PathBuf,
         robot: &str,
         scene: &Scene,
@@ -41,7 +41,7 @@ impl Question {
     /// # Errors
     ///
     /// The reason that no motion exists, or why nobody could say.
-    pub fn ask(&self) -> Result<Witness, String> {
+    pub(crate) fn ask(&self) -> Result<Witness, String> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let path = std::env::temp_dir().join(format!("motet-ros2-{}-{number}.json", std::process::id()));
@@ -51,7 +51,8 @@ impl Question {
             .arg(&path)
             .output();
         let _ = std::fs::remove_file(&path);
-        let output = asked.map_err(|error| format!("`{}` cannot be started: {error}", self.program.display()))?;
+        let output =
+            asked.map_err(|error| format!("`{}` cannot be started: {error}", self.program.display()))?;
         let line = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned();
         let answer: serde_json::Value = serde_json::from_str(&line).map_err(|_| {
             let said = String::from_utf8_lossy(&output.stderr);
@@ -69,7 +70,7 @@ impl Question {
 
 /// Motion of a command as the language writes it.
 #[must_use]
-pub fn motion(planned: &PlannedMotion) -> String {
+pub(crate) fn motion(planned: &PlannedMotion) -> String {
     let args: Vec<String> = planned.args.iter().map(written).collect();
     format!("{}({})", planned.query, args.join(", "))
 }
@@ -91,7 +92,8 @@ fn witness_of(json: &serde_json::Value) -> Option<Witness> {
         let base = [number(base.first())?, number(base.get(1))?, number(base.get(2))?];
         let joints = waypoint.get("joints")?;
         let joints: Option<Vec<f64>> = names.iter().map(|name| number(joints.get(name.as_str()))).collect();
-        let (at, ramp) = (number(waypoint.get("at")).unwrap_or(0.0), number(waypoint.get("ramp")).unwrap_or(0.0));
+        let (at, ramp) =
+            (number(waypoint.get("at")).unwrap_or(0.0), number(waypoint.get("ramp")).unwrap_or(0.0));
         Some(motet_graph::Waypoint { base, joints: joints?, at, ramp })
     };
     let path: Option<Vec<_>> = path.iter().map(waypoint).collect();
@@ -111,11 +113,12 @@ fn witness_of(json: &serde_json::Value) -> Option<Witness> {
 }
 
 /// A value as the language writes it.
-pub fn written(value: &Value) -> String {
+pub(crate) fn written(value: &Value) -> String {
     match value {
         Value::Entity(id) => {
             let is_plain = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-            let is_name = id.starts_with(|first: char| first.is_ascii_alphabetic()) && id.chars().all(is_plain);
+            let is_name =
+                id.starts_with(|first: char| first.is_ascii_alphabetic()) && id.chars().all(is_plain);
             if is_name { id.to_string() } else { format!("`{id}`") }
         }
         Value::Pose(pose) => {

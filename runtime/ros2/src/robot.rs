@@ -36,29 +36,31 @@ enum Channel {
 
 /// Something that a message told.
 #[derive(Clone, Debug)]
-pub enum Heard {
+pub(crate) enum Heard {
     /// News of a goal of the action of this number.
     Goal(usize, News),
     /// Response to a call of the service of this number.
     Response(usize, Ticket, Message),
     /// Things that were detected.
     Detected(Vec<DetectedThing>),
-    /// A message that is kept has come on this topic.
-    Kept(String),
+    /// A message that is kept has come.
+    Kept,
 }
 
-/// The robot.
-pub struct Robot {
-    pub binding: Binding,
-    pub layouts: Layouts,
-    pub body: Body,
-    pub actions: Vec<ActionClient>,
-    pub services: Vec<Client>,
+/// The robot behind its topics, services and actions.
+pub(crate) struct Robot {
+    pub(crate) binding: Binding,
+    pub(crate) layouts: Layouts,
+    pub(crate) body: Body,
+    pub(crate) actions: Vec<ActionClient>,
+    pub(crate) services: Vec<Client>,
     /// Messages of ROS, for the main loop.
-    pub received: Receiver<Received>,
+    pub(crate) received: Receiver<Received>,
     dds: Dds,
     channels: Vec<Channel>,
     service_names: Vec<String>,
+    /// Topics that are read, as DDS names them.
+    heard: Vec<String>,
     writers: HashMap<String, (Writer, String)>,
     cameras: Vec<CameraFeed>,
     kept: HashMap<String, (Bytes, Instant, String)>,
@@ -76,7 +78,7 @@ impl Robot {
     /// # Errors
     ///
     /// A type without a layout, an expression that is wrong, or why DDS does not start.
-    pub fn open(binding: Binding, layouts: Layouts) -> Result<Self, String> {
+    pub(crate) fn open(binding: Binding, layouts: Layouts) -> Result<Self, String> {
         let (sender, received) = unbounded();
         let dds = Dds::join(binding.domain(), &binding.ros.networks, sender)?;
         let cameras = binding.cameras.iter().map(|_| CameraFeed::default()).collect();
@@ -90,6 +92,7 @@ impl Robot {
             dds,
             channels: Vec::new(),
             service_names: Vec::new(),
+            heard: Vec::new(),
             writers: HashMap::new(),
             cameras,
             kept: HashMap::new(),
@@ -185,10 +188,17 @@ impl Robot {
         }
     }
 
-    fn listen(&mut self, topic: &str, type_name: &str, quality: Quality, channel: Channel) -> Result<(), String> {
+    fn listen(
+        &mut self,
+        topic: &str,
+        type_name: &str,
+        quality: Quality,
+        channel: Channel,
+    ) -> Result<(), String> {
         self.known(type_name, "message")?;
-        let source = self.next();
-        self.dds.subscribe(&dds_topic("rt", topic, ""), &dds_type(type_name, "msg", ""), quality, source)?;
+        let (source, name) = (self.next(), dds_topic("rt", topic, ""));
+        self.dds.subscribe(&name, &dds_type(type_name, "msg", ""), quality, source)?;
+        self.heard.push(name);
         self.channels.push(channel);
         Ok(())
     }
@@ -250,7 +260,8 @@ impl Robot {
         self.known(type_name, "message")?;
         if !self.writers.contains_key(topic) {
             let quality = Quality::Reliable;
-            let writer = self.dds.publish(&dds_topic("rt", topic, ""), &dds_type(type_name, "msg", ""), quality)?;
+            let writer =
+                self.dds.publish(&dds_topic("rt", topic, ""), &dds_type(type_name, "msg", ""), quality)?;
             self.writers.insert(topic.to_owned(), (writer, type_name.to_owned()));
         }
         Ok(())
@@ -258,30 +269,40 @@ impl Robot {
 
     /// Number of an action that is open.
     #[must_use]
-    pub fn action_at(&self, name: &str) -> Option<usize> {
+    pub(crate) fn action_at(&self, name: &str) -> Option<usize> {
         self.actions.iter().position(|action| action.name == name)
     }
 
     /// Number of a service that is open.
     #[must_use]
-    pub fn service_at(&self, name: &str) -> Option<usize> {
+    pub(crate) fn service_at(&self, name: &str) -> Option<usize> {
         self.service_names.iter().position(|own| own == name)
     }
 
     /// Endpoints of an action that DDS has not discovered.
     #[must_use]
-    pub fn missing(&self, action: usize) -> &[String] {
+    pub(crate) fn missing(&self, action: usize) -> &[String] {
         self.missing.get(action).map_or(&[], Vec::as_slice)
     }
 
     /// Interfaces of other participants: topics that they read, and topics that they write.
     #[must_use]
-    pub fn graph(&self) -> [Vec<crate::dds::Endpoint>; 2] {
+    pub(crate) fn graph(&self) -> [Vec<crate::dds::Endpoint>; 2] {
         [self.dds.readers(), self.dds.writers()]
     }
 
+    /// Topics of the binding as DDS names them; `true` for those that the driver writes.
+    #[must_use]
+    pub(crate) fn topics(&self) -> Vec<(String, bool)> {
+        let written = self.writers.keys().map(|topic| (dds_topic("rt", topic, ""), true));
+        let mut topics: Vec<_> =
+            self.heard.iter().map(|topic| (topic.clone(), false)).chain(written).collect();
+        topics.sort();
+        topics
+    }
+
     /// Takes in a message. `known` says if an id is an entity of the scene.
-    pub fn hear(&mut self, received: &Received, known: &dyn Fn(&str) -> bool) -> Vec<Heard> {
+    pub(crate) fn hear(&mut self, received: &Received, known: &dyn Fn(&str) -> bool) -> Vec<Heard> {
         let channel = self.channels.get(received.source as usize).cloned();
         let heard = match channel {
             Some(channel) => self.hear_on(&channel, received, known),
@@ -299,7 +320,9 @@ impl Robot {
         received: &Received,
         known: &dyn Fn(&str) -> bool,
     ) -> Result<Vec<Heard>, String> {
-        let read = |name: &str| decode(&self.layouts, name, &received.bytes).map_err(|wrong| format!("{name}: {wrong}"));
+        let read = |name: &str| {
+            decode(&self.layouts, name, &received.bytes).map_err(|wrong| format!("{name}: {wrong}"))
+        };
         match channel {
             Channel::Action(at) => {
                 let news = self.actions[*at].hear(&self.layouts, received)?;
@@ -307,7 +330,10 @@ impl Robot {
             }
             Channel::Service(at) => {
                 let response = self.services[*at].hear(&self.layouts, received)?;
-                return Ok(response.into_iter().map(|(ticket, message)| Heard::Response(*at, ticket, message)).collect());
+                return Ok(response
+                    .into_iter()
+                    .map(|(ticket, message)| Heard::Response(*at, ticket, message))
+                    .collect());
             }
             Channel::Joints => {
                 let message = read("sensor_msgs/JointState")?;
@@ -328,7 +354,7 @@ impl Robot {
             Channel::Kept(topic) => {
                 let type_name = self.type_of(topic);
                 self.kept.insert(topic.clone(), (received.bytes.clone(), received.at, type_name));
-                return Ok(vec![Heard::Kept(topic.clone())]);
+                return Ok(vec![Heard::Kept]);
             }
             Channel::Camera(at, feed) => {
                 self.cameras[*at].hear(*feed, received.bytes.clone(), received.at);
@@ -351,7 +377,8 @@ impl Robot {
         let observed = observations.filter(|one| one.topic == topic).map(|one| one.type_name.clone()).next();
         let answers = || {
             let names = self.binding.primitives.keys();
-            let deeds = names.flat_map(|name| self.binding.steps(name).unwrap_or_default()).map(|step| step.deed);
+            let deeds =
+                names.flat_map(|name| self.binding.steps(name).unwrap_or_default()).map(|step| step.deed);
             let mut types = deeds.filter_map(|deed| match deed {
                 Deed::Answer { topic: own, type_name, .. } if own == topic => Some(type_name),
                 _ => None,
@@ -362,7 +389,7 @@ impl Robot {
     }
 
     /// Lets time pass for all actions.
-    pub fn tick(&mut self) -> Vec<Heard> {
+    pub(crate) fn tick(&mut self) -> Vec<Heard> {
         if self.looked.is_none_or(|looked| looked.elapsed() > LOOKS) {
             self.look_for_servers();
         }
@@ -382,13 +409,19 @@ impl Robot {
 
     /// Answer to a bound fact or measure; `None` without a message that is fresh, or where the expression has
     /// no value for it.
-    pub fn observe(&mut self, observation: &Observation, args: &[String]) -> Option<Found> {
+    pub(crate) fn observe(&mut self, observation: &Observation, args: &[String]) -> Option<Found> {
         let fresh = Duration::from_secs_f64(observation.age_secs.clamp(0.0, 1e6));
         self.evaluate(&observation.topic, &observation.value, args, fresh)
     }
 
     /// Value of an expression over the last message of a topic.
-    pub fn evaluate(&mut self, topic: &str, text: &str, args: &[String], fresh: Duration) -> Option<Found> {
+    pub(crate) fn evaluate(
+        &mut self,
+        topic: &str,
+        text: &str,
+        args: &[String],
+        fresh: Duration,
+    ) -> Option<Found> {
         let (bytes, at, type_name) = self.kept.get(topic)?;
         if at.elapsed() > fresh {
             return None;
@@ -405,7 +438,7 @@ impl Robot {
     /// # Errors
     ///
     /// Why it has no truth.
-    pub fn holds(&self, text: &str, args: &[String]) -> Result<bool, String> {
+    pub(crate) fn holds(&self, text: &str, args: &[String]) -> Result<bool, String> {
         let expression = self.expressions.get(text).ok_or("an expression was not compiled")?;
         let joints: BTreeMap<String, f64> = self.body.positions();
         match expression.evaluate(None, args, &joints)? {
@@ -415,7 +448,7 @@ impl Robot {
     }
 
     /// Forgets the last message of a topic, so that the next one is new.
-    pub fn forget(&mut self, topic: &str) {
+    pub(crate) fn forget(&mut self, topic: &str) {
         self.kept.remove(topic);
     }
 
@@ -424,13 +457,13 @@ impl Robot {
     /// # Errors
     ///
     /// The field that the layout lacks, or why DDS did not take it.
-    pub fn publish(&self, topic: &str, message: &Value) -> Result<(), String> {
+    pub(crate) fn publish(&self, topic: &str, message: &Value) -> Result<(), String> {
         let (writer, type_name) = self.writers.get(topic).ok_or_else(|| format!("`{topic}` is not open"))?;
         writer.write(encode(&self.layouts, type_name, message)?, None).map(|_| ())
     }
 
-    /// Sends everything that stops the robot beside its trajectories: zero speeds, and what the binding names.
-    pub fn send_stops(&mut self) {
+    /// Sends what stops the robot beside its trajectories: zero speeds, and the calls that the binding names.
+    pub(crate) fn send_stops(&mut self) {
         let stops = self.binding.stop.clone();
         let navigation = self.binding.navigation.clone().and_then(|navigation| navigation.stop);
         if let Some(topic) = navigation
@@ -440,7 +473,9 @@ impl Robot {
         }
         for call in stops {
             let sent = match (call.kind, self.service_at(&call.name)) {
-                (CallKind::Service, Some(at)) => self.services[at].call(&self.layouts, &call.message).map(|_| ()),
+                (CallKind::Service, Some(at)) => {
+                    self.services[at].call(&self.layouts, &call.message).map(|_| ())
+                }
                 _ => self.publish(&call.name, &call.message),
             };
             sent.unwrap_or_else(|wrong| self.tell(&wrong));
@@ -452,7 +487,10 @@ impl Robot {
     /// # Errors
     ///
     /// Why there is none.
-    pub fn look(&self, camera: Option<&str>) -> Result<motet_host::remote::protocol::LookResult, String> {
+    pub(crate) fn look(
+        &self,
+        camera: Option<&str>,
+    ) -> Result<motet_host::remote::protocol::LookResult, String> {
         let cameras = &self.binding.cameras;
         let at = match camera {
             Some(name) => cameras.iter().position(|own| own.name == name),
@@ -463,7 +501,7 @@ impl Robot {
     }
 
     /// Prints a problem once.
-    pub fn tell(&mut self, text: &str) {
+    pub(crate) fn tell(&mut self, text: &str) {
         if self.told.len() < 1_000 && self.told.insert(text.to_owned()) {
             eprintln!("motet-ros2: {}", text.escape_debug());
         }

@@ -8,7 +8,7 @@ use serde_json::Value;
 /// Middleware of the robot's nodes. It says where a response has the number of its request.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Middleware {
+pub(crate) enum Middleware {
     /// `rmw_cyclonedds_cpp`: in 16 bytes before the message.
     #[serde(alias = "rmw_cyclonedds_cpp")]
     Cyclonedds,
@@ -22,17 +22,16 @@ pub enum Middleware {
 const HEADER: usize = 16;
 
 /// Number of a call of one client.
-pub type Ticket = i64;
+pub(crate) type Ticket = i64;
 
 /// Client of a service.
-pub struct Client {
+pub(crate) struct Client {
     writer: Writer,
     middleware: Middleware,
     /// Topics of the request and of the response, as DDS names them.
-    pub topics: [String; 2],
+    pub(crate) topics: [String; 2],
     request: String,
     response: String,
-    source: Source,
     /// Name of this client in the header of Cyclone DDS.
     own: u64,
     calls: i64,
@@ -42,13 +41,13 @@ pub struct Client {
 
 /// Interface of a service: the name of its layouts, and its kind in DDS with the end of its name.
 #[derive(Clone, Copy, Debug)]
-pub struct Interface<'a> {
+pub(crate) struct Interface<'a> {
     /// Name such as `std_srvs/Trigger`.
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// `srv` or `action`.
-    pub kind: &'a str,
+    pub(crate) kind: &'a str,
     /// Nothing, `_SendGoal` or `_GetResult`.
-    pub end: &'a str,
+    pub(crate) end: &'a str,
 }
 
 impl Client {
@@ -57,7 +56,7 @@ impl Client {
     /// # Errors
     ///
     /// Why DDS refuses its topics.
-    pub fn new(
+    pub(crate) fn new(
         dds: &Dds,
         middleware: Middleware,
         service: &str,
@@ -71,13 +70,7 @@ impl Client {
         let writer = dds.publish(&topics[0], &dds_type(name, kind, &request), Quality::Reliable)?;
         let own = getrandom::u64().map_err(|error| format!("no random number: {error}"))?;
         let [request, response] = [request, response].map(|part| format!("{name}{part}"));
-        Ok(Self { writer, middleware, topics, request, response, source, own, calls: 0, open: Vec::new() })
-    }
-
-    /// True for a message that is a response to this client or to another one of the service.
-    #[must_use]
-    pub const fn is_source(&self, source: Source) -> bool {
-        self.source == source
+        Ok(Self { writer, middleware, topics, request, response, own, calls: 0, open: Vec::new() })
     }
 
     /// Sends a request.
@@ -85,7 +78,7 @@ impl Client {
     /// # Errors
     ///
     /// The field that the layout lacks, or why DDS did not take it.
-    pub fn call(&mut self, layouts: &Layouts, value: &Value) -> Result<Ticket, String> {
+    pub(crate) fn call(&mut self, layouts: &Layouts, value: &Value) -> Result<Ticket, String> {
         let message = encode(layouts, &self.request, value)?;
         self.calls += 1;
         let bytes = match self.middleware {
@@ -103,25 +96,29 @@ impl Client {
     /// # Errors
     ///
     /// Why the message is none of the layout.
-    pub fn hear(&mut self, layouts: &Layouts, received: &Received) -> Result<Option<(Ticket, Message)>, String> {
-        let is_answered: Box<dyn Fn(&(Ticket, Request)) -> bool> = match self.middleware {
+    pub(crate) fn hear(
+        &mut self,
+        layouts: &Layouts,
+        received: &Received,
+    ) -> Result<Option<(Ticket, Message)>, String> {
+        let at = match self.middleware {
             Middleware::Fastdds => {
                 let Some((writer, number)) = received.answers else {
                     return Err("a response does not say which request it answers; \
-                                is `middleware` right in the binding?".to_owned());
+                                is `middleware` right in the binding?"
+                        .to_owned());
                 };
                 // Fast DDS names the reader or the writer of the client: both have its participant.
-                Box::new(move |(_, own)| own.1 == number && own.0[..12] == writer[..12])
+                self.open.iter().position(|(_, own)| own.1 == number && own.0[..12] == writer[..12])
             }
             Middleware::Cyclonedds => {
                 let Some((client, number)) = split_header(&received.bytes) else {
                     return Err("a response is shorter than its header".to_owned());
                 };
-                let own = self.own;
-                Box::new(move |(ticket, _)| client == own && *ticket == number)
+                self.open.iter().position(|(ticket, _)| client == self.own && *ticket == number)
             }
         };
-        let Some(at) = self.open.iter().position(is_answered) else { return Ok(None) };
+        let Some(at) = at else { return Ok(None) };
         let (ticket, _) = self.open.swap_remove(at);
         let start = if self.middleware == Middleware::Cyclonedds { HEADER } else { 0 };
         let bytes = received.bytes.get(start..).unwrap_or_default();
@@ -129,21 +126,97 @@ impl Client {
     }
 
     /// No longer waits for the response to a call.
-    pub fn forget(&mut self, ticket: Ticket) {
+    pub(crate) fn forget(&mut self, ticket: Ticket) {
         self.open.retain(|(open, _)| *open != ticket);
     }
 }
 
 /// Header of Cyclone DDS.
 #[must_use]
-pub fn header(client: u64, number: i64) -> Vec<u8> {
+pub(crate) fn header(client: u64, number: i64) -> Vec<u8> {
     [client.to_le_bytes(), number.to_le_bytes()].concat()
 }
 
 /// Client and number in a header of Cyclone DDS.
 #[must_use]
-pub fn split_header(bytes: &[u8]) -> Option<(u64, i64)> {
+pub(crate) fn split_header(bytes: &[u8]) -> Option<(u64, i64)> {
     let client = bytes.get(..8)?.try_into().ok()?;
     let number = bytes.get(8..HEADER)?.try_into().ok()?;
     Some((u64::from_le_bytes(client), i64::from_le_bytes(number)))
+}
+
+/// Server of a service.
+pub(crate) struct Server {
+    writer: Writer,
+    middleware: Middleware,
+    request: String,
+    response: String,
+}
+
+/// A request that is to be answered.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Asked {
+    header: Option<(u64, i64)>,
+    identity: Request,
+}
+
+impl Server {
+    /// A server. Requests come with the number `source`.
+    ///
+    /// # Errors
+    ///
+    /// Why DDS refuses its topics.
+    pub(crate) fn new(
+        dds: &Dds,
+        middleware: Middleware,
+        service: &str,
+        interface: Interface<'_>,
+        source: Source,
+    ) -> Result<Self, String> {
+        let Interface { name, kind, end } = interface;
+        let [request, response] = ["Request", "Response"].map(|part| format!("{end}_{part}"));
+        let asked = dds_topic("rq", service, "Request");
+        dds.subscribe(&asked, &dds_type(name, kind, &request), Quality::Reliable, source)?;
+        let answered = dds_topic("rr", service, "Reply");
+        let writer = dds.publish(&answered, &dds_type(name, kind, &response), Quality::Reliable)?;
+        let [request, response] = [request, response].map(|part| format!("{name}{part}"));
+        Ok(Self { writer, middleware, request, response })
+    }
+
+    /// Reads a request.
+    ///
+    /// # Errors
+    ///
+    /// Why the message is none of the layout.
+    pub(crate) fn hear(&self, layouts: &Layouts, received: &Received) -> Result<(Asked, Message), String> {
+        // Fast DDS names in a request the reader that waits for the response.
+        let (writer, number) = received.identity;
+        let identity = (received.answers.map_or(writer, |(reader, _)| reader), number);
+        let (header, start) = match self.middleware {
+            Middleware::Fastdds => (None, 0),
+            Middleware::Cyclonedds => {
+                let header = split_header(&received.bytes).ok_or("a request is shorter than its header")?;
+                (Some(header), HEADER)
+            }
+        };
+        let bytes = received.bytes.get(start..).unwrap_or_default();
+        Ok((Asked { header, identity }, decode(layouts, &self.request, bytes)?))
+    }
+
+    /// Answers a request.
+    ///
+    /// # Errors
+    ///
+    /// The field that the layout lacks, or why DDS did not take it.
+    pub(crate) fn answer(&self, layouts: &Layouts, asked: Asked, value: &Value) -> Result<(), String> {
+        let message = encode(layouts, &self.response, value)?;
+        match asked.header {
+            None => self.writer.write(message, Some(asked.identity)),
+            Some((client, number)) => {
+                let bytes = header(client, number).into_iter().chain(message).collect();
+                self.writer.write(bytes, None)
+            }
+        }
+        .map(|_| ())
+    }
 }

@@ -23,13 +23,13 @@ struct JointState {
 
 /// Body of the robot as it is now.
 #[derive(Default)]
-pub struct Body {
+pub(crate) struct Body {
     /// Joints by their names in ROS.
     joints: BTreeMap<String, JointState>,
     base: Option<BaseState>,
     /// Greatest standard deviation of the localisation in the plane in m.
-    pub sigma: Option<f64>,
-    pub frames: Frames,
+    pub(crate) sigma: Option<f64>,
+    pub(crate) frames: Frames,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,7 @@ struct BaseState {
 
 /// Parts of the robot whose standstill is asked for.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Parts {
+pub(crate) enum Parts {
     /// Every joint, and the base.
     All,
     /// Joints by their names in ROS, and the base if `true`.
@@ -50,7 +50,7 @@ pub enum Parts {
 
 impl Body {
     /// Takes in a `sensor_msgs/JointState`.
-    pub fn hear_joints(&mut self, message: &Message, limits: &Standstill, now: Instant) {
+    pub(crate) fn hear_joints(&mut self, message: &Message, limits: &Standstill, now: Instant) {
         let (positions, speeds) = (message.numbers("position"), message.numbers("velocity"));
         for (at, name) in message.list("name").iter().enumerate() {
             let (Message::Text(name), Some(position)) = (name, positions.get(at)) else { continue };
@@ -63,13 +63,14 @@ impl Body {
                 let since = before.map_or(0.0, |before| now.duration_since(before.at).as_secs_f64());
                 before.filter(|_| since > 1e-4).map_or(0.0, |before| (position - before.position) / since)
             });
-            let still = still_since(speed.abs() < limits.joints, before.map(|before| (before.still, before.at)), now);
+            let still =
+                still_since(speed.abs() < limits.joints, before.map(|before| (before.still, before.at)), now);
             self.joints.insert(name.clone(), JointState { position: *position, speed, at: now, still });
         }
     }
 
     /// Takes in a `nav_msgs/Odometry`.
-    pub fn hear_odometry(&mut self, message: &Message, limits: &Standstill, now: Instant) {
+    pub(crate) fn hear_odometry(&mut self, message: &Message, limits: &Standstill, now: Instant) {
         let speed = message.number("twist.twist.linear.x").hypot(message.number("twist.twist.linear.y"));
         let turn = message.number("twist.twist.angular.z").abs();
         let before = self.base.map(|before| (before.still, before.at));
@@ -81,7 +82,7 @@ impl Body {
     }
 
     /// Takes in a `geometry_msgs/PoseWithCovarianceStamped`: how exactly the robot knows its place.
-    pub fn hear_localization(&mut self, message: &Message) {
+    pub(crate) fn hear_localization(&mut self, message: &Message) {
         let covariance = message.numbers("pose.covariance");
         let variance = [0, 7].map(|at| covariance.get(at).copied().unwrap_or(f64::NAN));
         let greatest = variance[0].max(variance[1]);
@@ -90,19 +91,19 @@ impl Body {
 
     /// Position of a joint by its name in ROS, if it is fresh.
     #[must_use]
-    pub fn position(&self, joint: &str) -> Option<f64> {
+    pub(crate) fn position(&self, joint: &str) -> Option<f64> {
         self.joints.get(joint).filter(|state| state.at.elapsed() < FRESH).map(|state| state.position)
     }
 
     /// Positions of all joints by their names in ROS.
     #[must_use]
-    pub fn positions(&self) -> BTreeMap<String, f64> {
+    pub(crate) fn positions(&self) -> BTreeMap<String, f64> {
         self.joints.iter().map(|(name, state)| (name.clone(), state.position)).collect()
     }
 
     /// Greatest speed of the joints of some parts, for a report.
     #[must_use]
-    pub fn fastest(&self, parts: &Parts) -> Option<(&str, f64)> {
+    pub(crate) fn fastest(&self, parts: &Parts) -> Option<(&str, f64)> {
         let asked = self.joints.iter().filter(|(name, _)| match parts {
             Parts::All => true,
             Parts::Some(joints, _) => joints.contains(name),
@@ -113,19 +114,19 @@ impl Body {
 
     /// True if all joints and the base, of some parts, have been slow for long enough, and are known to be.
     #[must_use]
-    pub fn is_still(&self, parts: &Parts, binding: &Binding) -> bool {
+    pub(crate) fn is_still(&self, parts: &Parts, binding: &Binding) -> bool {
         let secs = Duration::from_secs_f64(binding.standstill.secs.clamp(0.0, 10.0));
         let is_since = |still: Option<Instant>, at: Instant| {
             at.elapsed() < FRESH && still.is_some_and(|since| since.elapsed() >= secs)
         };
         let is_joint = |state: &JointState| is_since(state.still, state.at);
-        let is_base = || {
-            binding.base.odometry.is_none() || self.base.is_some_and(|base| is_since(base.still, base.at))
-        };
+        let is_base =
+            || binding.base.odometry.is_none() || self.base.is_some_and(|base| is_since(base.still, base.at));
         match parts {
             Parts::All => !self.joints.is_empty() && self.joints.values().all(is_joint) && is_base(),
             Parts::Some(joints, drives) => {
-                joints.iter().all(|joint| self.joints.get(joint).is_some_and(is_joint)) && (!drives || is_base())
+                joints.iter().all(|joint| self.joints.get(joint).is_some_and(is_joint))
+                    && (!drives || is_base())
             }
         }
     }
@@ -135,13 +136,15 @@ impl Body {
     /// # Errors
     ///
     /// Why nobody knows it.
-    pub fn base(&self, binding: &Binding) -> Result<Planar, String> {
+    pub(crate) fn base(&self, binding: &Binding) -> Result<Planar, String> {
         let names = &binding.frames;
         let newest = self.frames.newest(&names.base);
         let told = self.frames.look_up(&names.map, &names.base, newest, names.age_secs);
         match (told, self.base) {
             (Ok(transform), _) if newest.is_some() => Ok(transform.planar()),
-            (_, Some(base)) if binding.base.localization.is_none() && base.at.elapsed() < FRESH => Ok(base.pose),
+            (_, Some(base)) if binding.base.localization.is_none() && base.at.elapsed() < FRESH => {
+                Ok(base.pose)
+            }
             (Err(why), _) => Err(why),
             (Ok(_), _) => Err(format!("no transform of `{}` yet", names.base)),
         }

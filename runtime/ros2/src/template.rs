@@ -3,13 +3,13 @@
 use motet_graph::Value as Argument;
 use serde_json::{Value, json};
 
-/// Fills in a message. A text that is `{name}` as a whole becomes the value that `named` finds, with its type;
-/// within a longer text it becomes words.
+/// Fills in a message. A text that is `{name}` as a whole becomes the value that `named` finds, with its
+/// type; within a longer text it becomes words.
 ///
 /// # Errors
 ///
 /// The name that nobody knows.
-pub fn fill(message: &Value, named: &dyn Fn(&str) -> Result<Value, String>) -> Result<Value, String> {
+pub(crate) fn fill(message: &Value, named: &dyn Fn(&str) -> Result<Value, String>) -> Result<Value, String> {
     match message {
         Value::String(text) => fill_text(text, named),
         Value::Array(values) => values.iter().map(|value| fill(value, named)).collect(),
@@ -41,7 +41,7 @@ fn fill_text(text: &str, named: &dyn Fn(&str) -> Result<Value, String>) -> Resul
 
 /// Value of an argument in a message: an entity is its id, a pose a `geometry_msgs/Pose`.
 #[must_use]
-pub fn of_argument(value: &Argument) -> Value {
+pub(crate) fn of_argument(value: &Argument) -> Value {
     match value {
         Argument::Bool(value) => json!(value),
         Argument::Int(value) => json!(value),
@@ -54,7 +54,7 @@ pub fn of_argument(value: &Argument) -> Value {
 
 /// `geometry_msgs/Pose` of a position and a quaternion x, y, z, w.
 #[must_use]
-pub fn of_pose([x, y, z]: [f64; 3], [qx, qy, qz, qw]: [f64; 4]) -> Value {
+pub(crate) fn of_pose([x, y, z]: [f64; 3], [qx, qy, qz, qw]: [f64; 4]) -> Value {
     json!({"position": {"x": x, "y": y, "z": z}, "orientation": {"x": qx, "y": qy, "z": qz, "w": qw}})
 }
 
@@ -69,7 +69,8 @@ mod tests {
             "width" => Ok(json!(0.05)),
             other => Err(format!("no `{other}`")),
         };
-        let message = json!({"data": "{text}", "list": [{"position": "{width}"}], "said": "I say {text} {width}!"});
+        let message =
+            json!({"data": "{text}", "list": [{"position": "{width}"}], "said": "I say {text} {width}!"});
         let expected = json!({"data": "hello", "list": [{"position": 0.05}], "said": "I say hello 0.05!"});
         assert_eq!(fill(&message, &named), Ok(expected));
         assert_eq!(fill(&json!("{nobody}"), &named), Err("no `nobody`".to_owned()));

@@ -10,16 +10,16 @@ const MAX_FRAMES: usize = 1_000;
 
 /// Pose in the plane: m and rad.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Planar {
-    pub x: f64,
-    pub y: f64,
-    pub yaw: f64,
+pub(crate) struct Planar {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) yaw: f64,
 }
 
 impl Planar {
     /// A pose x, y, yaw as seen from this frame. Its yaw stays continuous.
     #[must_use]
-    pub fn seen_from(self, [x, y, yaw]: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn seen_from(self, [x, y, yaw]: [f64; 3]) -> [f64; 3] {
         let (sin, cos) = self.yaw.sin_cos();
         let (dx, dy) = (x - self.x, y - self.y);
         [cos * dx + sin * dy, cos * dy - sin * dx, yaw - self.yaw]
@@ -28,19 +28,19 @@ impl Planar {
 
 /// Rigid transform: a position in m, and a rotation as a unit quaternion x, y, z, w.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Transform {
-    pub xyz: [f64; 3],
-    pub quaternion: [f64; 4],
+pub(crate) struct Transform {
+    pub(crate) xyz: [f64; 3],
+    pub(crate) quaternion: [f64; 4],
 }
 
 impl Transform {
     /// The transform that changes nothing.
-    pub const IDENTITY: Self = Self { xyz: [0.0; 3], quaternion: [0.0, 0.0, 0.0, 1.0] };
+    pub(crate) const IDENTITY: Self = Self { xyz: [0.0; 3], quaternion: [0.0, 0.0, 0.0, 1.0] };
 
     /// Transform of a message with the fields of positions and rotations under these names. `None` if its
     /// rotation is none.
     #[must_use]
-    pub fn of(message: &Message, position: &str, rotation: &str) -> Option<Self> {
+    pub(crate) fn of(message: &Message, position: &str, rotation: &str) -> Option<Self> {
         let number = |path: &str, axis: &str| message.number(&format!("{path}.{axis}"));
         let xyz = ["x", "y", "z"].map(|axis| number(position, axis));
         let quaternion = ["x", "y", "z", "w"].map(|axis| number(rotation, axis));
@@ -51,7 +51,7 @@ impl Transform {
 
     /// This transform, and then another one in its frame.
     #[must_use]
-    pub fn then(self, inner: Self) -> Self {
+    pub(crate) fn then(self, inner: Self) -> Self {
         let moved = rotate(self.quaternion, inner.xyz);
         let xyz = [0, 1, 2].map(|at| self.xyz[at] + moved[at]);
         Self { xyz, quaternion: multiply(self.quaternion, inner.quaternion) }
@@ -59,7 +59,7 @@ impl Transform {
 
     /// Transform with roll, pitch and yaw in rad, about the fixed axes x, y, z in that order.
     #[must_use]
-    pub fn from_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Self {
+    pub(crate) fn from_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Self {
         let about = |axis: usize| {
             let mut quaternion = [0.0, 0.0, 0.0, (rpy[axis] / 2.0).cos()];
             quaternion[axis] = (rpy[axis] / 2.0).sin();
@@ -70,7 +70,7 @@ impl Transform {
 
     /// Roll, pitch and yaw in rad, about the fixed axes x, y, z in that order.
     #[must_use]
-    pub fn rpy(self) -> [f64; 3] {
+    pub(crate) fn rpy(self) -> [f64; 3] {
         let [x, y, z, w] = self.quaternion;
         let roll = (2.0 * (w * x + y * z)).atan2(1.0 - 2.0 * (x * x + y * y));
         let pitch = (2.0 * (w * y - z * x)).clamp(-1.0, 1.0).asin();
@@ -79,13 +79,13 @@ impl Transform {
 
     /// Pose of the language.
     #[must_use]
-    pub const fn pose(self) -> motet_graph::Pose {
+    pub(crate) const fn pose(self) -> motet_graph::Pose {
         motet_graph::Pose { xyz: self.xyz, quaternion: self.quaternion }
     }
 
     /// The pose in the plane.
     #[must_use]
-    pub fn planar(self) -> Planar {
+    pub(crate) fn planar(self) -> Planar {
         let [x, y, z, w] = self.quaternion;
         let yaw = (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z));
         Planar { x: self.xyz[0], y: self.xyz[1], yaw }
@@ -103,7 +103,8 @@ impl Transform {
         let dot: f64 = self.quaternion.iter().zip(to.quaternion).map(|(one, other)| one * other).sum();
         // Of the two quaternions of a rotation, the nearer one.
         let sign = if dot < 0.0 { -1.0 } else { 1.0 };
-        let mixed = [0, 1, 2, 3].map(|at| (1.0 - share) * self.quaternion[at] + share * sign * to.quaternion[at]);
+        let mixed =
+            [0, 1, 2, 3].map(|at| (1.0 - share) * self.quaternion[at] + share * sign * to.quaternion[at]);
         let norm = mixed.iter().map(|part| part * part).sum::<f64>().sqrt();
         Self { xyz, quaternion: mixed.map(|part| part / norm) }
     }
@@ -133,18 +134,20 @@ struct Frame {
 
 /// Frames as the topics `/tf` and `/tf_static` have told them.
 #[derive(Default)]
-pub struct Frames {
+pub(crate) struct Frames {
     frames: HashMap<String, Frame>,
 }
 
 impl Frames {
     /// Takes in a `tf2_msgs/TFMessage`. Transforms that are none are left out.
-    pub fn hear(&mut self, message: &Message, is_static: bool) {
+    pub(crate) fn hear(&mut self, message: &Message, is_static: bool) {
         for told in message.list("transforms") {
             let child = told.text("child_frame_id").trim_start_matches('/').to_owned();
             let parent = told.text("header.frame_id").trim_start_matches('/').to_owned();
             let transform = Transform::of(told, "transform.translation", "transform.rotation");
-            let Some(transform) = transform.filter(|_| child != parent && !child.is_empty()) else { continue };
+            let Some(transform) = transform.filter(|_| child != parent && !child.is_empty()) else {
+                continue;
+            };
             if self.frames.len() >= MAX_FRAMES && !self.frames.contains_key(&child) {
                 continue;
             }
@@ -176,7 +179,13 @@ impl Frames {
     /// # Errors
     ///
     /// The frame that is unknown, or whose transforms end more than `age` seconds before that time.
-    pub fn look_up(&self, target: &str, source: &str, time: Option<f64>, age: f64) -> Result<Transform, String> {
+    pub(crate) fn look_up(
+        &self,
+        target: &str,
+        source: &str,
+        time: Option<f64>,
+        age: f64,
+    ) -> Result<Transform, String> {
         let (to_source, root) = self.to_root(source, time, age)?;
         let (to_target, other) = self.to_root(target, time, age)?;
         if root != other {
@@ -187,12 +196,17 @@ impl Frames {
 
     /// Time in s of the newest transform of a frame.
     #[must_use]
-    pub fn newest(&self, frame: &str) -> Option<f64> {
+    pub(crate) fn newest(&self, frame: &str) -> Option<f64> {
         self.frames.get(frame)?.history.back().map(|(at, _)| *at)
     }
 
     /// Transform of a frame as seen from its root, with the root's name.
-    fn to_root<'a>(&'a self, frame: &'a str, time: Option<f64>, age: f64) -> Result<(Transform, &'a str), String> {
+    fn to_root<'a>(
+        &'a self,
+        frame: &'a str,
+        time: Option<f64>,
+        age: f64,
+    ) -> Result<(Transform, &'a str), String> {
         let (mut total, mut at) = (Transform::IDENTITY, frame.trim_start_matches('/'));
         for _ in 0..MAX_FRAMES {
             let Some(known) = self.frames.get(at) else { return Ok((total, at)) };
@@ -211,13 +225,21 @@ impl Frame {
         let Some(time) = time.filter(|_| !self.is_static) else { return Ok(newest) };
         if time >= last {
             let late = time - last;
-            return if late <= age { Ok(newest) } else { Err(format!("the last transform of `{name}` is {late:.2} s old")) };
+            return if late <= age {
+                Ok(newest)
+            } else {
+                Err(format!("the last transform of `{name}` is {late:.2} s old"))
+            };
         }
         let after = self.history.partition_point(|(at, _)| *at < time);
         let (next, to) = self.history[after];
         if after == 0 {
             let early = next - time;
-            return if early <= age { Ok(to) } else { Err(format!("no transform of `{name}` {early:.2} s ago")) };
+            return if early <= age {
+                Ok(to)
+            } else {
+                Err(format!("no transform of `{name}` {early:.2} s ago"))
+            };
         }
         let (before, from) = self.history[after - 1];
         Ok(from.between(to, (time - before) / (next - before).max(1e-9)))

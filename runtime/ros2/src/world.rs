@@ -14,7 +14,7 @@ const IN_VIEW: Duration = Duration::from_secs(2);
 
 /// Where a thing is.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Place {
+pub(crate) enum Place {
     On(String),
     In(String),
     /// With a person, or at a place.
@@ -24,8 +24,8 @@ pub enum Place {
 }
 
 /// Things and containers of the room.
-pub struct World {
-    pub scene: Scene,
+pub(crate) struct World {
+    pub(crate) scene: Scene,
     places: BTreeMap<String, Place>,
     open: BTreeMap<String, bool>,
     at: BTreeSet<String>,
@@ -37,7 +37,7 @@ pub struct World {
 impl World {
     /// The room as its scene says.
     #[must_use]
-    pub fn new(scene: Scene) -> Self {
+    pub(crate) fn new(scene: Scene) -> Self {
         let mut places = BTreeMap::new();
         for entity in scene.entities.values().filter(|entity| !entity.fixed) {
             let on = entity.on.as_ref().map(|on| Place::On(on.to_string()));
@@ -47,7 +47,11 @@ impl World {
         if let Some(Some(held)) = &scene.robot.holding {
             places.insert(held.to_string(), Place::Hand);
         }
-        let open = scene.entities.values().filter_map(|entity| Some((entity.id.to_string(), entity.open?))).collect();
+        let open = scene
+            .entities
+            .values()
+            .filter_map(|entity| Some((entity.id.to_string(), entity.open?)))
+            .collect();
         let at = scene.robot.at.iter().map(ToString::to_string).collect();
         let (visited, seen) = (BTreeSet::new(), BTreeMap::new());
         Self { scene, places, open, at, visited, seen, posture: Some("arm_home") }
@@ -55,12 +59,12 @@ impl World {
 
     /// The thing in the hand.
     #[must_use]
-    pub fn held(&self) -> Option<&str> {
+    pub(crate) fn held(&self) -> Option<&str> {
         self.places.iter().find(|(_, place)| **place == Place::Hand).map(|(thing, _)| thing.as_str())
     }
 
     /// Takes in the success of a primitive.
-    pub fn done(&mut self, primitive: &str, args: &[(String, Value)]) {
+    pub(crate) fn done(&mut self, primitive: &str, args: &[(String, Value)]) {
         let entity = |name: &str| {
             let found = args.iter().find(|(own, _)| own == name);
             if let Some((_, Value::Entity(id))) = found { Some(id.to_string()) } else { None }
@@ -89,7 +93,7 @@ impl World {
     }
 
     /// Takes in a failure or an interruption: what the goal handled may be anywhere.
-    pub fn failed(&mut self, primitive: &str, args: &[(String, Value)]) {
+    pub(crate) fn failed(&mut self, primitive: &str, args: &[(String, Value)]) {
         if matches!(primitive, "go" | "go_to_pose") {
             self.at.clear();
         }
@@ -108,13 +112,13 @@ impl World {
     }
 
     /// Takes in that a thing was told to be somewhere.
-    pub fn told(&mut self, thing: &str, place: Place) {
+    pub(crate) fn told(&mut self, thing: &str, place: Place) {
         self.put(Some(thing.to_owned()), place);
     }
 
     /// Takes in a detection of a known thing. A thing that is not where it was believed has no place until
     /// somebody says.
-    pub fn saw(&mut self, thing: &str, pose: Option<Transform>) {
+    pub(crate) fn saw(&mut self, thing: &str, pose: Option<Transform>) {
         self.seen.insert(thing.to_owned(), Instant::now());
         let (Some(pose), Some(entity)) = (pose, self.scene.entities.get_mut(thing)) else { return };
         let moved = entity.pose.as_ref().is_none_or(|before| distance(before.xyz, pose.xyz) > 0.3);
@@ -129,7 +133,7 @@ impl World {
 
     /// Things that a description fits: an id, a name, a class, or words of a name.
     #[must_use]
-    pub fn matches(&self, what: &str) -> Vec<String> {
+    pub(crate) fn matches(&self, what: &str) -> Vec<String> {
         let wanted = what.trim().to_lowercase();
         let fits = |text: &str| text.to_lowercase().replace('_', " ") == wanted;
         let entities = self.scene.entities.values();
@@ -141,14 +145,14 @@ impl World {
 
     /// Pose of an entity.
     #[must_use]
-    pub fn pose(&self, id: &str) -> Option<Transform> {
+    pub(crate) fn pose(&self, id: &str) -> Option<Transform> {
         let pose = self.scene.entities.get(id)?.pose.as_ref()?;
         Some(Transform::from_rpy(pose.xyz, pose.rpy))
     }
 
     /// Answer to a fact or a measure; `None` if it is unknown. `base` is the position of the robot in m.
     #[must_use]
-    pub fn answer(&self, query: &Query, base: Option<[f64; 2]>) -> Option<Value> {
+    pub(crate) fn answer(&self, query: &Query, base: Option<[f64; 2]>) -> Option<Value> {
         match query {
             Query::Fact { fluent, args } => {
                 let patterns: Option<Vec<Option<&str>>> = args.iter().map(pattern).collect();
@@ -223,7 +227,9 @@ impl World {
             },
             ("open", [what]) => self.open.get(*what).copied(),
             ("locked", [what]) => self.scene.entities.get(*what)?.locked,
-            ("clear", [what]) => Some(!self.places.values().any(|place| *place == Place::On((*what).to_owned()))),
+            ("clear", [what]) => {
+                Some(!self.places.values().any(|place| *place == Place::On((*what).to_owned())))
+            }
             ("near", [what]) => Some(self.distance(what, base?)? < NEAR),
             ("visited", [what]) => Some(self.visited.contains(*what)),
             ("visible" | "located", [what]) => {

@@ -61,8 +61,11 @@ class Still:
     def things(self):
         return []
 
-    def picture(self):
-        return None
+    def holds(self):
+        return []
+
+    def given(self):
+        return {}
 
 
 class Physics:
@@ -151,8 +154,13 @@ class Physics:
                 found.append((thing, [float(x) for x in position], [float(x) for x in quaternion], [float(x) for x in high - low]))
         return found
 
-    def picture(self):
-        return None
+    def holds(self):
+        """Things in the hand, by the truth of the world."""
+        return self.world.held()
+
+    def given(self):
+        """Things that people have taken, with the person."""
+        return {thing: person for thing, (person, _) in self.world.carried_by.items()}
 
 
 class Robot:
@@ -298,6 +306,7 @@ class Robot:
         is_done = not self.body.is_gripping() if hasattr(self.body, "is_gripping") else time.monotonic() - begun > 0.1
         if is_done:
             self.hand = None
+            self.note("gripped", held=self.body.holds(), given=self.body.given())
             self.gripper.end(goal, SUCCEEDED, position=0.0, stalled=True, reached_goal=True)
 
     # Topics.

@@ -1,0 +1,364 @@
+//! Motions of a task: paths from the command or of the driver's own, as trajectories and navigations.
+
+use super::{Move, Phase, Running, Surroundings, Task, unheard};
+use crate::bind::Direction;
+use crate::joint::{Axis, Part, Trajectory};
+use crate::plan::{self, Question};
+use crate::robot::Robot;
+use crate::template::of_pose;
+use crate::tf::{Planar, Transform};
+use crossbeam_channel::bounded;
+use motet_graph::{Value as Argument, Witness};
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+impl Task {
+    pub(super) fn begin_motion(&mut self, around: &mut Surroundings<'_>, direction: Direction) -> bool {
+        if direction == Direction::Back {
+            let Some((part, names)) = self.path.clone() else {
+                self.fail(around, "no way there was followed before".to_owned());
+                return true;
+            };
+            self.plan_moves(around, &part.reversed(), &names);
+            return true;
+        }
+        let Some(motion) = self.command.motions.first().cloned() else {
+            self.fail(around, "the command has no motion".to_owned());
+            return true;
+        };
+        if let Some(missing) = unheard(around.robot) {
+            return !self.waits_for(around, &missing) && self.stopping.is_some();
+        }
+        if let Some(witness) = &motion.witness {
+            match self.departure(around, witness) {
+                Ok(()) => {
+                    self.take_path(around, &witness.clone());
+                    return true;
+                }
+                Err(away) => self.feedback.push(format!("{away}; a new path is looked for")),
+            }
+        }
+        if let Err(why) = self.plan(around, plan::motion(&motion)) {
+            self.fail(around, why);
+            return true;
+        }
+        false
+    }
+
+    /// Turns the camera to what the first argument is or describes. Without a place or a way to look the step
+    /// is over: the detection says what is in view.
+    pub(super) fn begin_look(&mut self, around: &mut Surroundings<'_>) -> bool {
+        if let Some(missing) = unheard(around.robot) {
+            return !self.waits_for(around, &missing) && self.stopping.is_some();
+        }
+        let wanted = match self.command.args.first() {
+            Some((_, Argument::Entity(id))) => Some(id.to_string()),
+            Some((_, Argument::Text(text))) => {
+                around.world.matches(text).into_iter().find(|id| around.world.pose(id).is_some())
+            }
+            _ => None,
+        };
+        let looks = wanted.map(|id| format!("look({})", plan::written(&Argument::Entity(id.into()))));
+        if looks.is_none_or(|motion| self.plan(around, motion).is_err()) {
+            self.step_done();
+            return true;
+        }
+        false
+    }
+
+    /// Looks for a path from where the robot stands, on another thread.
+    pub(super) fn plan(&mut self, around: &Surroundings<'_>, motion: String) -> Result<(), String> {
+        let binding = &around.robot.binding;
+        let base = around.robot.body.base(binding).or_else(|why| match binding.base.odometry {
+            None => {
+                let [x, y, yaw] = around.world.scene.robot.base;
+                Ok(Planar { x, y, yaw })
+            }
+            Some(_) => Err(why),
+        })?;
+        let program = around.planner.ok_or("the robot does not stand where the path begins")?.clone();
+        let positions = around.robot.body.positions();
+        let controlled = positions.iter().filter(|(name, _)| binding.controls(name));
+        let joints = controlled.map(|(name, value)| (binding.card_joint(name).to_owned(), *value)).collect();
+        let question = Question::new(program, around.card, &around.world.scene, motion, base, &joints);
+        let (sender, answer) = bounded(1);
+        std::thread::spawn(move || {
+            // The task may be over before its answer.
+            let _ = sender.send(Box::new(question.ask()));
+        });
+        self.phase = Phase::Planning { answer };
+        Ok(())
+    }
+
+    /// Says how far the robot is from the start of a path, if it is too far.
+    pub(super) fn departure(&self, around: &Surroundings<'_>, witness: &Witness) -> Result<(), String> {
+        let binding = &around.robot.binding;
+        let Some(first) = witness.path.first() else { return Err("the path has no waypoint".to_owned()) };
+        for (joint, value) in witness.joints.iter().zip(&first.joints) {
+            let name = binding.ros_joint(joint);
+            // Joints of the hand are moved by the steps of the primitive.
+            if !binding.controls(name) {
+                continue;
+            }
+            let is = around.robot.body.position(name);
+            let Some(is) = is else { return Err(format!("the position of `{name}` is unknown")) };
+            if (is - value).abs() > binding.start.joints {
+                return Err(format!("`{name}` is at {is:.3}, and the path begins at {value:.3}"));
+            }
+        }
+        if binding.base.odometry.is_some() {
+            let base = around.robot.body.base(binding)?;
+            let apart = (base.x - first.base[0]).hypot(base.y - first.base[1]);
+            let turn = wrapped(base.yaw - first.base[2]).abs();
+            if apart > binding.start.base || turn > binding.start.turn {
+                return Err(format!("the base is {apart:.3} m and {turn:.3} rad from where the path begins"));
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn take_path(&mut self, around: &mut Surroundings<'_>, witness: &Witness) {
+        let binding = &around.robot.binding;
+        // The path was checked for the expected place of the base: it needs room for the error of that place.
+        if let Some(sigma) = around.robot.body.sigma {
+            let needed = sigma * binding.base.sigmas;
+            if witness.clearance < needed {
+                let text = format!(
+                    "the path keeps {:.3} m clear, and the localisation has an error of {needed:.3} m",
+                    witness.clearance
+                );
+                self.fail(around, text);
+                return;
+            }
+        }
+        self.width = witness.grasp.as_ref().map_or(0.0, |grasp| grasp.width);
+        let stretch = self.command.manner.map_or(1.0, motet_graph::Manner::stretch);
+        let is_planned =
+            self.command.motions.first().and_then(|motion| motion.witness.as_deref()) != Some(witness);
+        let mut part = Part::of(witness);
+        if is_planned {
+            // A path of the driver's own has the times of full speed.
+            part.legs.iter_mut().flatten().for_each(|secs| *secs *= stretch);
+        }
+        let names: Vec<String> = witness.joints.iter().map(ToString::to_string).collect();
+        self.path = Some((part.clone(), names.clone()));
+        self.plan_moves(around, &part, &names);
+    }
+
+    /// Splits a path into moves that the controllers can carry out.
+    pub(super) fn plan_moves(&mut self, around: &mut Surroundings<'_>, part: &Part, names: &[String]) {
+        let binding = &around.robot.binding;
+        let follows = binding.controllers.iter().any(|controller| !controller.base.is_empty());
+        if !part.drives() || follows {
+            self.moves.push_back(Move::Follow(part.clone(), names.to_vec()));
+        } else if binding.navigation.is_some() {
+            let Some(phases) = part.phases() else {
+                self.fail(around, "base and arm move at once, which a navigation cannot".to_owned());
+                return;
+            };
+            for (drives, phase) in phases {
+                let end = phase.waypoints.last().map_or([0.0; 3], |(base, _)| *base);
+                self.moves.push_back(if drives {
+                    Move::Navigate(end)
+                } else {
+                    Move::Follow(phase, names.to_vec())
+                });
+            }
+        } else {
+            self.fail(around, "nothing is bound that drives the base".to_owned());
+            return;
+        }
+        self.phase = Phase::Next;
+        if self.moves.is_empty() {
+            self.step_done();
+        }
+    }
+
+    pub(super) fn begin_move(&mut self, around: &mut Surroundings<'_>, next: Move) -> bool {
+        let goals = match self.goals(around, &next) {
+            Ok(goals) => goals,
+            Err(why) => {
+                self.fail(around, why);
+                return true;
+            }
+        };
+        if goals.is_empty() {
+            // The robot is where the move ends.
+            self.moves.pop_front();
+            if self.moves.is_empty() {
+                self.step_done()
+            } else {
+                self.phase = Phase::Next
+            }
+            return true;
+        }
+        let actions: Vec<usize> = goals.iter().map(|(action, ..)| *action).collect();
+        if !self.are_there(around, &actions) {
+            return self.stopping.is_some();
+        }
+        self.moves.pop_front();
+        self.current = Some(next);
+        self.send(around, goals, false);
+        self.stopping.is_some()
+    }
+
+    /// Goals of a move, with the seconds that each may take.
+    pub(super) fn goals(
+        &mut self,
+        around: &Surroundings<'_>,
+        next: &Move,
+    ) -> Result<Vec<(usize, Value, f64)>, String> {
+        let robot = &around.robot;
+        match next {
+            Move::Navigate(end) => {
+                let navigation = robot.binding.navigation.as_ref().ok_or("no navigation is bound")?;
+                let action = robot.action_at(&navigation.action).ok_or("the navigation is not open")?;
+                let pose = Transform::from_rpy([end[0], end[1], 0.0], [0.0, 0.0, end[2]]);
+                let header = json!({"frame_id": robot.binding.frames.map});
+                let goal = json!({"pose": {"header": header, "pose": of_pose(pose.xyz, pose.quaternion)},
+                    "behavior_tree": navigation.behavior_tree});
+                self.parts.1 = true;
+                Ok(vec![(action, goal, self.command.deadline_secs)])
+            }
+            Move::Follow(part, names) => {
+                let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                let mut goals = Vec::new();
+                for controller in &robot.binding.controllers {
+                    let action = robot.action_at(&controller.action).ok_or("a controller is not open")?;
+                    let trajectory = self.trajectory(robot, controller, part, &names)?;
+                    if let Some(trajectory) = trajectory {
+                        if controller.base.is_empty() {
+                            self.parts.0.extend(controller.joints.iter().cloned());
+                        } else {
+                            self.parts.1 = true;
+                        }
+                        goals.push((action, trajectory.goal(), part.secs() + controller.late_secs));
+                    }
+                }
+                self.check_controlled(robot, part, &names)?;
+                Ok(goals)
+            }
+        }
+    }
+
+    pub(super) fn trajectory(
+        &self,
+        robot: &Robot,
+        controller: &crate::bind::Controller,
+        part: &Part,
+        names: &[&str],
+    ) -> Result<Option<Trajectory>, String> {
+        if controller.base.len() == 3 {
+            if !part.drives() {
+                return Ok(None);
+            }
+            let frames = &robot.binding.frames;
+            let frame = robot.body.frames.look_up(&frames.map, &controller.frame, None, frames.age_secs)?;
+            let axes = [Axis::Base(0), Axis::Base(1), Axis::Base(2)];
+            let mut trajectory = part.trajectory(&controller.base, &axes, names, frame.planar());
+            // An axis of yaw may have gone round before: of all turns, the one where it is.
+            let (points, is) = (
+                trajectory.iter_mut().flat_map(|one| &mut one.points),
+                robot.body.position(&controller.base[2]),
+            );
+            let mut turns = None;
+            for point in points {
+                let yaw = &mut point.positions[2];
+                let turns = *turns.get_or_insert_with(|| is.map_or(0.0, |is| is - *yaw - wrapped(is - *yaw)));
+                *yaw += turns;
+            }
+            return Ok(trajectory);
+        }
+        let axes: Vec<Axis<'_>> = controller
+            .joints
+            .iter()
+            .map(|joint| {
+                Axis::Joint(robot.binding.card_joint(joint), robot.body.position(joint).unwrap_or(f64::NAN))
+            })
+            .collect();
+        let trajectory = part.trajectory(&controller.joints, &axes, names, Planar::default());
+        let is_known = |trajectory: &Trajectory| {
+            trajectory.points.iter().all(|point| point.positions.iter().all(|position| position.is_finite()))
+        };
+        match trajectory {
+            Some(trajectory) if !is_known(&trajectory) => {
+                Err(format!("the position of a joint of {} is unknown", controller.action))
+            }
+            other => Ok(other),
+        }
+    }
+
+    /// Refuses a path whose joints nobody controls, apart from those of the hand.
+    pub(super) fn check_controlled(&self, robot: &Robot, part: &Part, names: &[&str]) -> Result<(), String> {
+        let (Some(first), Some(last)) = (part.waypoints.first(), part.waypoints.last()) else {
+            return Ok(());
+        };
+        for (at, name) in names.iter().enumerate() {
+            let moves = part.waypoints.iter().any(|(_, joints)| (joints[at] - first.1[at]).abs() > 1e-6);
+            let ros = robot.binding.ros_joint(name);
+            // A path opens the hand on its way; the steps of the primitive do it.
+            if moves && !robot.binding.controls(ros) && !is_hand(name) {
+                let end = last.1[at];
+                return Err(format!("the path moves `{name}` to {end:.3}, and no controller is bound to it"));
+            }
+        }
+        Ok(())
+    }
+
+    /// True if DDS knows all endpoints of some actions. A goal is sent only then.
+    pub(super) fn are_there(&mut self, around: &mut Surroundings<'_>, actions: &[usize]) -> bool {
+        let missing = actions.iter().find_map(|at| around.robot.missing(*at).first().cloned());
+        let Some(missing) = missing else { return true };
+        self.waits_for(around, &format!("nobody serves `{missing}`"));
+        false
+    }
+
+    /// Waits for something that is missing, as long as the binding says. `false` if it has not come, and the
+    /// step fails.
+    pub(super) fn waits_for(&mut self, around: &mut Surroundings<'_>, missing: &str) -> bool {
+        let patience =
+            Duration::from_secs_f64(around.robot.binding.ros.discovery_secs.unwrap_or(5.0).clamp(0.0, 600.0));
+        match self.phase {
+            Phase::Discovering { since } if since.elapsed() > patience => {
+                self.fail(around, missing.to_owned());
+                return false;
+            }
+            Phase::Discovering { .. } => {}
+            _ => self.phase = Phase::Discovering { since: Instant::now() },
+        }
+        true
+    }
+
+    pub(super) fn send(
+        &mut self,
+        around: &mut Surroundings<'_>,
+        goals: Vec<(usize, Value, f64)>,
+        is_gripper: bool,
+    ) {
+        self.phase = Phase::Acting;
+        for (action, goal, secs) in goals {
+            let sent = Instant::now();
+            match around.robot.actions[action].start(&around.robot.layouts, &goal) {
+                Ok(id) => {
+                    let deadline = sent + Duration::from_secs_f64(secs.clamp(0.1, 1e5));
+                    self.running.push(Running { action, id, sent, deadline, is_gripper });
+                }
+                Err(why) => {
+                    self.fail(around, why);
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// True for joints of the hand, by the words that descriptions use.
+pub(super) fn is_hand(joint: &str) -> bool {
+    ["hand", "finger", "gripper", "knuckle"].iter().any(|word| joint.to_lowercase().contains(word))
+}
+
+/// Angle from -π to π.
+pub(super) fn wrapped(angle: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    angle - turn * (angle / turn).round()
+}

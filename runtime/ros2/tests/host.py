@@ -1,0 +1,161 @@
+"""A small host, and the robot and the driver that it talks to."""
+
+import json
+import os
+import queue
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+DRIVER = os.environ.get("MOTET_ROS2", "motet-ros2")
+MOTET = os.environ.get("MOTET", "motet")
+
+
+class RobotProcess:
+    """The robot of `robot.py` with faults."""
+
+    def __init__(self, *flags, binding="hsr.toml"):
+        self.log = tempfile.NamedTemporaryFile("r", suffix=".jsonl")
+        command = [sys.executable, str(HERE / "robot.py"), str(HERE / binding), "--log", self.log.name, "--motet", MOTET, *flags]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        assert self.process.stdout.readline().strip() == "ready"
+
+    def events(self, name=None):
+        self.log.seek(0)
+        events = [json.loads(line) for line in self.log if line.endswith("\n")]
+        return [event for event in events if name in (None, event["event"])]
+
+    def close(self):
+        self.process.send_signal(signal.SIGTERM)
+        self.process.wait(timeout=10)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+class Driver:
+    """`motet-ros2 drive`, and what it reported."""
+
+    def __init__(self, binding="hsr.toml", run="test", greet=True):
+        command = [DRIVER, "drive", str(HERE / binding), "--robot", "hsr", "--scene", "kitchen", "--motet", MOTET]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.lines, self.number, self.reports, self.goals = queue.Queue(), 0, [], 0
+        threading.Thread(target=self.read, daemon=True).start()
+        self.alive = True
+        threading.Thread(target=self.beat, daemon=True).start()
+        self.lock = threading.Lock()
+        if greet:
+            fails = {"home": ["blocked"], "go": ["unreachable", "blocked"], "detect": ["not_found", "ambiguous"], "say": []}
+            self.welcome = self.call("hello", protocol=2, run=run, resumed=False, at=0.0, robot="hsr", policy="test",
+                                     primitives=[{"name": name, "fails": kinds} for name, kinds in fails.items()])
+
+    def read(self):
+        for line in self.process.stdout:
+            self.lines.put(json.loads(line))
+        self.lines.put(None)
+
+    def beat(self):
+        while self.alive:
+            time.sleep(1.0)
+            if self.alive:
+                self.send({"jsonrpc": "2.0", "id": "beat", "method": "ping", "params": {}})
+
+    def send(self, message):
+        try:
+            self.process.stdin.write(json.dumps(message) + "\n")
+            self.process.stdin.flush()
+        except (BrokenPipeError, ValueError):
+            pass
+
+    def next(self, secs):
+        """The next message other than telemetry; None if none comes in time."""
+        end = time.monotonic() + secs
+        while time.monotonic() < end:
+            try:
+                message = self.lines.get(timeout=max(end - time.monotonic(), 0.001))
+            except queue.Empty:
+                return None
+            if message is None:
+                return None
+            if message.get("id") == "beat":
+                continue
+            if message.get("method") == "moved":
+                self.moved = message["params"]
+                continue
+            return message
+        return None
+
+    def call(self, method, **params):
+        """The result of a call, or {"error": …}."""
+        self.number += 1
+        number = self.number
+        self.send({"jsonrpc": "2.0", "id": number, "method": method, "params": params})
+        while True:
+            message = self.next(10.0)
+            assert message is not None, "no answer to " + method
+            if message.get("id") == number:
+                return message["result"] if "result" in message else {"error": message["error"]}
+            self.reports.append(message)
+
+    def start(self, primitive, motions=(), **args):
+        self.goals += 1
+        command = {"primitive": primitive, "args": list(args.items()), "uses": [], "deadline_secs": 60.0, "motions": list(motions)}
+        return self.goals, self.call("start", goal=self.goals, command=command)
+
+    def lift(self, height, secs=1.0, begin=0.0, clearance=0.1):
+        """Starts a motion of the arm's lift."""
+        path = [{"base": [0.0, 0.0, 0.0], "joints": [begin], "at": 0.0},
+                {"base": [0.0, 0.0, 0.0], "joints": [height], "at": secs, "ramp": secs / 4.0}]
+        witness = {"joints": ["arm_lift_joint"], "path": path, "clearance": clearance}
+        return self.start("home", [{"query": "posture", "args": [{"case": "home"}], "verdict": "proven", "witness": witness}])[0]
+
+    def report(self, method, goal, secs=10.0):
+        """Parameters of a report about a goal; None if it does not come in time."""
+        for at, message in enumerate(self.reports):
+            if message.get("method") == method and message["params"].get("goal") == goal:
+                return self.reports.pop(at)["params"]
+        end = time.monotonic() + secs
+        while time.monotonic() < end:
+            message = self.next(end - time.monotonic())
+            if message is None:
+                return None
+            if message.get("method") == method and message["params"].get("goal") == goal:
+                return message["params"]
+            self.reports.append(message)
+        return None
+
+    def ended(self, goal, secs=10.0):
+        params = self.report("ended", goal, secs)
+        return params and params["outcome"]
+
+    def texts(self, goal):
+        return [one["params"]["text"] for one in self.reports if one.get("method") == "feedback" and one["params"]["goal"] == goal]
+
+    def kill(self):
+        self.alive = False
+        self.process.kill()
+        self.process.wait()
+
+    def close(self):
+        """Says good-bye; the exit code."""
+        self.alive = False
+        self.send({"jsonrpc": "2.0", "method": "bye", "params": {}})
+        try:
+            return self.process.wait(timeout=10)
+        finally:
+            self.process.kill()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.alive:
+            self.close()

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Tests of motet-ros2 against Eclipse Cyclone DDS, in a network namespace of their own: run.sh quick|physics|soak.
+# Skips with a message where a package cannot be installed or no namespace can be made.
+set -euo pipefail
+cd "$(dirname "$0")"
+root=$(cd ../../.. && pwd)
+target="${CARGO_TARGET_DIR:-$root/target}"
+export MOTET="${MOTET:-$target/release/motet}"
+which="${1:-quick}"
+if ! ./netns.sh true 2>/dev/null; then
+    echo 'no network namespace can be made here: skipped'
+    exit 0
+fi
+venv="$target/ros2-venv"
+if [ ! -x "$venv/bin/pytest" ]; then
+    python3 -m venv "$venv"
+    "$venv/bin/pip" install --quiet -r requirements.txt || { rm -r "$venv"; echo 'the Python packages cannot be installed: skipped'; exit 0; }
+fi
+# The package stands outside the workspace, and has its own folder of builds.
+CARGO_TARGET_DIR="$target/ros2" cargo build --locked --quiet --manifest-path "$root/runtime/ros2/Cargo.toml"
+export MOTET_ROS2="$target/ros2/debug/motet-ros2"
+# `--driver ros2:…` finds the driver in PATH.
+export PATH="$venv/bin:$target/ros2/debug:$PATH" PYTHONPATH="$root/runtime/mujoco:."
+pytest=("$venv/bin/python" -m pytest -p no:cacheprovider -q -rs)
+case "$which" in
+    quick) ./netns.sh "${pytest[@]}" test_driver.py test_layouts.py test_tasks.py ;;
+    physics) ./netns.sh "${pytest[@]}" test_physics.py ;;
+    soak)
+        GOALS=200 ./netns.sh "${pytest[@]}" -s test_driver.py -k random
+        GOALS=200 LOSS=50 ./netns.sh "${pytest[@]}" -s test_driver.py -k random
+        ;;
+    *) echo "run.sh quick|physics|soak"; exit 2 ;;
+esac

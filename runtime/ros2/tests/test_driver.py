@@ -1,0 +1,239 @@
+"""The driver in front of a foreign DDS: goals, cancels, faults of the action servers, perception."""
+
+import os
+import random
+import statistics
+import subprocess
+import time
+
+import pytest
+from host import DRIVER, HERE, MOTET, Driver, RobotProcess
+from robot import spline
+
+TRAJECTORY = "/arm_trajectory_controller/follow_joint_trajectory"
+
+
+def trapezoid(t, secs, ramp):
+    """Share of a way that is done at a time: even acceleration, even speed, even braking."""
+    speed = 1.0 / (secs - ramp)
+    if t < ramp:
+        return speed * t * t / (2.0 * ramp)
+    if t < secs - ramp:
+        return speed * (t - ramp / 2.0)
+    return 1.0 - speed * (secs - t) ** 2 / (2.0 * ramp)
+
+
+def test_the_trajectory_that_arrives_is_the_certified_path():
+    with RobotProcess() as robot, Driver() as driver:
+        goal = driver.lift(0.3, secs=1.6)
+        assert driver.ended(goal) == {"success": None}
+        [event] = robot.events("trajectory")
+        assert event["action"] == TRAJECTORY and event["joints"][0] == "arm_lift_joint"
+        for step in range(1601):
+            t = step / 1000.0
+            places, _ = spline(event["points"], event["joints"], t)
+            assert abs(places["arm_lift_joint"] - 0.3 * trapezoid(t, 1.6, 0.4)) < 1e-9
+            assert abs(places["arm_roll_joint"] + 1.57) < 1e-9
+        assert driver.call("status", goals=[goal]) == {"goals": [{"goal": goal, "state": {"ended": {"success": None}}}]}
+
+
+def test_a_second_start_of_a_goal_does_nothing():
+    with RobotProcess() as robot, Driver() as driver:
+        goal = driver.lift(0.2, secs=0.5)
+        driver.goals -= 1
+        assert driver.lift(0.3, secs=0.5) == goal
+        assert driver.ended(goal) == {"success": None}
+        assert len(robot.events("trajectory")) == 1
+
+
+def test_a_cancel_in_mid_motion_ends_when_all_stand_still():
+    with RobotProcess() as robot, Driver() as driver:
+        goal = driver.lift(0.6, secs=5.0)
+        time.sleep(1.5)
+        begun = time.monotonic()
+        driver.call("cancel", goal=goal)
+        assert driver.ended(goal) == "interrupted"
+        assert time.monotonic() - begun > 0.2, "standstill takes 0.2 s"
+        assert len(robot.events("cancel")) == 1 and not robot.events("done")
+
+
+def test_a_held_goal_goes_on_along_its_path():
+    with RobotProcess() as robot, Driver() as driver:
+        goal = driver.lift(0.4, secs=2.0)
+        time.sleep(1.0)
+        driver.call("hold", goal=goal)
+        assert driver.report("ended", goal, 1.5) is None
+        driver.call("proceed", goal=goal)
+        assert driver.ended(goal) == {"success": None}
+        first, second = robot.events("trajectory")
+        assert 0.02 < second["points"][0][1][0] < 0.38 and abs(second["points"][-1][1][0] - 0.4) < 1e-9
+
+
+def test_a_server_that_ignores_the_cancel_gets_a_trajectory_that_stands_still():
+    with RobotProcess("--fault", "ignore-cancel") as robot, Driver() as driver:
+        goal = driver.lift(0.6, secs=8.0)
+        time.sleep(1.0)
+        driver.call("cancel", goal=goal)
+        assert driver.ended(goal) == "interrupted"
+        assert any("moves on after the cancel" in text for text in driver.texts(goal))
+        last = robot.events("trajectory")[-1]
+        assert len(last["points"]) == 1 and last["points"][0][2] == [0.0] * 5
+
+
+def test_nobody_says_stopped_of_a_robot_that_moves():
+    with RobotProcess("--fault", "ignore-cancel", "--fault", "deaf"), Driver() as driver:
+        goal = driver.lift(0.6, secs=5.0)
+        time.sleep(1.0)
+        begun = time.monotonic()
+        driver.call("safe_stop", goal=goal)
+        assert driver.report("stopped", goal, 12.0) is not None
+        assert time.monotonic() - begun > 3.5, "the robot moved until its path was over"
+
+
+def test_a_server_that_dies_leaves_nothing_unsaid():
+    robot, driver = RobotProcess("--fault", "die"), Driver()
+    goal = driver.lift(0.6, secs=5.0)
+    lost = driver.report("lost", goal, 20.0)
+    assert lost is not None, "a robot of which nobody hears does not stand still"
+    driver.call("safe_stop", goal=goal)
+    assert driver.report("stopped", goal, 2.0) is None
+    robot.process.wait(timeout=5)
+    with RobotProcess():
+        assert driver.report("stopped", goal, 15.0) is not None
+    driver.close()
+
+
+@pytest.mark.parametrize("faults", [["twice"], ["other-goal"], ["late"], ["silent"], ["twice", "other-goal", "late"]])
+def test_wrong_answers_change_nothing(faults):
+    flags = [flag for fault in faults for flag in ("--fault", fault)]
+    with RobotProcess(*flags) as robot, Driver() as driver:
+        # The state of the goal tells that it was accepted, if the answer does not.
+        for at, height in enumerate((0.2, 0.1)):
+            goal = driver.lift(height, secs=0.6, begin=0.2 * at)
+            assert driver.ended(goal) == {"success": None}
+        assert len(robot.events("trajectory")) == 2 and not robot.events("cancel")
+
+
+def test_a_goal_that_nobody_answers_is_canceled_by_its_id():
+    with RobotProcess("--fault", "silent", "--fault", "mute") as robot, Driver() as driver:
+        goal = driver.lift(0.6, secs=8.0)
+        outcome = driver.ended(goal)
+        assert outcome["failure"]["kind"] == "blocked" and "did not answer the goal within 2 s" in outcome["failure"]["text"]
+        [begun], [canceled] = robot.events("trajectory"), robot.events("cancel")[:1]
+        assert begun["id"] == canceled["id"]
+
+
+def test_a_late_acceptance_of_a_lost_goal_is_canceled():
+    with RobotProcess("--fault", "late", "--fault", "mute") as robot, Driver() as driver:
+        goal = driver.lift(0.6, secs=8.0)
+        assert "failure" in driver.ended(goal)
+        assert robot.events("cancel") and not robot.events("done")
+
+
+def test_a_refused_goal_fails_as_its_primitive_declares():
+    with RobotProcess("--fault", "reject"), Driver() as driver:
+        outcome = driver.ended(driver.lift(0.3))
+        assert outcome["failure"] == {"kind": "blocked", "text": TRAJECTORY + " refused the goal"}
+
+
+def test_without_a_robot_a_goal_fails_and_says_why():
+    with Driver() as driver:
+        outcome = driver.ended(driver.lift(0.3), 15.0)
+        assert "no fresh state of `arm_lift_joint`" in outcome["failure"]["text"]
+
+
+def test_the_localisation_widens_the_clearance():
+    with RobotProcess("--sigma", "0.04") as robot, Driver() as driver:
+        time.sleep(1.0)
+        outcome = driver.ended(driver.lift(0.3, clearance=0.05))
+        assert outcome["failure"]["text"] == "the path keeps 0.050 m clear, and the localisation has an error of 0.080 m"
+        assert driver.ended(driver.lift(0.3, clearance=0.09)) == {"success": None}
+        assert len(robot.events("trajectory")) == 1
+
+
+def test_a_path_that_begins_elsewhere_is_planned_anew():
+    with RobotProcess() as robot, Driver() as driver:
+        goal = driver.lift(0.3, secs=1.0, begin=0.2)
+        assert driver.ended(goal, 30.0) == {"success": None}
+        assert any("a new path is looked for" in text for text in driver.texts(goal))
+        for event in robot.events("trajectory"):
+            assert abs(event["points"][0][1][0]) < 0.05
+
+
+def test_a_driver_that_is_started_anew_stops_what_it_does_not_know():
+    with RobotProcess() as robot:
+        driver = Driver()
+        goal = driver.lift(0.6, secs=8.0)
+        time.sleep(1.0)
+        driver.kill()
+        with Driver(run="test") as again:
+            assert again.call("status", goals=[goal])["goals"][0]["state"] == "unknown"
+            time.sleep(0.5)
+            again.call("safe_stop", goal=goal)
+            assert again.report("stopped", goal) is not None
+            begun = robot.events("trajectory")[0]["id"]
+            assert begun not in [event["id"] for event in robot.events("done")]
+
+
+def test_a_host_that_leaves_stops_the_robot():
+    with RobotProcess() as robot, Driver() as driver:
+        driver.lift(0.6, secs=8.0)
+        time.sleep(1.0)
+        assert driver.close() == 0
+        assert len(robot.events("cancel")) == 1
+
+
+def test_another_run_stops_what_moves():
+    with RobotProcess() as robot, Driver() as driver:
+        driver.lift(0.6, secs=8.0)
+        time.sleep(0.7)
+        driver.call("hello", protocol=2, run="other", resumed=False, at=0.0, robot="hsr", policy="", primitives=[])
+        time.sleep(0.5)
+        assert len(robot.events("cancel")) == 1
+
+
+def test_pictures_and_unbound_primitives():
+    with RobotProcess(), Driver() as driver:
+        time.sleep(1.2)
+        picture = driver.call("look")
+        assert (picture["image"]["width"], picture["camera"]["fx"]) == (64, 60.0)
+        assert "no camera `tail`" in driver.call("look", camera="tail")["error"]["message"]
+        _, answer = driver.start("fly")
+        assert answer["error"]["code"] == 1 and "no steps for `fly`" in answer["error"]["data"]["failure"]["text"]
+        assert driver.call("nonsense")["error"]["code"] == -32601
+        assert driver.call("start", goal="x")["error"]["code"] == -32602
+        _, answer = driver.start("say", text={"text": "hello"})
+        assert answer == {}
+
+
+def test_goals_with_random_cancels_all_have_an_end():
+    """Every goal's end is known, and none runs on. `run.sh soak` plays 200."""
+    count = int(os.environ.get("GOALS", "25"))
+    chance, waits, height = random.Random(7), [], 0.0
+    with RobotProcess() as robot, Driver() as driver:
+        for at in range(count):
+            target = chance.uniform(0.0, 0.6)
+            goal = driver.lift(target, secs=chance.uniform(0.3, 1.0), begin=height)
+            canceled = chance.random() < 0.5
+            if canceled:
+                time.sleep(chance.uniform(0.0, 0.6))
+                driver.call("cancel", goal=goal)
+            outcome = driver.ended(goal)
+            assert outcome == {"success": None} or (canceled and outcome == "interrupted"), (at, outcome)
+            waits += [float(text.split()[-2]) for text in driver.texts(goal) if "accepted after" in text]
+            driver.reports.clear()
+            time.sleep(0.06)
+            driver.call("ping")
+            height = driver.moved["joints"]["arm_lift_joint"]
+        begun, over = robot.events("trajectory"), robot.events("done") + robot.events("cancel")
+        assert {tuple(event["id"]) for event in begun} == {tuple(event["id"]) for event in over}
+    waits.sort()
+    print("start to accept: median %.2f ms, p99 %.2f ms, greatest %.2f ms of %d goals"
+          % (statistics.median(waits), waits[int(0.99 * (len(waits) - 1))], waits[-1], len(waits)))
+
+
+def test_the_conformance_of_the_driver_protocol():
+    with RobotProcess():
+        command = [MOTET, "run", "--check", "--patience", "6", "--driver", "%s drive %s --robot hsr --scene kitchen" % (DRIVER, HERE / "hsr.toml")]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stdout + done.stderr
