@@ -22,6 +22,7 @@ mod run_view;
 mod runner;
 mod shared_sessions;
 mod sibling;
+mod swap_desk;
 mod typed_line;
 mod view;
 

@@ -2,10 +2,12 @@
 //! recorded in a journal, stopped by Ctrl-C.
 
 use std::rc::Rc;
+use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use motet::run::Room;
+use motet_graph::Graph;
 use motet_host::journal::{JournalWriter, RunRecorder};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
@@ -13,8 +15,8 @@ use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{
-    Answer, Detection, Driver, Effect, Engine, Event, Observer, Query, RunControl, RunEnd, Time, ToldThing,
-    Verifier, resume,
+    Answer, Detection, Driver, Effect, Engine, Event, Observer, PreparedSwap, Query, RetiredGraph,
+    RunControl, RunEnd, SwapRefusal, Time, ToldThing, Verifier, resume,
 };
 
 use crate::error::{CliError, Exit, journal_error};
@@ -22,6 +24,7 @@ use crate::flags::Speed;
 use crate::interrupt::{SLICE, catch_interrupts, is_interrupted, note_effect, note_event};
 use crate::output::{escape, note};
 use crate::run_view::View;
+use crate::swap_desk::SwapDesk;
 use crate::view::live::SharedPage;
 use crate::view::onlooker::PageObserver;
 
@@ -34,17 +37,27 @@ pub(crate) struct PacedView {
     guard: Option<Guard>,
     /// The room as the robot knows it, with what it has seen.
     room: Room,
+    /// Desk of policies that are to take over, with the view of one that does.
+    desk: Option<(SwapDesk, ViewOf)>,
 }
+
+/// Maker of the view of a graph.
+pub(crate) type ViewOf = Box<dyn Fn(&Graph) -> Box<dyn View>>;
 
 impl PacedView {
     /// Observer without a guard.
     pub(crate) fn new(view: Box<dyn View>, speed: Speed) -> Self {
-        Self { view, speed, begun: None, now: Time::ZERO, guard: None, room: Room::default() }
+        Self { view, speed, begun: None, now: Time::ZERO, guard: None, room: Room::default(), desk: None }
     }
 
     /// The same with a guard, which checks deferred motions.
     pub(crate) fn with_guard(self, guard: Option<Guard>) -> Self {
         Self { guard, ..self }
+    }
+
+    /// The same with a desk of policies that are to take over.
+    pub(crate) fn with_desk(self, desk: Option<SwapDesk>, view_of: ViewOf) -> Self {
+        Self { desk: desk.map(|desk| (desk, view_of)), ..self }
     }
 
     /// The same in a room that changes by what the driver detects.
@@ -133,10 +146,24 @@ impl Observer for PacedView {
         Some(guard)
     }
 
+    fn swap(&mut self, _now: Time, engine: &Engine) -> Option<PreparedSwap> {
+        self.desk.as_mut()?.0.swap(engine)
+    }
+
+    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
+        let Some((desk, view_of)) = &mut self.desk else { return };
+        desk.swapped(graph, &result);
+        if result.is_ok() {
+            self.view.leave(now);
+            self.view = view_of(graph);
+        }
+    }
+
     fn at_least_every(&self) -> Time {
+        let often = self.desk.as_ref().map_or(0.1, |(desk, _)| desk.at_least_every().secs());
         match self.speed {
             Speed::Max => Time::NEVER,
-            Speed::Times(factor) => Time::from_secs(0.1 * factor),
+            Speed::Times(factor) => Time::from_secs(often * factor),
         }
     }
 }

@@ -7,9 +7,11 @@ mod many;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::Arc;
 
 use clap::Args;
 use motet::run::{create_journal, engine, events, journal_head, run_id, start_state, unix_ns};
+use motet_compiler::CheckOptions;
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::DriverAddress;
@@ -35,6 +37,7 @@ use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, view};
 use crate::runner::{Beginning, PacedView, Runner, connect, exit_of};
+use crate::swap_desk::SwapDesk;
 use crate::view::answered::AnsweredQuestions;
 use crate::view::journal::{recorded_text, session};
 use crate::view::live::{LivePage, SharedPage};
@@ -122,8 +125,8 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let Some(compiled) = compile(&document, policy, args.format, &mut project, report)? else {
         return Ok(Exit::Findings);
     };
-    let CompiledPolicy { graph, parsed, opened, text } = compiled;
-    let run = run_id();
+    let CompiledPolicy { graph, parsed, opened: shared, text } = compiled;
+    let (opened, run) = (&*shared, run_id());
     let wanted = RunSubject { run: &run, policy: Some((&graph, &parsed)), opened };
     let ReadyDriver { mut driver, saved, clock, speed, settings, .. } =
         open_driver(&args.driver, &args.session.environment, &wanted, report)?;
@@ -161,29 +164,48 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let view = view(args.format, engine.graph(), colors, clock);
     // Where the driver keeps the time of the wall clock, the view never waits.
     let paced = PacedView::new(view, speed).with_guard(guard).with_room(opened.scene.clone());
+    let paced = with_desk(paced, page.as_ref(), Some(Arc::clone(&shared)), args, (colors, clock));
     let events = vec![Event::Begin];
     Runner { engine, driver, journal, from: Time::ZERO, events }.run(paced, beginning)
 }
 
+/// The view with a desk of policies that are to take over, if the run has a page to offer them.
+fn with_desk(
+    paced: PacedView,
+    page: Option<&SharedPage>,
+    opened: Option<Arc<ProjectSession>>,
+    args: &RunArgs,
+    (colors, clock): (Colors, Clock),
+) -> PacedView {
+    let options = CheckOptions { max_duration_secs: args.session.max_duration };
+    let desk = page.zip(opened).and_then(|(page, opened)| {
+        let (desk, offers) = SwapDesk::new(opened, options)?;
+        page.borrow().hub().take_offers(offers);
+        Some(desk)
+    });
+    let format = args.format;
+    paced.with_desk(desk, Box::new(move |graph| view(format, graph, colors, clock)))
+}
+
 /// Policy that passed the check.
-pub(super) struct CompiledPolicy<'p> {
+pub(super) struct CompiledPolicy {
     pub(super) graph: Graph,
     pub(super) parsed: Parsed,
-    pub(super) opened: &'p ProjectSession,
+    pub(super) opened: Arc<ProjectSession>,
     /// Text with the findings of the check.
     pub(super) text: PolicyText,
 }
 
 /// Reads and compiles a policy, and reports the diagnostics. `None` if the check refuses it.
-pub(super) fn compile<'p>(
+pub(super) fn compile(
     document: &Document,
     policy: Option<&str>,
     format: OutputFormat,
-    project: &'p mut Project,
+    project: &mut Project,
     report: &mut Report,
-) -> Result<Option<CompiledPolicy<'p>>, CliError> {
+) -> Result<Option<CompiledPolicy>, CliError> {
     let (source, parsed) = document.parse();
-    let opened = project.session_for(&parsed.file, report)?;
+    let opened = project.shared_session_for(&parsed.file, report)?;
     let compiled = opened.session.compile(&parsed, policy);
     let sources = opened.sources(source.clone());
     match format {
@@ -218,7 +240,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         SavedDriver::Process { .. } => None,
     };
     let clock = clock_of(head, &saved);
-    let page = resumed_page(folder, args, &entries, report)?;
+    let (page, opened) = resumed_page(folder, args, &entries, report)?.unzip();
     let view = view(args.format, replay.engine().graph(), colors, clock);
     let speed = match clock {
         Clock::Simulated => args.driver.speed(),
@@ -281,6 +303,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let goals = count(ledger.goals.len(), "goal");
     note(&format!("resumed at {} after {} entries, {goals} open{cut}", replay.now(), entries.len()));
     let paced = paced.with_guard(guard);
+    let paced = with_desk(paced, page.as_ref(), opened.flatten(), args, (colors, clock));
     let driver: Box<dyn Driver> = match (saved, simulator) {
         (SavedDriver::Process { address, instance, .. }, _) => {
             let hello = Hello { resumed: true, ..Hello::of(replay.engine().graph(), &run) };
@@ -326,17 +349,17 @@ fn resumed_page(
     args: &RunArgs,
     entries: &[JournalEntry],
     report: &mut Report,
-) -> Result<Option<SharedPage>, CliError> {
+) -> Result<Option<(SharedPage, Option<Arc<ProjectSession>>)>, CliError> {
     let Some(address) = args.page.view else { return Ok(None) };
-    let opened = session(folder, report);
-    let mut page = LivePage::start(address, opened.as_ref(), TAKES)?;
+    let opened = session(folder, report).map(Arc::new);
+    let mut page = LivePage::start(address, opened.as_deref(), TAKES)?;
     if let Some(text) = recorded_text(folder) {
         page.text(text);
     }
     for (entry, seq) in entries.iter().zip(0..) {
         page.entry(seq, entry);
     }
-    Ok(Some(Rc::new(RefCell::new(page))))
+    Ok(Some((Rc::new(RefCell::new(page)), opened)))
 }
 
 /// Clock of the run of a journal.

@@ -3,12 +3,14 @@
 //! The run writes, the server reads, on threads of their own. Items stay, so that a page which connects late
 //! or again gets all of them.
 
-use std::sync::mpsc::Sender;
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use motet_runtime::{RunControl, Time};
 use serde_json::{Value, json};
 use tokio::sync::watch;
+
+use crate::swap_desk::Offer;
 
 /// Bytes of items after which a page gets no more of them.
 const MOST_BYTES: usize = 512 * 1024 * 1024;
@@ -32,6 +34,8 @@ struct Operator {
     lines: Option<Sender<String>>,
     /// Question that waits for a line.
     question: Option<String>,
+    /// Desk of policies that are to take over; `None` where the run has none.
+    desk: Option<Sender<Offer>>,
     is_stopped: bool,
     is_held: bool,
     wish: Option<RunControl>,
@@ -160,6 +164,20 @@ impl Hub {
         lines.send(line).map_err(|_| NotTaken::Nobody)?;
         operator.question = None;
         Ok(())
+    }
+
+    /// Sends policies that are to take over to a desk from now on.
+    pub(crate) fn take_offers(&self, desk: Sender<Offer>) {
+        locked(&self.operator).desk = Some(desk);
+    }
+
+    /// Offers a policy that is to take over; what becomes of it arrives in the receiver.
+    pub(crate) fn offer(&self, policy: String) -> Result<Receiver<Result<Value, Value>>, NotTaken> {
+        let (reply, result) = channel();
+        let operator = locked(&self.operator);
+        let desk = operator.desk.as_ref().ok_or(NotTaken::Nobody)?;
+        desk.send(Offer { policy, reply }).map_err(|_| NotTaken::Nobody)?;
+        Ok(result)
     }
 
     /// Stops the run, holds it, or lets it go on.

@@ -35,6 +35,9 @@ const MOST_PAGES: usize = 32;
 const MOST_BYTES: usize = 16 * 1024;
 /// Most bytes of a question to the workbench: a policy with what JSON adds.
 const MOST_QUESTION_BYTES: usize = 3 * 1024 * 1024;
+/// The most bytes of a policy that is to take over, and the time for its check and the swap.
+const MOST_POLICY_BYTES: usize = 1024 * 1024;
+const SWAPS: Duration = Duration::from_secs(30);
 /// Most letters of a line.
 const MOST_LETTERS: usize = 2_000;
 /// Items that go out together.
@@ -144,6 +147,7 @@ fn router(shared: Arc<Shared>) -> Router {
         .route("/say", post(say))
         .route("/answer", post(answer))
         .route("/ask", post(ask).layer(DefaultBodyLimit::max(MOST_QUESTION_BYTES)))
+        .route("/swap", post(swap).layer(DefaultBodyLimit::max(MOST_POLICY_BYTES)))
         .route("/stop", post(async |shared, headers| control(shared, &headers, RunControl::Stop)))
         .route("/hold", post(async |shared, headers| control(shared, &headers, RunControl::Hold)))
         .route("/proceed", post(async |shared, headers| control(shared, &headers, RunControl::Proceed)))
@@ -306,6 +310,24 @@ async fn ask(State(shared): State<Arc<Shared>>, headers: HeaderMap, question: St
         Ok(Some(answer)) => ([(CONTENT_TYPE, "application/json")], answer).into_response(),
         Ok(None) | Err(_) => {
             (StatusCode::INTERNAL_SERVER_ERROR, "the question has no answer").into_response()
+        }
+    }
+}
+
+/// Offers a policy that is to take over, and waits for what becomes of it.
+async fn swap(State(shared): State<Arc<Shared>>, headers: HeaderMap, policy: String) -> Response {
+    if !allowed(&shared, &headers) {
+        return refused(Refusal::Token);
+    }
+    let Ok(result) = shared.hub.offer(policy) else {
+        return (StatusCode::CONFLICT, "this run takes no other policy").into_response();
+    };
+    let answered = tokio::task::spawn_blocking(move || result.recv_timeout(SWAPS)).await;
+    match answered {
+        Ok(Ok(Ok(swapped))) => Json(swapped).into_response(),
+        Ok(Ok(Err(refusal))) => (StatusCode::UNPROCESSABLE_ENTITY, Json(refusal)).into_response(),
+        Ok(Err(_)) | Err(_) => {
+            (StatusCode::CONFLICT, "the run is over, or the check takes too long").into_response()
         }
     }
 }

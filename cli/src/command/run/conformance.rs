@@ -36,7 +36,7 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
     let compiled = compile(&document, args.policy.as_deref(), args.format, &mut project, report)?;
     let Some(CompiledPolicy { graph, parsed, opened, .. }) = compiled else { return Ok(Exit::Findings) };
     let command = first_call(&graph).map_err(CliError::Message)?;
-    let Some(address) = address(&args.driver, &args.session.environment.or_of(opened), &parsed.file)? else {
+    let Some(address) = address(&args.driver, &args.session.environment.or_of(&opened), &parsed.file)? else {
         let why = "`--check` leads a driver in another process: name it with `--driver`";
         return Err(CliError::Message(why.to_owned()));
     };
