@@ -2,6 +2,7 @@
 
 use crate::bind::{Binding, CallKind, Deed};
 use crate::layout::Layouts;
+use crate::plan::Limits;
 use crate::robot::Robot;
 use motet_project::{Discard, open_robot};
 use motet_robots::scene::Scene;
@@ -25,6 +26,22 @@ const BELIEVED: [&str; 13] = [
 /// There is no such scene, or it has errors.
 pub(crate) fn read_scene(name: &str) -> Result<Scene, String> {
     motet_project::read_scene(name, &mut Sources::default(), &mut Discard).map_err(|error| error.to_string())
+}
+
+/// Limits of the joints of a robot.
+///
+/// # Errors
+///
+/// There is no such robot, or it has errors.
+pub(crate) fn limits(robot: &str) -> Result<Limits, String> {
+    let opened = open_robot(robot, &mut Sources::default(), &mut Discard);
+    let (_, urdf) = opened.map_err(|error| error.to_string())?;
+    let joints = urdf.into_iter().flat_map(|urdf| urdf.joints);
+    let limited = joints.filter_map(|joint| {
+        let limits = joint.limits?;
+        Some((joint.name.to_string(), (limits.lower, limits.upper)))
+    });
+    Ok(limited.collect())
 }
 
 /// Lines about a binding, and the number of problems.

@@ -1,6 +1,7 @@
 //! The driver protocol on standard input and output, in front of the robot.
 
 use crate::observe::Found;
+use crate::plan::Limits;
 use crate::robot::{Heard, Robot};
 use crate::state::Parts;
 use crate::task::{Finish, Surroundings, Task, stand_still, whole};
@@ -52,6 +53,7 @@ pub(crate) struct Driver<W> {
     world: World,
     card: String,
     planner: Option<PathBuf>,
+    limits: Limits,
     out: W,
     run: Option<String>,
     fails: HashMap<String, Vec<String>>,
@@ -99,9 +101,15 @@ pub(crate) fn read_lines(mut input: impl BufRead + Send + 'static) -> Receiver<L
 }
 
 impl<W: Write> Driver<W> {
-    /// A driver of a robot in a room. `card` is the robot as the command line names it, `planner` the command
-    /// that plans paths.
-    pub(crate) fn new(robot: Robot, world: World, card: String, planner: Option<PathBuf>, out: W) -> Self {
+    /// A driver of a robot in a room. `card` is the robot as the command line names it, with the limits of its
+    /// joints; `planner` is the command that plans paths.
+    pub(crate) fn new(
+        robot: Robot,
+        world: World,
+        (card, limits): (String, Limits),
+        planner: Option<PathBuf>,
+        out: W,
+    ) -> Self {
         let started = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
         let now = Instant::now();
         Self {
@@ -109,6 +117,7 @@ impl<W: Write> Driver<W> {
             world,
             card,
             planner,
+            limits,
             out,
             run: None,
             fails: HashMap::new(),
@@ -194,6 +203,7 @@ impl<W: Write> Driver<W> {
                 world: &mut self.world,
                 card: &self.card,
                 planner: self.planner.as_ref(),
+                limits: &self.limits,
             };
             for goal in self.goals.values_mut() {
                 if let Goal::Running(task) = goal {
@@ -213,6 +223,7 @@ impl<W: Write> Driver<W> {
                 world: &mut self.world,
                 card: &self.card,
                 planner: self.planner.as_ref(),
+                limits: &self.limits,
             };
             let finish = task.advance(&mut around);
             let id = GoalId::from_number(*number);
@@ -502,6 +513,7 @@ impl<W: Write> Driver<W> {
             world: &mut self.world,
             card: &self.card,
             planner: self.planner.as_ref(),
+            limits: &self.limits,
         };
         act(task, &mut around);
         true

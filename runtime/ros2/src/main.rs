@@ -119,11 +119,12 @@ fn drive(args: DriveArgs) -> Result<u8, String> {
     let card = robot_of(&binding, args.robot.as_deref())?;
     let layouts = Layouts::of(binding.ros.distribution, args.layouts.as_deref())?;
     let scene = check::read_scene(&args.scene)?;
+    let limits = check::limits(&card)?;
     let robot = robot::Robot::open(binding, layouts)?;
     let planner = args.motet.or_else(|| on_path("motet"));
     let lines = driver::read_lines(BufReader::new(std::io::stdin()));
     let out = std::io::stdout().lock();
-    driver::Driver::new(robot, world::World::new(scene), card, planner, out).serve(&lines)?;
+    driver::Driver::new(robot, world::World::new(scene), (card, limits), planner, out).serve(&lines)?;
     Ok(0)
 }
 

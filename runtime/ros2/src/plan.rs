@@ -9,6 +9,12 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+/// Limits of joints by their names in the card, in rad or m.
+pub(crate) type Limits = BTreeMap<String, (f64, f64)>;
+
+/// Error of a measured joint beyond its limit in rad or m.
+const NEAR: f64 = 0.02;
+
 /// Question that another thread answers: does a motion exist from here?
 #[derive(Clone, Debug)]
 pub(crate) struct Question {
@@ -29,10 +35,15 @@ impl Question {
         motion: String,
         base: Planar,
         joints: &BTreeMap<String, f64>,
+        limits: &Limits,
     ) -> Self {
         let mut scene = scene.clone();
         scene.robot.base = [base.x, base.y, base.yaw];
-        scene.robot.joints.extend(joints.iter().map(|(name, value)| (name.as_str().into(), *value)));
+        scene.robot.joints.extend(joints.iter().map(|(name, value)| {
+            // A joint that is measured a little beyond its limit is at it.
+            let near = limits.get(name).filter(|(low, high)| (low - NEAR..=high + NEAR).contains(value));
+            (name.as_str().into(), near.map_or(*value, |(low, high)| value.clamp(*low, *high)))
+        }));
         Self { program, robot: robot.to_owned(), scene, motion }
     }
 
@@ -61,7 +72,8 @@ impl Question {
         match answer.get("witness") {
             Some(witness) => witness_of(witness).ok_or_else(|| "`motet feasible` wrote no path".to_owned()),
             None => {
-                let says = answer.get("says").and_then(serde_json::Value::as_str);
+                // An error in the scene comes as a finding.
+                let says = answer.get("says").or(answer.get("message")).and_then(serde_json::Value::as_str);
                 Err(says.unwrap_or("no motion was found").to_owned())
             }
         }

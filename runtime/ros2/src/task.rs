@@ -10,6 +10,7 @@ use crate::bind::{Call, CallKind, Deed, Opening, Step};
 use crate::cdr::Message;
 use crate::joint::Part;
 use crate::observe::Found;
+use crate::plan::Limits;
 use crate::robot::{Heard, Robot};
 use crate::service::Ticket;
 use crate::state::Parts;
@@ -32,6 +33,7 @@ pub(crate) struct Surroundings<'a> {
     /// Robot as the command line names it, and the command that plans.
     pub(crate) card: &'a str,
     pub(crate) planner: Option<&'a PathBuf>,
+    pub(crate) limits: &'a Limits,
 }
 
 /// A part of a motion.

@@ -80,7 +80,8 @@ impl Task {
         let positions = around.robot.body.positions();
         let controlled = positions.iter().filter(|(name, _)| binding.controls(name));
         let joints = controlled.map(|(name, value)| (binding.card_joint(name).to_owned(), *value)).collect();
-        let question = Question::new(program, around.card, &around.world.scene, motion, base, &joints);
+        let question =
+            Question::new(program, around.card, &around.world.scene, motion, base, &joints, around.limits);
         let (sender, answer) = bounded(1);
         std::thread::spawn(move || {
             // The task may be over before its answer.
