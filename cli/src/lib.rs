@@ -86,6 +86,15 @@ enum Command {
     /// Check bindings for robots that speak ROS 2, and serve ROS 2; needs the executable `motet-ros2`
     #[command(disable_help_flag = true)]
     Ros2(SiblingArgs),
+    /// Run orders of a fleet on this robot, over NATS; needs the executable `motet-fleet`
+    #[command(disable_help_flag = true)]
+    Agent(SiblingArgs),
+    /// See and steer the robots of a fleet, over NATS; needs the executable `motet-fleet`
+    #[command(disable_help_flag = true)]
+    Fleet(SiblingArgs),
+    /// Copy journals into an archive and back; needs the executable `motet-fleet`
+    #[command(disable_help_flag = true)]
+    Journal(SiblingArgs),
     /// Replay the journal of a run and report the first difference
     Replay(command::replay::ReplayArgs),
     /// Show the journal of a run on a page in a browser, or write the page to a file
@@ -187,6 +196,9 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
         Command::Serve(args) => command::serve::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
         Command::Ros2(args) => sibling::run("motet-ros2", &args.arguments),
+        Command::Agent(args) => sibling::run_as("motet-fleet", "agent", &args.arguments),
+        Command::Fleet(args) => sibling::run_as("motet-fleet", "fleet", &args.arguments),
+        Command::Journal(args) => sibling::run_as("motet-fleet", "journal", &args.arguments),
         Command::Replay(args) => command::replay::run(args),
         Command::View(args) => command::view::run(args, colors),
         Command::Export(args) => command::export::run(args, colors),

@@ -24,6 +24,12 @@ fn package(name: &str) -> &'static str {
     if name == "motet-ros2" { "runtime/ros2" } else { "cli/fleet" }
 }
 
+/// Runs a command of an executable with arguments, and ends as it does.
+pub(crate) fn run_as(name: &str, command: &str, arguments: &[OsString]) -> Result<Exit, CliError> {
+    let words: Vec<OsString> = [command.into()].into_iter().chain(arguments.iter().cloned()).collect();
+    run(name, &words)
+}
+
 /// Runs an executable with arguments, and ends as it does.
 pub(crate) fn run(name: &str, arguments: &[OsString]) -> Result<Exit, CliError> {
     let program = find(name)?;

@@ -1,0 +1,424 @@
+//! `motet agent`: runs orders on a robot, lets policies take over, and reports. It goes on without the link.
+
+use crate::link::{Fleet, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name};
+use crate::run::{Events, OrderFolder, RunSettings, tell_page};
+use crate::ship::Shipment;
+use crate::signed::{Trust, What, Words, now, open};
+use async_nats::jetstream::{AckKind, Message};
+use futures::StreamExt as _;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+use tokio::time::sleep;
+
+/// Time between two looks at a run, and between two states that are told.
+const LOOKS: Duration = Duration::from_millis(50);
+const TELLS: Duration = Duration::from_secs(2);
+/// Time between two messages to the server that an order is still worked at.
+const WORKS: Duration = Duration::from_secs(5);
+/// Time after which something that the server did not take is tried again.
+const AGAIN: Duration = Duration::from_millis(500);
+/// Number of times that a run that was cut off is continued.
+const RESUMES: u32 = 5;
+
+#[derive(clap::Args, Debug)]
+pub(crate) struct AgentArgs {
+    /// Name of this robot in the fleet
+    #[arg(long, value_name = "NAME", value_parser = name)]
+    robot: String,
+    #[command(flatten)]
+    server: ServerArgs,
+    /// File with the public keys of those whose orders this robot follows
+    #[arg(long, value_name = "FILE")]
+    trust: PathBuf,
+    /// Folder for orders, journals and results
+    #[arg(long, value_name = "FOLDER", default_value = "motet-agent")]
+    folder: PathBuf,
+    /// Card of the robot: a built-in name, or a folder with a robot.toml. No policy runs that does not check against it
+    #[arg(long, value_name = "NAME|FOLDER")]
+    card: String,
+    /// Scene: a built-in name, or a JSON file
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// Driver, as in `motet run`
+    #[arg(long, value_name = "DRIVER", default_value = "kinematic")]
+    driver: String,
+    /// Speed of simulated time, as in `motet run`
+    #[arg(long, value_name = "max|FACTOR")]
+    speed: Option<String>,
+    /// Command `motet` [default: next to this executable, or in PATH]
+    #[arg(long, value_name = "FILE")]
+    motet: Option<PathBuf>,
+}
+
+/// The run that goes on.
+#[derive(Clone, Debug)]
+struct Current {
+    order: String,
+    folder: OrderFolder,
+    step: String,
+    question: Option<(String, String)>,
+}
+
+/// What the tasks of an agent share.
+struct Agent {
+    robot: String,
+    root: PathBuf,
+    fleet: Fleet,
+    trust: Trust,
+    settings: RunSettings,
+    current: Mutex<Option<Current>>,
+    shipments: tokio::sync::Mutex<BTreeMap<String, Shipment>>,
+}
+
+/// Runs the agent until it is ended.
+pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
+    let trust = Trust::read(&args.trust)?;
+    let motet = args
+        .motet
+        .clone()
+        .or_else(crate::motet)
+        .ok_or("`motet` is neither beside this program nor in PATH")?;
+    std::fs::create_dir_all(&args.folder).map_err(|error| format!("{}: {error}", args.folder.display()))?;
+    let root = std::path::absolute(&args.folder).map_err(|error| error.to_string())?;
+    let lock =
+        std::fs::File::create(root.join("lock")).map_err(|error| format!("{}: {error}", root.display()))?;
+    if !fs4::fs_std::FileExt::try_lock_exclusive(&lock).unwrap_or(false) {
+        return Err(format!("another agent uses {}", root.display()));
+    }
+    let client = args.server.connect(&format!("motet agent {}", args.robot), true).await?;
+    let agent = Arc::new(Agent {
+        robot: args.robot.clone(),
+        root,
+        fleet: Fleet::new(client),
+        trust,
+        settings: RunSettings {
+            motet,
+            robot: args.card.clone(),
+            scene: args.scene.clone(),
+            driver: args.driver.clone(),
+            speed: args.speed.clone(),
+        },
+        current: Mutex::new(None),
+        shipments: tokio::sync::Mutex::default(),
+    });
+    println!("ready");
+    let tasks = [
+        tokio::spawn(forever(Arc::clone(&agent), "orders", |agent| async move { agent.take_orders().await })),
+        tokio::spawn(forever(
+            Arc::clone(&agent),
+            "policies",
+            |agent| async move { agent.take_policies().await },
+        )),
+        tokio::spawn(forever(Arc::clone(&agent), "words", |agent| async move { agent.take_words().await })),
+        tokio::spawn(forever(Arc::clone(&agent), "state", |agent| async move { agent.tell_state().await })),
+        tokio::spawn(forever(
+            Arc::clone(&agent),
+            "journals",
+            |agent| async move { agent.ship_journals().await },
+        )),
+    ];
+    // A run goes on when the agent ends: its journal is on disk, and the next agent follows it.
+    let _ = tokio::signal::ctrl_c().await;
+    tasks.iter().for_each(tokio::task::JoinHandle::abort);
+    Ok(0)
+}
+
+/// Does something again and again, whatever the link does. A reason is printed once until it changes.
+async fn forever<F>(agent: Arc<Agent>, what: &str, task: impl Fn(Arc<Agent>) -> F)
+where
+    F: Future<Output = Result<(), String>>,
+{
+    let mut told = String::new();
+    loop {
+        if let Err(why) = task(Arc::clone(&agent)).await
+            && why != told
+        {
+            eprintln!("motet-fleet: {what}: {}", why.escape_debug());
+            told = why;
+        }
+        sleep(AGAIN).await;
+    }
+}
+
+impl Agent {
+    fn current(&self) -> std::sync::MutexGuard<'_, Option<Current>> {
+        self.current.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    // Orders.
+
+    async fn take_orders(&self) -> Result<(), String> {
+        let consumer = self.fleet.orders(&self.robot).await?;
+        let mut orders = consumer.fetch().max_messages(1).expires(Duration::from_secs(5)).messages().await;
+        let orders = orders.as_mut().map_err(|error| error.to_string())?;
+        while let Some(order) = orders.next().await {
+            let order = order.map_err(|error| error.to_string())?;
+            self.carry_out(&order).await?;
+        }
+        Ok(())
+    }
+
+    /// Carries an order out, however often it is delivered.
+    async fn carry_out(&self, message: &Message) -> Result<(), String> {
+        let words = match open(&message.payload, &self.trust, &self.robot) {
+            Ok(words) => words,
+            // An order that is too old may have begun before: its folder says so.
+            Err(why) => return self.refuse(message, &why).await,
+        };
+        let id = words.id.clone();
+        let folder = OrderFolder(self.root.join("orders").join(&id));
+        let folder =
+            if folder.has_order() { folder } else { OrderFolder::create(&self.root.join("orders"), &words)? };
+        let result = match folder.result() {
+            Some(result) => result,
+            None => {
+                let result = self.run(&words, &folder, message).await?;
+                folder.write("result.json", result.to_string().as_bytes())?;
+                result
+            }
+        };
+        *self.current() = None;
+        self.ship(&id, &folder).await;
+        self.tell_result(&id, &result).await?;
+        message.double_ack().await.map_err(|error| error.to_string())
+    }
+
+    async fn refuse(&self, message: &Message, why: &str) -> Result<(), String> {
+        eprintln!("motet-fleet: an order is refused: {}", why.escape_debug());
+        let id = claimed_id(&message.payload);
+        // An order that ran before its time was over keeps its result.
+        if let Some(id) = id.filter(|id| !OrderFolder(self.root.join("orders").join(id)).has_order()) {
+            self.tell_result(&id, &json!({"state": "refused", "why": why})).await?;
+        }
+        message.double_ack().await.map_err(|error| error.to_string())
+    }
+
+    async fn tell_result(&self, order: &str, result: &Value) -> Result<(), String> {
+        let bucket = self.fleet.bucket(RESULTS).await?;
+        let mut told = result.clone();
+        if let Some(fields) = told.as_object_mut() {
+            fields.insert("robot".to_owned(), json!(self.robot));
+            fields.insert("order".to_owned(), json!(order));
+        }
+        bucket.put(order, told.to_string().into()).await.map(|_| ()).map_err(|error| error.to_string())
+    }
+
+    /// Runs an order to its end, or follows its run that goes on already.
+    async fn run(&self, words: &Words, folder: &OrderFolder, message: &Message) -> Result<Value, String> {
+        if !matches!(words.what, What::Run { .. }) {
+            return Ok(json!({"state": "refused", "why": "the words are no order"}));
+        }
+        let (mut child, mut resumes, mut worked) = (None, 0, Instant::now());
+        let mut events = Events::default();
+        if !folder.is_running() {
+            child = Some(folder.start(&self.settings)?);
+        }
+        let mut code = None;
+        loop {
+            let is_new = events.follow(folder);
+            let current = Current {
+                order: words.id.clone(),
+                folder: folder.clone(),
+                step: events.step.clone(),
+                question: events.question.clone(),
+            };
+            *self.current() = Some(current);
+            if is_new {
+                let _ = self.put_state().await;
+            }
+            let is_over = match &mut child {
+                Some(process) => match process.try_wait() {
+                    Ok(Some(status)) => {
+                        code = status.code();
+                        true
+                    }
+                    Ok(None) => false,
+                    Err(error) => return Err(error.to_string()),
+                },
+                None => !folder.is_running(),
+            };
+            if is_over {
+                if let Some(result) = folder.ending(code) {
+                    return Ok(result);
+                }
+                resumes += 1;
+                if resumes > RESUMES {
+                    let why = "its process ended again and again before the run was over";
+                    return Ok(json!({"state": "failed", "why": why}));
+                }
+                sleep(AGAIN).await;
+                child = Some(folder.start(&self.settings)?);
+            }
+            if worked.elapsed() > WORKS {
+                worked = Instant::now();
+                // Without a link the order is given out again later; its folder says what it did.
+                let _ = message.ack_with(AckKind::Progress).await;
+            }
+            self.ship(&words.id, folder).await;
+            sleep(LOOKS).await;
+        }
+    }
+
+    // Policies that take over.
+
+    async fn take_policies(&self) -> Result<(), String> {
+        let bucket = self.fleet.bucket(POLICIES).await?;
+        let mut policies = bucket.watch(&self.robot).await.map_err(|error| error.to_string())?;
+        while let Some(entry) = policies.next().await {
+            let entry = entry.map_err(|error| error.to_string())?;
+            let result = self.swap(&entry.value).await;
+            let (id, mut told) = match result {
+                Ok((id, told)) => (id, told),
+                Err(why) => (claimed_id(&entry.value).unwrap_or_default(), json!({"problem": why})),
+            };
+            if let Some(fields) = told.as_object_mut() {
+                fields.insert("id".to_owned(), json!(id));
+            }
+            let results = self.fleet.bucket(SWAPS).await?;
+            results.put(&self.robot, told.to_string().into()).await.map_err(|error| error.to_string())?;
+        }
+        Err("the watch of the policies has ended".to_owned())
+    }
+
+    /// Lets a policy take over; its id, with what became of it.
+    async fn swap(&self, bytes: &[u8]) -> Result<(String, Value), String> {
+        let words = open(bytes, &self.trust, &self.robot)?;
+        let What::Swap { policy } = words.what else { return Err("the words have no policy".to_owned()) };
+        let current = self.current().clone().ok_or("no run goes on")?;
+        // A policy that took over once does not do so again.
+        let done = current.folder.0.join(format!("swap-{}.json", words.id));
+        if done.exists() {
+            return Err("the policy has been offered before".to_owned());
+        }
+        let answer = tell_page(&current.folder, "/swap", policy, "text/plain").await;
+        let told = match answer {
+            Ok(mut swapped) => {
+                if let Some(fields) = swapped.as_object_mut() {
+                    fields.insert("order".to_owned(), json!(current.order));
+                }
+                swapped
+            }
+            Err(refusal) => refusal,
+        };
+        current.folder.write(&format!("swap-{}.json", words.id), told.to_string().as_bytes())?;
+        Ok((words.id, told))
+    }
+
+    // Words of operators.
+
+    /// Answers requests: `motet.ROBOT.stop`, which needs no signature, and `motet.ROBOT.answer`, which does.
+    async fn take_words(&self) -> Result<(), String> {
+        let subject = format!("motet.{}.*", self.robot);
+        let mut requests = self.fleet.client.subscribe(subject).await.map_err(|error| error.to_string())?;
+        while let Some(request) = requests.next().await {
+            let what = request.subject.rsplit('.').next().unwrap_or_default().to_owned();
+            let answer = match what.as_str() {
+                "stop" => self.control("/stop").await,
+                "answer" => self.answer(&request.payload).await,
+                _ => continue,
+            };
+            let answer = answer.unwrap_or_else(|problem| json!({"problem": problem}));
+            if let Some(reply) = request.reply {
+                let sent = self.fleet.client.publish(reply, answer.to_string().into()).await;
+                sent.map_err(|error| error.to_string())?;
+            }
+        }
+        Err("the subscription has ended".to_owned())
+    }
+
+    async fn control(&self, path: &str) -> Result<Value, String> {
+        let current = self.current().clone().ok_or("no run goes on")?;
+        let told = tell_page(&current.folder, path, String::new(), "text/plain").await;
+        told.map(|_| json!({"order": current.order})).or_else(|refusal| {
+            // A page says nothing when it takes a wish.
+            if refusal.get("problem") == Some(&json!("")) {
+                Ok(json!({"order": current.order}))
+            } else {
+                Err(refusal.to_string())
+            }
+        })
+    }
+
+    async fn answer(&self, bytes: &[u8]) -> Result<Value, String> {
+        let words = open(bytes, &self.trust, &self.robot)?;
+        let What::Answer { order, question, text } = words.what else {
+            return Err("the words are no answer".to_owned());
+        };
+        let current = self.current().clone().filter(|current| current.order == order);
+        let current = current.ok_or("this order does not run")?;
+        let body = json!({"text": text, "question": question}).to_string();
+        match tell_page(&current.folder, "/answer", body, "application/json").await {
+            Ok(_) => Ok(json!({"order": order})),
+            Err(refusal) => {
+                Err(refusal.get("problem").and_then(Value::as_str).unwrap_or("refused").to_owned())
+            }
+        }
+    }
+
+    // Reports.
+
+    async fn put_state(&self) -> Result<(), String> {
+        let current = self.current().clone();
+        let question = current.as_ref().and_then(|current| current.question.clone());
+        let question = question.map(|(id, text)| json!({"id": id, "text": text}));
+        let state = json!({
+            "at": now(),
+            "order": current.as_ref().map(|current| current.order.clone()),
+            "step": current.as_ref().map(|current| current.step.clone()),
+            "question": question,
+        });
+        let bucket = self.fleet.bucket(STATES).await?;
+        bucket.put(&self.robot, state.to_string().into()).await.map(|_| ()).map_err(|error| error.to_string())
+    }
+
+    async fn tell_state(&self) -> Result<(), String> {
+        self.put_state().await?;
+        sleep(TELLS.saturating_sub(AGAIN)).await;
+        Ok(())
+    }
+
+    // Journals.
+
+    async fn ship(&self, order: &str, folder: &OrderFolder) {
+        // The task of the journals tries again what the server does not take now.
+        let Ok(mut shipments) = self.shipments.try_lock() else { return };
+        let shipment = shipments.entry(order.to_owned()).or_default();
+        let _ = shipment.ship(&self.fleet, &self.robot, order, folder).await;
+    }
+
+    /// Ships all journals that have not arrived as a whole.
+    async fn ship_journals(&self) -> Result<(), String> {
+        for folder in folders(&self.root.join("orders")) {
+            let order =
+                folder.0.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let mark = folder.0.join("shipped");
+            if mark.exists() {
+                continue;
+            }
+            let is_over = folder.result().is_some();
+            let mut shipments = self.shipments.lock().await;
+            let shipment = shipments.entry(order.clone()).or_default();
+            let is_all = shipment.ship(&self.fleet, &self.robot, &order, &folder).await?;
+            if is_all && is_over {
+                shipments.remove(&order);
+                folder.write("shipped", b"")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn folders(root: &Path) -> Vec<OrderFolder> {
+    let entries = std::fs::read_dir(root).into_iter().flatten();
+    entries.filter_map(|entry| Some(OrderFolder(entry.ok()?.path()))).filter(OrderFolder::has_order).collect()
+}
+
+/// Id that words claim to have, whoever signed them.
+fn claimed_id(bytes: &[u8]) -> Option<String> {
+    let signed: Value = serde_json::from_slice(bytes).ok()?;
+    let body: Value = serde_json::from_str(signed.get("body")?.as_str()?).ok()?;
+    body.get("id")?.as_str().filter(|id| crate::signed::is_name(id)).map(str::to_owned)
+}
