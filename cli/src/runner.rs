@@ -160,10 +160,17 @@ impl Observer for PacedView {
     }
 
     fn at_least_every(&self) -> Time {
-        let often = self.desk.as_ref().map_or(0.1, |(desk, _)| desk.at_least_every().secs());
         match self.speed {
             Speed::Max => Time::NEVER,
-            Speed::Times(factor) => Time::from_secs(often * factor),
+            Speed::Times(factor) => Time::from_secs(0.1 * factor),
+        }
+    }
+
+    fn glance_every(&self) -> Time {
+        match (&self.desk, self.speed) {
+            (None, _) => Time::NEVER,
+            (Some(_), Speed::Max) => Time::from_secs(1.0),
+            (Some((desk, _)), Speed::Times(factor)) => Time::from_secs(desk.glance_every().secs() * factor),
         }
     }
 }

@@ -14,8 +14,8 @@ use motet_syntax::{Source, render};
 use serde_json::{Value, json};
 
 /// Spans between two looks at the desk: while nobody waits, and while a check goes on.
-const IDLE: Time = Time::from_nanos(20_000_000);
-const BUSY: Time = Time::from_nanos(4_000_000);
+const IDLE: Time = Time::from_nanos(8_000_000);
+const BUSY: Time = Time::from_nanos(2_000_000);
 
 /// A policy that was offered, with whom to tell what became of it.
 #[derive(Debug)]
@@ -105,7 +105,7 @@ impl SwapDesk {
     }
 
     /// Longest span of the wall clock without a look at the desk.
-    pub(crate) const fn at_least_every(&self) -> Time {
+    pub(crate) const fn glance_every(&self) -> Time {
         if self.checking.is_some() { BUSY } else { IDLE }
     }
 }

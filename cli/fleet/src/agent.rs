@@ -104,6 +104,7 @@ pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
         current: Mutex::new(None),
         shipments: tokio::sync::Mutex::default(),
     });
+    crate::run::client();
     println!("ready");
     let tasks = [
         tokio::spawn(forever(Arc::clone(&agent), "orders", |agent| async move { agent.take_orders().await })),
@@ -266,6 +267,7 @@ impl Agent {
 
     async fn take_policies(&self) -> Result<(), String> {
         let bucket = self.fleet.bucket(POLICIES).await?;
+        let results = self.fleet.bucket(SWAPS).await?;
         let mut policies = bucket.watch(&self.robot).await.map_err(|error| error.to_string())?;
         while let Some(entry) = policies.next().await {
             let entry = entry.map_err(|error| error.to_string())?;
@@ -277,7 +279,6 @@ impl Agent {
             if let Some(fields) = told.as_object_mut() {
                 fields.insert("id".to_owned(), json!(id));
             }
-            let results = self.fleet.bucket(SWAPS).await?;
             results.put(&self.robot, told.to_string().into()).await.map_err(|error| error.to_string())?;
         }
         Err("the watch of the policies has ended".to_owned())

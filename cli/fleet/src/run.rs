@@ -6,6 +6,7 @@ use std::fs::File;
 use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
+use std::sync::OnceLock;
 use std::time::Duration;
 use tokio::process::{Child, Command};
 
@@ -213,6 +214,15 @@ impl Events {
     }
 }
 
+/// The one client for all pages: making it reads certificates, which takes longer than a request.
+pub(crate) fn client() -> &'static reqwest::Client {
+    static CLIENT: OnceLock<reqwest::Client> = OnceLock::new();
+    CLIENT.get_or_init(|| {
+        let client = reqwest::Client::builder().no_proxy().timeout(ANSWERS).build();
+        client.unwrap_or_default()
+    })
+}
+
 /// Sends something to the page of a run; the answer, or the reason that there is none.
 pub(crate) async fn tell_page(
     folder: &OrderFolder,
@@ -222,10 +232,8 @@ pub(crate) async fn tell_page(
 ) -> Result<Value, Value> {
     let refused = |why: String| json!({"problem": why});
     let (page, token) = folder.page().ok_or_else(|| refused("the run has no page yet".to_owned()))?;
-    let client = reqwest::Client::builder().no_proxy().timeout(ANSWERS).build();
-    let client = client.map_err(|error| refused(error.to_string()))?;
     let request =
-        client.post(format!("{page}{path}")).header("x-motet-token", token).header("content-type", kind);
+        client().post(format!("{page}{path}")).header("x-motet-token", token).header("content-type", kind);
     let answer = request.body(body).send().await.map_err(|_| refused("the run is over".to_owned()))?;
     let status = answer.status();
     let text = answer.text().await.unwrap_or_default();

@@ -72,7 +72,7 @@ pub trait Observer {
     fn heard(&mut self, _now: Time, _heard: &Heard) {}
 
     /// A policy to take over from the one that runs. Asked after each event, so at least as often as
-    /// [`Observer::at_least_every`] says, and about ten times a second of the run's time while it is held. Of
+    /// [`Observer::at_least_every`] says, and at each glance. Of
     /// several the newest should be given: one that was never given was never there.
     fn swap(&mut self, _now: Time, _engine: &Engine) -> Option<PreparedSwap> {
         None
@@ -90,6 +90,12 @@ pub trait Observer {
     /// The longest span without a call of [`Observer::reached`], for a live display or to notice an
     /// interrupt.
     fn at_least_every(&self) -> Time {
+        Time::NEVER
+    }
+
+    /// Longest span without a call of [`Observer::reached`] and [`Observer::swap`] that is no event of the run
+    /// and leaves nothing in its journal.
+    fn glance_every(&self) -> Time {
         Time::NEVER
     }
 }
@@ -148,12 +154,11 @@ pub fn resume(
         }
         match host.next(engine) {
             Next::Event(event) => host.first.push_back(event),
-            Next::Glance if engine.is_held() => {
+            Next::Glance => {
                 if let Some(end) = host.swap(engine) {
                     return end;
                 }
             }
-            Next::Glance => {}
             Next::Nothing => {
                 engine.give_up(&mut host.out);
                 return host.carry_out().unwrap_or(RunEnd::Fault(Fault::Stalled));
@@ -207,7 +212,8 @@ impl RunLoop<'_> {
         let tick = wake.min(self.now.after(self.observer.at_least_every().min(every)));
         let wants = self.observer.wants_telemetry();
         let held = if engine.is_held() { HELD_EVERY } else { Time::NEVER };
-        let until = tick.min(self.now.after(held.min(glance(&self.capabilities, wants, tick))));
+        let glance = glance(&self.capabilities, wants, tick).min(self.observer.glance_every());
+        let until = tick.min(self.now.after(held.min(glance)));
         match self.driver.advance(until) {
             Some((at, report)) => {
                 self.now = at.max(self.now);

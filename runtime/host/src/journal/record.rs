@@ -123,4 +123,8 @@ impl Observer for RunRecorder<'_> {
     fn at_least_every(&self) -> Time {
         self.inner.at_least_every()
     }
+
+    fn glance_every(&self) -> Time {
+        self.inner.glance_every()
+    }
 }
