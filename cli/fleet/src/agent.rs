@@ -36,7 +36,8 @@ pub(crate) struct AgentArgs {
     /// Folder for orders, journals and results
     #[arg(long, value_name = "FOLDER", default_value = "motet-agent")]
     folder: PathBuf,
-    /// Card of the robot: a built-in name, or a folder with a robot.toml. No policy runs that does not check against it
+    /// Card of the robot: a built-in name, or a folder with a robot.toml. No policy runs that does not
+    /// check against it
     #[arg(long, value_name = "NAME|FOLDER")]
     card: String,
     /// Scene: a built-in name, or a JSON file

@@ -1,6 +1,6 @@
 //! `motet journal push` and `pull`: journals in an archive, which is a folder, S3 or Google Cloud Storage.
 
-use crate::operator::say;
+use crate::link::say;
 use object_store::path::Path as Place;
 use object_store::{Attributes, ObjectStore, ObjectStoreExt as _, PutOptions, WriteMultipart};
 use sha2::{Digest as _, Sha256};

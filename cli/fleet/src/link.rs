@@ -4,6 +4,9 @@ use crate::signed::is_name;
 use async_nats::jetstream::consumer::PullConsumer;
 use async_nats::jetstream::{self, kv, stream};
 use async_nats::{Client, ConnectOptions};
+use futures::StreamExt as _;
+use serde_json::Value;
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -20,6 +23,9 @@ pub(crate) const RESULTS: &str = "motet-results";
 const DUPLICATES: Duration = Duration::from_secs(120);
 /// Time after which an order that nobody works at is given out again.
 pub(crate) const WAITS: Duration = Duration::from_secs(15);
+
+/// Time for a request to a robot, and for a policy to take over.
+pub(crate) const ANSWERS: Duration = Duration::from_secs(40);
 
 /// How to reach the server.
 #[derive(clap::Args, Clone, Debug)]
@@ -113,7 +119,7 @@ impl Fleet {
                 .map_err(|error| format!("the stream {name}: {error}"))?;
         }
         for bucket in [POLICIES, SWAPS, STATES, RESULTS] {
-            // A bucket is a stream. The client's own way to make one asks servers before 2.10 for what they lack.
+            // A bucket is a stream. The client's own way to make one fails with servers before 2.10.
             let config = stream::Config {
                 name: format!("KV_{bucket}"),
                 subjects: vec![format!("$KV.{bucket}.>")],
@@ -150,6 +156,36 @@ impl Fleet {
         let consumer = stream.get_or_create_consumer(&format!("agent-{robot}"), config).await;
         consumer.map_err(|error| wrong(error.to_string()))
     }
+
+    /// States of all robots by name.
+    pub(crate) async fn states(&self) -> Result<Vec<(String, Value)>, String> {
+        let bucket = self.bucket(STATES).await?;
+        let mut keys = bucket.keys().await.map_err(|error| error.to_string())?;
+        let mut states = Vec::new();
+        while let Some(robot) = keys.next().await {
+            let robot = robot.map_err(|error| error.to_string())?;
+            let state = bucket.get(&robot).await.map_err(|error| error.to_string())?;
+            let state = state.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
+            states.push((robot, state));
+        }
+        states.sort_by(|one, other| one.0.cmp(&other.0));
+        Ok(states)
+    }
+
+    /// Asks a robot, and waits for its answer.
+    pub(crate) async fn request(&self, robot: &str, what: &str, bytes: Vec<u8>) -> Result<Value, String> {
+        let sent =
+            tokio::time::timeout(ANSWERS, self.client.request(format!("motet.{robot}.{what}"), bytes.into()))
+                .await;
+        let answer = sent.map_err(|_| "the robot does not answer".to_owned())?;
+        let answer = answer.map_err(|error| format!("the robot does not answer: {error}"))?;
+        serde_json::from_slice(&answer.payload).map_err(|error| format!("the answer is none: {error}"))
+    }
+}
+
+/// Prints a text with a line break. Nobody may read it.
+pub(crate) fn say(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
 }
 
 /// Reads the name of a robot or an order.

@@ -1,4 +1,4 @@
-//! `motet-fleet`: robots of a fleet over NATS. The command `motet` passes `agent`, `fleet` and `journal` on to it.
+//! `motet-fleet`: robots of a fleet over NATS. The command `motet` passes `agent`, `fleet` and `journal` on.
 
 mod agent;
 mod archive;

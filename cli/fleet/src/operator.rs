@@ -1,17 +1,15 @@
 //! `motet fleet`: what an operator does with the robots.
 
-use crate::link::{Fleet, JOURNALS, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name};
+use crate::link::{ANSWERS, Fleet, JOURNALS, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name, say};
 use crate::ship::{PART, SEQ};
 use crate::signed::{What, new_id, new_key, now, private_key, sign};
 use async_nats::jetstream::consumer::{self, AckPolicy, DeliverPolicy};
 use futures::StreamExt as _;
 use serde_json::{Value, json};
-use std::io::{Read as _, Write as _};
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-/// Time for a request to a robot, and for a policy to take over.
-const ANSWERS: Duration = Duration::from_secs(40);
 /// Time after which a robot that has said nothing counts as out of reach.
 const SILENT: u64 = 10;
 
@@ -124,16 +122,11 @@ pub(crate) async fn run(args: FleetArgs) -> Result<u8, String> {
         Command::Ask(args) => ask(&fleet, &args).await,
         Command::Journal(args) => journal(&fleet, &args).await,
         Command::Stop { robot } => {
-            let answer = request(&fleet, &robot, "stop", Vec::new()).await?;
+            let answer = fleet.request(&robot, "stop", Vec::new()).await?;
             report(&answer)
         }
         Command::View(args) => crate::view::serve(fleet, &args).await,
     }
-}
-
-/// Prints a text with a line break. Nobody may read it.
-pub(crate) fn say(text: &str) {
-    let _ = writeln!(std::io::stdout(), "{text}");
 }
 
 /// Prints an answer; the exit code is 1 for a problem.
@@ -142,23 +135,8 @@ fn report(answer: &Value) -> Result<u8, String> {
     Ok(u8::from(answer.get("problem").is_some()))
 }
 
-/// States of all robots by name.
-pub(crate) async fn states(fleet: &Fleet) -> Result<Vec<(String, Value)>, String> {
-    let bucket = fleet.bucket(STATES).await?;
-    let mut keys = bucket.keys().await.map_err(|error| error.to_string())?;
-    let mut states = Vec::new();
-    while let Some(robot) = keys.next().await {
-        let robot = robot.map_err(|error| error.to_string())?;
-        let state = bucket.get(&robot).await.map_err(|error| error.to_string())?;
-        let state = state.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
-        states.push((robot, state));
-    }
-    states.sort_by(|one, other| one.0.cmp(&other.0));
-    Ok(states)
-}
-
 async fn status(fleet: &Fleet) -> Result<u8, String> {
-    for (robot, state) in states(fleet).await? {
+    for (robot, state) in fleet.states().await? {
         let text = |path: &str| clean(state.pointer(path).and_then(Value::as_str).unwrap_or_default());
         let silent = now().saturating_sub(state.get("at").and_then(Value::as_u64).unwrap_or(0));
         let what = match (text("/order").as_str(), silent > SILENT) {
@@ -255,16 +233,6 @@ async fn swap(fleet: &Fleet, args: &SwapArgs) -> Result<u8, String> {
     report(&result)
 }
 
-/// Asks a robot, and waits for its answer.
-pub(crate) async fn request(fleet: &Fleet, robot: &str, what: &str, bytes: Vec<u8>) -> Result<Value, String> {
-    let sent =
-        tokio::time::timeout(ANSWERS, fleet.client.request(format!("motet.{robot}.{what}"), bytes.into()))
-            .await;
-    let answer = sent.map_err(|_| "the robot does not answer".to_owned())?;
-    let answer = answer.map_err(|error| format!("the robot does not answer: {error}"))?;
-    serde_json::from_slice(&answer.payload).map_err(|error| format!("the answer is none: {error}"))
-}
-
 async fn ask(fleet: &Fleet, args: &AskArgs) -> Result<u8, String> {
     let bucket = fleet.bucket(STATES).await?;
     let state = bucket.get(&args.robot).await.map_err(|error| error.to_string())?;
@@ -279,7 +247,7 @@ async fn ask(fleet: &Fleet, args: &AskArgs) -> Result<u8, String> {
     let key = private_key(args.key.as_deref().ok_or("an answer needs --key")?)?;
     let what = What::Answer { order, question, text: answer.clone() };
     let signed = sign(&key, &new_id()?, &args.robot, 60, what)?;
-    report(&request(fleet, &args.robot, "answer", signed).await?)
+    report(&fleet.request(&args.robot, "answer", signed).await?)
 }
 
 /// Lines of a journal from the server, checked for gaps.

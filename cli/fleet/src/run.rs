@@ -93,8 +93,8 @@ impl OrderFolder {
         Some((page.to_owned(), token.to_owned()))
     }
 
-    /// Starts the run, or continues it if it was cut off. Its output goes to files, so that it goes on without
-    /// the agent.
+    /// Starts the run, or continues it if it was cut off. Its output goes to files, so that it goes on
+    /// without the agent.
     pub(crate) fn start(&self, settings: &RunSettings) -> Result<Child, String> {
         let wrong = |error: std::io::Error| format!("{}: {error}", self.0.display());
         let append =

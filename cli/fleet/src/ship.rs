@@ -1,5 +1,5 @@
-//! Lines of journals on their way to the server. The journal on the robot's disk is the truth; the server gets each
-//! line once and in order, however often the link is cut.
+//! Lines of journals on their way to the server. The journal on the robot's disk is the truth; the server
+//! gets each line once and in order, however often the link is cut.
 
 use crate::link::{Fleet, JOURNALS};
 use crate::run::OrderFolder;

@@ -1,5 +1,5 @@
-//! Signed words for a robot: orders, policies and answers. A robot does nothing for words whose signature is not
-//! of a key that it trusts, that are meant for another robot, or that are too old.
+//! Signed words for a robot: orders, policies and answers. A robot does nothing for words whose signature is
+//! not of a key that it trusts, that are meant for another robot, or that are too old.
 
 use ed25519_dalek::{Signature, Signer as _, SigningKey, VerifyingKey};
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,6 @@
 //! `motet fleet view`: a page with all robots.
 
-use crate::link::Fleet;
-use crate::operator::{request, say, states};
+use crate::link::{Fleet, say};
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
@@ -14,8 +13,8 @@ use std::sync::Arc;
 /// The page. It has no content of others: names and texts of robots are set as text.
 const PAGE: &str = include_str!("fleet.html");
 /// What a browser may load: nothing but the page itself.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; connect-src 'self'; \
-    frame-ancestors 'none'";
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
+                      connect-src 'self'; frame-ancestors 'none'";
 
 #[derive(clap::Args, Debug)]
 pub(crate) struct ViewArgs {
@@ -76,7 +75,7 @@ async fn robots(State(page): State<Arc<Page>>, headers: HeaderMap) -> Response {
     if let Some(refused) = refused(&page, &headers) {
         return refused;
     }
-    match states(&page.fleet).await {
+    match page.fleet.states().await {
         Ok(states) => Json(json!({"now": crate::signed::now(), "robots": states})).into_response(),
         Err(why) => (StatusCode::BAD_GATEWAY, why).into_response(),
     }
@@ -89,7 +88,7 @@ async fn stop(State(page): State<Arc<Page>>, Path(robot): Path<String>, headers:
     if !crate::signed::is_name(&robot) {
         return (StatusCode::NOT_FOUND, "no such robot").into_response();
     }
-    match request(&page.fleet, &robot, "stop", Vec::new()).await {
+    match page.fleet.request(&robot, "stop", Vec::new()).await {
         Ok(answer) => Json(answer).into_response(),
         Err(why) => (StatusCode::BAD_GATEWAY, why).into_response(),
     }

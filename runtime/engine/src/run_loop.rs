@@ -93,8 +93,8 @@ pub trait Observer {
         Time::NEVER
     }
 
-    /// Longest span without a call of [`Observer::reached`] and [`Observer::swap`] that is no event of the run
-    /// and leaves nothing in its journal.
+    /// Longest span without a call of [`Observer::reached`] and [`Observer::swap`]. Unlike
+    /// [`Observer::at_least_every`] it makes no event, so it leaves nothing in a journal.
     fn glance_every(&self) -> Time {
         Time::NEVER
     }

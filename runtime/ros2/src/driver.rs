@@ -1,5 +1,6 @@
 //! The driver protocol on standard input and output, in front of the robot.
 
+use crate::lines::Line;
 use crate::observe::Found;
 use crate::plan::Limits;
 use crate::robot::{Heard, Robot};
@@ -17,7 +18,7 @@ use motet_host::remote::protocol::{
 use motet_runtime::{Answer, Capabilities, FailureReport, GoalId, Pattern, PrimitiveSet, Query, ToldSupport};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
-use std::io::{BufRead, Write};
+use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -31,8 +32,6 @@ const WATCHES: Duration = Duration::from_millis(50);
 const SILENCE: Duration = Duration::from_secs(5);
 /// Time for everything to stand still before the process ends.
 const FAREWELL: Duration = Duration::from_millis(4500);
-/// Longest line in bytes.
-const MAX_LINE: u64 = 1024 * 1024;
 /// Error codes of JSON-RPC.
 const INVALID: i64 = -32602;
 const UNKNOWN_METHOD: i64 = -32601;
@@ -69,40 +68,9 @@ pub(crate) struct Driver<W> {
     is_greeted: bool,
 }
 
-/// Line of the host, or the end of its lines.
-pub(crate) enum Line {
-    Text(String),
-    Wrong(String),
-    End,
-}
-
-/// Reads the lines of the host on a thread.
-pub(crate) fn read_lines(mut input: impl BufRead + Send + 'static) -> Receiver<Line> {
-    let (sender, lines) = crossbeam_channel::bounded(1024);
-    std::thread::spawn(move || {
-        loop {
-            let mut bytes = Vec::new();
-            let read = std::io::Read::take(&mut input, MAX_LINE + 1).read_until(b'\n', &mut bytes);
-            let line = match read {
-                Ok(0) | Err(_) => Line::End,
-                Ok(_) if bytes.len() as u64 > MAX_LINE => {
-                    Line::Wrong(format!("a line has more than {MAX_LINE} bytes"))
-                }
-                Ok(_) => String::from_utf8(bytes)
-                    .map_or_else(|_| Line::Wrong("a line is not UTF-8".to_owned()), Line::Text),
-            };
-            let is_last = !matches!(line, Line::Text(_));
-            if sender.send(line).is_err() || is_last {
-                return;
-            }
-        }
-    });
-    lines
-}
-
 impl<W: Write> Driver<W> {
-    /// A driver of a robot in a room. `card` is the robot as the command line names it, with the limits of its
-    /// joints; `planner` is the command that plans paths.
+    /// A driver of a robot in a room. `card` is the robot as the command line names it, with the limits of
+    /// its joints; `planner` is the command that plans paths.
     pub(crate) fn new(
         robot: Robot,
         world: World,

@@ -8,6 +8,7 @@ mod dds;
 mod driver;
 mod joint;
 mod layout;
+mod lines;
 mod observe;
 mod perceive;
 mod plan;
@@ -122,7 +123,7 @@ fn drive(args: DriveArgs) -> Result<u8, String> {
     let limits = check::limits(&card)?;
     let robot = robot::Robot::open(binding, layouts)?;
     let planner = args.motet.or_else(|| on_path("motet"));
-    let lines = driver::read_lines(BufReader::new(std::io::stdin()));
+    let lines = lines::read_lines(BufReader::new(std::io::stdin()));
     let out = std::io::stdout().lock();
     driver::Driver::new(robot, world::World::new(scene), (card, limits), planner, out).serve(&lines)?;
     Ok(0)
